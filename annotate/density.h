@@ -1,0 +1,29 @@
+// Crowd density in the image: a Gaussian per head, each normalised inside the image, so that the
+// map's sum is the count exactly.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace throng::annotate {
+
+struct DensityMap {
+  int width = 0;
+  int height = 0;
+  std::vector<float> value;  ///< people per pixel, row-major
+
+  double sum() const;
+};
+
+/// Heads in box coordinates (pixel i covers [i, i + 1)); heads outside the image do not count.
+/// `sigma_px` > 0; the kernel is cut off at 4 sigma and renormalised at the borders.
+DensityMap density_map(std::span<const Eigen::Vector2d> heads, int width, int height,
+                       double sigma_px);
+
+/// The bytes of a NumPy .npy version 1.0 file: float32, C order, shape (height, width).
+std::string npy_bytes(const DensityMap& map);
+
+}  // namespace throng::annotate

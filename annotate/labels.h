@@ -1,0 +1,45 @@
+// Labels of the visible people in one frame, from its id buffer: boxes, masks, visibility.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/frame.h"
+
+namespace throng::annotate {
+
+/// Integer pixel bounds: covers [x, x + width) x [y, y + height).
+struct PixelBox {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// Runs of a mask in COCO's order: down the columns, first run counts zeros.
+using RunLengths = std::vector<std::uint32_t>;
+
+struct PersonLabel {
+  std::uint32_t agent = 0;
+  PixelBox box;                  ///< tight bounds of the visible mask
+  RunLengths mask;               ///< visible mask
+  std::uint64_t area_px = 0;     ///< visible pixels
+  double visibility = 0;         ///< area_px / amodal area, in (0, 1]
+  render::PersonInView person;   ///< amodal box, 3-D position, ...
+};
+
+struct FrameLabels {
+  std::int64_t frame_index = 0;
+  double time_s = 0;
+  std::vector<PersonLabel> people;  ///< visible ones (at least one pixel), by agent id
+};
+
+/// One pass over the id buffer.
+FrameLabels label_people(const render::Frame& frame);
+
+/// COCO's compressed counts string (see docs/formats.md).
+std::string coco_counts(const RunLengths& runs);
+
+}  // namespace throng::annotate

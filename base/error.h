@@ -1,0 +1,60 @@
+// Three kinds of failure, three words: InputError (what the user gave us is wrong), EnvironmentError
+// (the machine failed; a retry may help) and check() (we have a bug: stop at once).
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace throng {
+
+/// One thing wrong in the user's input.
+struct Problem {
+  std::string source;    ///< File name, or "" for a request body.
+  std::string where;     ///< JSON pointer ("/crowd/agents") or "line 12, element <Goal>".
+  std::string found;     ///< What stands there.
+  std::string expected;  ///< What should stand there.
+
+  /// "demo.job.json: /crowd/agents: found -3, expected an integer of at least 1"
+  std::string text() const;
+};
+
+/// The user's input is wrong; names every problem found. Retrying cannot help.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(Problem problem);
+  explicit InputError(std::vector<Problem> problems);
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+/// Something outside the program failed: disk, driver, child process. A retry may help.
+class EnvironmentError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The work was cancelled by the user.
+class Cancelled : public std::runtime_error {
+ public:
+  Cancelled() : std::runtime_error("cancelled") {}
+};
+
+/// Where a check stands in the source (std::source_location, which clang 14 lacks).
+struct CodeLocation {
+  const char* file;
+  int line;
+  static constexpr CodeLocation here(const char* file = __builtin_FILE(),
+                                     int line = __builtin_LINE()) {
+    return {file, line};
+  }
+};
+
+/// States what must be true unless we have a bug; prints the claim and aborts when it is not.
+/// Never reachable by bad input.
+void check(bool holds, std::string_view claim, CodeLocation location = CodeLocation::here());
+
+}  // namespace throng

@@ -1,0 +1,101 @@
+#include "base/files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace throng {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path temporary_beside(const fs::path& path) {
+  static std::atomic<unsigned> count{0};
+  return fs::path(fmt::format("{}.tmp.{}.{}", path.string(), ::getpid(), count++));
+}
+
+[[noreturn]] void fail(std::string_view what, const fs::path& path) {
+  throw EnvironmentError(fmt::format("cannot {} {}: {}", what, path.string(), std::strerror(errno)));
+}
+
+void sync_path(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("open", path);
+  const int result = ::fsync(descriptor);
+  ::close(descriptor);
+  if (result != 0) fail("sync", path);
+}
+
+fs::path parent_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || fs::is_directory(path)) {
+    throw EnvironmentError(fmt::format("cannot read {}", path.string()));
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  fs::create_directories(parent_of(path));
+  const fs::path temporary = temporary_beside(path);
+  {
+    std::ofstream file(temporary, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (!file) fail("write", temporary);
+  }
+  sync_path(temporary);
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) {
+    fs::remove(temporary, error);
+    fail("rename to", path);
+  }
+  sync_path(parent_of(path));
+}
+
+StagingFolder::StagingFolder(fs::path final_path)
+    : final_(std::move(final_path)), staging_(temporary_beside(final_)) {
+  std::error_code error;
+  fs::create_directories(staging_, error);
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot create {}: {}", staging_.string(), error.message()));
+  }
+}
+
+StagingFolder::~StagingFolder() {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+}
+
+void StagingFolder::commit() {
+  for (const auto& entry : fs::recursive_directory_iterator(staging_)) {
+    if (entry.is_regular_file()) sync_path(entry.path());
+  }
+  sync_path(staging_);
+  std::error_code error;
+  fs::rename(staging_, final_, error);
+  if (error && !fs::exists(final_)) {
+    throw EnvironmentError(fmt::format("cannot publish {}: {}", final_.string(), error.message()));
+  }
+  sync_path(parent_of(final_));
+}
+
+}  // namespace throng

@@ -1,0 +1,36 @@
+// Files that are either complete or absent: everything is written beside its place and renamed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace throng {
+
+/// The whole file as bytes. Throws EnvironmentError naming the file when it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes, syncs and renames, so that a reader sees the old file or the new one, never a part.
+/// Creates the parent folder. Throws EnvironmentError.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// A folder under construction. commit() renames it to its final place (replacing nothing: an
+/// existing final folder is kept, since what is published is complete); otherwise the destructor
+/// removes it.
+class StagingFolder {
+ public:
+  /// Creates `<final>.tmp.<pid>.<n>` beside `final_path`. Throws EnvironmentError.
+  explicit StagingFolder(std::filesystem::path final_path);
+  ~StagingFolder();
+  StagingFolder(const StagingFolder&) = delete;
+  StagingFolder& operator=(const StagingFolder&) = delete;
+
+  const std::filesystem::path& path() const { return staging_; }
+  void commit();
+
+ private:
+  std::filesystem::path final_;
+  std::filesystem::path staging_;
+};
+
+}  // namespace throng

@@ -1,0 +1,52 @@
+// The pinhole camera. Camera frame: x right, y down, z forward. Pixels as OpenCV counts them: the
+// centre of the top-left pixel is (0, 0), so a projected point u lies at u + 0.5 in the coordinates
+// of boxes and masks, where pixel i covers [i, i + 1).
+#pragma once
+
+#include <Eigen/Core>
+
+namespace throng::camera {
+
+struct Intrinsics {
+  int width = 0;
+  int height = 0;
+  double fx_px = 0;
+  double fy_px = 0;
+  double cx_px = 0;  ///< OpenCV convention: (width - 1) / 2 for a centred camera
+  double cy_px = 0;
+
+  Eigen::Matrix3d matrix() const;
+};
+
+/// Square pixels, centred principal point, horizontal field of view in radians in (0, pi).
+Intrinsics intrinsics_from_hfov(int width, int height, double hfov_rad);
+
+/// World to camera: X_camera = R * X_world + t.
+struct Pose {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d centre() const { return -R.transpose() * t; }
+};
+
+/// A camera at `centre` that looks along the heading `yaw_rad` (counter-clockwise from +x) and
+/// `pitch_rad` above the horizon (negative looks down), without roll. Well defined at +-90 degrees:
+/// the image's up direction then points along the heading (looking down) or against it.
+Pose pose_looking(const Eigen::Vector3d& centre, double yaw_rad, double pitch_rad);
+
+struct Camera {
+  Intrinsics intrinsics;
+  Pose pose;
+
+  /// Pixel (OpenCV convention) and depth z (m) of a world point; for z <= 0 the pixel is undefined.
+  struct Projection {
+    Eigen::Vector2d pixel;
+    double depth_m;
+  };
+  Projection project(const Eigen::Vector3d& world) const;
+
+  /// The world point seen at `pixel` with camera depth `depth_m`.
+  Eigen::Vector3d unproject(const Eigen::Vector2d& pixel, double depth_m) const;
+};
+
+}  // namespace throng::camera

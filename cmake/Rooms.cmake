@@ -1,0 +1,63 @@
+# One library per room. A room declares the rooms and libraries it may use; an #include of any other room stops the configuration.
+
+# throng_room(NAME SOURCES file... ROOMS room... LIBRARIES target... PRIVATE_LIBRARIES target...)
+function(throng_room name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  add_library(throng_${name} STATIC ${ARG_SOURCES})
+  add_library(throng::${name} ALIAS throng_${name})
+  list(TRANSFORM ARG_ROOMS PREPEND "throng::" OUTPUT_VARIABLE room_targets)
+  target_include_directories(throng_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(throng_${name} PUBLIC ${room_targets} ${ARG_LIBRARIES} PRIVATE throng_flags ${ARG_PRIVATE_LIBRARIES})
+  throng_check_includes(${name} "${ARG_ROOMS}")
+endfunction()
+
+# Fails when a file of the room includes a room that it did not declare.
+function(throng_check_includes name rooms)
+  file(GLOB_RECURSE files "${PROJECT_SOURCE_DIR}/${name}/*.h" "${PROJECT_SOURCE_DIR}/${name}/*.cpp")
+  foreach(file IN LISTS files)
+    file(STRINGS "${file}" includes REGEX "^#include \"[a-z]+/")
+    foreach(line IN LISTS includes)
+      string(REGEX REPLACE "^#include \"([a-z]+)/.*" "\\1" used "${line}")
+      if(used IN_LIST THRONG_ROOMS AND NOT used STREQUAL name AND NOT used IN_LIST rooms)
+        message(FATAL_ERROR "${file} includes room '${used}', which room '${name}' does not declare in its CMakeLists.txt")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+# throng_embed(TARGET SYMBOL FILE): makes the file's text available as `extern const std::string_view throng::embedded::SYMBOL`.
+function(throng_embed target symbol file)
+  set(output "${CMAKE_CURRENT_BINARY_DIR}/embedded_${symbol}.cpp")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+  file(READ "${file}" text)
+  # Raw string literals are limited to 64 KiB by the standard; split the text to stay below it.
+  string(LENGTH "${text}" length)
+  set(literal "")
+  set(position 0)
+  while(position LESS length)
+    string(SUBSTRING "${text}" ${position} 8000 chunk)
+    string(APPEND literal "R\"__throng__(${chunk})__throng__\"\n")
+    math(EXPR position "${position} + 8000")
+  endwhile()
+  file(CONFIGURE OUTPUT "${output}" CONTENT "#include <string_view>\nnamespace throng::embedded {\nextern const std::string_view ${symbol};\nconst std::string_view ${symbol} =\n@literal@;\n}  // namespace throng::embedded\n" @ONLY)
+  target_sources(${target} PRIVATE "${output}")
+endfunction()
+
+# throng_test(NAME SOURCES file... LIBRARIES target...): one GoogleTest program per room, test_NAME.
+function(throng_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  add_executable(test_${name} ${ARG_SOURCES})
+  target_link_libraries(test_${name} PRIVATE throng_flags ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
+  target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(test_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS "${name}" TIMEOUT 600)
+endfunction()
+
+# throng_bench(NAME SOURCES file... LIBRARIES target...): one Google Benchmark program, bench_NAME.
+function(throng_bench name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(bench_${name} ${ARG_SOURCES})
+  target_link_libraries(bench_${name} PRIVATE throng_flags ${ARG_LIBRARIES} benchmark::benchmark_main)
+  target_compile_definitions(bench_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endfunction()

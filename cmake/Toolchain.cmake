@@ -1,0 +1,23 @@
+# Language level, warnings, sanitizers: everything that every target shares.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+option(THRONG_BENCHMARKS "Build the programs in bench/" OFF)
+set(THRONG_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address,undefined or thread")
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+add_library(throng_flags INTERFACE)
+# No contraction into fused multiply-adds: the same source gives the same bits at any -march.
+target_compile_options(throng_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror -ffp-contract=off)
+if(THRONG_SANITIZE)
+  target_compile_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE})
+endif()

@@ -1,0 +1,65 @@
+// The crowd engine: agents, their state machine and their pedestrian model, stepped in time.
+// Knows nothing of drones, GL or HTTP; whoever owns it moves the goals that follow something.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace throng::crowd {
+
+struct LoadOptions {
+  std::uint64_t seed = 1;
+};
+
+/// A goal chosen by an agent: set and goal id of the behaviour file; -1 for one made on the fly
+/// (identity, offset, ...).
+struct GoalId {
+  std::int32_t set = -1;
+  std::int32_t goal = -1;
+};
+
+/// A running crowd. Results depend on the files and the seed only, not on the number of threads.
+class Simulation {
+ public:
+  /// Loads a Menge scene and behaviour file. Throws InputError (file, line, element, found,
+  /// expected) for anything it does not understand, EnvironmentError for unreadable files.
+  Simulation(const std::filesystem::path& scene_file, const std::filesystem::path& behavior_file,
+             const LoadOptions& options);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Advances by dt_s().
+  void step();
+
+  double dt_s() const;
+  double time_s() const;
+  std::size_t agent_count() const;
+  bool all_final() const;  ///< every agent is in a final state
+
+  std::span<const Eigen::Vector2f> positions() const;   ///< m
+  std::span<const Eigen::Vector2f> velocities() const;  ///< m/s
+  std::span<const float> yaws_rad() const;
+  std::span<const float> desired_speeds_mps() const;  ///< preferred speed, as set by state actions
+  std::span<const float> radii_m() const;
+  std::span<const std::uint8_t> states() const;  ///< index into state_names()
+  std::span<const GoalId> goals() const;
+  const std::vector<std::string>& state_names() const;
+
+  /// Whether an agent takes part; one that does not neither moves nor is seen by others.
+  void set_present(std::size_t agent, bool present);
+
+  /// Moves a goal's centre, e.g. to a drone. Throws InputError when there is no such goal.
+  void move_goal(int set, int goal, const Eigen::Vector2f& centre);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace throng::crowd

@@ -1,0 +1,68 @@
+// The job: what a user asks for. Parsed and checked against one JSON Schema (jobs/job.schema.json),
+// then against what only a program can know (the scenario exists, times are in order, ...).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/run.h"
+
+namespace throng::jobs {
+
+struct CameraSpec {
+  int width = 1280;
+  int height = 720;
+  double hfov_deg = 78;
+  double pitch_deg = -50;
+  double yaw_deg = 0;  ///< relative to the drone's heading
+};
+
+struct DroneSpec {
+  sim::DroneMission mission;
+  CameraSpec camera;
+};
+
+struct CaptureSpec {
+  double rate_hz = 1;
+  double from_s = 0;
+  double to_s = 60;
+};
+
+struct OutputSpec {
+  std::string image_format = "jpeg";
+  int image_quality = 95;
+  std::vector<std::string> annotations = {"coco", "density", "exits"};
+  double density_sigma_px = 4;
+  int previews = 3;
+};
+
+struct JobSpec {
+  std::string name;
+  std::string scenario;
+  std::uint64_t seed = 1;
+  int runs = 1;
+  std::optional<int> agents;
+  std::vector<DroneSpec> drones;
+  CaptureSpec capture;
+  double time_of_day_h = 15.5;
+  OutputSpec outputs;
+
+  /// Frame times of one camera in one run: from_s, from_s + 1/rate_hz, ... up to to_s (included).
+  std::int64_t frames_per_camera() const;
+  double frame_time_s(std::int64_t frame) const;
+};
+
+/// Parses and checks a job. `source` names the text in errors ("demo.job.json", or "" for a request
+/// body). `scenarios` is the folder of scenarios. Throws InputError with a JSON pointer per
+/// problem; all schema problems are reported at once.
+JobSpec parse_job(std::string_view json, const std::string& source,
+                  const std::filesystem::path& scenarios);
+
+/// The JSON Schema text, embedded at build time.
+std::string_view job_schema();
+
+}  // namespace throng::jobs

@@ -1,0 +1,50 @@
+// What the renderer returns for one instant and one camera: every buffer from the same draw.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "camera/camera.h"
+
+namespace throng::render {
+
+/// Values of the instance id buffer.
+inline constexpr std::uint32_t kIdNothing = 0;             ///< sky
+inline constexpr std::uint32_t kIdGround = 0xFFFF0000;     ///< the ground
+inline constexpr std::uint32_t kIdBuilding = 0x80000000;   ///< + index of the building
+inline constexpr std::uint32_t id_of_agent(std::uint32_t agent) { return agent + 1; }
+inline constexpr bool is_agent(std::uint32_t id) { return id > 0 && id < kIdBuilding; }
+inline constexpr std::uint32_t agent_of_id(std::uint32_t id) { return id - 1; }
+
+/// Ground truth of one person that touches the view, hidden or not.
+struct PersonInView {
+  std::uint32_t agent = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the ground, m
+  Eigen::Vector3d head = Eigen::Vector3d::Zero();      ///< middle of the head, as posed, m
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s
+  double yaw_rad = 0;
+  double stature_m = 0;
+  /// Bounds of the whole projected mesh in box coordinates (pixel i covers [i, i + 1)); may leave
+  /// the image.
+  Eigen::AlignedBox2d amodal_box;
+  /// Pixels that the person would cover were nothing in front of it, image borders included.
+  std::uint64_t amodal_area_px = 0;
+};
+
+/// One rendered frame. Rows top-down, pixels row-major.
+struct Frame {
+  std::int64_t index = 0;  ///< frame number within the run, from 0
+  double time_s = 0;
+  camera::Camera camera;
+  std::vector<std::uint8_t> rgb;     ///< width * height * 3, sRGB
+  std::vector<std::uint32_t> id;     ///< width * height
+  std::vector<float> depth_m;        ///< camera z; +infinity for sky
+  std::vector<PersonInView> people;  ///< by agent id
+
+  int width() const { return camera.intrinsics.width; }
+  int height() const { return camera.intrinsics.height; }
+};
+
+}  // namespace throng::render

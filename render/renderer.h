@@ -1,0 +1,67 @@
+// Draws a scenario and its people with OpenGL through EGL, without a window.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "camera/camera.h"
+#include "render/frame.h"
+#include "skinning/motion.h"
+#include "skinning/population.h"
+#include "world/scenario.h"
+
+namespace throng::render {
+
+/// Which GL device draws: "auto" (an NVIDIA GPU if there is one, else software), "gpu",
+/// "software".
+struct DeviceChoice {
+  std::string name = "auto";
+};
+
+/// Sun direction and strength, as later weather will set them.
+struct Lighting {
+  double sun_azimuth_rad = 0.9;    ///< counter-clockwise from +x, where the sun stands
+  double sun_elevation_rad = 0.8;
+};
+
+/// One person as drawn: where, which body, which pose.
+struct PersonInstance {
+  std::uint32_t agent = 0;
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();
+  Eigen::Vector2f velocity = Eigen::Vector2f::Zero();
+  float yaw_rad = 0;
+  skinning::Appearance appearance;
+  skinning::PoseBlend pose;
+};
+
+/// Everything that is in the world at one instant.
+struct Scene {
+  std::int64_t index = 0;  ///< becomes Frame::index
+  double time_s = 0;
+  std::vector<PersonInstance> people;
+};
+
+/// Owns a GL context, and the scenario's and population's buffers in it. Use from one thread.
+/// The scenario and population must outlive it.
+class Renderer {
+ public:
+  /// Throws EnvironmentError naming the missing libraries or driver when no context can be made.
+  Renderer(const world::Scenario& scenario, const skinning::Population& population,
+           const Lighting& lighting = {}, const DeviceChoice& device = {});
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Colour, id, depth and the people's ground truth, all from one draw of one instant.
+  Frame draw(const Scene& scene, const camera::Camera& camera);
+
+  /// GL vendor, renderer and version, for manifests.
+  std::string device_description() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace throng::render

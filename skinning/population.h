@@ -1,0 +1,102 @@
+// The people: what the renderer needs to draw them. A population is baked once at set-up
+// (`throng people build`) and loaded from its folder; nothing here touches GL.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace throng::skinning {
+
+inline constexpr int kBoneCount = 21;
+
+/// The rig, in palette order.
+enum class Bone : std::uint8_t {
+  hips, spine, chest, neck, head,
+  left_clavicle, left_upper_arm, left_forearm, left_hand,
+  right_clavicle, right_upper_arm, right_forearm, right_hand,
+  left_thigh, left_shin, left_foot, left_toe,
+  right_thigh, right_shin, right_foot, right_toe,
+};
+
+/// Model space: metres, Z up, facing +X, origin on the ground below the pelvis.
+struct Vertex {
+  std::array<float, 3> position;
+  std::array<float, 3> normal;
+  std::array<float, 2> uv;
+  std::array<std::uint8_t, 4> bones;
+  std::array<std::uint8_t, 4> weights;  ///< sum is exactly 255
+};
+static_assert(sizeof(Vertex) == 40);
+
+/// What a part of a character is coloured with, per instance.
+enum class Tint : std::uint8_t { none, top, bottom, hair, shoes };
+
+/// A run of triangles with one texture.
+struct Part {
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+  std::int32_t texture = -1;  ///< layer of Population::textures
+  Tint tint = Tint::none;
+  bool alpha_tested = false;  ///< discard where texture alpha < 0.5; drawn without back-face culling
+};
+
+/// One level of detail: an indexed triangle mesh (counter-clockwise seen from outside).
+struct Mesh {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<Part> parts;
+};
+
+struct Character {
+  std::string name;
+  float stature_m = 0;       ///< sole to crown, standing
+  std::vector<Mesh> levels;  ///< from most to least detailed; at least one
+};
+
+/// All textures have one square size, so that they fit one texture array.
+struct Texture {
+  std::vector<std::uint8_t> rgba;  ///< size * size * 4, sRGB, top row first
+};
+
+/// A bone's motion: rest-pose model space to posed model space, 3x4 row-major affine.
+using BoneMatrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+using Palette = std::array<BoneMatrix, kBoneCount>;
+
+/// Frames of one cyclic or static clip inside every character's palettes.
+struct Clip {
+  std::string name;          ///< "idle", "walk", "run"
+  float speed_mps = 0;       ///< ground speed at which it was baked for a person of 1.76 m
+  std::uint32_t first = 0;   ///< index of its first palette
+  std::uint32_t frames = 0;  ///< evenly spaced over one stride (two steps) or one idle period
+};
+
+struct Population {
+  std::vector<Character> characters;
+  int texture_size = 0;
+  std::vector<Texture> textures;
+  std::vector<Clip> clips;
+  std::uint32_t palettes_per_character = 0;
+  std::vector<Palette> palettes;  ///< [character][palette]
+
+  const Palette& palette(std::size_t character, std::size_t index) const {
+    return palettes[character * palettes_per_character + index];
+  }
+};
+
+/// Loads what `throng people build` wrote (GLB through assimp, palettes, textures). Throws
+/// InputError when a file is missing or malformed, naming it and what would fix it.
+Population load_population(const std::filesystem::path& folder);
+
+/// Where the baked people are: $THRONG_PEOPLE if set, else the installed folder, else the build
+/// tree's.
+std::filesystem::path population_folder();
+
+/// The skinning equation that the vertex shader runs too: sum of weights * (palette * position),
+/// with the two palettes blended linearly first.
+Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, float blend);
+
+}  // namespace throng::skinning

@@ -1,0 +1,85 @@
+// A scenario: a place, its exits, who moves there and where the drones start. The JSON file beside
+// the Menge scene and behaviour files that it names.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace throng::world {
+
+/// A goal of the behaviour file: `<GoalSet id=set><Goal id=goal>`.
+struct GoalRef {
+  int set = 0;
+  int goal = 0;
+  bool operator==(const GoalRef&) const = default;
+};
+
+/// A door: a segment on the ground that people cross to get out.
+struct Exit {
+  std::string id;
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();     ///< m
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();       ///< m
+  Eigen::Vector2d outward = Eigen::Vector2d::UnitX();  ///< unit normal, pointing out of the place
+  std::vector<GoalRef> goals;  ///< an agent heading for one of these intends this exit
+
+  double width_m() const { return (to - from).norm(); }
+  Eigen::Vector2d middle() const { return 0.5 * (from + to); }
+};
+
+/// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.
+struct Building {
+  std::string id;
+  std::vector<Eigen::Vector2d> footprint;  ///< m
+  double height_m = 10;
+};
+
+struct DroneStart {
+  std::string id;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
+  double yaw_rad = 0;
+  std::optional<GoalRef> moves_goal;  ///< the goal that this drone's (x, y) moves, if any
+};
+
+struct Rectangle {
+  Eigen::Vector2d min = Eigen::Vector2d::Zero();
+  Eigen::Vector2d max = Eigen::Vector2d::Zero();
+  bool contains(const Eigen::Vector2d& p) const {
+    return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
+  }
+};
+
+struct Scenario {
+  std::string id;  ///< "city_square/nearest_exit": path below the scenarios folder, no suffix
+  std::string name;
+  std::string description;
+  std::filesystem::path scene_file;     ///< Menge scene XML, absolute
+  std::filesystem::path behavior_file;  ///< Menge behaviour XML, absolute
+  Rectangle ground;                     ///< what is drawn as ground
+  std::string ground_material;          ///< "pavers", "asphalt", "grass", "concrete"
+  Rectangle inside;                     ///< who leaves this rectangle has escaped
+  std::vector<Exit> exits;
+  std::vector<Building> buildings;
+  std::vector<DroneStart> drones;
+  /// Agents that are not people (the paper's disaster is an agent); neither drawn nor counted.
+  std::vector<int> disaster_agents;
+};
+
+/// Reads and checks a scenario file. `id` becomes Scenario::id. Throws InputError (file, JSON
+/// pointer, found, expected) for bad content and EnvironmentError when the file cannot be read.
+Scenario load_scenario(const std::filesystem::path& file, std::string id);
+
+/// The folder of shipped scenarios: $THRONG_SCENARIOS if set, else the installed one, else the
+/// source tree's.
+std::filesystem::path scenarios_folder();
+
+/// Loads `<folder>/<id>.json`. Ids are words of [a-z0-9_] joined by '/': nothing outside the folder
+/// can be named. Throws InputError when the id is malformed or unknown (listing what there is).
+Scenario find_scenario(const std::filesystem::path& folder, const std::string& id);
+
+/// Every scenario id in the folder, sorted.
+std::vector<std::string> list_scenarios(const std::filesystem::path& folder);
+
+}  // namespace throng::world

@@ -1,0 +1,106 @@
+// The trace: what one run recorded. Written once by the simulation, read by everything after it.
+// HDF5 without time stamps, so equal runs give equal bytes; the layout is in docs/trace.md.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace throng::world {
+
+enum class AgentRole : std::uint8_t { person = 0, disaster = 1 };
+
+/// What does not change during a run.
+struct TraceHeader {
+  std::string scenario_id;
+  std::string generator;  ///< "throng 0.1.0"
+  std::uint64_t seed = 0;
+  double dt_s = 0.1;                     ///< crowd step
+  std::vector<std::string> state_names;  ///< index = value in Trace::state
+  std::vector<std::string> exit_ids;     ///< index = value in Trace::exit_intent
+  std::vector<std::string> drone_ids;
+  std::vector<AgentRole> role;       ///< per agent; size = number of agents
+  std::vector<float> radius_m;       ///< per agent
+  std::vector<float> pref_speed_mps; ///< per agent, as generated
+
+  std::size_t agent_count() const { return role.size(); }
+};
+
+/// All agents at one crowd step.
+struct CrowdStep {
+  double time_s = 0;
+  std::vector<Eigen::Vector2f> position;      ///< m
+  std::vector<Eigen::Vector2f> velocity;      ///< m/s
+  std::vector<float> yaw_rad;                 ///< facing, counter-clockwise from +x
+  std::vector<float> desired_speed_mps;       ///< what the agent wants now
+  std::vector<std::uint8_t> state;            ///< index into TraceHeader::state_names
+  std::vector<std::int8_t> exit_intent;       ///< index into exit_ids; -1: none
+};
+
+/// One drone at one instant.
+struct DroneSample {
+  double time_s = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to world
+};
+
+/// Something that happened, e.g. "tilt_saturated", "agent_escaped".
+struct TraceEvent {
+  double time_s = 0;
+  std::string type;
+  std::int32_t agent = -1;  ///< -1: none
+  std::int32_t drone = -1;  ///< -1: none
+  double value = 0;         ///< meaning depends on the type
+};
+
+/// A whole trace in memory. Arrays over [step][agent] are row-major.
+struct Trace {
+  TraceHeader header;
+  std::vector<double> time_s;  ///< one per step, starting at 0, dt_s apart
+  std::vector<Eigen::Vector2f> position;
+  std::vector<Eigen::Vector2f> velocity;
+  std::vector<float> yaw_rad;
+  std::vector<float> desired_speed_mps;
+  std::vector<std::uint8_t> state;
+  std::vector<std::int8_t> exit_intent;
+  std::vector<std::vector<DroneSample>> drones;  ///< per drone, by time
+  std::vector<TraceEvent> events;
+
+  std::size_t steps() const { return time_s.size(); }
+  std::size_t agents() const { return header.agent_count(); }
+  std::size_t at(std::size_t step, std::size_t agent) const { return step * agents() + agent; }
+  double duration_s() const { return time_s.empty() ? 0.0 : time_s.back(); }
+  /// The drone between its samples: linear position and velocity, slerped orientation; clamped to
+  /// the recorded span.
+  DroneSample drone_at(std::size_t drone, double time) const;
+};
+
+/// Writes a trace step by step; memory does not grow with the run's length. The file appears at
+/// `path` only when finish() returns; a writer destroyed before that leaves nothing behind.
+class TraceWriter {
+ public:
+  TraceWriter(std::filesystem::path path, const TraceHeader& header);
+  ~TraceWriter();
+  TraceWriter(const TraceWriter&) = delete;
+  TraceWriter& operator=(const TraceWriter&) = delete;
+
+  void add(const CrowdStep& step);
+  void add_drone(std::size_t drone, const DroneSample& sample);
+  void add_event(const TraceEvent& event);
+  void finish();
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+/// Reads a whole trace. Throws EnvironmentError when the file cannot be read and InputError when
+/// it is not a trace (wrong layout, truncated, other version).
+Trace read_trace(const std::filesystem::path& path);
+
+}  // namespace throng::world
