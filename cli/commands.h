@@ -1,0 +1,28 @@
+// The subcommands of `throng`, one file each; main.cpp lists them in one table.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace throng::cli {
+
+// Each adds its subcommand with a callback that does the work. Callbacks throw InputError,
+// EnvironmentError or Cancelled; main() turns these into messages and exit codes.
+void add_run(CLI::App& app);
+void add_simulate(CLI::App& app);
+void add_render(CLI::App& app);
+void add_serve(CLI::App& app);
+void add_worker(CLI::App& app);
+void add_people(CLI::App& app);
+void add_scenarios(CLI::App& app);
+
+/// Exit codes of the program, in one place: documented in `throng --help`.
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_input = 2,        ///< the input is wrong
+  exit_environment = 3,  ///< the machine failed; a retry may help
+  exit_cancelled = 130,
+};
+
+}  // namespace throng::cli

@@ -1,0 +1,50 @@
+// `throng`: synthetic crowd datasets from the command line. One subcommand per file.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <exception>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "cli/commands.h"
+
+namespace {
+
+using namespace throng;
+
+constexpr std::array kCommands = {cli::add_run,    cli::add_simulate, cli::add_render,
+                                  cli::add_serve,  cli::add_worker,   cli::add_people,
+                                  cli::add_scenarios};
+
+int run(int argc, char** argv) {
+  CLI::App app{"Synthetic crowd datasets: simulate a crowd and drones, render, annotate."};
+  app.footer("Exit codes: 0 done, 2 the input is wrong, 3 the machine failed (retry), 130 cancelled.");
+  app.set_version_flag("--version", std::string(kGenerator));
+  app.require_subcommand(1);
+  for (const auto add : kCommands) add(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? cli::exit_ok : cli::exit_input;
+  }
+  return cli::exit_ok;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "throng: {}\n", error.what());
+    return cli::exit_input;
+  } catch (const Cancelled&) {
+    fmt::print(stderr, "throng: cancelled\n");
+    return cli::exit_cancelled;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "throng: {}\n", error.what());
+    return cli::exit_environment;
+  }
+}

@@ -1,0 +1,28 @@
+// Progress of long work on stderr: a bar on a terminal, a line now and then elsewhere.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace throng::cli {
+
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::string title);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// `fraction` in [0, 1]; `note` says what is going on ("simulating run 2 of 5").
+  void show(double fraction, std::string_view note);
+
+ private:
+  std::string title_;
+  bool terminal_;
+  bool drawn_ = false;
+  int last_tenth_ = -1;
+  std::chrono::steady_clock::time_point last_draw_;
+};
+
+}  // namespace throng::cli

