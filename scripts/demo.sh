@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# The main job from nothing: installs, builds, starts a server on a free loopback port, submits
+# scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows what is in it.
+set -euo pipefail
+. "$(dirname "$0")/lib.sh"
+"$root/scripts/setup.sh"
+
+out="$root/build/demo"
+job_file="$root/scenarios/city_square/demo.job.json"
+rm -rf "$out"
+mkdir -p "$out/data"
+
+say "starting the server"
+"$root/build/release/cli/throng" serve --data "$out/data" --port 0 --port-file "$out/port" \
+  >"$out/server.log" 2>&1 &
+server=$!
+trap 'kill "$server" 2>/dev/null; wait "$server" 2>/dev/null || true' EXIT
+for _ in $(seq 100); do
+  [ -s "$out/port" ] && break
+  kill -0 "$server" 2>/dev/null || { cat "$out/server.log"; exit 1; }
+  sleep 0.1
+done
+url="http://127.0.0.1:$(cat "$out/port")"
+echo "listening on $url"
+
+say "submitting $(basename "$job_file")"
+job="$(curl -fsS -H 'Content-Type: application/json' --data-binary "@$job_file" "$url/v1/jobs" | jq -r .id)"
+echo "job $job"
+while :; do
+  answer="$(curl -fsS "$url/v1/jobs/$job")"
+  state="$(jq -r .state <<<"$answer")"
+  jq -r '"\(.state): \(.progress.frames_done // 0) of \(.progress.frames_total // "?") frames \(.progress.stage // "")"' <<<"$answer"
+  case "$state" in
+    succeeded) break ;;
+    failed | cancelled) jq . <<<"$answer"; exit 1 ;;
+  esac
+  sleep 1
+done
+
+say "downloading the archive"
+curl -fsS -o "$out/archive.tar" "$url/v1/jobs/$job/archive"
+ls -l "$out/archive.tar" | awk '{print $5 " bytes"}'
+mkdir "$out/dataset"
+tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
+python3 "$root/scripts/show_dataset.py" "$out/dataset"

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""Prints what is in a throng dataset folder, from its files alone (standard library only)."""
+import array
+import ast
+import json
+import pathlib
+import sys
+
+
+def density_sum(path):
+    """Sum of a float32 .npy file (format version 1.0, C order)."""
+    data = path.read_bytes()
+    assert data[:8] == b"\x93NUMPY\x01\x00", f"{path} is no .npy file of version 1.0"
+    header_bytes = int.from_bytes(data[8:10], "little")
+    header = ast.literal_eval(data[10 : 10 + header_bytes].decode("ascii"))
+    assert header["descr"] == "<f4" and not header["fortran_order"], header
+    values = array.array("f", data[10 + header_bytes :])
+    assert len(values) == header["shape"][0] * header["shape"][1]
+    return sum(values)
+
+
+def main(folder):
+    coco = json.loads((folder / "annotations/instances.json").read_text())
+    images, annotations = coco["images"], coco["annotations"]
+    print(f"frames               {len(images)}")
+    print(f"annotated people     {len(annotations)} boxes of {len({a['track_id'] for a in annotations})} people")
+
+    heads = total = 0.0
+    for image in images:
+        density = folder / image["density_file"]
+        heads += image["density_count"]
+        total += density_sum(density)
+    if heads:
+        print(f"density              maps sum to {total:.2f}, heads in view {heads:.0f}"
+              f" ({100 * abs(total - heads) / heads:.4f} % apart)")
+
+    for file in sorted((folder / "metrics").glob("run*.json")):
+        metrics = json.loads(file.read_text())
+        times = ", ".join(
+            f"T{p['percent']} {p['time_s']:.1f} s" if p["time_s"] is not None else f"T{p['percent']} not reached"
+            for p in metrics["percentiles"])
+        print(f"escape ({file.stem})      {metrics['people'] - metrics['not_escaped']} of {metrics['people']} people"
+              f" in {metrics['duration_s']:.0f} s; {times}")
+        for exit_ in metrics["exits"]:
+            print(f"  {exit_['exit_id']:<18} {exit_['crossings']:>4} crossings,"
+                  f" mean clogging index {exit_['mean_clogging_index']:.2f}, clogged {exit_['clogged_s']:.1f} s")
+
+    print("annotated previews")
+    for picture in sorted((folder / "previews").rglob("*.jpg")):
+        print(f"  {picture}")
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))

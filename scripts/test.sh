@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Installs what is needed, builds everything and runs every check and test.
+# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan   (default: all of them)
+set -euo pipefail
+. "$(dirname "$0")/lib.sh"
+cd "$root"
+mkdir -p build
+steps=("$@")
+[ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan)
+
+sources() { git ls-files --cached --others --exclude-standard -- '*.cpp' '*.h'; }
+
+step_format() {
+  say "checking the format"
+  sources | xargs clang-format --dry-run --Werror
+  bash -n scripts/*.sh .ci/run
+}
+
+step_release() {
+  say "building (release)"
+  build release
+  bake_people
+  say "testing (release)"
+  ctest --preset release -j2
+}
+
+# clang-tidy reads every file anew and is slow, so an unchanged tree is not checked twice.
+step_tidy() {
+  say "clang-tidy"
+  local state stamp=build/tidy.stamp
+  state="$(sources | xargs cat .clang-tidy | sha256sum)"
+  [ "$(cat "$stamp" 2>/dev/null)" = "$state" ] && return
+  git ls-files --cached --others --exclude-standard -- '*.cpp' |
+    xargs -P "$(nproc)" -n 4 clang-tidy -p build/release --quiet 2>build/tidy.log || {
+    cat build/tidy.log
+    return 1
+  }
+  echo "$state" >"$stamp"
+}
+
+step_asan() {
+  say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
+  build asan
+  # Mesa's and TBB's caches live until exit; leaks of our own are found by the other sanitizer checks.
+  ASAN_OPTIONS=detect_leaks=0 ctest --preset asan -j2 -LE slow
+}
+
+step_tsan() {
+  say "building and testing (ThreadSanitizer): the concurrent parts"
+  build tsan test_base test_crowd test_jobs test_server
+  TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" ctest --preset tsan -j2 -L '^(base|crowd|jobs|server)$'
+}
+
+install_packages
+fetch_assets
+for step in "${steps[@]}"; do
+  start=$SECONDS
+  "step_$step"
+  echo "-- $step: $((SECONDS - start)) s"
+done
+say "all checks passed: ${steps[*]}"
