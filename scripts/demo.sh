@@ -42,4 +42,4 @@ curl -fsS -o "$out/archive.tar" "$url/v1/jobs/$job/archive"
 ls -l "$out/archive.tar" | awk '{print $5 " bytes"}'
 mkdir "$out/dataset"
 tar -xf "$out/archive.tar" -C "$out/dataset" --strip-components=1
-python3 "$root/scripts/show_dataset.py" "$out/dataset"
+/usr/bin/python3 "$root/scripts/show_dataset.py" "$out/dataset"

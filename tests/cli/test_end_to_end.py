@@ -1,0 +1,213 @@
+"""The real program, end to end: what a user does, and what must hold afterwards."""
+import filecmp
+import io
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tarfile
+import tempfile
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+from check_dataset import check_dataset
+
+THRONG = sys.argv.pop(1)
+
+JOB = {
+    "name": "end to end",
+    "scenario": "city_square/nearest_exit",
+    "seed": 3,
+    "runs": 2,
+    "drones": [{
+        "id": "d1", "start": [-24, -6, 20],
+        "guidance": {"policy": "waypoints", "waypoints": [[-24, 0, 20], [-20, 4, 22]], "speed_mps": 2},
+        "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40},
+    }],
+    "capture": {"rate_hz": 2, "from_s": 1, "to_s": 21},
+}
+
+
+def throng(*arguments, **options):
+    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+
+
+def files_of(folder):
+    return {str(p.relative_to(folder)): p for p in pathlib.Path(folder).rglob("*") if p.is_file()}
+
+
+class EndToEnd(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.base = pathlib.Path(cls.folder.name)
+        cls.job = cls.base / "job.json"
+        cls.job.write_text(json.dumps(JOB))
+        cls.first = cls.base / "first"
+        done = throng("run", cls.job, "-o", cls.first)
+        assert done.returncode == 0, done.stderr
+        cls.dataset = cls.first / "dataset"
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def assert_same_dataset(self, other):
+        mine, theirs = files_of(self.dataset), files_of(other)
+        self.assertEqual(sorted(mine), sorted(theirs))
+        different = [name for name in mine if not filecmp.cmp(mine[name], theirs[name], shallow=False)]
+        self.assertEqual(different, [])
+
+    def bad_job(self, change, *expected):
+        job = json.loads(json.dumps(JOB))
+        change(job)
+        path = self.base / "bad.json"
+        path.write_text(json.dumps(job))
+        result = throng("run", path, "-o", self.base / "never")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for text in ("bad.json", *expected):
+            self.assertIn(text, result.stderr)
+        self.assertFalse((self.base / "never" / "dataset").exists())
+
+    def test_dataset_is_consistent(self):
+        frames, annotations = check_dataset(self.dataset)
+        self.assertEqual(frames, 2 * 41)
+        self.assertGreater(annotations, 1000)
+
+    def test_same_seed_gives_the_same_bytes_whatever_the_number_of_workers(self):
+        again = self.base / "again"
+        done = throng("run", self.job, "-o", again, "--workers", 1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same_dataset(again / "dataset")
+        for run in ("run000", "run001"):
+            self.assertTrue(filecmp.cmp(self.first / "work" / run / "trace.h5", again / "work" / run / "trace.h5", shallow=False))
+
+    def test_another_seed_gives_other_pictures(self):
+        job = dict(JOB, seed=4, runs=1)
+        path = self.base / "other.json"
+        path.write_text(json.dumps(job))
+        done = throng("run", path, "-o", self.base / "other")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        name = "images/run000/d1/000010.jpg"
+        self.assertFalse(filecmp.cmp(self.dataset / name, self.base / "other/dataset" / name, shallow=False))
+
+    def test_simulate_then_render_is_the_same_as_run(self):
+        trace = self.base / "alone.h5"
+        done = throng("simulate", self.job, "--run", 1, "-o", trace)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(filecmp.cmp(trace, self.first / "work/run001/trace.h5", shallow=False))
+        rendered = self.base / "rendered"
+        done = throng("render", self.job, "--trace", trace, "-o", rendered)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(filecmp.cmp(self.dataset / "images/run001/d1/000010.jpg",
+                                    rendered / "dataset/images/run000/d1/000010.jpg", shallow=False))
+        check_dataset(rendered / "dataset")
+
+    def test_bad_jobs_name_file_pointer_found_and_expected(self):
+        self.bad_job(lambda j: j["capture"].update(rate_hz=-1), "/capture/rate_hz", "-1")
+        self.bad_job(lambda j: j.update(colour="red"), "/colour")
+        self.bad_job(lambda j: j.update(scenario="atlantis"), "/scenario", "city_square/nearest_exit")
+        self.bad_job(lambda j: j.update(crowd={"agents": 100000}), "/crowd/agents", "260")
+        self.bad_job(lambda j: j["drones"][0].update(airframe="brick"), "/drones/0/airframe", "f450")
+        self.bad_job(lambda j: j["drones"][0]["guidance"].update(waypoints=[[25, 0, 3]]), "/drones/0/guidance/waypoints/0")
+
+    def test_unwritable_output_is_the_environments_fault(self):
+        blocker = self.base / "file"
+        blocker.write_text("not a folder")
+        result = throng("run", self.job, "-o", blocker / "out")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("file", result.stderr)
+
+    def test_an_interrupt_cancels_and_a_second_run_resumes(self):
+        out = self.base / "cancelled"
+        process = subprocess.Popen([THRONG, "run", str(self.job), "-o", str(out)], stderr=subprocess.PIPE, text=True)
+        wait_until(lambda: list(out.rglob("trace.h5")))
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertFalse((out / "dataset" / "manifest.json").exists())
+        done = throng("run", self.job, "-o", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same_dataset(out / "dataset")
+
+    def test_server_killed_in_the_middle_finishes_with_the_same_bytes(self):
+        data = self.base / "data"
+        server = Server(data)
+        try:
+            job = server.post("/v1/jobs", JOB)["id"]
+            wait_until(lambda: server.get(f"/v1/jobs/{job}")["progress"].get("frames_done", 0) > 5)
+            server.process.kill()
+            server.process.wait()
+            server = Server(data)
+            wait_until(lambda: server.get(f"/v1/jobs/{job}")["state"] not in ("queued", "running"))
+            self.assertEqual(server.get(f"/v1/jobs/{job}")["state"], "succeeded")
+            unpacked = self.base / "unpacked"
+            with tarfile.open(fileobj=io.BytesIO(server.get_bytes(f"/v1/jobs/{job}/archive"))) as archive:
+                archive.extractall(unpacked)
+            (root,) = unpacked.iterdir()
+            self.assert_same_dataset(root)
+            metrics = server.get(f"/v1/jobs/{job}/metrics")
+            self.assertEqual(len(metrics["runs"]), 2)
+        finally:
+            server.stop()
+
+    def test_server_answers_bad_jobs_with_pointers(self):
+        server = Server(self.base / "data2")
+        try:
+            with self.assertRaises(urllib.error.HTTPError) as caught:
+                server.post("/v1/jobs", dict(JOB, runs=0, colour="red"))
+            self.assertEqual(caught.exception.code, 400)
+            pointers = {e["pointer"] for e in json.load(caught.exception)["errors"]}
+            self.assertEqual(pointers, {"/runs", "/colour"})
+        finally:
+            server.stop()
+
+
+class Server:
+    def __init__(self, data):
+        port_file = pathlib.Path(data) / "port"
+        port_file.unlink(missing_ok=True)
+        pathlib.Path(data).mkdir(exist_ok=True)
+        self.process = subprocess.Popen(
+            [THRONG, "serve", "--data", str(data), "--port", "0", "--port-file", str(port_file)],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_until(lambda: port_file.exists() and port_file.read_text().strip())
+        self.url = f"http://127.0.0.1:{port_file.read_text().strip()}"
+
+    def get_bytes(self, path):
+        with urllib.request.urlopen(self.url + path, timeout=60) as answer:
+            return answer.read()
+
+    def get(self, path):
+        return json.loads(self.get_bytes(path))
+
+    def post(self, path, body):
+        request = urllib.request.Request(self.url + path, json.dumps(body).encode(), {"Content-Type": "application/json"})
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            self.location = answer.headers["Location"]
+            return json.load(answer)
+
+    def stop(self):
+        self.process.terminate()
+        try:
+            self.process.wait(10)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise
+
+
+def wait_until(condition, seconds=240):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError("waited in vain")
+        time.sleep(0.05)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("PYTHONDONTWRITEBYTECODE", "1")
+    unittest.main(verbosity=2)
