@@ -1,0 +1,255 @@
+#include "world/scenario.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/resources.h"
+#include "world/json_reader.h"
+#include "world/polygon.h"
+
+namespace throng::world {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kFarthestM = 100'000;
+constexpr double kHighestM = 1'000;
+constexpr double kNarrowestExitM = 0.1;
+constexpr int kLargestId = 1'000'000'000;
+
+class UniqueNames {
+ public:
+  std::string read(const JsonValue& value) {
+    std::string name = value.identifier();
+    if (!name.empty() && !seen_.insert(name).second) value.reject("an id that nothing else has");
+    return name;
+  }
+
+ private:
+  std::set<std::string> seen_;
+};
+
+GoalRef read_goal(const JsonValue& value) {
+  const auto parts = value.tuple(2, "[goal set, goal]");
+  if (parts.empty()) return {};
+  return {parts[0].integer(0, kLargestId), parts[1].integer(0, kLargestId)};
+}
+
+Rectangle read_rectangle(const JsonValue& value) {
+  const Rectangle area{value["min"].vector2(kFarthestM), value["max"].vector2(kFarthestM)};
+  if (value["min"].exists() && value["max"].exists() &&
+      !(area.min.array() < area.max.array()).all()) {
+    value["max"].reject("a corner right of and above \"min\"");
+  }
+  return area;
+}
+
+// The side of the exit that leads out: as given, or away from the middle of the place.
+Eigen::Vector2d read_outward(const JsonValue& value, const Exit& exit, const Rectangle& inside) {
+  const Eigen::Vector2d along = exit.to - exit.from;
+  const Eigen::Vector2d normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
+  if (!value.exists()) {
+    const Eigen::Vector2d from_middle = exit.middle() - 0.5 * (inside.min + inside.max);
+    return normal.dot(from_middle) >= 0 ? normal : -normal;
+  }
+  const Eigen::Vector2d given = value.vector2(kFarthestM);
+  constexpr double kCosineOfADegree = 0.99985;
+  if (std::abs(given.normalized().dot(normal)) < kCosineOfADegree) {
+    value.reject("a direction at right angles to the segment from \"from\" to \"to\"");
+  }
+  return given.dot(normal) >= 0 ? normal : -normal;
+}
+
+std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
+  std::vector<Exit> exits;
+  UniqueNames ids;
+  std::set<std::pair<int, int>> claimed;
+  for (const JsonValue& item : list.items()) {
+    item.fields({"id", "from", "to", "goals"}, {"outward"});
+    Exit exit;
+    exit.id = ids.read(item["id"]);
+    exit.from = item["from"].vector2(kFarthestM);
+    exit.to = item["to"].vector2(kFarthestM);
+    if (item["from"].exists() && item["to"].exists() && exit.width_m() < kNarrowestExitM) {
+      item["to"].reject(fmt::format("an end at least {} m from \"from\"", kNarrowestExitM));
+    } else {
+      exit.outward = read_outward(item["outward"], exit, inside);
+    }
+    for (const JsonValue& goal : item["goals"].items(1)) {
+      exit.goals.push_back(read_goal(goal));
+      const GoalRef& ref = exit.goals.back();
+      if (!claimed.insert({ref.set, ref.goal}).second) goal.reject("a goal of this exit only");
+    }
+    exits.push_back(std::move(exit));
+  }
+  return exits;
+}
+
+std::vector<Building> read_buildings(const JsonValue& list) {
+  std::vector<Building> buildings;
+  UniqueNames ids;
+  for (const JsonValue& item : list.items()) {
+    item.fields({"id", "footprint", "height_m"});
+    Building building;
+    building.id = ids.read(item["id"]);
+    building.height_m = item["height_m"].number(0.1, kHighestM);
+    const auto corners = item["footprint"].items(3);
+    for (const JsonValue& corner : corners) {
+      building.footprint.push_back(corner.vector2(kFarthestM));
+    }
+    if (!corners.empty()) {
+      if (!is_simple(building.footprint)) {
+        item["footprint"].reject("edges that do not touch each other",
+                                 "a polygon whose corners all differ and whose edges do not cross");
+      } else if (signed_area(building.footprint) <= 0) {
+        item["footprint"].reject("corners in clockwise order",
+                                 "counter-clockwise order, seen from above");
+      }
+    }
+    buildings.push_back(std::move(building));
+  }
+  return buildings;
+}
+
+std::vector<DroneStart> read_drones(const JsonValue& list, const std::vector<Building>& buildings) {
+  std::vector<DroneStart> drones;
+  UniqueNames ids;
+  for (const JsonValue& item : list.items()) {
+    item.fields({"id", "start"}, {"yaw_deg", "moves_goal"});
+    DroneStart drone;
+    drone.id = ids.read(item["id"]);
+    drone.position = item["start"].vector3(kFarthestM);
+    if (item["start"].exists() && drone.position.z() <= 0) {
+      item["start"].reject("a point above the ground (z > 0)");
+    }
+    for (const Building& building : buildings) {
+      if (building.footprint.size() >= 3 && drone.position.z() <= building.height_m &&
+          distance_to(building.footprint, drone.position.head<2>()) == 0) {
+        item["start"].reject(fmt::format("a point in building \"{}\"", building.id),
+                             "a point outside every building");
+      }
+    }
+    if (item["yaw_deg"].exists()) {
+      drone.yaw_rad = item["yaw_deg"].number(-360, 360) * std::numbers::pi / 180;
+    }
+    if (item["moves_goal"].exists()) drone.moves_goal = read_goal(item["moves_goal"]);
+    drones.push_back(std::move(drone));
+  }
+  return drones;
+}
+
+fs::path read_companion(const JsonValue& value, const fs::path& scenario_file) {
+  const std::string name = value.text();
+  fs::path path = fs::absolute(scenario_file).parent_path() / name;
+  if (value.exists() && !name.empty() && !fs::is_regular_file(path)) {
+    value.reject(fmt::format("\"{}\", which does not exist beside the scenario", name),
+                 "the name of a file");
+  }
+  return path.lexically_normal();
+}
+
+std::vector<int> read_disaster_agents(const JsonValue& list) {
+  std::vector<int> agents;
+  for (const JsonValue& item : list.items()) {
+    const int agent = item.integer(0, kLargestId);
+    if (std::find(agents.begin(), agents.end(), agent) != agents.end()) {
+      item.reject("every agent once");
+    }
+    agents.push_back(agent);
+  }
+  return agents;
+}
+
+std::string read_material(const JsonValue& value) {
+  constexpr std::array kMaterials{"pavers", "asphalt", "grass", "concrete"};
+  std::string material = value.text();
+  if (std::find(kMaterials.begin(), kMaterials.end(), material) == kMaterials.end()) {
+    value.reject(fmt::format("one of: {}", fmt::join(kMaterials, ", ")));
+  }
+  return material;
+}
+
+bool is_scenario_id(std::string_view id) {
+  const auto in_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  char previous = '/';
+  for (const char c : id) {
+    if (!in_word(c) && (c != '/' || previous == '/')) return false;
+    previous = c;
+  }
+  return previous != '/';
+}
+
+}  // namespace
+
+Scenario load_scenario(const fs::path& file, std::string id) {
+  const std::string source = file.string();
+  const nlohmann::json document = parse_json(read_file(file), source);
+  std::vector<Problem> problems;
+  const JsonValue root(document, source, problems);
+  root.fields({"name", "crowd", "ground", "inside", "exits"},
+              {"description", "buildings", "drones", "disaster_agents"});
+  root["crowd"].fields({"scene", "behavior"});
+  root["ground"].fields({"min", "max", "material"});
+  root["inside"].fields({"min", "max"});
+
+  Scenario scenario;
+  scenario.id = std::move(id);
+  scenario.name = root["name"].text();
+  scenario.description = root["description"].text();
+  scenario.scene_file = read_companion(root["crowd"]["scene"], file);
+  scenario.behavior_file = read_companion(root["crowd"]["behavior"], file);
+  scenario.ground = read_rectangle(root["ground"]);
+  scenario.ground_material = read_material(root["ground"]["material"]);
+  scenario.inside = read_rectangle(root["inside"]);
+  scenario.exits = read_exits(root["exits"], scenario.inside);
+  scenario.buildings = read_buildings(root["buildings"]);
+  scenario.drones = read_drones(root["drones"], scenario.buildings);
+  scenario.disaster_agents = read_disaster_agents(root["disaster_agents"]);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return scenario;
+}
+
+fs::path scenarios_folder() {
+  return resource_folder("THRONG_SCENARIOS", "scenarios", THRONG_SCENARIOS_FOLDER);
+}
+
+std::vector<std::string> list_scenarios(const fs::path& folder) {
+  std::vector<std::string> ids;
+  std::error_code error;
+  fs::recursive_directory_iterator entries(folder, error);
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot read the scenarios in {}: {}", folder.string(), error.message()));
+  }
+  for (const auto& entry : entries) {
+    if (entry.path().extension() != ".json" || !entry.is_regular_file()) continue;
+    // Jobs and the like ("demo.job.json") have a dot left here, which no id has.
+    std::string id = entry.path().lexically_relative(folder).replace_extension().generic_string();
+    if (is_scenario_id(id)) ids.push_back(std::move(id));
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+Scenario find_scenario(const fs::path& folder, const std::string& id) {
+  const fs::path file = folder / (id + ".json");
+  if (!is_scenario_id(id) || !fs::is_regular_file(file)) {
+    throw InputError(Problem{"", "", fmt::format("scenario \"{}\"", id),
+                             fmt::format("one of: {}", fmt::join(list_scenarios(folder), ", "))});
+  }
+  return load_scenario(file, id);
+}
+
+}  // namespace throng::world

@@ -20,8 +20,8 @@ struct GoalRef {
 /// A door: a segment on the ground that people cross to get out.
 struct Exit {
   std::string id;
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();     ///< m
-  Eigen::Vector2d to = Eigen::Vector2d::Zero();       ///< m
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();      ///< m
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();        ///< m
   Eigen::Vector2d outward = Eigen::Vector2d::UnitX();  ///< unit normal, pointing out of the place
   std::vector<GoalRef> goals;  ///< an agent heading for one of these intends this exit
 

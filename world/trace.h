@@ -12,7 +12,11 @@
 
 namespace throng::world {
 
-enum class AgentRole : std::uint8_t { person = 0, disaster = 1 };
+enum class AgentRole : std::uint8_t {
+  person = 0,
+  disaster = 1,  ///< an agent that stands for a danger; neither drawn nor counted
+  absent = 2,    ///< in the scenario but not in this run; neither drawn nor counted
+};
 
 /// What does not change during a run.
 struct TraceHeader {
@@ -23,9 +27,9 @@ struct TraceHeader {
   std::vector<std::string> state_names;  ///< index = value in Trace::state
   std::vector<std::string> exit_ids;     ///< index = value in Trace::exit_intent
   std::vector<std::string> drone_ids;
-  std::vector<AgentRole> role;       ///< per agent; size = number of agents
-  std::vector<float> radius_m;       ///< per agent
-  std::vector<float> pref_speed_mps; ///< per agent, as generated
+  std::vector<AgentRole> role;        ///< per agent; size = number of agents
+  std::vector<float> radius_m;        ///< per agent
+  std::vector<float> pref_speed_mps;  ///< per agent, as generated
 
   std::size_t agent_count() const { return role.size(); }
 };
@@ -33,12 +37,12 @@ struct TraceHeader {
 /// All agents at one crowd step.
 struct CrowdStep {
   double time_s = 0;
-  std::vector<Eigen::Vector2f> position;      ///< m
-  std::vector<Eigen::Vector2f> velocity;      ///< m/s
-  std::vector<float> yaw_rad;                 ///< facing, counter-clockwise from +x
-  std::vector<float> desired_speed_mps;       ///< what the agent wants now
-  std::vector<std::uint8_t> state;            ///< index into TraceHeader::state_names
-  std::vector<std::int8_t> exit_intent;       ///< index into exit_ids; -1: none
+  std::vector<Eigen::Vector2f> position;  ///< m
+  std::vector<Eigen::Vector2f> velocity;  ///< m/s
+  std::vector<float> yaw_rad;             ///< facing, counter-clockwise from +x
+  std::vector<float> desired_speed_mps;   ///< what the agent wants now
+  std::vector<std::uint8_t> state;        ///< index into TraceHeader::state_names
+  std::vector<std::int8_t> exit_intent;   ///< index into exit_ids; -1: none
 };
 
 /// One drone at one instant.
@@ -52,7 +56,7 @@ struct DroneSample {
 /// Something that happened, e.g. "tilt_saturated", "agent_escaped".
 struct TraceEvent {
   double time_s = 0;
-  std::string type;
+  std::string type;         ///< a word of at most 31 characters
   std::int32_t agent = -1;  ///< -1: none
   std::int32_t drone = -1;  ///< -1: none
   double value = 0;         ///< meaning depends on the type
@@ -89,9 +93,13 @@ class TraceWriter {
   TraceWriter(const TraceWriter&) = delete;
   TraceWriter& operator=(const TraceWriter&) = delete;
 
+  /// Steps come in order, dt_s apart, starting at 0, with one entry per agent in every array.
   void add(const CrowdStep& step);
+  /// Samples of one drone come in order of time.
   void add_drone(std::size_t drone, const DroneSample& sample);
   void add_event(const TraceEvent& event);
+  /// Completes the file and gives it its name. Throws EnvironmentError, as all of these do, when
+  /// the disk fails; call nothing afterwards.
   void finish();
 
  private:

@@ -1,0 +1,232 @@
+#include "world/scenario.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <ostream>
+
+#include "base/error.h"
+#include "tests/world/temporary_folder.h"
+
+namespace throng::world {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using throng::testing::TemporaryFolder;
+
+json valid_scenario() {
+  return json::parse(R"({
+    "name": "Yard",
+    "crowd": {"scene": "scene.xml", "behavior": "behavior.xml"},
+    "ground": {"min": [-20, -20], "max": [20, 20], "material": "asphalt"},
+    "inside": {"min": [-10, -10], "max": [10, 10]},
+    "exits": [
+      {"id": "a", "from": [10, -1], "to": [10, 1], "goals": [[3, 0], [4, 0]]},
+      {"id": "b", "from": [-2, -10], "to": [1, -10], "outward": [0, -2], "goals": [[3, 1]]}],
+    "buildings": [{"id": "hut", "footprint": [[0, 0], [4, 0], [4, 4], [0, 4]], "height_m": 6}],
+    "drones": [{"id": "d1", "start": [-5, 0, 12], "yaw_deg": 90, "moves_goal": [99, 0]}],
+    "disaster_agents": [7]
+  })");
+}
+
+class ScenarioFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("scene.xml", "<scene/>");
+    folder_.write("behavior.xml", "<behavior/>");
+  }
+  Scenario load(const json& document) { return load_text(document.dump(1)); }
+  Scenario load_text(const std::string& text) {
+    return load_scenario(folder_.write("yard.json", text), "yard");
+  }
+  std::vector<Problem> problems_of(const std::string& text) {
+    try {
+      load_text(text);
+    } catch (const InputError& error) {
+      return error.problems();
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ScenarioFile, ReadsEverything) {
+  const Scenario s = load(valid_scenario());
+  EXPECT_EQ(s.id, "yard");
+  EXPECT_EQ(s.name, "Yard");
+  EXPECT_EQ(s.scene_file, folder_.path() / "scene.xml");
+  EXPECT_EQ(s.behavior_file, folder_.path() / "behavior.xml");
+  EXPECT_EQ(s.ground.max, Eigen::Vector2d(20, 20));
+  EXPECT_EQ(s.ground_material, "asphalt");
+  EXPECT_TRUE(s.inside.contains({10, -10}));
+  EXPECT_FALSE(s.inside.contains({10.1, 0}));
+  ASSERT_EQ(s.exits.size(), 2U);
+  EXPECT_EQ(s.exits[0].goals, (std::vector<GoalRef>{{3, 0}, {4, 0}}));
+  EXPECT_DOUBLE_EQ(s.exits[1].width_m(), 3);
+  ASSERT_EQ(s.buildings.size(), 1U);
+  EXPECT_EQ(s.buildings[0].footprint.size(), 4U);
+  ASSERT_EQ(s.drones.size(), 1U);
+  EXPECT_EQ(s.drones[0].position, Eigen::Vector3d(-5, 0, 12));
+  EXPECT_DOUBLE_EQ(s.drones[0].yaw_rad, std::numbers::pi / 2);
+  EXPECT_EQ(s.drones[0].moves_goal, (GoalRef{99, 0}));
+  EXPECT_THAT(s.disaster_agents, ElementsAre(7));
+}
+
+TEST_F(ScenarioFile, OutwardIsAUnitNormalAsGivenOrAwayFromTheMiddle) {
+  const Scenario s = load(valid_scenario());
+  EXPECT_EQ(s.exits[0].outward, Eigen::Vector2d(1, 0));
+  EXPECT_EQ(s.exits[1].outward, Eigen::Vector2d(0, -1));
+}
+
+TEST_F(ScenarioFile, OptionalPartsMayBeAbsent) {
+  json document = valid_scenario();
+  for (const char* key : {"buildings", "drones", "disaster_agents"}) document.erase(key);
+  document["exits"] = json::array();
+  const Scenario s = load(document);
+  EXPECT_TRUE(s.exits.empty() && s.buildings.empty() && s.drones.empty());
+}
+
+// One change that makes the valid scenario wrong, and where that must be reported.
+struct BadCase {
+  std::string name;
+  std::string pointer;
+  json value;
+  std::string reported_at;
+  std::string expected;
+};
+void PrintTo(const BadCase& bad, std::ostream* out) { *out << bad.name; }
+
+class BadScenario : public ScenarioFile, public ::testing::WithParamInterface<BadCase> {};
+
+TEST_P(BadScenario, IsReportedWhereItStands) {
+  json document = valid_scenario();
+  document[json::json_pointer(GetParam().pointer)] = GetParam().value;
+  const auto problems = problems_of(document.dump());
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].source, (folder_.path() / "yard.json").string());
+  EXPECT_EQ(problems[0].where, GetParam().reported_at);
+  EXPECT_THAT(problems[0].expected, HasSubstr(GetParam().expected));
+  EXPECT_FALSE(problems[0].found.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadScenario,
+    ::testing::Values(
+        BadCase{"unknown_field", "/colour", "red", "/colour", "one of: name"},
+        BadCase{"unknown_nested_field", "/exits/0/a~1b", 1, "/exits/0/a~1b", "one of: id"},
+        BadCase{"wrong_type", "/name", 5, "/name", "text"},
+        BadCase{"not_an_object", "/crowd", 5, "/crowd", "an object"},
+        BadCase{"not_an_array", "/exits", 5, "/exits", "an array"},
+        BadCase{"missing_file", "/crowd/scene", "nowhere.xml", "/crowd/scene", "file"},
+        BadCase{"folder_as_file", "/crowd/scene", ".", "/crowd/scene", "file"},
+        BadCase{"material", "/ground/material", "lava", "/ground/material", "pavers, asphalt"},
+        BadCase{"empty_ground", "/ground/max", {-30, 5}, "/ground/max", "right of"},
+        BadCase{"short_vector", "/exits/0/from", json::array({1}), "/exits/0/from", "[x, y]"},
+        BadCase{"text_coordinate", "/exits/0/from/1", "1", "/exits/0/from/1", "a number"},
+        BadCase{"far_away", "/exits/0/from/1", 1e9, "/exits/0/from/1", "a number"},
+        BadCase{"zero_width_exit", "/exits/0/to", {10, -1}, "/exits/0/to", "at least 0.1 m"},
+        BadCase{"slanted_outward", "/exits/1/outward", {1, 1}, "/exits/1/outward", "right angles"},
+        BadCase{"zero_outward", "/exits/1/outward", {0, 0}, "/exits/1/outward", "right angles"},
+        BadCase{"no_goals", "/exits/0/goals", json::array(), "/exits/0/goals", "at least 1"},
+        BadCase{"fractional_goal", "/exits/0/goals/0/1", 0.5, "/exits/0/goals/0/1", "an integer"},
+        BadCase{"huge_goal", "/exits/0/goals/0/1", 18446744073709551615U, "/exits/0/goals/0/1",
+                "an integer"},
+        BadCase{"goal_of_two_exits", "/exits/1/goals/0", {3, 0}, "/exits/1/goals/0", "this exit"},
+        BadCase{"same_exit_twice", "/exits/1/id", "a", "/exits/1/id", "nothing else"},
+        BadCase{"empty_id", "/exits/1/id", "", "/exits/1/id", "a name"},
+        BadCase{"two_corners",
+                "/buildings/0/footprint",
+                {{0, 0}, {1, 1}},
+                "/buildings/0/footprint",
+                "at least 3"},
+        BadCase{"clockwise",
+                "/buildings/0/footprint",
+                {{0, 0}, {0, 4}, {4, 4}, {4, 0}},
+                "/buildings/0/footprint",
+                "counter-clockwise"},
+        BadCase{"bow_tie",
+                "/buildings/0/footprint",
+                {{0, 0}, {4, 4}, {4, 0}, {0, 4}},
+                "/buildings/0/footprint",
+                "do not cross"},
+        BadCase{"flat",
+                "/buildings/0/footprint",
+                {{0, 0}, {4, 0}, {2, 0}},
+                "/buildings/0/footprint",
+                "do not cross"},
+        BadCase{"no_height", "/buildings/0/height_m", 0, "/buildings/0/height_m", "a number"},
+        BadCase{"drone_in_ground", "/drones/0/start/2", 0, "/drones/0/start", "above the ground"},
+        BadCase{"drone_in_building",
+                "/drones/0/start",
+                {1, 1, 5},
+                "/drones/0/start",
+                "outside every building"},
+        BadCase{"negative_agent", "/disaster_agents/0", -1, "/disaster_agents/0", "an integer"},
+        BadCase{"same_agent_twice", "/disaster_agents", {7, 7}, "/disaster_agents/1", "once"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_F(ScenarioFile, AllProblemsAreReportedAtOnce) {
+  json document = valid_scenario();
+  document.erase("name");
+  document["exits"][0]["to"] = document["exits"][0]["from"];
+  document["buildings"][0]["height_m"] = "tall";
+  EXPECT_EQ(problems_of(document.dump()).size(), 3U);
+}
+
+TEST_F(ScenarioFile, MalformedJsonIsReportedByLineAndColumn) {
+  const auto problems = problems_of("{\n  \"name\": \"x\",\n  oops\n}");
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].where, "line 3, column 3");
+  for (const std::string text : {"", "[", "\xff\xfe", "{\"name\": 1e999}", "\"\\ud800\"", "null"}) {
+    EXPECT_EQ(problems_of(text).empty(), false) << text;
+  }
+}
+
+TEST_F(ScenarioFile, AKeyMayNotStandTwice) {
+  const auto problems = problems_of(R"({"name": "a", "name": "b"})");
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_THAT(problems[0].found, HasSubstr("\"name\" twice"));
+}
+
+TEST_F(ScenarioFile, CutShortAnywhereIsAnInputError) {
+  const std::string text = valid_scenario().dump();
+  for (std::size_t length = 0; length < text.size(); length += 7) {
+    EXPECT_THROW(load_text(text.substr(0, length)), InputError) << length;
+  }
+}
+
+TEST_F(ScenarioFile, AMissingScenarioFileIsNotTheUsersJson) {
+  EXPECT_THROW(load_scenario(folder_.path() / "nowhere.json", "x"), EnvironmentError);
+}
+
+TEST_F(ScenarioFile, ScenariosAreFoundById) {
+  folder_.write("town/scene.xml", "");
+  folder_.write("town/behavior.xml", "");
+  folder_.write("town/yard_2.json", valid_scenario().dump());
+  folder_.write("town/demo.job.json", "{}");
+  folder_.write("alone.json", "{}");
+  EXPECT_THAT(list_scenarios(folder_.path()), ElementsAre("alone", "town/yard_2"));
+  EXPECT_EQ(find_scenario(folder_.path(), "town/yard_2").id, "town/yard_2");
+}
+
+TEST_F(ScenarioFile, IdsNameNothingOutsideTheFolder) {
+  folder_.write("outside.json", valid_scenario().dump());
+  folder_.write("inner/yard.json", "{}");
+  for (const std::string id : {"../outside", "/etc/passwd", "inner//yard", "inner/yard/", "/", "",
+                               "Inner/yard", "inner/yard.json", "nowhere", "inner/../outside"}) {
+    try {
+      find_scenario(folder_.path() / "inner", id);
+      ADD_FAILURE() << id;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.problems()[0].expected, HasSubstr("yard")) << id;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace throng::world

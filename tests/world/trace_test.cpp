@@ -1,0 +1,271 @@
+#include "world/trace.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "tests/world/temporary_folder.h"
+
+namespace throng::world {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using throng::testing::TemporaryFolder;
+
+constexpr std::size_t kAgents = 7;
+// More than two chunks, and not a whole number of them.
+constexpr std::size_t kSteps = 150;
+
+TraceHeader header_of(std::size_t agents) {
+  TraceHeader header;
+  header.scenario_id = "town/yard";
+  header.generator = "throng test";
+  header.seed = 0xfedcba9876543210U;
+  header.dt_s = 0.1;
+  header.state_names = {"Walk", "Läuft zum Ausgang", "Done"};
+  header.exit_ids = {"a", "b"};
+  header.drone_ids = {"d1", "second"};
+  for (std::size_t i = 0; i < agents; ++i) {
+    header.role.push_back(static_cast<AgentRole>(i % 3));
+    header.radius_m.push_back(0.2F + 0.01F * static_cast<float>(i));
+    header.pref_speed_mps.push_back(1.0F + 0.1F * static_cast<float>(i));
+  }
+  return header;
+}
+
+CrowdStep step_of(std::size_t step, std::size_t agents) {
+  CrowdStep crowd;
+  crowd.time_s = 0.1 * static_cast<double>(step);
+  for (std::size_t i = 0; i < agents; ++i) {
+    const auto phase = static_cast<float>(step * agents + i);
+    crowd.position.emplace_back(std::sin(phase), phase);
+    crowd.velocity.emplace_back(-phase, std::cos(phase));
+    crowd.yaw_rad.push_back(0.1F * phase);
+    crowd.desired_speed_mps.push_back(phase / 7);
+    crowd.state.push_back(static_cast<std::uint8_t>((step + i) % 3));
+    crowd.exit_intent.push_back(static_cast<std::int8_t>((step + i) % 3) - 1);
+  }
+  return crowd;
+}
+
+DroneSample sample_of(double time_s) {
+  return {time_s,
+          {time_s, 2 * time_s, 10},
+          {1, 2, 0},
+          Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * time_s, Eigen::Vector3d::UnitZ()))};
+}
+
+void write_trace(const fs::path& path, std::size_t agents = kAgents, std::size_t steps = kSteps) {
+  TraceWriter writer(path, header_of(agents));
+  for (std::size_t step = 0; step < steps; ++step) {
+    writer.add(step_of(step, agents));
+    for (int i = 0; i < 8; ++i) {
+      writer.add_drone(0, sample_of(0.1 * static_cast<double>(step) + i / 80.0));
+    }
+    if (step % 10 == 0 && agents > 5) {
+      writer.add_event({0.1 * static_cast<double>(step), "agent_escaped", 5, -1, 0.5});
+    }
+  }
+  writer.add_event({99, "tilt_saturated", -1, 1, -2});
+  writer.finish();
+}
+
+std::string problem_of(const fs::path& path) {
+  try {
+    read_trace(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Trace, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  write_trace(folder.path() / "run.h5");
+  const Trace trace = read_trace(folder.path() / "run.h5");
+
+  const TraceHeader expected = header_of(kAgents);
+  EXPECT_EQ(trace.header.scenario_id, expected.scenario_id);
+  EXPECT_EQ(trace.header.generator, expected.generator);
+  EXPECT_EQ(trace.header.seed, expected.seed);
+  EXPECT_EQ(trace.header.dt_s, expected.dt_s);
+  EXPECT_EQ(trace.header.state_names, expected.state_names);
+  EXPECT_EQ(trace.header.exit_ids, expected.exit_ids);
+  EXPECT_EQ(trace.header.drone_ids, expected.drone_ids);
+  EXPECT_EQ(trace.header.role, expected.role);
+  EXPECT_EQ(trace.header.radius_m, expected.radius_m);
+  EXPECT_EQ(trace.header.pref_speed_mps, expected.pref_speed_mps);
+
+  ASSERT_EQ(trace.steps(), kSteps);
+  ASSERT_EQ(trace.position.size(), kSteps * kAgents);
+  for (std::size_t step = 0; step < kSteps; ++step) {
+    const CrowdStep crowd = step_of(step, kAgents);
+    EXPECT_DOUBLE_EQ(trace.time_s[step], crowd.time_s);
+    for (std::size_t i = 0; i < kAgents; ++i) {
+      const std::size_t at = trace.at(step, i);
+      EXPECT_EQ(trace.position[at], crowd.position[i]);
+      EXPECT_EQ(trace.velocity[at], crowd.velocity[i]);
+      EXPECT_EQ(trace.yaw_rad[at], crowd.yaw_rad[i]);
+      EXPECT_EQ(trace.desired_speed_mps[at], crowd.desired_speed_mps[i]);
+      EXPECT_EQ(trace.state[at], crowd.state[i]);
+      EXPECT_EQ(trace.exit_intent[at], crowd.exit_intent[i]);
+    }
+  }
+
+  ASSERT_EQ(trace.drones.size(), 2U);
+  ASSERT_EQ(trace.drones[0].size(), 8 * kSteps);
+  EXPECT_TRUE(trace.drones[1].empty());
+  const DroneSample& sample = trace.drones[0][1000];
+  EXPECT_EQ(sample.position, sample_of(sample.time_s).position);
+  EXPECT_EQ(sample.orientation.coeffs(), sample_of(sample.time_s).orientation.coeffs());
+
+  ASSERT_EQ(trace.events.size(), kSteps / 10 + 1);
+  EXPECT_EQ(trace.events[3].type, "agent_escaped");
+  EXPECT_EQ(trace.events[3].agent, 5);
+  EXPECT_EQ(trace.events.back().type, "tilt_saturated");
+  EXPECT_EQ(trace.events.back().drone, 1);
+  EXPECT_EQ(trace.events.back().value, -2);
+}
+
+TEST(Trace, EqualRunsGiveEqualBytes) {
+  const TemporaryFolder folder;
+  write_trace(folder.path() / "one.h5");
+  write_trace(folder.path() / "two.h5");
+  EXPECT_EQ(sha256_hex_of_file(folder.path() / "one.h5"),
+            sha256_hex_of_file(folder.path() / "two.h5"));
+}
+
+TEST(Trace, MayHaveNoAgentsNoStepsOrVeryMany) {
+  const TemporaryFolder folder;
+  for (const auto& [agents, steps] :
+       {std::pair{0, 3}, std::pair{3, 0}, std::pair{0, 0}, std::pair{200'000, 3}}) {
+    const fs::path path = folder.path() / "run.h5";
+    write_trace(path, static_cast<std::size_t>(agents), static_cast<std::size_t>(steps));
+    const Trace trace = read_trace(path);
+    EXPECT_EQ(trace.agents(), static_cast<std::size_t>(agents));
+    EXPECT_EQ(trace.steps(), static_cast<std::size_t>(steps));
+  }
+}
+
+TEST(Trace, AppearsOnlyWhenFinished) {
+  const TemporaryFolder folder;
+  {
+    TraceWriter writer(folder.path() / "run.h5", header_of(3));
+    writer.add(step_of(0, 3));
+    EXPECT_FALSE(fs::exists(folder.path() / "run.h5"));
+  }
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(Trace, FolderThatIsNotThereIsTheEnvironmentsFault) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(TraceWriter(folder.path() / "nowhere" / "run.h5", header_of(3)), EnvironmentError);
+  EXPECT_THROW(read_trace(folder.path() / "nowhere.h5"), EnvironmentError);
+}
+
+TEST(Trace, CutShortAnywhereIsAnInputError) {
+  const TemporaryFolder folder;
+  write_trace(folder.path() / "run.h5");
+  const std::string bytes = read_file(folder.path() / "run.h5");
+  const fs::path cut = folder.path() / "cut.h5";
+  for (std::size_t length = 0; length < bytes.size(); length += 997) {
+    folder.write("cut.h5", bytes.substr(0, length));
+    EXPECT_THAT(problem_of(cut), HasSubstr("cut.h5")) << length;
+  }
+}
+
+TEST(Trace, DamagedDataNeverCrashes) {
+  const TemporaryFolder folder;
+  write_trace(folder.path() / "run.h5");
+  const std::string bytes = read_file(folder.path() / "run.h5");
+  for (std::size_t at = 0; at < bytes.size(); at += 1009) {
+    std::string damaged = bytes;
+    for (std::size_t i = at; i < std::min(at + 16, bytes.size()); ++i) damaged[i] ^= 0x5a;
+    folder.write("damaged.h5", damaged);
+    problem_of(folder.path() / "damaged.h5");  // either read or refused
+  }
+}
+
+TEST(Trace, ForeignFilesAreNamedAsSuch) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(problem_of(folder.write("text.h5", "not HDF5 at all")), HasSubstr("not HDF5"));
+  const std::string foreign = (folder.path() / "foreign.h5").string();
+  H5Fclose(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_THAT(problem_of(foreign), HasSubstr("another kind"));
+}
+
+// Opens a good trace for writing and lets `change` spoil it.
+template <typename Change>
+std::string problem_after(const Change& change) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "run.h5";
+  write_trace(path);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  change(file);
+  H5Fclose(file);
+  return problem_of(path);
+}
+
+TEST(Trace, AMissingDatasetIsNamed) {
+  const std::string problem =
+      problem_after([](hid_t file) { H5Ldelete(file, "/crowd/velocity", H5P_DEFAULT); });
+  EXPECT_THAT(problem, HasSubstr("velocity"));
+}
+
+TEST(Trace, AnotherVersionIsRefused) {
+  const std::string problem = problem_after([](hid_t file) {
+    const hid_t attribute = H5Aopen(file, "version", H5P_DEFAULT);
+    const int version = 1000;
+    H5Awrite(attribute, H5T_NATIVE_INT, &version);
+    H5Aclose(attribute);
+  });
+  EXPECT_THAT(problem, HasSubstr("version: found 1000"));
+}
+
+TEST(Trace, ADatasetOfAnotherLengthIsNamed) {
+  const std::string problem = problem_after([](hid_t file) {
+    const hid_t dataset = H5Dopen2(file, "/crowd/yaw_rad", H5P_DEFAULT);
+    const std::array<hsize_t, 2> shorter{kSteps - 1, kAgents};
+    H5Dset_extent(dataset, shorter.data());
+    H5Dclose(dataset);
+  });
+  EXPECT_THAT(problem, HasSubstr("yaw_rad"));
+}
+
+TEST(Trace, AnIndexOutOfRangeIsRefused) {
+  const std::string problem = problem_after([](hid_t file) {
+    const hid_t dataset = H5Dopen2(file, "/crowd/state", H5P_DEFAULT);
+    const std::vector<std::uint8_t> states(kSteps * kAgents, 3);
+    H5Dwrite(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, states.data());
+    H5Dclose(dataset);
+  });
+  EXPECT_THAT(problem, HasSubstr("crowd/state"));
+}
+
+TEST(Trace, DroneMovesSmoothlyBetweenItsSamples) {
+  Trace trace;
+  trace.drones = {{sample_of(1), sample_of(2), sample_of(4)}};
+  const DroneSample between = trace.drone_at(0, 2.5);
+  EXPECT_DOUBLE_EQ(between.time_s, 2.5);
+  EXPECT_TRUE(between.position.isApprox(sample_of(2.5).position));
+  EXPECT_LT(between.orientation.angularDistance(sample_of(2.5).orientation), 1e-9);
+  EXPECT_EQ(trace.drone_at(0, 2).position, sample_of(2).position);
+  EXPECT_EQ(trace.drone_at(0, -5).position, sample_of(1).position);
+  EXPECT_EQ(trace.drone_at(0, 50).position, sample_of(4).position);
+}
+
+TEST(TraceDeathTest, StepsOutOfOrderAreABug) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const TemporaryFolder folder;
+  TraceWriter writer(folder.path() / "run.h5", header_of(3));
+  EXPECT_DEATH(writer.add(step_of(1, 3)), "dt apart");
+}
+
+}  // namespace
+}  // namespace throng::world

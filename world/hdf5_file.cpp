@@ -1,0 +1,241 @@
+#include "world/hdf5_file.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace throng::world::hdf5 {
+
+namespace {
+
+constexpr hsize_t kMostTexts = 1'000'000;
+constexpr std::size_t kLongestText = 1'000'000;
+
+void require(herr_t status, const std::string& what) {
+  if (status < 0) throw Failure(what);
+}
+
+Handle creation_list(hid_t list_class, const std::string& what) {
+  Handle list(H5Pcreate(list_class), H5Pclose, what);
+  require(H5Pset_obj_track_times(list.id(), false), what);
+  return list;
+}
+
+bool same_type(const Handle& dataset, hid_t wanted, const std::string& name) {
+  const Handle type(H5Dget_type(dataset.id()), H5Tclose, name);
+  return H5Tequal(type.id(), wanted) > 0;
+}
+
+std::vector<hsize_t> shape_of_space(const Handle& space, const std::string& name) {
+  const int rank = H5Sget_simple_extent_ndims(space.id());
+  if (rank < 0) throw Failure(name);
+  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  require(H5Sget_simple_extent_dims(space.id(), shape.data(), nullptr), name);
+  return shape;
+}
+
+Handle open_dataset(const Handle& parent, const std::string& name) {
+  return {H5Dopen2(parent.id(), name.c_str(), H5P_DEFAULT), H5Dclose, name};
+}
+
+}  // namespace
+
+Handle::Handle(hid_t id, herr_t (*closer)(hid_t), const std::string& what)
+    : id_(id), close_(closer) {
+  if (id < 0) throw Failure(what);
+}
+
+Handle::Handle(Handle&& other) noexcept
+    : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  std::swap(id_, other.id_);
+  std::swap(close_, other.close_);
+  return *this;
+}
+
+Handle::~Handle() {
+  if (id_ >= 0) close_(id_);
+}
+
+void Handle::close(const std::string& what) {
+  if (id_ >= 0) require(close_(std::exchange(id_, H5I_INVALID_HID)), what);
+}
+
+QuietErrors::QuietErrors() {
+  H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+QuietErrors::~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+
+template <>
+ElementType element_type<double>() {
+  return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
+}
+template <>
+ElementType element_type<float>() {
+  return {H5T_IEEE_F32LE, H5T_NATIVE_FLOAT};
+}
+template <>
+ElementType element_type<std::uint64_t>() {
+  return {H5T_STD_U64LE, H5T_NATIVE_UINT64};
+}
+template <>
+ElementType element_type<std::int32_t>() {
+  return {H5T_STD_I32LE, H5T_NATIVE_INT32};
+}
+template <>
+ElementType element_type<std::uint8_t>() {
+  return {H5T_STD_U8LE, H5T_NATIVE_UINT8};
+}
+template <>
+ElementType element_type<std::int8_t>() {
+  return {H5T_STD_I8LE, H5T_NATIVE_INT8};
+}
+
+Handle create_file(const std::string& path) {
+  const Handle creation = creation_list(H5P_FILE_CREATE, path);
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), H5P_DEFAULT), H5Fclose, path};
+}
+
+Handle open_file(const std::string& path) {
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path};
+}
+
+Handle create_group(const Handle& parent, const std::string& name) {
+  const Handle creation = creation_list(H5P_GROUP_CREATE, name);
+  return {H5Gcreate2(parent.id(), name.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose,
+          name};
+}
+
+Handle text_type(std::size_t width) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "text type");
+  require(H5Tset_size(type.id(), std::max<std::size_t>(width, 1)), "text type");
+  require(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), "text type");
+  require(H5Tset_cset(type.id(), H5T_CSET_UTF8), "text type");
+  return type;
+}
+
+void write_text_attribute(const Handle& object, const std::string& name, const std::string& text) {
+  const Handle type = text_type(text.size());
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const Handle attribute(
+      H5Acreate2(object.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, name);
+  require(H5Awrite(attribute.id(), type.id(), text.c_str()), name);
+}
+
+std::string read_text_attribute(const Handle& object, const std::string& name) {
+  const Handle attribute(H5Aopen(object.id(), name.c_str(), H5P_DEFAULT), H5Aclose, name);
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose, name);
+  const Handle space(H5Aget_space(attribute.id()), H5Sclose, name);
+  const std::size_t width = H5Tget_size(type.id());
+  if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0 ||
+      H5Sget_simple_extent_npoints(space.id()) != 1 || width == 0 || width > kLongestText) {
+    throw Failure(name);
+  }
+  std::string text(width, '\0');
+  require(H5Aread(attribute.id(), type.id(), text.data()), name);
+  return text.substr(0, text.find('\0'));
+}
+
+RowDataset::RowDataset(const Handle& parent, std::string name, hid_t file_type, hid_t memory_type,
+                       const std::vector<hsize_t>& row, hsize_t rows_per_chunk,
+                       const std::string& unit)
+    : name_(std::move(name)), memory_type_(memory_type), shape_{0} {
+  shape_.insert(shape_.end(), row.begin(), row.end());
+  std::vector<hsize_t> largest = shape_;
+  std::vector<hsize_t> chunk = shape_;
+  largest[0] = H5S_UNLIMITED;
+  chunk[0] = rows_per_chunk;
+  for (std::size_t i = 1; i < shape_.size(); ++i) {
+    if (shape_[i] > 0) continue;
+    chunk[i] = 1;  // no chunk may be empty nor larger than what the dataset can become
+    largest[i] = H5S_UNLIMITED;
+  }
+  const Handle space(
+      H5Screate_simple(static_cast<int>(shape_.size()), shape_.data(), largest.data()), H5Sclose,
+      name_);
+  const Handle creation = creation_list(H5P_DATASET_CREATE, name_);
+  require(H5Pset_chunk(creation.id(), static_cast<int>(chunk.size()), chunk.data()), name_);
+  require(H5Pset_shuffle(creation.id()), name_);
+  require(H5Pset_deflate(creation.id(), 1), name_);
+  dataset_ = Handle(H5Dcreate2(parent.id(), name_.c_str(), file_type, space.id(), H5P_DEFAULT,
+                               creation.id(), H5P_DEFAULT),
+                    H5Dclose, name_);
+  if (!unit.empty()) write_text_attribute(dataset_, "unit", unit);
+}
+
+void RowDataset::append(const void* data, hsize_t count) {
+  if (count == 0) return;
+  std::vector<hsize_t> start(shape_.size(), 0);
+  std::vector<hsize_t> block = shape_;
+  start[0] = shape_[0];
+  block[0] = count;
+  shape_[0] += count;
+  require(H5Dset_extent(dataset_.id(), shape_.data()), name_);
+  if (std::find(block.begin(), block.end(), 0) != block.end()) return;
+  const Handle file_space(H5Dget_space(dataset_.id()), H5Sclose, name_);
+  require(H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start.data(), nullptr, block.data(),
+                              nullptr),
+          name_);
+  const Handle memory_space(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
+                            H5Sclose, name_);
+  require(
+      H5Dwrite(dataset_.id(), memory_type_, memory_space.id(), file_space.id(), H5P_DEFAULT, data),
+      name_);
+}
+
+std::vector<hsize_t> shape_of(const Handle& parent, const std::string& name, std::size_t rank) {
+  const Handle dataset = open_dataset(parent, name);
+  const Handle space(H5Dget_space(dataset.id()), H5Sclose, name);
+  std::vector<hsize_t> shape = shape_of_space(space, name);
+  if (shape.size() != rank) throw Failure(name);
+  return shape;
+}
+
+void read_into(const Handle& parent, const std::string& name, const std::vector<hsize_t>& shape,
+               const ElementType& type, void* data) {
+  const Handle dataset = open_dataset(parent, name);
+  const Handle space(H5Dget_space(dataset.id()), H5Sclose, name);
+  if (shape_of_space(space, name) != shape || !same_type(dataset, type.file, name)) {
+    throw Failure(name);
+  }
+  if (std::find(shape.begin(), shape.end(), 0) != shape.end()) return;
+  require(H5Dread(dataset.id(), type.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
+}
+
+void write_texts(const Handle& parent, const std::string& name,
+                 const std::vector<std::string>& texts) {
+  std::size_t width = 1;
+  for (const std::string& text : texts) width = std::max(width, text.size());
+  std::string cells;
+  for (const std::string& text : texts) {
+    cells += text;
+    cells.resize(cells.size() + width - text.size(), '\0');
+  }
+  const Handle type = text_type(width);
+  RowDataset(parent, name, type.id(), type.id(), {}, 64, "").append(cells.data(), texts.size());
+}
+
+std::vector<std::string> read_texts(const Handle& parent, const std::string& name) {
+  const Handle dataset = open_dataset(parent, name);
+  const Handle type(H5Dget_type(dataset.id()), H5Tclose, name);
+  const hsize_t count = shape_of(parent, name, 1)[0];
+  const std::size_t width = H5Tget_size(type.id());
+  if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0 || width == 0 ||
+      width > kLongestText || count > kMostTexts) {
+    throw Failure(name);
+  }
+  std::vector<std::string> texts;
+  if (count == 0) return texts;
+  std::string cells(count * width, '\0');
+  require(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, cells.data()), name);
+  for (hsize_t i = 0; i < count; ++i) {
+    const std::string cell = cells.substr(i * width, width);
+    texts.push_back(cell.substr(0, cell.find('\0')));
+  }
+  return texts;
+}
+
+}  // namespace throng::world::hdf5

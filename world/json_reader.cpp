@@ -1,0 +1,211 @@
+#include "world/json_reader.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+namespace throng::world {
+
+using nlohmann::json;
+
+namespace {
+
+// What stands somewhere, short enough for a message.
+std::string describe(const json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return fmt::format("an array of {}", value.size());
+  constexpr std::size_t kLongest = 60;
+  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  return text;
+}
+
+// Keys are escaped as RFC 6901 wants it.
+std::string escaped(std::string_view key) {
+  std::string text;
+  for (const char c : key) {
+    if (c == '~') {
+      text += "~0";
+    } else if (c == '/') {
+      text += "~1";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string line_and_column(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte, text.size()));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 = 0: the first line
+  return fmt::format("line {}, column {}", line, before.size() - line_start + 1);
+}
+
+std::string joined(std::initializer_list<std::string_view> first,
+                   std::initializer_list<std::string_view> second) {
+  std::string text;
+  for (const auto& list : {first, second}) {
+    for (const std::string_view word : list)
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", word);
+  }
+  return text;
+}
+
+}  // namespace
+
+json parse_json(std::string_view text, const std::string& source) {
+  // nlohmann keeps the last of two equal keys; a file that has both is a mistake.
+  std::vector<std::set<std::string>> keys;
+  std::string duplicate;
+  const auto watch = [&](int, json::parse_event_t event, json& parsed) {
+    if (event == json::parse_event_t::object_start) {
+      keys.emplace_back();
+    } else if (event == json::parse_event_t::object_end) {
+      keys.pop_back();
+    } else if (event == json::parse_event_t::key && duplicate.empty()) {
+      const auto& key = parsed.get_ref<const std::string&>();
+      if (!keys.back().insert(key).second) duplicate = key;
+    }
+    return true;
+  };
+  try {
+    json document = json::parse(text.begin(), text.end(), watch);
+    if (!duplicate.empty()) {
+      throw InputError(Problem{source, "",
+                               fmt::format("the key \"{}\" twice in one object", duplicate),
+                               "every key once"});
+    }
+    return document;
+  } catch (const json::parse_error& error) {
+    // The byte is counted from 1 and is the last one read.
+    const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
+    std::string what = error.what();
+    if (const auto start = what.find("syntax error"); start != std::string::npos) {
+      what = what.substr(start);
+    }
+    throw InputError(Problem{source, line_and_column(text, byte), what, "valid JSON"});
+  } catch (const json::exception& error) {  // e.g. a number that no double can hold
+    throw InputError(Problem{source, "", error.what(), "valid JSON"});
+  }
+}
+
+JsonValue::JsonValue(const json& document, const std::string& source,
+                     std::vector<Problem>& problems)
+    : JsonValue(&document, "", &source, &problems) {}
+
+JsonValue::JsonValue(const json* value, std::string pointer, const std::string* source,
+                     std::vector<Problem>* problems)
+    : value_(value), pointer_(std::move(pointer)), source_(source), problems_(problems) {}
+
+void JsonValue::reject(std::string found, std::string expected) const {
+  problems_->push_back(
+      {*source_, pointer_.empty() ? "/" : pointer_, std::move(found), std::move(expected)});
+}
+
+void JsonValue::reject(std::string expected) const {
+  if (value_ != nullptr) reject(describe(*value_), std::move(expected));
+}
+
+void JsonValue::fields(std::initializer_list<std::string_view> required,
+                       std::initializer_list<std::string_view> optional) const {
+  if (value_ == nullptr) return;
+  if (!value_->is_object()) return reject("an object");
+  for (const std::string_view key : required) {
+    if (!value_->contains(key)) reject(fmt::format("no field \"{}\"", key), "that field");
+  }
+  const auto known = [](const auto& list, const std::string& key) {
+    return std::find(list.begin(), list.end(), key) != list.end();
+  };
+  for (const auto& [key, child] : value_->items()) {
+    if (known(required, key) || known(optional, key)) continue;
+    JsonValue(&child, pointer_ + "/" + escaped(key), source_, problems_)
+        .reject("an unknown field", fmt::format("one of: {}", joined(required, optional)));
+  }
+}
+
+JsonValue JsonValue::operator[](std::string_view key) const {
+  const json* child = nullptr;
+  if (value_ != nullptr && value_->is_object()) {
+    const auto found = value_->find(key);
+    if (found != value_->end()) child = &*found;
+  }
+  return {child, pointer_ + "/" + escaped(key), source_, problems_};
+}
+
+double JsonValue::number(double low, double high) const {
+  if (value_ == nullptr) return low;
+  const double value = value_->is_number() ? value_->get<double>() : low - 1;
+  if (value >= low && value <= high) return value;
+  reject(fmt::format("a number from {} to {}", low, high));
+  return low;
+}
+
+int JsonValue::integer(int low, int high) const {
+  if (value_ == nullptr) return low;
+  if (value_->is_number_integer()) {
+    // Through double: an unsigned value beyond the range of int64 must not wrap around.
+    const double value = value_->get<double>();
+    if (value >= low && value <= high) return static_cast<int>(value);
+  }
+  reject(fmt::format("an integer from {} to {}", low, high));
+  return low;
+}
+
+std::string JsonValue::text() const {
+  if (value_ == nullptr) return {};
+  if (value_->is_string()) return value_->get<std::string>();
+  reject("text");
+  return {};
+}
+
+std::string JsonValue::identifier() const {
+  if (value_ == nullptr) return {};
+  const auto is_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  if (value_->is_string()) {
+    const auto& word = value_->get_ref<const std::string&>();
+    if (!word.empty() && std::all_of(word.begin(), word.end(), is_word)) return word;
+  }
+  reject("a name of letters, digits, '_' and '-'");
+  return {};
+}
+
+std::vector<JsonValue> JsonValue::items(std::size_t at_least) const {
+  if (value_ == nullptr) return {};
+  if (!value_->is_array() || value_->size() < at_least) {
+    reject(at_least == 0 ? "an array" : fmt::format("an array of at least {}", at_least));
+    return {};
+  }
+  std::vector<JsonValue> values;
+  for (std::size_t i = 0; i < value_->size(); ++i) {
+    values.push_back({&(*value_)[i], fmt::format("{}/{}", pointer_, i), source_, problems_});
+  }
+  return values;
+}
+
+std::vector<JsonValue> JsonValue::tuple(std::size_t count, std::string_view expected) const {
+  if (value_ == nullptr) return {};
+  if (value_->is_array() && value_->size() == count) return items();
+  reject(std::string(expected));
+  return {};
+}
+
+Eigen::Vector2d JsonValue::vector2(double limit) const {
+  const auto parts = tuple(2, "[x, y]");
+  if (parts.empty()) return Eigen::Vector2d::Zero();
+  return {parts[0].number(-limit, limit), parts[1].number(-limit, limit)};
+}
+
+Eigen::Vector3d JsonValue::vector3(double limit) const {
+  const auto parts = tuple(3, "[x, y, z]");
+  if (parts.empty()) return Eigen::Vector3d::Zero();
+  return {parts[0].number(-limit, limit), parts[1].number(-limit, limit),
+          parts[2].number(-limit, limit)};
+}
+
+}  // namespace throng::world

@@ -1,0 +1,64 @@
+// Strict reading of JSON: every field is named, typed and bounded, and all that is wrong with a
+// document is reported at once, each with its JSON pointer.
+#pragma once
+
+#include <Eigen/Core>
+#include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace throng::world {
+
+/// Parses a document. Throws InputError with line and column for malformed JSON and for a key that
+/// an object holds twice. `source` is the file's name for messages.
+nlohmann::json parse_json(std::string_view text, const std::string& source);
+
+/// A value of a document and its place. Reading something of the wrong kind records a problem and
+/// returns a harmless value, so that reading goes on; reading below a value that is missing
+/// records nothing more.
+class JsonValue {
+ public:
+  /// The root of a document; problems go to `problems`. All three must outlive the value.
+  JsonValue(const nlohmann::json& document, const std::string& source,
+            std::vector<Problem>& problems);
+
+  /// Says which fields the object here must and may have; anything else is a problem.
+  void fields(std::initializer_list<std::string_view> required,
+              std::initializer_list<std::string_view> optional = {}) const;
+
+  /// The field of an object; a missing value when there is none.
+  JsonValue operator[](std::string_view key) const;
+  bool exists() const { return value_ != nullptr; }
+
+  double number(double low, double high) const;
+  int integer(int low, int high) const;
+  std::string text() const;
+  /// Text that is an identifier: letters, digits, '_' and '-', at least one.
+  std::string identifier() const;
+  /// The elements of an array of at least `at_least` elements.
+  std::vector<JsonValue> items(std::size_t at_least = 0) const;
+  /// The elements of an array of exactly `count` elements; empty when it is anything else.
+  std::vector<JsonValue> tuple(std::size_t count, std::string_view expected) const;
+  Eigen::Vector2d vector2(double limit) const;
+  Eigen::Vector3d vector3(double limit) const;
+
+  /// Records that this value is not what it should be.
+  void reject(std::string expected) const;
+  void reject(std::string found, std::string expected) const;
+
+ private:
+  JsonValue(const nlohmann::json* value, std::string pointer, const std::string* source,
+            std::vector<Problem>* problems);
+
+  const nlohmann::json* value_;  ///< null: missing
+  std::string pointer_;
+  const std::string* source_;
+  std::vector<Problem>* problems_;
+};
+
+}  // namespace throng::world

@@ -1,0 +1,18 @@
+// Polygons on the ground: corners in order, not repeated at the end.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+namespace throng::world {
+
+/// Positive for corners counter-clockwise seen from above (m²).
+double signed_area(std::span<const Eigen::Vector2d> corners);
+
+/// Whether no two edges touch except neighbours at their common corner, and no edge is empty.
+bool is_simple(std::span<const Eigen::Vector2d> corners);
+
+/// Distance to the polygon's area: 0 inside (m).
+double distance_to(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& point);
+
+}  // namespace throng::world

@@ -1,0 +1,15 @@
+// Names and version of the trace file's layout, shared by its writer and its reader.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace throng::world {
+
+inline constexpr const char* kTraceFormat = "throng trace";
+/// Grows with every change that an older reader would misread.
+inline constexpr std::int32_t kTraceVersion = 1;
+/// Fixed width of an event's type, with a final zero.
+inline constexpr std::size_t kEventTypeWidth = 32;
+
+}  // namespace throng::world

@@ -1,0 +1,218 @@
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "world/hdf5_file.h"
+#include "world/trace.h"
+#include "world/trace_layout.h"
+
+namespace throng::world {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Far above any real run, far below what would exhaust the memory by a damaged number alone.
+constexpr hsize_t kMostElements = 4'000'000'000;
+
+[[noreturn]] void reject(const std::string& source, const std::string& where,
+                         const std::string& found, const std::string& expected) {
+  throw InputError(Problem{source, where, found, expected});
+}
+
+class Reader {
+ public:
+  explicit Reader(const fs::path& path) : source_(path.string()) {
+    if (!fs::is_regular_file(path)) {
+      throw EnvironmentError(fmt::format("cannot read {}", source_));
+    }
+    try {
+      root_ = hdf5::open_file(source_);
+    } catch (const hdf5::Failure&) {
+      reject(source_, "", "a file that is damaged, cut short or not HDF5", "a trace");
+    }
+  }
+
+  Trace read() {
+    check_version();
+    Trace trace;
+    trace.header = read_header();
+    read_crowd(trace);
+    const hdf5::Handle drones = open_group("drones");
+    for (std::size_t i = 0; i < trace.header.drone_ids.size(); ++i) {
+      trace.drones.push_back(read_drone(drones, i));
+    }
+    trace.events = read_events(trace.header);
+    return trace;
+  }
+
+ private:
+  void check_version() {
+    std::string format;
+    try {
+      format = hdf5::read_text_attribute(root_, "format");
+    } catch (const hdf5::Failure&) {
+      format.clear();
+    }
+    if (format != kTraceFormat) {
+      reject(source_, "format", "an HDF5 file of another kind", "a trace");
+    }
+    const auto version = hdf5::read_attribute<std::int32_t>(root_, "version");
+    if (version != kTraceVersion) {
+      reject(source_, "version", std::to_string(version), std::to_string(kTraceVersion));
+    }
+  }
+
+  TraceHeader read_header() {
+    TraceHeader header;
+    header.scenario_id = hdf5::read_text_attribute(root_, "scenario_id");
+    header.generator = hdf5::read_text_attribute(root_, "generator");
+    header.seed = hdf5::read_attribute<std::uint64_t>(root_, "seed");
+    header.dt_s = hdf5::read_attribute<double>(root_, "dt_s");
+    if (!(header.dt_s > 0)) {
+      reject(source_, "dt_s", fmt::format("{}", header.dt_s), "a positive number");
+    }
+    header.state_names = hdf5::read_texts(root_, "state_names");
+    header.exit_ids = hdf5::read_texts(root_, "exit_ids");
+    header.drone_ids = hdf5::read_texts(root_, "drone_ids");
+    const hdf5::Handle agents = open_group("agents");
+    const hsize_t count = hdf5::shape_of(agents, "role", 1)[0];
+    for (const std::uint8_t role : numbers<std::uint8_t>(agents, "role", {count})) {
+      if (role > static_cast<std::uint8_t>(AgentRole::absent)) {
+        reject(source_, "agents/role", std::to_string(role), "0, 1 or 2");
+      }
+      header.role.push_back(static_cast<AgentRole>(role));
+    }
+    header.radius_m = numbers<float>(agents, "radius_m", {count});
+    header.pref_speed_mps = numbers<float>(agents, "pref_speed_mps", {count});
+    return header;
+  }
+
+  void read_crowd(Trace& trace) {
+    const hdf5::Handle crowd = open_group("crowd");
+    const hsize_t steps = hdf5::shape_of(crowd, "time_s", 1)[0];
+    const hsize_t agents = trace.agents();
+    trace.time_s = numbers<double>(crowd, "time_s", {steps});
+    for (std::size_t i = 0; i < steps; ++i) {
+      const double expected = static_cast<double>(i) * trace.header.dt_s;
+      if (!(std::abs(trace.time_s[i] - expected) < 1e-6 * std::max(1.0, expected))) {
+        reject(source_, "crowd/time_s", fmt::format("{} at step {}", trace.time_s[i], i),
+               fmt::format("{}", expected));
+      }
+    }
+    trace.position = vectors(crowd, "position", steps, agents);
+    trace.velocity = vectors(crowd, "velocity", steps, agents);
+    trace.yaw_rad = numbers<float>(crowd, "yaw_rad", {steps, agents});
+    trace.desired_speed_mps = numbers<float>(crowd, "desired_speed_mps", {steps, agents});
+    trace.state = numbers<std::uint8_t>(crowd, "state", {steps, agents});
+    trace.exit_intent = numbers<std::int8_t>(crowd, "exit_intent", {steps, agents});
+    for (const std::uint8_t state : trace.state) {
+      require_index(state, 0, trace.header.state_names.size(), "crowd/state");
+    }
+    for (const std::int8_t exit : trace.exit_intent) {
+      require_index(exit, -1, trace.header.exit_ids.size(), "crowd/exit_intent");
+    }
+  }
+
+  std::vector<DroneSample> read_drone(const hdf5::Handle& drones, std::size_t index) {
+    const std::string name = std::to_string(index);
+    const hdf5::Handle group(H5Gopen2(drones.id(), name.c_str(), H5P_DEFAULT), H5Gclose,
+                             "drones/" + name);
+    const hsize_t count = hdf5::shape_of(group, "time_s", 1)[0];
+    const auto time_s = numbers<double>(group, "time_s", {count});
+    const auto position = numbers<double>(group, "position", {count, 3});
+    const auto velocity = numbers<double>(group, "velocity", {count, 3});
+    const auto wxyz = numbers<double>(group, "orientation_wxyz", {count, 4});
+    std::vector<DroneSample> samples(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i > 0 && time_s[i] <= time_s[i - 1]) {
+        reject(source_, fmt::format("drones/{}/time_s", name), fmt::format("{}", time_s[i]),
+               fmt::format("more than {}", time_s[i - 1]));
+      }
+      const double* q = &wxyz[4 * i];
+      samples[i] = {time_s[i], Eigen::Vector3d(&position[3 * i]), Eigen::Vector3d(&velocity[3 * i]),
+                    Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
+      constexpr double kUnitTolerance = 1e-6;
+      if (std::abs(samples[i].orientation.norm() - 1) > kUnitTolerance) {
+        reject(source_, fmt::format("drones/{}/orientation_wxyz", name),
+               fmt::format("norm {}", samples[i].orientation.norm()), "a unit quaternion");
+      }
+    }
+    return samples;
+  }
+
+  std::vector<TraceEvent> read_events(const TraceHeader& header) {
+    const hdf5::Handle group = open_group("events");
+    const hsize_t count = hdf5::shape_of(group, "time_s", 1)[0];
+    const auto time_s = numbers<double>(group, "time_s", {count});
+    const auto types = hdf5::read_texts(group, "type");
+    const auto agent = numbers<std::int32_t>(group, "agent", {count});
+    const auto drone = numbers<std::int32_t>(group, "drone", {count});
+    const auto value = numbers<double>(group, "value", {count});
+    if (types.size() != count) {
+      reject(source_, "events/type", fmt::format("{} entries", types.size()),
+             fmt::format("{}", count));
+    }
+    std::vector<TraceEvent> events;
+    for (std::size_t i = 0; i < count; ++i) {
+      require_index(agent[i], -1, header.agent_count(), "events/agent");
+      require_index(drone[i], -1, header.drone_ids.size(), "events/drone");
+      events.push_back({time_s[i], types[i], agent[i], drone[i], value[i]});
+    }
+    return events;
+  }
+
+  hdf5::Handle open_group(const char* name) {
+    return {H5Gopen2(root_.id(), name, H5P_DEFAULT), H5Gclose, name};
+  }
+
+  void require_index(std::int64_t index, std::int64_t lowest, std::size_t count,
+                     const char* where) {
+    if (index >= lowest && index < static_cast<std::int64_t>(count)) return;
+    reject(source_, where, std::to_string(index), fmt::format("{} to below {}", lowest, count));
+  }
+
+  template <typename T>
+  std::vector<T> numbers(const hdf5::Handle& group, const char* name,
+                         const std::vector<hsize_t>& shape) {
+    hsize_t count = 1;
+    for (const hsize_t size : shape) {
+      if (size > 0 && count > kMostElements / size) throw hdf5::Failure(name);
+      count *= size;
+    }
+    std::vector<T> values(count);
+    hdf5::read_into(group, name, shape, hdf5::element_type<T>(), values.data());
+    if constexpr (std::is_floating_point_v<T>) {
+      for (const T value : values) {
+        if (!std::isfinite(value)) reject(source_, name, fmt::format("{}", value), "a number");
+      }
+    }
+    return values;
+  }
+
+  std::vector<Eigen::Vector2f> vectors(const hdf5::Handle& group, const char* name, hsize_t steps,
+                                       hsize_t agents) {
+    const auto xy = numbers<float>(group, name, {steps, agents, 2});
+    std::vector<Eigen::Vector2f> points(xy.size() / 2);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {xy[2 * i], xy[2 * i + 1]};
+    return points;
+  }
+
+  std::string source_;
+  hdf5::Handle root_;
+};
+
+}  // namespace
+
+Trace read_trace(const fs::path& path) {
+  const hdf5::QuietErrors quiet;
+  try {
+    return Reader(path).read();
+  } catch (const hdf5::Failure& failure) {
+    reject(path.string(), failure.what(), "data that is missing, damaged or of another shape",
+           "a trace of version " + std::to_string(kTraceVersion));
+  }
+}
+
+}  // namespace throng::world
