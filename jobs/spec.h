@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,7 +52,7 @@ struct JobSpec {
   double time_of_day_h = 15.5;
   OutputSpec outputs;
 
-  /// Frame times of one camera in one run: from_s, from_s + 1/rate_hz, ... up to to_s (included).
+  /// Frames of one camera in one run, at from_s, from_s + 1/rate_hz, ... up to to_s (included).
   std::int64_t frames_per_camera() const;
   double frame_time_s(std::int64_t frame) const;
 };
@@ -61,6 +62,9 @@ struct JobSpec {
 /// problem; all schema problems are reported at once.
 JobSpec parse_job(std::string_view json, const std::string& source,
                   const std::filesystem::path& scenarios);
+
+/// The job as JSON with every default filled in; parse_job reads it back to the same job.
+nlohmann::json to_json(const JobSpec& job);
 
 /// The JSON Schema text, embedded at build time.
 std::string_view job_schema();

@@ -1,0 +1,22 @@
+// Checks a job against the JSON Schema, which is the one definition of what a job may say.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace throng::jobs {
+
+/// Everything in which `job` breaks the schema: one problem per place, with its JSON pointer, what
+/// stands there and what should. Empty when it is valid. `source` names the text in the problems.
+std::vector<Problem> schema_problems(const nlohmann::json& job, const std::string& source);
+
+/// What stands somewhere, short enough for a message: "an object", "an array of 3", "-4".
+std::string describe_found(const nlohmann::json& value);
+
+/// The name among `names` that a misspelt `word` most likely means; "" if none is near.
+std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
+
+}  // namespace throng::jobs

@@ -1,0 +1,303 @@
+#include "jobs/spec.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.h"
+#include "jobs/light.h"
+#include "jobs/schema.h"
+#include "world/json_reader.h"
+#include "world/scenario.h"
+
+namespace throng::embedded {
+extern const std::string_view job_schema_text;
+}
+
+namespace throng::jobs {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int kMinutesPerHour = 60;
+// Keeps image and annotation ids, and a manifest in memory, within sane bounds.
+constexpr std::int64_t kMostImages = 2'000'000;
+
+// An object's field, or an empty object: what is left out has its default.
+const json& part(const json& object, const char* key) {
+  static const json empty = json::object();
+  const auto found = object.find(key);
+  return found == object.end() ? empty : *found;
+}
+
+template <typename Value>
+void read(const json& object, const char* key, Value& value) {
+  if (const auto found = object.find(key); found != object.end()) found->get_to(value);
+}
+
+Eigen::Vector3d read_point(const json& value) {
+  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
+
+json point_json(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
+
+CameraSpec read_camera(const json& value) {
+  CameraSpec camera;
+  read(value, "width", camera.width);
+  read(value, "height", camera.height);
+  read(value, "hfov_deg", camera.hfov_deg);
+  read(value, "pitch_deg", camera.pitch_deg);
+  read(value, "yaw_deg", camera.yaw_deg);
+  return camera;
+}
+
+DroneSpec read_drone(const json& value) {
+  DroneSpec drone;
+  read(value, "id", drone.mission.id);
+  read(value, "airframe", drone.mission.airframe);
+  if (value.contains("start")) drone.mission.start = read_point(value["start"]);
+  if (const auto goal = value.find("moves_goal"); goal != value.end()) {
+    drone.mission.moves_goal = world::GoalRef{(*goal)[0].get<int>(), (*goal)[1].get<int>()};
+  }
+  const json& guidance = part(value, "guidance");
+  read(guidance, "policy", drone.mission.policy);
+  read(guidance, "speed_mps", drone.mission.speed_mps);
+  for (const json& point : part(guidance, "waypoints")) {
+    drone.mission.waypoints.push_back(read_point(point));
+  }
+  drone.camera = read_camera(part(value, "camera"));
+  return drone;
+}
+
+double hours_of(const std::string& text) {
+  return std::stoi(text.substr(0, 2)) + std::stoi(text.substr(3)) / double{kMinutesPerHour};
+}
+
+std::string time_text(double hours) {
+  const long minutes = std::lround(hours * kMinutesPerHour);
+  return fmt::format("{:02}:{:02}", minutes / kMinutesPerHour, minutes % kMinutesPerHour);
+}
+
+// What the schema allows, as a job; absent fields keep the defaults of the structs.
+JobSpec read_job(const json& value) {
+  JobSpec job;
+  read(value, "scenario", job.scenario);
+  job.name = job.scenario;
+  read(value, "name", job.name);
+  read(value, "seed", job.seed);
+  read(value, "runs", job.runs);
+  if (part(value, "crowd").contains("agents")) {
+    job.agents = value["crowd"]["agents"].get<int>();
+  }
+  for (const json& drone : part(value, "drones")) job.drones.push_back(read_drone(drone));
+  const json& capture = part(value, "capture");
+  read(capture, "rate_hz", job.capture.rate_hz);
+  read(capture, "from_s", job.capture.from_s);
+  read(capture, "to_s", job.capture.to_s);
+  std::string time_of_day = time_text(job.time_of_day_h);
+  read(part(value, "environment"), "time_of_day", time_of_day);
+  job.time_of_day_h = hours_of(time_of_day);
+  const json& outputs = part(value, "outputs");
+  read(part(outputs, "image"), "format", job.outputs.image_format);
+  read(part(outputs, "image"), "quality", job.outputs.image_quality);
+  read(outputs, "annotations", job.outputs.annotations);
+  read(part(outputs, "density"), "sigma_px", job.outputs.density_sigma_px);
+  read(outputs, "previews", job.outputs.previews);
+  return job;
+}
+
+// Gives drones what the scenario knows of them. A job without drones flies the scenario's.
+void take_from_scenario(JobSpec& job, const world::Scenario& scenario) {
+  if (job.drones.empty()) {
+    for (const world::DroneStart& known : scenario.drones) {
+      job.drones.emplace_back().mission.id = known.id;
+    }
+  }
+  for (DroneSpec& drone : job.drones) {
+    for (const world::DroneStart& known : scenario.drones) {
+      if (known.id != drone.mission.id) continue;
+      if (!drone.mission.moves_goal) drone.mission.moves_goal = known.moves_goal;
+    }
+  }
+}
+
+// Collects what a schema cannot say.
+class Semantics {
+ public:
+  Semantics(const JobSpec& job, const world::Scenario& scenario, const std::string& source)
+      : job_(job), scenario_(scenario), source_(source) {}
+
+  std::vector<Problem> problems() {
+    check_drones();
+    check_times();
+    return std::move(problems_);
+  }
+
+ private:
+  void add(std::string where, std::string found, std::string expected) {
+    problems_.push_back({source_, std::move(where), std::move(found), std::move(expected)});
+  }
+
+  bool scenario_knows(const std::string& drone) const {
+    for (const world::DroneStart& known : scenario_.drones) {
+      if (known.id == drone) return true;
+    }
+    return false;
+  }
+
+  void check_drones() {
+    if (job_.drones.empty()) {
+      add("/drones", "nothing", "at least one drone, since the scenario has none of its own");
+    }
+    std::set<std::string> ids;
+    for (std::size_t i = 0; i < job_.drones.size(); ++i) {
+      const sim::DroneMission& mission = job_.drones[i].mission;
+      const std::string place = fmt::format("/drones/{}", i);
+      if (!ids.insert(mission.id).second) {
+        add(place + "/id", fmt::format("\"{}\" again", mission.id),
+            "an id that no other drone has");
+      }
+      if (!mission.start && !scenario_knows(mission.id)) {
+        add(place + "/start", "nothing",
+            fmt::format("[x, y, z], since the scenario has no drone \"{}\"", mission.id));
+      }
+      if (mission.start && mission.start->z() <= 0) {
+        add(place + "/start/2", fmt::format("{}", mission.start->z()), "a height above the ground");
+      }
+      check_guidance(mission, place + "/guidance");
+    }
+  }
+
+  void check_guidance(const sim::DroneMission& mission, const std::string& place) {
+    if (mission.policy == "waypoints" && mission.waypoints.empty()) {
+      add(place + "/waypoints", "nothing", "at least one point for the policy \"waypoints\"");
+    }
+    if (mission.policy != "waypoints" && !mission.waypoints.empty()) {
+      add(place + "/waypoints", fmt::format("{} points", mission.waypoints.size()),
+          fmt::format("none for the policy \"{}\", or the policy \"waypoints\"", mission.policy));
+    }
+    for (std::size_t i = 0; i < mission.waypoints.size(); ++i) {
+      if (mission.waypoints[i].z() > 0) continue;
+      add(fmt::format("{}/waypoints/{}/2", place, i), fmt::format("{}", mission.waypoints[i].z()),
+          "a height above the ground");
+    }
+  }
+
+  void check_times() {
+    const CaptureSpec& capture = job_.capture;
+    if (capture.to_s < capture.from_s) {
+      add("/capture/to_s", fmt::format("{}", capture.to_s),
+          fmt::format("a time not before from_s, which is {}", capture.from_s));
+    } else {
+      const auto cameras = static_cast<std::int64_t>(job_.drones.size());
+      const std::int64_t images = job_.frames_per_camera() * cameras * job_.runs;
+      if (images > kMostImages) {
+        add("/capture", fmt::format("{} images over all runs and cameras", images),
+            fmt::format("at most {}", kMostImages));
+      }
+    }
+    if (!sun_is_up(job_.time_of_day_h)) {
+      add("/environment/time_of_day", fmt::format("\"{}\"", time_text(job_.time_of_day_h)),
+          "a time when the sun is up, from 05:30 to 18:30");
+    }
+  }
+
+  const JobSpec& job_;
+  const world::Scenario& scenario_;
+  const std::string& source_;
+  std::vector<Problem> problems_;
+};
+
+// Points at the job when the job names no scenario that exists; a broken scenario file names
+// itself.
+world::Scenario scenario_of(const JobSpec& job, const std::string& source,
+                            const std::filesystem::path& folder) {
+  try {
+    return world::find_scenario(folder, job.scenario);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (!problem.source.empty()) continue;
+      problem.source = source;
+      problem.where = "/scenario";
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
+json drone_json(const DroneSpec& drone) {
+  const sim::DroneMission& mission = drone.mission;
+  json value = {{"id", mission.id},
+                {"airframe", mission.airframe},
+                {"guidance", {{"policy", mission.policy}, {"speed_mps", mission.speed_mps}}},
+                {"camera",
+                 {{"width", drone.camera.width},
+                  {"height", drone.camera.height},
+                  {"hfov_deg", drone.camera.hfov_deg},
+                  {"pitch_deg", drone.camera.pitch_deg},
+                  {"yaw_deg", drone.camera.yaw_deg}}}};
+  if (mission.start) value["start"] = point_json(*mission.start);
+  if (mission.moves_goal) {
+    value["moves_goal"] = {mission.moves_goal->set, mission.moves_goal->goal};
+  }
+  for (const Eigen::Vector3d& point : mission.waypoints) {
+    value["guidance"]["waypoints"].push_back(point_json(point));
+  }
+  return value;
+}
+
+}  // namespace
+
+std::int64_t JobSpec::frames_per_camera() const {
+  // A frame that falls on to_s counts even if the division lands just below.
+  constexpr double kSlack = 1e-9;
+  return 1 + static_cast<std::int64_t>(
+                 std::floor((capture.to_s - capture.from_s) * capture.rate_hz + kSlack));
+}
+
+double JobSpec::frame_time_s(std::int64_t frame) const {
+  return capture.from_s + static_cast<double>(frame) / capture.rate_hz;
+}
+
+JobSpec parse_job(std::string_view text, const std::string& source,
+                  const std::filesystem::path& scenarios) {
+  const json value = world::parse_json(text, source);
+  std::vector<Problem> problems = schema_problems(value, source);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  JobSpec job = read_job(value);
+  const world::Scenario scenario = scenario_of(job, source, scenarios);
+  take_from_scenario(job, scenario);
+  problems = Semantics(job, scenario, source).problems();
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return job;
+}
+
+json to_json(const JobSpec& job) {
+  json drones = json::array();
+  for (const DroneSpec& drone : job.drones) drones.push_back(drone_json(drone));
+  json value = {
+      {"name", job.name},
+      {"scenario", job.scenario},
+      {"seed", job.seed},
+      {"runs", job.runs},
+      {"drones", std::move(drones)},
+      {"capture",
+       {{"rate_hz", job.capture.rate_hz},
+        {"from_s", job.capture.from_s},
+        {"to_s", job.capture.to_s}}},
+      {"environment", {{"time_of_day", time_text(job.time_of_day_h)}}},
+      {"outputs",
+       {{"image", {{"format", job.outputs.image_format}, {"quality", job.outputs.image_quality}}},
+        {"annotations", job.outputs.annotations},
+        {"density", {{"sigma_px", job.outputs.density_sigma_px}}},
+        {"previews", job.outputs.previews}}}};
+  if (job.agents) value["crowd"]["agents"] = *job.agents;
+  return value;
+}
+
+std::string_view job_schema() { return embedded::job_schema_text; }
+
+}  // namespace throng::jobs

@@ -1,0 +1,225 @@
+#include "jobs/spec.h"
+
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "jobs/light.h"
+#include "tests/jobs/scenario_folder.h"
+
+namespace throng::jobs {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Spec : public testing::Test {
+ protected:
+  Spec() { write_yard(folder_.path()); }
+
+  JobSpec parse(const std::string& text) const {
+    return parse_job(text, "test.job.json", folder_.path());
+  }
+
+  std::vector<Problem> problems_of(const std::string& text) const {
+    try {
+      parse(text);
+    } catch (const InputError& error) {
+      return error.problems();
+    }
+    return {};
+  }
+
+  std::vector<std::string> pointers_of(const std::string& text) const {
+    std::vector<std::string> pointers;
+    for (const Problem& problem : problems_of(text)) {
+      EXPECT_EQ(problem.source, "test.job.json");
+      EXPECT_FALSE(problem.found.empty());
+      EXPECT_FALSE(problem.expected.empty());
+      pointers.push_back(problem.where);
+    }
+    return pointers;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Spec, EverythingButTheScenarioHasADefault) {
+  const JobSpec job = parse(R"({"scenario": "yard"})");
+  EXPECT_EQ(job.name, "yard");
+  EXPECT_EQ(job.seed, 1U);
+  EXPECT_EQ(job.runs, 1);
+  EXPECT_FALSE(job.agents);
+  ASSERT_EQ(job.drones.size(), 1U);
+  EXPECT_EQ(job.drones[0].mission.id, "d1");
+  EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{99, 0}));
+  EXPECT_EQ(job.frames_per_camera(), 61);
+}
+
+// The schema states defaults for its readers, the structs for the program: they must agree.
+void expect_defaults(const json& schema, const json& value, const std::string& place) {
+  const json fields = schema.value("properties", json::object());
+  for (const auto& field : fields.items()) {
+    const std::string at = place + "/" + field.key();
+    const json& rules = field.value();
+    EXPECT_TRUE(rules.contains("title")) << at;
+    EXPECT_TRUE(rules.contains("description")) << at;
+    if (rules["type"] == "object") {
+      EXPECT_EQ(rules["additionalProperties"], false) << at;
+      expect_defaults(rules, value.value(field.key(), json::object()), at);
+    } else if (rules.contains("default")) {
+      EXPECT_EQ(value.value(field.key(), rules["type"] == "array" ? json::array() : json()),
+                rules["default"])
+          << at;
+    }
+    if (field.key() == "drones") expect_defaults(rules["items"], value["drones"][0], at + "/0");
+  }
+}
+
+TEST_F(Spec, DefaultsAreThoseOfTheSchema) {
+  expect_defaults(json::parse(job_schema()), to_json(parse(R"({"scenario": "yard"})")), "");
+}
+
+TEST_F(Spec, ReadsEveryField) {
+  const JobSpec job = parse(R"({
+    "name": "n", "scenario": "yard", "seed": 9007199254740991, "runs": 5, "crowd": {"agents": 26},
+    "drones": [{"id": "a", "airframe": "x", "start": [1, 2, 3], "moves_goal": [4, 5],
+                "guidance": {"policy": "waypoints", "waypoints": [[1, 2, 3], [4, 5, 6]],
+                             "speed_mps": 2},
+                "camera": {"width": 640, "height": 480, "hfov_deg": 60, "pitch_deg": -90,
+                           "yaw_deg": 10}}],
+    "capture": {"rate_hz": 2, "from_s": 1, "to_s": 3},
+    "environment": {"time_of_day": "07:45"},
+    "outputs": {"image": {"format": "jpeg", "quality": 80}, "annotations": ["density"],
+                "density": {"sigma_px": 6}, "previews": 0}})");
+  EXPECT_EQ(job.seed, 9007199254740991U);
+  EXPECT_EQ(job.agents, 26);
+  EXPECT_EQ(job.drones[0].mission.start, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(job.drones[0].mission.waypoints[1], Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));
+  EXPECT_EQ(job.drones[0].camera.pitch_deg, -90);
+  EXPECT_DOUBLE_EQ(job.time_of_day_h, 7.75);
+  EXPECT_EQ(job.frames_per_camera(), 5);
+  EXPECT_THAT(job.outputs.annotations, ElementsAre("density"));
+  EXPECT_EQ(job.outputs.density_sigma_px, 6);
+  EXPECT_EQ(to_json(parse(to_json(job).dump())), to_json(job));
+}
+
+TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
+  const std::pair<const char*, const char*> cases[] = {
+      {R"({})", "/scenario"},
+      {R"([])", ""},
+      {R"({"scenario": 3})", "/scenario"},
+      {R"({"scenario": "nowhere"})", "/scenario"},
+      {R"({"scenario": "../etc/passwd"})", "/scenario"},
+      {R"({"scenario": "yard", "seed": -1})", "/seed"},
+      {R"({"scenario": "yard", "seed": 1.5})", "/seed"},
+      {R"({"scenario": "yard", "runs": 0})", "/runs"},
+      {R"({"scenario": "yard", "runs": "3"})", "/runs"},
+      {R"({"scenario": "yard", "crowd": {"agents": 0}})", "/crowd/agents"},
+      {R"({"scenario": "yard", "crowd": 260})", "/crowd"},
+      {R"({"scenario": "yard", "drones": []})", "/drones"},
+      {R"({"scenario": "yard", "drones": [{}]})", "/drones/0/id"},
+      {R"({"scenario": "yard", "drones": [{"id": "../x"}]})", "/drones/0/id"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1\n"}]})", "/drones/0/id"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1"}, {"id": "d1"}]})", "/drones/1/id"},
+      {R"({"scenario": "yard", "drones": [{"id": "other"}]})", "/drones/0/start"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2]}]})", "/drones/0/start"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2, "3"]}]})",
+       "/drones/0/start/2"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2, 0]}]})",
+       "/drones/0/start/2"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "balance"}}]})",
+       "/drones/0/guidance/policy"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "waypoints"}}]})",
+       "/drones/0/guidance/waypoints"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"waypoints": [[1, 2, 3]]}}]})",
+       "/drones/0/guidance/waypoints"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance":
+           {"policy": "waypoints", "waypoints": [[1, 2, 3], [1, 2, -3]]}}]})",
+       "/drones/0/guidance/waypoints/1/2"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "camera": {"hfov_deg": 180}}]})",
+       "/drones/0/camera/hfov_deg"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "camera": {"width": 100000}}]})",
+       "/drones/0/camera/width"},
+      {R"({"scenario": "yard", "capture": {"rate_hz": 0}})", "/capture/rate_hz"},
+      {R"({"scenario": "yard", "capture": {"from_s": 10, "to_s": 5}})", "/capture/to_s"},
+      {R"({"scenario": "yard", "capture": {"to_s": 7200, "rate_hz": 60}, "runs": 100})",
+       "/capture"},
+      {R"({"scenario": "yard", "environment": {"time_of_day": "25:00"}})",
+       "/environment/time_of_day"},
+      {R"({"scenario": "yard", "environment": {"time_of_day": "23:00"}})",
+       "/environment/time_of_day"},
+      {R"({"scenario": "yard", "environment": {"weather": "clear"}})", "/environment/weather"},
+      {R"({"scenario": "yard", "randomize": {}})", "/randomize"},
+      {R"({"scenario": "yard", "outputs": {"split": {}}})", "/outputs/split"},
+      {R"({"scenario": "yard", "outputs": {"annotations": ["coco", "yolo"]}})",
+       "/outputs/annotations/1"},
+      {R"({"scenario": "yard", "outputs": {"annotations": ["coco", "coco"]}})",
+       "/outputs/annotations"},
+      {R"({"scenario": "yard", "a/b~c": 1})", "/a~1b~0c"},
+  };
+  for (const auto& [text, pointer] : cases) {
+    EXPECT_THAT(pointers_of(text), ElementsAre(pointer)) << text;
+  }
+}
+
+TEST_F(Spec, AllProblemsOfTheSchemaComeAtOnce) {
+  EXPECT_THAT(pointers_of(R"({"seed": "x", "sead": 1, "capture": {"to_s": -1, "rate": 2}})"),
+              testing::UnorderedElementsAre("/scenario", "/seed", "/sead", "/capture/to_s",
+                                            "/capture/rate"));
+}
+
+TEST_F(Spec, SaysWhatItExpected) {
+  EXPECT_EQ(problems_of(R"({"scenario": "yard", "crowd": {"agents": -3}})")[0].text(),
+            "test.job.json: /crowd/agents: found -3, expected an integer from 1 to 99998");
+  EXPECT_EQ(problems_of(R"({"scenario": "yard", "captur": {}})")[0].text(),
+            "test.job.json: /captur: found an unknown field, expected \"capture\", perhaps");
+  EXPECT_THAT(problems_of(R"({"scenario": "nowhere"})")[0].expected, HasSubstr("yard"));
+}
+
+TEST_F(Spec, SyntaxErrorsNameLineAndColumn) {
+  EXPECT_EQ(pointers_of("{\n  \"scenario\": yard}"), std::vector<std::string>{"line 2, column 15"});
+  EXPECT_EQ(problems_of("").size(), 1U);
+  EXPECT_EQ(problems_of(R"({"scenario": "yard", "scenario": "yard"})").size(), 1U);
+}
+
+TEST_F(Spec, HostileTextsAreRefusedAndNothingElse) {
+  const std::string long_text(1 << 20, 'a');
+  const std::string deep = std::string(100'000, '[');
+  for (const std::string& text :
+       {std::string("\xff\xfe{}"), std::string(1 << 20, ' '), deep,
+        deep + std::string(100'000, ']'), fmt::format(R"({{"scenario": "{}"}})", long_text),
+        fmt::format(R"({{"scenario": "yard", "{}": 1}})", long_text),
+        fmt::format(R"({{"scenario": "yard", "drones": [{{"id": "{}"}}]}})", long_text),
+        fmt::format(R"({{"scenario": "yard", "environment": {{"time_of_day": "{}"}}}})", long_text),
+        fmt::format(R"({{"scenario": "yard", "drones": {}1{}}})", deep, std::string(100'000, ']')),
+        std::string(R"({"scenario": "yard", "capture": {"to_s": 1e999}})"),
+        std::string(R"({"scenario": "yard", "seed": 18446744073709551616})"),
+        std::string("{\"scenario\": \"y\xc3\x28\"}"),
+        std::string("{\"scenario\": \"ya\0rd\"}", 21)}) {
+    EXPECT_THROW(parse(text), InputError) << text.substr(0, 60);
+  }
+}
+
+TEST(Light, TheSunRisesInTheEastAndStandsHighestInTheSouthAtNoon) {
+  const render::Lighting morning = sun_at(7);
+  const render::Lighting noon = sun_at(12);
+  const render::Lighting evening = sun_at(17);
+  EXPECT_GT(std::cos(morning.sun_azimuth_rad), 0.8);
+  EXPECT_LT(std::cos(evening.sun_azimuth_rad), -0.8);
+  EXPECT_NEAR(std::sin(noon.sun_azimuth_rad), -1, 1e-9);
+  EXPECT_NEAR(noon.sun_elevation_rad * 180 / 3.14159265358979, 60, 1e-6);
+  EXPECT_NEAR(morning.sun_elevation_rad, evening.sun_elevation_rad, 1e-9);
+  EXPECT_TRUE(sun_is_up(5.5));
+  EXPECT_TRUE(sun_is_up(18.5));
+  EXPECT_FALSE(sun_is_up(5));
+  EXPECT_FALSE(sun_is_up(23));
+}
+
+}  // namespace
+}  // namespace throng::jobs
