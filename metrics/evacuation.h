@@ -14,10 +14,12 @@ namespace throng::metrics {
 
 struct ExitTotals {
   std::string exit_id;
-  int crossings = 0;
-  double share = 0;                     ///< of all who crossed any exit
-  double mean_clogging_index = 0;       ///< over the time in which there is demand
-  double congested_s = 0;               ///< CONGESTED or CLOGGED
+  double width_m = 0;
+  int crossings = 0;               ///< signed sum: who came back in does not count
+  double share = 0;                ///< of the crossings of all exits
+  double mean_clogging_index = 0;  ///< over the time in which there is demand
+  double demand_s = 0;             ///< not IDLE
+  double congested_s = 0;          ///< CONGESTED or CLOGGED
   double clogged_s = 0;
 };
 
@@ -37,10 +39,15 @@ struct RunMetrics {
   std::vector<ExitTotals> exits;
 };
 
+/// `exits` is exit_series() of the same trace and scenario. Disasters are not people; everything is
+/// 0 (and no percentile reached) when there is nobody.
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
                        const std::vector<ExitSeries>& exits);
 
-/// metrics.json: every value with its unit in its name.
+/// Raised whenever the meaning of a value in metrics.json or exits.csv changes (docs/metrics.md).
+inline constexpr int kDefinitionsVersion = 1;
+
+/// metrics.json: every value with its unit in its name, and the version of the definitions.
 nlohmann::json to_json(const RunMetrics& metrics);
 
 }  // namespace throng::metrics

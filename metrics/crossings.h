@@ -1,0 +1,45 @@
+// Counting who goes through a door, one person at a time, step by step.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "world/scenario.h"
+
+namespace throng::metrics {
+
+/// The line of an exit, in the exit's own frame.
+class ExitLine {
+ public:
+  /// `margin_m` widens the door at both jambs: the discs of people rub along them.
+  ExitLine(const world::Exit& exit, double margin_m);
+
+  /// Distance beyond the line, outward positive (m).
+  double beyond_m(const Eigen::Vector2d& point) const;
+  /// Whether the straight way from `a` to `b`, which lie on different sides, leads through the
+  /// door.
+  bool leads_through_door(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
+
+ private:
+  Eigen::Vector2d middle_;
+  Eigen::Vector2d outward_;
+  double half_width_m_;
+};
+
+/// Signed crossings of one person. A crossing counts once the person, having passed the door, is
+/// kHysteresisM beyond the line; from then on it takes as much on the other side to count again,
+/// so somebody who jitters on the line counts once at most.
+class CrossingCounter {
+ public:
+  static constexpr double kHysteresisM = 0.2;
+
+  /// The person's next position. Returns +1 for a crossing outward, -1 inward, else 0.
+  int step(const ExitLine& line, const Eigen::Vector2d& position);
+
+ private:
+  std::optional<Eigen::Vector2d> last_;
+  bool outside_ = false;  ///< the side that the person was last clear of the line on
+  bool passed_ = false;   ///< has gone through the door to the other side since then
+};
+
+}  // namespace throng::metrics
