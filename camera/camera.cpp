@@ -1,5 +1,6 @@
 #include "camera/camera.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "base/error.h"

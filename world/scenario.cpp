@@ -46,7 +46,7 @@ GoalRef read_goal(const JsonValue& value) {
 }
 
 Rectangle read_rectangle(const JsonValue& value) {
-  const Rectangle area{value["min"].vector2(kFarthestM), value["max"].vector2(kFarthestM)};
+  Rectangle area{value["min"].vector2(kFarthestM), value["max"].vector2(kFarthestM)};
   if (value["min"].exists() && value["max"].exists() &&
       !(area.min.array() < area.max.array()).all()) {
     value["max"].reject("a corner right of and above \"min\"");

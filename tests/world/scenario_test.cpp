@@ -36,12 +36,12 @@ json valid_scenario() {
 class ScenarioFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("scene.xml", "<scene/>");
-    folder_.write("behavior.xml", "<behavior/>");
+    folder.write("scene.xml", "<scene/>");
+    folder.write("behavior.xml", "<behavior/>");
   }
   Scenario load(const json& document) { return load_text(document.dump(1)); }
   Scenario load_text(const std::string& text) {
-    return load_scenario(folder_.write("yard.json", text), "yard");
+    return load_scenario(folder.write("yard.json", text), "yard");
   }
   std::vector<Problem> problems_of(const std::string& text) {
     try {
@@ -52,15 +52,15 @@ class ScenarioFile : public ::testing::Test {
     return {};
   }
 
-  TemporaryFolder folder_;
+  TemporaryFolder folder;
 };
 
 TEST_F(ScenarioFile, ReadsEverything) {
   const Scenario s = load(valid_scenario());
   EXPECT_EQ(s.id, "yard");
   EXPECT_EQ(s.name, "Yard");
-  EXPECT_EQ(s.scene_file, folder_.path() / "scene.xml");
-  EXPECT_EQ(s.behavior_file, folder_.path() / "behavior.xml");
+  EXPECT_EQ(s.scene_file, folder.path() / "scene.xml");
+  EXPECT_EQ(s.behavior_file, folder.path() / "behavior.xml");
   EXPECT_EQ(s.ground.max, Eigen::Vector2d(20, 20));
   EXPECT_EQ(s.ground_material, "asphalt");
   EXPECT_TRUE(s.inside.contains({10, -10}));
@@ -99,7 +99,7 @@ struct BadCase {
   std::string reported_at;
   std::string expected;
 };
-void PrintTo(const BadCase& bad, std::ostream* out) { *out << bad.name; }
+std::ostream& operator<<(std::ostream& out, const BadCase& bad) { return out << bad.name; }
 
 class BadScenario : public ScenarioFile, public ::testing::WithParamInterface<BadCase> {};
 
@@ -108,7 +108,7 @@ TEST_P(BadScenario, IsReportedWhereItStands) {
   document[json::json_pointer(GetParam().pointer)] = GetParam().value;
   const auto problems = problems_of(document.dump());
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_EQ(problems[0].source, (folder_.path() / "yard.json").string());
+  EXPECT_EQ(problems[0].source, (folder.path() / "yard.json").string());
   EXPECT_EQ(problems[0].where, GetParam().reported_at);
   EXPECT_THAT(problems[0].expected, HasSubstr(GetParam().expected));
   EXPECT_FALSE(problems[0].found.empty());
@@ -201,26 +201,26 @@ TEST_F(ScenarioFile, CutShortAnywhereIsAnInputError) {
 }
 
 TEST_F(ScenarioFile, AMissingScenarioFileIsNotTheUsersJson) {
-  EXPECT_THROW(load_scenario(folder_.path() / "nowhere.json", "x"), EnvironmentError);
+  EXPECT_THROW(load_scenario(folder.path() / "nowhere.json", "x"), EnvironmentError);
 }
 
 TEST_F(ScenarioFile, ScenariosAreFoundById) {
-  folder_.write("town/scene.xml", "");
-  folder_.write("town/behavior.xml", "");
-  folder_.write("town/yard_2.json", valid_scenario().dump());
-  folder_.write("town/demo.job.json", "{}");
-  folder_.write("alone.json", "{}");
-  EXPECT_THAT(list_scenarios(folder_.path()), ElementsAre("alone", "town/yard_2"));
-  EXPECT_EQ(find_scenario(folder_.path(), "town/yard_2").id, "town/yard_2");
+  folder.write("town/scene.xml", "");
+  folder.write("town/behavior.xml", "");
+  folder.write("town/yard_2.json", valid_scenario().dump());
+  folder.write("town/demo.job.json", "{}");
+  folder.write("alone.json", "{}");
+  EXPECT_THAT(list_scenarios(folder.path()), ElementsAre("alone", "town/yard_2"));
+  EXPECT_EQ(find_scenario(folder.path(), "town/yard_2").id, "town/yard_2");
 }
 
 TEST_F(ScenarioFile, IdsNameNothingOutsideTheFolder) {
-  folder_.write("outside.json", valid_scenario().dump());
-  folder_.write("inner/yard.json", "{}");
+  folder.write("outside.json", valid_scenario().dump());
+  folder.write("inner/yard.json", "{}");
   for (const std::string id : {"../outside", "/etc/passwd", "inner//yard", "inner/yard/", "/", "",
                                "Inner/yard", "inner/yard.json", "nowhere", "inner/../outside"}) {
     try {
-      find_scenario(folder_.path() / "inner", id);
+      find_scenario(folder.path() / "inner", id);
       ADD_FAILURE() << id;
     } catch (const InputError& error) {
       EXPECT_THAT(error.problems()[0].expected, HasSubstr("yard")) << id;
