@@ -28,8 +28,7 @@ std::string Problem::text() const {
                      expected);
 }
 
-InputError::InputError(Problem problem)
-    : InputError(std::vector<Problem>{std::move(problem)}) {}
+InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
 
 InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(join(problems)), problems_(std::move(problems)) {}

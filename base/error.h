@@ -1,5 +1,6 @@
-// Three kinds of failure, three words: InputError (what the user gave us is wrong), EnvironmentError
-// (the machine failed; a retry may help) and check() (we have a bug: stop at once).
+// Three kinds of failure, three words: InputError (what the user gave us is wrong),
+// EnvironmentError (the machine failed; a retry may help) and check() (we have a bug: stop at
+// once).
 #pragma once
 
 #include <stdexcept>

@@ -24,7 +24,8 @@ fs::path temporary_beside(const fs::path& path) {
 }
 
 [[noreturn]] void fail(std::string_view what, const fs::path& path) {
-  throw EnvironmentError(fmt::format("cannot {} {}: {}", what, path.string(), std::strerror(errno)));
+  throw EnvironmentError(
+      fmt::format("cannot {} {}: {}", what, path.string(), std::strerror(errno)));
 }
 
 void sync_path(const fs::path& path) {
@@ -75,8 +76,7 @@ StagingFolder::StagingFolder(fs::path final_path)
   std::error_code error;
   fs::create_directories(staging_, error);
   if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot create {}: {}", staging_.string(), error.message()));
+    throw EnvironmentError(fmt::format("cannot create {}: {}", staging_.string(), error.message()));
   }
 }
 

@@ -1,0 +1,76 @@
+#include "cli/job_runner.h"
+
+#include <fmt/core.h>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/interrupt.h"
+#include "cli/progress_bar.h"
+#include "jobs/local_processes.h"
+#include "jobs/supervisor.h"
+#include "world/scenario.h"
+
+namespace throng::cli {
+
+namespace {
+
+// Simulating is quick beside drawing; a tenth of a run's bar is near enough.
+constexpr double kSimulationShare = 0.1;
+
+double fraction_of(const jobs::RunProgress& run) {
+  const double simulated = run.duration_s > 0 ? run.simulated_s / run.duration_s : 0;
+  const double drawn =
+      run.images_total > 0 ? static_cast<double>(run.images_done) / run.images_total : 0;
+  return kSimulationShare * simulated + (1 - kSimulationShare) * drawn;
+}
+
+void show(ProgressBar& bar, const jobs::JobProgress& progress) {
+  double fraction = 0;
+  std::int64_t done = 0;
+  std::int64_t total = 0;
+  for (const jobs::RunProgress& run : progress) {
+    fraction += fraction_of(run) / static_cast<double>(progress.size());
+    done += run.images_done;
+    total += run.images_total;
+  }
+  bar.show(fraction,
+           done == 0 ? std::string("simulating") : fmt::format("{} of {} frames", done, total));
+}
+
+}  // namespace
+
+void add_job_options(CLI::App& command, JobArguments& arguments) {
+  command.add_option("job", arguments.job_file, "Job file (JSON; see docs/job.md)")->required();
+  command
+      .add_option("-o,--output", arguments.output,
+                  "Folder for the dataset/ and the work that leads to it; an interrupted job goes "
+                  "on where it stopped")
+      ->required();
+  command.add_option("--workers", arguments.workers, "Processes at work at once (0: one per core)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+jobs::JobSpec read_job_file(const std::string& path) {
+  std::string text;
+  try {
+    text = read_file(path);
+  } catch (const EnvironmentError& error) {
+    throw InputError({path, "", "no readable file", "a job file"});
+  }
+  return jobs::parse_job(text, path, world::scenarios_folder());
+}
+
+void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job, int workers) {
+  {
+    const Interrupt interrupt;
+    ProgressBar bar(job.name.empty() ? "job" : job.name);
+    jobs::LocalProcesses executor({.workers = workers});
+    jobs::run_job(
+        folder, job, executor, [&](const jobs::JobProgress& progress) { show(bar, progress); },
+        interrupt.token());
+  }
+  fmt::print("{}\n", folder.dataset().string());
+}
+
+}  // namespace throng::cli

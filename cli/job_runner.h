@@ -1,0 +1,28 @@
+// What `throng run` and `throng render` share: a job folder worked off by local processes, with a
+// progress bar and Ctrl-C.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "jobs/folder.h"
+#include "jobs/spec.h"
+
+namespace throng::cli {
+
+struct JobArguments {
+  std::string job_file;
+  std::string output;
+  int workers = 0;
+};
+
+/// The options JOB, --output and --workers.
+void add_job_options(CLI::App& command, JobArguments& arguments);
+
+/// Reads and checks the job file. Throws InputError (also when there is no such file).
+jobs::JobSpec read_job_file(const std::string& path);
+
+/// Works the folder's job off, then prints where the dataset is. Throws like jobs::run_job.
+void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job, int workers);
+
+}  // namespace throng::cli

@@ -1,0 +1,65 @@
+// throng render: frames and labels of a trace that is there already.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/commands.h"
+#include "cli/job_runner.h"
+#include "jobs/folder.h"
+#include "world/trace.h"
+
+namespace throng::cli {
+
+namespace {
+
+struct Arguments : JobArguments {
+  std::string trace_file;
+};
+
+/// The trace must show the job's scenario, long enough, with the job's drones.
+void check_fits(const world::Trace& trace, const jobs::JobSpec& job, const Arguments& arguments) {
+  std::vector<Problem> problems;
+  if (trace.header.scenario_id != job.scenario) {
+    problems.push_back({arguments.trace_file, "scenario", trace.header.scenario_id, job.scenario});
+  }
+  if (trace.duration_s() < job.capture.to_s) {
+    problems.push_back({arguments.job_file, "/capture/to_s", fmt::format("{} s", job.capture.to_s),
+                        fmt::format("at most the trace's {} s", trace.duration_s())});
+  }
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const std::string& id = job.drones[i].mission.id;
+    const bool same = i < trace.header.drone_ids.size() && trace.header.drone_ids[i] == id;
+    if (!same) {
+      problems.push_back({arguments.job_file, fmt::format("/drones/{}/id", i), id,
+                          "the drone that the trace has there"});
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+void render(const Arguments& arguments) {
+  jobs::JobSpec job = read_job_file(arguments.job_file);
+  job.runs = 1;
+  check_fits(world::read_trace(arguments.trace_file), job, arguments);
+  const auto folder = jobs::JobFolder::create(arguments.output, job);
+  const auto place = folder.output_of({jobs::Task::Kind::simulate, 0, 0});
+  write_file_atomically(place, read_file(arguments.trace_file));
+  finish_job(folder, job, arguments.workers);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("render", "Render and annotate a trace as a job's cameras see it");
+  const auto arguments = std::make_shared<Arguments>();
+  add_job_options(*command, *arguments);
+  command->add_option("--trace", arguments->trace_file, "Trace that `throng simulate` wrote")
+      ->required();
+  command->callback([arguments] { render(*arguments); });
+}
+
+}  // namespace throng::cli

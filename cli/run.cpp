@@ -1,0 +1,20 @@
+// throng run: a job here and now, without a server.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/job_runner.h"
+
+namespace throng::cli {
+
+void add_run(CLI::App& app) {
+  auto* command = app.add_subcommand("run", "Do a job here and now: simulate, render, annotate");
+  const auto arguments = std::make_shared<JobArguments>();
+  add_job_options(*command, *arguments);
+  command->callback([arguments] {
+    const jobs::JobSpec job = read_job_file(arguments->job_file);
+    finish_job(jobs::JobFolder::create(arguments->output, job), job, arguments->workers);
+  });
+}
+
+}  // namespace throng::cli

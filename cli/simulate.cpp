@@ -1,0 +1,57 @@
+// throng simulate: one run of a job, as a trace.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/job_runner.h"
+#include "cli/progress_bar.h"
+#include "jobs/pipeline.h"
+#include "sim/run.h"
+#include "world/scenario.h"
+
+namespace throng::cli {
+
+namespace {
+
+struct Arguments {
+  std::string job_file;
+  std::string trace_file;
+  int run = 0;
+};
+
+void simulate(const Arguments& arguments) {
+  const jobs::JobSpec job = read_job_file(arguments.job_file);
+  if (arguments.run < 0 || arguments.run >= job.runs) {
+    throw InputError({"--run", "", fmt::format("{}", arguments.run),
+                      fmt::format("a run of the job: 0 to {}", job.runs - 1)});
+  }
+  {
+    const Interrupt interrupt;
+    ProgressBar bar("simulating");
+    sim::simulate(
+        world::find_scenario(world::scenarios_folder(), job.scenario),
+        jobs::run_spec(job, arguments.run), arguments.trace_file,
+        [&](double done_s, double total_s) {
+          bar.show(done_s / total_s, fmt::format("{:.0f} of {:.0f} s", done_s, total_s));
+        },
+        interrupt.token());
+  }
+  fmt::print("{}\n", arguments.trace_file);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app) {
+  auto* command = app.add_subcommand("simulate", "Simulate one run of a job and write its trace");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("job", arguments->job_file, "Job file (JSON)")->required();
+  command->add_option("-o,--output", arguments->trace_file, "Trace to write (HDF5)")->required();
+  command->add_option("--run", arguments->run, "Which of the job's runs")->capture_default_str();
+  command->callback([arguments] { simulate(*arguments); });
+}
+
+}  // namespace throng::cli
