@@ -14,6 +14,7 @@ namespace throng::crowd {
 
 struct LoadOptions {
   std::uint64_t seed = 1;
+  std::string model = "orca";  ///< the pedestrian model
 };
 
 /// A goal chosen by an agent: set and goal id of the behaviour file; -1 for one made on the fly
@@ -40,7 +41,7 @@ class Simulation {
   double dt_s() const;
   double time_s() const;
   std::size_t agent_count() const;
-  bool all_final() const;  ///< every agent is in a final state
+  bool all_final() const;  ///< every agent that takes part is in a final state
 
   std::span<const Eigen::Vector2f> positions() const;   ///< m
   std::span<const Eigen::Vector2f> velocities() const;  ///< m/s
@@ -51,7 +52,8 @@ class Simulation {
   std::span<const GoalId> goals() const;
   const std::vector<std::string>& state_names() const;
 
-  /// Whether an agent takes part; one that does not neither moves nor is seen by others.
+  /// Whether an agent takes part; one that does not neither moves nor is seen by others, and its
+  /// state rests. All do at first.
   void set_present(std::size_t agent, bool present);
 
   /// Moves a goal's centre, e.g. to a drone. Throws InputError when there is no such goal.

@@ -1,0 +1,134 @@
+// The state machine: what the plug-in points do, and a behaviour file in memory.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowd/crowd.h"
+#include "crowd/registry.h"
+
+namespace throng::crowd {
+
+/// Whether an agent leaves its state. Remembers nothing: what it draws is keyed by the agent and
+/// its entry into the state, so it may be asked as often and by as many threads as one likes.
+class Condition {
+ public:
+  virtual ~Condition() = default;
+  virtual bool holds(const Crowd& crowd, std::size_t agent) const = 0;
+};
+
+/// Chooses an agent's goal on entry into a state.
+class GoalSelector {
+ public:
+  struct Choice {
+    int goal = -1;  ///< index into Crowd::goals; -1: the point
+    Eigen::Vector2f point = Eigen::Vector2f::Zero();
+  };
+
+  virtual ~GoalSelector() = default;
+  virtual Choice select(const Crowd& crowd, std::size_t agent) const = 0;
+};
+
+struct PreferredVelocity {
+  Eigen::Vector2f direction;  ///< unit
+  float speed = 0;            ///< m/s
+};
+
+/// Where an agent would go if it were alone. What it does not set stays as it was.
+class VelComponent {
+ public:
+  virtual ~VelComponent() = default;
+  virtual void prefer(const Crowd& crowd, std::size_t agent,
+                      PreferredVelocity& preferred) const = 0;
+};
+
+/// Changes what a VelComponent said.
+class VelModifier {
+ public:
+  virtual ~VelModifier() = default;
+  virtual void modify(const Crowd& crowd, std::size_t agent,
+                      PreferredVelocity& preferred) const = 0;
+};
+
+/// Changes an agent on entry into a state and, if it is to be undone, on leaving it. Called for
+/// one agent at a time.
+class Action {
+ public:
+  virtual ~Action() = default;
+  virtual void enter(Crowd& crowd, std::size_t agent) = 0;
+  virtual void leave(Crowd& crowd, std::size_t agent) = 0;
+};
+
+/// The state that a transition leads to.
+class Target {
+ public:
+  virtual ~Target() = default;
+  virtual std::uint8_t state(const Crowd& crowd, std::size_t agent) const = 0;
+};
+
+struct Transition {
+  std::unique_ptr<Condition> condition;
+  std::unique_ptr<Target> target;
+};
+
+struct MachineState {
+  bool final = false;
+  std::unique_ptr<GoalSelector> goal_selector;
+  std::unique_ptr<VelComponent> velocity;
+  std::vector<std::unique_ptr<Action>> actions;
+  std::vector<std::unique_ptr<VelModifier>> modifiers;
+  std::vector<Transition> transitions;  ///< in the file's order; the first that holds is taken
+};
+
+struct Behavior {
+  std::vector<MachineState> states;
+  std::vector<std::unique_ptr<VelModifier>> modifiers;  ///< of all states, after the state's own
+};
+
+/// What makers of plug-ins may need.
+struct BehaviorContext {
+  const Goals& goals;
+  const std::vector<std::string>& state_names;
+  std::size_t agent_count = 0;
+  std::uint64_t seed = 1;
+  std::uint64_t next_draws = 0;  ///< elements that draw are numbered in the file's order
+
+  /// The random numbers of one more element; `fixed_seed` is its own seed, if it gives one.
+  Draws make_draws(std::optional<std::uint64_t> fixed_seed = {});
+  /// Throws InputError for a name that is no state's.
+  std::uint8_t require_state(const Element& element, std::string_view attribute,
+                             const std::string& name) const;
+};
+
+using ConditionRegistry = Registry<Condition, BehaviorContext>;
+using GoalSelectorRegistry = Registry<GoalSelector, BehaviorContext>;
+using VelComponentRegistry = Registry<VelComponent, BehaviorContext>;
+using VelModifierRegistry = Registry<VelModifier, BehaviorContext>;
+using ActionRegistry = Registry<Action, BehaviorContext>;
+using TargetRegistry = Registry<Target, BehaviorContext>;
+
+const ConditionRegistry& condition_registry();
+const GoalSelectorRegistry& goal_selector_registry();
+const VelComponentRegistry& vel_component_registry();
+const VelModifierRegistry& vel_modifier_registry();
+const ActionRegistry& action_registry();
+const TargetRegistry& target_registry();
+
+/// The groups that make up the conditions, one file each.
+std::vector<ConditionRegistry::Entry> general_conditions();
+std::vector<ConditionRegistry::Entry> place_conditions();
+/// follow, via and proximity: flight from a disaster and following something that leads out
+/// (Huang 2016), with distances, growth and probabilities as the attributes say.
+std::vector<ConditionRegistry::Entry> evacuation_conditions();
+
+/// The names of a behaviour file's states, in its order. Throws InputError when two are equal.
+std::vector<std::string> load_state_names(const Element& bfsm);
+/// Reads goals into `goals`, then states and transitions. Throws InputError.
+Behavior load_behavior(const Element& bfsm, const std::vector<std::string>& state_names,
+                       std::size_t agent_count, std::uint64_t seed, Goals& goals);
+
+}  // namespace throng::crowd

@@ -1,0 +1,159 @@
+#include <fmt/core.h>
+
+#include "crowd/behavior.h"
+
+namespace throng::crowd {
+
+namespace {
+
+class Always : public Condition {
+ public:
+  bool holds(const Crowd&, std::size_t) const override { return true; }
+};
+
+/// True some time after the state was entered.
+class Timer : public Condition {
+ public:
+  Timer(const Distribution& delay, bool per_agent, Draws draws)
+      : delay_(per_agent ? delay : Distribution::constant(delay.sample(draws.at(0, 0)))),
+        draws_(draws) {}
+
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    const Agents& agents = crowd.agents;
+    const double delay_s = delay_.sample(draws_.at(agent, agents.entry[agent]));
+    constexpr double kRounding = 1e-6;  // s
+    return crowd.time_s() + kRounding >= agents.entered_s[agent] + delay_s;
+  }
+
+ private:
+  Distribution delay_;
+  Draws draws_;
+};
+
+class GoalReached : public Condition {
+ public:
+  explicit GoalReached(float distance) : distance_(distance) {}
+
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    const Agents& agents = crowd.agents;
+    const Eigen::Vector2f& p = agents.position[agent];
+    const int goal = agents.goal[agent];
+    const float distance =
+        goal < 0 ? (agents.own_goal[agent] - p).norm() : crowd.goals[goal].shape->distance(p);
+    return distance <= distance_;
+  }
+
+ private:
+  float distance_;
+};
+
+class Both : public Condition {
+ public:
+  Both(std::unique_ptr<Condition> a, std::unique_ptr<Condition> b)
+      : a_(std::move(a)), b_(std::move(b)) {}
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    return a_->holds(crowd, agent) && b_->holds(crowd, agent);
+  }
+
+ private:
+  std::unique_ptr<Condition> a_;
+  std::unique_ptr<Condition> b_;
+};
+
+class Either : public Condition {
+ public:
+  Either(std::unique_ptr<Condition> a, std::unique_ptr<Condition> b)
+      : a_(std::move(a)), b_(std::move(b)) {}
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    return a_->holds(crowd, agent) || b_->holds(crowd, agent);
+  }
+
+ private:
+  std::unique_ptr<Condition> a_;
+  std::unique_ptr<Condition> b_;
+};
+
+class Not : public Condition {
+ public:
+  explicit Not(std::unique_ptr<Condition> negated) : negated_(std::move(negated)) {}
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    return !negated_->holds(crowd, agent);
+  }
+
+ private:
+  std::unique_ptr<Condition> negated_;
+};
+
+std::vector<std::unique_ptr<Condition>> make_operands(const Element& element, std::size_t count,
+                                                      BehaviorContext& context) {
+  std::vector<std::unique_ptr<Condition>> operands;
+  for (const Element& child : element.children()) {
+    if (child.name() != "Condition") child.fail_unknown("<Condition>");
+    operands.push_back(condition_registry().make(child, context));
+  }
+  if (operands.size() != count) {
+    element.fail(fmt::format("{} conditions", operands.size()),
+                 fmt::format("{} <Condition>", count));
+  }
+  return operands;
+}
+
+template <typename Binary>
+std::unique_ptr<Condition> make_binary(const Element& element, const Attributes&,
+                                       BehaviorContext& context) {
+  auto operands = make_operands(element, 2, context);
+  return std::make_unique<Binary>(std::move(operands[0]), std::move(operands[1]));
+}
+
+std::unique_ptr<Condition> make_not(const Element& element, const Attributes&,
+                                    BehaviorContext& context) {
+  return std::make_unique<Not>(std::move(make_operands(element, 1, context)[0]));
+}
+
+std::unique_ptr<Condition> make_always(const Element& element, const Attributes&,
+                                       BehaviorContext&) {
+  element.require_no_children();
+  return std::make_unique<Always>();
+}
+
+std::unique_ptr<Condition> make_timer(const Element& element, const Attributes& attributes,
+                                      BehaviorContext& context) {
+  element.require_no_children();
+  const Distribution& delay = attributes.distribution("");
+  return std::make_unique<Timer>(delay, attributes.boolean("per_agent"),
+                                 context.make_draws(delay.seed));
+}
+
+std::unique_ptr<Condition> make_goal_reached(const Element& element, const Attributes& attributes,
+                                             BehaviorContext&) {
+  element.require_no_children();
+  return std::make_unique<GoalReached>(attributes.real("distance"));
+}
+
+}  // namespace
+
+std::vector<ConditionRegistry::Entry> general_conditions() {
+  return {
+      {"auto", "always true", {}, make_always},
+      {"timer",
+       "true that many seconds after the state was entered",
+       {boolean("per_agent", "1: a new draw per agent and entry; 0: one draw for all"),
+        distribution("", "delay in s", 0)},
+       make_timer},
+      {"goal_reached",
+       "the agent's centre is in its goal, or near it",
+       {optional(number("distance", "from the goal's region in m", 0), "0")},
+       make_goal_reached},
+      {"and", "both of two conditions", {}, make_binary<Both>},
+      {"or", "either of two conditions", {}, make_binary<Either>},
+      {"not", "a condition is false", {}, make_not},
+  };
+}
+
+const ConditionRegistry& condition_registry() {
+  static const ConditionRegistry kRegistry(
+      {general_conditions(), place_conditions(), evacuation_conditions()});
+  return kRegistry;
+}
+
+}  // namespace throng::crowd

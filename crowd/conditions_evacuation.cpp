@@ -1,0 +1,144 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "crowd/behavior.h"
+
+namespace throng::crowd {
+
+namespace {
+
+bool near_goal_of_set(const Crowd& crowd, std::size_t agent, int set, float distance) {
+  const Eigen::Vector2f& p = crowd.agents.position[agent];
+  const std::vector<int>& goals = crowd.goals.set(set).goals;
+  return std::any_of(goals.begin(), goals.end(),
+                     [&](int goal) { return crowd.goals[goal].shape->distance(p) <= distance; });
+}
+
+/// Near something that leads out, by an agent who is inclined to follow.
+class FollowNear : public Condition {
+ public:
+  FollowNear(int set, float distance, double probability, Draws draws)
+      : set_(set), distance_(distance), probability_(probability), draws_(draws) {}
+
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    if (!near_goal_of_set(crowd, agent, set_, distance_)) return false;
+    return draws_.at(agent, crowd.agents.entry[agent]).uniform() < probability_;
+  }
+
+ private:
+  int set_;
+  float distance_;
+  double probability_;
+  Draws draws_;
+};
+
+class Via : public Condition {
+ public:
+  Via(int set, float distance) : set_(set), distance_(distance) {}
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    return near_goal_of_set(crowd, agent, set_, distance_);
+  }
+
+ private:
+  int set_;
+  float distance_;
+};
+
+/// Within the reach of an agent's effect, which spreads.
+class Proximity : public Condition {
+ public:
+  struct Spread {
+    float distance = 0;      // m
+    float growth_rate = 0;   // m/s
+    float max_distance = 0;  // m
+    double start_s = 0;
+  };
+
+  Proximity(std::size_t avoided, const Spread& spread) : avoided_(avoided), spread_(spread) {}
+
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    const Agents& agents = crowd.agents;
+    const double since_start = crowd.time_s() - spread_.start_s;
+    constexpr double kRounding = 1e-6;  // s
+    if (since_start < -kRounding || agent == avoided_ || agents.present[avoided_] == 0) {
+      return false;
+    }
+    const float grown = spread_.distance + spread_.growth_rate * static_cast<float>(since_start);
+    const float reach = agents[Property::radius][avoided_] + std::min(grown, spread_.max_distance);
+    return (agents.position[agent] - agents.position[avoided_]).squaredNorm() < reach * reach;
+  }
+
+ private:
+  std::size_t avoided_;
+  Spread spread_;
+};
+
+AttributeTable near_set_attributes(std::string_view set) {
+  return {number("distance", "from a goal's region in m", 0),
+          integer(set, "id of a goal set", 0, kHighestId)};
+}
+
+std::unique_ptr<Condition> make_follow(const Element& element, const Attributes& attributes,
+                                       BehaviorContext& context) {
+  element.require_no_children();
+  return std::make_unique<FollowNear>(
+      context.goals.require_set(element, attributes, "goalSetToFollow"),
+      attributes.real("distance"), attributes.number("weight"), context.make_draws());
+}
+
+std::unique_ptr<Condition> make_via(const Element& element, const Attributes& attributes,
+                                    BehaviorContext& context) {
+  element.require_no_children();
+  return std::make_unique<Via>(context.goals.require_set(element, attributes, "goalsVia"),
+                               attributes.real("distance"));
+}
+
+std::unique_ptr<Condition> make_proximity(const Element& element, const Attributes& attributes,
+                                          BehaviorContext& context) {
+  element.require_no_children();
+  const auto avoided = static_cast<std::size_t>(attributes.integer("agentToAvoid"));
+  if (avoided >= context.agent_count) {
+    element.fail_attribute("agentToAvoid", fmt::format("{}", avoided),
+                           fmt::format("an agent's id, below {}", context.agent_count));
+  }
+  Proximity::Spread spread;
+  spread.distance = attributes.real("distance");
+  spread.growth_rate = attributes.real("growth_rate");
+  spread.start_s = attributes.number("start");
+  if (attributes.has("max_distance")) {
+    spread.max_distance = attributes.real("max_distance");
+    if (spread.max_distance < spread.distance) {
+      element.fail_attribute("max_distance", fmt::format("{}", spread.max_distance),
+                             fmt::format("at least the distance, {}", spread.distance));
+    }
+  } else {
+    spread.max_distance =
+        spread.growth_rate > 0 ? std::numeric_limits<float>::infinity() : spread.distance;
+  }
+  return std::make_unique<Proximity>(avoided, spread);
+}
+
+}  // namespace
+
+std::vector<ConditionRegistry::Entry> evacuation_conditions() {
+  AttributeTable follow = near_set_attributes("goalSetToFollow");
+  follow.push_back(optional(
+      number("weight", "probability that a near agent follows, decided once per entry", 0, 1),
+      "1"));
+  return {
+      {"follow", "near a goal that leads out", std::move(follow), make_follow},
+      {"via", "near a goal of a set", near_set_attributes("goalsVia"), make_via},
+      {"proximity",
+       "near an agent to be avoided",
+       {number("distance", "from the avoided agent's edge in m", 0),
+        integer("agentToAvoid", "id of an agent", 0, kHighestId),
+        optional(number("growth_rate", "of the distance in m/s", 0), "0"),
+        optional(number("max_distance",
+                        "up to which it grows in m; without it: no limit if it grows", 0)),
+        optional(number("start", "before this time nobody notices, in s", 0), "0")},
+       make_proximity},
+  };
+}
+
+}  // namespace throng::crowd

@@ -1,0 +1,22 @@
+// What a running crowd consists of; everything that plug-ins may look at.
+#pragma once
+
+#include <cstdint>
+
+#include "crowd/agents.h"
+#include "crowd/goals.h"
+#include "crowd/obstacles.h"
+
+namespace throng::crowd {
+
+struct Crowd {
+  Agents agents;
+  Goals goals;
+  Obstacles obstacles;
+  double dt_s = 0.1;
+  std::uint64_t step = 0;
+
+  double time_s() const { return static_cast<double>(step) * dt_s; }
+};
+
+}  // namespace throng::crowd

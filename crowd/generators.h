@@ -1,0 +1,32 @@
+// Where a group's agents start.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "crowd/registry.h"
+
+namespace throng::crowd {
+
+/// Agents in a scene; more is taken for a mistake.
+constexpr std::size_t kMostAgents = 4'000'000;
+
+/// What a <Generator> makes: places, each with its noise still to be added.
+class Generator {
+ public:
+  virtual ~Generator() = default;
+  virtual std::size_t count() const = 0;
+  /// The place of the index-th agent, moved by `noise` in the generator's own frame.
+  virtual Eigen::Vector2f place(std::size_t index, const Eigen::Vector2f& noise) const = 0;
+};
+
+struct GeneratorContext {};
+using GeneratorRegistry = Registry<Generator, GeneratorContext>;
+/// explicit, rect_grid.
+const GeneratorRegistry& generator_registry();
+
+/// The places of a <Generator>'s agents; `first_agent` is the id of the first of them.
+std::vector<Eigen::Vector2f> generate_places(const Element& element, std::uint64_t seed,
+                                             std::size_t first_agent);
+
+}  // namespace throng::crowd

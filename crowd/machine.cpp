@@ -1,0 +1,116 @@
+#include "crowd/machine.h"
+
+#include <bitset>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace throng::crowd {
+
+namespace {
+
+constexpr std::size_t kGrain = 256;  // agents per task
+
+}  // namespace
+
+Machine::Machine(Behavior behavior, std::size_t agent_count)
+    : behavior_(std::move(behavior)), due_(agent_count, kNone) {}
+
+void Machine::start(Crowd& crowd) {
+  Agents& agents = crowd.agents;
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    agents.previous_state[i] = agents.state[i];
+    enter(crowd, i, agents.state[i]);
+  }
+  prefer(crowd);
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    agents.orientation[i] = agents.preferred_direction[i];
+    agents.yaw_rad[i] = std::atan2(agents.orientation[i].y(), agents.orientation[i].x());
+  }
+}
+
+void Machine::take_transitions(Crowd& crowd) {
+  const std::size_t count = crowd.agents.count();
+  parallel_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      due_[i] = crowd.agents.present[i] != 0 ? due_transition(crowd, i) : kNone;
+    }
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (due_[i] != kNone) follow_chain(crowd, i, due_[i]);
+  }
+}
+
+int Machine::due_transition(const Crowd& crowd, std::size_t agent) const {
+  const std::vector<Transition>& all = behavior_.states[crowd.agents.state[agent]].transitions;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].condition->holds(crowd, agent)) return static_cast<int>(i);
+  }
+  return kNone;
+}
+
+void Machine::follow_chain(Crowd& crowd, std::size_t agent, int transition) {
+  Agents& agents = crowd.agents;
+  std::bitset<256> visited;
+  while (transition != kNone) {
+    const std::uint8_t from = agents.state[agent];
+    visited.set(from);
+    const std::uint8_t to =
+        behavior_.states[from].transitions[transition].target->state(crowd, agent);
+    if (visited.test(to)) return;
+    leave(crowd, agent);
+    agents.previous_state[agent] = from;
+    enter(crowd, agent, to);
+    transition = due_transition(crowd, agent);
+  }
+}
+
+void Machine::enter(Crowd& crowd, std::size_t agent, std::uint8_t state) {
+  Agents& agents = crowd.agents;
+  agents.state[agent] = state;
+  agents.entered_s[agent] = crowd.time_s();
+  ++agents.entry[agent];
+  for (const auto& action : behavior_.states[state].actions) action->enter(crowd, agent);
+
+  GoalSelector::Choice choice{-1, agents.position[agent]};
+  if (const auto& selector = behavior_.states[state].goal_selector) {
+    choice = selector->select(crowd, agent);
+  }
+  agents.goal[agent] = choice.goal;
+  agents.own_goal[agent] = choice.point;
+  agents.goal_id[agent] = {};
+  if (choice.goal >= 0) {
+    Goal& goal = crowd.goals[choice.goal];
+    ++goal.assigned;
+    agents.goal_id[agent] = goal.id;
+  }
+}
+
+void Machine::leave(Crowd& crowd, std::size_t agent) {
+  Agents& agents = crowd.agents;
+  // Backwards, so that two changes of one property are undone properly.
+  const auto& actions = behavior_.states[agents.state[agent]].actions;
+  for (auto action = actions.rbegin(); action != actions.rend(); ++action) {
+    (*action)->leave(crowd, agent);
+  }
+  if (agents.goal[agent] >= 0) --crowd.goals[agents.goal[agent]].assigned;
+}
+
+void Machine::prefer(Crowd& crowd) const {
+  parallel_ranges(crowd.agents.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) prefer(crowd, i);
+  });
+}
+
+void Machine::prefer(Crowd& crowd, std::size_t agent) const {
+  Agents& agents = crowd.agents;
+  const MachineState& state = behavior_.states[agents.state[agent]];
+  PreferredVelocity preferred{agents.preferred_direction[agent], 0};
+  if (state.velocity) state.velocity->prefer(crowd, agent, preferred);
+  for (const auto& modifier : state.modifiers) modifier->modify(crowd, agent, preferred);
+  for (const auto& modifier : behavior_.modifiers) modifier->modify(crowd, agent, preferred);
+  agents.preferred_direction[agent] = preferred.direction;
+  agents.preferred_speed[agent] = preferred.speed;
+}
+
+}  // namespace throng::crowd

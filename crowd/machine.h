@@ -1,0 +1,38 @@
+// Runs the state machine: who changes state when, and where everybody wants to go.
+#pragma once
+
+#include "crowd/behavior.h"
+
+namespace throng::crowd {
+
+class Machine {
+ public:
+  explicit Machine(Behavior behavior, std::size_t agent_count);
+
+  /// Puts every agent into its start state and makes it face where it wants to go.
+  void start(Crowd& crowd);
+
+  /// Takes every transition that is due. What is due at first is seen by all in the same world;
+  /// then agents move on in the order of their ids, since they share goals' capacities. An agent
+  /// follows a chain of transitions, but enters no state twice in a step.
+  void take_transitions(Crowd& crowd);
+
+  /// Sets everybody's preferred velocity.
+  void prefer(Crowd& crowd) const;
+
+  bool is_final(std::uint8_t state) const { return behavior_.states[state].final; }
+
+ private:
+  static constexpr int kNone = -1;
+
+  int due_transition(const Crowd& crowd, std::size_t agent) const;
+  void follow_chain(Crowd& crowd, std::size_t agent, int transition);
+  void enter(Crowd& crowd, std::size_t agent, std::uint8_t state);
+  void leave(Crowd& crowd, std::size_t agent);
+  void prefer(Crowd& crowd, std::size_t agent) const;
+
+  Behavior behavior_;
+  std::vector<int> due_;  // per agent
+};
+
+}  // namespace throng::crowd

@@ -1,0 +1,21 @@
+#include "crowd/model.h"
+
+#include "crowd/xml.h"
+
+namespace throng::crowd {
+
+const std::vector<ModelEntry>& models() {
+  static const std::vector<ModelEntry> kModels = {orca_model()};
+  return kModels;
+}
+
+const ModelEntry& find_model(std::string_view name) {
+  std::string known;
+  for (const ModelEntry& model : models()) {
+    if (model.name == name) return model;
+    known += (known.empty() ? "" : ", ") + std::string(model.name);
+  }
+  throw InputError(Problem{"", "pedestrian model", in_quotes(name), "one of " + known});
+}
+
+}  // namespace throng::crowd

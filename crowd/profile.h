@@ -1,0 +1,33 @@
+// Agent profiles: what the agents of a kind have in common, and how they vary.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "crowd/agents.h"
+#include "crowd/distribution.h"
+#include "crowd/model.h"
+#include "crowd/xml.h"
+
+namespace throng::crowd {
+
+struct Profile {
+  std::string name;
+  std::array<Distribution, kPropertyCount> properties;  ///< in the files' units
+  std::vector<Distribution> model_parameters;           ///< in the order of the model's table
+  std::uint32_t obstacle_mask = std::numeric_limits<std::uint32_t>::max();
+  std::int32_t agent_class = 0;
+};
+
+/// Reads an <AgentProfile>; `earlier` are those that it may inherit from. Throws InputError.
+Profile load_profile(const Element& element, const std::vector<Profile>& earlier,
+                     const ModelEntry& model);
+
+/// Gives agent `agent` what its profile says, drawn with the run's seed.
+void apply_profile(const Profile& profile, std::uint64_t seed, std::size_t agent, Agents& agents);
+
+/// The elements that carry other models' parameters, which a scene may always hold.
+bool is_model_tag(std::string_view name);
+
+}  // namespace throng::crowd

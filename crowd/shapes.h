@@ -1,0 +1,55 @@
+// Regions that goals and conditions share, measured the way one would expect: 0 inside.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+namespace throng::crowd {
+
+struct Circle {
+  Eigen::Vector2f centre = Eigen::Vector2f::Zero();
+  float radius = 0;
+
+  bool contains(const Eigen::Vector2f& p) const {
+    return (p - centre).squaredNorm() <= radius * radius;
+  }
+  Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const {
+    const float shrunk = std::max(0.0F, radius - margin);
+    const Eigen::Vector2f out = p - centre;
+    const float distance = out.norm();
+    return distance <= shrunk ? p : Eigen::Vector2f(centre + (shrunk / distance) * out);
+  }
+};
+
+struct Box {
+  Eigen::Vector2f min = Eigen::Vector2f::Zero();
+  Eigen::Vector2f max = Eigen::Vector2f::Zero();
+
+  Eigen::Vector2f centre() const { return 0.5F * (min + max); }
+  bool contains(const Eigen::Vector2f& p) const {
+    return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
+  }
+  Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const {
+    const Eigen::Vector2f inset = Eigen::Vector2f::Constant(margin).cwiseMin(0.5F * (max - min));
+    return p.cwiseMax(min + inset).cwiseMin(max - inset);
+  }
+};
+
+/// A box turned about its lower left corner.
+struct TurnedBox {
+  Eigen::Vector2f pivot = Eigen::Vector2f::Zero();
+  Eigen::Vector2f size = Eigen::Vector2f::Zero();
+  Eigen::Vector2f axis = Eigen::Vector2f::UnitX();  ///< unit, along the width
+
+  Eigen::Vector2f to_box(const Eigen::Vector2f& p) const {
+    const Eigen::Vector2f d = p - pivot;
+    return {d.dot(axis), axis.x() * d.y() - axis.y() * d.x()};
+  }
+  Eigen::Vector2f to_world(const Eigen::Vector2f& q) const {
+    return pivot + q.x() * axis + q.y() * Eigen::Vector2f(-axis.y(), axis.x());
+  }
+  Box box() const { return {Eigen::Vector2f::Zero(), size}; }
+  bool contains(const Eigen::Vector2f& p) const { return box().contains(to_box(p)); }
+};
+
+}  // namespace throng::crowd

@@ -1,0 +1,178 @@
+#include "crowd/simulation.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "crowd/behavior.h"
+#include "crowd/crowd.h"
+#include "crowd/grid.h"
+#include "crowd/machine.h"
+#include "crowd/model.h"
+#include "crowd/scene.h"
+#include "crowd/xml.h"
+
+namespace throng::crowd {
+
+namespace {
+
+constexpr std::size_t kGrain = 512;  // agents per task
+
+/// v moved towards `wanted`, by at most `most`.
+Eigen::Vector2f approach(const Eigen::Vector2f& v, const Eigen::Vector2f& wanted, float most) {
+  const Eigen::Vector2f change = wanted - v;
+  const float size = change.norm();
+  return size > most ? Eigen::Vector2f(v + (most / size) * change) : wanted;
+}
+
+/// Where an agent turns to: its velocity, mixed with where it wants to go when it is slow.
+Eigen::Vector2f facing(const Agents& agents, std::size_t agent) {
+  constexpr float kStanding = 1e-6F;  // m/s
+  const Eigen::Vector2f& preferred = agents.preferred_direction[agent];
+  const float speed = agents.velocity[agent].norm();
+  const float pref_speed = agents[Property::pref_speed][agent];
+  if (speed < kStanding) return preferred;
+  const Eigen::Vector2f moving = agents.velocity[agent] / speed;
+  if (3 * speed >= pref_speed) return moving;
+  const float share = std::sqrt(3 * speed / pref_speed);
+  const Eigen::Vector2f mixed = share * moving + (1 - share) * preferred;
+  const float length = mixed.norm();
+  constexpr float kOpposed = 1e-3F;
+  return length > kOpposed ? Eigen::Vector2f(mixed / length) : agents.orientation[agent];
+}
+
+/// `from` turned towards `to` by at most `most_rad`.
+Eigen::Vector2f turn(const Eigen::Vector2f& from, const Eigen::Vector2f& to, float most_rad) {
+  const float angle = std::atan2(cross(from, to), from.dot(to));
+  if (std::abs(angle) <= most_rad) return to;
+  const float turned = std::copysign(most_rad, angle);
+  const float c = std::cos(turned);
+  const float s = std::sin(turned);
+  return Eigen::Vector2f(c * from.x() - s * from.y(), s * from.x() + c * from.y()).normalized();
+}
+
+}  // namespace
+
+struct Simulation::State {
+  State(const std::filesystem::path& scene_file, const std::filesystem::path& behavior_file,
+        const LoadOptions& options);
+
+  void step();
+  void move();
+
+  Crowd crowd;
+  std::vector<std::string> state_names;
+  std::unique_ptr<Machine> machine;
+  std::unique_ptr<Model> model;
+  Grid grid;
+  std::vector<Eigen::Vector2f> new_velocity;
+};
+
+Simulation::State::State(const std::filesystem::path& scene_file,
+                         const std::filesystem::path& behavior_file, const LoadOptions& options) {
+  const XmlFile scene(scene_file, "Experiment");
+  const XmlFile behavior(behavior_file, "BFSM");
+  const ModelEntry& entry = find_model(options.model);
+  state_names = load_state_names(behavior.root());
+  load_scene(scene.root(), state_names, entry, options.seed, crowd);
+  const std::size_t count = crowd.agents.count();
+  machine = std::make_unique<Machine>(
+      load_behavior(behavior.root(), state_names, count, options.seed, crowd.goals), count);
+  model = entry.make(crowd);
+  new_velocity.resize(count, Eigen::Vector2f::Zero());
+  machine->start(crowd);
+}
+
+void Simulation::State::step() {
+  machine->take_transitions(crowd);
+  machine->prefer(crowd);
+  grid.build(crowd.agents);
+  model->step(crowd, grid, new_velocity);
+  move();
+  ++crowd.step;
+}
+
+void Simulation::State::move() {
+  Agents& agents = crowd.agents;
+  const auto dt_s = static_cast<float>(crowd.dt_s);
+  parallel_ranges(agents.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (agents.present[i] == 0) continue;
+      agents.velocity[i] =
+          approach(agents.velocity[i], new_velocity[i], agents[Property::max_accel][i] * dt_s);
+      agents.position[i] += dt_s * agents.velocity[i];
+      agents.orientation[i] =
+          turn(agents.orientation[i], facing(agents, i), agents[Property::max_angle_vel][i] * dt_s);
+      agents.yaw_rad[i] = std::atan2(agents.orientation[i].y(), agents.orientation[i].x());
+    }
+  });
+}
+
+Simulation::Simulation(const std::filesystem::path& scene_file,
+                       const std::filesystem::path& behavior_file, const LoadOptions& options)
+    : state_(std::make_unique<State>(scene_file, behavior_file, options)) {}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::step() { state_->step(); }
+
+double Simulation::dt_s() const { return state_->crowd.dt_s; }
+
+double Simulation::time_s() const { return state_->crowd.time_s(); }
+
+std::size_t Simulation::agent_count() const { return state_->crowd.agents.count(); }
+
+bool Simulation::all_final() const {
+  const Agents& agents = state_->crowd.agents;
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    if (agents.present[i] != 0 && !state_->machine->is_final(agents.state[i])) return false;
+  }
+  return true;
+}
+
+std::span<const Eigen::Vector2f> Simulation::positions() const {
+  return state_->crowd.agents.position;
+}
+
+std::span<const Eigen::Vector2f> Simulation::velocities() const {
+  return state_->crowd.agents.velocity;
+}
+
+std::span<const float> Simulation::yaws_rad() const { return state_->crowd.agents.yaw_rad; }
+
+std::span<const float> Simulation::desired_speeds_mps() const {
+  return state_->crowd.agents[Property::pref_speed];
+}
+
+std::span<const float> Simulation::radii_m() const {
+  return state_->crowd.agents[Property::radius];
+}
+
+std::span<const std::uint8_t> Simulation::states() const { return state_->crowd.agents.state; }
+
+std::span<const GoalId> Simulation::goals() const { return state_->crowd.agents.goal_id; }
+
+const std::vector<std::string>& Simulation::state_names() const { return state_->state_names; }
+
+void Simulation::set_present(std::size_t agent, bool present) {
+  check(agent < agent_count(), "set_present is given one of the agents");
+  Agents& agents = state_->crowd.agents;
+  agents.present[agent] = present ? 1 : 0;
+  if (!present) agents.velocity[agent].setZero();
+}
+
+void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& centre) {
+  const int index = state_->crowd.goals.find_goal(set, goal);
+  if (index < 0) {
+    throw InputError(Problem{"", "moved goal", fmt::format("goal {} of goal set {}", goal, set),
+                             "a goal of the behaviour file"});
+  }
+  state_->crowd.goals[index].shape->move_to(centre);
+}
+
+}  // namespace throng::crowd

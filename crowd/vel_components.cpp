@@ -1,0 +1,117 @@
+#include <algorithm>
+
+#include "crowd/behavior.h"
+
+namespace throng::crowd {
+
+namespace {
+
+/// Straight to the goal, without looking at what stands between.
+class ToGoal : public VelComponent {
+ public:
+  void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) const override {
+    const Agents& agents = crowd.agents;
+    const Eigen::Vector2f& p = agents.position[agent];
+    const int goal = agents.goal[agent];
+    const Eigen::Vector2f target =
+        goal < 0 ? agents.own_goal[agent]
+                 : crowd.goals[goal].shape->nearest_point(p, agents[Property::radius][agent]);
+    const Eigen::Vector2f way = target - p;
+    const float distance = way.norm();
+    constexpr float kArrived = 0.01F;  // m
+    if (distance <= kArrived) {
+      preferred.speed = 0;
+      return;
+    }
+    preferred.direction = way / distance;
+    preferred.speed =
+        std::min(agents[Property::pref_speed][agent], distance / static_cast<float>(crowd.dt_s));
+  }
+};
+
+/// A constant direction, at a constant speed or at the agent's preferred one.
+class Constant : public VelComponent {
+ public:
+  enum class Speed { of_vector, preferred };
+  Constant(const Eigen::Vector2f& velocity, Speed speed)
+      : direction_(velocity.normalized()), length_(velocity.norm()), speed_(speed) {}
+
+  void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) const override {
+    if (length_ > 0) preferred.direction = direction_;
+    preferred.speed =
+        speed_ == Speed::preferred ? crowd.agents[Property::pref_speed][agent] : length_;
+  }
+
+ private:
+  Eigen::Vector2f direction_;
+  float length_;
+  Speed speed_;
+};
+
+class Scale : public VelModifier {
+ public:
+  explicit Scale(float factor) : factor_(factor) {}
+  void modify(const Crowd&, std::size_t, PreferredVelocity& preferred) const override {
+    preferred.speed *= factor_;
+  }
+
+ private:
+  float factor_;
+};
+
+std::unique_ptr<VelComponent> make_to_goal(const Element&, const Attributes&, BehaviorContext&) {
+  return std::make_unique<ToGoal>();
+}
+
+Eigen::Vector2f read_vector(const Attributes& attributes) {
+  return {attributes.real("x"), attributes.real("y")};
+}
+
+std::unique_ptr<VelComponent> make_constant(const Element&, const Attributes& attributes,
+                                            BehaviorContext&) {
+  return std::make_unique<Constant>(read_vector(attributes), Constant::Speed::of_vector);
+}
+
+std::unique_ptr<VelComponent> make_constant_direction(const Element& element,
+                                                      const Attributes& attributes,
+                                                      BehaviorContext&) {
+  const Eigen::Vector2f direction = read_vector(attributes);
+  if (direction.isZero(0)) element.fail("x and y of 0", "a direction");
+  return std::make_unique<Constant>(direction, Constant::Speed::preferred);
+}
+
+std::unique_ptr<VelComponent> make_zero(const Element&, const Attributes&, BehaviorContext&) {
+  return std::make_unique<Constant>(Eigen::Vector2f::Zero(), Constant::Speed::of_vector);
+}
+
+std::unique_ptr<VelModifier> make_scale(const Element&, const Attributes& attributes,
+                                        BehaviorContext&) {
+  return std::make_unique<Scale>(attributes.real("scale"));
+}
+
+}  // namespace
+
+const VelComponentRegistry& vel_component_registry() {
+  static const VelComponentRegistry kRegistry({{
+      {"goal", "straight to the goal", {}, make_to_goal},
+      {"const",
+       "one velocity for all",
+       {number("x", "in m/s", -100, 100), number("y", "in m/s", -100, 100)},
+       make_constant},
+      {"const_dir",
+       "one direction for all",
+       {number("x", "of the direction"), number("y", "of the direction")},
+       make_constant_direction},
+      {"zero", "stand", {}, make_zero},
+  }});
+  return kRegistry;
+}
+
+const VelModifierRegistry& vel_modifier_registry() {
+  static const VelModifierRegistry kRegistry({{
+      {"scale", "changes the speed", {number("scale", "factor of the speed", 0, 100)}, make_scale},
+  }});
+  return kRegistry;
+}
+
+}  // namespace throng::crowd
