@@ -21,28 +21,42 @@ struct CocoImage {
   std::int64_t frame_index = 0;
   double time_s = 0;
   camera::Camera camera;  ///< K, R, t are written with the image
+  int run_index = 0;      ///< number of the run in the dataset: keeps track ids apart
 };
 
-/// Appends the records of one shard of frames: `images.jsonl` and `annotations.jsonl` in a folder,
-/// one JSON object per line. Annotation ids are image id * 100000 + agent id + 1: unique over the file
-/// and independent of how frames are sharded.
+/// Agents that one run may have, so that ids stay unique: annotation id = image id *
+/// kMaxAgentsPerRun + agent id + 1.
+inline constexpr std::int64_t kMaxAgentsPerRun = 100'000;
+/// Ids are exact in readers whose numbers are doubles (JavaScript).
+inline constexpr std::int64_t kMaxImageId = (std::int64_t{1} << 53) / kMaxAgentsPerRun - 1;
+/// A person's track_id, equal in all frames and cameras of a run: agent id + 1 + run_index *
+/// kTrackIdsPerRun.
+inline constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
+
+/// Writes the records of one shard of frames: `images.jsonl` and `annotations.jsonl` in a folder,
+/// one JSON object per line, and `coco_shard.json`, which counts them and says that the shard is
+/// whole. Ids depend on image and agent only, never on how frames are sharded.
 class CocoShardWriter {
  public:
+  /// Creates the folder; replaces the files of an earlier attempt. Throws EnvironmentError.
   explicit CocoShardWriter(const std::filesystem::path& folder);
   ~CocoShardWriter();
   CocoShardWriter(const CocoShardWriter&) = delete;
   CocoShardWriter& operator=(const CocoShardWriter&) = delete;
+  /// Image ids are unique over the dataset and at most kMaxImageId. Throws EnvironmentError when
+  /// the disk refuses.
   void add(const CocoImage& image, const FrameLabels& labels);
-  /// Flushes and closes; throws EnvironmentError when the disk refused.
+  /// Flushes, closes and declares the shard whole; throws EnvironmentError when the disk refused.
   void finish();
 
  private:
-  struct Files;
+  class Files;
   std::unique_ptr<Files> files_;
 };
 
 /// One linear pass over shard folders, in the given order, into one COCO file (written beside and
-/// renamed). `description` becomes info.description.
+/// renamed). `description` becomes info.description. Throws EnvironmentError naming file and line
+/// when a shard is unfinished, truncated or damaged, or when the disk refuses.
 void merge_coco(const std::vector<std::filesystem::path>& shard_folders,
                 const std::filesystem::path& output, const std::string& description);
 

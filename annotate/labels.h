@@ -23,11 +23,12 @@ using RunLengths = std::vector<std::uint32_t>;
 
 struct PersonLabel {
   std::uint32_t agent = 0;
-  PixelBox box;                  ///< tight bounds of the visible mask
-  RunLengths mask;               ///< visible mask
-  std::uint64_t area_px = 0;     ///< visible pixels
-  double visibility = 0;         ///< area_px / amodal area, in (0, 1]
-  render::PersonInView person;   ///< amodal box, 3-D position, ...
+  PixelBox box;               ///< tight bounds of the visible mask
+  RunLengths mask;            ///< visible mask
+  std::uint64_t area_px = 0;  ///< visible pixels
+  double visibility = 0;      ///< area_px / amodal area, in (0, 1]
+  /// Amodal box, 3-D position, ...; its amodal area is raised to area_px if below.
+  render::PersonInView person;
 };
 
 struct FrameLabels {
@@ -36,7 +37,7 @@ struct FrameLabels {
   std::vector<PersonLabel> people;  ///< visible ones (at least one pixel), by agent id
 };
 
-/// One pass over the id buffer.
+/// One pass over the id buffer. Everybody who shows there must be in Frame::people (else check()).
 FrameLabels label_people(const render::Frame& frame);
 
 /// COCO's compressed counts string (see docs/formats.md).

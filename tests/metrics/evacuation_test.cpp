@@ -18,6 +18,7 @@ RunMetrics measure(const world::Trace& trace) {
 // Person i of n leaves the place (x > 10) at about i + 1 s.
 world::Trace one_a_second(int people, double duration_s) {
   std::vector<Walk> walks;
+  walks.reserve(people);
   for (int i = 0; i < people; ++i) walks.push_back(walking({9.05 - i, 0}, {1, 0}));
   CrowdOfTest crowd;
   crowd.duration_s = duration_s;

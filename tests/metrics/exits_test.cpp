@@ -21,6 +21,7 @@ ExitSeries observe(const world::Trace& trace, double width_m = 2) {
 // People who follow each other at 1 m/s, `gap_s` apart; the first reaches the line at `first_s`.
 std::vector<Walk> column(int people, double gap_s, double first_s) {
   std::vector<Walk> walks;
+  walks.reserve(people);
   for (int i = 0; i < people; ++i) walks.push_back(walking({-first_s - i * gap_s, 0}, {1, 0}));
   return walks;
 }

@@ -15,12 +15,13 @@ namespace throng::metrics {
 /// Where a person is at a time (m).
 using Walk = std::function<Eigen::Vector2d(double time_s)>;
 
-inline Walk standing(Eigen::Vector2d place) {
+inline Walk standing(const Eigen::Vector2d& place) {
   return [place](double) { return place; };
 }
 
 /// From `start` with `velocity`, from the time `from_s` on.
-inline Walk walking(Eigen::Vector2d start, Eigen::Vector2d velocity, double from_s = 0) {
+inline Walk walking(const Eigen::Vector2d& start, const Eigen::Vector2d& velocity,
+                    double from_s = 0) {
   return [=](double time_s) -> Eigen::Vector2d {
     return start + velocity * std::max(0.0, time_s - from_s);
   };

@@ -1,0 +1,207 @@
+#include "annotate/coco.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "annotate/coco_records.h"
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::annotate {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kImagesFile = "images.jsonl";
+constexpr const char* kAnnotationsFile = "annotations.jsonl";
+constexpr const char* kShardFile = "coco_shard.json";
+
+// A file that is written front to back.
+class Output {
+ public:
+  explicit Output(fs::path path) : path_(std::move(path)), stream_(path_, std::ios::binary) {
+    require_good();
+  }
+  void write(std::string_view text) {
+    stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
+    require_good();
+  }
+  void close() {
+    stream_.close();
+    require_good();
+  }
+
+ private:
+  void require_good() const {
+    if (stream_) return;
+    throw EnvironmentError(
+        fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+  }
+
+  fs::path path_;
+  std::ofstream stream_;
+};
+
+struct ShardCounts {
+  std::size_t images = 0;
+  std::size_t annotations = 0;
+};
+
+void write_counts(const fs::path& folder, const ShardCounts& counts) {
+  const nlohmann::json json = {{"images", counts.images}, {"annotations", counts.annotations}};
+  write_file_atomically(folder / kShardFile, json.dump() + "\n");
+}
+
+ShardCounts read_counts(const fs::path& folder) {
+  const fs::path path = folder / kShardFile;
+  if (!fs::exists(path)) {
+    throw EnvironmentError(
+        fmt::format("shard {} is unfinished: it has no {}", folder.string(), kShardFile));
+  }
+  try {
+    const nlohmann::json json = nlohmann::json::parse(read_file(path));
+    return {json.at("images").get<std::size_t>(), json.at("annotations").get<std::size_t>()};
+  } catch (const nlohmann::json::exception& error) {
+    throw EnvironmentError(fmt::format("{} is damaged: {}", path.string(), error.what()));
+  }
+}
+
+// Reads the lines of a shard's file, which must be whole JSON objects, as many as were written.
+class ShardLines {
+ public:
+  ShardLines(fs::path path, std::size_t expected)
+      : path_(std::move(path)), expected_(expected), stream_(path_, std::ios::binary) {
+    if (!stream_) throw EnvironmentError(fmt::format("cannot read {}", path_.string()));
+  }
+
+  bool next(std::string& line) {
+    if (!std::getline(stream_, line)) {
+      if (number_ != expected_) fail(number_ + 1, "the file ends early");
+      return false;
+    }
+    ++number_;
+    if (stream_.eof()) fail(number_, "the line is cut off");
+    if (number_ > expected_) fail(number_, "the file goes on");
+    if (line.empty() || line.front() != '{' || !nlohmann::json::accept(line)) {
+      fail(number_, "the line is no JSON object");
+    }
+    return true;
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t number, std::string_view what) const {
+    throw EnvironmentError(fmt::format("{}: line {}: {}; {} lines were written", path_.string(),
+                                       number, what, expected_));
+  }
+
+  fs::path path_;
+  std::size_t expected_;
+  std::ifstream stream_;
+  std::size_t number_ = 0;
+};
+
+// Appends one file of every shard as the elements of a JSON array.
+void merge_array(Output& output, const std::vector<fs::path>& folders,
+                 const std::vector<ShardCounts>& counts, const char* file,
+                 std::size_t ShardCounts::*count) {
+  std::string line;
+  std::string_view separator = "\n";
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    ShardLines lines(folders[i] / file, counts[i].*count);
+    while (lines.next(line)) {
+      output.write(separator);
+      output.write(line);
+      separator = ",\n";
+    }
+  }
+}
+
+}  // namespace
+
+class CocoShardWriter::Files {
+ public:
+  explicit Files(fs::path folder)
+      : folder_(std::move(folder)),
+        images_(folder_ / kImagesFile),
+        annotations_(folder_ / kAnnotationsFile) {}
+
+  void add(const CocoImage& image, const FrameLabels& labels) {
+    text_.clear();
+    append_image_record(text_, image);
+    images_.write(text_);
+    text_.clear();
+    for (const PersonLabel& label : labels.people) append_annotation_record(text_, image, label);
+    annotations_.write(text_);
+    ++counts_.images;
+    counts_.annotations += labels.people.size();
+  }
+
+  void finish() {
+    images_.close();
+    annotations_.close();
+    write_counts(folder_, counts_);
+  }
+
+ private:
+  fs::path folder_;
+  Output images_;
+  Output annotations_;
+  ShardCounts counts_;
+  std::string text_;  // reused: the records of one frame
+};
+
+CocoShardWriter::CocoShardWriter(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) fs::remove(folder / kShardFile, error);
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot write into {}: {}", folder.string(), error.message()));
+  }
+  files_ = std::make_unique<Files>(folder);
+}
+
+CocoShardWriter::~CocoShardWriter() = default;
+
+void CocoShardWriter::add(const CocoImage& image, const FrameLabels& labels) {
+  check(files_ != nullptr, "nothing is added to a finished shard");
+  check(image.id >= 0 && image.id <= kMaxImageId, "image ids keep annotation ids below 2^53");
+  files_->add(image, labels);
+}
+
+void CocoShardWriter::finish() {
+  check(files_ != nullptr, "a shard is finished once");
+  files_->finish();
+  files_.reset();
+}
+
+void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& output,
+                const std::string& description) {
+  std::vector<ShardCounts> counts;
+  for (const fs::path& folder : shard_folders) counts.push_back(read_counts(folder));
+  const StagingFolder staging(output);
+  const fs::path file = staging.path() / "merged.json";
+  Output merged(file);
+  const nlohmann::json info = {{"description", description}, {"version", "1"}};
+  const nlohmann::json category = {
+      {"id", kPersonCategory}, {"name", "person"}, {"supercategory", "person"}};
+  merged.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":[{}],\n\"images\":[",
+                           info.dump(), category.dump()));
+  merge_array(merged, shard_folders, counts, kImagesFile, &ShardCounts::images);
+  merged.write("\n],\n\"annotations\":[");
+  merge_array(merged, shard_folders, counts, kAnnotationsFile, &ShardCounts::annotations);
+  merged.write("\n]}\n");
+  merged.close();
+  std::error_code error;
+  fs::rename(file, output, error);
+  if (error) {
+    throw EnvironmentError(fmt::format("cannot publish {}: {}", output.string(), error.message()));
+  }
+}
+
+}  // namespace throng::annotate

@@ -1,0 +1,20 @@
+// The JSON objects of a COCO file, one per line (layout: docs/formats.md).
+#pragma once
+
+#include <string>
+
+#include "annotate/coco.h"
+#include "annotate/labels.h"
+
+namespace throng::annotate {
+
+/// Id of the one category, "person".
+inline constexpr int kPersonCategory = 1;
+
+/// Appends the record of an image and a line break.
+void append_image_record(std::string& text, const CocoImage& image);
+
+/// Appends the record of a person in that image and a line break.
+void append_annotation_record(std::string& text, const CocoImage& image, const PersonLabel& label);
+
+}  // namespace throng::annotate

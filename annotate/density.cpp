@@ -1,0 +1,91 @@
+#include "annotate/density.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace throng::annotate {
+
+namespace {
+
+constexpr double kCutOffSigmas = 4.0;
+
+// One axis of a kernel: weights of the pixels first, first + 1, ..., which sum to 1.
+struct AxisKernel {
+  int first = 0;
+  std::vector<double> weight;
+};
+
+// Gaussian about `centre` (box coordinates, inside [0, size)), taken at the pixels' middles.
+// Weights are relative to that of the head's own pixel, so that they do not vanish for a tiny
+// sigma.
+void set_kernel(AxisKernel& kernel, double centre, int size, double sigma) {
+  const double reach = kCutOffSigmas * sigma;
+  const int own = std::min(static_cast<int>(centre), size - 1);
+  kernel.first = static_cast<int>(std::floor(std::max(0.0, centre - reach)));
+  const int last = static_cast<int>(std::floor(std::min<double>(size - 1, centre + reach)));
+  kernel.weight.resize(last - kernel.first + 1);
+  const double own_distance = own + 0.5 - centre;
+  const double scale = 1 / (2 * sigma * sigma);
+  double sum = 0;
+  for (int i = kernel.first; i <= last; ++i) {
+    const double distance = i + 0.5 - centre;
+    const double exponent = (own_distance * own_distance - distance * distance) * scale;
+    sum += kernel.weight[i - kernel.first] = std::exp(exponent);
+  }
+  for (double& weight : kernel.weight) weight /= sum;
+}
+
+bool is_inside(const Eigen::Vector2d& head, int width, int height) {
+  return head.x() >= 0 && head.x() < width && head.y() >= 0 && head.y() < height;
+}
+
+}  // namespace
+
+double DensityMap::sum() const { return std::accumulate(value.begin(), value.end(), 0.0); }
+
+DensityMap density_map(std::span<const Eigen::Vector2d> heads, int width, int height,
+                       double sigma_px) {
+  check(width > 0 && height > 0 && sigma_px > 0, "a density map has pixels and a width of kernel");
+  // Doubles: thousands of tails add up in one pixel.
+  std::vector<double> sums(static_cast<std::size_t>(width) * height);
+  AxisKernel across;
+  AxisKernel down;
+  for (const Eigen::Vector2d& head : heads) {
+    if (!is_inside(head, width, height)) continue;
+    set_kernel(across, head.x(), width, sigma_px);
+    set_kernel(down, head.y(), height, sigma_px);
+    for (std::size_t y = 0; y < down.weight.size(); ++y) {
+      double* row = sums.data() + (down.first + y) * width + across.first;
+      const double weight = down.weight[y];
+      for (std::size_t x = 0; x < across.weight.size(); ++x) row[x] += weight * across.weight[x];
+    }
+  }
+  return {width, height, std::vector<float>(sums.begin(), sums.end())};
+}
+
+std::string npy_bytes(const DensityMap& map) {
+  static_assert(std::endian::native == std::endian::little, "values are written as they lie");
+  std::string header = fmt::format(
+      "{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}", map.height, map.width);
+  constexpr std::size_t kPreamble = 10;  // magic, version, length of the header
+  constexpr std::size_t kAlignment = 64;
+  while ((kPreamble + header.size() + 1) % kAlignment != 0) header.push_back(' ');
+  header.push_back('\n');
+  std::string bytes = "\x93NUMPY";
+  bytes += {'\x01', '\x00', static_cast<char>(header.size() & 0xff),
+            static_cast<char>(header.size() >> 8)};
+  bytes += header;
+  const std::size_t start = bytes.size();
+  bytes.resize(start + map.value.size() * sizeof(float));
+  std::memcpy(bytes.data() + start, map.value.data(), map.value.size() * sizeof(float));
+  return bytes;
+}
+
+}  // namespace throng::annotate

@@ -1,0 +1,59 @@
+#include "annotate/exits_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "base/error.h"
+
+namespace throng::annotate {
+
+namespace {
+
+// Frame times and step times are computed apart, so equal times may differ in the last bits.
+constexpr double kTimeSlackS = 1e-6;
+
+std::size_t step_at(std::span<const double> step_times_s, double time_s) {
+  const auto after =
+      std::upper_bound(step_times_s.begin(), step_times_s.end(), time_s + kTimeSlackS);
+  return after == step_times_s.begin() ? 0 : after - step_times_s.begin() - 1;
+}
+
+// Quoted where a comma, quote or line break would break the row (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted.push_back('"');
+    quoted.push_back(c);
+  }
+  quoted.push_back('"');
+  return quoted;
+}
+
+}  // namespace
+
+std::string exits_csv(const std::vector<metrics::ExitSeries>& exits,
+                      std::span<const double> step_times_s, std::span<const FrameTime> frames) {
+  std::string text =
+      "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed,flow,"
+      "since_crossing,state,clogging_index\n";
+  if (step_times_s.empty()) return text;
+  for (const FrameTime& frame : frames) {
+    const std::size_t step = step_at(step_times_s, frame.time_s);
+    for (const metrics::ExitSeries& exit : exits) {
+      check(exit.samples.size() == step_times_s.size(), "an exit has a sample per step");
+      const metrics::ExitSample& sample = exit.samples[step];
+      fmt::format_to(std::back_inserter(text),
+                     "{},{},{},{},{:.4f},{:.4f},{:.4f},{},{:.2f},{:.2f},{},{:.4f}\n",
+                     frame.frame_index, frame.time_s, csv_field(exit.exit_id), sample.in_zone,
+                     sample.density_per_m2, sample.normalised_density, sample.approach_speed_mps,
+                     sample.crossed, sample.flow_per_s, sample.since_crossing_s,
+                     metrics::name_of(sample.state), sample.clogging_index);
+    }
+  }
+  return text;
+}
+
+}  // namespace throng::annotate

@@ -1,0 +1,25 @@
+// exits.csv: what happened at every exit at the time of every frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "metrics/exits.h"
+
+namespace throng::annotate {
+
+struct FrameTime {
+  std::int64_t frame_index = 0;
+  double time_s = 0;
+};
+
+/// One row per frame and exit: frame, time_s, exit, in_zone, density, normalised_density,
+/// approach_speed, crossed, flow, since_crossing, state, clogging_index (units: docs/metrics.md),
+/// below a header line. `step_times_s` are the times of the samples in `exits`; a frame gets the
+/// last sample at or before it, or the first one.
+std::string exits_csv(const std::vector<metrics::ExitSeries>& exits,
+                      std::span<const double> step_times_s, std::span<const FrameTime> frames);
+
+}  // namespace throng::annotate

@@ -1,0 +1,1 @@
+throng_bench(annotate SOURCES annotate.cpp LIBRARIES throng::annotate)

@@ -1,0 +1,137 @@
+// Ground truth of one 1920x1080 frame, stage by stage, on one core. Items are frames.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "annotate/coco.h"
+#include "annotate/density.h"
+#include "annotate/labels.h"
+#include "annotate/preview.h"
+#include "tests/annotate/synthetic_frame.h"
+
+namespace throng::annotate {
+namespace {
+
+// About what a drone sees: 625 people of 20 to 100 pixels, or 5000 of a third of that.
+const render::Frame& frame_with(std::int64_t people) {
+  static std::map<std::int64_t, render::Frame> frames;
+  auto [entry, is_new] = frames.try_emplace(people);
+  if (is_new) {
+    SyntheticScene scene;
+    scene.width = 1920;
+    scene.height = 1080;
+    scene.people = static_cast<int>(people);
+    scene.min_size_px = people > 1000 ? 5 : 15;
+    scene.max_size_px = people > 1000 ? 15 : 40;
+    entry->second = synthetic_frame(scene);
+  }
+  return entry->second;
+}
+
+std::vector<Eigen::Vector2d> heads_of(const render::Frame& frame) {
+  std::vector<Eigen::Vector2d> heads;
+  heads.reserve(frame.people.size());
+  for (const render::PersonInView& person : frame.people) {
+    heads.push_back(frame.camera.project(person.head).pixel + Eigen::Vector2d(0.5, 0.5));
+  }
+  return heads;
+}
+
+CocoImage image_of(const render::Frame& frame) {
+  CocoImage image;
+  image.file_name = "run000/d1/000000.jpg";
+  image.run = "run000";
+  image.camera_id = "d1";
+  image.camera = frame.camera;
+  return image;
+}
+
+// A shard in a folder of its own, which goes away with it.
+class ScratchShard {
+ public:
+  ScratchShard()
+      : folder_(std::filesystem::temp_directory_path() / "throng_bench_annotate"),
+        writer_(folder_) {}
+  ~ScratchShard() { std::filesystem::remove_all(folder_); }
+  ScratchShard(const ScratchShard&) = delete;
+  ScratchShard& operator=(const ScratchShard&) = delete;
+  CocoShardWriter& writer() { return writer_; }
+
+ private:
+  std::filesystem::path folder_;
+  CocoShardWriter writer_;
+};
+
+void BM_Label(benchmark::State& state) {
+  const render::Frame& frame = frame_with(state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(label_people(frame));
+  state.SetItemsProcessed(state.iterations());
+  state.counters["visible"] = static_cast<double>(label_people(frame).people.size());
+}
+
+void BM_Density(benchmark::State& state) {
+  const render::Frame& frame = frame_with(state.range(0));
+  const auto heads = heads_of(frame);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(density_map(heads, frame.width(), frame.height(), 4));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
+void BM_CocoAdd(benchmark::State& state) {
+  const render::Frame& frame = frame_with(state.range(0));
+  const FrameLabels labels = label_people(frame);
+  CocoImage image = image_of(frame);
+  ScratchShard shard;
+  for (auto _ : state) {
+    ++image.id;
+    shard.writer().add(image, labels);
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
+// Boxes, masks, visibility, density and the COCO records: all but the picture.
+void BM_Annotate(benchmark::State& state) {
+  const render::Frame& frame = frame_with(state.range(0));
+  CocoImage image = image_of(frame);
+  ScratchShard shard;
+  for (auto _ : state) {
+    ++image.id;
+    shard.writer().add(image, label_people(frame));
+    benchmark::DoNotOptimize(
+        npy_bytes(density_map(heads_of(frame), frame.width(), frame.height(), 4)));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
+void BM_Preview(benchmark::State& state) {
+  const render::Frame& frame = frame_with(state.range(0));
+  const FrameLabels labels = label_people(frame);
+  for (auto _ : state) benchmark::DoNotOptimize(draw_preview(frame, labels));
+  state.SetItemsProcessed(state.iterations());
+}
+
+void BM_Jpeg(benchmark::State& state) {
+  const render::Frame& frame = frame_with(state.range(0));
+  const auto rgb = draw_preview(frame, label_people(frame));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(jpeg_bytes(rgb, frame.width(), frame.height(), 95));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
+void sizes(benchmark::internal::Benchmark* bench) {
+  bench->ArgName("people")->Arg(625)->Arg(5000)->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK(BM_Label)->Apply(sizes);
+BENCHMARK(BM_Density)->Apply(sizes);
+BENCHMARK(BM_CocoAdd)->Apply(sizes);
+BENCHMARK(BM_Annotate)->Apply(sizes);
+BENCHMARK(BM_Preview)->Apply(sizes);
+BENCHMARK(BM_Jpeg)->Apply(sizes);
+
+}  // namespace
+}  // namespace throng::annotate

@@ -1,0 +1,252 @@
+#include "annotate/coco.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "tests/annotate/rle.h"
+#include "tests/annotate/synthetic_frame.h"
+
+namespace throng::annotate {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Coco : public testing::Test {
+ protected:
+  Coco() : folder_(fs::path(testing::TempDir()) / ("coco_" + name_of_test())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    for (int i = 0; i < kFrames; ++i) {
+      SyntheticScene scene;
+      scene.seed = i;
+      scene.people = i == 2 ? 0 : 15;  // an image without anybody is an image all the same
+      frames_.push_back(synthetic_frame(scene));
+      frames_.back().index = i;
+      frames_.back().time_s = 0.1 * i;
+    }
+  }
+  ~Coco() override { fs::remove_all(folder_); }
+  Coco(const Coco&) = delete;
+  Coco& operator=(const Coco&) = delete;
+
+  static constexpr int kFrames = 6;
+
+  static std::string name_of_test() {
+    return testing::UnitTest::GetInstance()->current_test_info()->name();
+  }
+
+  CocoImage image_of(int i) const {
+    CocoImage image;
+    image.id = i + 1;
+    image.file_name = "run001/d1/\"frame\" " + std::to_string(i) + ".jpg";
+    image.run = "run001";
+    image.run_index = 1;
+    image.camera_id = "d1";
+    image.frame_index = frames_[i].index;
+    image.time_s = frames_[i].time_s;
+    image.camera = frames_[i].camera;
+    return image;
+  }
+
+  fs::path write_shard(const std::string& name, int begin, int end) const {
+    CocoShardWriter writer(folder_ / name);
+    for (int i = begin; i < end; ++i) writer.add(image_of(i), label_people(frames_[i]));
+    writer.finish();
+    return folder_ / name;
+  }
+
+  std::string merge(const std::vector<fs::path>& shards) const {
+    merge_coco(shards, folder_ / "coco.json", "a test");
+    return read_file(folder_ / "coco.json");
+  }
+
+  // The message of the error that the merge must fail with.
+  std::string merge_error(const std::vector<fs::path>& shards) const {
+    try {
+      merge(shards);
+    } catch (const EnvironmentError& error) {
+      EXPECT_FALSE(fs::exists(folder_ / "coco.json"));
+      return error.what();
+    }
+    ADD_FAILURE() << "the merge went through";
+    return {};
+  }
+
+  fs::path folder_;
+  std::vector<render::Frame> frames_;
+};
+
+TEST_F(Coco, HoldsWhatALoaderNeeds) {
+  const json coco = json::parse(merge({write_shard("all", 0, kFrames)}));
+  EXPECT_EQ(coco.at("info").at("description"), "a test");
+  EXPECT_TRUE(coco.at("licenses").is_array());
+  EXPECT_EQ(coco.at("categories"),
+            json::parse(R"([{"id":1,"name":"person","supercategory":"person"}])"));
+  ASSERT_EQ(coco.at("images").size(), std::size_t{kFrames});
+
+  std::set<std::int64_t> ids;
+  std::size_t annotations = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    const json& image = coco["images"][i];
+    const CocoImage expected = image_of(i);
+    EXPECT_EQ(image.at("id"), expected.id);
+    EXPECT_EQ(image.at("file_name"), expected.file_name);
+    EXPECT_EQ(image.at("width"), frames_[i].width());
+    EXPECT_EQ(image.at("height"), frames_[i].height());
+    EXPECT_EQ(image.at("run"), "run001");
+    EXPECT_EQ(image.at("camera_id"), "d1");
+    EXPECT_EQ(image.at("frame"), i);
+    EXPECT_EQ(image.at("time_s"), frames_[i].time_s);
+    annotations += label_people(frames_[i]).people.size();
+  }
+  ASSERT_EQ(coco.at("annotations").size(), annotations);
+  ASSERT_GT(annotations, 30U);
+  for (const json& annotation : coco["annotations"]) {
+    EXPECT_TRUE(ids.insert(annotation.at("id").get<std::int64_t>()).second) << "ids are unique";
+    EXPECT_EQ(annotation.at("category_id"), 1);
+    EXPECT_EQ(annotation.at("iscrowd"), 0);
+  }
+}
+
+TEST_F(Coco, EachAnnotationIsItsLabel) {
+  const json coco = json::parse(merge({write_shard("all", 0, kFrames)}));
+  std::size_t next = 0;
+  for (int i = 0; i < kFrames; ++i) {
+    for (const PersonLabel& label : label_people(frames_[i]).people) {
+      const json& annotation = coco["annotations"].at(next++);
+      EXPECT_EQ(annotation.at("image_id"), i + 1);
+      EXPECT_EQ(annotation.at("track_id"), 1'000'000 + label.agent + 1);
+      const PixelBox& box = label.box;
+      EXPECT_EQ(annotation.at("bbox"), json({box.x, box.y, box.width, box.height}));
+      EXPECT_TRUE(annotation["bbox"][0].is_number_float());
+      EXPECT_EQ(annotation.at("area"), label.area_px);
+      const json& mask = annotation.at("segmentation");
+      EXPECT_EQ(mask.at("size"), json({frames_[i].height(), frames_[i].width()}));
+      EXPECT_EQ(
+          mask_of_runs(runs_of_counts(mask.at("counts")), frames_[i].width(), frames_[i].height()),
+          mask_of_runs(label.mask, frames_[i].width(), frames_[i].height()));
+      EXPECT_NEAR(annotation.at("visibility").get<double>(), label.visibility, 1e-5);
+      EXPECT_EQ(annotation.at("area_amodal"), label.person.amodal_area_px);
+      EXPECT_NEAR(annotation.at("bbox_amodal")[2].get<double>(),
+                  label.person.amodal_box.sizes().x(), 1e-3);
+      EXPECT_NEAR(annotation.at("velocity")[1].get<double>(), label.person.velocity.y(), 1e-5);
+    }
+  }
+}
+
+// A reader with K, R, t and position alone finds the person's place in the picture.
+TEST_F(Coco, PositionsProjectFromTheFileAlone) {
+  const json coco = json::parse(merge({write_shard("all", 0, kFrames)}));
+  const auto number = [](const json& value) { return value.get<double>(); };
+  for (const json& annotation : coco["annotations"]) {
+    const json& camera =
+        coco["images"][annotation.at("image_id").get<std::size_t>() - 1].at("camera");
+    Eigen::Matrix3d K, R;
+    Eigen::Vector3d t, centre, position;
+    for (int row = 0; row < 3; ++row) {
+      t[row] = number(camera.at("t")[row]);
+      centre[row] = number(camera.at("centre")[row]);
+      position[row] = number(annotation.at("position")[row]);
+      for (int column = 0; column < 3; ++column) {
+        K(row, column) = number(camera.at("K")[row][column]);
+        R(row, column) = number(camera.at("R")[row][column]);
+      }
+    }
+    EXPECT_LT((R * centre + t).norm(), 1e-9);
+    const Eigen::Vector3d seen = K * (R * position + t);
+    const json& box = annotation.at("bbox_amodal");
+    // The scene puts feet in the middle of the amodal box's lower edge.
+    EXPECT_NEAR(seen.x() / seen.z() + 0.5, number(box[0]) + number(box[2]) / 2, 0.01);
+    EXPECT_NEAR(seen.y() / seen.z() + 0.5, number(box[1]) + number(box[3]), 0.01);
+    EXPECT_NEAR(number(annotation.at("head")[0]), number(box[0]) + number(box[2]) / 2, 0.01);
+    EXPECT_NEAR(number(annotation.at("head")[1]), number(box[1]) + 0.1 * number(box[3]), 0.01);
+  }
+}
+
+TEST_F(Coco, AHeadBehindTheCameraIsNull) {
+  render::Frame& frame = frames_[0];
+  for (render::PersonInView& person : frame.people) person.head = {0, 0, 1000};
+  const json coco = json::parse(merge({write_shard("all", 0, 1)}));
+  for (const json& annotation : coco["annotations"]) EXPECT_TRUE(annotation.at("head").is_null());
+}
+
+TEST_F(Coco, BytesDoNotDependOnSharding) {
+  const std::string whole = merge({write_shard("all", 0, kFrames)});
+  EXPECT_EQ(merge({write_shard("a", 0, 1), write_shard("b", 1, 4), write_shard("none", 4, 4),
+                   write_shard("c", 4, kFrames)}),
+            whole);
+}
+
+TEST_F(Coco, AnEmptyDatasetIsValid) {
+  const json coco = json::parse(merge({write_shard("none", 0, 0)}));
+  EXPECT_TRUE(coco.at("images").is_array());
+  EXPECT_TRUE(coco.at("annotations").empty());
+}
+
+TEST_F(Coco, IdsStayExactInDoubles) {
+  CocoImage image = image_of(0);
+  image.id = kMaxImageId;
+  FrameLabels labels = label_people(frames_[0]);
+  labels.people[0].agent = kMaxAgentsPerRun - 1;
+  CocoShardWriter writer(folder_ / "big");
+  writer.add(image, labels);
+  writer.finish();
+  const json coco = json::parse(merge({folder_ / "big"}));
+  EXPECT_LE(coco["annotations"][0]["id"].get<std::int64_t>(), std::int64_t{1} << 53);
+}
+
+TEST_F(Coco, AnUnfinishedShardIsRefused) {
+  {
+    CocoShardWriter writer(folder_ / "killed");
+    writer.add(image_of(0), label_people(frames_[0]));
+  }
+  EXPECT_NE(merge_error({folder_ / "killed"}).find("killed"), std::string::npos);
+}
+
+TEST_F(Coco, ARestartedShardReplacesTheEarlierAttempt) {
+  const std::string whole = merge({write_shard("shard", 0, kFrames)});
+  write_shard("shard", 0, 1);
+  EXPECT_EQ(merge({write_shard("shard", 0, kFrames)}), whole);
+}
+
+// A file may be cut anywhere: inside a line, after one, or down to nothing.
+TEST_F(Coco, ATruncatedFileIsNamedWithItsLine) {
+  const fs::path shard = write_shard("shard", 0, kFrames);
+  const fs::path file = shard / "annotations.jsonl";
+  const std::string text = read_file(file);
+  for (const std::size_t size :
+       {std::size_t{0}, text.size() / 3, text.find('\n') + 1, text.find('\n'), text.size() - 1}) {
+    fs::resize_file(file, size);
+    const auto lines = std::count(text.begin(), text.begin() + size, '\n');
+    const std::string error = merge_error({shard});
+    EXPECT_NE(error.find("annotations.jsonl: line " + std::to_string(lines + 1) + ":"),
+              std::string::npos)
+        << error;
+    write_file_atomically(file, text);
+  }
+  EXPECT_NO_THROW(merge({shard}));
+}
+
+TEST_F(Coco, ADamagedLineIsNamed) {
+  const fs::path shard = write_shard("shard", 0, kFrames);
+  std::string text = read_file(shard / "images.jsonl");
+  text[text.find('\n') + 5] = '\n';
+  write_file_atomically(shard / "images.jsonl", text);
+  EXPECT_NE(merge_error({shard}).find("images.jsonl: line 2"), std::string::npos);
+}
+
+TEST_F(Coco, AFolderThatCannotBeMadeIsTheMachinesFault) {
+  std::ofstream(folder_ / "file") << "x";
+  EXPECT_THROW(CocoShardWriter(folder_ / "file" / "shard"), EnvironmentError);
+}
+
+}  // namespace
+}  // namespace throng::annotate
