@@ -21,7 +21,7 @@ struct DeviceChoice {
 
 /// Sun direction and strength, as later weather will set them.
 struct Lighting {
-  double sun_azimuth_rad = 0.9;    ///< counter-clockwise from +x, where the sun stands
+  double sun_azimuth_rad = 0.9;  ///< counter-clockwise from +x, where the sun stands
   double sun_elevation_rad = 0.8;
 };
 

@@ -1,0 +1,31 @@
+// An OpenGL 4.5 context through EGL, without a window or a surface.
+#pragma once
+
+#include <string>
+
+namespace throng::render {
+
+/// Owns a context and makes it current on the thread that constructs it.
+class Context {
+ public:
+  /// `device` is "software" (Mesa on the CPU), "gpu" (the first device with a hardware driver) or
+  /// "auto": $THRONG_DEVICE if set, else a GPU if there is one, else software. Throws InputError
+  /// for any other name, and EnvironmentError that says which libraries to install when no context
+  /// can be made.
+  explicit Context(const std::string& device);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  void make_current() const;
+
+  /// "vendor, renderer, version" as the driver reports them.
+  const std::string& description() const { return description_; }
+
+ private:
+  void* display_ = nullptr;  ///< EGLDisplay
+  void* context_ = nullptr;  ///< EGLContext
+  std::string description_;
+};
+
+}  // namespace throng::render

@@ -1,0 +1,54 @@
+// How many pixels a person would cover with nothing in front: each is drawn alone into a tile of an
+// atlas, moved by whole pixels so that the rasteriser makes the same decisions as in the picture.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "camera/camera.h"
+#include "render/gl_objects.h"
+#include "render/people_pass.h"
+
+namespace throng::render {
+
+/// Whom to measure, and the image pixels [min, max) that the silhouette cannot leave.
+struct CoverageRequest {
+  PersonDraw draw;
+  Eigen::AlignedBox2i bounds;
+};
+
+class CoverageCounter {
+ public:
+  CoverageCounter();
+
+  /// Covered pixels for each request, also those outside the image. Leaves its own target, viewport
+  /// and View block bound.
+  std::vector<std::uint64_t> count(PeoplePass& pass, std::span<const PersonInstance> people,
+                                   std::span<const CoverageRequest> requests,
+                                   const camera::Camera& camera);
+
+ private:
+  /// A part of a request's bounds that fits the atlas, and where it lies there.
+  struct Tile {
+    std::size_t request = 0;
+    Eigen::Vector2i image = Eigen::Vector2i::Zero();  ///< its first pixel
+    Eigen::Vector2i size = Eigen::Vector2i::Zero();
+    Eigen::Vector2i atlas = Eigen::Vector2i::Zero();
+  };
+
+  static std::vector<Tile> tiles_of(std::span<const CoverageRequest> requests);
+  /// Places tiles from `first` on in rows until the atlas is full; returns the end of the placed.
+  static std::size_t place(std::vector<Tile>& tiles, std::size_t first, int& used_rows);
+  void draw_and_add(PeoplePass& pass, std::span<const PersonInstance> people,
+                    std::span<const CoverageRequest> requests, std::span<const Tile> tiles,
+                    int used_rows, std::vector<std::uint64_t>& counts);
+
+  Texture atlas_;
+  Framebuffer framebuffer_;
+  Buffer view_;
+  std::vector<std::uint8_t> pixels_;
+};
+
+}  // namespace throng::render

@@ -1,0 +1,231 @@
+#include "render/people_pass.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <tuple>
+
+#include "base/error.h"
+#include "render/shaders.h"
+
+namespace throng::render {
+
+namespace {
+
+/// A vertex on the device: the population's, and what its part says.
+struct DeviceVertex {
+  skinning::Vertex vertex;
+  std::uint32_t part;  ///< texture layer, tint << 16
+};
+
+/// What differs between people; 64 bytes.
+struct Instance {
+  std::array<float, 3> position;
+  float yaw_rad;
+  std::uint32_t palette_a;
+  std::uint32_t palette_b;
+  std::uint32_t blend_bits;
+  std::uint32_t id;
+  std::array<std::uint32_t, 4> tints;
+  std::array<std::int32_t, 2> shift;
+  std::array<std::uint32_t, 2> unused;
+};
+static_assert(sizeof(Instance) == 64);
+
+using embedded::shader_light;
+using embedded::shader_person_frag;
+using embedded::shader_person_vert;
+using embedded::shader_view;
+
+constexpr std::string_view kShadow = "#define SHADOW\n";
+constexpr std::string_view kCoverage = "#define COVERAGE\n";
+constexpr std::string_view kAlphaTest = "#define ALPHA_TEST\n";
+
+VertexArray make_person_array(const Buffer& vertices, const Buffer& indices,
+                              const Buffer& instances) {
+  using skinning::Vertex;
+  VertexArray array = make_vertex_array();
+  describe_vertices(array, 0, vertices, sizeof(DeviceVertex), 0,
+                    {{0, 3, GL_FLOAT, false, offsetof(Vertex, position)},
+                     {1, 3, GL_FLOAT, false, offsetof(Vertex, normal)},
+                     {2, 2, GL_FLOAT, false, offsetof(Vertex, uv)},
+                     {3, 4, GL_UNSIGNED_BYTE, false, offsetof(Vertex, bones)},
+                     {4, 4, GL_UNSIGNED_BYTE, true, offsetof(Vertex, weights)},
+                     {5, 1, GL_UNSIGNED_INT, false, offsetof(DeviceVertex, part)}});
+  describe_vertices(array, 1, instances, sizeof(Instance), 1,
+                    {{6, 4, GL_FLOAT, false, offsetof(Instance, position)},
+                     {7, 4, GL_UNSIGNED_INT, false, offsetof(Instance, palette_a)},
+                     {8, 4, GL_UNSIGNED_INT, false, offsetof(Instance, tints)},
+                     {9, 2, GL_INT, false, offsetof(Instance, shift)}});
+  glVertexArrayElementBuffer(array.name(), indices.name());
+  return array;
+}
+
+/// Appends a part's triangles with its own copies of their vertices, since a vertex on the device
+/// belongs to one part.
+void append_part(const skinning::Mesh& mesh, const skinning::Part& part, std::uint32_t layer,
+                 std::uint32_t first_vertex, std::vector<DeviceVertex>& vertices,
+                 std::vector<std::uint32_t>& indices) {
+  constexpr std::uint32_t kUnseen = ~0U;
+  std::vector<std::uint32_t> copy_of(mesh.vertices.size(), kUnseen);
+  const std::uint32_t info = layer | (static_cast<std::uint32_t>(part.tint) << 16U);
+  for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
+    std::uint32_t& copy = copy_of[mesh.indices[i]];
+    if (copy == kUnseen) {
+      copy = static_cast<std::uint32_t>(vertices.size()) - first_vertex;
+      vertices.push_back({mesh.vertices[mesh.indices[i]], info});
+    }
+    indices.push_back(copy);
+  }
+}
+
+std::uint32_t packed(const std::array<std::uint8_t, 3>& srgb) {
+  return srgb[0] | (static_cast<std::uint32_t>(srgb[1]) << 8U) |
+         (static_cast<std::uint32_t>(srgb[2]) << 16U);
+}
+
+}  // namespace
+
+PeoplePass::PeoplePass(const skinning::Population& population)
+    : palettes_per_character_(population.palettes_per_character),
+      palettes_(make_buffer(population.palettes)),
+      instances_(make_buffer()) {
+  load_meshes(population);
+  load_textures(population);
+  array_ = make_person_array(vertices_, indices_, instances_);
+  const auto camera_program = [](std::string_view a, std::string_view b) {
+    return make_program({shader_view, shader_light, shader_person_vert},
+                        {a, b, shader_light, shader_person_frag});
+  };
+  picture_ = camera_program("", "");
+  picture_alpha_ = camera_program(kAlphaTest, "");
+  coverage_ = camera_program(kCoverage, "");
+  coverage_alpha_ = camera_program(kCoverage, kAlphaTest);
+  shadow_ = make_program({kShadow, shader_light, shader_person_vert}, {});
+  check_gl("loading people");
+}
+
+void PeoplePass::load_meshes(const skinning::Population& population) {
+  std::vector<DeviceVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  const auto white_layer = static_cast<std::uint32_t>(population.textures.size());
+  for (const skinning::Character& character : population.characters) {
+    std::vector<Level>& levels = levels_.emplace_back();
+    for (const skinning::Mesh& mesh : character.levels) {
+      Level level;
+      const auto first_vertex = static_cast<std::uint32_t>(vertices.size());
+      level.first_vertex = static_cast<std::int32_t>(first_vertex);
+      for (const bool alpha_tested : {false, true}) {
+        Range& range = alpha_tested ? level.alpha_tested : level.opaque;
+        range.first = static_cast<std::uint32_t>(indices.size());
+        for (const skinning::Part& part : mesh.parts) {
+          if (part.alpha_tested != alpha_tested) continue;
+          append_part(mesh, part,
+                      part.texture < 0 ? white_layer : static_cast<std::uint32_t>(part.texture),
+                      first_vertex, vertices, indices);
+        }
+        range.count = static_cast<std::uint32_t>(indices.size()) - range.first;
+      }
+      levels.push_back(level);
+    }
+  }
+  vertices_ = make_buffer(vertices);
+  indices_ = make_buffer(indices);
+}
+
+void PeoplePass::load_textures(const skinning::Population& population) {
+  const int size = std::max(population.texture_size, 1);
+  const auto layers = static_cast<GLsizei>(population.textures.size() + 1);
+  textures_ = make_texture(GL_TEXTURE_2D_ARRAY);
+  const GLuint name = textures_.name();
+  const auto mip_levels = std::bit_width(static_cast<unsigned>(size));
+  glTextureStorage3D(name, mip_levels, GL_SRGB8_ALPHA8, size, size, layers);
+  const auto upload = [&](GLint layer, const std::vector<std::uint8_t>& rgba) {
+    glTextureSubImage3D(name, 0, 0, 0, layer, size, size, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                        rgba.data());
+  };
+  for (GLint layer = 0; layer + 1 < layers; ++layer) {
+    upload(layer, population.textures[static_cast<std::size_t>(layer)].rgba);
+  }
+  const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+  upload(layers - 1, std::vector<std::uint8_t>(texels * 4, 255));  // parts without a texture
+  glGenerateTextureMipmap(name);
+  glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+}
+
+std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance> people,
+                                                  const std::vector<PersonDraw>& draws) {
+  std::vector<Instance> instances;
+  instances.reserve(draws.size());
+  std::vector<Batch> batches;
+  for (const PersonDraw& draw : draws) {
+    const PersonInstance& person = people[draw.person];
+    const std::uint32_t character = person.appearance.character;
+    check(character < levels_.size() && draw.level < levels_[character].size() &&
+              std::max(person.pose.a, person.pose.b) < palettes_per_character_,
+          "people use characters and palettes that the population has");
+    const std::uint32_t first_palette = character * palettes_per_character_;
+    const auto& tint = person.appearance.tint;
+    const Level* level = &levels_[character][draw.level];
+    if (batches.empty() || batches.back().level != level) {
+      batches.push_back({level, static_cast<std::uint32_t>(instances.size()), 0});
+    }
+    ++batches.back().count;
+    instances.push_back({{person.position.x(), person.position.y(), person.position.z()},
+                         person.yaw_rad,
+                         first_palette + person.pose.a,
+                         first_palette + person.pose.b,
+                         std::bit_cast<std::uint32_t>(person.pose.blend),
+                         id_of_agent(person.agent),
+                         {packed(tint[1]), packed(tint[2]), packed(tint[3]), packed(tint[4])},
+                         draw.shift,
+                         {}});
+  }
+  glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
+                    instances.data(), GL_STREAM_DRAW);
+  return batches;
+}
+
+void PeoplePass::draw_batches(const std::vector<Batch>& batches, Range Level::*range) const {
+  for (const Batch& batch : batches) {
+    const Range& triangles = batch.level->*range;
+    if (triangles.count == 0) continue;
+    const std::size_t offset = triangles.first * sizeof(std::uint32_t);
+    glDrawElementsInstancedBaseVertexBaseInstance(
+        GL_TRIANGLES, static_cast<GLsizei>(triangles.count), GL_UNSIGNED_INT,
+        reinterpret_cast<const void*>(offset),  // NOLINT(performance-no-int-to-ptr): GL's interface
+        static_cast<GLsizei>(batch.count), batch.level->first_vertex, batch.first);
+  }
+}
+
+void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
+                      std::vector<PersonDraw> draws) {
+  if (draws.empty()) return;
+  const auto key = [&](const PersonDraw& draw) {
+    const PersonInstance& person = people[draw.person];
+    return std::tuple(draw.level, person.appearance.character, draw.depth_m, person.agent,
+                      draw.shift);
+  };
+  std::sort(draws.begin(), draws.end(),
+            [&](const PersonDraw& a, const PersonDraw& b) { return key(a) < key(b); });
+  const std::vector<Batch> batches = upload(people, draws);
+  glBindVertexArray(array_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, palettes_.name());
+  glBindTextureUnit(0, textures_.name());
+  if (purpose == Purpose::shadow) {
+    glDisable(GL_CULL_FACE);
+    glUseProgram(shadow_.name());
+    draw_batches(batches, &Level::opaque);
+    draw_batches(batches, &Level::alpha_tested);
+    return;
+  }
+  const bool picture = purpose == Purpose::picture;
+  glEnable(GL_CULL_FACE);
+  glUseProgram(picture ? picture_.name() : coverage_.name());
+  draw_batches(batches, &Level::opaque);
+  glDisable(GL_CULL_FACE);
+  glUseProgram(picture ? picture_alpha_.name() : coverage_alpha_.name());
+  draw_batches(batches, &Level::alpha_tested);
+}
+
+}  // namespace throng::render

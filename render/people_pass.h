@@ -1,0 +1,71 @@
+// Draws people with instanced GPU skinning: for the picture, into the shadow map, or as bare
+// silhouettes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/gl_objects.h"
+#include "render/place.h"
+#include "render/renderer.h"
+#include "skinning/population.h"
+
+namespace throng::render {
+
+/// One person in one draw.
+struct PersonDraw {
+  std::uint32_t person = 0;             ///< index into the scene's people
+  std::uint32_t level = 0;              ///< of detail
+  float depth_m = 0;                    ///< nearer ones are drawn first
+  std::array<std::int32_t, 2> shift{};  ///< pixels to move it by, right and down
+};
+
+/// Holds every character's meshes, palettes and textures on the device. Expects the View and Light
+/// blocks, the shadow map and the target to be bound.
+class PeoplePass {
+ public:
+  explicit PeoplePass(const skinning::Population& population);
+
+  enum class Purpose { picture, shadow, coverage };
+
+  /// Draws level by level, near to far within a character. The order is a function of `draws`'
+  /// values, so equal scenes give equal pixels.
+  void draw(Purpose purpose, std::span<const PersonInstance> people, std::vector<PersonDraw> draws);
+
+ private:
+  struct Level {
+    std::int32_t first_vertex = 0;
+    Range opaque;
+    Range alpha_tested;
+  };
+  /// People drawn by one call.
+  struct Batch {
+    const Level* level;
+    std::uint32_t first;
+    std::uint32_t count;
+  };
+
+  void load_meshes(const skinning::Population& population);
+  void load_textures(const skinning::Population& population);
+  std::vector<Batch> upload(std::span<const PersonInstance> people,
+                            const std::vector<PersonDraw>& draws);
+  void draw_batches(const std::vector<Batch>& batches, Range Level::*range) const;
+
+  std::vector<std::vector<Level>> levels_;  ///< [character][level]
+  std::uint32_t palettes_per_character_;
+  Buffer vertices_;
+  Buffer indices_;
+  Buffer palettes_;
+  Buffer instances_;
+  VertexArray array_;
+  Texture textures_;
+  Program picture_;
+  Program picture_alpha_;
+  Program shadow_;
+  Program coverage_;
+  Program coverage_alpha_;
+};
+
+}  // namespace throng::render

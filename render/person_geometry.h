@@ -1,0 +1,31 @@
+// A person's mesh on the CPU: the same skinning and projection as shaders/person.vert.glsl, for the
+// ground truth that is measured rather than drawn.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "camera/camera.h"
+#include "render/renderer.h"
+#include "skinning/population.h"
+
+namespace throng::render {
+
+/// Mid-head height of a standing person as a share of stature.
+inline constexpr float kHeadShare = 0.93F;
+
+/// The blend of the instance's two palettes.
+skinning::Palette blended_palette(const skinning::Population& population,
+                                  const PersonInstance& person);
+
+/// The middle of the head as posed (m, world).
+Eigen::Vector3d head_position(const skinning::Palette& palette, const PersonInstance& person,
+                              float stature_m);
+
+/// Bounds of the projected mesh in box coordinates. Parts behind the near plane are cut off; what
+/// remains is limited to three times the image around its middle, where somebody right at the
+/// camera would otherwise reach thousands of pixels out. Empty if everything is behind.
+Eigen::AlignedBox2d projected_box(const skinning::Mesh& mesh, const skinning::Palette& palette,
+                                  const PersonInstance& person, const camera::Camera& camera);
+
+}  // namespace throng::render

@@ -1,0 +1,42 @@
+// The place as triangles: ground, plain around it, walls and roofs. No GL here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "world/scenario.h"
+
+namespace throng::render {
+
+struct PlaceVertex {
+  std::array<float, 3> position{};  ///< m
+  std::array<float, 3> normal{};
+  /// Walls: along the wall, up, wall length, wall height. Roofs: from the corner of the roof's
+  /// bounds, then their size. In metres.
+  std::array<float, 4> local{};
+  float openness = 1;    ///< share of the sky's light that reaches the ground here, 0 to 1
+  std::uint32_t id = 0;  ///< what the id buffer gets
+};
+
+/// A run of triangles that share a shader.
+struct Range {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+struct PlaceMesh {
+  std::vector<PlaceVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< counter-clockwise seen from outside
+  Range walls;
+  Range roofs;
+  Range ground;
+  Range surroundings;  ///< the plain beyond the ground's edge, to the horizon
+};
+
+PlaceMesh place_mesh(const world::Scenario& scenario);
+
+/// Height of the tallest building, but at least of a person with raised arms (m).
+double tallest_m(const world::Scenario& scenario);
+
+}  // namespace throng::render

@@ -1,0 +1,88 @@
+#include "render/place_pass.h"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+#include "render/shaders.h"
+
+namespace throng::render {
+
+namespace {
+
+using embedded::shader_light;
+using embedded::shader_noise;
+using embedded::shader_place_vert;
+using embedded::shader_view;
+
+std::string_view ground_material(const world::Scenario& scenario) {
+  const std::array<std::pair<std::string_view, std::string_view>, 4> materials = {{
+      {"pavers", embedded::shader_ground_pavers},
+      {"asphalt", embedded::shader_ground_asphalt},
+      {"grass", embedded::shader_ground_grass},
+      {"concrete", embedded::shader_ground_concrete},
+  }};
+  for (const auto& [name, text] : materials) {
+    if (name == scenario.ground_material) return text;
+  }
+  throw InputError(Problem{scenario.id, "ground material", '"' + scenario.ground_material + '"',
+                           R"("pavers", "asphalt", "grass" or "concrete")"});
+}
+
+Program make_place_program(std::initializer_list<std::string_view> fragment) {
+  return make_program({shader_view, shader_place_vert}, fragment);
+}
+
+Program make_ground_program(std::string_view material) {
+  return make_place_program({shader_light, shader_noise, material, embedded::shader_ground_frag});
+}
+
+}  // namespace
+
+PlacePass::PlacePass(const world::Scenario& scenario)
+    : mesh_(place_mesh(scenario)),
+      vertices_(make_buffer(mesh_.vertices)),
+      indices_(make_buffer(mesh_.indices)),
+      array_(make_vertex_array()),
+      walls_(make_place_program({shader_light, shader_noise, embedded::shader_wall_frag})),
+      roofs_(make_place_program({shader_light, shader_noise, embedded::shader_roof_frag})),
+      ground_(make_ground_program(ground_material(scenario))),
+      surroundings_(make_ground_program(embedded::shader_ground_surroundings)),
+      shadow_(make_program({shader_light, embedded::shader_place_shadow_vert}, {})) {
+  describe_vertices(array_, 0, vertices_, sizeof(PlaceVertex), 0,
+                    {{0, 3, GL_FLOAT, false, offsetof(PlaceVertex, position)},
+                     {1, 3, GL_FLOAT, false, offsetof(PlaceVertex, normal)},
+                     {2, 4, GL_FLOAT, false, offsetof(PlaceVertex, local)},
+                     {3, 1, GL_FLOAT, false, offsetof(PlaceVertex, openness)},
+                     {4, 1, GL_UNSIGNED_INT, false, offsetof(PlaceVertex, id)}});
+  glVertexArrayElementBuffer(array_.name(), indices_.name());
+  check_gl("loading the place");
+}
+
+void PlacePass::draw_range(const Program& program, const Range& range) const {
+  if (range.count == 0) return;
+  glUseProgram(program.name());
+  const std::size_t offset = range.first * sizeof(std::uint32_t);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(range.count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
+}
+
+void PlacePass::draw() const {
+  glEnable(GL_CULL_FACE);
+  glBindVertexArray(array_.name());
+  draw_range(walls_, mesh_.walls);
+  draw_range(roofs_, mesh_.roofs);
+  draw_range(ground_, mesh_.ground);
+  draw_range(surroundings_, mesh_.surroundings);
+}
+
+void PlacePass::draw_shadow() const {
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(array_.name());
+  draw_range(shadow_, mesh_.walls);
+  draw_range(shadow_, mesh_.roofs);
+}
+
+}  // namespace throng::render

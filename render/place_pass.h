@@ -1,0 +1,38 @@
+// Draws ground and buildings.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "render/gl_objects.h"
+#include "render/place.h"
+#include "world/scenario.h"
+
+namespace throng::render {
+
+class PlacePass {
+ public:
+  /// Throws InputError when the scenario names a ground material that does not exist.
+  explicit PlacePass(const world::Scenario& scenario);
+
+  /// Expects the View and Light blocks, the shadow map and the target to be bound.
+  void draw() const;
+
+  /// Buildings into the shadow map.
+  void draw_shadow() const;
+
+ private:
+  void draw_range(const Program& program, const Range& range) const;
+
+  PlaceMesh mesh_;
+  Buffer vertices_;
+  Buffer indices_;
+  VertexArray array_;
+  Program walls_;
+  Program roofs_;
+  Program ground_;
+  Program surroundings_;
+  Program shadow_;
+};
+
+}  // namespace throng::render

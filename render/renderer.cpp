@@ -1,0 +1,243 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "render/context.h"
+#include "render/coverage.h"
+#include "render/gl_objects.h"
+#include "render/lighting.h"
+#include "render/people_pass.h"
+#include "render/person_geometry.h"
+#include "render/place_pass.h"
+#include "render/shadow_map.h"
+#include "render/target.h"
+#include "render/view.h"
+
+namespace throng::render {
+
+namespace {
+
+/// A sphere about a person's middle, as a share of stature, that holds any pose.
+constexpr double kReach = 1.2;
+
+/// People cast shadows at this level of detail: a shadow shows no more.
+constexpr std::size_t kShadowLevel = 2;
+
+/// A person who may be in view, and what was measured so far.
+struct Seen {
+  PersonDraw draw;
+  PersonInView truth;
+};
+
+Eigen::AlignedBox2d image_box(const camera::Camera& camera) {
+  return {Eigen::Vector2d::Zero(),
+          Eigen::Vector2d(camera.intrinsics.width, camera.intrinsics.height)};
+}
+
+/// Whole pixels that a box touches, and one more on each side for the rasteriser's rounding.
+Eigen::AlignedBox2i pixels_of(const Eigen::AlignedBox2d& box) {
+  return {box.min().array().floor().cast<int>() - 1, box.max().array().ceil().cast<int>() + 1};
+}
+
+/// What the id buffer says of one person: pixels that are theirs, and whether anything that could
+/// hide more of them shows in their bounds.
+struct Visible {
+  std::uint64_t pixels = 0;
+  bool alone = true;
+};
+
+Visible visible_in(const Frame& frame, std::uint32_t id, const Eigen::AlignedBox2i& bounds) {
+  const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
+                                  Eigen::Vector2i(frame.width(), frame.height()));
+  const Eigen::AlignedBox2i box = bounds.intersection(image);
+  Visible visible;
+  for (int y = box.min().y(); y < box.max().y(); ++y) {
+    for (int x = box.min().x(); x < box.max().x(); ++x) {
+      const std::uint32_t here =
+          frame.id[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
+                   static_cast<std::size_t>(x)];
+      visible.pixels += here == id ? 1 : 0;
+      visible.alone &= here == id || here == kIdGround || here == kIdNothing;
+    }
+  }
+  visible.alone &= image.contains(bounds);
+  return visible;
+}
+
+}  // namespace
+
+struct Renderer::State {
+  State(const world::Scenario& scenario, const skinning::Population& people, const Lighting& light,
+        const DeviceChoice& device);
+  ~State();
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  std::vector<Seen> find_seen(const Scene& scene, const camera::Camera& camera) const;
+  void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area);
+  void draw_picture(const Scene& scene, const camera::Camera& camera,
+                    const std::vector<Seen>& seen);
+  void measure_coverage(const Scene& scene, const camera::Camera& camera, const Frame& frame,
+                        std::vector<Seen>& seen);
+
+  Context context;  // first: everything below needs it, also to be destroyed
+  const skinning::Population* population;
+  Lighting lighting;
+  Eigen::AlignedBox2d ground;
+  double tallest;
+  PlacePass place;
+  PeoplePass people_pass;
+  ShadowMap shadow_map;
+  CoverageCounter coverage;
+  Buffer view_buffer;
+  Buffer light_buffer;
+  std::optional<Target> target;
+};
+
+Renderer::State::State(const world::Scenario& scenario, const skinning::Population& people,
+                       const Lighting& light, const DeviceChoice& device)
+    : context(device.name),
+      population(&people),
+      lighting(light),
+      ground(scenario.ground.min, scenario.ground.max),
+      tallest(tallest_m(scenario)),
+      place(scenario),
+      people_pass(people),
+      view_buffer(make_buffer()),
+      light_buffer(make_buffer()) {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  // Image rows grow downwards and GL's window upwards, so that rows read back top-down; what is
+  // counter-clockwise in the world is then clockwise in the window.
+  glFrontFace(GL_CW);
+  glDepthFunc(GL_GREATER);
+  check_gl("setting up");
+}
+
+Renderer::State::~State() { context.make_current(); }
+
+std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
+                                             const camera::Camera& camera) const {
+  const ClipPlanes planes = clip_planes(camera);
+  const Eigen::AlignedBox2d image = image_box(camera);
+  std::vector<Seen> seen;
+  for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
+    const PersonInstance& person = scene.people[i];
+    check(person.appearance.character < population->characters.size() &&
+              std::max(person.pose.a, person.pose.b) < population->palettes_per_character,
+          "people use characters and palettes that the population has");
+    const skinning::Character& character = population->characters[person.appearance.character];
+    const Eigen::Vector3d position = person.position.cast<double>();
+    const Eigen::Vector3d middle = position + Eigen::Vector3d(0, 0, 0.5 * character.stature_m);
+    if (is_outside(planes, middle, kReach * character.stature_m)) continue;
+    const double depth = std::max<double>(camera.project(middle).depth_m, kNear);
+    const std::size_t level = level_of_detail(camera.intrinsics.fy_px * character.stature_m / depth,
+                                              character.levels.size());
+    const skinning::Palette palette = blended_palette(*population, person);
+    const Eigen::AlignedBox2d box = projected_box(character.levels[level], palette, person, camera);
+    if (box.isEmpty() || !box.intersects(image)) continue;
+    seen.push_back({{i, static_cast<std::uint32_t>(level), static_cast<float>(depth), {}},
+                    {person.agent, position, head_position(palette, person, character.stature_m),
+                     person.velocity.cast<double>(), person.yaw_rad, character.stature_m, box, 0}});
+  }
+  std::sort(seen.begin(), seen.end(),
+            [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });
+  return seen;
+}
+
+void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area) {
+  const Eigen::Vector2d slope = shadow_slope(lighting);
+  std::vector<PersonDraw> casters;
+  for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
+    const PersonInstance& person = scene.people[i];
+    const skinning::Character& character = population->characters[person.appearance.character];
+    const double reach = kReach * character.stature_m;
+    Eigen::AlignedBox2d shade(person.position.head<2>().cast<double>());
+    shade.extend(Eigen::Vector2d(shade.min() - slope * reach));
+    shade = {shade.min().array() - reach, shade.max().array() + reach};
+    if (!shade.intersects(area)) continue;
+    casters.push_back(
+        {i,
+         static_cast<std::uint32_t>(std::min(kShadowLevel, character.levels.size() - 1)),
+         0,
+         {}});
+  }
+  shadow_map.begin();
+  place.draw_shadow();
+  people_pass.draw(PeoplePass::Purpose::shadow, scene.people, std::move(casters));
+}
+
+void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& camera,
+                                   const std::vector<Seen>& seen) {
+  const camera::Intrinsics& k = camera.intrinsics;
+  if (!target || target->width() != k.width || target->height() != k.height) {
+    target.reset();
+    target.emplace(k.width, k.height);
+  }
+  const Eigen::AlignedBox2d area =
+      shadow_area(clip_planes(camera), ground, tallest, shadow_slope(lighting));
+  const LightBlock light = light_block(lighting, area, tallest);
+  const ViewBlock view = view_block(camera, guarded_viewport(k.width, k.height));
+  glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
+  glNamedBufferData(view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
+  glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
+  glEnable(GL_DEPTH_TEST);
+  draw_shadows(scene, area);
+  shadow_map.bind();
+  target->begin(sky_colour(light));
+  std::vector<PersonDraw> draws;
+  for (const Seen& person : seen) draws.push_back(person.draw);
+  // People first: they are many small triangles, and hide ground that then costs nothing.
+  people_pass.draw(PeoplePass::Purpose::picture, scene.people, std::move(draws));
+  place.draw();
+}
+
+void Renderer::State::measure_coverage(const Scene& scene, const camera::Camera& camera,
+                                       const Frame& frame, std::vector<Seen>& seen) {
+  std::vector<std::size_t> measured;
+  std::vector<CoverageRequest> requests;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    PersonInView& truth = seen[i].truth;
+    const Eigen::AlignedBox2i bounds = pixels_of(truth.amodal_box);
+    const Visible visible = visible_in(frame, id_of_agent(truth.agent), bounds);
+    truth.amodal_area_px = visible.pixels;
+    if (visible.alone) continue;  // nothing but ground and sky around: all of them is visible
+    measured.push_back(i);
+    requests.push_back({seen[i].draw, bounds});
+  }
+  const std::vector<std::uint64_t> counts =
+      coverage.count(people_pass, scene.people, requests, camera);
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    // A texel at the threshold of an alpha test may round differently in a tile; what is visible is
+    // covered all the same.
+    std::uint64_t& area = seen[measured[i]].truth.amodal_area_px;
+    area = std::max(area, counts[i]);
+  }
+}
+
+Renderer::Renderer(const world::Scenario& scenario, const skinning::Population& population,
+                   const Lighting& lighting, const DeviceChoice& device)
+    : state_(std::make_unique<State>(scenario, population, lighting, device)) {}
+
+Renderer::~Renderer() = default;
+
+Frame Renderer::draw(const Scene& scene, const camera::Camera& camera) {
+  state_->context.make_current();
+  std::vector<Seen> seen = state_->find_seen(scene, camera);
+  state_->draw_picture(scene, camera, seen);
+  Frame frame;
+  frame.index = scene.index;
+  frame.time_s = scene.time_s;
+  frame.camera = camera;
+  state_->target->read(frame);
+  state_->measure_coverage(scene, camera, frame, seen);
+  check_gl("drawing a frame");
+  for (Seen& person : seen) frame.people.push_back(std::move(person.truth));
+  return frame;
+}
+
+std::string Renderer::device_description() const { return state_->context.description(); }
+
+}  // namespace throng::render

@@ -1,0 +1,24 @@
+// The texts of shaders/, compiled into the program.
+#pragma once
+
+#include <string_view>
+
+namespace throng::embedded {
+
+extern const std::string_view shader_view;
+extern const std::string_view shader_light;
+extern const std::string_view shader_noise;
+extern const std::string_view shader_person_vert;
+extern const std::string_view shader_person_frag;
+extern const std::string_view shader_place_vert;
+extern const std::string_view shader_place_shadow_vert;
+extern const std::string_view shader_ground_frag;
+extern const std::string_view shader_ground_pavers;
+extern const std::string_view shader_ground_asphalt;
+extern const std::string_view shader_ground_grass;
+extern const std::string_view shader_ground_concrete;
+extern const std::string_view shader_ground_surroundings;
+extern const std::string_view shader_wall_frag;
+extern const std::string_view shader_roof_frag;
+
+}  // namespace throng::embedded

@@ -1,0 +1,21 @@
+// Ground and buildings, in world coordinates.
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal_in;
+layout(location = 2) in vec4 local_in;
+layout(location = 3) in float openness_in;
+layout(location = 4) in uint id_in;
+
+out vec3 world;
+out float openness;
+out vec4 local;
+flat out vec3 normal;
+flat out uint id;
+
+void main() {
+  world = position;
+  openness = openness_in;
+  local = local_in;
+  normal = normal_in;
+  id = id_in;
+  gl_Position = project(position, ivec2(0));
+}

@@ -1,0 +1,100 @@
+// A facade: plaster or brick, floors, a grid of windows with reveals, a plinth and a cornice.
+in vec3 world;
+in float openness;
+in vec4 local;  // along the wall, up, wall length, wall height; m
+flat in vec3 normal;
+flat in uint id;
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint instance;
+
+struct Surface {
+  vec3 albedo;
+  vec3 shine;  // mirrored sky
+};
+
+vec3 render_colour(float pick) {
+  const vec3 kPlaster[5] = vec3[](vec3(0.56, 0.50, 0.40), vec3(0.60, 0.57, 0.51),
+                                  vec3(0.52, 0.40, 0.29), vec3(0.45, 0.45, 0.43),
+                                  vec3(0.58, 0.47, 0.36));
+  return kPlaster[int(pick * 4.999)];
+}
+
+vec3 brick_colour(vec2 p, vec2 width) {
+  const vec2 kBrick = vec2(0.25, 0.08);
+  float row = floor(p.y / kBrick.y);
+  vec2 brick = vec2(p.x / kBrick.x + 0.5 * mod(row, 2.0), p.y / kBrick.y);
+  vec2 brick_width = width / kBrick;
+  float mortar = max(stripes(brick.x, 0.05, brick_width.x), stripes(brick.y, 0.15, brick_width.y));
+  float fade = clamp(1.5 - 1.5 * max(brick_width.x, brick_width.y), 0.0, 1.0);
+  float tone = (hash(ivec2(floor(brick))) - 0.5) * fade;
+  vec3 albedo = vec3(0.30, 0.155, 0.10) * (1.0 + 0.5 * tone);
+  return mix(albedo, vec3(0.42, 0.40, 0.36), mortar);
+}
+
+// Window panes with a light frame; `cell` names the window, `p` is relative to its middle bottom.
+void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width) {
+  const float kFrame = 0.09;
+  const float kReveal = 0.16;
+  float opening = band(p.x, -half_size.x, half_size.x, width.x) *
+                  band(p.y, 0.0, 2.0 * half_size.y, width.y);
+  float pane_x = band(p.x, -half_size.x + kFrame, -0.03, width.x) +
+                 band(p.x, 0.03, half_size.x - kFrame, width.x);
+  float pane = pane_x * band(p.y, kFrame, 2.0 * half_size.y - kFrame, width.y);
+  float pick = hash(cell);
+  float curtain = step(0.55, pick) * band(p.y, 2.0 * half_size.y * (1.1 - pick), 9.0, width.y);
+  vec3 inside = mix(vec3(0.025, 0.03, 0.035), vec3(0.30, 0.28, 0.25) * pick, 0.8 * curtain);
+  // The lintel shades the top of the opening.
+  float shade = 1.0 - 0.6 * band(p.y, 2.0 * half_size.y - kReveal, 9.0, width.y);
+  s.albedo = mix(s.albedo, vec3(0.50, 0.49, 0.46) * shade, opening);
+  s.albedo = mix(s.albedo, inside * shade, pane);
+  s.shine += pane * shade * (0.25 + 0.35 * hash(cell + 101)) * vec3(1.0);
+  float sill = band(p.x, -half_size.x - 0.1, half_size.x + 0.1, width.x) *
+               band(p.y, -0.12, 0.0, width.y);
+  float below = band(p.x, -half_size.x, half_size.x, width.x) * band(p.y, -0.25, -0.12, width.y);
+  s.albedo = mix(s.albedo, vec3(0.55, 0.53, 0.49), sill);
+  s.albedo *= 1.0 - 0.25 * below;
+}
+
+Surface facade(vec2 p, vec2 size, uint building) {
+  vec2 width = fwidth(p);
+  ivec2 key = ivec2(int(building), 3);
+  float floors = max(1.0, round(size.y / 3.3));
+  float bays = max(1.0, round(size.x / 2.8));
+  vec2 bay = vec2(size.x / bays, size.y / floors);
+  ivec2 cell = ivec2(min(floor(p / bay), vec2(bays, floors) - 1.0));
+  vec2 within = p - (vec2(cell) + vec2(0.5, 0.0)) * bay;
+  bool ground_floor = cell.y == 0;
+  float stain = noise(p * vec2(0.7, 0.25)) - 0.5;
+
+  Surface s;
+  s.shine = vec3(0.0);
+  bool brick = hash(key) < 0.4;
+  s.albedo = brick && !ground_floor ? brick_colour(p, width) : render_colour(hash(key + 31));
+  s.albedo *= 1.0 + 0.12 * stain;
+  vec2 half_size = ground_floor ? vec2(0.36 * bay.x, 0.37 * bay.y) : vec2(0.6, 0.25 * bay.y);
+  float sill_height = ground_floor ? 0.35 : 0.29 * bay.y;
+  add_window(s, cell + 13 * key, within - vec2(0.0, sill_height), half_size, width);
+  // A string course above the ground floor, a plinth and a cornice.
+  float course = band(p.y, bay.y - 0.22, bay.y, width.y);
+  float cornice = band(p.y, size.y - 0.45, size.y, width.y);
+  float under_cornice = band(p.y, size.y - 0.75, size.y - 0.45, width.y);
+  float plinth = band(p.y, -1.0, 0.3, width.y);
+  s.albedo = mix(s.albedo, vec3(0.57, 0.54, 0.49), max(course, cornice));
+  s.albedo = mix(s.albedo, vec3(0.24, 0.235, 0.23), plinth);
+  s.albedo *= 1.0 - 0.35 * under_cornice;
+  s.shine *= (1.0 - plinth) * (1.0 - max(course, cornice));
+  return s;
+}
+
+void main() {
+  Surface s = facade(local.xy, local.zw, id & 0xFFFFu);
+  float facing = max(dot(normal, light.sun_direction.xyz), 0.0);
+  // Walls stand off their own shadow by more than a texel of the map.
+  float sun = facing * sunlit(world + 0.12 * normal, 0.02);
+  float low = clamp(local.y / 4.0, 0.0, 1.0);
+  vec3 ambient = light.sky.rgb * (0.42 + 0.13 * low) + light.bounce.rgb * (0.5 - 0.2 * low);
+  vec3 radiance = s.albedo * (light.sun.rgb * sun + ambient) + s.shine * light.sky.rgb * 0.5;
+  colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
+  instance = id;
+}

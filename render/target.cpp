@@ -1,0 +1,90 @@
+#include "render/target.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "base/error.h"
+#include "render/view.h"
+
+namespace throng::render {
+
+namespace {
+
+int size_within_limits(int width, int height) {
+  GLint texture = 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  const int limit = std::min({texture, viewport[0] - 2 * kGuardBand, viewport[1] - 2 * kGuardBand});
+  if (std::min(width, height) < 1 || std::max(width, height) > limit) {
+    throw EnvironmentError(
+        fmt::format("cannot draw an image of {} x {} pixels: this device draws up to {} x {}",
+                    width, height, limit, limit));
+  }
+  return width;
+}
+
+/// Drops the fourth byte of each pixel; four pixels at a time are three words.
+void pack_rgb(const std::vector<std::uint32_t>& rgba, std::vector<std::uint8_t>& rgb) {
+  static_assert(std::endian::native == std::endian::little);
+  constexpr std::uint32_t kColour = 0xFFFFFFU;
+  rgb.resize(rgba.size() * 3);
+  std::size_t i = 0;
+  for (; i + 4 <= rgba.size(); i += 4) {
+    const std::uint32_t a = rgba[i] & kColour;
+    const std::uint32_t b = rgba[i + 1] & kColour;
+    const std::uint32_t c = rgba[i + 2] & kColour;
+    const std::uint32_t d = rgba[i + 3];
+    const std::array<std::uint32_t, 3> words = {a | (b << 24U), (b >> 8U) | (c << 16U),
+                                                (c >> 16U) | (d << 8U)};
+    std::memcpy(&rgb[i * 3], words.data(), sizeof(words));
+  }
+  for (; i < rgba.size(); ++i) std::memcpy(&rgb[i * 3], &rgba[i], 3);
+}
+
+}  // namespace
+
+Target::Target(int width, int height)
+    : width_(size_within_limits(width, height)),
+      height_(height),
+      colour_(make_texture_2d(GL_RGBA8, width, height)),
+      id_(make_texture_2d(GL_R32UI, width, height)),
+      depth_(make_texture_2d(GL_DEPTH_COMPONENT32F, width, height)) {
+  check_gl("making the image buffers");
+  framebuffer_ = make_framebuffer({colour_.name(), id_.name()}, depth_.name());
+}
+
+void Target::begin(const Eigen::Vector3f& sky) const {
+  const GLuint name = framebuffer_.name();
+  glBindFramebuffer(GL_FRAMEBUFFER, name);
+  const Viewport viewport = guarded_viewport(width_, height_);
+  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  const std::array<float, 4> colour = {sky.x(), sky.y(), sky.z(), 1.0F};
+  const std::array<GLuint, 4> nothing = {kIdNothing, 0, 0, 0};
+  const float infinitely_far = 0.0F;
+  glClearNamedFramebufferfv(name, GL_COLOR, 0, colour.data());
+  glClearNamedFramebufferuiv(name, GL_COLOR, 1, nothing.data());
+  glClearNamedFramebufferfv(name, GL_DEPTH, 0, &infinitely_far);
+}
+
+void Target::read(Frame& frame) const {
+  const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  std::vector<std::uint32_t> rgba(pixels);
+  frame.id.resize(pixels);
+  frame.depth_m.resize(pixels);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, frame.id.data());
+  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, frame.depth_m.data());
+  pack_rgb(rgba, frame.rgb);
+  // Depth is stored as kNear / z, 0 where nothing was drawn: that becomes infinity here.
+  for (float& depth : frame.depth_m) depth = kNear / depth;
+}
+
+}  // namespace throng::render

@@ -1,0 +1,93 @@
+#include "render/view.h"
+
+#include <algorithm>
+
+namespace throng::render {
+
+namespace {
+
+std::array<float, 4> four(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
+}
+
+/// Cuts a convex polygon at height z by one half-space (Sutherland and Hodgman).
+std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon, double z,
+                                     const Eigen::Vector4d& plane) {
+  const auto distance = [&](const Eigen::Vector2d& p) {
+    return plane.x() * p.x() + plane.y() * p.y() + plane.z() * z + plane.w();
+  };
+  std::vector<Eigen::Vector2d> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& from = polygon[i];
+    const Eigen::Vector2d& to = polygon[(i + 1) % polygon.size()];
+    const double a = distance(from);
+    const double b = distance(to);
+    if (a >= 0) kept.push_back(from);
+    if ((a >= 0) != (b >= 0)) kept.emplace_back(from + (to - from) * (a / (a - b)));
+  }
+  return kept;
+}
+
+}  // namespace
+
+Viewport guarded_viewport(int width, int height) {
+  return {-kGuardBand, -kGuardBand, width + 2 * kGuardBand, height + 2 * kGuardBand};
+}
+
+ViewBlock view_block(const camera::Camera& camera, const Viewport& viewport) {
+  const camera::Intrinsics& k = camera.intrinsics;
+  ViewBlock block;
+  block.right = four(camera.pose.R.row(0));
+  block.down = four(camera.pose.R.row(1));
+  block.forward = four(camera.pose.R.row(2));
+  block.centre = four(camera.pose.centre());
+  // OpenCV counts from the middle of the first pixel, GL from its corner.
+  block.focal = {static_cast<float>(k.fx_px), static_cast<float>(k.fy_px),
+                 static_cast<float>(k.cx_px + 0.5), static_cast<float>(k.cy_px + 0.5)};
+  block.viewport = {static_cast<float>(viewport.x), static_cast<float>(viewport.y),
+                    2.0F / static_cast<float>(viewport.width),
+                    2.0F / static_cast<float>(viewport.height)};
+  return block;
+}
+
+ClipPlanes clip_planes(const camera::Camera& camera) {
+  const camera::Intrinsics& k = camera.intrinsics;
+  const Eigen::Matrix3d& r = camera.pose.R;
+  const Eigen::Vector3d& t = camera.pose.t;
+  // In the camera's frame; the image spans [-0.5, size - 0.5] in OpenCV's pixels.
+  const std::array<Eigen::Vector3d, 4> sides = {
+      Eigen::Vector3d(k.fx_px, 0, k.cx_px + 0.5),
+      Eigen::Vector3d(-k.fx_px, 0, k.width - 0.5 - k.cx_px),
+      Eigen::Vector3d(0, k.fy_px, k.cy_px + 0.5),
+      Eigen::Vector3d(0, -k.fy_px, k.height - 0.5 - k.cy_px)};
+  ClipPlanes planes;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Eigen::Vector3d n = sides[i].normalized();
+    planes[i] << r.transpose() * n, n.dot(t);
+  }
+  planes[4] << r.row(2).transpose(), t.z() - kNear;
+  return planes;
+}
+
+bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& centre, double radius_m) {
+  return std::any_of(planes.begin(), planes.end(), [&](const Eigen::Vector4d& plane) {
+    return plane.head<3>().dot(centre) + plane.w() < -radius_m;
+  });
+}
+
+Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedBox2d& area,
+                                 double z) {
+  std::vector<Eigen::Vector2d> polygon = {
+      area.min(), {area.max().x(), area.min().y()}, area.max(), {area.min().x(), area.max().y()}};
+  for (const Eigen::Vector4d& plane : planes) polygon = clipped(polygon, z, plane);
+  Eigen::AlignedBox2d bounds;
+  for (const Eigen::Vector2d& corner : polygon) bounds.extend(corner);
+  return bounds;
+}
+
+std::size_t level_of_detail(double height_px, std::size_t levels) {
+  const std::size_t wanted = height_px > 160 ? 0 : height_px > 60 ? 1 : height_px > 25 ? 2 : 3;
+  return std::min(wanted, levels - 1);
+}
+
+}  // namespace throng::render
