@@ -15,11 +15,27 @@ inline constexpr int kBoneCount = 21;
 
 /// The rig, in palette order.
 enum class Bone : std::uint8_t {
-  hips, spine, chest, neck, head,
-  left_clavicle, left_upper_arm, left_forearm, left_hand,
-  right_clavicle, right_upper_arm, right_forearm, right_hand,
-  left_thigh, left_shin, left_foot, left_toe,
-  right_thigh, right_shin, right_foot, right_toe,
+  hips,
+  spine,
+  chest,
+  neck,
+  head,
+  left_clavicle,
+  left_upper_arm,
+  left_forearm,
+  left_hand,
+  right_clavicle,
+  right_upper_arm,
+  right_forearm,
+  right_hand,
+  left_thigh,
+  left_shin,
+  left_foot,
+  left_toe,
+  right_thigh,
+  right_shin,
+  right_foot,
+  right_toe,
 };
 
 /// Model space: metres, Z up, facing +X, origin on the ground below the pelvis.
@@ -32,8 +48,13 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 40);
 
-/// What a part of a character is coloured with, per instance.
+/// What a part of a character is coloured with, per instance. The albedo of a tinted part is its
+/// texture times the instance's tint, both in linear light; such textures hold light and shade
+/// only. Tint::none is not tinted.
 enum class Tint : std::uint8_t { none, top, bottom, hair, shoes };
+inline constexpr std::size_t kTintCount = 5;
+
+using Rgb = std::array<std::uint8_t, 3>;  ///< sRGB
 
 /// A run of triangles with one texture.
 struct Part {
@@ -41,7 +62,8 @@ struct Part {
   std::uint32_t index_count = 0;
   std::int32_t texture = -1;  ///< layer of Population::textures
   Tint tint = Tint::none;
-  bool alpha_tested = false;  ///< discard where texture alpha < 0.5; drawn without back-face culling
+  bool alpha_tested =
+      false;  ///< discard where texture alpha < 0.5; drawn without back-face culling
 };
 
 /// One level of detail: an indexed triangle mesh (counter-clockwise seen from outside).
@@ -53,8 +75,10 @@ struct Mesh {
 
 struct Character {
   std::string name;
-  float stature_m = 0;       ///< sole to crown, standing
+  float stature_m = 0;       ///< sole of the shoes to crown, standing
   std::vector<Mesh> levels;  ///< from most to least detailed; at least one
+  /// Colours that suit this character, by Tint: what appearance_of picks from.
+  std::array<std::vector<Rgb>, kTintCount> tints;
 };
 
 /// All textures have one square size, so that they fit one texture array.
@@ -69,7 +93,7 @@ using Palette = std::array<BoneMatrix, kBoneCount>;
 /// Frames of one cyclic or static clip inside every character's palettes.
 struct Clip {
   std::string name;          ///< "idle", "walk", "run"
-  float speed_mps = 0;       ///< ground speed at which it was baked for a person of 1.76 m
+  float speed_mps = 0;       ///< ground speed that it is for, whoever walks
   std::uint32_t first = 0;   ///< index of its first palette
   std::uint32_t frames = 0;  ///< evenly spaced over one stride (two steps) or one idle period
 };

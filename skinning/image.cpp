@@ -1,0 +1,130 @@
+#include "skinning/image.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::skinning {
+
+Image decode_png(std::string_view bytes, const std::string& what) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0) {
+    throw InputError({what, "", header.message, "a PNG picture"});
+  }
+  header.format = PNG_FORMAT_RGBA;
+  Image image(static_cast<int>(header.width), static_cast<int>(header.height));
+  if (png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr) == 0) {
+    throw InputError({what, "", header.message, "a complete PNG picture"});
+  }
+  return image;
+}
+
+std::string encode_png(const Image& image) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = PNG_FORMAT_RGBA;
+  header.flags = PNG_IMAGE_FLAG_FAST;
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
+  png_alloc_size_t size = bytes.size();
+  const int written =
+      png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr);
+  check(written != 0, "an RGBA picture can be written as PNG");
+  bytes.resize(size);
+  return bytes;
+}
+
+Image read_png(const std::filesystem::path& path) {
+  return decode_png(read_file(path), path.string());
+}
+
+Image resized(const Image& image, int size) {
+  if (image.width == size && image.height == size) return image;
+  Image small(size, size);
+  for (int y = 0; y < size; ++y) {
+    const int top = y * image.height / size;
+    const int bottom = std::max(top + 1, (y + 1) * image.height / size);
+    for (int x = 0; x < size; ++x) {
+      const int left = x * image.width / size;
+      const int right = std::max(left + 1, (x + 1) * image.width / size);
+      std::array<float, 3> colour{};
+      float weight_sum = 0;
+      float alpha_sum = 0;
+      for (int from_y = top; from_y < bottom; ++from_y) {
+        for (int from_x = left; from_x < right; ++from_x) {
+          const std::uint8_t* from = image.pixel(from_x, from_y);
+          const float weight = static_cast<float>(from[3]) + 1e-3F;
+          for (int channel = 0; channel < 3; ++channel) {
+            colour[channel] += weight * linear_of(from[channel]);
+          }
+          weight_sum += weight;
+          alpha_sum += from[3];
+        }
+      }
+      std::uint8_t* to = small.pixel(x, y);
+      for (int channel = 0; channel < 3; ++channel) {
+        to[channel] = srgb_of(colour[channel] / weight_sum);
+      }
+      const auto count = static_cast<float>((bottom - top) * (right - left));
+      to[3] = static_cast<std::uint8_t>(std::lround(alpha_sum / count));
+    }
+  }
+  return small;
+}
+
+void fill_from_nearest(Image& image, Mask covered) {
+  std::vector<int> front;
+  for (int at = 0; at < static_cast<int>(covered.size()); ++at) {
+    if (covered[at] != 0) front.push_back(at);
+  }
+  constexpr std::array<std::array<int, 2>, 4> kNeighbours = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  std::vector<int> next;
+  while (!front.empty()) {
+    next.clear();
+    for (const int at : front) {
+      const int x = at % image.width;
+      const int y = at / image.width;
+      const std::uint8_t* from = image.pixel(x, y);
+      for (const auto [dx, dy] : kNeighbours) {
+        const int to_x = x + dx;
+        const int to_y = y + dy;
+        if (to_x < 0 || to_y < 0 || to_x >= image.width || to_y >= image.height) continue;
+        const int to = to_y * image.width + to_x;
+        if (covered[to] != 0) continue;
+        covered[to] = 1;
+        std::copy_n(from, 3, image.pixel(to_x, to_y));
+        next.push_back(to);
+      }
+    }
+    front.swap(next);
+  }
+}
+
+float linear_of(std::uint8_t srgb) {
+  static const auto kTable = [] {
+    std::array<float, 256> table{};
+    for (int i = 0; i < 256; ++i) {
+      const double value = i / 255.0;
+      table[i] = static_cast<float>(value <= 0.04045 ? value / 12.92
+                                                     : std::pow((value + 0.055) / 1.055, 2.4));
+    }
+    return table;
+  }();
+  return kTable[srgb];
+}
+
+std::uint8_t srgb_of(float linear) {
+  const double value = std::clamp(static_cast<double>(linear), 0.0, 1.0);
+  const double encoded =
+      value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(encoded * 255));
+}
+
+}  // namespace throng::skinning

@@ -1,0 +1,18 @@
+// Who made what the people are made of, and under which terms.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "skinning/person.h"
+#include "skinning/wardrobe.h"
+
+namespace throng::skinning {
+
+/// SPDX name of the terms of everything that is used.
+inline constexpr const char* kLicence = "CC0-1.0";
+
+/// Text of NOTICE.txt for a population.
+std::string notice_text(const std::vector<PersonSpec>& people, const Wardrobe& wardrobe);
+
+}  // namespace throng::skinning

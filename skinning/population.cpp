@@ -1,0 +1,97 @@
+#include "skinning/population.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "skinning/glb.h"
+#include "skinning/image.h"
+#include "skinning/population_files.h"
+
+namespace throng::skinning {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Pictures that several characters share (shoes, eyes) become one layer.
+class TextureLayers {
+ public:
+  explicit TextureLayers(Population& population) : population_(&population) {}
+
+  std::int32_t layer_of(const std::string& png, const fs::path& file) {
+    const auto [entry, is_new] = layers_.try_emplace(
+        sha256_hex(png), static_cast<std::int32_t>(population_->textures.size()));
+    if (is_new) {
+      Image image = decode_png(png, file.string());
+      const int size = population_->texture_size;
+      if (image.width != size || image.height != size) {
+        throw InputError({file.string(), "",
+                          fmt::format("a {}x{} texture", image.width, image.height),
+                          fmt::format("{}x{} (run `throng people build`)", size, size)});
+      }
+      population_->textures.push_back({std::move(image.rgba)});
+    }
+    return entry->second;
+  }
+
+ private:
+  Population* population_;
+  std::map<std::string, std::int32_t> layers_;
+};
+
+}  // namespace
+
+Population load_population(const fs::path& folder) {
+  const PopulationIndex index = read_index(folder);
+  Population population;
+  population.texture_size = index.texture_size;
+  population.clips = index.clips;
+  population.palettes_per_character = index.palettes_per_character;
+  TextureLayers layers(population);
+  for (const PopulationIndex::Entry& entry : index.characters) {
+    const fs::path file = folder / (entry.name + ".glb");
+    if (!fs::is_regular_file(file)) {
+      throw InputError({file.string(), "", "no such file",
+                        "the character that population.json lists (run `throng people build`)"});
+    }
+    CharacterAsset asset = read_glb(file);
+    for (Mesh& mesh : asset.levels) {
+      for (Part& part : mesh.parts) {
+        if (part.texture < 0) continue;
+        part.texture =
+            layers.layer_of(asset.pictures[static_cast<std::size_t>(part.texture)], file);
+      }
+    }
+    population.characters.push_back(
+        {entry.name, entry.stature_m, std::move(asset.levels), entry.tints});
+  }
+  population.palettes =
+      read_palettes(folder, population.characters.size() * population.palettes_per_character);
+  return population;
+}
+
+fs::path population_folder() {
+  const char* chosen = std::getenv("THRONG_PEOPLE");
+  if (chosen != nullptr && *chosen != '\0') return chosen;
+  const fs::path installed = "/usr/share/throng/people";
+  std::error_code error;
+  if (fs::is_directory(installed, error)) return installed;
+  return THRONG_PEOPLE_DIR;
+}
+
+Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, float blend) {
+  BoneMatrix matrix = BoneMatrix::Zero();
+  for (std::size_t slot = 0; slot < 4; ++slot) {
+    const std::size_t bone = vertex.bones[slot];
+    const float weight = static_cast<float>(vertex.weights[slot]) / 255;
+    matrix += weight * ((1 - blend) * a[bone] + blend * b[bone]);
+  }
+  const Eigen::Vector3f position(vertex.position[0], vertex.position[1], vertex.position[2]);
+  return matrix.leftCols<3>() * position + matrix.col(3);
+}
+
+}  // namespace throng::skinning

@@ -1,0 +1,154 @@
+#include "skinning/population_files.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "skinning/skeleton.h"
+
+namespace throng::skinning {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kRemedy = " (run `throng people build` to bake the people)";
+
+std::string hex_of(const Rgb& colour) {
+  return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+}
+
+Rgb colour_of(const std::string& hex) {
+  Rgb colour{};
+  const auto digit = [&](std::size_t at) -> int {
+    const char c = hex.at(at);
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    throw std::out_of_range("colour");
+  };
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    colour[channel] =
+        static_cast<std::uint8_t>(16 * digit(1 + 2 * channel) + digit(2 + 2 * channel));
+  }
+  return colour;
+}
+
+PopulationIndex parse_index(const json& document) {
+  PopulationIndex index;
+  index.content_hash = document.at("content_hash").get<std::string>();
+  index.texture_size = document.at("texture_size").get<int>();
+  for (const json& entry : document.at("characters")) {
+    PopulationIndex::Entry character;
+    character.name = entry.at("name").get<std::string>();
+    character.stature_m = entry.at("stature_m").get<float>();
+    for (std::size_t tint = 0; tint < kTintCount; ++tint) {
+      const std::string name(kTintNames[tint]);
+      if (!entry.at("tints").contains(name)) continue;
+      for (const json& colour : entry.at("tints").at(name)) {
+        character.tints[tint].push_back(colour_of(colour.get<std::string>()));
+      }
+    }
+    index.characters.push_back(std::move(character));
+  }
+  for (const json& entry : document.at("clips")) {
+    Clip clip;
+    clip.name = entry.at("name").get<std::string>();
+    clip.speed_mps = entry.at("speed_mps").get<float>();
+    clip.first = index.palettes_per_character;
+    clip.frames = entry.at("frames").get<std::uint32_t>();
+    if (clip.frames == 0 || clip.frames > 100'000) throw std::out_of_range("frames");
+    index.palettes_per_character += clip.frames;
+    index.clips.push_back(std::move(clip));
+  }
+  return index;
+}
+
+}  // namespace
+
+std::string encode_index(const PopulationIndex& index, const std::string& licence) {
+  json document = {{"format", kPopulationFormat}, {"content_hash", index.content_hash},
+                   {"licence", licence},          {"texture_size", index.texture_size},
+                   {"characters", json::array()}, {"clips", json::array()}};
+  for (const PopulationIndex::Entry& character : index.characters) {
+    json tints = json::object();
+    for (std::size_t tint = 0; tint < kTintCount; ++tint) {
+      for (const Rgb& colour : character.tints[tint]) {
+        tints[std::string(kTintNames[tint])].push_back(hex_of(colour));
+      }
+    }
+    document["characters"].push_back(
+        {{"name", character.name}, {"stature_m", character.stature_m}, {"tints", tints}});
+  }
+  for (const Clip& clip : index.clips) {
+    document["clips"].push_back(
+        {{"name", clip.name}, {"speed_mps", clip.speed_mps}, {"frames", clip.frames}});
+  }
+  return document.dump(1) + "\n";
+}
+
+PopulationIndex read_index(const fs::path& folder) {
+  const fs::path path = folder / kIndexFile;
+  if (!fs::is_regular_file(path)) {
+    throw InputError({path.string(), "", "no such file", std::string("baked people") + kRemedy});
+  }
+  const json document = json::parse(read_file(path), nullptr, false);
+  if (!document.is_object() || !document.contains("format")) {
+    throw InputError(
+        {path.string(), "", "no index of people", std::string("baked people") + kRemedy});
+  }
+  if (document["format"] != kPopulationFormat) {
+    throw InputError({path.string(), "/format", document["format"].dump(),
+                      fmt::format("{}{}", kPopulationFormat, kRemedy)});
+  }
+  PopulationIndex index;
+  std::string problem;
+  try {
+    index = parse_index(document);
+  } catch (const json::exception& error) {
+    problem = error.what();
+  } catch (const std::out_of_range& error) {
+    problem = fmt::format("a {} out of range", error.what());
+  }
+  if (problem.empty() && (index.characters.empty() || index.clips.empty())) {
+    problem = "no characters or no clips";
+  }
+  if (!problem.empty()) {
+    throw InputError({path.string(), "", problem, std::string("an index of people") + kRemedy});
+  }
+  return index;
+}
+
+std::string encode_palettes(const std::vector<Palette>& palettes) {
+  std::string bytes(palettes.size() * sizeof(Palette), '\0');
+  std::memcpy(bytes.data(), palettes.data(), bytes.size());
+  return bytes;
+}
+
+std::vector<Palette> read_palettes(const fs::path& folder, std::size_t count) {
+  const fs::path path = folder / kPalettesFile;
+  const std::string bytes = fs::is_regular_file(path) ? read_file(path) : std::string();
+  if (bytes.size() != count * sizeof(Palette)) {
+    throw InputError({path.string(), "", fmt::format("{} bytes", bytes.size()),
+                      fmt::format("{} bytes of palettes{}", count * sizeof(Palette), kRemedy)});
+  }
+  std::vector<Palette> palettes(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+      BoneMatrix& matrix = palettes[i][bone];
+      std::memcpy(matrix.data(), bytes.data() + i * sizeof(Palette) + bone * sizeof(BoneMatrix),
+                  sizeof(BoneMatrix));
+      if (!matrix.allFinite()) {
+        throw InputError({path.string(), fmt::format("palette {}", i), "a number that is not",
+                          std::string("finite matrices") + kRemedy});
+      }
+    }
+  }
+  return palettes;
+}
+
+}  // namespace throng::skinning

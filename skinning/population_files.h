@@ -1,0 +1,41 @@
+// The files of a baked population besides its GLBs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "skinning/population.h"
+
+namespace throng::skinning {
+
+/// Changes whenever the files mean something else, so that old ones are refused.
+inline constexpr int kPopulationFormat = 1;
+inline constexpr const char* kIndexFile = "population.json";
+inline constexpr const char* kPalettesFile = "palettes.bin";
+
+/// population.json.
+struct PopulationIndex {
+  struct Entry {
+    std::string name;  ///< its GLB is <name>.glb
+    float stature_m = 0;
+    std::array<std::vector<Rgb>, kTintCount> tints;
+  };
+  std::string content_hash;  ///< of everything that the people were made from
+  int texture_size = 0;
+  std::vector<Entry> characters;
+  std::vector<Clip> clips;
+  std::uint32_t palettes_per_character = 0;
+};
+
+std::string encode_index(const PopulationIndex& index, const std::string& licence);
+
+/// Throws InputError naming what is missing or malformed.
+PopulationIndex read_index(const std::filesystem::path& folder);
+
+std::string encode_palettes(const std::vector<Palette>& palettes);
+
+/// Throws InputError when the file is missing or does not hold `count` palettes.
+std::vector<Palette> read_palettes(const std::filesystem::path& folder, std::size_t count);
+
+}  // namespace throng::skinning
