@@ -169,8 +169,10 @@ skinning::Population synthetic_people(std::size_t characters) {
   const skinning::Mesh fine = boxes_mesh(2);
   const skinning::Mesh coarse = boxes_mesh(1);
   for (std::size_t i = 0; i < characters; ++i) {
-    people.characters.push_back(
-        {"box man " + std::to_string(i), kSyntheticStature_m, {fine, coarse}});
+    skinning::Character& character = people.characters.emplace_back();
+    character.name = "box man " + std::to_string(i);
+    character.stature_m = kSyntheticStature_m;
+    character.levels = {fine, coarse};
     people.palettes.push_back(pose(0));
     for (const float swing_rad : {0.4F, 0.7F}) {
       for (std::uint32_t frame = 0; frame < kFramesPerStride; ++frame) {

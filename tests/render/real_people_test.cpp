@@ -1,0 +1,47 @@
+// The baked population, where it has been built.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "stage.h"
+
+namespace throng::render {
+namespace {
+
+TEST(RealPeople, AreDrawnWithTightBoxesAndExactAreas) {
+  const std::filesystem::path folder = skinning::population_folder();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no people in " << folder;
+  const skinning::Population people = skinning::load_population(folder);
+  const world::Scenario scenario = open_ground();
+  Renderer renderer(scenario, people, {}, {"software"});
+  Scene scene;
+  const auto count = static_cast<std::uint32_t>(people.characters.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    PersonInstance person = standing(people, i, 1.5 * (i % 4), 1.5 * (i / 4));
+    person.appearance = skinning::appearance_of(people, 1, i);
+    person.appearance.character = i;
+    person.pose = skinning::pose_at(people, 0.1 * i, 1.4, 0);
+    scene.people.push_back(person);
+  }
+  const Frame frame = renderer.draw(scene, camera_at({-5, 2, 4}, 0, -25, 640, 480));
+  EXPECT_EQ(frame.people.size(), count);
+  for (const PersonInView& person : frame.people) {
+    EXPECT_GT(person.stature_m, 0.8);
+    EXPECT_LT(person.stature_m, 2.3);
+    Scene alone;
+    alone.people = {scene.people[person.agent]};
+    const Frame single = renderer.draw(alone, frame.camera);
+    const Mask mask = mask_of(single, id_of_agent(person.agent));
+    EXPECT_GT(mask.pixels, 500U);
+    EXPECT_LE(mask_of(frame, id_of_agent(person.agent)).pixels, person.amodal_area_px);
+    EXPECT_EQ(person.amodal_area_px, mask.pixels);
+    // Hair may be cut out of its cards, so the pixels can stay a little inside the box.
+    EXPECT_NEAR(person.amodal_box.min().y(), mask.box.min().y(), 4);
+    EXPECT_NEAR(person.amodal_box.max().y(), mask.box.max().y(), 1.1);
+    EXPECT_TRUE(person.amodal_box.contains(
+        Eigen::Vector2d(frame.camera.project(person.head).pixel.array() + 0.5)));
+  }
+}
+
+}  // namespace
+}  // namespace throng::render

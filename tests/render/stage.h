@@ -1,0 +1,105 @@
+// A small place, a renderer on the CPU and views of it, shared by the tests on pixels.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "render/renderer.h"
+#include "synthetic_people.h"
+
+namespace throng::render {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+/// A building with an axis-aligned footprint.
+inline world::Building block(double min_x, double max_x, double min_y, double max_y,
+                             double height_m) {
+  world::Building building;
+  building.id = "block";
+  building.footprint = {{min_x, min_y}, {max_x, min_y}, {max_x, max_y}, {min_x, max_y}};
+  building.height_m = height_m;
+  return building;
+}
+
+/// 80 x 80 m of concrete around the origin.
+inline world::Scenario open_ground(std::vector<world::Building> buildings = {}) {
+  world::Scenario scenario;
+  scenario.id = "test";
+  scenario.ground = {{-40, -40}, {40, 40}};
+  scenario.ground_material = "concrete";
+  scenario.buildings = std::move(buildings);
+  return scenario;
+}
+
+inline camera::Camera camera_at(const Eigen::Vector3d& centre, double yaw_deg, double pitch_deg,
+                                int width = 320, int height = 240, double hfov_deg = 60) {
+  return {camera::intrinsics_from_hfov(width, height, hfov_deg * kDegree),
+          camera::pose_looking(centre, yaw_deg * kDegree, pitch_deg * kDegree)};
+}
+
+inline std::size_t index_of(const Frame& frame, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
+         static_cast<std::size_t>(x);
+}
+
+/// Pixels with one id, and their bounds.
+struct Mask {
+  std::uint64_t pixels = 0;
+  Eigen::AlignedBox2d box;  ///< box coordinates
+};
+
+inline Mask mask_of(const Frame& frame, std::uint32_t id) {
+  Mask mask;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      if (frame.id[index_of(frame, x, y)] != id) continue;
+      ++mask.pixels;
+      mask.box.extend(Eigen::Vector2d(x, y));
+      mask.box.extend(Eigen::Vector2d(x + 1, y + 1));
+    }
+  }
+  return mask;
+}
+
+inline const PersonInView& person_of(const Frame& frame, std::uint32_t agent) {
+  for (const PersonInView& person : frame.people) {
+    if (person.agent == agent) return person;
+  }
+  throw std::out_of_range("agent is not in view");
+}
+
+/// Sum of the colour channels of a pixel.
+inline int brightness(const Frame& frame, int x, int y) {
+  const std::size_t i = index_of(frame, x, y) * 3;
+  return frame.rgb[i] + frame.rgb[i + 1] + frame.rgb[i + 2];
+}
+
+/// A renderer of `scenario` on the CPU, with the population it draws.
+class Stage {
+ public:
+  explicit Stage(world::Scenario scenario, Lighting lighting = {})
+      : scenario_(std::move(scenario)),
+        people_(synthetic_people()),
+        renderer_(scenario_, people_, lighting, {"software"}) {}
+
+  const skinning::Population& people() const { return people_; }
+  Renderer& renderer() { return renderer_; }
+
+  PersonInstance standing(std::uint32_t agent, double x, double y, double yaw_rad = 0) const {
+    return render::standing(people_, agent, x, y, yaw_rad);
+  }
+
+  Frame draw(const camera::Camera& camera, std::vector<PersonInstance> people = {}) {
+    Scene scene;
+    scene.people = std::move(people);
+    return renderer_.draw(scene, camera);
+  }
+
+ private:
+  world::Scenario scenario_;
+  skinning::Population people_;
+  Renderer renderer_;
+};
+
+}  // namespace throng::render
