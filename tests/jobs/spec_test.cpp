@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "jobs/light.h"
-#include "tests/jobs/scenario_folder.h"
+#include "tests/jobs/yard.h"
 
 namespace throng::jobs {
 namespace {

@@ -1,0 +1,138 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "annotate/coco.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/version.h"
+#include "jobs/manifest.h"
+#include "jobs/pipeline.h"
+#include "jobs/publication.h"
+
+namespace throng::jobs {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr int kIndent = 2;
+
+// The dataset shares the bytes with the work folder where the file system can.
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to.parent_path());
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (error) fs::copy_file(from, to, error);
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
+  }
+}
+
+class Collector {
+ public:
+  Collector(const JobFolder& folder, const JobSpec& job)
+      : folder_(folder), job_(job), staging_(folder.dataset()) {}
+
+  void collect() {
+    json runs = json::array();
+    json metrics = json::array();
+    for (const RunPlan& run : plan_runs(job_)) {
+      const json measured = take({Task::Kind::measure, run.index});
+      metrics.push_back({{"run", run_name(run.index)}, {"seed", run.seed}});
+      metrics.back().update(measured.at("metrics"));
+      runs.push_back(take_frames(run));
+    }
+    add("metrics.json", json{{"runs", metrics}}.dump(kIndent) + "\n");
+    if (wants(job_, "coco")) {
+      const std::string path = "annotations/instances.json";
+      fs::create_directories((staging_.path() / path).parent_path());
+      annotate::merge_coco(coco_shards_, staging_.path() / path, job_.name);
+      list(path);
+    }
+    write_manifest(std::move(runs));
+    staging_.commit();
+  }
+
+ private:
+  // Takes over the files of a task's output and returns its record.
+  json take(const Task& task) {
+    const fs::path output = folder_.output_of(task);
+    json record = read_record(output);
+    for (const auto& file : record.at("files").get<std::vector<FileEntry>>()) {
+      link_or_copy(published_file(output, file.path), staging_.path() / file.path);
+      files_.push_back(file);
+    }
+    return record;
+  }
+
+  json take_frames(const RunPlan& run) {
+    std::int64_t images = 0;
+    std::int64_t annotations = 0;
+    std::set<std::uint32_t> agents;
+    for (const Shard& shard : plan_shards(job_, run.index)) {
+      const Task task{Task::Kind::render, run.index, shard.index};
+      const json record = take(task);
+      images += record.at("images").get<std::int64_t>();
+      annotations += record.at("annotations").get<std::int64_t>();
+      agents.merge(record.at("agents").get<std::set<std::uint32_t>>());
+      devices_.insert(record.at("device").get<std::string>());
+      coco_shards_.push_back(folder_.output_of(task) / "coco");
+    }
+    images_ += images;
+    annotations_ += annotations;
+    agents_ += agents.size();
+    return {{"run", run_name(run.index)},
+            {"seed", run.seed},
+            {"frames", images},
+            {"annotations", annotations},
+            {"agents", agents.size()}};
+  }
+
+  void add(const std::string& path, const std::string& bytes) {
+    write_new_file(staging_.path() / path, bytes);
+    list(path);
+  }
+
+  void list(const std::string& path) {
+    const fs::path file = staging_.path() / path;
+    files_.push_back(
+        {path, static_cast<std::int64_t>(fs::file_size(file)), sha256_hex_of_file(file)});
+  }
+
+  void write_manifest(json runs) {
+    std::sort(files_.begin(), files_.end(),
+              [](const FileEntry& a, const FileEntry& b) { return a.path < b.path; });
+    const json manifest = {
+        {"schema_version", kManifestVersion},
+        {"generator", kGenerator},
+        {"job", to_json(job_)},
+        {"devices", devices_},
+        {"counts", {{"frames", images_}, {"annotations", annotations_}, {"agents", agents_}}},
+        {"runs", std::move(runs)},
+        {"files", files_}};
+    write_new_file(staging_.path() / kManifestName, manifest.dump(kIndent) + "\n");
+  }
+
+  const JobFolder& folder_;
+  const JobSpec& job_;
+  StagingFolder staging_;
+  std::vector<FileEntry> files_;
+  std::vector<fs::path> coco_shards_;
+  std::set<std::string> devices_;
+  std::int64_t images_ = 0;
+  std::int64_t annotations_ = 0;
+  std::size_t agents_ = 0;
+};
+
+}  // namespace
+
+void collect_dataset(const JobFolder& folder, const JobSpec& job) {
+  Collector(folder, job).collect();
+}
+
+}  // namespace throng::jobs

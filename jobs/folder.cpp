@@ -1,0 +1,80 @@
+#include "jobs/folder.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::jobs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kIndent = 2;
+
+// Files and folders are written as "<name>.tmp.<pid>.<n>" before they are renamed (base/files.h).
+void remove_temporaries(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().filename().string().find(".tmp.") != std::string::npos) {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const fs::path& leftover : leftovers) {
+    if (fs::remove_all(leftover, error); error) {
+      throw EnvironmentError(
+          fmt::format("cannot remove {}: {}", leftover.string(), error.message()));
+    }
+  }
+}
+
+}  // namespace
+
+JobFolder JobFolder::create(fs::path path, const JobSpec& job) {
+  JobFolder folder(std::move(path));
+  const std::string text = to_json(job).dump(kIndent) + "\n";
+  if (!fs::exists(folder.job_file())) {
+    if (fs::exists(folder.path()) && !fs::is_empty(folder.path())) {
+      throw InputError(Problem{"", folder.path().string(), "a folder with other files in it",
+                               "a new or empty folder, or one of the same job"});
+    }
+    write_file_atomically(folder.job_file(), text);
+  } else if (read_file(folder.job_file()) != text) {
+    throw InputError(Problem{"", folder.path().string(), "a folder with another job in it",
+                             "a new or empty folder, or one of the same job"});
+  }
+  return folder;
+}
+
+JobSpec JobFolder::read_job(const fs::path& scenarios) const {
+  return parse_job(read_file(job_file()), job_file().string(), scenarios);
+}
+
+fs::path JobFolder::output_of(const Task& task) const {
+  if (task.kind == Task::Kind::collect) return dataset();
+  const fs::path output = path_ / "work" / name_of(task);
+  return task.kind == Task::Kind::simulate ? fs::path(output).replace_extension(".h5") : output;
+}
+
+fs::path JobFolder::log_of(const Task& task) const {
+  std::string name = name_of(task);
+  std::replace(name.begin(), name.end(), '/', '_');
+  return path_ / "logs" / (name + ".log");
+}
+
+bool JobFolder::is_done(const Task& task) const { return fs::exists(output_of(task)); }
+
+void JobFolder::remove_leftovers() const {
+  remove_temporaries(path_);
+  std::error_code error;
+  for (const auto& run : fs::directory_iterator(path_ / "work", error)) {
+    remove_temporaries(run.path());
+  }
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,80 @@
+#include "jobs/pipeline.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "annotate/exits_csv.h"
+#include "base/error.h"
+#include "jobs/publication.h"
+#include "metrics/evacuation.h"
+#include "metrics/exits.h"
+#include "sim/run.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::jobs {
+
+namespace fs = std::filesystem;
+
+bool wants(const JobSpec& job, std::string_view annotation) {
+  const auto& wanted = job.outputs.annotations;
+  return std::find(wanted.begin(), wanted.end(), annotation) != wanted.end();
+}
+
+sim::RunSpec run_spec(const JobSpec& job, int run) {
+  sim::RunSpec spec;
+  spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
+  spec.duration_s = job.capture.to_s;
+  spec.people = job.agents;
+  for (const DroneSpec& drone : job.drones) spec.drones.push_back(drone.mission);
+  return spec;
+}
+
+void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run,
+                  const OnTaskProgress& on_progress, const std::stop_token& stop) {
+  const fs::path trace = folder.output_of({Task::Kind::simulate, run});
+  fs::create_directories(trace.parent_path());
+  const auto progress = [&](double done_s, double total_s) {
+    if (on_progress) on_progress({done_s, total_s});
+  };
+  sim::simulate(world::find_scenario(scenarios, job.scenario), run_spec(job, run), trace, progress,
+                stop);
+}
+
+void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run) {
+  const world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
+  const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, run}));
+  const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
+  const nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
+
+  Publication output(folder.output_of({Task::Kind::measure, run}));
+  constexpr int kIndent = 2;
+  output.add("metrics/" + run_name(run) + ".json", figures.dump(kIndent) + "\n");
+  if (wants(job, "exits")) {
+    std::vector<annotate::FrameTime> frames;
+    for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {
+      frames.push_back({frame, job.frame_time_s(frame)});
+    }
+    output.add("exits/" + run_name(run) + ".csv", annotate::exits_csv(exits, trace.time_s, frames));
+  }
+  output.publish({{"metrics", figures}});
+}
+
+void do_task(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios,
+             const Task& task, const OnTaskProgress& on_progress, const std::stop_token& stop) {
+  if (folder.is_done(task)) return;
+  switch (task.kind) {
+    case Task::Kind::simulate:
+      return simulate_run(folder, job, scenarios, task.run, on_progress, stop);
+    case Task::Kind::measure:
+      return measure_run(folder, job, scenarios, task.run);
+    case Task::Kind::render:
+      return render_shard(folder, job, scenarios,
+                          plan_shards(job, task.run)[static_cast<std::size_t>(task.shard)],
+                          on_progress, stop);
+    case Task::Kind::collect:
+      return collect_dataset(folder, job);
+  }
+}
+
+}  // namespace throng::jobs

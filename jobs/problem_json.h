@@ -1,0 +1,22 @@
+// Problems as JSON, the same in workers' messages, the job store and the API.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace throng {
+
+inline void to_json(nlohmann::json& json, const Problem& problem) {
+  json = {{"source", problem.source},
+          {"where", problem.where},
+          {"found", problem.found},
+          {"expected", problem.expected}};
+}
+
+inline void from_json(const nlohmann::json& json, Problem& problem) {
+  problem = {json.value("source", ""), json.value("where", ""), json.value("found", ""),
+             json.value("expected", "")};
+}
+
+}  // namespace throng

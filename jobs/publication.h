@@ -1,0 +1,53 @@
+// What one task publishes: files of the dataset, and a record of them for whoever collects them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/files.h"
+
+namespace throng::jobs {
+
+/// A file of the dataset, as its manifest lists it.
+struct FileEntry {
+  std::string path;  ///< relative to the dataset, forward slashes
+  std::int64_t bytes = 0;
+  std::string sha256;
+};
+
+void to_json(nlohmann::json& value, const FileEntry& file);
+void from_json(const nlohmann::json& value, FileEntry& file);
+
+/// Writes a file that nobody reads before the folder around it is published. Creates folders.
+/// Throws EnvironmentError.
+void write_new_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Output under construction, in a staging folder: appears whole at publish(), or never.
+///   files/...     the dataset's files, at their places in it
+///   record.json   {"files": [...], and what the task has to say}
+class Publication {
+ public:
+  explicit Publication(const std::filesystem::path& output);
+
+  /// Adds a file of the dataset; hashes it from memory.
+  void add(std::string path, std::string_view bytes);
+  void publish(nlohmann::json record);
+  /// For whatever else the task leaves behind.
+  const std::filesystem::path& folder() const { return staging_.path(); }
+
+ private:
+  StagingFolder staging_;
+  std::vector<FileEntry> files_;
+};
+
+/// The record of a published output. Throws EnvironmentError when it cannot be read.
+nlohmann::json read_record(const std::filesystem::path& output);
+
+/// Where published output keeps a file of the dataset.
+std::filesystem::path published_file(const std::filesystem::path& output, const std::string& path);
+
+}  // namespace throng::jobs

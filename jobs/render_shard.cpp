@@ -1,0 +1,160 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "annotate/coco.h"
+#include "annotate/density.h"
+#include "annotate/labels.h"
+#include "annotate/preview.h"
+#include "base/error.h"
+#include "camera/camera.h"
+#include "jobs/light.h"
+#include "jobs/pipeline.h"
+#include "jobs/publication.h"
+#include "render/animator.h"
+#include "render/renderer.h"
+#include "skinning/population.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::jobs {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::size_t drone_index(const world::Trace& trace, const std::string& id) {
+  const auto& ids = trace.header.drone_ids;
+  const auto found = std::find(ids.begin(), ids.end(), id);
+  check(found != ids.end(), "a trace holds the drones of its job");
+  return static_cast<std::size_t>(found - ids.begin());
+}
+
+// The heads of the people in the labels, in box coordinates.
+std::vector<Eigen::Vector2d> heads_of(const annotate::FrameLabels& labels,
+                                      const camera::Camera& camera) {
+  std::vector<Eigen::Vector2d> heads;
+  for (const annotate::PersonLabel& label : labels.people) {
+    const camera::Camera::Projection head = camera.project(label.person.head);
+    if (head.depth_m > 0) heads.push_back(head.pixel + Eigen::Vector2d(0.5, 0.5));
+  }
+  return heads;
+}
+
+std::int64_t count_inside(const std::vector<Eigen::Vector2d>& heads, int width, int height) {
+  return std::count_if(heads.begin(), heads.end(), [&](const Eigen::Vector2d& head) {
+    return head.x() >= 0 && head.y() >= 0 && head.x() < width && head.y() < height;
+  });
+}
+
+// One shard in the making: everything that its frames share.
+class ShardOutput {
+ public:
+  ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard)
+      : job_(job), shard_(shard), publication_(output) {
+    if (wants(job, "coco")) {
+      coco_.emplace(publication_.folder() / "coco");
+    }
+  }
+
+  void add(const render::Frame& frame, std::size_t camera) {
+    const annotate::FrameLabels labels = annotate::label_people(frame);
+    const std::string& drone = job_.drones[camera].mission.id;
+    const std::string place = fmt::format("{}/{}/{:06}", run_name(shard_.run), drone, frame.index);
+    annotate::CocoImage image;
+    image.id = image_id(job_, shard_.run, camera, frame.index);
+    image.file_name = "images/" + place + ".jpg";
+    image.run = run_name(shard_.run);
+    image.run_index = shard_.run;
+    image.camera_id = drone;
+    image.frame_index = frame.index;
+    image.time_s = frame.time_s;
+    image.camera = frame.camera;
+    publication_.add(image.file_name, annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(),
+                                                           job_.outputs.image_quality));
+    if (wants(job_, "density")) {
+      image.density_file = "density/" + place + ".npy";
+      image.density_count = add_density(image.density_file, frame, labels);
+    }
+    if (has_preview(job_, frame.index)) {
+      publication_.add("previews/" + place + ".jpg",
+                       annotate::jpeg_bytes(annotate::draw_preview(frame, labels), frame.width(),
+                                            frame.height(), job_.outputs.image_quality));
+    }
+    if (coco_) coco_->add(image, labels);
+    annotations_ += static_cast<std::int64_t>(labels.people.size());
+    for (const annotate::PersonLabel& label : labels.people) agents_.insert(label.agent);
+    ++images_;
+  }
+
+  void publish(const std::string& device) {
+    if (coco_) coco_->finish();
+    publication_.publish({{"device", device},
+                          {"images", images_},
+                          {"annotations", annotations_},
+                          {"agents", agents_}});
+  }
+
+ private:
+  std::int64_t add_density(const std::string& path, const render::Frame& frame,
+                           const annotate::FrameLabels& labels) {
+    const std::vector<Eigen::Vector2d> heads = heads_of(labels, frame.camera);
+    publication_.add(path,
+                     annotate::npy_bytes(annotate::density_map(heads, frame.width(), frame.height(),
+                                                               job_.outputs.density_sigma_px)));
+    return count_inside(heads, frame.width(), frame.height());
+  }
+
+  const JobSpec& job_;
+  const Shard& shard_;
+  Publication publication_;
+  std::optional<annotate::CocoShardWriter> coco_;
+  std::int64_t images_ = 0;
+  std::int64_t annotations_ = 0;
+  std::set<std::uint32_t> agents_;
+};
+
+}  // namespace
+
+camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec) {
+  const Eigen::Vector3d nose = drone.orientation * Eigen::Vector3d::UnitX();
+  const double heading_rad = std::atan2(nose.y(), nose.x());
+  return {camera::intrinsics_from_hfov(spec.width, spec.height, spec.hfov_deg * kDegree),
+          camera::pose_looking(drone.position, heading_rad + spec.yaw_deg * kDegree,
+                               spec.pitch_deg * kDegree)};
+}
+
+void render_shard(const JobFolder& folder, const JobSpec& job,
+                  const std::filesystem::path& scenarios, const Shard& shard,
+                  const OnTaskProgress& on_progress, const std::stop_token& stop) {
+  const world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
+  const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, shard.run}));
+  const skinning::Population population = skinning::load_population(skinning::population_folder());
+  const render::Animator animator(trace, population);
+  render::Renderer renderer(scenario, population, sun_at(job.time_of_day_h));
+
+  ShardOutput output(folder.output_of({Task::Kind::render, shard.run, shard.index}), job, shard);
+  const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
+                                            static_cast<std::int64_t>(job.drones.size()));
+  double done = 0;
+  for (std::int64_t frame = shard.first_frame; frame < shard.end_frame; ++frame) {
+    const double time_s = job.frame_time_s(frame);
+    const render::Scene scene = animator.scene_at(time_s, frame);
+    for (std::size_t i = 0; i < job.drones.size(); ++i) {
+      if (stop.stop_requested()) throw Cancelled();
+      const DroneSpec& drone = job.drones[i];
+      const world::DroneSample sample =
+          trace.drone_at(drone_index(trace, drone.mission.id), time_s);
+      output.add(renderer.draw(scene, camera_on(sample, drone.camera)), i);
+      if (on_progress) on_progress({++done, images});
+    }
+  }
+  output.publish(renderer.device_description());
+}
+
+}  // namespace throng::jobs

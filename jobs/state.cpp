@@ -1,0 +1,56 @@
+#include "jobs/state.h"
+
+namespace throng::jobs {
+
+namespace {
+
+struct Transition {
+  JobState from;
+  JobEvent event;
+  JobState to;
+};
+
+constexpr std::array kTransitions = {
+    Transition{JobState::queued, JobEvent::start, JobState::running},
+    Transition{JobState::queued, JobEvent::cancel, JobState::cancelled},
+    Transition{JobState::running, JobEvent::resume, JobState::running},
+    Transition{JobState::running, JobEvent::succeed, JobState::succeeded},
+    Transition{JobState::running, JobEvent::fail, JobState::failed},
+    Transition{JobState::running, JobEvent::cancel, JobState::cancelled},
+};
+
+}  // namespace
+
+std::optional<JobState> next_state(JobState state, JobEvent event) {
+  for (const Transition& transition : kTransitions) {
+    if (transition.from == state && transition.event == event) return transition.to;
+  }
+  return std::nullopt;
+}
+
+bool is_active(JobState state) { return state == JobState::queued || state == JobState::running; }
+
+std::string_view name_of(JobState state) {
+  switch (state) {
+    case JobState::queued:
+      return "queued";
+    case JobState::running:
+      return "running";
+    case JobState::succeeded:
+      return "succeeded";
+    case JobState::failed:
+      return "failed";
+    case JobState::cancelled:
+      break;
+  }
+  return "cancelled";
+}
+
+std::optional<JobState> job_state_named(std::string_view name) {
+  for (const JobState state : kJobStates) {
+    if (name_of(state) == name) return state;
+  }
+  return std::nullopt;
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,35 @@
+// The states of a queued job, and what may follow what. Pure: the store applies it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace throng::jobs {
+
+enum class JobState { queued, running, succeeded, failed, cancelled };
+
+enum class JobEvent {
+  start,   ///< a supervisor takes the job up
+  resume,  ///< the server was restarted: a new supervisor takes up a job that was running
+  succeed,
+  fail,
+  cancel,
+};
+
+inline constexpr std::array kJobStates = {JobState::queued, JobState::running, JobState::succeeded,
+                                          JobState::failed, JobState::cancelled};
+inline constexpr std::array kJobEvents = {JobEvent::start, JobEvent::resume, JobEvent::succeed,
+                                          JobEvent::fail, JobEvent::cancel};
+
+/// The state after the event; nothing when the event cannot happen in this state.
+std::optional<JobState> next_state(JobState state, JobEvent event);
+
+/// Whether the job waits or runs: something may still happen to it.
+bool is_active(JobState state);
+
+std::string_view name_of(JobState state);
+/// The reverse; nothing for any other word.
+std::optional<JobState> job_state_named(std::string_view name);
+
+}  // namespace throng::jobs

@@ -1,0 +1,154 @@
+#include "jobs/archive.h"
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "jobs/manifest.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+std::string all_of(const Archive& archive, std::size_t block) {
+  std::string bytes;
+  std::string buffer(block, '?');
+  while (const std::size_t count = archive.read(static_cast<std::int64_t>(bytes.size()), buffer)) {
+    bytes.append(buffer, 0, count);
+  }
+  return bytes;
+}
+
+struct Member {
+  std::string bytes;
+  std::int64_t time = -1;
+  std::int64_t owner = -1;
+};
+
+// As libarchive, which shares no code with the writer, understands it.
+std::map<std::string, Member> unpacked(const std::string& tar) {
+  const std::unique_ptr<archive, decltype(&archive_read_free)> reader(archive_read_new(),
+                                                                      &archive_read_free);
+  archive_read_support_format_tar(reader.get());
+  EXPECT_EQ(archive_read_open_memory(reader.get(), tar.data(), tar.size()), ARCHIVE_OK);
+  std::map<std::string, Member> members;
+  archive_entry* entry = nullptr;
+  int result = 0;
+  while ((result = archive_read_next_header(reader.get(), &entry)) == ARCHIVE_OK) {
+    Member member{std::string(static_cast<std::size_t>(archive_entry_size(entry)), '\0'),
+                  archive_entry_mtime(entry), archive_entry_uid(entry)};
+    EXPECT_EQ(archive_read_data(reader.get(), member.bytes.data(), member.bytes.size()),
+              static_cast<la_ssize_t>(member.bytes.size()));
+    members[archive_entry_pathname(entry)] = member;
+  }
+  EXPECT_EQ(result, ARCHIVE_EOF) << archive_error_string(reader.get());
+  return members;
+}
+
+class ArchiveTest : public testing::Test {
+ protected:
+  void add(const std::string& path, const std::string& bytes) {
+    write_file_atomically(folder_.path() / path, bytes);
+    files_.push_back({path, static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes)});
+  }
+  void write_manifest() const {
+    write_file_atomically(folder_.path() / kManifestName, nlohmann::json{{"files", files_}}.dump());
+  }
+
+  TemporaryFolder folder_;
+  std::vector<FileEntry> files_;
+};
+
+TEST_F(ArchiveTest, ReadersFindEveryFileWithItsBytes) {
+  add("images/run000/d1/000001.jpg", std::string(1000, 'j'));
+  add("empty", "");
+  add("block", std::string(512, 'b'));
+  add("annotations/instances.json", "{}");
+  add(std::string(60, 'd') + "/" + std::string(60, 'e') + "/file", "long path");
+  write_manifest();
+  const Archive archive(folder_.path(), "square");
+  const std::string tar = all_of(archive, 700);
+  EXPECT_EQ(static_cast<std::int64_t>(tar.size()), archive.size());
+  const auto members = unpacked(tar);
+  EXPECT_EQ(members.size(), files_.size() + 1);
+  for (const FileEntry& file : files_) {
+    ASSERT_TRUE(members.contains("square/" + file.path)) << file.path;
+    const Member& member = members.at("square/" + file.path);
+    EXPECT_EQ(sha256_hex(member.bytes), file.sha256);
+    EXPECT_EQ(member.time, 0);
+    EXPECT_EQ(member.owner, 0);
+  }
+  EXPECT_TRUE(members.contains("square/manifest.json"));
+}
+
+TEST_F(ArchiveTest, AnyPartIsThatPartOfTheWhole) {
+  for (int i = 0; i < 5; ++i) add(fmt::format("f{}", i), std::string(300 * i, 'a' + i));
+  write_manifest();
+  const Archive archive(folder_.path(), "r");
+  const std::string whole = all_of(archive, 1 << 20);
+  for (const std::size_t block : {1, 7, 511, 512, 513, 4096}) {
+    EXPECT_EQ(all_of(archive, block), whole) << block;
+  }
+  std::string rest(100, '?');
+  EXPECT_EQ(archive.read(archive.size(), rest), 0U);
+  EXPECT_EQ(archive.read(archive.size() - 3, rest), 3U);
+}
+
+TEST_F(ArchiveTest, OrderIsByPathWhateverTheManifestSays) {
+  add("b", "2");
+  add("a", "1");
+  write_manifest();
+  const std::string one = all_of(Archive(folder_.path(), "r"), 4096);
+  std::swap(files_[0], files_[1]);
+  write_manifest();
+  const std::string other = all_of(Archive(folder_.path(), "r"), 4096);
+  EXPECT_EQ(one.substr(0, 2048), other.substr(0, 2048));
+  EXPECT_EQ(one.substr(0, 3), "r/a");
+}
+
+TEST_F(ArchiveTest, SizesBeyondTheOctalField) {
+  const std::int64_t bytes = std::int64_t{9} << 30;
+  write_file_atomically(folder_.path() / "big", "");
+  std::filesystem::resize_file(folder_.path() / "big", static_cast<std::uintmax_t>(bytes));
+  files_.push_back({"big", bytes, ""});
+  write_manifest();
+  const Archive archive(folder_.path(), "r");
+  std::string start(512, '?');
+  archive.read(0, start);
+  const std::unique_ptr<::archive, decltype(&archive_read_free)> reader(archive_read_new(),
+                                                                        &archive_read_free);
+  archive_read_support_format_tar(reader.get());
+  ASSERT_EQ(archive_read_open_memory(reader.get(), start.data(), start.size()), ARCHIVE_OK);
+  archive_entry* entry = nullptr;
+  ASSERT_EQ(archive_read_next_header(reader.get(), &entry), ARCHIVE_OK);
+  EXPECT_EQ(archive_entry_size(entry), bytes);
+}
+
+TEST_F(ArchiveTest, AFileThatShrankIsAnErrorNotSilence) {
+  add("a", std::string(1000, 'a'));
+  write_manifest();
+  const Archive archive(folder_.path(), "r");
+  write_file_atomically(folder_.path() / "a", "short");
+  std::string buffer(2000, '?');
+  EXPECT_THROW(archive.read(0, buffer), EnvironmentError);
+}
+
+TEST_F(ArchiveTest, WithoutManifestThereIsNoDataset) {
+  EXPECT_THROW(Archive(folder_.path(), "r"), EnvironmentError);
+}
+
+TEST(Slug, IsASafeName) {
+  EXPECT_EQ(slug("City square, guided evacuation"), "city-square-guided-evacuation");
+  EXPECT_EQ(slug("../../etc"), "etc");
+  EXPECT_EQ(slug("\xc3\xa9"), "dataset");
+  EXPECT_LE(slug(std::string(500, 'x')).size(), 60U);
+}
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,139 @@
+#include "jobs/store.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <thread>
+
+#include "base/error.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+class StoreTest : public testing::Test {
+ protected:
+  Store::Clock clock() {
+    return [this] { return now_ms_; };
+  }
+
+  TemporaryFolder folder_;
+  std::int64_t now_ms_ = 1'000'000;
+};
+
+TEST_F(StoreTest, WhatWasAddedAndChangedSurvivesReopening) {
+  JobRow queued;
+  JobRow running;
+  {
+    Store store(folder_.path(), clock());
+    running = store.add("a", R"({"x":1})");
+    now_ms_ = 2'000'000;
+    queued = store.add("b", "{}");
+    running = store.apply(running, JobEvent::start).value();
+    store.save_progress(running, "[1]");
+  }
+  Store store(folder_.path(), clock());
+  const JobRow a = store.get(running.id).value();
+  EXPECT_EQ(a.name, "a");
+  EXPECT_EQ(a.spec_json, R"({"x":1})");
+  EXPECT_EQ(a.state, JobState::running);
+  EXPECT_EQ(a.attempt, 1);
+  EXPECT_EQ(a.progress_json, "[1]");
+  EXPECT_EQ(a.created_ms, 1'000'000);
+  EXPECT_EQ(a.started_ms, 2'000'000);
+  EXPECT_EQ(a.ended_ms, 0);
+  EXPECT_EQ(store.get(queued.id)->state, JobState::queued);
+  EXPECT_FALSE(store.get("jnosuchjob00000"));
+}
+
+TEST_F(StoreTest, TheRunningJobComesNextThenTheOldestQueued) {
+  Store store(folder_.path(), clock());
+  EXPECT_FALSE(store.next());
+  const JobRow first = store.add("first", "{}");
+  const JobRow second = store.add("second", "{}");
+  EXPECT_EQ(store.next()->id, first.id);
+  const JobRow running = store.apply(second, JobEvent::start).value();
+  EXPECT_EQ(store.next()->id, second.id);
+  store.apply(running, JobEvent::succeed);
+  EXPECT_EQ(store.next()->id, first.id);
+}
+
+TEST_F(StoreTest, AnEventCountsOnceAndForTheAttemptItWasMeantFor) {
+  Store store(folder_.path(), clock());
+  const JobRow queued = store.add("a", "{}");
+  const JobRow first = store.apply(queued, JobEvent::start).value();
+  EXPECT_FALSE(store.apply(queued, JobEvent::start)) << "someone else took it already";
+  EXPECT_FALSE(store.apply(queued, JobEvent::succeed)) << "not in this state";
+  const JobRow second = store.apply(first, JobEvent::resume).value();
+  EXPECT_EQ(second.attempt, 2);
+  EXPECT_FALSE(store.apply(first, JobEvent::succeed)) << "an earlier attempt came back";
+  store.save_progress(first, "late");
+  EXPECT_EQ(store.get(first.id)->progress_json, "");
+  now_ms_ = 3'000'000;
+  EXPECT_TRUE(store.apply(second, JobEvent::fail, R"({"message":"m"})"));
+  const JobRow failed = store.get(first.id).value();
+  EXPECT_EQ(failed.state, JobState::failed);
+  EXPECT_EQ(failed.error_json, R"({"message":"m"})");
+  EXPECT_EQ(failed.ended_ms, 3'000'000);
+  EXPECT_FALSE(store.apply(failed, JobEvent::cancel));
+}
+
+TEST_F(StoreTest, PagesListEveryJobOnceNewestFirst) {
+  Store store(folder_.path(), clock());
+  std::vector<std::string> added;
+  for (int i = 0; i < 25; ++i) added.push_back(store.add("n", "{}").id);
+  std::vector<std::string> listed;
+  std::string after;
+  for (std::vector<JobRow> page; !(page = store.list(10, after)).empty(); after = page.back().id) {
+    for (const JobRow& row : page) listed.push_back(row.id);
+  }
+  std::reverse(added.begin(), added.end());
+  EXPECT_EQ(listed, added);
+}
+
+TEST_F(StoreTest, RemovedJobsAreGone) {
+  Store store(folder_.path(), clock());
+  const JobRow row = store.add("a", "{}");
+  EXPECT_TRUE(store.remove(row.id));
+  EXPECT_FALSE(store.remove(row.id));
+  EXPECT_FALSE(store.get(row.id));
+  EXPECT_FALSE(store.apply(row, JobEvent::start));
+}
+
+TEST_F(StoreTest, OneServerPerFolder) {
+  const Store store(folder_.path());
+  EXPECT_THROW(Store second(folder_.path()), EnvironmentError);
+}
+
+TEST_F(StoreTest, ADamagedFileIsReportedNotReplaced) {
+  write_file_atomically(folder_.path() / "jobs.sqlite", std::string(4096, 'x'));
+  EXPECT_THROW(Store store(folder_.path()), EnvironmentError);
+  EXPECT_EQ(read_file(folder_.path() / "jobs.sqlite"), std::string(4096, 'x'));
+}
+
+TEST_F(StoreTest, ThreadsAddAndReadAtOnce) {
+  Store store(folder_.path());
+  constexpr int kThreads = 4;
+  constexpr int kJobs = 10;
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < kThreads; ++t) {
+      threads.emplace_back([&] {
+        for (int i = 0; i < kJobs; ++i) {
+          const JobRow row = store.add("n", "{}");
+          EXPECT_TRUE(store.get(row.id));
+          store.apply(row, JobEvent::start);
+        }
+      });
+    }
+  }
+  std::set<std::string> ids;
+  for (const JobRow& row : store.list(1000)) {
+    ids.insert(row.id);
+    EXPECT_EQ(row.state, JobState::running);
+  }
+  EXPECT_EQ(ids.size(), static_cast<std::size_t>(kThreads * kJobs));
+}
+
+}  // namespace
+}  // namespace throng::jobs
