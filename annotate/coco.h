@@ -20,8 +20,10 @@ struct CocoImage {
   std::string camera_id;  ///< drone id
   std::int64_t frame_index = 0;
   double time_s = 0;
-  camera::Camera camera;  ///< K, R, t are written with the image
-  int run_index = 0;      ///< number of the run in the dataset: keeps track ids apart
+  camera::Camera camera;           ///< K, R, t are written with the image
+  int run_index = 0;               ///< number of the run in the dataset: keeps track ids apart
+  std::string density_file;        ///< like file_name; "" when the frame has no density map
+  std::int64_t density_count = 0;  ///< heads that the density map sums to
 };
 
 /// Agents that one run may have, so that ids stay unique: annotation id = image id *

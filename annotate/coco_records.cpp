@@ -90,7 +90,12 @@ void append_image_record(std::string& text, const CocoImage& image) {
   append_exact(text, image.camera.pose.t);
   text += R"(,"centre":)";
   append_exact(text, image.camera.pose.centre());
-  text += "}}\n";
+  text.push_back('}');
+  if (!image.density_file.empty()) {
+    append(text, R"(,"density_file":{},"density_count":{})", quoted(image.density_file),
+           image.density_count);
+  }
+  text += "}\n";
 }
 
 void append_annotation_record(std::string& text, const CocoImage& image, const PersonLabel& label) {
