@@ -19,7 +19,8 @@ enum class Stream : std::uint32_t {
   sensors = 8,
   population = 9,  ///< bodies that are baked
   environment = 10,
-  randomize = 11,  ///< values drawn for a job's distributions
+  randomize = 11,     ///< values drawn for a job's distributions
+  participants = 12,  ///< who of a scenario's people takes part in a run
 };
 
 /// A generator keyed by (seed, stream, index): Philox 4x32-10 (Salmon et al. 2011) from Random123.

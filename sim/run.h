@@ -16,19 +16,19 @@ namespace throng::sim {
 
 /// What one drone is asked to do.
 struct DroneMission {
-  std::string id;                    ///< as in the job; unique
-  std::string airframe = "f450";     ///< a name in sim/airframes.json
-  std::string policy = "hover";      ///< "hover" or "waypoints"
+  std::string id;                            ///< as in the job; unique
+  std::string airframe = "f450";             ///< a name in sim/airframes.json
+  std::string policy = "hover";              ///< "hover" or "waypoints"
   std::optional<Eigen::Vector3d> start;      ///< m; default: the scenario's start for this id
-  std::vector<Eigen::Vector3d> waypoints;  ///< m, in order; the drone hovers at the last one
-  double speed_mps = 3;                    ///< along the path
+  std::vector<Eigen::Vector3d> waypoints;    ///< m, in order; the drone hovers at the last one
+  double speed_mps = 3;                      ///< along the path
   std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
 };
 
 struct RunSpec {
   std::uint64_t seed = 1;
-  double duration_s = 120;          ///< simulated time; the run may not end earlier
-  std::optional<int> people;        ///< how many of the scenario's people take part; default all
+  double duration_s = 120;    ///< simulated time; the run may not end earlier
+  std::optional<int> people;  ///< how many of the scenario's people take part; default all
   std::vector<DroneMission> drones;
   double physics_dt_s = 1.0 / 480;  ///< at most 1/240 s
 };

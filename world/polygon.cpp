@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace throng::world {
 
@@ -27,6 +28,25 @@ bool segments_touch(const Vector2d& a, const Vector2d& b, const Vector2d& c, con
   // What is left are segments that meet at an end of one of them.
   return std::min({distance_to_segment(a, b, c), distance_to_segment(a, b, d),
                    distance_to_segment(c, d, a), distance_to_segment(c, d, b)}) == 0;
+}
+
+// Whether `p` lies in the counter-clockwise triangle, its edges included.
+bool in_triangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& p) {
+  return cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
+}
+
+// Whether the corner `left[i]` can be cut off: it is convex and no other corner lies in the cut.
+bool is_ear(std::span<const Vector2d> corners, std::span<const std::size_t> left, std::size_t i) {
+  const std::size_t n = left.size();
+  const Vector2d& a = corners[left[(i + n - 1) % n]];
+  const Vector2d& b = corners[left[i]];
+  const Vector2d& c = corners[left[(i + 1) % n]];
+  if (cross(b - a, c - b) < 0) return false;
+  for (std::size_t j = 2; j + 1 < n; ++j) {
+    const Vector2d& p = corners[left[(i + j) % n]];
+    if (p != a && p != b && p != c && in_triangle(a, b, c, p)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -70,6 +90,23 @@ double distance_to(std::span<const Vector2d> corners, const Vector2d& point) {
     }
   }
   return inside ? 0.0 : distance;
+}
+
+std::vector<std::array<std::size_t, 3>> triangulate(std::span<const Vector2d> corners) {
+  std::vector<std::size_t> left(corners.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  std::vector<std::array<std::size_t, 3>> triangles;
+  while (left.size() > 3) {
+    std::size_t ear = 0;
+    while (ear < left.size() && !is_ear(corners, left, ear)) ++ear;
+    // Every simple polygon has an ear (Meisters 1975); only rounding can hide it.
+    if (ear == left.size()) ear = 0;
+    const std::size_t n = left.size();
+    triangles.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  if (left.size() == 3) triangles.push_back({left[0], left[1], left[2]});
+  return triangles;
 }
 
 }  // namespace throng::world

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
+#include <vector>
 
 namespace throng::world {
 
@@ -14,5 +16,9 @@ bool is_simple(std::span<const Eigen::Vector2d> corners);
 
 /// Distance to the polygon's area: 0 inside (m).
 double distance_to(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& point);
+
+/// Cuts a simple counter-clockwise polygon into triangles, counter-clockwise too, as indices of
+/// its corners (ear clipping; corners on a straight edge may give triangles without area).
+std::vector<std::array<std::size_t, 3>> triangulate(std::span<const Eigen::Vector2d> corners);
 
 }  // namespace throng::world

@@ -36,5 +36,24 @@ TEST(Polygon, DistanceIsZeroInsideAndEuclideanOutside) {
   EXPECT_DOUBLE_EQ(distance_to(kUnitSquare, {0.5, -2}), 2.0);
 }
 
+TEST(Polygon, TrianglesCoverThePolygonWithoutOverlap) {
+  const Corners comb{{0, 0}, {7, 0}, {7, 5}, {6, 5}, {6, 1}, {4, 1},
+                     {4, 4}, {3, 4}, {3, 1}, {1, 1}, {1, 6}, {0, 6}};
+  const Corners straight_corner{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}};
+  for (const Corners& corners : {kUnitSquare, kEll, comb, straight_corner}) {
+    const auto triangles = triangulate(corners);
+    EXPECT_EQ(triangles.size(), corners.size() - 2);
+    double area = 0;
+    for (const auto& [a, b, c] : triangles) {
+      const Corners triangle{corners[a], corners[b], corners[c]};
+      EXPECT_GE(signed_area(triangle), 0);
+      area += signed_area(triangle);
+      const Eigen::Vector2d middle = (triangle[0] + triangle[1] + triangle[2]) / 3;
+      EXPECT_EQ(distance_to(corners, middle), 0);
+    }
+    EXPECT_NEAR(area, signed_area(corners), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace throng::world

@@ -1,0 +1,88 @@
+#include "sim/airframe.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "world/json_reader.h"
+
+namespace throng::embedded {
+extern const std::string_view airframes;
+}
+
+namespace throng::sim {
+
+namespace {
+
+// Less than this leaves nothing to steer with: 35 degrees of tilt alone take 1.22.
+constexpr double kLeastThrustToWeight = 1.4;
+
+Airframe read_airframe(const std::string& name, const world::JsonValue& value) {
+  value.fields({"source", "mass_kg", "arm_m", "height_m", "propeller_radius_m", "inertia_kg_m2",
+                "thrust_n_s2", "torque_per_thrust_m", "max_rotor_rad_s", "motor_up_s",
+                "motor_down_s", "rotor_drag_n_s2_m", "body_drag_n_s2_m2"},
+               {"attitude_gain_s2", "rate_gain_s"});
+  Airframe frame;
+  frame.name = name;
+  frame.mass_kg = value["mass_kg"].number(1e-3, 100);
+  frame.arm_m = value["arm_m"].number(1e-2, 5);
+  frame.height_m = value["height_m"].number(1e-2, 5);
+  frame.propeller_radius_m = value["propeller_radius_m"].number(1e-3, 5);
+  const auto inertia = value["inertia_kg_m2"].tuple(3, "[about x, about y, about z]");
+  for (std::size_t i = 0; i < inertia.size(); ++i) {
+    frame.inertia[static_cast<int>(i)] = inertia[i].number(1e-8, 100);
+  }
+  frame.thrust_n_s2 = value["thrust_n_s2"].number(1e-12, 1);
+  frame.torque_per_thrust_m = value["torque_per_thrust_m"].number(1e-6, 1);
+  frame.max_rotor_rad_s = value["max_rotor_rad_s"].number(1, 1e5);
+  frame.motor_up_s = value["motor_up_s"].number(0, 1);
+  frame.motor_down_s = value["motor_down_s"].number(0, 1);
+  frame.rotor_drag = value["rotor_drag_n_s2_m"].number(0, 1);
+  frame.body_drag = value["body_drag_n_s2_m2"].number(0, 10);
+  if (const auto gain = value["attitude_gain_s2"]; gain.exists()) {
+    frame.attitude_gain_s2 = gain.number(1, 1e4);
+  }
+  if (const auto gain = value["rate_gain_s"]; gain.exists())
+    frame.rate_gain_s = gain.number(1, 1e3);
+  if (frame.max_thrust_n() < kLeastThrustToWeight * frame.weight_n()) {
+    value.reject(fmt::format("rotors that lift {:.3g} N at most, for a weight of {:.3g} N",
+                             frame.max_thrust_n(), frame.weight_n()),
+                 fmt::format("thrust of at least {} times the weight, to hover and steer",
+                             kLeastThrustToWeight));
+  }
+  return frame;
+}
+
+}  // namespace
+
+double Airframe::top_speed_mps() const {
+  // body_drag v² + linear v = weight tan(30°), the rotors turning as in hover.
+  const double linear = 4 * rotor_drag * std::sqrt(weight_n() / (4 * thrust_n_s2));
+  const double force_n = weight_n() * std::tan(EIGEN_PI / 6);
+  return 2 * force_n / (linear + std::sqrt(linear * linear + 4 * body_drag * force_n));
+}
+
+std::vector<Airframe> parse_airframes(std::string_view json, const std::string& source) {
+  const nlohmann::json document = world::parse_json(json, source);
+  std::vector<Problem> problems;
+  const world::JsonValue root(document, source, problems);
+  std::vector<Airframe> frames;
+  if (document.is_object()) {
+    for (const auto& [name, value] : document.items()) {
+      const std::size_t before = problems.size();
+      Airframe frame = read_airframe(name, root[name]);
+      if (problems.size() == before) frames.push_back(std::move(frame));
+    }
+  } else {
+    root.reject("an object with one airframe per name");
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return frames;
+}
+
+std::vector<Airframe> shipped_airframes() {
+  return parse_airframes(embedded::airframes, "airframes.json");
+}
+
+}  // namespace throng::sim

@@ -1,0 +1,32 @@
+// Turns the crowd's state into the trace's steps, and notices what happens to people.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "crowd/simulation.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::sim {
+
+class CrowdRecorder {
+ public:
+  /// `moving_goals` are the goals that drones move. All three must outlive the recorder.
+  CrowdRecorder(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
+                const std::vector<world::GoalRef>& moving_goals);
+
+  /// Writes the crowd as it is now, and an event for everybody who has got away just now.
+  void record(const crowd::Simulation& crowd, double time_s, world::TraceWriter& trace);
+
+ private:
+  void update_intents(std::span<const crowd::GoalId> goals);
+
+  const world::Scenario& scenario_;
+  const std::vector<world::AgentRole>& roles_;
+  const std::vector<world::GoalRef>& moving_goals_;
+  std::vector<std::int8_t> intents_;
+  std::vector<bool> escaped_;
+};
+
+}  // namespace throng::sim

@@ -1,0 +1,51 @@
+#include "sim/participants.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "base/random.h"
+
+namespace throng::sim {
+
+using world::AgentRole;
+
+std::vector<AgentRole> choose_roles(const world::Scenario& scenario, std::size_t agents,
+                                    std::optional<int> people, std::uint64_t seed,
+                                    std::vector<Problem>& problems) {
+  std::vector<AgentRole> roles(agents, AgentRole::person);
+  for (std::size_t i = 0; i < scenario.disaster_agents.size(); ++i) {
+    const auto agent = static_cast<std::size_t>(scenario.disaster_agents[i]);
+    if (agent < agents) {
+      roles[agent] = AgentRole::disaster;
+    } else {
+      problems.push_back({scenario.id, fmt::format("/disaster_agents/{}", i), std::to_string(agent),
+                          fmt::format("an agent of the scene, which has {}", agents)});
+    }
+  }
+
+  struct Ticket {
+    std::uint32_t drawn;
+    std::size_t agent;
+    auto operator<=>(const Ticket&) const = default;
+  };
+  std::vector<Ticket> tickets;
+  for (std::size_t i = 0; i < agents; ++i) {
+    if (roles[i] == AgentRole::person) {
+      tickets.push_back({Random(seed, Stream::participants, i).bits(), i});
+    }
+  }
+  if (!people) return roles;
+  if (*people < 0 || static_cast<std::size_t>(*people) > tickets.size()) {
+    problems.push_back({"", "/crowd/agents", std::to_string(*people),
+                        fmt::format("0 to {}, the people in the scenario", tickets.size())});
+    return roles;
+  }
+  std::sort(tickets.begin(), tickets.end());
+  for (std::size_t i = static_cast<std::size_t>(*people); i < tickets.size(); ++i) {
+    roles[tickets[i].agent] = AgentRole::absent;
+  }
+  return roles;
+}
+
+}  // namespace throng::sim

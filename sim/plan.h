@@ -1,0 +1,32 @@
+// The drones of a run, checked: what was asked, completed with what the scenario knows.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "sim/airframe.h"
+#include "sim/policy.h"
+#include "sim/run.h"
+#include "world/scenario.h"
+
+namespace throng::sim {
+
+/// A drone that can fly its mission.
+struct PlannedDrone {
+  DroneMission mission;
+  Airframe airframe;
+  const PolicyEntry* policy;
+  Eigen::Vector3d start;
+  double yaw_rad;
+  std::optional<world::GoalRef> moves_goal;
+};
+
+/// Checks every mission and adds what is wrong to `problems`, with JSON pointers as in a job
+/// ("/drones/0/guidance/waypoints/2"). The plan is usable only when nothing was added.
+std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
+                                      const std::vector<DroneMission>& missions,
+                                      std::vector<Problem>& problems);
+
+}  // namespace throng::sim

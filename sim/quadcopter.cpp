@@ -1,0 +1,63 @@
+#include "sim/quadcopter.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace throng::sim {
+
+namespace {
+
+double kept(double dt_s, double time_constant_s) {
+  return time_constant_s > 0 ? std::exp(-dt_s / time_constant_s) : 0.0;
+}
+
+// Cheeseman and Bennett 1955: thrust grows as 1 / (1 - (R / 4h)²); the formula holds down to h =
+// R/2.
+double ground_effect(double radius_m, double height_m) {
+  const double ratio = radius_m / (4 * std::max(height_m, 0.5 * radius_m));
+  return 1 / (1 - ratio * ratio);
+}
+
+}  // namespace
+
+Quadcopter::Quadcopter(Airframe airframe, double dt_s)
+    : airframe_(std::move(airframe)),
+      keep_up_(kept(dt_s, airframe_.motor_up_s)),
+      keep_down_(kept(dt_s, airframe_.motor_down_s)) {
+  speeds_.fill(std::sqrt(airframe_.weight_n() / (4 * airframe_.thrust_n_s2)));
+}
+
+Wrench Quadcopter::step(const FlightState& state, const PerRotor& commands,
+                        const Eigen::Vector3d& air_velocity) {
+  const double seat_m = airframe_.arm_m / std::sqrt(2.0);
+  const Eigen::Vector3d up = state.rotation.col(2);
+  const bool upright = up.z() > 0;
+  double thrust_n = 0;
+  double speed_sum = 0;
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  // body frame
+  for (std::size_t i = 0; i < speeds_.size(); ++i) {
+    const double gap = speeds_[i] - commands[i];
+    speeds_[i] = commands[i] + gap * (gap < 0 ? keep_up_ : keep_down_);
+    const RotorSeat& seat = kRotorSeats[i];
+    const double x = seat.x * seat_m;
+    const double y = seat.y * seat_m;
+    double rotor_n = airframe_.thrust_n_s2 * speeds_[i] * speeds_[i];
+    const double reaction = seat.sense * airframe_.torque_per_thrust_m * rotor_n;
+    if (upright) {
+      const double height_m =
+          state.position.z() + state.rotation(2, 0) * x + state.rotation(2, 1) * y;
+      rotor_n *= ground_effect(airframe_.propeller_radius_m, height_m);
+    }
+    torque += Eigen::Vector3d(y * rotor_n, -x * rotor_n, -reaction);
+    thrust_n += rotor_n;
+    speed_sum += speeds_[i];
+  }
+  const Eigen::Vector3d through_air = state.velocity - air_velocity;
+  const Eigen::Vector3d across_rotors = through_air - through_air.dot(up) * up;
+  return {thrust_n * up - airframe_.rotor_drag * speed_sum * across_rotors -
+              airframe_.body_drag * through_air.norm() * through_air,
+          state.rotation * torque};
+}
+
+}  // namespace throng::sim

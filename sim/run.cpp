@@ -1,0 +1,139 @@
+#include "sim/run.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "crowd/simulation.h"
+#include "sim/crowd_recorder.h"
+#include "sim/flight.h"
+#include "sim/participants.h"
+#include "sim/plan.h"
+#include "world/trace.h"
+
+namespace throng::sim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kLongestPhysicsStepS = 1.0 / 240;
+constexpr double kLongestRunS = 86'400;
+
+void check_times(const RunSpec& spec, std::vector<Problem>& problems) {
+  if (!(spec.duration_s > 0 && spec.duration_s <= kLongestRunS)) {
+    problems.push_back({"", "/capture/to_s", fmt::format("{:g}", spec.duration_s),
+                        fmt::format("more than 0 and at most {:g} s", kLongestRunS)});
+  }
+  if (!(spec.physics_dt_s > 0 && spec.physics_dt_s <= kLongestPhysicsStepS + 1e-12)) {
+    problems.push_back({"", "/physics_dt_s", fmt::format("{:g}", spec.physics_dt_s),
+                        "more than 0 and at most 1/240 s"});
+  }
+}
+
+void check_exits(const world::Scenario& scenario, std::vector<Problem>& problems) {
+  constexpr std::size_t kMostExits = std::numeric_limits<std::int8_t>::max();
+  if (scenario.exits.size() > kMostExits) {
+    problems.push_back({scenario.id, "/exits", fmt::format("{} exits", scenario.exits.size()),
+                        fmt::format("at most {}", kMostExits)});
+  }
+}
+
+// Moves the goals that drones move to where the drones are.
+void move_goals(const std::vector<PlannedDrone>& drones, const Flight& flight,
+                crowd::Simulation& crowd) {
+  for (std::size_t i = 0; i < drones.size(); ++i) {
+    if (!drones[i].moves_goal) continue;
+    const Eigen::Vector2f place = flight.state(i).position.head<2>().cast<float>();
+    crowd.move_goal(drones[i].moves_goal->set, drones[i].moves_goal->goal, place);
+  }
+}
+
+// A first move of every goal, to learn whether the behaviour file has it.
+void check_goals(const std::vector<PlannedDrone>& drones, crowd::Simulation& crowd,
+                 std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < drones.size(); ++i) {
+    if (!drones[i].moves_goal) continue;
+    const auto [set, goal] = *drones[i].moves_goal;
+    try {
+      crowd.move_goal(set, goal, drones[i].start.head<2>().cast<float>());
+    } catch (const InputError&) {
+      problems.push_back({"", fmt::format("/drones/{}/moves_goal", i),
+                          fmt::format("[{}, {}]", set, goal),
+                          "a goal set and goal of the scenario's behaviour file"});
+    }
+  }
+}
+
+std::vector<world::GoalRef> goals_moved_by(const std::vector<PlannedDrone>& drones) {
+  std::vector<world::GoalRef> goals;
+  for (const PlannedDrone& drone : drones) {
+    if (drone.moves_goal) goals.push_back(*drone.moves_goal);
+  }
+  return goals;
+}
+
+world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spec,
+                             const crowd::Simulation& crowd,
+                             const std::vector<world::AgentRole>& roles) {
+  world::TraceHeader header;
+  header.scenario_id = scenario.id;
+  header.generator = kGenerator;
+  header.seed = spec.seed;
+  header.dt_s = crowd.dt_s();
+  header.state_names = crowd.state_names();
+  for (const world::Exit& exit : scenario.exits) header.exit_ids.push_back(exit.id);
+  for (const DroneMission& mission : spec.drones) header.drone_ids.push_back(mission.id);
+  header.role = roles;
+  header.radius_m.assign(crowd.radii_m().begin(), crowd.radii_m().end());
+  const auto speeds = crowd.desired_speeds_mps();
+  header.pref_speed_mps.assign(speeds.begin(), speeds.end());
+  return header;
+}
+
+}  // namespace
+
+void simulate(const world::Scenario& scenario, const RunSpec& spec, const fs::path& trace_file,
+              const RunProgress& progress, std::stop_token stop) {
+  std::vector<Problem> problems;
+  check_times(spec, problems);
+  check_exits(scenario, problems);
+  const std::vector<PlannedDrone> drones = plan_drones(scenario, spec.drones, problems);
+  crowd::Simulation crowd(scenario.scene_file, scenario.behavior_file, {spec.seed});
+  const std::vector<world::AgentRole> roles =
+      choose_roles(scenario, crowd.agent_count(), spec.people, spec.seed, problems);
+  check_goals(drones, crowd, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    crowd.set_present(i, roles[i] != world::AgentRole::absent);
+  }
+
+  world::TraceWriter trace(trace_file, header_of(scenario, spec, crowd, roles));
+  const double dt_s = crowd.dt_s();
+  Flight flight(
+      scenario.buildings, drones, dt_s, spec.physics_dt_s,
+      {[&](std::size_t drone, const world::DroneSample& sample) { trace.add_drone(drone, sample); },
+       [&](const world::TraceEvent& event) { trace.add_event(event); }});
+  const std::vector<world::GoalRef> moving_goals = goals_moved_by(drones);
+  CrowdRecorder recorder(scenario, roles, moving_goals);
+  recorder.record(crowd, 0, trace);
+
+  constexpr double kRounding = 1e-9;
+  const auto steps = static_cast<long>(std::ceil(spec.duration_s / dt_s - kRounding));
+  for (long step = 1; step <= steps; ++step) {
+    if (stop.stop_requested()) throw Cancelled();
+    move_goals(drones, flight, crowd);
+    crowd.step();
+    flight.advance();
+    const double time_s = static_cast<double>(step) * dt_s;
+    recorder.record(crowd, time_s, trace);
+    if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
+  }
+  trace.finish();
+}
+
+}  // namespace throng::sim

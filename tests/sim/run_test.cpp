@@ -1,0 +1,252 @@
+#include "sim/run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "tests/world/temporary_folder.h"
+#include "world/trace.h"
+
+namespace throng::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using throng::testing::TemporaryFolder;
+using world::AgentRole;
+
+constexpr int kPeopleInSquare = 260;
+
+const world::Scenario& city_square() {
+  static const world::Scenario scenario =
+      world::find_scenario(fs::path(THRONG_SOURCE_DIR) / "scenarios", "city_square/nearest_exit");
+  return scenario;
+}
+
+RunSpec short_run() {
+  RunSpec spec;
+  spec.seed = 7;
+  spec.duration_s = 4;
+  DroneMission mission;
+  mission.id = "d1";
+  mission.policy = "waypoints";
+  mission.waypoints = {{4, -10, 25}, {4, 0, 20}};
+  spec.drones = {mission};
+  return spec;
+}
+
+world::Trace trace_of(const RunSpec& spec) {
+  const TemporaryFolder folder;
+  simulate(city_square(), spec, folder.path() / "run.h5");
+  return world::read_trace(folder.path() / "run.h5");
+}
+
+TEST(Run, RecordsTheWholeDurationOfCrowdAndDrone) {
+  const RunSpec spec = short_run();
+  const world::Trace trace = trace_of(spec);
+  EXPECT_EQ(trace.header.scenario_id, "city_square/nearest_exit");
+  EXPECT_EQ(trace.header.seed, 7U);
+  EXPECT_THAT(trace.header.drone_ids, ElementsAre("d1"));
+  EXPECT_THAT(trace.header.exit_ids, ElementsAre("exit1", "exit2", "exit3", "exit4", "exit5"));
+  ASSERT_EQ(trace.agents(), kPeopleInSquare + 1U);
+  EXPECT_EQ(std::count(trace.header.role.begin(), trace.header.role.end(), AgentRole::person),
+            kPeopleInSquare);
+  EXPECT_EQ(trace.header.role[260], AgentRole::disaster);
+
+  EXPECT_EQ(trace.time_s.front(), 0);
+  EXPECT_NEAR(trace.duration_s(), spec.duration_s, 1e-9);
+  const auto& drone = trace.drones.at(0);
+  EXPECT_EQ(drone.front().time_s, 0);
+  EXPECT_EQ(drone.front().position, city_square().drones[0].position);
+  EXPECT_NEAR(drone.back().time_s, spec.duration_s, 1e-9);
+  for (std::size_t i = 1; i < drone.size(); ++i) {
+    EXPECT_NEAR(drone[i].time_s - drone[i - 1].time_s, 1 / 60.0, 1e-6);
+  }
+}
+
+TEST(Run, DoesNotEndEarlyWhenTheDurationIsNoMultipleOfTheStep) {
+  RunSpec spec = short_run();
+  spec.duration_s = 0.35;
+  EXPECT_GE(trace_of(spec).duration_s(), 0.35);
+}
+
+TEST(Run, SameSpecGivesTheSameBytesOnAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  std::set<std::string> hashes;
+  for (const std::size_t threads : {1, 1, 2, 8}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    simulate(city_square(), short_run(), folder.path() / "run.h5");
+    hashes.insert(sha256_hex_of_file(folder.path() / "run.h5"));
+  }
+  EXPECT_EQ(hashes.size(), 1U);
+}
+
+TEST(Run, AnotherSeedGivesAnotherRun) {
+  RunSpec spec = short_run();
+  const world::Trace one = trace_of(spec);
+  spec.seed = 8;
+  EXPECT_NE(one.position, trace_of(spec).position);
+}
+
+TEST(Run, FewerPeopleAreDrawnFromAll) {
+  const auto people_of = [](const world::Trace& trace) {
+    std::set<std::size_t> people;
+    for (std::size_t i = 0; i < trace.agents(); ++i) {
+      if (trace.header.role[i] == AgentRole::person) people.insert(i);
+    }
+    return people;
+  };
+  RunSpec spec = short_run();
+  spec.duration_s = 0.1;
+  spec.people = 60;
+  const auto sixty = people_of(trace_of(spec));
+  EXPECT_EQ(sixty.size(), 60U);
+  spec.people = 20;
+  const auto twenty = people_of(trace_of(spec));
+  EXPECT_EQ(twenty.size(), 20U);
+  EXPECT_TRUE(std::includes(sixty.begin(), sixty.end(), twenty.begin(), twenty.end()));
+  spec.seed = 8;
+  EXPECT_NE(people_of(trace_of(spec)), twenty);
+  spec.people = 0;
+  EXPECT_TRUE(people_of(trace_of(spec)).empty());
+}
+
+// A hundred people and half a minute: the news spreads and people run.
+class Evacuation : public ::testing::Test {
+ protected:
+  static RunSpec spec() {
+    RunSpec spec;
+    spec.seed = 3;
+    spec.duration_s = 50;
+    spec.people = 100;
+    DroneMission mission;
+    mission.id = "d1";
+    spec.drones = {mission};
+    return spec;
+  }
+  static const world::Trace& trace() {
+    static const world::Trace recorded = trace_of(spec());
+    return recorded;
+  }
+};
+
+TEST_F(Evacuation, PeopleGetAwayAndEachOnce) {
+  std::set<int> escaped;
+  for (const world::TraceEvent& event : trace().events) {
+    if (event.type != "agent_escaped") continue;
+    EXPECT_TRUE(escaped.insert(event.agent).second);
+    const auto agent = static_cast<std::size_t>(event.agent);
+    EXPECT_EQ(trace().header.role[agent], AgentRole::person);
+    const auto step = static_cast<std::size_t>(std::lround(event.time_s / trace().header.dt_s));
+    const auto inside = [&](std::size_t at) {
+      return city_square().inside.contains(trace().position[trace().at(at, agent)].cast<double>());
+    };
+    EXPECT_FALSE(inside(step));
+    EXPECT_TRUE(step == 0 || inside(step - 1));
+  }
+  EXPECT_GT(escaped.size(), 20U);
+}
+
+TEST_F(Evacuation, WhoGetsAwayIntendedAnExitBefore) {
+  for (const world::TraceEvent& event : trace().events) {
+    if (event.type != "agent_escaped") continue;
+    EXPECT_GE(event.value, 0) << event.agent;
+  }
+  // Nobody has heard of anything yet.
+  for (std::size_t i = 0; i < trace().agents(); ++i) EXPECT_EQ(trace().exit_intent[i], -1);
+}
+
+TEST_F(Evacuation, NobodyTeleports) {
+  constexpr double kFastestMps = 2.5;
+  for (std::size_t step = 1; step < trace().steps(); ++step) {
+    for (std::size_t i = 0; i < trace().agents(); ++i) {
+      if (trace().header.role[i] != AgentRole::person) continue;
+      const float moved_m =
+          (trace().position[trace().at(step, i)] - trace().position[trace().at(step - 1, i)])
+              .norm();
+      ASSERT_LT(moved_m, kFastestMps * trace().header.dt_s) << "agent " << i << " step " << step;
+    }
+  }
+}
+
+TEST_F(Evacuation, HoveringDroneStaysAtTheScenariosStart) {
+  for (const world::DroneSample& sample : trace().drones[0]) {
+    EXPECT_LT((sample.position - city_square().drones[0].position).norm(), 1e-3);
+  }
+}
+
+// The drone hovers before exit 4, where many run past it.
+TEST(Run, PeopleFollowTheDroneWhoseGoalTheyAreGiven) {
+  RunSpec spec;
+  spec.duration_s = 40;
+  spec.people = 60;
+  spec.drones.emplace_back();
+  spec.drones[0].id = "d1";
+  spec.drones[0].start = Eigen::Vector3d(-8, 0, 5);
+  const world::Trace with = trace_of(spec);
+  spec.drones[0].moves_goal = world::GoalRef{99, 0};
+  EXPECT_EQ(with.position, trace_of(spec).position);  // the scenario's own choice for d1
+  spec.drones[0].id = "other";                        // of which the scenario knows nothing
+  spec.drones[0].moves_goal.reset();
+  EXPECT_NE(with.position, trace_of(spec).position);
+}
+
+TEST(Run, ReportsProgressToTheEnd) {
+  const TemporaryFolder folder;
+  std::vector<double> done;
+  simulate(city_square(), short_run(), folder.path() / "run.h5",
+           [&](double done_s, double total_s) {
+             EXPECT_EQ(total_s, 4);
+             done.push_back(done_s);
+           });
+  EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+  EXPECT_EQ(done.back(), 4);
+}
+
+TEST(Run, LeavesNothingWhenCancelled) {
+  const TemporaryFolder folder;
+  std::stop_source source;
+  EXPECT_THROW(simulate(
+                   city_square(), short_run(), folder.path() / "run.h5",
+                   [&](double done_s, double) {
+                     if (done_s > 1) source.request_stop();
+                   },
+                   source.get_token()),
+               Cancelled);
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(Run, SaysAllThatIsWrongBeforeItStarts) {
+  const TemporaryFolder folder;
+  RunSpec spec = short_run();
+  spec.people = kPeopleInSquare + 1;
+  spec.drones[0].airframe = "zeppelin";
+  spec.drones[0].moves_goal = world::GoalRef{99, 7};
+  spec.physics_dt_s = 0.1;
+  spec.duration_s = NAN;
+  std::vector<std::string> places;
+  try {
+    simulate(city_square(), spec, folder.path() / "run.h5");
+  } catch (const InputError& error) {
+    for (const Problem& problem : error.problems()) places.push_back(problem.where);
+  }
+  EXPECT_THAT(places, ElementsAre("/capture/to_s", "/physics_dt_s", "/drones/0/airframe",
+                                  "/crowd/agents", "/drones/0/moves_goal"));
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(Run, ADisasterThatIsNoAgentIsTheScenariosFault) {
+  const TemporaryFolder folder;
+  world::Scenario scenario = city_square();
+  scenario.disaster_agents = {9999};
+  EXPECT_THROW(simulate(scenario, short_run(), folder.path() / "run.h5"), InputError);
+}
+
+}  // namespace
+}  // namespace throng::sim

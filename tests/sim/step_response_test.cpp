@@ -1,0 +1,198 @@
+// Flight of an F450 (1.5 kg) against the bounds that a simulation of the same model met.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/airframe.h"
+#include "sim/controller.h"
+#include "sim/flight_world.h"
+
+namespace throng::sim {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegree = EIGEN_PI / 180;
+const Vector3d kStart(0, 0, 30);
+
+Airframe airframe_named(const std::string& name) {
+  for (Airframe& frame : shipped_airframes()) {
+    if (frame.name == name) return frame;
+  }
+  ADD_FAILURE() << name;
+  return {};
+}
+
+struct Rates {
+  double physics_hz = 480;
+  int physics_per_control = 2;
+};
+
+struct Flown {
+  std::vector<double> time_s;
+  std::vector<Vector3d> position;
+  double most_tilt_rad = 0;
+  double most_speed_mps = 0;
+
+  double position_along(std::size_t i, const Vector3d& axis) const {
+    return (position[i] - kStart).dot(axis);
+  }
+  double first_beyond(double distance_m, const Vector3d& axis) const {
+    for (std::size_t i = 0; i < time_s.size(); ++i) {
+      if (position_along(i, axis) >= distance_m) return time_s[i];
+    }
+    return INFINITY;
+  }
+  double furthest(const Vector3d& axis) const {
+    double most = 0;
+    for (std::size_t i = 0; i < time_s.size(); ++i) most = std::max(most, position_along(i, axis));
+    return most;
+  }
+  double settled_within(double tolerance_m, const Vector3d& target) const {
+    double last_outside_s = 0;
+    for (std::size_t i = 0; i < time_s.size(); ++i) {
+      if ((position[i] - target).norm() > tolerance_m) last_outside_s = time_s[i];
+    }
+    return last_outside_s;
+  }
+  double furthest_from(const Vector3d& point) const {
+    double most = 0;
+    for (const Vector3d& p : position) most = std::max(most, (p - point).norm());
+    return most;
+  }
+};
+
+// Flies from rest at kStart to `target`, in wind that rises at once.
+Flown fly(const Airframe& frame, const Vector3d& target, double duration_s,
+          const Vector3d& wind = Vector3d::Zero(), Rates rates = {}) {
+  FlightWorld world({}, 1 / rates.physics_hz);
+  world.add(frame, kStart, 0);
+  world.set_air_velocity(0, wind);
+  Controller controller(frame);
+  Flown flown;
+  const int steps = static_cast<int>(std::lround(duration_s * rates.physics_hz));
+  for (int step = 0; step < steps; ++step) {
+    const FlightState state = world.state(0);
+    if (step % rates.physics_per_control == 0) {
+      const double control_dt_s = rates.physics_per_control / rates.physics_hz;
+      world.command(0, controller.update(state, {target, Vector3d::Zero(), 0}, control_dt_s));
+    }
+    world.step();
+    flown.time_s.push_back((step + 1) / rates.physics_hz);
+    flown.position.push_back(world.state(0).position);
+    flown.most_tilt_rad =
+        std::max(flown.most_tilt_rad, std::acos(std::min(1.0, world.state(0).rotation(2, 2))));
+    flown.most_speed_mps = std::max(flown.most_speed_mps, world.state(0).velocity.norm());
+  }
+  return flown;
+}
+
+struct StepFigures {
+  double rise_s;
+  double t90_s;
+  double overshoot;
+  double settle_s;
+};
+
+StepFigures figures_of(const Flown& flown, double step_m, const Vector3d& axis) {
+  const double t90_s = flown.first_beyond(0.9 * step_m, axis);
+  const double last = flown.settled_within(0.05 * step_m, kStart + step_m * axis);
+  return {t90_s - flown.first_beyond(0.1 * step_m, axis), t90_s,
+          std::max(0.0, flown.furthest(axis) / step_m - 1), last};
+}
+
+TEST(F450, HoversOnTheSpot) {
+  const Flown flown = fly(airframe_named("f450"), kStart, 25);
+  double squares = 0;
+  for (const Vector3d& p : flown.position) squares += (p - kStart).squaredNorm();
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(flown.position.size())), 1e-3);
+}
+
+TEST(F450, StepsOneMetreAhead) {
+  const Flown flown = fly(airframe_named("f450"), kStart + Vector3d::UnitX(), 10);
+  const StepFigures figures = figures_of(flown, 1, Vector3d::UnitX());
+  EXPECT_GT(figures.rise_s, 0.6);
+  EXPECT_LT(figures.rise_s, 1.2);
+  EXPECT_LT(figures.overshoot, 0.10);
+  EXPECT_LT(figures.settle_s, 3);
+  EXPECT_LT(flown.most_tilt_rad, 20 * kDegree);
+}
+
+TEST(F450, StepsFiveMetresAhead) {
+  const Flown flown = fly(airframe_named("f450"), kStart + 5 * Vector3d::UnitX(), 12);
+  const StepFigures figures = figures_of(flown, 5, Vector3d::UnitX());
+  EXPECT_LT(figures.t90_s, 2.3);
+  EXPECT_LT(figures.overshoot, 0.05);
+  EXPECT_LT(flown.most_tilt_rad, 37 * kDegree);
+}
+
+TEST(F450, StepsTwentyMetresAhead) {
+  const Flown flown = fly(airframe_named("f450"), kStart + 20 * Vector3d::UnitX(), 15);
+  const StepFigures figures = figures_of(flown, 20, Vector3d::UnitX());
+  EXPECT_LT(figures.t90_s, 5.5);
+  EXPECT_LT(figures.overshoot, 0.05);
+  EXPECT_LE(flown.most_speed_mps, 5.0);
+}
+
+class HeightStep : public ::testing::TestWithParam<double> {};
+
+TEST_P(HeightStep, OvershootsLittleAndSettles) {
+  const double step_m = GetParam();
+  const Flown flown = fly(airframe_named("f450"), kStart + step_m * Vector3d::UnitZ(), 12);
+  const double size_m = std::abs(step_m);
+  const StepFigures figures =
+      figures_of(flown, size_m, std::copysign(1, step_m) * Vector3d::UnitZ());
+  EXPECT_LT(figures.overshoot, 0.12);
+  EXPECT_LT(figures.settle_s, 3.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Metres, HeightStep, ::testing::Values(1.0, 3.0, -1.0, -3.0));
+
+TEST(F450, StaysOnItsLine) {
+  const Flown flown = fly(airframe_named("f450"), kStart + 5 * Vector3d::UnitX(), 10);
+  const double sideways =
+      std::max(flown.furthest(Vector3d::UnitY()), flown.furthest(-Vector3d::UnitY()));
+  const double up_or_down =
+      std::max(flown.furthest(Vector3d::UnitZ()), flown.furthest(-Vector3d::UnitZ()));
+  EXPECT_LT(sideways, 0.1);
+  EXPECT_LT(up_or_down, 0.1);
+}
+
+TEST(F450, HoldsAgainstAGustThatStays) {
+  const std::vector<std::pair<double, double>> peaks{{4, 0.35}, {8, 0.8}, {10, 1.1}};
+  for (const auto& [wind_mps, most_m] : peaks) {
+    const Flown flown = fly(airframe_named("f450"), kStart, 15, wind_mps * Vector3d::UnitX());
+    EXPECT_LT(flown.furthest_from(kStart), most_m) << wind_mps;
+    EXPECT_GT(flown.furthest_from(kStart), 0.2 * most_m) << wind_mps;
+    EXPECT_LT((flown.position.back() - kStart).norm(), 0.1) << wind_mps;
+  }
+}
+
+TEST(F450, FliesTheSameAtEveryPhysicsRate) {
+  const Vector3d target = kStart + Vector3d(5, 0, 1);
+  const Flown slow = fly(airframe_named("f450"), target, 8, {0, 4, 0}, {240, 1});
+  const Flown fast = fly(airframe_named("f450"), target, 8, {0, 4, 0}, {1000, 4});
+  for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
+    EXPECT_NEAR(slow.furthest(axis), fast.furthest(axis), 0.03 * fast.furthest(axis));
+  }
+  EXPECT_NEAR(slow.most_tilt_rad, fast.most_tilt_rad, 0.03 * fast.most_tilt_rad);
+  EXPECT_NEAR(slow.most_speed_mps, fast.most_speed_mps, 0.03 * fast.most_speed_mps);
+}
+
+class EveryAirframe : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryAirframe, HoversAndFliesToATarget) {
+  const Airframe frame = airframe_named(GetParam());
+  const Vector3d target = kStart + Vector3d(3, -2, 1);
+  const Flown flown = fly(frame, target, 10);
+  EXPECT_LT((flown.position.back() - target).norm(), 0.05);
+  EXPECT_LT(flown.most_tilt_rad, 38 * kDegree);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, EveryAirframe,
+                         ::testing::Values("f450", "iris", "hummingbird", "crazyflie"));
+
+}  // namespace
+}  // namespace throng::sim
