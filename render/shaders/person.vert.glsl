@@ -70,6 +70,6 @@ void main() {
   uint slot = part >> 16;
   tint = slot == 0u ? vec3(1.0) : linear_from_srgb(unpackUnorm4x8(tints[slot - 1u]).rgb);
   id = pose.w;
-  gl_Position = project(world, shift);
+  gl_Position = project_movable(world, shift);
 }
 #endif

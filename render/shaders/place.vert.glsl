@@ -17,5 +17,5 @@ void main() {
   local = local_in;
   normal = normal_in;
   id = id_in;
-  gl_Position = project(position, ivec2(0));
+  gl_Position = project(position);
 }
