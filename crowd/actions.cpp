@@ -146,7 +146,7 @@ std::unique_ptr<Action> make_change(const Element& element, const Attributes& at
   const double high = spec.max * spec.file_unit;
   if (kChange == Change::set && (operand.first < low || operand.first > high)) {
     element.fail(fmt::format("{} as {}", operand.first, spec.name),
-                 fmt::format("a number from {} to {}", low, high));
+                 fmt::format("a number from {:.6g} to {:.6g}", low, high));
   }
   return std::make_unique<ChangeProperty>(
       property, kChange, operand, context.make_draws(operand.seed),

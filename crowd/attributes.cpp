@@ -34,16 +34,8 @@ std::optional<Number> parse(std::string_view text) {
 /// Reads the raw attributes of one element and remembers which ones were asked for.
 class Reader {
  public:
-  explicit Reader(const Element& element) : element_(element), given_(element.attributes()) {
-    for (std::size_t i = 0; i < given_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        if (given_[i].first == given_[j].first) {
-          element.fail_attribute(given_[i].first, "the attribute twice", "it at most once");
-        }
-      }
-    }
-    used_.resize(given_.size());
-  }
+  explicit Reader(const Element& element)
+      : element_(element), given_(element.attributes()), used_(given_.size()) {}
 
   std::optional<std::string_view> find(const std::string& name) {
     known_.push_back(name);
@@ -91,7 +83,7 @@ class Reader {
   }
 
   static std::string expected_number(std::string_view kind, double min, double max) {
-    return fmt::format("{} from {} to {}", kind, min, max);
+    return fmt::format("{} from {:.6g} to {:.6g}", kind, min, max);
   }
 
  private:

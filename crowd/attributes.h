@@ -59,7 +59,7 @@ AttributeSpec optional(AttributeSpec spec, std::string_view default_text = "");
 using AttributeTable = std::vector<AttributeSpec>;
 
 /// The checked values of an element's attributes. Throws InputError for an attribute that is not
-/// in the table, is missing, given twice, malformed or out of range. Asking for one that is not in
+/// in the table, is missing, malformed or out of range. Asking for one that is not in
 /// the table is a bug.
 class Attributes {
  public:

@@ -1,0 +1,94 @@
+#include "crowd/grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/random.h"
+
+namespace throng::crowd {
+namespace {
+
+Agents scattered(std::size_t count, double half_width_m, double half_height_m, std::uint64_t seed) {
+  Agents agents;
+  agents.resize(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    Random random(seed, Stream::crowd_generator, i);
+    agents.position[i] = {static_cast<float>(random.uniform(-half_width_m, half_width_m)),
+                          static_cast<float>(random.uniform(-half_height_m, half_height_m))};
+    agents[Property::radius][i] = 0.2F;
+    agents.present[i] = random.uniform() < 0.9 ? 1 : 0;
+  }
+  return agents;
+}
+
+std::vector<std::uint32_t> brute_force(const Agents& agents, std::size_t self, float range,
+                                       std::size_t most) {
+  std::vector<std::pair<float, std::uint32_t>> all;
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    const float d = (agents.position[i] - agents.position[self]).squaredNorm();
+    if (i != self && agents.present[i] != 0 && d < range * range) {
+      all.emplace_back(d, static_cast<std::uint32_t>(i));
+    }
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<std::uint32_t> ids;
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i) ids.push_back(all[i].second);
+  return ids;
+}
+
+void expect_brute_force(const Agents& agents, float range, std::size_t most, float first_reach) {
+  Grid grid;
+  grid.build(agents);
+  std::vector<Grid::Neighbor> found(most);
+  for (std::size_t slot = 0; slot < grid.size(); ++slot) {
+    float reach = first_reach;
+    for (int again = 0; again < 2; ++again) {  // the second time with the reach of the first
+      const std::size_t count = grid.nearest(slot, range, found, reach);
+      std::vector<std::uint32_t> ids;
+      for (std::size_t i = 0; i < count; ++i) ids.push_back(grid.id(found[i].slot));
+      ASSERT_EQ(ids, brute_force(agents, grid.id(slot), range, most))
+          << "agent " << grid.id(slot) << " range " << range;
+    }
+  }
+}
+
+TEST(Grid, FindsTheNearestAsBruteForceDoes) {
+  for (const float range : {0.7F, 5.0F, 40.0F}) {
+    expect_brute_force(scattered(400, 12, 12, 1), range, 10, 2);
+    expect_brute_force(scattered(300, 200, 1, 2), range, 3, 100);  // a corridor
+  }
+  expect_brute_force(scattered(200, 3, 3, 3), 5, 500, 0);  // more room than there are others
+}
+
+TEST(Grid, BreaksTiesById) {
+  Agents agents;
+  agents.resize(9, 0);
+  for (std::size_t i = 0; i < 9; ++i) {
+    agents.position[i] = {static_cast<float>(i % 3), static_cast<float>(i / 3)};
+  }
+  expect_brute_force(agents, 5, 3, 2);
+  for (Eigen::Vector2f& p : agents.position) p.setConstant(7);
+  expect_brute_force(agents, 5, 3, 2);
+}
+
+TEST(Grid, CopesWithSomeoneFarAway) {
+  Agents agents = scattered(200, 8, 8, 4);
+  agents.position[17] = {9e4F, -9e4F};
+  expect_brute_force(agents, 5, 10, 2);
+}
+
+TEST(Grid, HoldsThosePresentOnly) {
+  const Agents agents = scattered(100, 5, 5, 5);
+  Grid grid;
+  grid.build(agents);
+  EXPECT_EQ(grid.size(),
+            static_cast<std::size_t>(std::count(agents.present.begin(), agents.present.end(), 1)));
+  for (std::size_t slot = 0; slot < grid.size(); ++slot) {
+    EXPECT_EQ(agents.present[grid.id(slot)], 1);
+    EXPECT_EQ(grid.position(slot), agents.position[grid.id(slot)]);
+  }
+}
+
+}  // namespace
+}  // namespace throng::crowd

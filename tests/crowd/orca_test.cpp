@@ -1,0 +1,237 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+#include "crowd/orca_lines.h"
+#include "crowd_files.h"
+
+namespace throng::crowd {
+namespace {
+
+float violation(const HalfPlane& plane, const Eigen::Vector2f& v) {
+  return cross(plane.direction, plane.point - v);
+}
+
+std::vector<HalfPlane> random_planes(std::size_t count, std::uint64_t seed) {
+  std::vector<HalfPlane> planes;
+  Random random(seed, Stream::crowd_generator);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    planes.push_back(
+        {{static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-1, 1))},
+         {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))}});
+  }
+  return planes;
+}
+
+/// The best of many velocities in the disc, by the largest violation and then the distance.
+struct Sampled {
+  float violation = 1e9F;
+  float distance = 1e9F;
+};
+
+Sampled sample_best(const std::vector<HalfPlane>& planes, std::size_t hard,
+                    const Eigen::Vector2f& preferred, float max_speed) {
+  Sampled best;
+  constexpr int kSteps = 150;
+  for (int ix = -kSteps; ix <= kSteps; ++ix) {
+    for (int iy = -kSteps; iy <= kSteps; ++iy) {
+      const Eigen::Vector2f v = max_speed / kSteps * Eigen::Vector2f(ix, iy);
+      if (v.norm() > max_speed) continue;
+      float worst = 0;
+      for (std::size_t i = 0; i < planes.size(); ++i) {
+        const float here = violation(planes[i], v);
+        if (i < hard && here > 0) worst = 1e9F;
+        worst = std::max(worst, here);
+      }
+      const float distance = (v - preferred).norm();
+      if (worst < best.violation || (worst == best.violation && distance < best.distance)) {
+        best = {worst, distance};
+      }
+    }
+  }
+  return best;
+}
+
+TEST(BestVelocity, IsAtLeastAsGoodAsAnySampledOne) {
+  std::vector<HalfPlane> scratch;
+  constexpr float kMaxSpeed = 1.5F;
+  int infeasible = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const std::vector<HalfPlane> planes = random_planes(1 + seed % 8, seed);
+    const Eigen::Vector2f preferred(1.2F, 0.3F);
+    const Eigen::Vector2f v = best_velocity(planes, 0, preferred, kMaxSpeed, scratch);
+    EXPECT_LE(v.norm(), kMaxSpeed + 1e-4F);
+    float worst = 0;
+    for (const HalfPlane& plane : planes) worst = std::max(worst, violation(plane, v));
+    const Sampled sampled = sample_best(planes, 0, preferred, kMaxSpeed);
+    EXPECT_LE(worst, sampled.violation + 1e-4F) << seed;
+    if (worst <= 1e-5F) {
+      EXPECT_LE((v - preferred).norm(), sampled.distance + 1e-4F) << seed;
+    } else {
+      ++infeasible;
+    }
+  }
+  EXPECT_GT(infeasible, 5);
+}
+
+TEST(BestVelocity, KeepsHardPlanesWhenNotAllCanBeKept) {
+  // A wall ahead (x <= 0 allowed, hard) against someone who pushes towards it (x >= 1).
+  const std::vector<HalfPlane> planes = {{{0, 0}, {0, 1}}, {{1, 0}, {0, -1}}};
+  std::vector<HalfPlane> scratch;
+  const Eigen::Vector2f v = best_velocity(planes, 1, {1, 0}, 2, scratch);
+  EXPECT_LE(v.x(), 1e-5F);
+}
+
+TEST(AvoidDisc, TwoWhoTakeTheirHalvesDoNotTouchWithinTheHorizon) {
+  std::vector<HalfPlane> scratch;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed, Stream::crowd_generator);
+    const auto draw = [&](double half) { return static_cast<float>(random.uniform(-half, half)); };
+    const Disc a{{draw(4), draw(4)}, {draw(1.5), draw(1.5)}, 0.3F};
+    const Disc b{{draw(4), draw(4)}, {draw(1.5), draw(1.5)}, 0.4F};
+    if ((a.position - b.position).norm() < 0.8F) continue;
+    constexpr float kHorizon = 2;
+    const Eigen::Vector2f va =
+        best_velocity({avoid_disc(a, b, kHorizon, 0.1F)}, 0, a.velocity, 5, scratch);
+    const Eigen::Vector2f vb =
+        best_velocity({avoid_disc(b, a, kHorizon, 0.1F)}, 0, b.velocity, 5, scratch);
+    for (float t = 0; t <= kHorizon; t += 0.05F) {
+      const float distance = (a.position + t * va - b.position - t * vb).norm();
+      EXPECT_GE(distance, 0.7F - 1e-3F) << "seed " << seed << " t " << t;
+    }
+  }
+}
+
+TEST(AvoidDisc, OverlappingDiscsPartWithinTheStep) {
+  const Disc a{{0, 0}, {0, 0}, 0.3F};
+  const Disc b{{0.4F, 0}, {0, 0}, 0.3F};
+  constexpr float kDt = 0.1F;
+  std::vector<HalfPlane> scratch;
+  const Eigen::Vector2f va = best_velocity({avoid_disc(a, b, 3, kDt)}, 0, {0, 0}, 5, scratch);
+  const Eigen::Vector2f vb = best_velocity({avoid_disc(b, a, 3, kDt)}, 0, {0, 0}, 5, scratch);
+  EXPECT_NEAR((b.position + kDt * vb - a.position - kDt * va).norm(), 0.6F, 1e-4F);
+}
+
+TEST(AvoidWalls, AllowedVelocitiesDoNotHitABoxWithinTheHorizon) {
+  Obstacles obstacles;
+  const std::array<Eigen::Vector2f, 4> corners = {{{-1, -2}, {1, -2}, {1, 2}, {-1, 2}}};
+  obstacles.add_polygon(corners, 1);
+  obstacles.build();
+  constexpr float kHorizon = 1;
+  constexpr float kRadius = 0.3F;
+  std::vector<Obstacles::Near> near;
+  std::vector<HalfPlane> scratch;
+  int deflected = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Random random(seed, Stream::crowd_generator);
+    const auto draw = [&](double half) { return static_cast<float>(random.uniform(-half, half)); };
+    const Disc self{{draw(4), draw(4)}, {draw(2), draw(2)}, kRadius};
+    const auto clearance = [](const Eigen::Vector2f& p) {
+      const Eigen::Vector2f box(1, 2);
+      const Eigen::Vector2f inside = p.cwiseMax(-box).cwiseMin(box);
+      return (p - inside).norm();
+    };
+    if (clearance(self.position) < kRadius + 0.01F) continue;
+    obstacles.near(self.position, 20, 1, near);
+    std::vector<HalfPlane> planes;
+    avoid_walls(self, obstacles.segments(), near, kHorizon, planes);
+    const Eigen::Vector2f v = best_velocity(planes, planes.size(), self.velocity, 5, scratch);
+    if ((v - self.velocity).norm() > 1e-3F) ++deflected;
+    for (float t = 0; t <= kHorizon; t += 0.02F) {
+      EXPECT_GE(clearance(self.position + t * v), kRadius - 2e-3F) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(deflected, 30);
+}
+
+using test::agent_at;
+using test::load;
+using test::mirror_behavior;
+using test::scene_with;
+
+float smallest_gap(const Simulation& simulation) {
+  float smallest = 1e9F;
+  for (std::size_t i = 0; i < simulation.agent_count(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const float distance = (simulation.positions()[i] - simulation.positions()[j]).norm();
+      smallest = std::min(smallest, distance - simulation.radii_m()[i] - simulation.radii_m()[j]);
+    }
+  }
+  return smallest;
+}
+
+TEST(Orca, HeadOnPairPassesSymmetrically) {
+  Simulation crowd =
+      load(scene_with(agent_at(-5, 0.1) + agent_at(5, -0.1), "r=\"0.3\""), mirror_behavior());
+  while (!crowd.all_final() && crowd.time_s() < 30) {
+    crowd.step();
+    EXPECT_NEAR((crowd.positions()[0] + crowd.positions()[1]).norm(), 0, 1e-3F);
+    EXPECT_GE(smallest_gap(crowd), -0.02F);
+  }
+  EXPECT_TRUE(crowd.all_final());
+}
+
+TEST(Orca, ACircleCrossesWithoutOverlapWhenStepsAreShortAndNothingHoldsItBack) {
+  std::string agents;
+  constexpr int kCount = 24;
+  for (int i = 0; i < kCount; ++i) {
+    // Not quite regular: in a perfect circle everyone would wait for everyone else.
+    Random random(1, Stream::crowd_generator, static_cast<std::uint64_t>(i));
+    const double angle = 2 * std::numbers::pi * i / kCount + random.uniform(-0.05, 0.05);
+    agents += agent_at(6 * std::cos(angle), 6 * std::sin(angle));
+  }
+  Simulation crowd =
+      load(scene_with(agents, R"(max_accel="1000" max_neighbors="100" neighbor_dist="20" r="0.25")",
+                      "Start", "", 0.02),
+           mirror_behavior());
+  while (!crowd.all_final() && crowd.time_s() < 60) {
+    crowd.step();
+    ASSERT_GE(smallest_gap(crowd), -0.01F) << crowd.time_s();
+  }
+  EXPECT_TRUE(crowd.all_final()) << "everyone arrives";
+}
+
+TEST(Orca, AWallIsWalkedAround) {
+  const std::string wall = R"(<ObstacleSet type="explicit" class="1"><Obstacle closed="1">
+    <Vertex p_x="-0.5" p_y="-2"/><Vertex p_x="0.5" p_y="-2"/>
+    <Vertex p_x="0.5" p_y="1"/><Vertex p_x="-0.5" p_y="1"/></Obstacle></ObstacleSet>)";
+  Simulation crowd =
+      load(scene_with(agent_at(-5, -3), R"(max_accel="100")", "Start", wall), mirror_behavior());
+  while (!crowd.all_final() && crowd.time_s() < 60) {
+    crowd.step();
+    const Eigen::Vector2f p = crowd.positions()[0];
+    const Eigen::Vector2f inside =
+        p.cwiseMax(Eigen::Vector2f(-0.5F, -2)).cwiseMin(Eigen::Vector2f(0.5F, 1));
+    ASSERT_GE((p - inside).norm(), 0.2F - 0.01F) << crowd.time_s();
+  }
+  EXPECT_TRUE(crowd.all_final());
+}
+
+TEST(Orca, ObstaclesOfOtherClassesAreNotThere) {
+  const std::string wall = R"(<ObstacleSet type="explicit" class="2"><Obstacle closed="1">
+    <Vertex p_x="-0.5" p_y="-2"/><Vertex p_x="0.5" p_y="-2"/>
+    <Vertex p_x="0.5" p_y="1"/><Vertex p_x="-0.5" p_y="1"/></Obstacle></ObstacleSet>)";
+  Simulation crowd =
+      load(scene_with(agent_at(-5, 0), R"(obstacleSet="1")", "Start", wall), mirror_behavior());
+  while (!crowd.all_final() && crowd.time_s() < 60) {
+    crowd.step();
+    EXPECT_NEAR(crowd.positions()[0].y(), 0, 1e-4F);
+  }
+  EXPECT_TRUE(crowd.all_final());
+}
+
+TEST(Orca, TwoInOnePlaceWalkApart) {
+  Simulation crowd = load(scene_with(agent_at(0, 0) + agent_at(0, 0)),
+                          test::condition_behavior(R"(<Condition type="timer" per_agent="1"
+                                                       dist="c" value="100"/>)"));
+  for (int i = 0; i < 50; ++i) crowd.step();
+  EXPECT_GE(smallest_gap(crowd), -0.01F);
+}
+
+}  // namespace
+}  // namespace throng::crowd
