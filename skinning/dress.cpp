@@ -208,31 +208,24 @@ float reach_of(std::span<const Surface> tops, const Joints& joints) {
   return *std::max_element(lowest.begin(), lowest.end());
 }
 
-Surface wear(const Garment& garment, const DressedPerson& dressed, std::size_t budget) {
+Surface wear(const Garment& garment, const DressedPerson& dressed) {
   const std::vector<Eigen::Vector3f> fitted = fit(*garment.proxy, dressed.body);
   Surface surface = make_surface(garment.quads, garment.proxy->uvs, fitted, garment.proxy->weights,
                                  dressed.to_neutral);
   surface.texture = garment.texture;
   surface.tint = garment.tint;
   surface.alpha_tested = garment.alpha_tested;
-  surface.triangle_budget = std::min(budget, surface.indices.size() / 3);
   return surface;
 }
 
-std::vector<Surface> wear_all(const std::vector<Garment>& garments, const DressedPerson& dressed,
-                              std::size_t budget) {
-  std::size_t quads = 0;
-  for (const Garment& garment : garments) quads += garment.quads.size();
+std::vector<Surface> wear_all(const std::vector<Garment>& garments, const DressedPerson& dressed) {
   std::vector<Surface> surfaces;
-  for (const Garment& garment : garments) {
-    surfaces.push_back(wear(garment, dressed, budget * garment.quads.size() / quads));
-  }
+  for (const Garment& garment : garments) surfaces.push_back(wear(garment, dressed));
   return surfaces;
 }
 
 Surface skin_of(const MakeHuman& makehuman, const PersonSpec& person,
                 const DressedPerson& dressed) {
-  constexpr std::size_t kBudget = 2600;
   Surface skin = make_surface(makehuman.skin(), makehuman.uvs(), dressed.body, makehuman.weights(),
                               dressed.to_neutral);
   keep_triangles(skin, [&](std::size_t at) {
@@ -241,12 +234,18 @@ Surface skin_of(const MakeHuman& makehuman, const PersonSpec& person,
     });
   });
   skin.texture = person.skin;
-  skin.triangle_budget = kBudget;
   return skin;
 }
 
-void append(std::vector<Surface>& all, std::vector<Surface> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(all));
+// Adds surfaces that together have about `triangles` triangles, each its share.
+void add_simplified(std::vector<Surface> more, std::size_t triangles, std::vector<Surface>& all) {
+  std::size_t indices = 0;
+  for (const Surface& surface : more) indices += surface.indices.size();
+  for (Surface& surface : more) {
+    if (surface.indices.empty()) continue;
+    simplify(surface, triangles * surface.indices.size() / indices);
+    all.push_back(std::move(surface));
+  }
 }
 
 // Moves everything so that the soles stand on z = 0 with the hips above the origin.
@@ -281,10 +280,9 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   dressed.to_neutral = stance.to_neutral;
   dressed.covered = covered_skin(makehuman, wardrobe, person);
 
-  std::vector<Surface> tops = wear_all(wardrobe.pieces(person.top, Tint::top), dressed, 1900);
-  std::vector<Surface> bottoms =
-      wear_all(wardrobe.pieces(person.bottom, Tint::bottom), dressed, 1000);
-  std::vector<Surface> shoes = wear_all(wardrobe.pieces(person.shoes, Tint::shoes), dressed, 700);
+  const std::vector<Surface> tops = wear_all(wardrobe.pieces(person.top, Tint::top), dressed);
+  std::vector<Surface> bottoms = wear_all(wardrobe.pieces(person.bottom, Tint::bottom), dressed);
+  std::vector<Surface> shoes = wear_all(wardrobe.pieces(person.shoes, Tint::shoes), dressed);
 
   // A waistband must not show through a shirt worn over it, nor a shoe through trousers.
   constexpr float kWaistOverlap_m = 0.03F;
@@ -307,15 +305,19 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
     });
   }
 
-  dressed.surfaces.push_back(skin_of(makehuman, person, dressed));
-  append(dressed.surfaces, std::move(tops));
-  append(dressed.surfaces, std::move(bottoms));
-  append(dressed.surfaces, std::move(shoes));
-  append(dressed.surfaces, wear_all(wardrobe.pieces(person.hair, Tint::hair), dressed, 1700));
-  append(dressed.surfaces, wear_all(wardrobe.pieces(person.eyebrows, Tint::hair), dressed, 120));
+  std::vector<Surface> face = wear_all(wardrobe.pieces(person.eyebrows, Tint::hair), dressed);
   const Proxy& eyes = wardrobe.proxy("Low-Poly");
-  dressed.surfaces.push_back(
-      wear({&eyes, eyes.quads, Tint::none, false, person.eyes}, dressed, eyes.quads.size() * 2));
+  face.push_back(wear({&eyes, eyes.quads, Tint::none, false, person.eyes}, dressed));
+  for (Surface& surface : face) surface.painted = true;
+
+  // Triangles at full detail, about 8 200 in all: most where people look.
+  auto& all = dressed.surfaces;
+  add_simplified({skin_of(makehuman, person, dressed)}, 2600, all);
+  add_simplified(tops, 1900, all);
+  add_simplified(std::move(bottoms), 1000, all);
+  add_simplified(std::move(shoes), 700, all);
+  add_simplified(wear_all(wardrobe.pieces(person.hair, Tint::hair), dressed), 1700, all);
+  add_simplified(std::move(face), 300, all);
   put_on_ground(dressed);
   return dressed;
 }

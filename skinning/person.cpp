@@ -20,7 +20,7 @@ const std::vector<Suit> kSuits = {
     {"female_casualsuit01", false, true, false, true, false},
     {"female_casualsuit02", false, true, false, true, false},
     {"female_elegantsuit01", false, true, false, true, false},
-    {"female_sportsuit01", false, true, false, true, false},
+    {"female_sportsuit01", false, false, false, true, false},
 };
 
 namespace {
@@ -117,6 +117,8 @@ void sample_clothes(PersonSpec& person, Random& random) {
     if (fits && !(child && (formal || suit.overall))) tops.push_back(&suit);
   }
   const Suit* top = pick(random, tops);
+  // Most people are not dressed for the office: a second draw for those who would be.
+  if (top->name == "male_elegantsuit01" && random.uniform() < 0.5) top = pick(random, tops);
   person.top = top->name;
   if (top->overall) {
     person.bottom = top->name;

@@ -29,18 +29,6 @@ void compute_normals(Surface& surface, std::size_t source_count) {
   }
 }
 
-std::vector<std::uint32_t> simplified(const Surface& surface, std::size_t triangles) {
-  const std::size_t target = std::min(triangles * 3, surface.indices.size());
-  std::vector<std::uint32_t> indices(surface.indices.size());
-  constexpr float kWorstError = 0.05F;  // relative to the surface's size
-  const std::size_t count =
-      meshopt_simplify(indices.data(), surface.indices.data(), surface.indices.size(),
-                       surface.positions.front().data(), surface.positions.size(),
-                       sizeof(Eigen::Vector3f), target, kWorstError, 0, nullptr);
-  indices.resize(count);
-  return indices;
-}
-
 std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
@@ -102,19 +90,24 @@ void set_weights(Vertex& vertex, const BoneWeights& weights) {
   vertex.weights[0] = static_cast<std::uint8_t>(left);
 }
 
-Mesh assemble(std::span<const Surface> surfaces, double share,
-              const std::map<std::string, int>& texture_of) {
+void simplify(Surface& surface, std::size_t triangles) {
+  if (3 * triangles >= surface.indices.size()) return;
+  std::vector<std::uint32_t> indices(surface.indices.size());
+  constexpr float kWorstError = 0.05F;  // relative to the surface's size
+  indices.resize(meshopt_simplify(indices.data(), surface.indices.data(), surface.indices.size(),
+                                  surface.positions.front().data(), surface.positions.size(),
+                                  sizeof(Eigen::Vector3f), 3 * triangles, kWorstError, 0, nullptr));
+  surface.indices = std::move(indices);
+}
+
+Mesh assemble(std::span<const Surface> surfaces, const std::map<std::string, int>& texture_of) {
   Mesh mesh;
   for (const Surface& surface : surfaces) {
     if (surface.indices.empty()) continue;
-    const auto budget =
-        static_cast<std::size_t>(std::lround(share * static_cast<double>(surface.triangle_budget)));
-    const std::vector<std::uint32_t> indices =
-        surface.triangle_budget > 0 ? simplified(surface, budget) : surface.indices;
     constexpr std::uint32_t kUnused = 0xFFFFFFFF;
     std::vector<std::uint32_t> place(surface.positions.size(), kUnused);
     const auto first_index = static_cast<std::uint32_t>(mesh.indices.size());
-    for (const std::uint32_t index : indices) {
+    for (const std::uint32_t index : surface.indices) {
       if (place[index] == kUnused) {
         place[index] = static_cast<std::uint32_t>(mesh.vertices.size());
         Vertex vertex{};
@@ -126,7 +119,7 @@ Mesh assemble(std::span<const Surface> surfaces, double share,
       }
       mesh.indices.push_back(place[index]);
     }
-    mesh.parts.push_back({first_index, static_cast<std::uint32_t>(indices.size()),
+    mesh.parts.push_back({first_index, static_cast<std::uint32_t>(surface.indices.size()),
                           texture_of.at(surface.texture), surface.tint, surface.alpha_tested});
   }
   return mesh;

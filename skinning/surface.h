@@ -26,7 +26,7 @@ struct Surface {
   std::string texture;  ///< key of a texture
   Tint tint = Tint::none;
   bool alpha_tested = false;
-  std::size_t triangle_budget = 0;  ///< at full detail; 0 keeps all
+  bool painted = false;  ///< lies on the skin: colours it but gives it no shape of its own
 };
 
 /// Splits quads into triangles and shared vertices into one per texture coordinate. `positions`
@@ -53,10 +53,11 @@ void keep_triangles(Surface& surface, const Keep& keep) {
   surface.indices.resize(kept);
 }
 
-/// The surfaces as one mesh, each simplified to its budget times `share`. `texture_of` gives a
-/// texture's number by its key.
-Mesh assemble(std::span<const Surface> surfaces, double share,
-              const std::map<std::string, int>& texture_of);
+/// Reduces the surface to about this many triangles.
+void simplify(Surface& surface, std::size_t triangles);
+
+/// The surfaces as one mesh. `texture_of` gives a texture's number by its key.
+Mesh assemble(std::span<const Surface> surfaces, const std::map<std::string, int>& texture_of);
 
 /// Bones and weights as they go into a vertex: the four strongest, summing to exactly 255.
 void set_weights(Vertex& vertex, const BoneWeights& weights);

@@ -180,7 +180,7 @@ void Wardrobe::add_shoes(const std::string& name) {
       diffuse_picture(makehuman_->folder() / "public/data/proxies/clothes" / name);
   const bool leather = name == "shoes01" || name == "shoes03" || name == "shoes04";
   Garment shoes{&proxy, {}, leather ? Tint::shoes : Tint::none, false, {}};
-  Garment socks{&proxy, {}, Tint::none, false, {}};
+  Garment socks{&proxy, {}, shoes.tint, false, {}};
   for (auto& quads : connected_pieces(proxy)) {
     float top = 0;
     float shin = 0;
