@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "base/error.h"
+#include "crowd/simulation.h"
 #include "jobs/light.h"
 #include "jobs/schema.h"
+#include "sim/participants.h"
+#include "sim/plan.h"
 #include "world/json_reader.h"
 #include "world/scenario.h"
 
@@ -124,92 +126,42 @@ void take_from_scenario(JobSpec& job, const world::Scenario& scenario) {
   }
 }
 
-// Collects what a schema cannot say.
-class Semantics {
- public:
-  Semantics(const JobSpec& job, const world::Scenario& scenario, const std::string& source)
-      : job_(job), scenario_(scenario), source_(source) {}
-
-  std::vector<Problem> problems() {
-    check_drones();
-    check_times();
-    return std::move(problems_);
-  }
-
- private:
-  void add(std::string where, std::string found, std::string expected) {
-    problems_.push_back({source_, std::move(where), std::move(found), std::move(expected)});
-  }
-
-  bool scenario_knows(const std::string& drone) const {
-    for (const world::DroneStart& known : scenario_.drones) {
-      if (known.id == drone) return true;
-    }
-    return false;
-  }
-
-  void check_drones() {
-    if (job_.drones.empty()) {
-      add("/drones", "nothing", "at least one drone, since the scenario has none of its own");
-    }
-    std::set<std::string> ids;
-    for (std::size_t i = 0; i < job_.drones.size(); ++i) {
-      const sim::DroneMission& mission = job_.drones[i].mission;
-      const std::string place = fmt::format("/drones/{}", i);
-      if (!ids.insert(mission.id).second) {
-        add(place + "/id", fmt::format("\"{}\" again", mission.id),
-            "an id that no other drone has");
-      }
-      if (!mission.start && !scenario_knows(mission.id)) {
-        add(place + "/start", "nothing",
-            fmt::format("[x, y, z], since the scenario has no drone \"{}\"", mission.id));
-      }
-      if (mission.start && mission.start->z() <= 0) {
-        add(place + "/start/2", fmt::format("{}", mission.start->z()), "a height above the ground");
-      }
-      check_guidance(mission, place + "/guidance");
+void check_times(const JobSpec& job, std::vector<Problem>& problems) {
+  const CaptureSpec& capture = job.capture;
+  if (capture.to_s < capture.from_s) {
+    problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
+                        fmt::format("a time not before from_s, which is {}", capture.from_s)});
+  } else {
+    const auto cameras = static_cast<std::int64_t>(job.drones.size());
+    const std::int64_t images = job.frames_per_camera() * cameras * job.runs;
+    if (images > kMostImages) {
+      problems.push_back({"", "/capture",
+                          fmt::format("{} images over all runs and cameras", images),
+                          fmt::format("at most {}", kMostImages)});
     }
   }
-
-  void check_guidance(const sim::DroneMission& mission, const std::string& place) {
-    if (mission.policy == "waypoints" && mission.waypoints.empty()) {
-      add(place + "/waypoints", "nothing", "at least one point for the policy \"waypoints\"");
-    }
-    if (mission.policy != "waypoints" && !mission.waypoints.empty()) {
-      add(place + "/waypoints", fmt::format("{} points", mission.waypoints.size()),
-          fmt::format("none for the policy \"{}\", or the policy \"waypoints\"", mission.policy));
-    }
-    for (std::size_t i = 0; i < mission.waypoints.size(); ++i) {
-      if (mission.waypoints[i].z() > 0) continue;
-      add(fmt::format("{}/waypoints/{}/2", place, i), fmt::format("{}", mission.waypoints[i].z()),
-          "a height above the ground");
-    }
+  if (!sun_is_up(job.time_of_day_h)) {
+    problems.push_back({"", "/environment/time_of_day",
+                        fmt::format("\"{}\"", time_text(job.time_of_day_h)),
+                        "a time when the sun is up, from 05:30 to 18:30"});
   }
+}
 
-  void check_times() {
-    const CaptureSpec& capture = job_.capture;
-    if (capture.to_s < capture.from_s) {
-      add("/capture/to_s", fmt::format("{}", capture.to_s),
-          fmt::format("a time not before from_s, which is {}", capture.from_s));
-    } else {
-      const auto cameras = static_cast<std::int64_t>(job_.drones.size());
-      const std::int64_t images = job_.frames_per_camera() * cameras * job_.runs;
-      if (images > kMostImages) {
-        add("/capture", fmt::format("{} images over all runs and cameras", images),
-            fmt::format("at most {}", kMostImages));
-      }
-    }
-    if (!sun_is_up(job_.time_of_day_h)) {
-      add("/environment/time_of_day", fmt::format("\"{}\"", time_text(job_.time_of_day_h)),
-          "a time when the sun is up, from 05:30 to 18:30");
-    }
+// What only the simulation knows: whether the drones can fly and whether there are people enough.
+void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
+                           std::vector<Problem>& problems) {
+  if (job.drones.empty()) {
+    problems.push_back(
+        {"", "/drones", "nothing", "at least one drone, since the scenario has none of its own"});
   }
-
-  const JobSpec& job_;
-  const world::Scenario& scenario_;
-  const std::string& source_;
-  std::vector<Problem> problems_;
-};
+  std::vector<sim::DroneMission> missions;
+  for (const DroneSpec& drone : job.drones) missions.push_back(drone.mission);
+  sim::plan_drones(scenario, missions, problems);
+  if (job.agents) {
+    const crowd::Simulation crowd(scenario.scene_file, scenario.behavior_file, {job.seed});
+    sim::choose_roles(scenario, crowd.agent_count(), job.agents, job.seed, problems);
+  }
+}
 
 // Points at the job when the job names no scenario that exists; a broken scenario file names
 // itself.
@@ -270,7 +222,11 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   JobSpec job = read_job(value);
   const world::Scenario scenario = scenario_of(job, source, scenarios);
   take_from_scenario(job, scenario);
-  problems = Semantics(job, scenario, source).problems();
+  check_times(job, problems);
+  check_with_simulation(job, scenario, problems);
+  for (Problem& problem : problems) {
+    if (problem.source.empty()) problem.source = source;
+  }
   if (!problems.empty()) throw InputError(std::move(problems));
   return job;
 }

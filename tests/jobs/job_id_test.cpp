@@ -26,8 +26,8 @@ TEST(JobId, OtherTextsAreNoIds) {
   upper[0] = 'J';
   std::string zeros = id;
   zeros[5] = '\0';
-  const std::string texts[] = {"", "j", id.substr(1), id.substr(0, 15), upper, zeros,
-                               "j../../../etc/pa"};
+  const std::string texts[] = {"",    "j",   id.substr(1),      id.substr(0, 15),
+                               upper, zeros, "j../../../etc/pa"};
   for (const std::string& text : texts) EXPECT_FALSE(is_job_id(text)) << text;
 }
 

@@ -86,8 +86,8 @@ TEST_F(Spec, DefaultsAreThoseOfTheSchema) {
 
 TEST_F(Spec, ReadsEveryField) {
   const JobSpec job = parse(R"({
-    "name": "n", "scenario": "yard", "seed": 9007199254740991, "runs": 5, "crowd": {"agents": 26},
-    "drones": [{"id": "a", "airframe": "x", "start": [1, 2, 3], "moves_goal": [4, 5],
+    "name": "n", "scenario": "yard", "seed": 9007199254740991, "runs": 5, "crowd": {"agents": 2},
+    "drones": [{"id": "a", "airframe": "f450", "start": [1, 2, 3], "moves_goal": [4, 5],
                 "guidance": {"policy": "waypoints", "waypoints": [[1, 2, 3], [4, 5, 6]],
                              "speed_mps": 2},
                 "camera": {"width": 640, "height": 480, "hfov_deg": 60, "pitch_deg": -90,
@@ -97,7 +97,7 @@ TEST_F(Spec, ReadsEveryField) {
     "outputs": {"image": {"format": "jpeg", "quality": 80}, "annotations": ["density"],
                 "density": {"sigma_px": 6}, "previews": 0}})");
   EXPECT_EQ(job.seed, 9007199254740991U);
-  EXPECT_EQ(job.agents, 26);
+  EXPECT_EQ(job.agents, 2);
   EXPECT_EQ(job.drones[0].mission.start, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(job.drones[0].mission.waypoints[1], Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));
@@ -121,6 +121,7 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
       {R"({"scenario": "yard", "runs": 0})", "/runs"},
       {R"({"scenario": "yard", "runs": "3"})", "/runs"},
       {R"({"scenario": "yard", "crowd": {"agents": 0}})", "/crowd/agents"},
+      {R"({"scenario": "yard", "crowd": {"agents": 3}})", "/crowd/agents"},
       {R"({"scenario": "yard", "crowd": 260})", "/crowd"},
       {R"({"scenario": "yard", "drones": []})", "/drones"},
       {R"({"scenario": "yard", "drones": [{}]})", "/drones/0/id"},
@@ -128,11 +129,12 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
       {R"({"scenario": "yard", "drones": [{"id": "d1\n"}]})", "/drones/0/id"},
       {R"({"scenario": "yard", "drones": [{"id": "d1"}, {"id": "d1"}]})", "/drones/1/id"},
       {R"({"scenario": "yard", "drones": [{"id": "other"}]})", "/drones/0/start"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "airframe": "brick"}]})",
+       "/drones/0/airframe"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2]}]})", "/drones/0/start"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2, "3"]}]})",
        "/drones/0/start/2"},
-      {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2, 0]}]})",
-       "/drones/0/start/2"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2, 0]}]})", "/drones/0/start"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "balance"}}]})",
        "/drones/0/guidance/policy"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "waypoints"}}]})",
@@ -141,7 +143,7 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
        "/drones/0/guidance/waypoints"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance":
            {"policy": "waypoints", "waypoints": [[1, 2, 3], [1, 2, -3]]}}]})",
-       "/drones/0/guidance/waypoints/1/2"},
+       "/drones/0/guidance/waypoints/1"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "camera": {"hfov_deg": 180}}]})",
        "/drones/0/camera/hfov_deg"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "camera": {"width": 100000}}]})",
@@ -176,7 +178,7 @@ TEST_F(Spec, AllProblemsOfTheSchemaComeAtOnce) {
 
 TEST_F(Spec, SaysWhatItExpected) {
   EXPECT_EQ(problems_of(R"({"scenario": "yard", "crowd": {"agents": -3}})")[0].text(),
-            "test.job.json: /crowd/agents: found -3, expected an integer from 1 to 99998");
+            "test.job.json: /crowd/agents: found -3, expected an integer from 1 to 1000000");
   EXPECT_EQ(problems_of(R"({"scenario": "yard", "captur": {}})")[0].text(),
             "test.job.json: /captur: found an unknown field, expected \"capture\", perhaps");
   EXPECT_THAT(problems_of(R"({"scenario": "nowhere"})")[0].expected, HasSubstr("yard"));
