@@ -28,13 +28,16 @@ Eigen::Vector2d shortened(const Eigen::Vector2d& v, double longest) {
   return length > longest ? Eigen::Vector2d(v * (longest / length)) : v;
 }
 
-// The attitude with z along `force` and x as near to the heading as that allows.
+// The attitude with z along `force` and x straight above or below the heading, so that a craft
+// that leans does not seem to turn.
 Matrix3d attitude_along(const Vector3d& force, double yaw_rad) {
-  const Vector3d heading(std::cos(yaw_rad), std::sin(yaw_rad), 0);
+  const double cos_yaw = std::cos(yaw_rad);
+  const double sin_yaw = std::sin(yaw_rad);
+  const double slope = -(cos_yaw * force.x() + sin_yaw * force.y()) / force.z();
   Matrix3d attitude;
   attitude.col(2) = force.normalized();
-  attitude.col(1) = attitude.col(2).cross(heading).normalized();
-  attitude.col(0) = attitude.col(1).cross(attitude.col(2));
+  attitude.col(0) = Vector3d(cos_yaw, sin_yaw, slope).normalized();
+  attitude.col(1) = attitude.col(2).cross(attitude.col(0));
   return attitude;
 }
 
@@ -51,7 +54,7 @@ Vector3d Controller::wanted_force(const FlightState& state, const Setpoint& setp
   velocity.head<2>() += shortened(towards, limits_.horizontal_mps);
   velocity.z() += std::clamp(kHeightGain * error.z(), -limits_.vertical_mps, limits_.vertical_mps);
   const Vector3d velocity_error = velocity - state.velocity;
-  const Vector3d wanted = kVelocityGain * velocity_error + integral_;
+  const Vector3d wanted = setpoint.acceleration + kVelocityGain * velocity_error + integral_;
 
   Vector3d acceleration = wanted;
   const double most_climb =

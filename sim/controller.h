@@ -9,8 +9,9 @@
 namespace throng::sim {
 
 struct Setpoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s, of the set-point itself
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< m/s, of the set-point itself
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s², likewise
   double yaw_rad = 0;
 };
 

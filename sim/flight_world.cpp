@@ -114,7 +114,8 @@ struct FlightWorld::Bodies {
     for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
       const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
       for (int point = 0; point < manifold.getNumContacts(); ++point) {
-        if (manifold.getContactPoint(point).getDistance() > 0) continue;
+        // Points that are near but do not push yet are no contact.
+        if (manifold.getContactPoint(point).getAppliedImpulse() <= 0) continue;
         note_contact(manifold.getBody0()->getUserIndex());
         note_contact(manifold.getBody1()->getUserIndex());
         break;

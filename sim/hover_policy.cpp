@@ -6,8 +6,10 @@ namespace {
 
 class HoverPolicy : public Policy {
  public:
-  HoverPolicy(const Eigen::Vector3d& place, double yaw_rad)
-      : setpoint_{place, Eigen::Vector3d::Zero(), yaw_rad} {}
+  HoverPolicy(const Eigen::Vector3d& place, double yaw_rad) {
+    setpoint_.position = place;
+    setpoint_.yaw_rad = yaw_rad;
+  }
 
   Setpoint next(const FlightState&, double) override { return setpoint_; }
 

@@ -52,44 +52,53 @@ std::vector<Leg> legs_through(const PolicyContext& context) {
 
 class WaypointsPolicy : public Policy {
  public:
-  explicit WaypointsPolicy(const PolicyContext& context)
-      : legs_(legs_through(context)), place_(context.start), yaw_rad_(context.yaw_rad) {}
+  explicit WaypointsPolicy(const PolicyContext& context) : legs_(legs_through(context)) {
+    setpoint_.position = context.start;
+    setpoint_.yaw_rad = context.yaw_rad;
+  }
 
   Setpoint next(const FlightState& state, double dt_s) override {
-    if (leg_ == legs_.size()) return {place_, Vector3d::Zero(), yaw_rad_};
-    advance(state, dt_s);
-    if (leg_ == legs_.size()) return {place_, Vector3d::Zero(), yaw_rad_};
-    return {place_, speed_mps_ * legs_[leg_].direction, yaw_rad_};
+    if (leg_ < legs_.size()) advance(state, dt_s);
+    return setpoint_;
   }
 
  private:
   void advance(const FlightState& state, double dt_s) {
     const Leg& leg = legs_[leg_];
-    const bool too_far_ahead = (place_ - state.position).norm() > kLongestLeadM;
-    const double to_end_m = std::max(0.0, leg.length_m - along_m_);
-    const double can_brake_mps =
-        std::sqrt(leg.end_speed_mps * leg.end_speed_mps + 2 * kAcceleration * to_end_m);
+    const bool too_far_ahead = (setpoint_.position - state.position).norm() > kLongestLeadM;
+    const double can_brake_mps = std::sqrt(leg.end_speed_mps * leg.end_speed_mps +
+                                           2 * kAcceleration * (leg.length_m - along_m_));
     const double wanted_mps =
         too_far_ahead ? 0.0 : std::max(kCreepMps, std::min(leg.speed_mps, can_brake_mps));
-    const double change = kAcceleration * dt_s;
-    speed_mps_ += std::clamp(wanted_mps - speed_mps_, -change, change);
+    const double most = kAcceleration * dt_s;
+    const double change_mps = std::clamp(wanted_mps - speed_mps_, -most, most);
+    speed_mps_ += change_mps;
     along_m_ += speed_mps_ * dt_s;
     if (along_m_ < leg.length_m) {
-      place_ = leg.from + along_m_ * leg.direction;
-      return;
+      setpoint_.position = leg.from + along_m_ * leg.direction;
+      setpoint_.velocity = speed_mps_ * leg.direction;
+      setpoint_.acceleration = change_mps / dt_s * leg.direction;
+    } else {
+      turn(leg);
     }
-    place_ = leg.from + leg.length_m * leg.direction;
-    speed_mps_ = std::min(speed_mps_, leg.end_speed_mps);
+  }
+
+  // Ends a leg at its waypoint; the last one ends all motion.
+  void turn(const Leg& done) {
+    setpoint_.position = done.from + done.length_m * done.direction;
+    setpoint_.velocity = Vector3d::Zero();
+    setpoint_.acceleration = Vector3d::Zero();
+    speed_mps_ = std::min(speed_mps_, done.end_speed_mps);
     along_m_ = 0;
     ++leg_;
+    if (leg_ < legs_.size()) setpoint_.velocity = speed_mps_ * legs_[leg_].direction;
   }
 
   std::vector<Leg> legs_;
   std::size_t leg_ = 0;
   double along_m_ = 0;
   double speed_mps_ = 0;
-  Vector3d place_;
-  double yaw_rad_;
+  Setpoint setpoint_;
 };
 
 }  // namespace

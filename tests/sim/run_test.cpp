@@ -153,11 +153,14 @@ TEST_F(Evacuation, PeopleGetAwayAndEachOnce) {
   EXPECT_GT(escaped.size(), 20U);
 }
 
-TEST_F(Evacuation, WhoGetsAwayIntendedAnExitBefore) {
-  for (const world::TraceEvent& event : trace().events) {
-    if (event.type != "agent_escaped") continue;
-    EXPECT_GE(event.value, 0) << event.agent;
+TEST_F(Evacuation, WhoRunsToSafetyIntendedAnExitBefore) {
+  std::size_t running = 0;
+  for (std::size_t at = 0; at < trace().state.size(); ++at) {
+    if (trace().header.state_names[trace().state[at]] != "RunToSafety") continue;
+    ++running;
+    EXPECT_GE(trace().exit_intent[at], 0) << at;
   }
+  EXPECT_GT(running, 0U);
   // Nobody has heard of anything yet.
   for (std::size_t i = 0; i < trace().agents(); ++i) EXPECT_EQ(trace().exit_intent[i], -1);
 }

@@ -8,22 +8,16 @@
 #include "sim/airframe.h"
 #include "sim/controller.h"
 #include "sim/flight_world.h"
+#include "tests/sim/airframes.h"
 
 namespace throng::sim {
 namespace {
 
 using Eigen::Vector3d;
+using testing::airframe_named;
 
 constexpr double kDegree = EIGEN_PI / 180;
 const Vector3d kStart(0, 0, 30);
-
-Airframe airframe_named(const std::string& name) {
-  for (Airframe& frame : shipped_airframes()) {
-    if (frame.name == name) return frame;
-  }
-  ADD_FAILURE() << name;
-  return {};
-}
 
 struct Rates {
   double physics_hz = 480;
@@ -71,13 +65,15 @@ Flown fly(const Airframe& frame, const Vector3d& target, double duration_s,
   world.add(frame, kStart, 0);
   world.set_air_velocity(0, wind);
   Controller controller(frame);
+  Setpoint setpoint;
+  setpoint.position = target;
   Flown flown;
   const int steps = static_cast<int>(std::lround(duration_s * rates.physics_hz));
   for (int step = 0; step < steps; ++step) {
     const FlightState state = world.state(0);
     if (step % rates.physics_per_control == 0) {
       const double control_dt_s = rates.physics_per_control / rates.physics_hz;
-      world.command(0, controller.update(state, {target, Vector3d::Zero(), 0}, control_dt_s));
+      world.command(0, controller.update(state, setpoint, control_dt_s));
     }
     world.step();
     flown.time_s.push_back((step + 1) / rates.physics_hz);

@@ -1,0 +1,1 @@
+throng_bench(sim SOURCES sim.cpp LIBRARIES throng::sim throng::crowd)
