@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <tuple>
 
@@ -18,19 +19,18 @@ struct DeviceVertex {
   std::uint32_t part;  ///< texture layer, tint << 16
 };
 
-/// What differs between people; 64 bytes.
+/// What differs between people.
 struct Instance {
   std::array<float, 3> position;
-  float yaw_rad;
   std::uint32_t palette_a;
   std::uint32_t palette_b;
   std::uint32_t blend_bits;
   std::uint32_t id;
   std::array<std::uint32_t, 4> tints;
   std::array<std::int32_t, 2> shift;
-  std::array<std::uint32_t, 2> unused;
+  std::array<float, 2> facing;  ///< cosine and sine of the heading
 };
-static_assert(sizeof(Instance) == 64);
+static_assert(sizeof(Instance) <= 64);
 
 using embedded::shader_light;
 using embedded::shader_person_frag;
@@ -53,12 +53,27 @@ VertexArray make_person_array(const Buffer& vertices, const Buffer& indices,
                      {4, 4, GL_UNSIGNED_BYTE, true, offsetof(Vertex, weights)},
                      {5, 1, GL_UNSIGNED_INT, false, offsetof(DeviceVertex, part)}});
   describe_vertices(array, 1, instances, sizeof(Instance), 1,
-                    {{6, 4, GL_FLOAT, false, offsetof(Instance, position)},
+                    {{6, 3, GL_FLOAT, false, offsetof(Instance, position)},
                      {7, 4, GL_UNSIGNED_INT, false, offsetof(Instance, palette_a)},
                      {8, 4, GL_UNSIGNED_INT, false, offsetof(Instance, tints)},
-                     {9, 2, GL_INT, false, offsetof(Instance, shift)}});
+                     {9, 2, GL_INT, false, offsetof(Instance, shift)},
+                     {10, 2, GL_FLOAT, false, offsetof(Instance, facing)}});
   glVertexArrayElementBuffer(array.name(), indices.name());
   return array;
+}
+
+/// The vertex with its bones in order of falling weight: the shader stops at the first zero.
+skinning::Vertex heaviest_first(const skinning::Vertex& vertex) {
+  std::array<std::size_t, 4> order = {0, 1, 2, 3};
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return vertex.weights[a] > vertex.weights[b];
+  });
+  skinning::Vertex sorted = vertex;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    sorted.bones[k] = vertex.bones[order[k]];
+    sorted.weights[k] = vertex.weights[order[k]];
+  }
+  return sorted;
 }
 
 /// Appends a part's triangles with its own copies of their vertices, since a vertex on the device
@@ -73,7 +88,7 @@ void append_part(const skinning::Mesh& mesh, const skinning::Part& part, std::ui
     std::uint32_t& copy = copy_of[mesh.indices[i]];
     if (copy == kUnseen) {
       copy = static_cast<std::uint32_t>(vertices.size()) - first_vertex;
-      vertices.push_back({mesh.vertices[mesh.indices[i]], info});
+      vertices.push_back({heaviest_first(mesh.vertices[mesh.indices[i]]), info});
     }
     indices.push_back(copy);
   }
@@ -172,14 +187,13 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
     }
     ++batches.back().count;
     instances.push_back({{person.position.x(), person.position.y(), person.position.z()},
-                         person.yaw_rad,
                          first_palette + person.pose.a,
                          first_palette + person.pose.b,
                          std::bit_cast<std::uint32_t>(person.pose.blend),
                          id_of_agent(person.agent),
                          {packed(tint[1]), packed(tint[2]), packed(tint[3]), packed(tint[4])},
                          draw.shift,
-                         {}});
+                         {std::cos(person.yaw_rad), std::sin(person.yaw_rad)}});
   }
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
                     instances.data(), GL_STREAM_DRAW);

@@ -1,10 +1,7 @@
 // Skin, hair and clothes. With COVERAGE only the silhouette is written.
-in vec3 world;
-in vec2 uv;
-in vec2 received;
-flat in vec3 tint;
-flat in uint layer;
-flat in uint id;
+in vec4 world_sun;
+in vec3 uv_sky;
+flat in uvec3 surface;
 
 layout(binding = 0) uniform sampler2DArray textures;
 
@@ -15,9 +12,15 @@ layout(location = 0) out vec4 colour;
 layout(location = 1) out uint instance;
 #endif
 
+#ifndef COVERAGE
+vec3 linear_from_srgb(vec3 c) {
+  return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878);
+}
+#endif
+
 void main() {
 #if !defined(COVERAGE) || defined(ALPHA_TEST)
-  vec4 texel = texture(textures, vec3(uv, float(layer)));
+  vec4 texel = texture(textures, vec3(uv_sky.xy, float(surface.x)));
 #endif
 #ifdef ALPHA_TEST
   if (texel.a < 0.5) discard;
@@ -25,11 +28,11 @@ void main() {
 #ifdef COVERAGE
   covered = 1.0;
 #else
-  vec3 albedo = texel.rgb * tint;
-  float sun = received.x * sunlit(world, 0.06);
-  vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, received.y);
+  vec3 albedo = texel.rgb * linear_from_srgb(unpackUnorm4x8(surface.y).rgb);
+  float sun = world_sun.w * sunlit(world_sun.xyz, 0.06);
+  vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, uv_sky.z);
   vec3 radiance = albedo * (light.sun.rgb * sun + ambient);
   colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
-  instance = id;
+  instance = surface.z;
 #endif
 }

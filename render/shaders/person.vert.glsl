@@ -6,10 +6,11 @@ layout(location = 2) in vec2 uv_in;
 layout(location = 3) in uvec4 bones;
 layout(location = 4) in vec4 weights;
 layout(location = 5) in uint part;             // texture layer, tint << 16
-layout(location = 6) in vec4 position_yaw;     // per instance from here
+layout(location = 6) in vec3 foot;             // per instance from here: position, m
 layout(location = 7) in uvec4 pose;            // palettes a and b, blend (a float's bits), id
 layout(location = 8) in uvec4 tints;           // top, bottom, hair, shoes: sRGB, red lowest
 layout(location = 9) in ivec2 shift;           // pixels
+layout(location = 10) in vec2 facing;          // cosine and sine of the heading
 
 layout(std430, binding = 0) readonly buffer Palettes {
   vec4 bone_rows[];  // [character][palette][bone][3]
@@ -21,22 +22,30 @@ const float kAboveGround = 0.002;  // m; also in render/person_geometry.cpp
 mat3x4 blended_rows() {
   mat3x4 rows = mat3x4(0.0);
   float b = uintBitsToFloat(pose.z);
-  for (int k = 0; k < 4; ++k) {
-    int row_a = int(pose.x) * kRowsPerPalette + 3 * int(bones[k]);
-    int row_b = int(pose.y) * kRowsPerPalette + 3 * int(bones[k]);
+  // Most vertices follow one or two bones, and weights come largest first.
+  uvec4 bone = bones;
+  vec4 weight = weights;
+  int count = int(dot(vec4(greaterThan(weights, vec4(0.0))), vec4(1.0)));
+  for (int k = 0; k < count; ++k) {
+    int row_a = int(pose.x) * kRowsPerPalette + 3 * int(bone.x);
+    int row_b = int(pose.y) * kRowsPerPalette + 3 * int(bone.x);
     for (int i = 0; i < 3; ++i) {
-      rows[i] += weights[k] * mix(bone_rows[row_a + i], bone_rows[row_b + i], b);
+      rows[i] += weight.x * mix(bone_rows[row_a + i], bone_rows[row_b + i], b);
     }
+    bone = bone.yzwx;
+    weight = weight.yzwx;
   }
   return rows;
 }
 
+vec3 turned(vec3 v) {
+  return vec3(facing.x * v.x - facing.y * v.y, facing.y * v.x + facing.x * v.y, v.z);
+}
+
 vec3 placed(vec3 model) {
-  float c = cos(position_yaw.w);
-  float s = sin(position_yaw.w);
-  vec3 world = position_yaw.xyz + vec3(c * model.x - s * model.y, s * model.x + c * model.y, model.z);
+  vec3 world = foot + turned(model);
   // Nobody sinks into the ground, so the ground never hides a part of a person.
-  world.z = max(world.z, position_yaw.z + kAboveGround);
+  world.z = max(world.z, foot.z + kAboveGround);
   return world;
 }
 
@@ -46,30 +55,18 @@ void main() {
   gl_Position = vec4(shadow_uv(world) * 2.0 - 1.0, world.z * light.shadow_slope.z, 1.0);
 }
 #else
-out vec3 world;
-out vec2 uv;
-out vec2 received;  // from the sun, from the sky; before shadows
-flat out vec3 tint;
-flat out uint layer;
-flat out uint id;
-
-vec3 linear_from_srgb(vec3 c) {
-  return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878);
-}
+out vec4 world_sun;     // position; sunlight received before shadows
+out vec3 uv_sky;        // texture coordinates; share of the sky's light
+flat out uvec3 surface;  // texture layer, tint as sRGB, id
 
 void main() {
   mat3x4 rows = blended_rows();
-  world = placed(vec4(position_in, 1.0) * rows);
-  vec3 n = normalize(vec4(normal_in, 0.0) * rows);
-  float c = cos(position_yaw.w);
-  float s = sin(position_yaw.w);
-  n = vec3(c * n.x - s * n.y, s * n.x + c * n.y, n.z);
-  received = vec2(max(dot(n, light.sun_direction.xyz), 0.0), 0.5 + 0.5 * n.z);
-  uv = uv_in;
-  layer = part & 0xFFFFu;
+  vec3 world = placed(vec4(position_in, 1.0) * rows);
+  vec3 n = turned(normalize(vec4(normal_in, 0.0) * rows));
+  world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
+  uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
   uint slot = part >> 16;
-  tint = slot == 0u ? vec3(1.0) : linear_from_srgb(unpackUnorm4x8(tints[slot - 1u]).rgb);
-  id = pose.w;
+  surface = uvec3(part & 0xFFFFu, slot == 0u ? 0xFFFFFFu : tints[slot - 1u], pose.w);
   gl_Position = project_movable(world, shift);
 }
 #endif
