@@ -183,6 +183,7 @@ void CocoShardWriter::finish() {
 void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& output,
                 const std::string& description) {
   std::vector<ShardCounts> counts;
+  counts.reserve(shard_folders.size());
   for (const fs::path& folder : shard_folders) counts.push_back(read_counts(folder));
   const StagingFolder staging(output);
   const fs::path file = staging.path() / "merged.json";

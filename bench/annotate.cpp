@@ -64,14 +64,14 @@ class ScratchShard {
   CocoShardWriter writer_;
 };
 
-void BM_Label(benchmark::State& state) {
+void label(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   for (auto _ : state) benchmark::DoNotOptimize(label_people(frame));
   state.SetItemsProcessed(state.iterations());
   state.counters["visible"] = static_cast<double>(label_people(frame).people.size());
 }
 
-void BM_Density(benchmark::State& state) {
+void density(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   const auto heads = heads_of(frame);
   for (auto _ : state) {
@@ -80,7 +80,7 @@ void BM_Density(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 
-void BM_CocoAdd(benchmark::State& state) {
+void coco_add(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   const FrameLabels labels = label_people(frame);
   CocoImage image = image_of(frame);
@@ -93,7 +93,7 @@ void BM_CocoAdd(benchmark::State& state) {
 }
 
 // Boxes, masks, visibility, density and the COCO records: all but the picture.
-void BM_Annotate(benchmark::State& state) {
+void annotate_frame(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   CocoImage image = image_of(frame);
   ScratchShard shard;
@@ -106,14 +106,14 @@ void BM_Annotate(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 
-void BM_Preview(benchmark::State& state) {
+void preview(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   const FrameLabels labels = label_people(frame);
   for (auto _ : state) benchmark::DoNotOptimize(draw_preview(frame, labels));
   state.SetItemsProcessed(state.iterations());
 }
 
-void BM_Jpeg(benchmark::State& state) {
+void jpeg(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   const auto rgb = draw_preview(frame, label_people(frame));
   for (auto _ : state) {
@@ -126,12 +126,12 @@ void sizes(benchmark::internal::Benchmark* bench) {
   bench->ArgName("people")->Arg(625)->Arg(5000)->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK(BM_Label)->Apply(sizes);
-BENCHMARK(BM_Density)->Apply(sizes);
-BENCHMARK(BM_CocoAdd)->Apply(sizes);
-BENCHMARK(BM_Annotate)->Apply(sizes);
-BENCHMARK(BM_Preview)->Apply(sizes);
-BENCHMARK(BM_Jpeg)->Apply(sizes);
+BENCHMARK(label)->Name("BM_Label")->Apply(sizes);
+BENCHMARK(density)->Name("BM_Density")->Apply(sizes);
+BENCHMARK(coco_add)->Name("BM_CocoAdd")->Apply(sizes);
+BENCHMARK(annotate_frame)->Name("BM_Annotate")->Apply(sizes);
+BENCHMARK(preview)->Name("BM_Preview")->Apply(sizes);
+BENCHMARK(jpeg)->Name("BM_Jpeg")->Apply(sizes);
 
 }  // namespace
 }  // namespace throng::annotate

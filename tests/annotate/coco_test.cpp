@@ -21,21 +21,20 @@ using nlohmann::json;
 
 class Coco : public testing::Test {
  protected:
-  Coco() : folder_(fs::path(testing::TempDir()) / ("coco_" + name_of_test())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+  void SetUp() override {
+    folder = fs::path(testing::TempDir()) / ("coco_" + name_of_test());
+    fs::remove_all(folder);
+    fs::create_directories(folder);
     for (int i = 0; i < kFrames; ++i) {
       SyntheticScene scene;
       scene.seed = i;
       scene.people = i == 2 ? 0 : 15;  // an image without anybody is an image all the same
-      frames_.push_back(synthetic_frame(scene));
-      frames_.back().index = i;
-      frames_.back().time_s = 0.1 * i;
+      frames.push_back(synthetic_frame(scene));
+      frames.back().index = i;
+      frames.back().time_s = 0.1 * i;
     }
   }
-  ~Coco() override { fs::remove_all(folder_); }
-  Coco(const Coco&) = delete;
-  Coco& operator=(const Coco&) = delete;
+  void TearDown() override { fs::remove_all(folder); }
 
   static constexpr int kFrames = 6;
 
@@ -50,22 +49,22 @@ class Coco : public testing::Test {
     image.run = "run001";
     image.run_index = 1;
     image.camera_id = "d1";
-    image.frame_index = frames_[i].index;
-    image.time_s = frames_[i].time_s;
-    image.camera = frames_[i].camera;
+    image.frame_index = frames[i].index;
+    image.time_s = frames[i].time_s;
+    image.camera = frames[i].camera;
     return image;
   }
 
   fs::path write_shard(const std::string& name, int begin, int end) const {
-    CocoShardWriter writer(folder_ / name);
-    for (int i = begin; i < end; ++i) writer.add(image_of(i), label_people(frames_[i]));
+    CocoShardWriter writer(folder / name);
+    for (int i = begin; i < end; ++i) writer.add(image_of(i), label_people(frames[i]));
     writer.finish();
-    return folder_ / name;
+    return folder / name;
   }
 
   std::string merge(const std::vector<fs::path>& shards) const {
-    merge_coco(shards, folder_ / "coco.json", "a test");
-    return read_file(folder_ / "coco.json");
+    merge_coco(shards, folder / "coco.json", "a test");
+    return read_file(folder / "coco.json");
   }
 
   // The message of the error that the merge must fail with.
@@ -73,15 +72,15 @@ class Coco : public testing::Test {
     try {
       merge(shards);
     } catch (const EnvironmentError& error) {
-      EXPECT_FALSE(fs::exists(folder_ / "coco.json"));
+      EXPECT_FALSE(fs::exists(folder / "coco.json"));
       return error.what();
     }
     ADD_FAILURE() << "the merge went through";
     return {};
   }
 
-  fs::path folder_;
-  std::vector<render::Frame> frames_;
+  fs::path folder;
+  std::vector<render::Frame> frames;
 };
 
 TEST_F(Coco, HoldsWhatALoaderNeeds) {
@@ -99,13 +98,13 @@ TEST_F(Coco, HoldsWhatALoaderNeeds) {
     const CocoImage expected = image_of(i);
     EXPECT_EQ(image.at("id"), expected.id);
     EXPECT_EQ(image.at("file_name"), expected.file_name);
-    EXPECT_EQ(image.at("width"), frames_[i].width());
-    EXPECT_EQ(image.at("height"), frames_[i].height());
+    EXPECT_EQ(image.at("width"), frames[i].width());
+    EXPECT_EQ(image.at("height"), frames[i].height());
     EXPECT_EQ(image.at("run"), "run001");
     EXPECT_EQ(image.at("camera_id"), "d1");
     EXPECT_EQ(image.at("frame"), i);
-    EXPECT_EQ(image.at("time_s"), frames_[i].time_s);
-    annotations += label_people(frames_[i]).people.size();
+    EXPECT_EQ(image.at("time_s"), frames[i].time_s);
+    annotations += label_people(frames[i]).people.size();
   }
   ASSERT_EQ(coco.at("annotations").size(), annotations);
   ASSERT_GT(annotations, 30U);
@@ -120,7 +119,7 @@ TEST_F(Coco, EachAnnotationIsItsLabel) {
   const json coco = json::parse(merge({write_shard("all", 0, kFrames)}));
   std::size_t next = 0;
   for (int i = 0; i < kFrames; ++i) {
-    for (const PersonLabel& label : label_people(frames_[i]).people) {
+    for (const PersonLabel& label : label_people(frames[i]).people) {
       const json& annotation = coco["annotations"].at(next++);
       EXPECT_EQ(annotation.at("image_id"), i + 1);
       EXPECT_EQ(annotation.at("track_id"), 1'000'000 + label.agent + 1);
@@ -129,10 +128,10 @@ TEST_F(Coco, EachAnnotationIsItsLabel) {
       EXPECT_TRUE(annotation["bbox"][0].is_number_float());
       EXPECT_EQ(annotation.at("area"), label.area_px);
       const json& mask = annotation.at("segmentation");
-      EXPECT_EQ(mask.at("size"), json({frames_[i].height(), frames_[i].width()}));
+      EXPECT_EQ(mask.at("size"), json({frames[i].height(), frames[i].width()}));
       EXPECT_EQ(
-          mask_of_runs(runs_of_counts(mask.at("counts")), frames_[i].width(), frames_[i].height()),
-          mask_of_runs(label.mask, frames_[i].width(), frames_[i].height()));
+          mask_of_runs(runs_of_counts(mask.at("counts")), frames[i].width(), frames[i].height()),
+          mask_of_runs(label.mask, frames[i].width(), frames[i].height()));
       EXPECT_NEAR(annotation.at("visibility").get<double>(), label.visibility, 1e-5);
       EXPECT_EQ(annotation.at("area_amodal"), label.person.amodal_area_px);
       EXPECT_NEAR(annotation.at("bbox_amodal")[2].get<double>(),
@@ -172,7 +171,7 @@ TEST_F(Coco, PositionsProjectFromTheFileAlone) {
 }
 
 TEST_F(Coco, AHeadBehindTheCameraIsNull) {
-  render::Frame& frame = frames_[0];
+  render::Frame& frame = frames[0];
   for (render::PersonInView& person : frame.people) person.head = {0, 0, 1000};
   const json coco = json::parse(merge({write_shard("all", 0, 1)}));
   for (const json& annotation : coco["annotations"]) EXPECT_TRUE(annotation.at("head").is_null());
@@ -194,21 +193,21 @@ TEST_F(Coco, AnEmptyDatasetIsValid) {
 TEST_F(Coco, IdsStayExactInDoubles) {
   CocoImage image = image_of(0);
   image.id = kMaxImageId;
-  FrameLabels labels = label_people(frames_[0]);
+  FrameLabels labels = label_people(frames[0]);
   labels.people[0].agent = kMaxAgentsPerRun - 1;
-  CocoShardWriter writer(folder_ / "big");
+  CocoShardWriter writer(folder / "big");
   writer.add(image, labels);
   writer.finish();
-  const json coco = json::parse(merge({folder_ / "big"}));
+  const json coco = json::parse(merge({folder / "big"}));
   EXPECT_LE(coco["annotations"][0]["id"].get<std::int64_t>(), std::int64_t{1} << 53);
 }
 
 TEST_F(Coco, AnUnfinishedShardIsRefused) {
   {
-    CocoShardWriter writer(folder_ / "killed");
-    writer.add(image_of(0), label_people(frames_[0]));
+    CocoShardWriter writer(folder / "killed");
+    writer.add(image_of(0), label_people(frames[0]));
   }
-  EXPECT_NE(merge_error({folder_ / "killed"}).find("killed"), std::string::npos);
+  EXPECT_NE(merge_error({folder / "killed"}).find("killed"), std::string::npos);
 }
 
 TEST_F(Coco, ARestartedShardReplacesTheEarlierAttempt) {
@@ -244,8 +243,8 @@ TEST_F(Coco, ADamagedLineIsNamed) {
 }
 
 TEST_F(Coco, AFolderThatCannotBeMadeIsTheMachinesFault) {
-  std::ofstream(folder_ / "file") << "x";
-  EXPECT_THROW(CocoShardWriter(folder_ / "file" / "shard"), EnvironmentError);
+  std::ofstream(folder / "file") << "x";
+  EXPECT_THROW(CocoShardWriter(folder / "file" / "shard"), EnvironmentError);
 }
 
 }  // namespace

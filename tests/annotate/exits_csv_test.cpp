@@ -42,6 +42,7 @@ TEST(ExitsCsv, HasARowPerFrameAndExit) {
 
 TEST(ExitsCsv, TakesTheLastStepAtOrBeforeTheFrame) {
   std::vector<double> times;
+  times.reserve(10);
   for (int i = 0; i < 10; ++i) times.push_back(i * 0.1);
   // 0.30000000000000004 is step 3; 3 * 0.1 and 0.3 differ in the last bit.
   const std::vector<FrameTime> frames = {{0, -1}, {1, 0}, {2, 0.3}, {3, 0.39}, {4, 99}};

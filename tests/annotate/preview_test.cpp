@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/annotate/synthetic_frame.h"
@@ -29,8 +30,8 @@ TEST(Preview, DrawsEachBoxInItsOwnColourAndNothingElseBelowTheCaption) {
   const std::vector<std::uint8_t> rgb = draw_preview(frame, label_people(frame));
   ASSERT_EQ(rgb.size(), frame.rgb.size());
   const auto pixel = [&](int x, int y) {
-    const std::uint8_t* p = &rgb[3 * (y * 320 + x)];
-    return std::array{p[0], p[1], p[2]};
+    const std::size_t at = std::size_t{3} * (y * 320 + x);
+    return std::array{rgb[at], rgb[at + 1], rgb[at + 2]};
   };
   EXPECT_EQ(pixel(50, 100), pixel(69, 139));
   EXPECT_EQ(pixel(200, 100), pixel(219, 120));
@@ -38,7 +39,7 @@ TEST(Preview, DrawsEachBoxInItsOwnColourAndNothingElseBelowTheCaption) {
   int changed = 0;
   for (int y = 60; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
-      const std::size_t at = 3 * (y * 320 + x);
+      const std::size_t at = std::size_t{3} * (y * 320 + x);
       if (!std::equal(&rgb[at], &rgb[at] + 3, &frame.rgb[at])) ++changed;
     }
   }
