@@ -16,7 +16,7 @@ endif()
 add_library(throng_flags INTERFACE)
 # No contraction into fused multiply-adds: the same source gives the same bits at any -march.
 target_compile_options(throng_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wsuggest-override -Werror -ffp-contract=off)
 if(THRONG_SANITIZE)
   target_compile_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE})

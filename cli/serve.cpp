@@ -1,0 +1,36 @@
+// throng serve: the HTTP service.
+#include "server/serve.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/commands.h"
+#include "world/scenario.h"
+
+namespace throng::cli {
+
+void add_serve(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("serve", "Serve jobs over HTTP (SQLite, local workers, files)");
+  const auto options = std::make_shared<server::ServeOptions>();
+  options->data = "throng-data";
+  command->add_option("--data", options->data, "Folder for everything the service keeps")
+      ->capture_default_str();
+  command->add_option("--host", options->host, "Address to listen on")->capture_default_str();
+  command->add_option("--port", options->port, "Port to listen on (0: any that is free)")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--port-file", options->port_file,
+                      "File to write the port to once it serves");
+  command->add_option("--workers", options->workers, "Processes at work at once (0: one per core)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_flag("--insecure", options->insecure,
+                    "Listen on addresses that other machines can reach, without keys");
+  command->callback([options] {
+    options->scenarios = world::scenarios_folder();
+    server::serve(*options);
+  });
+}
+
+}  // namespace throng::cli
