@@ -52,6 +52,10 @@ class Coco : public testing::Test {
     image.frame_index = frames[i].index;
     image.time_s = frames[i].time_s;
     image.camera = frames[i].camera;
+    if (i > 0) {
+      image.density_file = "density/" + std::to_string(i) + ".npy";
+      image.density_count = 10 + i;
+    }
     return image;
   }
 
@@ -104,6 +108,11 @@ TEST_F(Coco, HoldsWhatALoaderNeeds) {
     EXPECT_EQ(image.at("camera_id"), "d1");
     EXPECT_EQ(image.at("frame"), i);
     EXPECT_EQ(image.at("time_s"), frames[i].time_s);
+    EXPECT_EQ(image.contains("density_file"), i > 0);
+    if (i > 0) {
+      EXPECT_EQ(image.at("density_file"), expected.density_file);
+      EXPECT_EQ(image.at("density_count"), expected.density_count);
+    }
     annotations += label_people(frames[i]).people.size();
   }
   ASSERT_EQ(coco.at("annotations").size(), annotations);
