@@ -12,7 +12,7 @@ namespace throng::jobs {
 struct LocalProcessesOptions {
   /// Program and first arguments of a worker; " --job FOLDER --task NAME" is appended. Empty: this
   /// program with the argument "worker".
-  std::vector<std::string> command;
+  std::vector<std::string> command = {};
   /// Workers at once; 0: one per core.
   int workers = 0;
   /// How often a task is begun before a failure of the machine is final.

@@ -1,0 +1,139 @@
+#include "server/answers.h"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "jobs/plan.h"
+
+namespace throng::server {
+
+using nlohmann::json;
+
+namespace {
+
+// RFC 3339 in UTC with milliseconds; null for "not yet".
+json time_json(std::int64_t unix_ms) {
+  if (unix_ms == 0) return nullptr;
+  constexpr std::int64_t kMsPerS = 1000;
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                     fmt::gmtime(static_cast<std::time_t>(unix_ms / kMsPerS)), unix_ms % kMsPerS);
+}
+
+json parsed_or(const std::string& text, json otherwise) {
+  return text.empty() ? std::move(otherwise) : json::parse(text);
+}
+
+// Where the job is: the stage of its least advanced run, but simulating once any run is.
+jobs::Stage stage_of(const jobs::JobProgress& progress) {
+  jobs::Stage least = jobs::Stage::finished;
+  for (const jobs::RunProgress& run : progress) {
+    if (run.stage == jobs::Stage::simulating) return run.stage;
+    least = std::min(least, run.stage);
+  }
+  return least;
+}
+
+const char* title_of(int status) {
+  switch (status) {
+    case 400:
+      return "Bad Request";
+    case 403:
+      return "Forbidden";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 409:
+      return "Conflict";
+    case 411:
+      return "Length Required";
+    case 413:
+      return "Content Too Large";
+    case 415:
+      return "Unsupported Media Type";
+    case 416:
+      return "Range Not Satisfiable";
+    case 421:
+      return "Misdirected Request";
+    case 500:
+      return "Internal Server Error";
+    default:
+      return "Error";
+  }
+}
+
+}  // namespace
+
+json progress_json(const jobs::JobProgress& progress) {
+  json runs = json::array();
+  std::int64_t done = 0;
+  std::int64_t total = 0;
+  for (const jobs::RunProgress& run : progress) {
+    runs.push_back({{"run", jobs::run_name(run.run)},
+                    {"seed", run.seed},
+                    {"stage", name_of(run.stage)},
+                    {"simulated_s", run.simulated_s},
+                    {"duration_s", run.duration_s},
+                    {"frames_done", run.images_done},
+                    {"frames_total", run.images_total}});
+    done += run.images_done;
+    total += run.images_total;
+  }
+  return {{"stage", name_of(stage_of(progress))},
+          {"frames_done", done},
+          {"frames_total", total},
+          {"runs", std::move(runs)}};
+}
+
+json problems_json(const std::vector<Problem>& problems) {
+  json list = json::array();
+  for (const Problem& problem : problems) {
+    list.push_back({{"pointer", problem.where},
+                    {"found", problem.found},
+                    {"expected", problem.expected},
+                    {"message", problem.text()}});
+    if (!problem.source.empty()) list.back()["source"] = problem.source;
+  }
+  return list;
+}
+
+json error_json(const std::string& kind, const std::string& message,
+                const std::vector<Problem>& problems) {
+  return {{"kind", kind}, {"message", message}, {"problems", problems_json(problems)}};
+}
+
+json job_json(const jobs::JobRow& row) {
+  const std::string self = "/v1/jobs/" + row.id;
+  json value = {{"id", row.id},
+                {"name", row.name},
+                {"state", name_of(row.state)},
+                {"attempt", row.attempt},
+                {"created_at", time_json(row.created_ms)},
+                {"started_at", time_json(row.started_ms)},
+                {"ended_at", time_json(row.ended_ms)},
+                {"progress", parsed_or(row.progress_json, json::object())},
+                {"error", parsed_or(row.error_json, nullptr)},
+                {"job", json::parse(row.spec_json)},
+                {"links", {{"self", self}}}};
+  if (row.state == jobs::JobState::succeeded) {
+    value["links"]["archive"] = self + "/archive";
+    value["links"]["metrics"] = self + "/metrics";
+  }
+  return value;
+}
+
+json problem_document(int status, const std::string& detail, const std::vector<Problem>& problems) {
+  json document = {
+      {"type", "about:blank"}, {"title", title_of(status)}, {"status", status}, {"detail", detail}};
+  if (!problems.empty()) document["errors"] = problems_json(problems);
+  return document;
+}
+
+std::string text_of(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace throng::server

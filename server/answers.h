@@ -1,0 +1,34 @@
+// What the API says, as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "jobs/store.h"
+#include "jobs/supervisor.h"
+
+namespace throng::server {
+
+/// {"stage", "frames_done", "frames_total", "runs": [...]}
+nlohmann::json progress_json(const jobs::JobProgress& progress);
+
+/// A failed job's "error": {"kind", "message", "problems"}.
+nlohmann::json error_json(const std::string& kind, const std::string& message,
+                          const std::vector<Problem>& problems);
+
+/// [{"pointer", "found", "expected", "message"}]
+nlohmann::json problems_json(const std::vector<Problem>& problems);
+
+/// A job as GET /v1/jobs/{id} shows it.
+nlohmann::json job_json(const jobs::JobRow& row);
+
+/// A problem document (RFC 9457).
+nlohmann::json problem_document(int status, const std::string& detail,
+                                const std::vector<Problem>& problems = {});
+
+/// JSON text that is valid UTF-8 whatever the strings hold.
+std::string text_of(const nlohmann::json& value);
+
+}  // namespace throng::server

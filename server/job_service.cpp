@@ -1,0 +1,208 @@
+#include "server/job_service.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "jobs/spec.h"
+#include "server/answers.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using jobs::JobEvent;
+using jobs::JobRow;
+using jobs::JobState;
+
+namespace {
+
+constexpr auto kProgressInterval = 1s;
+constexpr auto kPauseAfterError = 1s;
+// Longer than a worker may take to end (jobs::LocalProcessesOptions::grace_s).
+constexpr auto kLongestEnd = 20s;
+
+void replace_all(std::string& text, const std::string& what, const std::string& by) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+}
+
+}  // namespace
+
+JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
+    : options_(std::move(options)),
+      executor_(executor),
+      store_(options_.data),
+      worker_([this](const std::stop_token& stop) { work(stop); }) {}
+
+JobService::~JobService() = default;
+
+JobRow JobService::submit(std::string_view job_json) {
+  const jobs::JobSpec job = jobs::parse_job(job_json, "", options_.scenarios);
+  JobRow row = store_.add(job.name, text_of(to_json(job)));
+  spdlog::info("job {} queued", row.id);
+  {
+    const std::lock_guard lock(mutex_);
+    queued_ = true;
+  }
+  changed_.notify_all();
+  return row;
+}
+
+std::optional<JobRow> JobService::get(const std::string& id) const {
+  std::optional<JobRow> row = store_.get(id);
+  const std::lock_guard lock(mutex_);
+  if (row && active_ && active_->row.id == id && !active_->row.progress_json.empty()) {
+    row->progress_json = active_->row.progress_json;
+  }
+  return row;
+}
+
+std::vector<JobRow> JobService::list(int limit, const std::string& after) const {
+  std::vector<JobRow> rows = store_.list(limit, after);
+  const std::lock_guard lock(mutex_);
+  for (JobRow& row : rows) {
+    if (active_ && active_->row.id == row.id && !active_->row.progress_json.empty()) {
+      row.progress_json = active_->row.progress_json;
+    }
+  }
+  return rows;
+}
+
+bool JobService::remove(const std::string& id) {
+  // The state may change between reading and cancelling; then look again.
+  std::optional<JobRow> row = store_.get(id);
+  while (row && is_active(row->state) && !store_.apply(*row, JobEvent::cancel))
+    row = store_.get(id);
+  if (!row) return false;
+  {
+    std::unique_lock lock(mutex_);
+    const auto is_at_work = [&] { return active_ && active_->row.id == id; };
+    if (is_at_work()) active_->stop.request_stop();
+    if (!changed_.wait_for(lock, kLongestEnd, [&] { return !is_at_work(); })) {
+      throw EnvironmentError("the job's workers do not end; the job is cancelled, try again later");
+    }
+  }
+  if (!store_.remove(id)) return false;
+  // Moved away first, so that a half-removed folder is never taken for a job's.
+  const fs::path trash = options_.data / "trash";
+  std::error_code error;
+  fs::create_directories(trash, error);
+  fs::rename(folder_of(id).path(), trash / id, error);
+  fs::remove_all(trash / id, error);
+  if (error) spdlog::warn("job {}: some files could not be removed: {}", id, error.message());
+  spdlog::info("job {} removed", id);
+  return true;
+}
+
+jobs::JobFolder JobService::folder_of(const std::string& id) const {
+  return jobs::JobFolder(options_.data / "jobs" / id);
+}
+
+std::string JobService::without_paths(std::string message) const {
+  for (const fs::path& folder : {options_.data, options_.scenarios}) {
+    replace_all(message, fs::absolute(folder).string() + "/", "");
+    replace_all(message, folder.string() + "/", "");
+  }
+  return message;
+}
+
+void JobService::work(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    try {
+      if (work_on_next(stop)) continue;
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, stop, [&] { return queued_; });
+      queued_ = false;
+    } catch (const std::exception& error) {
+      // The store cannot be reached (disk full, say): nothing is lost, try again.
+      spdlog::error("queue: {}", error.what());
+      std::unique_lock lock(mutex_);
+      changed_.wait_for(lock, stop, kPauseAfterError, [] { return false; });
+    }
+  }
+}
+
+bool JobService::work_on_next(const std::stop_token& stop) {
+  const std::optional<JobRow> next = store_.next();
+  if (!next) return false;
+  std::stop_source stop_job;
+  std::optional<JobRow> row;
+  {
+    // Under the lock, so that remove() sees a job it has cancelled either not begun or active.
+    const std::lock_guard lock(mutex_);
+    const bool resumed = next->state == JobState::running;
+    row = store_.apply(*next, resumed ? JobEvent::resume : JobEvent::start);
+    if (!row) return true;
+    active_ = Active{*row, stop_job};
+    spdlog::info("job {} {}", row->id, resumed ? "resumed" : "started");
+  }
+  const std::stop_callback forward(stop, [&] { stop_job.request_stop(); });
+  const auto finish = [&] {
+    const std::lock_guard lock(mutex_);
+    active_.reset();
+    changed_.notify_all();
+  };
+  try {
+    run(*row, stop_job.get_token());
+  } catch (...) {
+    finish();
+    throw;
+  }
+  finish();
+  return true;
+}
+
+void JobService::run(const JobRow& row, const std::stop_token& stop) {
+  JobEvent event = JobEvent::fail;
+  std::string error;
+  try {
+    const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", options_.scenarios);
+    const auto folder = jobs::JobFolder::create(folder_of(row.id).path(), job);
+    auto last_save = std::chrono::steady_clock::time_point();
+    const auto on_progress = [&](const jobs::JobProgress& progress) {
+      report(row, progress);
+      const auto now = std::chrono::steady_clock::now();
+      if (now - last_save < kProgressInterval) return;
+      last_save = now;
+      save_progress(row);
+    };
+    jobs::run_job(folder, job, executor_, on_progress, stop);
+    save_progress(row);
+    event = JobEvent::succeed;
+  } catch (const Cancelled&) {
+    // By remove(), which has noted it; or by the end of the service, and then the job stays
+    // "running" for the next one to resume.
+    spdlog::info("job {} stopped", row.id);
+    return;
+  } catch (const InputError& failure) {
+    std::vector<Problem> problems = failure.problems();
+    for (Problem& problem : problems) problem.source = without_paths(problem.source);
+    error = text_of(error_json("input", without_paths(failure.what()), problems));
+  } catch (const std::exception& failure) {
+    error = text_of(error_json("environment", without_paths(failure.what()), {}));
+  }
+  const std::optional<JobRow> ended = store_.apply(row, event, error);
+  spdlog::info("job {} {}", row.id, ended ? name_of(ended->state) : "was cancelled meanwhile");
+}
+
+// Progress is worth no job: when it cannot be saved now, it will be a second later.
+void JobService::save_progress(const JobRow& row) {
+  try {
+    store_.save_progress(row, get(row.id).value_or(row).progress_json);
+  } catch (const EnvironmentError& error) {
+    spdlog::warn("job {}: progress not saved: {}", row.id, error.what());
+  }
+}
+
+void JobService::report(const JobRow& row, const jobs::JobProgress& progress) {
+  std::string text = text_of(progress_json(progress));
+  const std::lock_guard lock(mutex_);
+  if (active_ && active_->row.id == row.id) active_->row.progress_json = std::move(text);
+}
+
+}  // namespace throng::server

@@ -1,0 +1,83 @@
+#include "server/serve.h"
+
+#include <fmt/core.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <cstdio>
+#include <functional>
+#include <stop_token>
+#include <thread>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "jobs/local_processes.h"
+#include "server/api.h"
+#include "server/job_service.h"
+
+namespace throng::server {
+
+namespace {
+
+sigset_t ending_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGINT);
+  return signals;
+}
+
+// Calls `action` in a thread of its own when the process is asked to end. As process 1 of a
+// container there is no default action for SIGTERM, so somebody has to wait for it.
+class SignalWatch {
+ public:
+  explicit SignalWatch(std::function<void()> action)
+      : thread_([action = std::move(action)](const std::stop_token& stop) {
+          const sigset_t signals = ending_signals();
+          constexpr timespec kPatience{0, 100'000'000};
+          while (!stop.stop_requested()) {
+            if (sigtimedwait(&signals, nullptr, &kPatience) > 0) return action();
+          }
+        }) {}
+
+ private:
+  std::jthread thread_;
+};
+
+std::string url_of(const std::string& host, int port) {
+  const bool is_ipv6 = host.find(':') != std::string::npos;
+  return is_ipv6 ? fmt::format("http://[{}]:{}", host, port)
+                 : fmt::format("http://{}:{}", host, port);
+}
+
+}  // namespace
+
+int serve(const ServeOptions& options) {
+  if (!options.insecure && !is_loopback(options.host)) {
+    throw InputError(Problem{"--host", "", options.host,
+                             "a loopback address such as 127.0.0.1; other addresses need "
+                             "--insecure, since whoever reaches them may do everything"});
+  }
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("throng"));
+  std::signal(SIGPIPE, SIG_IGN);
+  const sigset_t signals = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+
+  jobs::LocalProcesses executor({.workers = options.workers});
+  JobService service({options.data, options.scenarios}, executor);
+  Api api(service, {options.host, options.port});
+  if (!options.port_file.empty()) {
+    write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
+  }
+  fmt::print("throng serving on {}\n", url_of(options.host, api.port()));
+  std::fflush(stdout);
+  const SignalWatch watch([&] {
+    spdlog::info("ending");
+    api.stop();
+  });
+  api.run();
+  return 0;
+}
+
+}  // namespace throng::server

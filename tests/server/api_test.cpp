@@ -1,0 +1,234 @@
+#include "server/api.h"
+
+#include <arpa/inet.h>
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "jobs/spec.h"
+#include "tests/server/service_fixture.h"
+
+namespace throng::server {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class ApiTest : public ServiceFixture {
+ protected:
+  ApiTest() : service_(options(), executor_), api_(service_, {}), thread_([this] { api_.run(); }) {}
+  ~ApiTest() override { api_.stop(); }
+
+  httplib::Client client() const { return httplib::Client("127.0.0.1", api_.port()); }
+
+  httplib::Result get(const std::string& path, const httplib::Headers& headers = {}) const {
+    return client().Get(path, headers);
+  }
+
+  json get_json(const std::string& path) const { return json::parse(get(path)->body); }
+
+  std::string submit() const {
+    const httplib::Result answer = client().Post("/v1/jobs", kJob, "application/json");
+    EXPECT_EQ(answer->status, 201);
+    return json::parse(answer->body)["id"];
+  }
+
+  std::string submit_and_wait() const {
+    const std::string id = submit();
+    EXPECT_TRUE(wait_until([&] { return get_json("/v1/jobs/" + id)["state"] == "succeeded"; }));
+    return id;
+  }
+
+  void expect_problem(const httplib::Result& answer, int status) const {
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, status);
+    EXPECT_EQ(answer->get_header_value("Content-Type"), "application/problem+json");
+    const json problem = json::parse(answer->body);
+    EXPECT_EQ(problem["status"], status);
+    EXPECT_FALSE(problem["title"].get<std::string>().empty());
+  }
+
+  // Sends bytes as they are and returns all that comes back until the server closes.
+  std::string raw(const std::string& request) const {
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(api_.port()));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+    ::send(socket, request.data(), request.size(), MSG_NOSIGNAL);
+    std::string answer;
+    char block[4096];
+    for (ssize_t count = 0; (count = ::recv(socket, block, sizeof(block), 0)) > 0;) {
+      answer.append(block, static_cast<std::size_t>(count));
+    }
+    ::close(socket);
+    return answer;
+  }
+
+  JobService service_;
+  Api api_;
+  std::jthread thread_;
+};
+
+TEST_F(ApiTest, AJobFromSubmissionToMetrics) {
+  const httplib::Result answer = client().Post("/v1/jobs", kJob, "application/json; charset=utf-8");
+  ASSERT_EQ(answer->status, 201);
+  const json job = json::parse(answer->body);
+  const std::string self = "/v1/jobs/" + job["id"].get<std::string>();
+  EXPECT_EQ(answer->get_header_value("Location"), self);
+  EXPECT_EQ(job["state"], "queued");
+  EXPECT_EQ(job["links"]["self"], self);
+  EXPECT_EQ(job["job"]["scenario"], "yard");
+  ASSERT_TRUE(wait_until([&] { return get_json(self)["state"] == "succeeded"; }));
+  const json done = get_json(self);
+  EXPECT_EQ(done["progress"]["frames_done"], 3);
+  EXPECT_EQ(done["error"], nullptr);
+  EXPECT_THAT(done["ended_at"].get<std::string>(), StartsWith("20"));
+  EXPECT_EQ(get_json(done["links"]["metrics"]), json::parse(R"({"runs":[]})"));
+  EXPECT_EQ(get(done["links"]["archive"])->status, 200);
+}
+
+TEST_F(ApiTest, MistakesComeBackWithTheirPointers) {
+  const httplib::Result answer = client().Post(
+      "/v1/jobs", R"({"scenario": "yard", "runs": 0, "colour": "red"})", "application/json");
+  expect_problem(answer, 400);
+  const json errors = json::parse(answer->body)["errors"];
+  ASSERT_EQ(errors.size(), 2U);
+  EXPECT_EQ(errors[0]["pointer"], "/colour");
+  EXPECT_EQ(errors[1]["pointer"], "/runs");
+  EXPECT_EQ(errors[1]["found"], "0");
+  EXPECT_THAT(errors[1]["message"].get<std::string>(), HasSubstr("from 1 to 1000"));
+  expect_problem(client().Post("/v1/jobs", "{", "application/json"), 400);
+  expect_problem(client().Post("/v1/jobs", kJob, "text/plain"), 415);
+  EXPECT_TRUE(get_json("/v1/jobs")["jobs"].empty());
+}
+
+TEST_F(ApiTest, TheListIsPagedNewestFirst) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 5; ++i) ids.push_back(submit());
+  const json first = get_json("/v1/jobs?limit=3");
+  EXPECT_EQ(first["jobs"][0]["id"], ids[4]);
+  EXPECT_EQ(first["next"], ids[2]);
+  const json second = get_json("/v1/jobs?limit=3&after=" + ids[2]);
+  EXPECT_EQ(second["jobs"].size(), 2U);
+  EXPECT_EQ(second["jobs"][1]["id"], ids[0]);
+  EXPECT_EQ(second["next"], nullptr);
+  for (const char* query : {"limit=0", "limit=x", "limit=1000", "limit=1x", "after=../x"}) {
+    expect_problem(get(fmt::format("/v1/jobs?{}", query)), 400);
+  }
+}
+
+TEST_F(ApiTest, UnknownThingsAre404AndWrongMethods405) {
+  for (const char* path :
+       {"/", "/v1", "/v1/job", "/v1/jobs/", "/v1/jobs/jnosuchjob000000", "/v1/jobs/..%2f..%2fetc",
+        "/v1/jobs/jnosuchjob000000/archive", "/v1/jobs/jnosuchjob000000/metrics", "/v1/jobs/x/y"}) {
+    expect_problem(get(path), 404);
+  }
+  expect_problem(client().Delete("/v1/jobs/jnosuchjob000000"), 404);
+  const httplib::Result answer = client().Delete("/v1/jobs");
+  expect_problem(answer, 405);
+  EXPECT_EQ(answer->get_header_value("Allow"), "GET, HEAD, POST");
+  expect_problem(client().Put("/v1/jobs", "{}", "application/json"), 405);
+  expect_problem(client().Post("/healthz", "", "application/json"), 405);
+}
+
+TEST_F(ApiTest, ResultsOfAnUnfinishedJobAreAConflict) {
+  Gate gate(executor_);
+  const std::string id = submit();
+  expect_problem(get("/v1/jobs/" + id + "/archive"), 409);
+  expect_problem(get("/v1/jobs/" + id + "/metrics"), 409);
+  gate.open();
+}
+
+TEST_F(ApiTest, DeleteRemovesAndSaysSo) {
+  const std::string id = submit_and_wait();
+  EXPECT_EQ(client().Delete("/v1/jobs/" + id)->status, 204);
+  expect_problem(get("/v1/jobs/" + id), 404);
+  expect_problem(client().Delete("/v1/jobs/" + id), 404);
+}
+
+TEST_F(ApiTest, TheArchiveHasALengthATagAndParts) {
+  const std::string path = "/v1/jobs/" + submit_and_wait() + "/archive";
+  const httplib::Result whole = get(path);
+  ASSERT_EQ(whole->status, 200);
+  EXPECT_EQ(whole->get_header_value("Content-Length"), std::to_string(whole->body.size()));
+  EXPECT_EQ(whole->get_header_value("Content-Type"), "application/x-tar");
+  EXPECT_THAT(whole->get_header_value("Content-Disposition"), HasSubstr("yard.tar"));
+  EXPECT_EQ(whole->body.substr(0, 9), "yard/mani");
+  const std::string tag = whole->get_header_value("ETag");
+  EXPECT_EQ(get(path)->body, whole->body);
+
+  const httplib::Result part = get(path, {{"Range", "bytes=500-699"}, {"If-Range", tag}});
+  ASSERT_EQ(part->status, 206);
+  EXPECT_EQ(part->body, whole->body.substr(500, 200));
+  EXPECT_EQ(part->get_header_value("Content-Range"),
+            fmt::format("bytes 500-699/{}", whole->body.size()));
+  const httplib::Result rest = get(path, {{"Range", "bytes=1000-99999999"}});
+  ASSERT_EQ(rest->status, 206);
+  EXPECT_EQ(rest->body, whole->body.substr(1000));
+  const httplib::Result other = get(path, {{"Range", "bytes=5-6"}, {"If-Range", "\"x\""}});
+  EXPECT_EQ(other->status, 200);
+  EXPECT_EQ(other->body, whole->body);
+  const httplib::Result past = get(path, {{"Range", "bytes=99999999-"}});
+  expect_problem(past, 416);
+  EXPECT_EQ(past->get_header_value("Content-Range"), fmt::format("bytes */{}", whole->body.size()));
+}
+
+TEST_F(ApiTest, BodiesWithoutALengthAreRefusedAndTheConnectionEnds) {
+  const std::string chunked =
+      raw("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+          "Transfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n\r\nGET /healthz HTTP/1.1\r\n\r\n");
+  EXPECT_THAT(chunked, StartsWith("HTTP/1.1 411"));
+  EXPECT_EQ(chunked.find("HTTP/1.1", 10), std::string::npos) << "the body was read as a request";
+  for (const char* lengths : {"Content-Length: abc\r\n", "Content-Length: -1\r\n",
+                              "Content-Length: 2\r\nContent-Length: 3\r\n"}) {
+    EXPECT_THAT(
+        raw(fmt::format("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\n{}\r\n{{}}", lengths)),
+        StartsWith("HTTP/1.1 400"));
+  }
+  EXPECT_EQ(get("/healthz")->status, 200);
+}
+
+TEST_F(ApiTest, LargeBodiesAreRefused) {
+  const httplib::Result answer =
+      client().Post("/v1/jobs", std::string(2 << 20, ' '), "application/json");
+  expect_problem(answer, 413);
+}
+
+TEST_F(ApiTest, PagesOfOtherSitesAreRefused) {
+  expect_problem(get("/v1/jobs", {{"Host", "evil.example"}}), 421);
+  EXPECT_EQ(get("/v1/jobs", {{"Host", "localhost:1234"}})->status, 200);
+  EXPECT_EQ(get("/v1/jobs", {{"Host", "[::1]:1234"}})->status, 200);
+}
+
+TEST_F(ApiTest, HealthAndSchema) {
+  EXPECT_EQ(get_json("/healthz")["status"], "ok");
+  EXPECT_EQ(get_json("/v1/schema"), json::parse(jobs::job_schema()));
+  EXPECT_EQ(client().Head("/healthz")->status, 200);
+}
+
+TEST_F(ApiTest, AConnectionServesManyRequestsAndManyConnectionsAreServed) {
+  std::vector<std::jthread> clients;
+  for (int i = 0; i < 16; ++i) {
+    clients.emplace_back([this] {
+      httplib::Client kept = client();
+      kept.set_keep_alive(true);
+      for (int request = 0; request < 20; ++request) EXPECT_EQ(kept.Get("/healthz")->status, 200);
+    });
+  }
+}
+
+TEST_F(ApiTest, APortIsServedOnce) {
+  EXPECT_THROW(Api(service_, {"127.0.0.1", api_.port()}), EnvironmentError);
+}
+
+}  // namespace
+}  // namespace throng::server

@@ -1,0 +1,169 @@
+#include "server/job_service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "tests/server/service_fixture.h"
+
+namespace throng::server {
+namespace {
+
+using jobs::JobRow;
+using jobs::JobState;
+using jobs::Outcome;
+using jobs::Task;
+using jobs::TaskResult;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+class JobServiceTest : public ServiceFixture {};
+
+bool reaches(const JobService& service, const std::string& id, JobState state) {
+  return wait_until([&] { return service.get(id)->state == state; });
+}
+
+TEST_F(JobServiceTest, AJobRunsToItsDataset) {
+  JobService service(options(), executor_);
+  const JobRow row = service.submit(kJob);
+  EXPECT_EQ(row.name, "yard");
+  ASSERT_TRUE(reaches(service, row.id, JobState::succeeded));
+  EXPECT_TRUE(std::filesystem::exists(service.dataset_of(row.id) / "manifest.json"));
+  const json progress = json::parse(service.get(row.id)->progress_json);
+  EXPECT_EQ(progress["stage"], "finished");
+  EXPECT_EQ(progress["frames_done"], 3);
+  EXPECT_EQ(progress["runs"].size(), 1U);
+}
+
+TEST_F(JobServiceTest, JobsRunInTheOrderTheyCame) {
+  Gate gate(executor_);
+  JobService service(options(), executor_);
+  const JobRow first = service.submit(kJob);
+  const JobRow second = service.submit(kJob);
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+  EXPECT_EQ(service.get(first.id)->state, JobState::running);
+  EXPECT_EQ(service.get(second.id)->state, JobState::queued);
+  gate.open();
+  EXPECT_TRUE(reaches(service, second.id, JobState::succeeded));
+  EXPECT_EQ(service.get(first.id)->state, JobState::succeeded);
+}
+
+TEST_F(JobServiceTest, AFailureIsToldWithoutPathsAndTheNextJobRuns) {
+  std::atomic<bool> fails = true;
+  const std::string place = data_.path().string();
+  executor_.before = [&](const Task&) {
+    return fails.exchange(false) ? TaskResult{Outcome::crashed, 3, "died in " + place + "/x", {}}
+                                 : TaskResult{};
+  };
+  JobService service(options(), executor_);
+  const JobRow bad = service.submit(kJob);
+  const JobRow good = service.submit(kJob);
+  ASSERT_TRUE(reaches(service, good.id, JobState::succeeded));
+  const JobRow failed = service.get(bad.id).value();
+  EXPECT_EQ(failed.state, JobState::failed);
+  EXPECT_THAT(failed.error_json, HasSubstr("run000/trace: died in x"));
+  EXPECT_THAT(failed.error_json, Not(HasSubstr(place)));
+}
+
+TEST_F(JobServiceTest, AnInputErrorOfAWorkerKeepsItsPointers) {
+  executor_.before = [](const Task&) {
+    return TaskResult{Outcome::input_error, 1, "m", {{"", "/crowd/agents", "9", "at most 2"}}};
+  };
+  JobService service(options(), executor_);
+  const JobRow row = service.submit(kJob);
+  ASSERT_TRUE(reaches(service, row.id, JobState::failed));
+  const json error = json::parse(service.get(row.id)->error_json);
+  EXPECT_EQ(error["kind"], "input");
+  EXPECT_EQ(error["problems"][0]["pointer"], "/crowd/agents");
+}
+
+TEST_F(JobServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
+  std::string running;
+  std::string queued;
+  {
+    Gate gate(executor_);
+    JobService service(options(), executor_);
+    running = service.submit(kJob).id;
+    queued = service.submit(kJob).id;
+    ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+    // The tasks end only after the service has begun to.
+    std::jthread opener([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      gate.open();
+    });
+  }
+  const std::size_t done_before = executor_.done().size();
+  EXPECT_LT(done_before, 6U) << "the first service ended in the middle";
+  jobs::FakeExecutor second;
+  JobService service(options(), second);
+  ASSERT_TRUE(reaches(service, queued, JobState::succeeded));
+  EXPECT_EQ(service.get(running)->state, JobState::succeeded);
+  EXPECT_EQ(service.get(running)->attempt, 2);
+  EXPECT_EQ(service.get(queued)->attempt, 1);
+  // What had been published was not done again: 6 tasks per job in all.
+  EXPECT_EQ(done_before + second.done().size(), 12U);
+}
+
+TEST_F(JobServiceTest, RemovingARunningJobEndsItAndItsFiles) {
+  executor_.before = [](const Task&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return TaskResult{};
+  };
+  JobService service(options(), executor_);
+  const JobRow row = service.submit(kJob);
+  ASSERT_TRUE(wait_until([&] { return !executor_.done().empty(); }));
+  EXPECT_TRUE(service.remove(row.id));
+  EXPECT_FALSE(service.get(row.id));
+  EXPECT_FALSE(std::filesystem::exists(data_.path() / "jobs" / row.id));
+  EXPECT_FALSE(std::filesystem::exists(data_.path() / "trash" / row.id));
+  EXPECT_FALSE(service.remove(row.id));
+  const JobRow next = service.submit(kJob);
+  EXPECT_TRUE(reaches(service, next.id, JobState::succeeded));
+}
+
+TEST_F(JobServiceTest, RemovingAQueuedJobLeavesTheOthers) {
+  Gate gate(executor_);
+  JobService service(options(), executor_);
+  const JobRow first = service.submit(kJob);
+  const JobRow second = service.submit(kJob);
+  const JobRow third = service.submit(kJob);
+  EXPECT_TRUE(service.remove(second.id));
+  gate.open();
+  EXPECT_TRUE(reaches(service, third.id, JobState::succeeded));
+  EXPECT_EQ(service.get(first.id)->state, JobState::succeeded);
+  EXPECT_FALSE(service.get(second.id));
+}
+
+TEST_F(JobServiceTest, ManyClientsAtOnce) {
+  JobService service(options(), executor_);
+  constexpr int kClients = 4;
+  {
+    std::vector<std::jthread> clients;
+    for (int client = 0; client < kClients; ++client) {
+      clients.emplace_back([&, client] {
+        for (int i = 0; i < 5; ++i) {
+          const JobRow row = service.submit(kJob);
+          service.list(10, "");
+          if (client % 2 == 0) {
+            EXPECT_TRUE(service.remove(row.id));
+          } else {
+            EXPECT_TRUE(service.get(row.id));
+          }
+        }
+      });
+    }
+  }
+  EXPECT_EQ(service.list(100, "").size(), 10U);
+  EXPECT_TRUE(wait_until([&] {
+    for (const JobRow& row : service.list(100, "")) {
+      if (row.state != JobState::succeeded) return false;
+    }
+    return true;
+  }));
+}
+
+}  // namespace
+}  // namespace throng::server

@@ -1,0 +1,58 @@
+// A job service with an executor that pretends, in folders of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "server/job_service.h"
+#include "tests/jobs/fake_executor.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::server {
+
+inline constexpr const char* kJob = R"({"scenario": "yard", "capture": {"to_s": 2}})";
+
+/// Waits until something holds; false when it does not within some seconds.
+inline bool wait_until(const std::function<bool()>& condition) {
+  using namespace std::chrono_literals;
+  const auto end = std::chrono::steady_clock::now() + 10s;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(2ms);
+  }
+  return true;
+}
+
+class ServiceFixture : public testing::Test {
+ protected:
+  ServiceFixture() { jobs::write_yard(scenarios_.path()); }
+
+  JobServiceOptions options() const { return {data_.path(), scenarios_.path()}; }
+
+  jobs::TemporaryFolder scenarios_;
+  jobs::TemporaryFolder data_;
+  jobs::FakeExecutor executor_;
+};
+
+/// Makes an executor's tasks wait until open() is called.
+class Gate {
+ public:
+  explicit Gate(jobs::FakeExecutor& executor) {
+    executor.before = [this](const jobs::Task&) {
+      waiting_ = true;
+      while (!open_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      return jobs::TaskResult{};
+    };
+  }
+  void open() { open_ = true; }
+  bool somebody_waits() const { return waiting_; }
+
+ private:
+  std::atomic<bool> open_ = false;
+  std::atomic<bool> waiting_ = false;
+};
+
+}  // namespace throng::server
