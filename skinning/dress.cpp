@@ -47,7 +47,7 @@ Joints find_joints(const MakeHuman& makehuman, std::span<const Eigen::Vector3f> 
   return joints;
 }
 
-void straighten_leg(const Joints& joints, Bone thigh, Pose& pose) {
+void straighten_leg(const Joints& joints, Bone thigh, double stance, Pose& pose) {
   const std::size_t first = index_of(thigh);
   const Eigen::Vector3f hip = joints[first];
   const Eigen::Vector3f knee = joints[first + 1];
@@ -55,8 +55,7 @@ void straighten_leg(const Joints& joints, Bone thigh, Pose& pose) {
   const Eigen::Vector3f ball = joints[first + 3];
   const float side = thigh == Bone::left_thigh ? 1.0F : -1.0F;
   const float length = (knee - hip).norm() + (ankle - knee).norm();
-  // Ankles stand 13 % of the leg apart, a usual step width.
-  const float splay = (0.065F * length - side * hip.y()) / length;
+  const float splay = static_cast<float>(stance) - side * hip.y() / length;
   const Eigen::Vector3f down(0.02F, side * splay, -1);
   pose.rotation[first] = turn_between(knee - hip, down);
   pose.rotation[first + 1] = turn_between(ankle - knee, down);
@@ -85,10 +84,13 @@ void lower_arm(const Joints& joints, Bone upper_arm, double out_deg, Pose& pose)
 // From the A-pose to standing: straight legs below the hips, arms hanging.
 Pose neutral_pose(const Joints& joints, const BodyShape& shape) {
   Pose pose;
-  straighten_leg(joints, Bone::left_thigh, pose);
-  straighten_leg(joints, Bone::right_thigh, pose);
-  // Heavier people's arms hang further from the body.
-  const double arms_out_deg = 9 + 14 * std::max(0.0, shape.weight - 0.5);
+  // Ankles stand 14 % of the leg apart, a usual step width. Heavier people stand wider and their
+  // arms hang further from the body.
+  const double heavy = std::max(0.0, shape.weight - 0.5);
+  const double stance = 0.07 + 0.06 * heavy;
+  straighten_leg(joints, Bone::left_thigh, stance, pose);
+  straighten_leg(joints, Bone::right_thigh, stance, pose);
+  const double arms_out_deg = 9 + 14 * heavy;
   lower_arm(joints, Bone::left_upper_arm, arms_out_deg, pose);
   lower_arm(joints, Bone::right_upper_arm, arms_out_deg, pose);
   return pose;

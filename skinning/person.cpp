@@ -114,13 +114,19 @@ void sample_clothes(PersonSpec& person, Random& random) {
   for (const Suit& suit : kSuits) {
     const bool formal = suit.name == "male_elegantsuit01" || suit.name == "female_elegantsuit01";
     const bool fits = person.male ? suit.top_for_men : suit.top_for_women;
-    if (fits && !(child && (formal || suit.overall))) tops.push_back(&suit);
+    const bool odd_at_this_age = (child && (formal || suit.overall)) ||
+                                 (person.age_years > 40 && suit.name == "female_casualsuit02");
+    if (fits && !odd_at_this_age) tops.push_back(&suit);
   }
   const Suit* top = pick(random, tops);
-  // Most people are not dressed for the office: a second draw for those who would be.
-  if (top->name == "male_elegantsuit01" && random.uniform() < 0.5) top = pick(random, tops);
+  // Few people wear suits or overalls, and most women wear what is cut for them: those who drew
+  // otherwise may draw once more.
+  if ((top->overall || (!person.male && top->top_for_men)) && random.uniform() < 0.6) {
+    top = pick(random, tops);
+  }
   person.top = top->name;
-  if (top->overall) {
+  const bool together = top->overall || (!top->top_for_men && random.uniform() < 0.4);
+  if (together) {
     person.bottom = top->name;
   } else {
     // A short upper part needs trousers that reach up to it: those of the men's suits all do.
@@ -129,8 +135,9 @@ void sample_clothes(PersonSpec& person, Random& random) {
     for (const Suit& suit : kSuits) {
       const bool fits = person.male ? suit.bottom_for_men : suit.bottom_for_women;
       const bool reaches = !short_top || suit.bottom_for_men;
-      const bool childish = !child || suit.name != "female_elegantsuit01";
-      if (fits && reaches && childish && !suit.overall) bottoms.push_back(&suit);
+      const bool odd_at_this_age = (child && suit.name == "female_elegantsuit01") ||
+                                   (person.age_years > 40 && suit.name == "female_casualsuit02");
+      if (fits && reaches && !odd_at_this_age && !suit.overall) bottoms.push_back(&suit);
     }
     person.bottom = pick(random, bottoms)->name;
   }

@@ -24,9 +24,10 @@ std::string hex_of(const Rgb& colour) {
 }
 
 Rgb colour_of(const std::string& hex) {
+  if (hex.size() != 7 || hex.front() != '#') throw std::out_of_range("colour");
   Rgb colour{};
   const auto digit = [&](std::size_t at) -> int {
-    const char c = hex.at(at);
+    const char c = hex[at];
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
     throw std::out_of_range("colour");

@@ -11,7 +11,7 @@ namespace throng::skinning {
 
 namespace {
 
-constexpr double kElevation_rad = 30 * std::numbers::pi / 180;
+constexpr double kElevation_rad = 20 * std::numbers::pi / 180;
 constexpr float kMargin_px = 2;
 
 // Right and up in the camera's picture, and towards the camera.

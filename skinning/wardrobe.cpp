@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/error.h"
 #include "skinning/raster.h"
@@ -54,7 +55,7 @@ std::uint8_t luma(const std::uint8_t* rgb) {
 }
 
 // Light and shade without colour, with the piece's median at kMedianShade.
-void reduce_to_shade(Image& image, const Mask& covered) {
+void reduce_to_shade(Image& image, const Mask& covered, double contrast) {
   std::vector<std::uint8_t> lumas;
   for (std::size_t at = 0; at < covered.size(); ++at) {
     if (covered[at] != 0 && image.rgba[4 * at + 3] >= 128) {
@@ -65,10 +66,9 @@ void reduce_to_shade(Image& image, const Mask& covered) {
   const auto middle = lumas.begin() + static_cast<std::ptrdiff_t>(lumas.size() / 2);
   std::nth_element(lumas.begin(), middle, lumas.end());
   const double median = std::max<double>(*middle, 8);
-  constexpr double kContrast = 0.9;
   std::array<std::uint8_t, 256> shade{};
   for (int value = 0; value < 256; ++value) {
-    const double ratio = std::pow(value / median, kContrast);
+    const double ratio = std::pow(value / median, contrast);
     shade[value] = static_cast<std::uint8_t>(std::lround(std::min(255.0, kMedianShade * ratio)));
   }
   for (std::size_t at = 0; at < covered.size(); ++at) {
@@ -141,7 +141,15 @@ const std::vector<Garment>& Wardrobe::pieces(const std::string& proxy, Tint tint
 const Proxy& Wardrobe::load(const std::string& kind, const std::string& name) {
   const auto found = proxies_.find(name);
   if (found != proxies_.end()) return found->second;
-  return proxies_.emplace(name, makehuman_->load_proxy(kind, name)).first->second;
+  Proxy proxy = makehuman_->load_proxy(kind, name);
+  if (kind != "clothes") {
+    // Hair that partly hung on the neck would slip on a turning head.
+    for (BoneWeights& weights : proxy.weights) {
+      weights[static_cast<std::size_t>(Bone::head)] +=
+          std::exchange(weights[static_cast<std::size_t>(Bone::neck)], 0);
+    }
+  }
+  return proxies_.emplace(name, std::move(proxy)).first->second;
 }
 
 void Wardrobe::add_suit(const std::string& name) {
@@ -209,7 +217,9 @@ void Wardrobe::add_piece(Garment garment, Tint worn_as, const fs::path& picture,
                          const std::string& key) {
   Image image = read_png(picture);
   Mask covered = covered_by(garment, image);
-  if (garment.tint != Tint::none) reduce_to_shade(image, covered);
+  // Painted hair darkens so much towards its tips that grey hair would look two-coloured.
+  const double contrast = garment.tint == Tint::hair ? 0.5 : 0.9;
+  if (garment.tint != Tint::none) reduce_to_shade(image, covered, contrast);
   if (garment.alpha_tested) {
     for (std::size_t at = 0; at < covered.size(); ++at) {
       if (image.rgba[4 * at + 3] < 128) covered[at] = 0;

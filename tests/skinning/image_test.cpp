@@ -1,0 +1,63 @@
+#include "skinning/image.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "made_up.h"
+
+namespace throng::skinning {
+namespace {
+
+TEST(Image, PngKeepsEveryPixel) {
+  Image image(5, 3);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    image.rgba[i] = static_cast<std::uint8_t>(37 * i);
+  }
+  const Image read = decode_png(encode_png(image), "test");
+  EXPECT_EQ(read.width, 5);
+  EXPECT_EQ(read.height, 3);
+  EXPECT_EQ(read.rgba, image.rgba);
+}
+
+TEST(Image, BytesThatAreNoPngAreAnError) {
+  EXPECT_THROW(decode_png("", "empty.png"), InputError);
+  EXPECT_THROW(decode_png("GIF89a", "wrong.png"), InputError);
+  const std::string png = encode_png(plain(16, {1, 2, 3}));
+  EXPECT_THROW(decode_png(png.substr(0, png.size() / 2), "cut.png"), InputError);
+}
+
+TEST(Image, ShrinkingKeepsAPlainColour) {
+  const Image small = resized(plain(512, {180, 90, 30}), 64);
+  EXPECT_EQ(small.rgba, plain(64, {180, 90, 30}).rgba);
+}
+
+TEST(Image, ShrinkingWeighsColoursByTheirAlpha) {
+  Image image = plain(2, {200, 0, 0});
+  for (const std::size_t pixel : {1, 2, 3}) {
+    image.rgba[4 * pixel] = 0;
+    image.rgba[4 * pixel + 3] = 0;
+  }
+  const Image small = resized(image, 1);
+  EXPECT_GE(small.rgba[0], 199);
+  EXPECT_EQ(small.rgba[3], 64);
+}
+
+TEST(Image, UncoveredPixelsTakeTheNearestColour) {
+  Image image(9, 1);
+  Mask covered(9, 0);
+  covered[0] = covered[8] = 1;
+  image.pixel(0, 0)[0] = 100;
+  image.pixel(8, 0)[0] = 200;
+  fill_from_nearest(image, covered);
+  EXPECT_EQ(image.pixel(3, 0)[0], 100);
+  EXPECT_EQ(image.pixel(5, 0)[0], 200);
+}
+
+TEST(Image, SrgbAndLinearLightAreInverse) {
+  for (int value = 0; value < 256; ++value) {
+    EXPECT_EQ(srgb_of(linear_of(static_cast<std::uint8_t>(value))), value);
+  }
+}
+
+}  // namespace
+}  // namespace throng::skinning

@@ -1,0 +1,363 @@
+// The people that set-up baked. Skipped where there are none, as on a machine where set-up has not
+// run.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "skinning/gait.h"
+#include "skinning/motion.h"
+#include "skinning/population.h"
+#include "skinning/raster.h"
+
+namespace throng::skinning {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PeopleTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (fs::exists(population_folder() / "population.json")) {
+      people_ = std::make_unique<Population>(load_population(population_folder()));
+    }
+  }
+  static void TearDownTestSuite() { people_.reset(); }
+  void SetUp() override {
+    if (!people_) {
+      GTEST_SKIP() << "no baked people in " << population_folder()
+                   << ": run scripts/setup.sh or set THRONG_PEOPLE";
+    }
+  }
+
+  static std::unique_ptr<Population> people_;
+};
+
+std::unique_ptr<Population> PeopleTest::people_;
+
+Palette rest_palette() {
+  Palette palette;
+  for (BoneMatrix& matrix : palette) matrix = BoneMatrix::Identity();
+  return palette;
+}
+
+TEST_F(PeopleTest, AreAtLeastEightAndAllDifferent) {
+  ASSERT_GE(people_->characters.size(), 8U);
+  std::set<std::string> names;
+  std::set<long> statures_mm;
+  for (const Character& character : people_->characters) {
+    names.insert(character.name);
+    statures_mm.insert(std::lround(1000 * character.stature_m));
+  }
+  EXPECT_EQ(names.size(), people_->characters.size());
+  EXPECT_GE(statures_mm.size(), 8U);
+}
+
+TEST_F(PeopleTest, MeshesAreSound) {
+  for (const Character& character : people_->characters) {
+    ASSERT_EQ(character.levels.size(), 4U);
+    for (const Mesh& mesh : character.levels) {
+      std::uint32_t next = 0;
+      for (const Part& part : mesh.parts) {
+        EXPECT_EQ(part.first_index, next);
+        EXPECT_EQ(part.index_count % 3, 0U);
+        ASSERT_GE(part.texture, 0);
+        ASSERT_LT(static_cast<std::size_t>(part.texture), people_->textures.size());
+        next += part.index_count;
+      }
+      EXPECT_EQ(next, mesh.indices.size());
+      for (const std::uint32_t index : mesh.indices) ASSERT_LT(index, mesh.vertices.size());
+      for (const Vertex& vertex : mesh.vertices) {
+        int sum = 0;
+        for (std::size_t slot = 0; slot < 4; ++slot) {
+          ASSERT_LT(vertex.bones[slot], kBoneCount);
+          sum += vertex.weights[slot];
+        }
+        ASSERT_EQ(sum, 255);
+        const Eigen::Vector3f normal(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
+        ASSERT_NEAR(normal.norm(), 1, 1e-3);
+        for (const float value : vertex.position) ASSERT_LT(std::abs(value), 3);
+        for (const float value : vertex.uv) ASSERT_LT(std::abs(value), 2);
+      }
+    }
+  }
+}
+
+TEST_F(PeopleTest, LevelsGetSimpler) {
+  for (const Character& character : people_->characters) {
+    std::vector<std::size_t> triangles;
+    for (const Mesh& mesh : character.levels) triangles.push_back(mesh.indices.size() / 3);
+    EXPECT_LE(triangles[0], 9000U) << character.name;
+    EXPECT_LE(triangles[1], 3600U) << character.name;
+    EXPECT_LE(triangles[2], 1200U) << character.name;
+    EXPECT_LE(triangles[3], 700U) << character.name;
+    EXPECT_GE(triangles[3], 250U) << character.name;
+    EXPECT_TRUE(std::is_sorted(triangles.rbegin(), triangles.rend()));
+  }
+}
+
+TEST_F(PeopleTest, StatureIsThatOfTheMesh) {
+  for (const Character& character : people_->characters) {
+    float crown = 0;
+    float sole = 1;
+    const Mesh& mesh = character.levels.front();
+    for (const Part& part : mesh.parts) {
+      for (std::uint32_t at = 0; at < part.index_count; ++at) {
+        const float z = mesh.vertices[mesh.indices[part.first_index + at]].position[2];
+        sole = std::min(sole, z);
+        if (part.tint == Tint::none) crown = std::max(crown, z);
+      }
+    }
+    EXPECT_NEAR(sole, 0, 0.01) << character.name;
+    EXPECT_NEAR(crown, character.stature_m, 0.01) << character.name;
+    EXPECT_GT(character.stature_m, 1.0F);
+    EXPECT_LT(character.stature_m, 2.1F);
+  }
+}
+
+TEST_F(PeopleTest, HeadsAreOnTopAndFeetBelowPointingForwards) {
+  for (const Character& character : people_->characters) {
+    float toes = 0;
+    float heels = 0;
+    for (const Vertex& vertex : character.levels.front().vertices) {
+      const auto bone = static_cast<Bone>(vertex.bones[0]);
+      if (vertex.position[2] > 0.95F * character.stature_m) {
+        EXPECT_EQ(bone, Bone::head);
+      }
+      if (vertex.position[2] > 0.15F * character.stature_m) continue;
+      EXPECT_GE(bone, Bone::left_shin);
+      toes = std::max(toes, vertex.position[0]);
+      heels = std::min(heels, vertex.position[0]);
+    }
+    EXPECT_GT(toes, -heels) << character.name;
+  }
+}
+
+TEST_F(PeopleTest, LeftIsPositiveY) {
+  for (const Character& character : people_->characters) {
+    for (const Vertex& vertex : character.levels.front().vertices) {
+      if (vertex.weights[0] < 250) continue;
+      const auto bone = static_cast<Bone>(vertex.bones[0]);
+      if (bone == Bone::left_hand || bone == Bone::left_shin) {
+        EXPECT_GT(vertex.position[1], 0);
+      }
+      if (bone == Bone::right_hand || bone == Bone::right_shin) {
+        EXPECT_LT(vertex.position[1], 0);
+      }
+    }
+  }
+}
+
+TEST_F(PeopleTest, TrianglesFaceOutwards) {
+  // A closed surface that faces outwards has a positive volume: that of a person.
+  for (const Character& character : people_->characters) {
+    for (std::size_t level = 1; level < character.levels.size(); ++level) {
+      const Mesh& mesh = character.levels[level];
+      double volume_m3 = 0;
+      for (std::size_t at = 0; at < mesh.indices.size(); at += 3) {
+        std::array<Eigen::Vector3d, 3> corner;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto& p = mesh.vertices[mesh.indices[at + i]].position;
+          corner[i] = Eigen::Vector3d(p[0], p[1], p[2]);
+        }
+        volume_m3 += corner[0].dot(corner[1].cross(corner[2])) / 6;
+      }
+      EXPECT_GT(volume_m3, 0.02) << character.name << " level " << level;
+      EXPECT_LT(volume_m3, 0.25) << character.name << " level " << level;
+    }
+  }
+}
+
+TEST_F(PeopleTest, TexturesHaveOneSize) {
+  const auto size = static_cast<std::size_t>(people_->texture_size);
+  for (const Texture& texture : people_->textures) {
+    EXPECT_EQ(texture.rgba.size(), size * size * 4);
+  }
+}
+
+TEST_F(PeopleTest, EveryFrameStandsOnTheGroundAndKeepsTheBodyTogether) {
+  for (std::size_t i = 0; i < people_->characters.size(); ++i) {
+    const Mesh& mesh = people_->characters[i].levels.back();
+    const Mesh& full = people_->characters[i].levels.front();
+    std::vector<const Vertex*> soles;
+    for (const Vertex& vertex : full.vertices) {
+      if (vertex.position[2] < 0.03F) soles.push_back(&vertex);
+    }
+    for (std::uint32_t frame = 0; frame < people_->palettes_per_character; frame += 5) {
+      const Palette& palette = people_->palette(i, frame);
+      float lowest = 1;
+      for (const Vertex* vertex : soles) {
+        lowest = std::min(lowest, skin(*vertex, palette, palette, 0).z());
+      }
+      ASSERT_LT(std::abs(lowest), 0.01F) << people_->characters[i].name << " frame " << frame;
+      for (const Vertex& vertex : mesh.vertices) {
+        const Eigen::Vector3f posed = skin(vertex, palette, palette, 0);
+        ASSERT_TRUE(posed.allFinite());
+        ASSERT_LT(posed.head<2>().norm(), 0.75F * people_->characters[i].stature_m);
+        ASSERT_LT(posed.z(), 1.15F * people_->characters[i].stature_m);
+      }
+    }
+  }
+}
+
+TEST_F(PeopleTest, BlendingHalfwayLiesBetweenTheFrames) {
+  const Character& character = people_->characters.front();
+  const PoseBlend pose = pose_at(*people_, 0.3, 1.35, 0);
+  const Palette& a = people_->palette(0, pose.a);
+  const Palette& b = people_->palette(0, pose.b);
+  for (const Vertex& vertex : character.levels.back().vertices) {
+    const Eigen::Vector3f middle = 0.5F * (skin(vertex, a, b, 0) + skin(vertex, a, b, 1));
+    EXPECT_LT((skin(vertex, a, b, 0.5F) - middle).norm(), 1e-5F);
+  }
+}
+
+// Pixels that a mesh covers, seen from the front, 100 to the metre.
+std::vector<bool> silhouette(const Mesh& mesh, const Palette& palette, float yaw_rad) {
+  constexpr int kSize = 220;
+  std::vector<bool> covered(static_cast<std::size_t>(kSize) * kSize, false);
+  std::vector<Eigen::Vector2f> points;
+  for (const Vertex& vertex : mesh.vertices) {
+    const Eigen::Vector3f p = skin(vertex, palette, palette, 0);
+    const float across = std::cos(yaw_rad) * p.y() - std::sin(yaw_rad) * p.x();
+    points.emplace_back(110 + 100 * across, 215 - 100 * p.z());
+  }
+  for (std::size_t at = 0; at < mesh.indices.size(); at += 3) {
+    for_each_pixel(points[mesh.indices[at]], points[mesh.indices[at + 1]],
+                   points[mesh.indices[at + 2]], kSize, kSize,
+                   [&](int x, int y, const Eigen::Vector3f&) {
+                     covered[static_cast<std::size_t>(y) * kSize + x] = true;
+                   });
+  }
+  return covered;
+}
+
+double overlap(const std::vector<bool>& a, const std::vector<bool>& b) {
+  int both = 0;
+  int either = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    both += a[i] && b[i] ? 1 : 0;
+    either += a[i] || b[i] ? 1 : 0;
+  }
+  return static_cast<double>(both) / either;
+}
+
+TEST_F(PeopleTest, LevelsKeepTheSilhouette) {
+  for (std::size_t i = 0; i < people_->characters.size(); ++i) {
+    const Character& character = people_->characters[i];
+    const Palette& palette = people_->palette(i, pose_at(*people_, 0.1, 1.35, 0).a);
+    for (const float yaw : {0.0F, 1.0F}) {
+      const std::vector<bool> full = silhouette(character.levels[0], palette, yaw);
+      EXPECT_GT(overlap(full, silhouette(character.levels[1], palette, yaw)), 0.88)
+          << character.name;
+      EXPECT_GT(overlap(full, silhouette(character.levels[2], palette, yaw)), 0.82)
+          << character.name;
+      EXPECT_GT(overlap(full, silhouette(character.levels[3], palette, yaw)), 0.78)
+          << character.name;
+    }
+  }
+}
+
+TEST_F(PeopleTest, RestPoseIsTheIdentity) {
+  const Palette rest = rest_palette();
+  const Vertex& vertex = people_->characters.front().levels.front().vertices.front();
+  const Eigen::Vector3f position(vertex.position[0], vertex.position[1], vertex.position[2]);
+  EXPECT_LT((skin(vertex, rest, rest, 0.3F) - position).norm(), 1e-6F);
+}
+
+// How far the ball of the left foot moves over the ground while it is planted.
+double slide_m(const Population& people, std::size_t character, double speed_mps) {
+  const Character& who = people.characters[character];
+  const Vertex* ball = nullptr;
+  for (const Vertex& vertex : who.levels.front().vertices) {
+    const bool on_toe = static_cast<Bone>(vertex.bones[0]) == Bone::left_toe;
+    if (!on_toe || vertex.position[2] > 0.02F) continue;
+    if (ball == nullptr || vertex.position[0] < ball->position[0]) ball = &vertex;
+  }
+  if (ball == nullptr) return 1;
+  const double stride_m = stride_length_m(speed_mps, who.stature_m);
+  double low = 1e9;
+  double high = -1e9;
+  for (double phase = 0.08; phase <= 0.56; phase += 0.01) {
+    const PoseBlend pose = pose_at(people, phase, speed_mps, 0);
+    const double x = phase * stride_m + skin(*ball, people.palette(character, pose.a),
+                                             people.palette(character, pose.b), pose.blend)
+                                            .x();
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  return high - low;
+}
+
+TEST_F(PeopleTest, PlantedFeetHardlySlide) {
+  double worst_walk_m = 0;
+  double worst_fast_m = 0;
+  for (std::size_t i = 0; i < people_->characters.size(); ++i) {
+    worst_walk_m = std::max(worst_walk_m, slide_m(*people_, i, 1.04));
+    worst_fast_m = std::max(worst_fast_m, slide_m(*people_, i, 2.0));
+  }
+  RecordProperty("slide_mm_at_1.04_mps", static_cast<int>(1000 * worst_walk_m));
+  RecordProperty("slide_mm_at_2.0_mps", static_cast<int>(1000 * worst_fast_m));
+  EXPECT_LT(worst_walk_m, 0.015);
+  EXPECT_LT(worst_fast_m, 0.02);
+}
+
+class DamagedPeopleTest : public PeopleTest {
+ protected:
+  void SetUp() override {
+    PeopleTest::SetUp();
+    if (IsSkipped()) return;
+    folder_ = fs::path(testing::TempDir()) / "damaged_people";
+    fs::remove_all(folder_);
+    fs::copy(population_folder(), folder_);
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+  std::string message() const {
+    try {
+      load_population(folder_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  fs::path folder_;
+};
+
+TEST_F(DamagedPeopleTest, ErrorsNameTheFileAndTheRemedy) {
+  const std::string index = read_file(folder_ / "population.json");
+  const auto expect_message_about = [&](const std::string& file) {
+    EXPECT_NE(message().find(file), std::string::npos) << message();
+    EXPECT_NE(message().find("throng people build"), std::string::npos) << message();
+  };
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string changed = index;
+    changed.replace(changed.find(from), from.size(), to);
+    return changed;
+  };
+  for (const std::string& changed :
+       {std::string(), std::string("[1, 2]"), replaced("\"format\": 1", "\"format\": 999"),
+        replaced("\"clips\"", "\"chips\""), replaced("\"name\"", "\"game\""),
+        replaced("\"frames\": 32", "\"frames\": 0"), replaced("\"#", "\"?")}) {
+    write_file_atomically(folder_ / "population.json", changed);
+    expect_message_about("population.json");
+  }
+  write_file_atomically(folder_ / "population.json", index);
+
+  fs::resize_file(folder_ / "palettes.bin", 1000);
+  expect_message_about("palettes.bin");
+  const fs::path glb = folder_ / (people_->characters[1].name + ".glb");
+  fs::resize_file(glb, 5000);
+  expect_message_about(glb.filename().string());
+  fs::remove(glb);
+  expect_message_about(glb.filename().string());
+  fs::remove(folder_ / "population.json");
+  expect_message_about("population.json");
+}
+
+}  // namespace
+}  // namespace throng::skinning
