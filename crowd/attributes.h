@@ -35,7 +35,7 @@ struct AttributeSpec {
   std::string_view help;
   Presence presence = Presence::required;
   /// What an optional attribute is when it is not given; "" means that the reader asks has().
-  std::string_view default_text = "";
+  std::string_view default_text = {};
   double min = -kFarthest;
   double max = kFarthest;
   /// For text: the words allowed; empty allows any.

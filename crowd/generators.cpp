@@ -36,8 +36,9 @@ class RectangularGrid : public Generator {
   std::size_t count() const override { return columns_ * rows_; }
 
   Eigen::Vector2f place(std::size_t index, const Eigen::Vector2f& noise) const override {
-    const Eigen::Vector2f cell(static_cast<float>(index % columns_),
-                               static_cast<float>(index / columns_));
+    const std::size_t column = index % columns_;
+    const std::size_t row = index / columns_;
+    const Eigen::Vector2f cell(static_cast<float>(column), static_cast<float>(row));
     const Eigen::Vector2f local = cell.cwiseProduct(offset_) + noise;
     return anchor_ + local.x() * axis_ + local.y() * Eigen::Vector2f(-axis_.y(), axis_.x());
   }

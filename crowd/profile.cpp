@@ -37,6 +37,7 @@ void load_property(const Element& element, const std::vector<Variable>& variable
                                      [&](const Variable& v) { return v.name == name; });
   if (variable == variables.end()) {
     std::vector<std::string_view> names;
+    names.reserve(variables.size());
     for (const Variable& v : variables) names.push_back(v.name);
     element.fail_attribute("name", name.empty() ? "nothing" : in_quotes(name),
                            fmt::format("one of {}", fmt::join(names, ", ")));

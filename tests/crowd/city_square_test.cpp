@@ -12,7 +12,7 @@ namespace throng::crowd {
 namespace {
 
 constexpr std::size_t kPeople = 260;
-constexpr double kNewsBreaks_s = 18;
+constexpr double kNewsTime = 18;  // s
 
 struct Building {
   float min_x, min_y, max_x, max_y;
@@ -45,7 +45,7 @@ TEST(CitySquare, EveryoneGetsOutByAllExits) {
     };
     std::vector<int> exit_of(kPeople, -1);
     std::size_t moving_before = 0;
-    while (crowd.time_s() < kNewsBreaks_s + 120) {
+    while (crowd.time_s() < kNewsTime + 120) {
       crowd.step();
       std::size_t strolling = 0;
       for (std::size_t i = 0; i < kPeople; ++i) {
@@ -58,10 +58,10 @@ TEST(CitySquare, EveryoneGetsOutByAllExits) {
         if (is_strolling(i)) ++strolling;
         if (crowd.velocities()[i].norm() > 0.5F) ++moving_before;
       }
-      if (crowd.time_s() <= kNewsBreaks_s) {
+      if (crowd.time_s() <= kNewsTime) {
         EXPECT_EQ(strolling, kPeople);
       }
-      if (crowd.time_s() > kNewsBreaks_s + 19) {
+      if (crowd.time_s() > kNewsTime + 19) {
         EXPECT_EQ(strolling, 0U) << crowd.time_s();
       }
       EXPECT_EQ(crowd.positions()[kPeople], Eigen::Vector2f(20, 0)) << "the disaster stays";

@@ -65,7 +65,8 @@ TEST(Grid, BreaksTiesById) {
   Agents agents;
   agents.resize(9, 0);
   for (std::size_t i = 0; i < 9; ++i) {
-    agents.position[i] = {static_cast<float>(i % 3), static_cast<float>(i / 3)};
+    const std::size_t row = i / 3;
+    agents.position[i] = {static_cast<float>(i % 3), static_cast<float>(row)};
   }
   expect_brute_force(agents, 5, 3, 2);
   for (Eigen::Vector2f& p : agents.position) p.setConstant(7);

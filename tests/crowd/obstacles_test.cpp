@@ -49,6 +49,7 @@ TEST(Obstacles, FindsNearWallsAsBruteForceDoes) {
       return a.distance_sq < b.distance_sq;
     }));
     std::vector<int> segments;
+    segments.reserve(found.size());
     for (const Obstacles::Near& near : found) segments.push_back(near.segment);
     std::sort(segments.begin(), segments.end());
     EXPECT_EQ(segments, expected);

@@ -142,7 +142,8 @@ TEST(Simulation, ProfilesVaryAndInherit) {
     if (speed >= 1.5F) ++fast;
     EXPECT_TRUE(speed == 1.0F || (speed >= 1.5F && speed <= 2.0F));
     // Turned by 90 degrees, columns run along y and rows along -x.
-    const Eigen::Vector2f exact(5 - 2 * static_cast<float>(i / 20), static_cast<float>(i % 20));
+    const std::size_t row = i / 20;
+    const Eigen::Vector2f exact(5 - 2 * static_cast<float>(row), static_cast<float>(i % 20));
     EXPECT_LE((crowd.positions()[i] - exact).norm(), 0.2F + 1e-4F);
     noisy = noisy || (crowd.positions()[i] - exact).norm() > 0.1F;
   }
