@@ -63,8 +63,8 @@ LightBlock light_block(const Lighting& lighting, const Eigen::AlignedBox2d& area
   const Eigen::Vector3d direction = sun_direction(lighting);
   // A lower sun shines through more air: weaker and warmer (optical depths for clear air).
   const double air_mass = 1 / (direction.z() + 0.05);
-  const Eigen::Array3d sun = 1.55 * (-Eigen::Array3d(0.08, 0.14, 0.24) * air_mass).exp();
-  const Eigen::Array3d sky = Eigen::Array3d(0.235, 0.30, 0.40) * (0.55 + 0.45 * direction.z());
+  const Eigen::Array3d sun = 1.85 * (-Eigen::Array3d(0.08, 0.14, 0.24) * air_mass).exp();
+  const Eigen::Array3d sky = Eigen::Array3d(0.34, 0.395, 0.475) * (0.55 + 0.45 * direction.z());
   const Eigen::Array3d ground_albedo(0.33, 0.31, 0.28);
   const Eigen::Array3d bounce = 0.8 * ground_albedo * (sun * direction.z() + sky);
   const Eigen::Vector2d slope = shadow_slope(lighting);

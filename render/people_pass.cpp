@@ -227,9 +227,14 @@ void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, palettes_.name());
   glBindTextureUnit(0, textures_.name());
   if (purpose == Purpose::shadow) {
-    glDisable(GL_CULL_FACE);
+    // What faces the sun is counter-clockwise in the map, which is not upside down like the
+    // picture.
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
     glUseProgram(shadow_.name());
     draw_batches(batches, &Level::opaque);
+    glDisable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
     draw_batches(batches, &Level::alpha_tested);
     return;
   }

@@ -1,7 +1,8 @@
 #include "render/person_geometry.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <limits>
 #include <vector>
 
 #include "render/view.h"
@@ -10,44 +11,61 @@ namespace throng::render {
 
 namespace {
 
-using Affine = Eigen::Matrix<float, 3, 4>;
-
 constexpr float kAboveGround = 0.002F;  // m; also in shaders/person.vert.glsl
 
 Eigen::Matrix3d turn(float yaw_rad) {
   return Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-/// Model space to (u z, v z, z), where (u, v) are box coordinates and z is the depth.
-Affine image_from_model(const PersonInstance& person, const camera::Camera& camera) {
+/// Model space to (u z, v z, z, height above the feet), where (u, v) are box coordinates and z is
+/// the depth.
+Eigen::Matrix4f image_from_model(const PersonInstance& person, const camera::Camera& camera) {
   const camera::Intrinsics& k = camera.intrinsics;
   Eigen::Matrix3d to_boxes;
   to_boxes << k.fx_px, 0, k.cx_px + 0.5, 0, k.fy_px, k.cy_px + 0.5, 0, 0, 1;
-  Eigen::Matrix<double, 3, 4> m;
-  m.leftCols<3>() = to_boxes * camera.pose.R * turn(person.yaw_rad);
-  m.col(3) = to_boxes * (camera.pose.R * person.position.cast<double>() + camera.pose.t);
+  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  m.topLeftCorner<3, 3>() = to_boxes * camera.pose.R * turn(person.yaw_rad);
+  m.topRightCorner<3, 1>() =
+      to_boxes * (camera.pose.R * person.position.cast<double>() + camera.pose.t);
+  m(3, 2) = 1;
   return m.cast<float>();
 }
 
-Eigen::Vector3f skinned(const skinning::Vertex& vertex, const skinning::Palette& palette) {
-  const Eigen::Vector4f rest(vertex.position[0], vertex.position[1], vertex.position[2], 1.0F);
-  Eigen::Vector3f p = Eigen::Vector3f::Zero();
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (vertex.weights[k] == 0) continue;
-    p += (static_cast<float>(vertex.weights[k]) / 255.0F) * (palette[vertex.bones[k]] * rest);
+/// Every vertex of the mesh as image_from_model gives it. Skinning is linear, so each bone takes
+/// its vertices straight into the image.
+std::vector<Eigen::Vector4f> projected_vertices(const skinning::Mesh& mesh,
+                                                const skinning::Palette& palette,
+                                                const Eigen::Matrix4f& image_from_model) {
+  std::array<Eigen::Matrix4f, skinning::kBoneCount> image_from_rest;
+  for (std::size_t bone = 0; bone < palette.size(); ++bone) {
+    Eigen::Matrix4f posed = Eigen::Matrix4f::Identity();
+    posed.topRows<3>() = palette[bone];
+    image_from_rest[bone] = image_from_model * posed;
   }
-  p.z() = std::max(p.z(), kAboveGround);
-  return p;
+  const Eigen::Vector4f up = image_from_model.col(2);
+  std::vector<Eigen::Vector4f> projected;
+  projected.reserve(mesh.vertices.size());
+  for (const skinning::Vertex& vertex : mesh.vertices) {
+    const Eigen::Vector4f rest(vertex.position[0], vertex.position[1], vertex.position[2], 1.0F);
+    Eigen::Vector4f p = Eigen::Vector4f::Zero();
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (vertex.weights[k] == 0) continue;
+      const float weight = static_cast<float>(vertex.weights[k]) / 255.0F;
+      p += image_from_rest[vertex.bones[k]] * (weight * rest);
+    }
+    projected.emplace_back(p + std::max(kAboveGround - p.w(), 0.0F) * up);
+  }
+  return projected;
 }
 
 /// Bounds of the triangles' parts in front of the near plane.
 Eigen::AlignedBox2f cut_box(const skinning::Mesh& mesh,
-                            const std::vector<Eigen::Vector3f>& projected) {
+                            const std::vector<Eigen::Vector4f>& projected) {
   Eigen::AlignedBox2f box;
-  const auto extend = [&](const Eigen::Vector3f& p) { box.extend(p.head<2>() / p.z()); };
+  const auto extend = [&](const Eigen::Vector4f& p) { box.extend(p.head<2>() / p.z()); };
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    const Eigen::Vector3f& a = projected[mesh.indices[i]];
-    const Eigen::Vector3f& b = projected[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
+    const Eigen::Vector4f& a = projected[mesh.indices[i]];
+    const Eigen::Vector4f& b = projected[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
     if (a.z() >= kNear) extend(a);
     if ((a.z() >= kNear) != (b.z() >= kNear)) {
       extend(a + (b - a) * ((kNear - a.z()) / (b.z() - a.z())));
@@ -76,23 +94,25 @@ Eigen::Vector3d head_position(const skinning::Palette& palette, const PersonInst
   return person.position.cast<double>() + turn(person.yaw_rad) * posed.cast<double>();
 }
 
-Eigen::AlignedBox2d projected_box(const skinning::Mesh& mesh, const skinning::Palette& palette,
-                                  const PersonInstance& person, const camera::Camera& camera) {
-  const Affine m = image_from_model(person, camera);
-  std::vector<Eigen::Vector3f> projected(mesh.vertices.size());
-  float nearest = std::numeric_limits<float>::infinity();
+Silhouette silhouette(const skinning::Mesh& mesh, const skinning::Palette& palette,
+                      const PersonInstance& person, const camera::Camera& camera) {
+  const std::vector<Eigen::Vector4f> projected =
+      projected_vertices(mesh, palette, image_from_model(person, camera));
+  float nearest_m = std::numeric_limits<float>::infinity();
+  Silhouette seen;
   Eigen::AlignedBox2f box;
-  for (std::size_t i = 0; i < projected.size(); ++i) {
-    projected[i] = m.leftCols<3>() * skinned(mesh.vertices[i], palette) + m.col(3);
-    nearest = std::min(nearest, projected[i].z());
-    box.extend(projected[i].head<2>() / projected[i].z());
+  for (const Eigen::Vector4f& p : projected) {
+    nearest_m = std::min(nearest_m, p.z());
+    seen.farthest_m = std::max(seen.farthest_m, p.z());
+    box.extend(p.head<2>() / p.z());
   }
-  if (nearest < kNear) box = cut_box(mesh, projected);
-  if (box.isEmpty()) return {};
+  if (nearest_m < kNear) box = cut_box(mesh, projected);
+  if (box.isEmpty()) return seen;
   const Eigen::Vector2d size(camera.intrinsics.width, camera.intrinsics.height);
   const Eigen::AlignedBox2d limit(-size, 2 * size);
-  return Eigen::AlignedBox2d(box.min().cast<double>(), box.max().cast<double>())
-      .intersection(limit);
+  seen.box =
+      Eigen::AlignedBox2d(box.min().cast<double>(), box.max().cast<double>()).intersection(limit);
+  return seen;
 }
 
 }  // namespace throng::render

@@ -22,10 +22,16 @@ skinning::Palette blended_palette(const skinning::Population& population,
 Eigen::Vector3d head_position(const skinning::Palette& palette, const PersonInstance& person,
                               float stature_m);
 
-/// Bounds of the projected mesh in box coordinates. Parts behind the near plane are cut off; what
-/// remains is limited to three times the image around its middle, where somebody right at the
-/// camera would otherwise reach thousands of pixels out. Empty if everything is behind.
-Eigen::AlignedBox2d projected_box(const skinning::Mesh& mesh, const skinning::Palette& palette,
-                                  const PersonInstance& person, const camera::Camera& camera);
+/// Where a mesh appears in the image.
+struct Silhouette {
+  /// Bounds in box coordinates. Parts behind the near plane are cut off; what remains is limited to
+  /// three times the image around its middle, where somebody right at the camera would otherwise
+  /// reach thousands of pixels out. Empty if everything is behind.
+  Eigen::AlignedBox2d box;
+  float farthest_m = 0;  ///< largest camera depth
+};
+
+Silhouette silhouette(const skinning::Mesh& mesh, const skinning::Palette& palette,
+                      const PersonInstance& person, const camera::Camera& camera);
 
 }  // namespace throng::render

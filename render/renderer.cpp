@@ -22,12 +22,10 @@ namespace {
 /// A sphere about a person's middle, as a share of stature, that holds any pose.
 constexpr double kReach = 1.2;
 
-/// People cast shadows at this level of detail: a shadow shows no more.
-constexpr std::size_t kShadowLevel = 2;
-
 /// A person who may be in view, and what was measured so far.
 struct Seen {
   PersonDraw draw;
+  float farthest_m = 0;  ///< largest camera depth
   PersonInView truth;
 };
 
@@ -41,28 +39,29 @@ Eigen::AlignedBox2i pixels_of(const Eigen::AlignedBox2d& box) {
   return {box.min().array().floor().cast<int>() - 1, box.max().array().ceil().cast<int>() + 1};
 }
 
-/// What the id buffer says of one person: pixels that are theirs, and whether anything that could
-/// hide more of them shows in their bounds.
+/// What the id buffer says of one person: pixels that are theirs, and whether that is all of them.
 struct Visible {
   std::uint64_t pixels = 0;
-  bool alone = true;
+  bool whole = true;
 };
 
-Visible visible_in(const Frame& frame, std::uint32_t id, const Eigen::AlignedBox2i& bounds) {
+Visible visible_in(const Frame& frame, const Seen& seen, const Eigen::AlignedBox2i& bounds) {
   const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
                                   Eigen::Vector2i(frame.width(), frame.height()));
   const Eigen::AlignedBox2i box = bounds.intersection(image);
+  const std::uint32_t own = id_of_agent(seen.truth.agent);
   Visible visible;
+  visible.whole = image.contains(bounds);
   for (int y = box.min().y(); y < box.max().y(); ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width());
     for (int x = box.min().x(); x < box.max().x(); ++x) {
-      const std::uint32_t here =
-          frame.id[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
-                   static_cast<std::size_t>(x)];
-      visible.pixels += here == id ? 1 : 0;
-      visible.alone &= here == id || here == kIdGround || here == kIdNothing;
+      const std::size_t pixel = row + static_cast<std::size_t>(x);
+      const std::uint32_t id = frame.id[pixel];
+      visible.pixels += id == own ? 1 : 0;
+      // Ground never hides anybody, nor does what is behind their farthest point.
+      visible.whole &= id == own || id == kIdGround || frame.depth_m[pixel] > seen.farthest_m;
     }
   }
-  visible.alone &= image.contains(bounds);
   return visible;
 }
 
@@ -135,11 +134,13 @@ std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
     const std::size_t level = level_of_detail(camera.intrinsics.fy_px * character.stature_m / depth,
                                               character.levels.size());
     const skinning::Palette palette = blended_palette(*population, person);
-    const Eigen::AlignedBox2d box = projected_box(character.levels[level], palette, person, camera);
-    if (box.isEmpty() || !box.intersects(image)) continue;
-    seen.push_back({{i, static_cast<std::uint32_t>(level), static_cast<float>(depth), {}},
-                    {person.agent, position, head_position(palette, person, character.stature_m),
-                     person.velocity.cast<double>(), person.yaw_rad, character.stature_m, box, 0}});
+    const Silhouette shape = silhouette(character.levels[level], palette, person, camera);
+    if (shape.box.isEmpty() || !shape.box.intersects(image)) continue;
+    seen.push_back(
+        {{i, static_cast<std::uint32_t>(level), static_cast<float>(depth), {}},
+         shape.farthest_m,
+         {person.agent, position, head_position(palette, person, character.stature_m),
+          person.velocity.cast<double>(), person.yaw_rad, character.stature_m, shape.box, 0}});
   }
   std::sort(seen.begin(), seen.end(),
             [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });
@@ -157,11 +158,8 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
     shade.extend(Eigen::Vector2d(shade.min() - slope * reach));
     shade = {shade.min().array() - reach, shade.max().array() + reach};
     if (!shade.intersects(area)) continue;
-    casters.push_back(
-        {i,
-         static_cast<std::uint32_t>(std::min(kShadowLevel, character.levels.size() - 1)),
-         0,
-         {}});
+    // A shadow shows no more than the coarsest level.
+    casters.push_back({i, static_cast<std::uint32_t>(character.levels.size() - 1), 0, {}});
   }
   shadow_map.begin();
   place.draw_shadow();
@@ -201,9 +199,9 @@ void Renderer::State::measure_coverage(const Scene& scene, const camera::Camera&
   for (std::size_t i = 0; i < seen.size(); ++i) {
     PersonInView& truth = seen[i].truth;
     const Eigen::AlignedBox2i bounds = pixels_of(truth.amodal_box);
-    const Visible visible = visible_in(frame, id_of_agent(truth.agent), bounds);
+    const Visible visible = visible_in(frame, seen[i], bounds);
     truth.amodal_area_px = visible.pixels;
-    if (visible.alone) continue;  // nothing but ground and sky around: all of them is visible
+    if (visible.whole) continue;
     measured.push_back(i);
     requests.push_back({seen[i].draw, bounds});
   }

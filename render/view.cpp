@@ -86,7 +86,7 @@ Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedB
 }
 
 std::size_t level_of_detail(double height_px, std::size_t levels) {
-  const std::size_t wanted = height_px > 160 ? 0 : height_px > 60 ? 1 : height_px > 25 ? 2 : 3;
+  const std::size_t wanted = height_px > 160 ? 0 : height_px > 80 ? 1 : height_px > 25 ? 2 : 3;
   return std::min(wanted, levels - 1);
 }
 

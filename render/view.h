@@ -55,7 +55,7 @@ Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedB
                                  double z);
 
 /// Level of detail for somebody whose standing height covers `height_px` pixels: 0 above 160, 1
-/// above 60, 2 above 25, else 3; at most the last of `levels` levels.
+/// above 80, 2 above 25, else 3; at most the last of `levels` levels.
 std::size_t level_of_detail(double height_px, std::size_t levels);
 
 }  // namespace throng::render

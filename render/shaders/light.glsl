@@ -35,6 +35,16 @@ float sunlit(vec3 world, float bias_m) {
   return (lower + upper) * (1.0 / 9.0);
 }
 
+// The same from the nearest 2 x 2 texels, for surfaces with little room for soft edges.
+float sunlit_small(vec3 world, float bias_m) {
+  vec2 size = vec2(textureSize(shadow_map, 0));
+  vec2 texel = shadow_uv(world) * size - 0.5;
+  vec2 f = fract(texel);
+  vec4 a = textureGather(shadow_map, (floor(texel) + 1.0) / size,
+                         (world.z + bias_m) * light.shadow_slope.z);
+  return mix(mix(a.w, a.z, f.x), mix(a.x, a.y, f.x), f.y);
+}
+
 // Linear radiance to sRGB: the rational fit of a film's response by Hejl and Burgess-Dawson (2010),
 // which contains the display's gamma.
 vec3 film(vec3 radiance) {

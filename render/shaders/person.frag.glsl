@@ -29,7 +29,7 @@ void main() {
   covered = 1.0;
 #else
   vec3 albedo = texel.rgb * linear_from_srgb(unpackUnorm4x8(surface.y).rgb);
-  float sun = world_sun.w * sunlit(world_sun.xyz, 0.06);
+  float sun = world_sun.w * sunlit_small(world_sun.xyz, 0.06);
   vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, uv_sky.z);
   vec3 radiance = albedo * (light.sun.rgb * sun + ambient);
   colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
