@@ -8,7 +8,7 @@
 #include "world/json_reader.h"
 
 namespace throng::embedded {
-extern const std::string_view airframes;
+extern const std::string_view kAirframes;
 }
 
 namespace throng::sim {
@@ -82,7 +82,7 @@ std::vector<Airframe> parse_airframes(std::string_view json, const std::string& 
 }
 
 std::vector<Airframe> shipped_airframes() {
-  return parse_airframes(embedded::airframes, "airframes.json");
+  return parse_airframes(embedded::kAirframes, "airframes.json");
 }
 
 }  // namespace throng::sim

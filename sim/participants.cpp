@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/random.h"
 
@@ -24,11 +25,7 @@ std::vector<AgentRole> choose_roles(const world::Scenario& scenario, std::size_t
     }
   }
 
-  struct Ticket {
-    std::uint32_t drawn;
-    std::size_t agent;
-    auto operator<=>(const Ticket&) const = default;
-  };
+  using Ticket = std::pair<std::uint32_t, std::size_t>;  // what was drawn, and for which agent
   std::vector<Ticket> tickets;
   for (std::size_t i = 0; i < agents; ++i) {
     if (roles[i] == AgentRole::person) {
@@ -43,7 +40,7 @@ std::vector<AgentRole> choose_roles(const world::Scenario& scenario, std::size_t
   }
   std::sort(tickets.begin(), tickets.end());
   for (std::size_t i = static_cast<std::size_t>(*people); i < tickets.size(); ++i) {
-    roles[tickets[i].agent] = AgentRole::absent;
+    roles[tickets[i].second] = AgentRole::absent;
   }
   return roles;
 }

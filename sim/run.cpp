@@ -98,7 +98,7 @@ world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spe
 }  // namespace
 
 void simulate(const world::Scenario& scenario, const RunSpec& spec, const fs::path& trace_file,
-              const RunProgress& progress, std::stop_token stop) {
+              const RunProgress& progress, const std::stop_token& stop) {
   std::vector<Problem> problems;
   check_times(spec, problems);
   check_exits(scenario, problems);

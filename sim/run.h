@@ -42,6 +42,6 @@ using RunProgress = std::function<void(double done_s, double total_s)>;
 /// `stop` asks.
 void simulate(const world::Scenario& scenario, const RunSpec& spec,
               const std::filesystem::path& trace_file, const RunProgress& progress = {},
-              std::stop_token stop = {});
+              const std::stop_token& stop = {});
 
 }  // namespace throng::sim
