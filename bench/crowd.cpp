@@ -37,9 +37,11 @@ Simulation open_square(int side, double density) {
   </AgentGroup></Experiment>)",
       -half, spacing, side, 0.2 * spacing);
   std::string goals;
-  for (int i = 0; i < 64; ++i) {
-    goals += fmt::format(R"(<Goal id="{}" type="point" x="{}" y="{}"/>)", i,
-                         half * (i % 8 - 3.5) / 3.5, half * (i / 8 - 3.5) / 3.5);
+  for (int row = 0; row < 8; ++row) {
+    for (int column = 0; column < 8; ++column) {
+      goals += fmt::format(R"(<Goal id="{}" type="point" x="{}" y="{}"/>)", 8 * row + column,
+                           half * (column - 3.5) / 3.5, half * (row - 3.5) / 3.5);
+    }
   }
   const std::string behavior = fmt::format(
       R"(<BFSM><GoalSet id="0">{}</GoalSet>
