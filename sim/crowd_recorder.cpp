@@ -21,30 +21,47 @@ CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<
       roles_(roles),
       moving_goals_(moving_goals),
       intents_(roles.size(), -1),
+      led_(roles.size(), false),
       escaped_(roles.size(), false) {}
 
 // Who heads for an exit intends it, also on the way on from there to safety. Who follows a drone
-// goes where it leads and intends none.
-void CrowdRecorder::update_intents(std::span<const crowd::GoalId> goals) {
-  for (std::size_t i = 0; i < goals.size(); ++i) {
-    const world::GoalRef goal{goals[i].set, goals[i].goal};
-    const auto among = [&](const std::vector<world::GoalRef>& list) {
-      return std::find(list.begin(), list.end(), goal) != list.end();
-    };
-    if (among(moving_goals_)) intents_[i] = -1;
-    for (std::size_t exit = 0; exit < scenario_.exits.size(); ++exit) {
-      if (among(scenario_.exits[exit].goals)) intents_[i] = static_cast<std::int8_t>(exit);
-    }
+// goes where it leads and intends none; who was led takes the exit at hand.
+void CrowdRecorder::update_intent(std::size_t agent, const crowd::GoalId& goal,
+                                  const Eigen::Vector2d& place) {
+  const auto among = [&](const std::vector<world::GoalRef>& list) {
+    return std::find(list.begin(), list.end(), world::GoalRef{goal.set, goal.goal}) != list.end();
+  };
+  if (among(moving_goals_)) {
+    led_[agent] = true;
+    intents_[agent] = -1;
+    return;
   }
+  if (led_[agent]) intents_[agent] = nearest_exit(place);
+  led_[agent] = false;
+  for (std::size_t exit = 0; exit < scenario_.exits.size(); ++exit) {
+    if (among(scenario_.exits[exit].goals)) intents_[agent] = static_cast<std::int8_t>(exit);
+  }
+}
+
+std::int8_t CrowdRecorder::nearest_exit(const Eigen::Vector2d& place) const {
+  const auto nearer = [&](const world::Exit& a, const world::Exit& b) {
+    return (a.middle() - place).squaredNorm() < (b.middle() - place).squaredNorm();
+  };
+  const auto& exits = scenario_.exits;
+  const auto nearest = std::min_element(exits.begin(), exits.end(), nearer);
+  return nearest == exits.end() ? std::int8_t{-1}
+                                : static_cast<std::int8_t>(nearest - exits.begin());
 }
 
 void CrowdRecorder::record(const crowd::Simulation& crowd, double time_s,
                            world::TraceWriter& trace) {
-  update_intents(crowd.goals());
+  const auto positions = crowd.positions();
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    update_intent(i, crowd.goals()[i], positions[i].cast<double>());
+  }
   trace.add({time_s, copied(crowd.positions()), copied(crowd.velocities()),
              copied(crowd.yaws_rad()), copied(crowd.desired_speeds_mps()), copied(crowd.states()),
              intents_});
-  const auto positions = crowd.positions();
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (roles_[i] != AgentRole::person || escaped_[i]) continue;
     if (scenario_.inside.contains(positions[i].cast<double>())) continue;

@@ -1,6 +1,7 @@
 // Turns the crowd's state into the trace's steps, and notices what happens to people.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -20,12 +21,14 @@ class CrowdRecorder {
   void record(const crowd::Simulation& crowd, double time_s, world::TraceWriter& trace);
 
  private:
-  void update_intents(std::span<const crowd::GoalId> goals);
+  void update_intent(std::size_t agent, const crowd::GoalId& goal, const Eigen::Vector2d& place);
+  std::int8_t nearest_exit(const Eigen::Vector2d& place) const;
 
   const world::Scenario& scenario_;
   const std::vector<world::AgentRole>& roles_;
   const std::vector<world::GoalRef>& moving_goals_;
   std::vector<std::int8_t> intents_;
+  std::vector<bool> led_;  ///< follows a drone
   std::vector<bool> escaped_;
 };
 

@@ -153,14 +153,22 @@ TEST_F(Evacuation, PeopleGetAwayAndEachOnce) {
   EXPECT_GT(escaped.size(), 20U);
 }
 
-TEST_F(Evacuation, WhoRunsToSafetyIntendedAnExitBefore) {
-  std::size_t running = 0;
-  for (std::size_t at = 0; at < trace().state.size(); ++at) {
-    if (trace().header.state_names[trace().state[at]] != "RunToSafety") continue;
-    ++running;
-    EXPECT_GE(trace().exit_intent[at], 0) << at;
+TEST_F(Evacuation, WhoRunsToAnExitIntendsItAndStillDoesOnTheWayToSafety) {
+  const auto state = [&](std::size_t at) -> const std::string& {
+    return trace().header.state_names[trace().state[at]];
+  };
+  std::size_t arrived = 0;
+  for (std::size_t at = trace().agents(); at < trace().state.size(); ++at) {
+    const std::size_t before = at - trace().agents();
+    if (state(at) == "RunToExit1" || state(at) == "RunToGoodExit") {
+      EXPECT_GE(trace().exit_intent[at], 0) << at;
+    }
+    if (state(at) == "RunToSafety" && state(before) == "RunToGoodExit") {
+      ++arrived;
+      EXPECT_EQ(trace().exit_intent[at], trace().exit_intent[before]) << at;
+    }
   }
-  EXPECT_GT(running, 0U);
+  EXPECT_GT(arrived, 20U);
   // Nobody has heard of anything yet.
   for (std::size_t i = 0; i < trace().agents(); ++i) EXPECT_EQ(trace().exit_intent[i], -1);
 }
