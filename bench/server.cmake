@@ -1,0 +1,1 @@
+throng_bench(server SOURCES server.cpp LIBRARIES throng::server spdlog::spdlog)
