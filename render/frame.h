@@ -22,6 +22,7 @@ inline constexpr std::uint32_t agent_of_id(std::uint32_t id) { return id - 1; }
 struct PersonInView {
   std::uint32_t agent = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the ground, m
+  Eigen::Vector3d hips = Eigen::Vector3d::Zero();      ///< middle of the pelvis, as posed, m
   Eigen::Vector3d head = Eigen::Vector3d::Zero();      ///< middle of the head, as posed, m
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s
   double yaw_rad = 0;

@@ -63,8 +63,13 @@ LightBlock light_block(const Lighting& lighting, const Eigen::AlignedBox2d& area
   const Eigen::Vector3d direction = sun_direction(lighting);
   // A lower sun shines through more air: weaker and warmer (optical depths for clear air).
   const double air_mass = 1 / (direction.z() + 0.05);
-  const Eigen::Array3d sun = 1.85 * (-Eigen::Array3d(0.08, 0.14, 0.24) * air_mass).exp();
-  const Eigen::Array3d sky = Eigen::Array3d(0.34, 0.395, 0.475) * (0.55 + 0.45 * direction.z());
+  Eigen::Array3d sun = 1.85 * (-Eigen::Array3d(0.08, 0.14, 0.24) * air_mass).exp();
+  Eigen::Array3d sky = Eigen::Array3d(0.34, 0.395, 0.475) * (0.55 + 0.45 * direction.z());
+  // The camera opens up as it gets darker, as automatic exposure does, but not all the way.
+  constexpr double kNoonIlluminance = 1.55;
+  const double exposure = std::pow(kNoonIlluminance / (sun * direction.z() + sky).mean(), 0.7);
+  sun *= exposure;
+  sky *= exposure;
   const Eigen::Array3d ground_albedo(0.33, 0.31, 0.28);
   const Eigen::Array3d bounce = 0.8 * ground_albedo * (sun * direction.z() + sky);
   const Eigen::Vector2d slope = shadow_slope(lighting);

@@ -87,10 +87,10 @@ skinning::Palette blended_palette(const skinning::Population& population,
   return blended;
 }
 
-Eigen::Vector3d head_position(const skinning::Palette& palette, const PersonInstance& person,
-                              float stature_m) {
-  const Eigen::Vector4f standing(0, 0, kHeadShare * stature_m, 1);
-  const Eigen::Vector3f posed = palette[static_cast<std::size_t>(skinning::Bone::head)] * standing;
+Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstance& person,
+                            skinning::Bone bone, float height_m) {
+  const Eigen::Vector4f standing(0, 0, height_m, 1);
+  const Eigen::Vector3f posed = palette[static_cast<std::size_t>(bone)] * standing;
   return person.position.cast<double>() + turn(person.yaw_rad) * posed.cast<double>();
 }
 

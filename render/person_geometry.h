@@ -11,16 +11,18 @@
 
 namespace throng::render {
 
-/// Mid-head height of a standing person as a share of stature.
+/// Heights of a standing person's mid-head and mid-pelvis as shares of stature.
 inline constexpr float kHeadShare = 0.93F;
+inline constexpr float kHipsShare = 0.53F;
 
 /// The blend of the instance's two palettes.
 skinning::Palette blended_palette(const skinning::Population& population,
                                   const PersonInstance& person);
 
-/// The middle of the head as posed (m, world).
-Eigen::Vector3d head_position(const skinning::Palette& palette, const PersonInstance& person,
-                              float stature_m);
+/// Where a point on the body's axis, `height_m` above the ground when standing, is carried by a
+/// bone of the posed person (m, world).
+Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstance& person,
+                            skinning::Bone bone, float height_m);
 
 /// Where a mesh appears in the image.
 struct Silhouette {

@@ -136,11 +136,13 @@ std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
     const skinning::Palette palette = blended_palette(*population, person);
     const Silhouette shape = silhouette(character.levels[level], palette, person, camera);
     if (shape.box.isEmpty() || !shape.box.intersects(image)) continue;
-    seen.push_back(
-        {{i, static_cast<std::uint32_t>(level), static_cast<float>(depth), {}},
-         shape.farthest_m,
-         {person.agent, position, head_position(palette, person, character.stature_m),
-          person.velocity.cast<double>(), person.yaw_rad, character.stature_m, shape.box, 0}});
+    const float stature_m = character.stature_m;
+    seen.push_back({{i, static_cast<std::uint32_t>(level), static_cast<float>(depth), {}},
+                    shape.farthest_m,
+                    {person.agent, position,
+                     posed_point(palette, person, skinning::Bone::hips, kHipsShare * stature_m),
+                     posed_point(palette, person, skinning::Bone::head, kHeadShare * stature_m),
+                     person.velocity.cast<double>(), person.yaw_rad, stature_m, shape.box, 0}});
   }
   std::sort(seen.begin(), seen.end(),
             [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });
