@@ -115,6 +115,8 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
          finite(amodal.min().y()), finite(size.x()), finite(size.y()));
   append(text, R"("area_amodal":{},"visibility":{:.6g},"position":)", label.person.amodal_area_px,
          finite(label.visibility));
+  append_metres(text, label.person.hips);
+  text += R"(,"ground_position":)";
   append_metres(text, label.person.position);
   text += R"(,"velocity":)";
   append_metres(text, label.person.velocity);

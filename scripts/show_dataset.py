@@ -36,14 +36,16 @@ def main(folder):
 
     for file in sorted((folder / "metrics").glob("run*.json")):
         metrics = json.loads(file.read_text())
-        times = ", ".join(
-            f"T{p['percent']} {p['time_s']:.1f} s" if p["time_s"] is not None else f"T{p['percent']} not reached"
-            for p in metrics["percentiles"])
-        print(f"escape ({file.stem})      {metrics['people'] - metrics['not_escaped']} of {metrics['people']} people"
-              f" in {metrics['duration_s']:.0f} s; {times}")
+        escaped = metrics["people"] - metrics["not_escaped"]
+        print(f"escaped ({file.stem})     {escaped} of {metrics['people']} people in {metrics['duration_s']:.0f} s,"
+              f" mean {metrics['mean_escape_time_censored_s']:.1f} s (who is still inside counts to the end)")
+        times = metrics["escape_time_percentiles"]
+        print("  escape curve       " + ", ".join(
+            f"{key[1:-2]} % at {times[key]:.1f} s" if times[key] is not None else f"{key[1:-2]} % not reached"
+            for key in sorted(times, key=lambda key: int(key[1:-2]))))
         for exit_ in metrics["exits"]:
-            print(f"  {exit_['exit_id']:<18} {exit_['crossings']:>4} crossings,"
-                  f" mean clogging index {exit_['mean_clogging_index']:.2f}, clogged {exit_['clogged_s']:.1f} s")
+            print(f"  {exit_['id']:<18} {exit_['crossings']:>3} crossings, mean clogging index"
+                  f" {exit_['mean_clogging_index']:.2f}, congested {exit_['congested_s']:.1f} s")
 
     print("annotated previews")
     for picture in sorted((folder / "previews").rglob("*.jpg")):
