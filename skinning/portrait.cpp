@@ -11,13 +11,13 @@ namespace throng::skinning {
 
 namespace {
 
-constexpr double kElevation_rad = 20 * std::numbers::pi / 180;
-constexpr float kMargin_px = 2;
+constexpr double kElevation = 20 * std::numbers::pi / 180;  // radians
+constexpr float kMargin = 2;                                // pixels
 
 // Right and up in the camera's picture, and towards the camera.
 Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
-  const auto c = static_cast<float>(std::cos(kElevation_rad));
-  const auto s = static_cast<float>(std::sin(kElevation_rad));
+  const auto c = static_cast<float>(std::cos(kElevation));
+  const auto s = static_cast<float>(std::sin(kElevation));
   const float forward = front ? point.x() : -point.x();
   return {point.y(), point.z() * c - forward * s, forward * c + point.z() * s};
 }
@@ -84,7 +84,7 @@ void Portrait::draw(const Surface& surface, const Image& image, bool front) {
 
 Eigen::Vector2f Portrait::uv_of(const Eigen::Vector3f& point, bool front) const {
   const Eigen::Vector3f view = view_of(point, front);
-  const float margin = kMargin_px / static_cast<float>(size_);
+  const float margin = kMargin / static_cast<float>(size_);
   const float across = (view.x() - low_.x()) / extent_.x();
   const float down = 1 - (view.y() - low_.y()) / extent_.y();
   return {(front ? 0 : 0.5F) + margin + across * (0.5F - 2 * margin),

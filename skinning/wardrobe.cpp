@@ -34,6 +34,7 @@ std::vector<std::vector<Quad>> connected_pieces(const Proxy& proxy) {
   std::map<std::uint32_t, std::vector<Quad>> by_root;
   for (const Quad& quad : proxy.quads) by_root[root_of(quad.vertex[0])].push_back(quad);
   std::vector<std::vector<Quad>> pieces;
+  pieces.reserve(by_root.size());
   for (auto& [unused, quads] : by_root) pieces.push_back(std::move(quads));
   return pieces;
 }

@@ -14,19 +14,19 @@ namespace fs = std::filesystem;
 class GlbTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(folder_);
+    folder = fs::path(testing::TempDir()) /
+             testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::create_directories(folder);
   }
-  void TearDown() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder); }
 
   fs::path write(const std::string& bytes) const {
-    const fs::path path = folder_ / "made_up.glb";
+    const fs::path path = folder / "made_up.glb";
     write_file_atomically(path, bytes);
     return path;
   }
 
-  fs::path folder_;
+  fs::path folder;
 };
 
 TEST_F(GlbTest, WhatIsWrittenIsReadBackThroughAssimp) {

@@ -64,8 +64,8 @@ TEST(Phase, StandsStillWithTheAgent) {
 }
 
 TEST(Phase, APartOfTheTraceGivesTheSameAsTheWhole) {
-  std::vector<float> speeds;
-  for (int i = 0; i < 50; ++i) speeds.push_back(1.5F + std::sin(0.3F * static_cast<float>(i)));
+  std::vector<float> speeds(50);
+  for (int i = 0; i < 50; ++i) speeds[i] = 1.5F + std::sin(0.3F * static_cast<float>(i));
   std::vector<double> whole(50);
   std::vector<double> part(20);
   integrate_phase(speeds, 0.1, 1.7, {}, whole);

@@ -310,26 +310,26 @@ class DamagedPeopleTest : public PeopleTest {
   void SetUp() override {
     PeopleTest::SetUp();
     if (IsSkipped()) return;
-    folder_ = fs::path(testing::TempDir()) / "damaged_people";
-    fs::remove_all(folder_);
-    fs::copy(population_folder(), folder_);
+    folder = fs::path(testing::TempDir()) / "damaged_people";
+    fs::remove_all(folder);
+    fs::copy(population_folder(), folder);
   }
   void TearDown() override {
-    if (!folder_.empty()) fs::remove_all(folder_);
+    if (!folder.empty()) fs::remove_all(folder);
   }
   std::string message() const {
     try {
-      load_population(folder_);
+      load_population(folder);
     } catch (const InputError& error) {
       return error.what();
     }
     return {};
   }
-  fs::path folder_;
+  fs::path folder;
 };
 
 TEST_F(DamagedPeopleTest, ErrorsNameTheFileAndTheRemedy) {
-  const std::string index = read_file(folder_ / "population.json");
+  const std::string index = read_file(folder / "population.json");
   const auto expect_message_about = [&](const std::string& file) {
     EXPECT_NE(message().find(file), std::string::npos) << message();
     EXPECT_NE(message().find("throng people build"), std::string::npos) << message();
@@ -343,19 +343,19 @@ TEST_F(DamagedPeopleTest, ErrorsNameTheFileAndTheRemedy) {
        {std::string(), std::string("[1, 2]"), replaced("\"format\": 1", "\"format\": 999"),
         replaced("\"clips\"", "\"chips\""), replaced("\"name\"", "\"game\""),
         replaced("\"frames\": 32", "\"frames\": 0"), replaced("\"#", "\"?")}) {
-    write_file_atomically(folder_ / "population.json", changed);
+    write_file_atomically(folder / "population.json", changed);
     expect_message_about("population.json");
   }
-  write_file_atomically(folder_ / "population.json", index);
+  write_file_atomically(folder / "population.json", index);
 
-  fs::resize_file(folder_ / "palettes.bin", 1000);
+  fs::resize_file(folder / "palettes.bin", 1000);
   expect_message_about("palettes.bin");
-  const fs::path glb = folder_ / (people_->characters[1].name + ".glb");
+  const fs::path glb = folder / (people_->characters[1].name + ".glb");
   fs::resize_file(glb, 5000);
   expect_message_about(glb.filename().string());
   fs::remove(glb);
   expect_message_about(glb.filename().string());
-  fs::remove(folder_ / "population.json");
+  fs::remove(folder / "population.json");
   expect_message_about("population.json");
 }
 
