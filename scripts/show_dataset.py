@@ -48,8 +48,9 @@ def main(folder):
                   f" {exit_['mean_clogging_index']:.2f}, congested {exit_['congested_s']:.1f} s")
 
     print("annotated previews")
-    for picture in sorted((folder / "previews").rglob("*.jpg")):
-        print(f"  {picture}")
+    previews = sorted((folder / "previews").rglob("*.jpg"))
+    for index in sorted({0, len(previews) // 2, len(previews) - 1} if previews else ()):
+        print(f"  {previews[index]}")
 
 
 if __name__ == "__main__":

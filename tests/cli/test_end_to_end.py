@@ -26,7 +26,7 @@ JOB = {
     "drones": [{
         "id": "d1", "start": [-24, -6, 20],
         "guidance": {"policy": "waypoints", "waypoints": [[-24, 0, 20], [-20, 4, 22]], "speed_mps": 2},
-        "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40},
+        "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
     }],
     "capture": {"rate_hz": 2, "from_s": 1, "to_s": 21},
 }

@@ -77,6 +77,18 @@ TEST(GroundTruth, BoxHoldsTheVerticesThatSkinningPlaces) {
   EXPECT_LT((box.max() - expected.max()).norm(), 0.1);
 }
 
+TEST(GroundTruth, TheMiddleOfTheBodyIsInsideItsBoxFromAnySide) {
+  Stage stage(open_ground());
+  const std::vector<PersonInstance> crowd = crowd_of(stage, 60, 5);
+  for (const double pitch_deg : {-89.0, -60.0, -25.0}) {
+    const camera::Camera camera = camera_at({0, 0, 9}, 0.4, pitch_deg);
+    for (const PersonInView& person : stage.draw(camera, crowd).people) {
+      const Eigen::Vector2d middle = camera.project(person.hips).pixel.array() + 0.5;
+      EXPECT_TRUE(person.amodal_box.contains(middle)) << "agent " << person.agent;
+    }
+  }
+}
+
 TEST(GroundTruth, HidingSomebodyLeavesTheirAmodalAreaAsItWas) {
   Stage stage(open_ground({block(-1, 0, -3, 3, 1.2)}));
   const camera::Camera camera = camera_at({-8, 0, 3}, 0, -14);

@@ -1,1 +1,0 @@
-throng_bench(annotate SOURCES annotate.cpp LIBRARIES throng::annotate)

@@ -1,1 +1,0 @@
-throng_bench(crowd SOURCES crowd.cpp LIBRARIES throng::crowd fmt::fmt TBB::tbb)

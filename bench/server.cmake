@@ -1,1 +1,0 @@
-throng_bench(server SOURCES server.cpp LIBRARIES throng::server spdlog::spdlog)

@@ -1,1 +1,0 @@
-throng_bench(sim SOURCES sim.cpp LIBRARIES throng::sim throng::crowd)
