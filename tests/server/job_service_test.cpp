@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
 
 #include "base/error.h"
 #include "tests/server/service_fixture.h"
@@ -85,15 +87,14 @@ TEST_F(JobServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
   std::string queued;
   {
     Gate gate(executor_);
-    JobService service(options(), executor_);
-    running = service.submit(kJob).id;
-    queued = service.submit(kJob).id;
+    std::optional<JobService> service(std::in_place, options(), executor_);
+    running = service->submit(kJob).id;
+    queued = service->submit(kJob).id;
     ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
-    // The tasks end only after the service has begun to.
-    std::jthread opener([&] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      gate.open();
-    });
+    const std::jthread ender([&] { service.reset(); });
+    // The task ends only after the service has begun to.
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    gate.open();
   }
   const std::size_t done_before = executor_.done().size();
   EXPECT_LT(done_before, 6U) << "the first service ended in the middle";

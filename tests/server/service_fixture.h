@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <thread>
 
 #include "server/job_service.h"
@@ -37,22 +39,30 @@ class ServiceFixture : public testing::Test {
   jobs::FakeExecutor executor_;
 };
 
-/// Makes an executor's tasks wait until open() is called.
+/// Makes an executor's tasks wait until open() is called, or the gate is gone.
 class Gate {
  public:
   explicit Gate(jobs::FakeExecutor& executor) {
-    executor.before = [this](const jobs::Task&) {
-      waiting_ = true;
-      while (!open_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    executor.before = [state = state_](const jobs::Task&) {
+      state->waiting = true;
+      while (!state->open) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       return jobs::TaskResult{};
     };
   }
-  void open() { open_ = true; }
-  bool somebody_waits() const { return waiting_; }
+  ~Gate() { open(); }
+  Gate(const Gate&) = delete;
+  Gate& operator=(const Gate&) = delete;
+
+  void open() { state_->open = true; }
+  bool somebody_waits() const { return state_->waiting; }
 
  private:
-  std::atomic<bool> open_ = false;
-  std::atomic<bool> waiting_ = false;
+  struct State {
+    std::atomic<bool> open = false;
+    std::atomic<bool> waiting = false;
+  };
+  // Shared, since tasks may look at it when the test has ended.
+  std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
 }  // namespace throng::server
