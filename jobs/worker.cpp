@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "jobs/pipeline.h"
 #include "jobs/worker_messages.h"
+#include "render/allocator.h"
 #include "world/scenario.h"
 
 namespace throng::jobs {
@@ -75,6 +76,7 @@ class Reporter {
 
 int run_worker(const std::filesystem::path& job_folder, const std::string& task_name) {
   die_with_supervisor();
+  render::tune_allocator();
   Reporter reporter;
   try {
     const JobFolder folder(job_folder);

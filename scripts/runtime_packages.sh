@@ -9,5 +9,5 @@ set -euo pipefail
     dpkg-query -S "$library" 2>/dev/null || dpkg-query -S "${library#/usr}" 2>/dev/null ||
       dpkg-query -S "/usr$library"
   done | sed 's/:.*//'
-  printf '%s\n' ca-certificates curl libegl1 libegl-mesa0 libgl1-mesa-dri
+  printf '%s\n' ca-certificates curl libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0
 } | sort -u

@@ -125,7 +125,7 @@ class EndToEnd(unittest.TestCase):
     def test_an_interrupt_cancels_and_a_second_run_resumes(self):
         out = self.base / "cancelled"
         process = subprocess.Popen([THRONG, "run", str(self.job), "-o", str(out)], stderr=subprocess.PIPE, text=True)
-        wait_until(lambda: list(out.rglob("trace.h5")))
+        wait_until((out / "work/run000/trace.h5").exists)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
