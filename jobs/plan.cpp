@@ -18,6 +18,7 @@ constexpr std::int64_t kShardsPerShortRun = 4;
 
 std::vector<RunPlan> plan_runs(const JobSpec& job) {
   std::vector<RunPlan> runs;
+  runs.reserve(static_cast<std::size_t>(job.runs));
   for (int i = 0; i < job.runs; ++i) {
     runs.push_back({i, derive_seed(job.seed, Stream::run, static_cast<std::uint64_t>(i))});
   }

@@ -15,7 +15,7 @@
 #include "world/scenario.h"
 
 namespace throng::embedded {
-extern const std::string_view job_schema_text;
+extern const std::string_view kJobSchema;
 }
 
 namespace throng::jobs {
@@ -254,6 +254,6 @@ json to_json(const JobSpec& job) {
   return value;
 }
 
-std::string_view job_schema() { return embedded::job_schema_text; }
+std::string_view job_schema() { return embedded::kJobSchema; }
 
 }  // namespace throng::jobs

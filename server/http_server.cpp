@@ -66,7 +66,7 @@ bool is_loopback(const std::string& host) {
          (host.starts_with("127.") && ::inet_pton(AF_INET, host.c_str(), &address) == 1);
 }
 
-HttpServer::HttpServer(const HttpOptions& options, ErrorWriter write_error)
+HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_error)
     : server_(std::make_unique<httplib::Server>()) {
   server_->new_task_queue = [] {
     return std::make_unique<httplib::ThreadPool>(kThreads).release();

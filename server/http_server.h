@@ -31,7 +31,7 @@ class HttpServer {
                                          const std::string& detail)>;
 
   /// Binds at once: clients may connect, and wait until run(). Throws EnvironmentError.
-  HttpServer(const HttpOptions& options, ErrorWriter write_error);
+  HttpServer(const HttpOptions& options, const ErrorWriter& write_error);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
