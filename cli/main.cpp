@@ -12,7 +12,9 @@
 
 namespace {
 
-using namespace throng;
+namespace cli = throng::cli;
+using throng::Cancelled;
+using throng::InputError;
 
 constexpr std::array kCommands = {cli::add_run,      cli::add_simulate, cli::add_render,
                                   cli::add_serve,    cli::add_worker,   cli::add_people,
@@ -22,7 +24,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Synthetic crowd datasets: simulate a crowd and drones, render, annotate."};
   app.footer(
       "Exit codes: 0 done, 2 the input is wrong, 3 the machine failed (retry), 130 cancelled.");
-  app.set_version_flag("--version", std::string(kGenerator));
+  app.set_version_flag("--version", std::string(throng::kGenerator));
   app.require_subcommand(1);
   for (const auto add : kCommands) add(app);
   try {

@@ -188,6 +188,7 @@ void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& cam
   shadow_map.bind();
   target->begin(sky_colour(light));
   std::vector<PersonDraw> draws;
+  draws.reserve(seen.size());
   for (const Seen& person : seen) draws.push_back(person.draw);
   // People first: they are many small triangles, and hide ground that then costs nothing.
   people_pass.draw(PeoplePass::Purpose::picture, scene.people, std::move(draws));

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+// NOLINTBEGIN(readability-identifier-naming): named after their files
 namespace throng::embedded {
 
 extern const std::string_view shader_view;
@@ -22,3 +23,4 @@ extern const std::string_view shader_wall_frag;
 extern const std::string_view shader_roof_frag;
 
 }  // namespace throng::embedded
+// NOLINTEND(readability-identifier-naming)
