@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <thread>
@@ -131,38 +132,34 @@ void ask_again_and_again(benchmark::State& state, const std::string& request, in
   state.SetItemsProcessed(state.iterations());
 }
 
-void BM_Health(benchmark::State& state) { ask_again_and_again(state, get("/healthz"), 200); }
+void health(benchmark::State& state) { ask_again_and_again(state, get("/healthz"), 200); }
 
-void BM_JobStatus(benchmark::State& state) {
+void job_status(benchmark::State& state) {
   ask_again_and_again(state, get("/v1/jobs/" + service().job()), 200);
 }
 
-void BM_JobList(benchmark::State& state) {
+void job_list(benchmark::State& state) {
   ask_again_and_again(state, get("/v1/jobs?limit=50"), 200);
 }
 
-void BM_Submit(benchmark::State& state) {
+void submit(benchmark::State& state) {
   ask_again_and_again(state, post("/v1/jobs", kJobText), 201);
 }
 
-BENCHMARK(BM_Health)
-    ->Name("BM_Health/connections")
-    ->UseRealTime()
-    ->Threads(1)
-    ->Threads(16)
-    ->Threads(64);
-BENCHMARK(BM_JobStatus)
-    ->Name("BM_JobStatus/connections")
-    ->UseRealTime()
-    ->Threads(1)
-    ->Threads(16)
-    ->Threads(64);
-BENCHMARK(BM_Submit)->Name("BM_Submit/durable/connections")->UseRealTime()->Threads(1)->Threads(16);
-BENCHMARK(BM_JobList)
-    ->Name("BM_JobList/jobs:50/connections")
-    ->UseRealTime()
-    ->Threads(1)
-    ->Threads(16);
+// The number of threads is the number of connections. The list comes last, when there are jobs.
+void add(const char* name, void (*function)(benchmark::State&),
+         std::initializer_list<int> connections) {
+  auto* added = benchmark::RegisterBenchmark(name, function)->UseRealTime();
+  for (const int count : connections) added->Threads(count);
+}
+
+const bool kRegistered = [] {
+  add("BM_Health/connections", &health, {1, 16, 64});
+  add("BM_JobStatus/connections", &job_status, {1, 16, 64});
+  add("BM_Submit/durable/connections", &submit, {1, 16});
+  add("BM_JobList/jobs:50/connections", &job_list, {1, 16});
+  return true;
+}();
 
 }  // namespace
 }  // namespace throng::server

@@ -8,13 +8,11 @@
 #include <stop_token>
 #include <string_view>
 
-#include "camera/camera.h"
 #include "jobs/executor.h"
 #include "jobs/folder.h"
 #include "jobs/plan.h"
 #include "jobs/spec.h"
 #include "sim/run.h"
-#include "world/trace.h"
 
 namespace throng::jobs {
 
@@ -25,10 +23,6 @@ bool wants(const JobSpec& job, std::string_view annotation);
 
 /// What the simulation is asked to do in a run of the job.
 sim::RunSpec run_spec(const JobSpec& job, int run);
-
-/// A camera on a gimbal below a drone: it turns with the drone's heading but neither rolls nor
-/// pitches with it.
-camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec);
 
 /// Simulates a run: work/run000/trace.h5. Progress in simulated seconds.
 void simulate_run(const JobFolder& folder, const JobSpec& job,

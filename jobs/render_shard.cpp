@@ -1,9 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -13,6 +11,7 @@
 #include "annotate/preview.h"
 #include "base/error.h"
 #include "camera/camera.h"
+#include "jobs/gimbal.h"
 #include "jobs/light.h"
 #include "jobs/pipeline.h"
 #include "jobs/publication.h"
@@ -25,8 +24,6 @@
 namespace throng::jobs {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::size_t drone_index(const world::Trace& trace, const std::string& id) {
   const auto& ids = trace.header.drone_ids;
@@ -120,14 +117,6 @@ class ShardOutput {
 };
 
 }  // namespace
-
-camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec) {
-  const Eigen::Vector3d nose = drone.orientation * Eigen::Vector3d::UnitX();
-  const double heading_rad = std::atan2(nose.y(), nose.x());
-  return {camera::intrinsics_from_hfov(spec.width, spec.height, spec.hfov_deg * kDegree),
-          camera::pose_looking(drone.position, heading_rad + spec.yaw_deg * kDegree,
-                               spec.pitch_deg * kDegree)};
-}
 
 void render_shard(const JobFolder& folder, const JobSpec& job,
                   const std::filesystem::path& scenarios, const Shard& shard,

@@ -54,15 +54,15 @@ std::map<std::string, Member> unpacked(const std::string& tar) {
 class ArchiveTest : public testing::Test {
  protected:
   void add(const std::string& path, const std::string& bytes) {
-    write_file_atomically(folder_.path() / path, bytes);
-    files_.push_back({path, static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes)});
+    write_file_atomically(folder.path() / path, bytes);
+    files.push_back({path, static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes)});
   }
   void write_manifest() const {
-    write_file_atomically(folder_.path() / kManifestName, nlohmann::json{{"files", files_}}.dump());
+    write_file_atomically(folder.path() / kManifestName, nlohmann::json{{"files", files}}.dump());
   }
 
-  TemporaryFolder folder_;
-  std::vector<FileEntry> files_;
+  TemporaryFolder folder;
+  std::vector<FileEntry> files;
 };
 
 TEST_F(ArchiveTest, ReadersFindEveryFileWithItsBytes) {
@@ -72,12 +72,12 @@ TEST_F(ArchiveTest, ReadersFindEveryFileWithItsBytes) {
   add("annotations/instances.json", "{}");
   add(std::string(60, 'd') + "/" + std::string(60, 'e') + "/file", "long path");
   write_manifest();
-  const Archive archive(folder_.path(), "square");
+  const Archive archive(folder.path(), "square");
   const std::string tar = all_of(archive, 700);
   EXPECT_EQ(static_cast<std::int64_t>(tar.size()), archive.size());
   const auto members = unpacked(tar);
-  EXPECT_EQ(members.size(), files_.size() + 1);
-  for (const FileEntry& file : files_) {
+  EXPECT_EQ(members.size(), files.size() + 1);
+  for (const FileEntry& file : files) {
     ASSERT_TRUE(members.contains("square/" + file.path)) << file.path;
     const Member& member = members.at("square/" + file.path);
     EXPECT_EQ(sha256_hex(member.bytes), file.sha256);
@@ -90,7 +90,7 @@ TEST_F(ArchiveTest, ReadersFindEveryFileWithItsBytes) {
 TEST_F(ArchiveTest, AnyPartIsThatPartOfTheWhole) {
   for (int i = 0; i < 5; ++i) add(fmt::format("f{}", i), std::string(300 * i, 'a' + i));
   write_manifest();
-  const Archive archive(folder_.path(), "r");
+  const Archive archive(folder.path(), "r");
   const std::string whole = all_of(archive, 1 << 20);
   for (const std::size_t block : {1, 7, 511, 512, 513, 4096}) {
     EXPECT_EQ(all_of(archive, block), whole) << block;
@@ -104,21 +104,21 @@ TEST_F(ArchiveTest, OrderIsByPathWhateverTheManifestSays) {
   add("b", "2");
   add("a", "1");
   write_manifest();
-  const std::string one = all_of(Archive(folder_.path(), "r"), 4096);
-  std::swap(files_[0], files_[1]);
+  const std::string one = all_of(Archive(folder.path(), "r"), 4096);
+  std::swap(files[0], files[1]);
   write_manifest();
-  const std::string other = all_of(Archive(folder_.path(), "r"), 4096);
+  const std::string other = all_of(Archive(folder.path(), "r"), 4096);
   EXPECT_EQ(one.substr(0, 2048), other.substr(0, 2048));
   EXPECT_EQ(one.substr(0, 3), "r/a");
 }
 
 TEST_F(ArchiveTest, SizesBeyondTheOctalField) {
   const std::int64_t bytes = std::int64_t{9} << 30;
-  write_file_atomically(folder_.path() / "big", "");
-  std::filesystem::resize_file(folder_.path() / "big", static_cast<std::uintmax_t>(bytes));
-  files_.push_back({"big", bytes, ""});
+  write_file_atomically(folder.path() / "big", "");
+  std::filesystem::resize_file(folder.path() / "big", static_cast<std::uintmax_t>(bytes));
+  files.push_back({"big", bytes, ""});
   write_manifest();
-  const Archive archive(folder_.path(), "r");
+  const Archive archive(folder.path(), "r");
   std::string start(512, '?');
   archive.read(0, start);
   const std::unique_ptr<::archive, decltype(&archive_read_free)> reader(archive_read_new(),
@@ -133,14 +133,14 @@ TEST_F(ArchiveTest, SizesBeyondTheOctalField) {
 TEST_F(ArchiveTest, AFileThatShrankIsAnErrorNotSilence) {
   add("a", std::string(1000, 'a'));
   write_manifest();
-  const Archive archive(folder_.path(), "r");
-  write_file_atomically(folder_.path() / "a", "short");
+  const Archive archive(folder.path(), "r");
+  write_file_atomically(folder.path() / "a", "short");
   std::string buffer(2000, '?');
   EXPECT_THROW(archive.read(0, buffer), EnvironmentError);
 }
 
 TEST_F(ArchiveTest, WithoutManifestThereIsNoDataset) {
-  EXPECT_THROW(Archive(folder_.path(), "r"), EnvironmentError);
+  EXPECT_THROW(Archive(folder.path(), "r"), EnvironmentError);
 }
 
 TEST(Slug, IsASafeName) {

@@ -25,6 +25,7 @@ class LocalProcessesTest : public testing::Test {
   std::vector<TaskResult> run(const std::string& script, int tasks = 1, int workers = 2,
                               std::stop_token stop = {}) {
     std::vector<Task> list;
+    list.reserve(static_cast<std::size_t>(tasks));
     for (int i = 0; i < tasks; ++i) list.push_back({Task::Kind::simulate, i});
     LocalProcessesOptions options;
     options.command = {"/bin/sh", "-c", "job=$2 task=$4; " + script, "worker"};
@@ -32,22 +33,22 @@ class LocalProcessesTest : public testing::Test {
     options.grace_s = 0.3;
     LocalProcesses processes(options);
     return processes.run(
-        JobFolder(folder_.path()), list,
+        JobFolder(folder.path()), list,
         [&](const Task& task, const TaskProgress& progress) {
-          progress_[task.run].push_back(progress.done);
+          reported[task.run].push_back(progress.done);
         },
         std::move(stop));
   }
 
   int count_lines(const std::string& name) const {
-    std::ifstream file(folder_.path() / name);
+    std::ifstream file(folder.path() / name);
     int lines = 0;
     for (std::string line; std::getline(file, line);) ++lines;
     return lines;
   }
 
-  TemporaryFolder folder_;
-  std::map<int, std::vector<double>> progress_;
+  TemporaryFolder folder;
+  std::map<int, std::vector<double>> reported;
 };
 
 TEST_F(LocalProcessesTest, EveryTaskRunsOnce) {
@@ -62,7 +63,7 @@ TEST_F(LocalProcessesTest, EveryTaskRunsOnce) {
 
 TEST_F(LocalProcessesTest, ReportsProgressAndIgnoresNoise) {
   run(R"(echo 'libGL: hello'; echo '{"done":1,"total":3}'; echo '[1]'; echo '{"done":3,"total":3}')");
-  EXPECT_THAT(progress_[0], ElementsAre(1, 3));
+  EXPECT_THAT(reported[0], ElementsAre(1, 3));
 }
 
 TEST_F(LocalProcessesTest, ACrashIsRetriedAndForgotten) {
@@ -120,7 +121,7 @@ TEST_F(LocalProcessesTest, CancelEndsTheWholeTreeEvenIfItIgnoresSigterm) {
           2, 2, stop.get_token());
   EXPECT_EQ(results[0].outcome, Outcome::cancelled);
   EXPECT_EQ(results[1].outcome, Outcome::cancelled);
-  std::ifstream children(folder_.path() / "children");
+  std::ifstream children(folder.path() / "children");
   for (pid_t pid = 0; children >> pid;) {
     // A killed grandchild may be an unreaped zombie of init for a moment.
     const auto gone = [&] {
@@ -151,7 +152,7 @@ TEST_F(LocalProcessesTest, NoMoreWorkersThanAsked) {
 
 TEST_F(LocalProcessesTest, WorkersKnowTheirSupervisorAndShareTheCores) {
   run("echo $THRONG_SUPERVISOR_PID $LP_NUM_THREADS >> $job/env", 2);
-  std::ifstream file(folder_.path() / "env");
+  std::ifstream file(folder.path() / "env");
   std::string line;
   std::getline(file, line);
   EXPECT_EQ(line, std::to_string(::getpid()) + " 0");
@@ -162,7 +163,7 @@ TEST_F(LocalProcessesTest, AProgramThatIsNotThereIsTheMachinesFault) {
   options.command = {"/nonexistent/throng"};
   LocalProcesses processes(options);
   const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
-  const auto results = processes.run(JobFolder(folder_.path()), tasks, {}, {});
+  const auto results = processes.run(JobFolder(folder.path()), tasks, {}, {});
   EXPECT_EQ(results[0].outcome, Outcome::environment_error);
   EXPECT_THAT(results[0].message, HasSubstr("/nonexistent/throng"));
 }

@@ -19,10 +19,10 @@ using testing::HasSubstr;
 
 class Spec : public testing::Test {
  protected:
-  Spec() { write_yard(folder_.path()); }
+  Spec() { write_yard(folder.path()); }
 
   JobSpec parse(const std::string& text) const {
-    return parse_job(text, "test.job.json", folder_.path());
+    return parse_job(text, "test.job.json", folder.path());
   }
 
   std::vector<Problem> problems_of(const std::string& text) const {
@@ -45,7 +45,7 @@ class Spec : public testing::Test {
     return pointers;
   }
 
-  TemporaryFolder folder_;
+  TemporaryFolder folder;
 };
 
 TEST_F(Spec, EverythingButTheScenarioHasADefault) {

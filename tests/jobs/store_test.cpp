@@ -14,25 +14,25 @@ namespace {
 class StoreTest : public testing::Test {
  protected:
   Store::Clock clock() {
-    return [this] { return now_ms_; };
+    return [this] { return now_ms; };
   }
 
-  TemporaryFolder folder_;
-  std::int64_t now_ms_ = 1'000'000;
+  TemporaryFolder folder;
+  std::int64_t now_ms = 1'000'000;
 };
 
 TEST_F(StoreTest, WhatWasAddedAndChangedSurvivesReopening) {
   JobRow queued;
   JobRow running;
   {
-    Store store(folder_.path(), clock());
+    Store store(folder.path(), clock());
     running = store.add("a", R"({"x":1})");
-    now_ms_ = 2'000'000;
+    now_ms = 2'000'000;
     queued = store.add("b", "{}");
     running = store.apply(running, JobEvent::start).value();
     store.save_progress(running, "[1]");
   }
-  Store store(folder_.path(), clock());
+  Store store(folder.path(), clock());
   const JobRow a = store.get(running.id).value();
   EXPECT_EQ(a.name, "a");
   EXPECT_EQ(a.spec_json, R"({"x":1})");
@@ -47,7 +47,7 @@ TEST_F(StoreTest, WhatWasAddedAndChangedSurvivesReopening) {
 }
 
 TEST_F(StoreTest, TheRunningJobComesNextThenTheOldestQueued) {
-  Store store(folder_.path(), clock());
+  Store store(folder.path(), clock());
   EXPECT_FALSE(store.next());
   const JobRow first = store.add("first", "{}");
   const JobRow second = store.add("second", "{}");
@@ -59,7 +59,7 @@ TEST_F(StoreTest, TheRunningJobComesNextThenTheOldestQueued) {
 }
 
 TEST_F(StoreTest, AnEventCountsOnceAndForTheAttemptItWasMeantFor) {
-  Store store(folder_.path(), clock());
+  Store store(folder.path(), clock());
   const JobRow queued = store.add("a", "{}");
   const JobRow first = store.apply(queued, JobEvent::start).value();
   EXPECT_FALSE(store.apply(queued, JobEvent::start)) << "someone else took it already";
@@ -69,7 +69,7 @@ TEST_F(StoreTest, AnEventCountsOnceAndForTheAttemptItWasMeantFor) {
   EXPECT_FALSE(store.apply(first, JobEvent::succeed)) << "an earlier attempt came back";
   store.save_progress(first, "late");
   EXPECT_EQ(store.get(first.id)->progress_json, "");
-  now_ms_ = 3'000'000;
+  now_ms = 3'000'000;
   EXPECT_TRUE(store.apply(second, JobEvent::fail, R"({"message":"m"})"));
   const JobRow failed = store.get(first.id).value();
   EXPECT_EQ(failed.state, JobState::failed);
@@ -79,9 +79,9 @@ TEST_F(StoreTest, AnEventCountsOnceAndForTheAttemptItWasMeantFor) {
 }
 
 TEST_F(StoreTest, PagesListEveryJobOnceNewestFirst) {
-  Store store(folder_.path(), clock());
-  std::vector<std::string> added;
-  for (int i = 0; i < 25; ++i) added.push_back(store.add("n", "{}").id);
+  Store store(folder.path(), clock());
+  std::vector<std::string> added(25);
+  for (std::string& id : added) id = store.add("n", "{}").id;
   std::vector<std::string> listed;
   std::string after;
   for (std::vector<JobRow> page; !(page = store.list(10, after)).empty(); after = page.back().id) {
@@ -92,7 +92,7 @@ TEST_F(StoreTest, PagesListEveryJobOnceNewestFirst) {
 }
 
 TEST_F(StoreTest, RemovedJobsAreGone) {
-  Store store(folder_.path(), clock());
+  Store store(folder.path(), clock());
   const JobRow row = store.add("a", "{}");
   EXPECT_TRUE(store.remove(row.id));
   EXPECT_FALSE(store.remove(row.id));
@@ -101,24 +101,24 @@ TEST_F(StoreTest, RemovedJobsAreGone) {
 }
 
 TEST_F(StoreTest, OneServerPerFolder) {
-  const Store store(folder_.path());
-  EXPECT_THROW(Store second(folder_.path()), EnvironmentError);
+  const Store store(folder.path());
+  EXPECT_THROW(Store second(folder.path()), EnvironmentError);
 }
 
 TEST_F(StoreTest, ADamagedFileIsReportedNotReplaced) {
-  write_file_atomically(folder_.path() / "jobs.sqlite", std::string(4096, 'x'));
-  EXPECT_THROW(Store store(folder_.path()), EnvironmentError);
-  EXPECT_EQ(read_file(folder_.path() / "jobs.sqlite"), std::string(4096, 'x'));
+  write_file_atomically(folder.path() / "jobs.sqlite", std::string(4096, 'x'));
+  EXPECT_THROW(Store store(folder.path()), EnvironmentError);
+  EXPECT_EQ(read_file(folder.path() / "jobs.sqlite"), std::string(4096, 'x'));
 }
 
 TEST_F(StoreTest, ThreadsAddAndReadAtOnce) {
-  Store store(folder_.path());
+  Store store(folder.path());
   constexpr int kThreads = 4;
   constexpr int kJobs = 10;
   {
-    std::vector<std::jthread> threads;
-    for (int t = 0; t < kThreads; ++t) {
-      threads.emplace_back([&] {
+    std::vector<std::jthread> threads(kThreads);
+    for (std::jthread& thread : threads) {
+      thread = std::jthread([&] {
         for (int i = 0; i < kJobs; ++i) {
           const JobRow row = store.add("n", "{}");
           EXPECT_TRUE(store.get(row.id));

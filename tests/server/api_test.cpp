@@ -23,10 +23,10 @@ using testing::StartsWith;
 
 class ApiTest : public ServiceFixture {
  protected:
-  ApiTest() : service_(options(), executor_), api_(service_, {}), thread_([this] { api_.run(); }) {}
-  ~ApiTest() override { api_.stop(); }
+  ApiTest() : service(options(), executor), api(service, {}), thread([this] { api.run(); }) {}
+  ~ApiTest() override { api.stop(); }
 
-  httplib::Client client() const { return httplib::Client("127.0.0.1", api_.port()); }
+  httplib::Client client() const { return httplib::Client("127.0.0.1", api.port()); }
 
   httplib::Result get(const std::string& path, const httplib::Headers& headers = {}) const {
     return client().Get(path, headers);
@@ -60,7 +60,7 @@ class ApiTest : public ServiceFixture {
     const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(api_.port()));
+    address.sin_port = htons(static_cast<std::uint16_t>(api.port()));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     EXPECT_EQ(::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
     ::send(socket, request.data(), request.size(), MSG_NOSIGNAL);
@@ -73,9 +73,9 @@ class ApiTest : public ServiceFixture {
     return answer;
   }
 
-  JobService service_;
-  Api api_;
-  std::jthread thread_;
+  JobService service;
+  Api api;
+  std::jthread thread;
 };
 
 TEST_F(ApiTest, AJobFromSubmissionToMetrics) {
@@ -112,8 +112,8 @@ TEST_F(ApiTest, MistakesComeBackWithTheirPointers) {
 }
 
 TEST_F(ApiTest, TheListIsPagedNewestFirst) {
-  std::vector<std::string> ids;
-  for (int i = 0; i < 5; ++i) ids.push_back(submit());
+  std::vector<std::string> ids(5);
+  for (std::string& id : ids) id = submit();
   const json first = get_json("/v1/jobs?limit=3");
   EXPECT_EQ(first["jobs"][0]["id"], ids[4]);
   EXPECT_EQ(first["next"], ids[2]);
@@ -141,7 +141,7 @@ TEST_F(ApiTest, UnknownThingsAre404AndWrongMethods405) {
 }
 
 TEST_F(ApiTest, ResultsOfAnUnfinishedJobAreAConflict) {
-  Gate gate(executor_);
+  Gate gate(executor);
   const std::string id = submit();
   expect_problem(get("/v1/jobs/" + id + "/archive"), 409);
   expect_problem(get("/v1/jobs/" + id + "/metrics"), 409);
@@ -216,9 +216,9 @@ TEST_F(ApiTest, HealthAndSchema) {
 }
 
 TEST_F(ApiTest, AConnectionServesManyRequestsAndManyConnectionsAreServed) {
-  std::vector<std::jthread> clients;
-  for (int i = 0; i < 16; ++i) {
-    clients.emplace_back([this] {
+  std::vector<std::jthread> clients(16);
+  for (std::jthread& thread_of_client : clients) {
+    thread_of_client = std::jthread([this] {
       httplib::Client kept = client();
       kept.set_keep_alive(true);
       for (int request = 0; request < 20; ++request) EXPECT_EQ(kept.Get("/healthz")->status, 200);
@@ -227,7 +227,7 @@ TEST_F(ApiTest, AConnectionServesManyRequestsAndManyConnectionsAreServed) {
 }
 
 TEST_F(ApiTest, APortIsServedOnce) {
-  EXPECT_THROW(Api(service_, {"127.0.0.1", api_.port()}), EnvironmentError);
+  EXPECT_THROW(Api(service, {"127.0.0.1", api.port()}), EnvironmentError);
 }
 
 }  // namespace

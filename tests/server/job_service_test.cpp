@@ -29,7 +29,7 @@ bool reaches(const JobService& service, const std::string& id, JobState state) {
 }
 
 TEST_F(JobServiceTest, AJobRunsToItsDataset) {
-  JobService service(options(), executor_);
+  JobService service(options(), executor);
   const JobRow row = service.submit(kJob);
   EXPECT_EQ(row.name, "yard");
   ASSERT_TRUE(reaches(service, row.id, JobState::succeeded));
@@ -41,8 +41,8 @@ TEST_F(JobServiceTest, AJobRunsToItsDataset) {
 }
 
 TEST_F(JobServiceTest, JobsRunInTheOrderTheyCame) {
-  Gate gate(executor_);
-  JobService service(options(), executor_);
+  Gate gate(executor);
+  JobService service(options(), executor);
   const JobRow first = service.submit(kJob);
   const JobRow second = service.submit(kJob);
   ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
@@ -55,12 +55,12 @@ TEST_F(JobServiceTest, JobsRunInTheOrderTheyCame) {
 
 TEST_F(JobServiceTest, AFailureIsToldWithoutPathsAndTheNextJobRuns) {
   std::atomic<bool> fails = true;
-  const std::string place = data_.path().string();
-  executor_.before = [&](const Task&) {
+  const std::string place = data.path().string();
+  executor.before = [&](const Task&) {
     return fails.exchange(false) ? TaskResult{Outcome::crashed, 3, "died in " + place + "/x", {}}
                                  : TaskResult{};
   };
-  JobService service(options(), executor_);
+  JobService service(options(), executor);
   const JobRow bad = service.submit(kJob);
   const JobRow good = service.submit(kJob);
   ASSERT_TRUE(reaches(service, good.id, JobState::succeeded));
@@ -71,10 +71,10 @@ TEST_F(JobServiceTest, AFailureIsToldWithoutPathsAndTheNextJobRuns) {
 }
 
 TEST_F(JobServiceTest, AnInputErrorOfAWorkerKeepsItsPointers) {
-  executor_.before = [](const Task&) {
+  executor.before = [](const Task&) {
     return TaskResult{Outcome::input_error, 1, "m", {{"", "/crowd/agents", "9", "at most 2"}}};
   };
-  JobService service(options(), executor_);
+  JobService service(options(), executor);
   const JobRow row = service.submit(kJob);
   ASSERT_TRUE(reaches(service, row.id, JobState::failed));
   const json error = json::parse(service.get(row.id)->error_json);
@@ -86,8 +86,8 @@ TEST_F(JobServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
   std::string running;
   std::string queued;
   {
-    Gate gate(executor_);
-    std::optional<JobService> service(std::in_place, options(), executor_);
+    Gate gate(executor);
+    std::optional<JobService> service(std::in_place, options(), executor);
     running = service->submit(kJob).id;
     queued = service->submit(kJob).id;
     ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
@@ -96,7 +96,7 @@ TEST_F(JobServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     gate.open();
   }
-  const std::size_t done_before = executor_.done().size();
+  const std::size_t done_before = executor.done().size();
   EXPECT_LT(done_before, 6U) << "the first service ended in the middle";
   jobs::FakeExecutor second;
   JobService service(options(), second);
@@ -109,25 +109,25 @@ TEST_F(JobServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
 }
 
 TEST_F(JobServiceTest, RemovingARunningJobEndsItAndItsFiles) {
-  executor_.before = [](const Task&) {
+  executor.before = [](const Task&) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return TaskResult{};
   };
-  JobService service(options(), executor_);
+  JobService service(options(), executor);
   const JobRow row = service.submit(kJob);
-  ASSERT_TRUE(wait_until([&] { return !executor_.done().empty(); }));
+  ASSERT_TRUE(wait_until([&] { return !executor.done().empty(); }));
   EXPECT_TRUE(service.remove(row.id));
   EXPECT_FALSE(service.get(row.id));
-  EXPECT_FALSE(std::filesystem::exists(data_.path() / "jobs" / row.id));
-  EXPECT_FALSE(std::filesystem::exists(data_.path() / "trash" / row.id));
+  EXPECT_FALSE(std::filesystem::exists(data.path() / "jobs" / row.id));
+  EXPECT_FALSE(std::filesystem::exists(data.path() / "trash" / row.id));
   EXPECT_FALSE(service.remove(row.id));
   const JobRow next = service.submit(kJob);
   EXPECT_TRUE(reaches(service, next.id, JobState::succeeded));
 }
 
 TEST_F(JobServiceTest, RemovingAQueuedJobLeavesTheOthers) {
-  Gate gate(executor_);
-  JobService service(options(), executor_);
+  Gate gate(executor);
+  JobService service(options(), executor);
   const JobRow first = service.submit(kJob);
   const JobRow second = service.submit(kJob);
   const JobRow third = service.submit(kJob);
@@ -139,12 +139,12 @@ TEST_F(JobServiceTest, RemovingAQueuedJobLeavesTheOthers) {
 }
 
 TEST_F(JobServiceTest, ManyClientsAtOnce) {
-  JobService service(options(), executor_);
+  JobService service(options(), executor);
   constexpr int kClients = 4;
   {
-    std::vector<std::jthread> clients;
-    for (int client = 0; client < kClients; ++client) {
-      clients.emplace_back([&, client] {
+    std::vector<std::jthread> clients(kClients);
+    for (std::size_t client = 0; client < clients.size(); ++client) {
+      clients[client] = std::jthread([&, client] {
         for (int i = 0; i < 5; ++i) {
           const JobRow row = service.submit(kJob);
           service.list(10, "");

@@ -30,13 +30,13 @@ inline bool wait_until(const std::function<bool()>& condition) {
 
 class ServiceFixture : public testing::Test {
  protected:
-  ServiceFixture() { jobs::write_yard(scenarios_.path()); }
+  ServiceFixture() { jobs::write_yard(scenarios.path()); }
 
-  JobServiceOptions options() const { return {data_.path(), scenarios_.path()}; }
+  JobServiceOptions options() const { return {data.path(), scenarios.path()}; }
 
-  jobs::TemporaryFolder scenarios_;
-  jobs::TemporaryFolder data_;
-  jobs::FakeExecutor executor_;
+  jobs::TemporaryFolder scenarios;
+  jobs::TemporaryFolder data;
+  jobs::FakeExecutor executor;
 };
 
 /// Makes an executor's tasks wait until open() is called, or the gate is gone.

@@ -1,0 +1,47 @@
+#include "jobs/gimbal.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace throng::jobs {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+world::DroneSample drone_heading(double yaw_rad, double tilt_rad) {
+  world::DroneSample drone;
+  drone.position = {3, 4, 20};
+  drone.orientation = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
+                      Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d::UnitY());
+  return drone;
+}
+
+TEST(Gimbal, LooksAlongTheHeadingAndDown) {
+  CameraSpec spec;
+  spec.pitch_deg = -45;
+  const camera::Camera camera = camera_on(drone_heading(90 * kDegree, 0), spec);
+  EXPECT_TRUE(camera.pose.centre().isApprox(Eigen::Vector3d(3, 4, 20)));
+  // 20 m up and looking 45 degrees down, the middle of the image is 20 m ahead, to the north.
+  const auto seen = camera.project({3, 24, 0});
+  EXPECT_NEAR(seen.pixel.x(), camera.intrinsics.cx_px, 1e-6);
+  EXPECT_NEAR(seen.pixel.y(), camera.intrinsics.cy_px, 1e-6);
+  EXPECT_GT(seen.depth_m, 0);
+}
+
+TEST(Gimbal, YawTurnsToTheLeft) {
+  CameraSpec spec;
+  spec.pitch_deg = -45;
+  spec.yaw_deg = 90;
+  const camera::Camera camera = camera_on(drone_heading(0, 0), spec);
+  EXPECT_NEAR(camera.project({3, 24, 0}).pixel.x(), camera.intrinsics.cx_px, 1e-6);
+}
+
+TEST(Gimbal, TheDronesTiltDoesNotReachTheCamera) {
+  const camera::Camera level = camera_on(drone_heading(0.7, 0), {});
+  const camera::Camera tilted = camera_on(drone_heading(0.7, 0.4), {});
+  EXPECT_TRUE(tilted.pose.R.isApprox(level.pose.R, 1e-12));
+}
+
+}  // namespace
+}  // namespace throng::jobs
