@@ -7,14 +7,13 @@
 #include <numbers>
 
 #include "../tests/render/synthetic_people.h"
+#include "base/angle.h"
 #include "base/random.h"
 #include "render/allocator.h"
 #include "render/renderer.h"
 
 namespace throng::render {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 skinning::Population people_to_draw() {
   const std::filesystem::path folder = skinning::population_folder();

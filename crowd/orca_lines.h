@@ -15,6 +15,12 @@ struct HalfPlane {
   Eigen::Vector2f direction;  ///< unit
 };
 
+/// What is nothing beside a speed (m/s) or a sine.
+inline constexpr float kOrcaEpsilon = 1e-5F;
+
+/// v turned by 90 degrees counter-clockwise.
+inline Eigen::Vector2f left_of(const Eigen::Vector2f& v) { return {-v.y(), v.x()}; }
+
 /// One moving disc as the avoidance sees it.
 struct Disc {
   Eigen::Vector2f position;

@@ -9,14 +9,10 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr float kEpsilon = 1e-5F;
-
 /// How far v is on the wrong side; negative when it is allowed.
 float violation(const HalfPlane& plane, const Eigen::Vector2f& v) {
   return cross(plane.direction, plane.point - v);
 }
-
-Eigen::Vector2f left_of(const Eigen::Vector2f& v) { return {-v.y(), v.x()}; }
 
 /// What is to be optimised: as near as possible to `target`, or as far as possible along it.
 struct Objective {
@@ -37,7 +33,7 @@ bool solve_on_boundary(const std::vector<HalfPlane>& planes, std::size_t index, 
   for (std::size_t i = 0; i < index; ++i) {
     const float slope = cross(plane.direction, planes[i].direction);
     const float offset = cross(planes[i].direction, plane.point - planes[i].point);
-    if (std::abs(slope) <= kEpsilon) {
+    if (std::abs(slope) <= kOrcaEpsilon) {
       if (offset < 0) return false;
       continue;
     }
@@ -83,7 +79,7 @@ std::size_t solve_in_disc(const std::vector<HalfPlane>& planes, float max_speed,
 /// point the same way, so that one of them is always violated more.
 bool bisect(const HalfPlane& plane, const HalfPlane& other, HalfPlane& bisector) {
   const float sine = cross(plane.direction, other.direction);
-  if (std::abs(sine) <= kEpsilon) {
+  if (std::abs(sine) <= kOrcaEpsilon) {
     if (plane.direction.dot(other.direction) > 0) return false;
     bisector.point = 0.5F * (plane.point + other.point);
   } else {

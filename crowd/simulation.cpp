@@ -19,7 +19,7 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr std::size_t kGrain = 512;  // agents per task
+constexpr std::size_t kMotionGrain = 512;  // agents per task
 
 /// v moved towards `wanted`, by at most `most`.
 Eigen::Vector2f approach(const Eigen::Vector2f& v, const Eigen::Vector2f& wanted, float most) {
@@ -98,7 +98,7 @@ void Simulation::State::step() {
 void Simulation::State::move() {
   Agents& agents = crowd.agents;
   const auto dt_s = static_cast<float>(crowd.dt_s);
-  parallel_ranges(agents.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(agents.count(), kMotionGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (agents.present[i] == 0) continue;
       agents.velocity[i] =

@@ -19,8 +19,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kIndent = 2;
-
 // The dataset shares the bytes with the work folder where the file system can.
 void link_or_copy(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
@@ -47,7 +45,7 @@ class Collector {
       metrics.back().update(measured.at("metrics"));
       runs.push_back(take_frames(run));
     }
-    add("metrics.json", json{{"runs", metrics}}.dump(kIndent) + "\n");
+    add("metrics.json", json{{"runs", metrics}}.dump(kJsonIndent) + "\n");
     if (wants(job_, "coco")) {
       const std::string path = "annotations/instances.json";
       fs::create_directories((staging_.path() / path).parent_path());
@@ -115,7 +113,7 @@ class Collector {
         {"counts", {{"frames", images_}, {"annotations", annotations_}, {"agents", agents_}}},
         {"runs", std::move(runs)},
         {"files", files_}};
-    write_new_file(staging_.path() / kManifestName, manifest.dump(kIndent) + "\n");
+    write_new_file(staging_.path() / kManifestName, manifest.dump(kJsonIndent) + "\n");
   }
 
   const JobFolder& folder_;

@@ -7,14 +7,13 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "jobs/publication.h"
 
 namespace throng::jobs {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int kIndent = 2;
 
 // Files and folders are written as "<name>.tmp.<pid>.<n>" before they are renamed (base/files.h).
 void remove_temporaries(const fs::path& folder) {
@@ -37,7 +36,7 @@ void remove_temporaries(const fs::path& folder) {
 
 JobFolder JobFolder::create(fs::path path, const JobSpec& job) {
   JobFolder folder(std::move(path));
-  const std::string text = to_json(job).dump(kIndent) + "\n";
+  const std::string text = to_json(job).dump(kJsonIndent) + "\n";
   if (!fs::exists(folder.job_file())) {
     if (fs::exists(folder.path()) && !fs::is_empty(folder.path())) {
       throw InputError(Problem{"", folder.path().string(), "a folder with other files in it",

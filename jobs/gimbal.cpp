@@ -3,10 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
+
 namespace throng::jobs {
 
 camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec) {
-  constexpr double kDegree = std::numbers::pi / 180;
   const Eigen::Vector3d nose = drone.orientation * Eigen::Vector3d::UnitX();
   const double heading_rad = std::atan2(nose.y(), nose.x());
   return {camera::intrinsics_from_hfov(spec.width, spec.height, spec.hfov_deg * kDegree),

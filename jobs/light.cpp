@@ -3,11 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
+
 namespace throng::jobs {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLatitude = 45 * kDegree;
 constexpr double kDeclination = 15 * kDegree;
 constexpr double kTurnPerHour = 15 * kDegree;

@@ -48,8 +48,7 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
   const nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
 
   Publication output(folder.output_of({Task::Kind::measure, run}));
-  constexpr int kIndent = 2;
-  output.add("metrics/" + run_name(run) + ".json", figures.dump(kIndent) + "\n");
+  output.add("metrics/" + run_name(run) + ".json", figures.dump(kJsonIndent) + "\n");
   if (wants(job, "exits")) {
     std::vector<annotate::FrameTime> frames;
     for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {

@@ -12,6 +12,9 @@
 
 namespace throng::jobs {
 
+/// Of the JSON files that people may open.
+inline constexpr int kJsonIndent = 2;
+
 /// A file of the dataset, as its manifest lists it.
 struct FileEntry {
   std::string path;  ///< relative to the dataset, forward slashes

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "world/trace.h"
+
 namespace throng::metrics {
 
 namespace {
@@ -14,9 +16,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array kPercents = {25, 50, 75, 90, 95, 99, 100};
-
-// Steps are not exact multiples of the time step in floating point.
-constexpr double kTimeSlackS = 1e-6;
 
 int people_in(const world::Trace& trace) {
   return static_cast<int>(
@@ -39,11 +38,11 @@ std::vector<double> escape_times_s(const world::Trace& trace, const world::Recta
 }
 
 std::vector<double> curve_of(const std::vector<double>& times, int people, double duration_s) {
-  const auto seconds = static_cast<std::size_t>(std::floor(duration_s + kTimeSlackS));
+  const auto seconds = static_cast<std::size_t>(std::floor(duration_s + world::kTimeSlackS));
   std::vector<double> curve;
   for (std::size_t second = 0; second <= seconds; ++second) {
-    const auto until =
-        std::upper_bound(times.begin(), times.end(), static_cast<double>(second) + kTimeSlackS);
+    const auto until = std::upper_bound(times.begin(), times.end(),
+                                        static_cast<double>(second) + world::kTimeSlackS);
     const auto escaped = static_cast<double>(until - times.begin());
     curve.push_back(people > 0 ? escaped / people : 0.0);
   }

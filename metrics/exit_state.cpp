@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "world/trace.h"
+
 namespace throng::metrics {
 
 namespace {
@@ -16,9 +18,6 @@ constexpr double kReliefS = 1.0;
 
 constexpr double kFullDensity = 0.6;  // density at which the clogging index saturates
 constexpr double kFreeSpeed = 0.6;    // of the desired speed: no slower than a free crowd
-
-// Steps are not exact multiples of the time step in floating point.
-constexpr double kTimeSlackS = 1e-6;
 
 }  // namespace
 
@@ -58,7 +57,7 @@ ExitState ExitStateMachine::next(double time_s, const ExitSample& sample,
   }
   // A door that nobody wanted to pass was not blocked: the gap starts with the demand.
   const double gap_s = std::min(sample.since_crossing_s, time_s - demand_since_s_);
-  return gap_s >= clog_after_s_ - kTimeSlackS ? ExitState::clogged : ExitState::congested;
+  return gap_s >= clog_after_s_ - world::kTimeSlackS ? ExitState::clogged : ExitState::congested;
 }
 
 // Whether the jam has been over for long enough.
@@ -70,7 +69,7 @@ bool ExitStateMachine::relieved(double time_s, const ExitSample& sample, const E
     return false;
   }
   if (relief_since_s_ < 0) relief_since_s_ = time_s;
-  return time_s - relief_since_s_ >= kReliefS - kTimeSlackS;
+  return time_s - relief_since_s_ >= kReliefS - world::kTimeSlackS;
 }
 
 }  // namespace throng::metrics

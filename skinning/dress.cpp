@@ -7,11 +7,11 @@
 #include <limits>
 #include <numbers>
 
+#include "base/angle.h"
+
 namespace throng::skinning {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // MakeHuman's joints at which our bones start, in palette order.
 constexpr std::array<const char*, kBoneCount> kJointNames = {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/angle.h"
 #include "skinning/gait_tables.h"
 #include "skinning/motion.h"
 
@@ -14,7 +15,6 @@ namespace throng::skinning {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 // Frames in which a stride is worked out before every fourth is kept.
 constexpr int kFineFrames = 4 * static_cast<int>(kClipFrames);

@@ -12,6 +12,9 @@
 
 namespace throng::world {
 
+/// Times are sums of steps in floating point: two that are nearer than this are the same step.
+inline constexpr double kTimeSlackS = 1e-6;
+
 enum class AgentRole : std::uint8_t {
   person = 0,
   disaster = 1,  ///< an agent that stands for a danger; neither drawn nor counted

@@ -1,4 +1,5 @@
 #include "jobs/gimbal.h"
+#include "base/angle.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +7,6 @@
 
 namespace throng::jobs {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 world::DroneSample drone_heading(double yaw_rad, double tilt_rad) {
   world::DroneSample drone;

@@ -5,12 +5,11 @@
 #include <numbers>
 #include <vector>
 
+#include "base/angle.h"
 #include "render/renderer.h"
 #include "synthetic_people.h"
 
 namespace throng::render {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// A building with an axis-aligned footprint.
 inline world::Building block(double min_x, double max_x, double min_y, double max_y,

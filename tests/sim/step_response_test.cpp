@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/angle.h"
 #include "sim/airframe.h"
 #include "sim/controller.h"
 #include "sim/flight_world.h"
@@ -16,7 +17,6 @@ namespace {
 using Eigen::Vector3d;
 using testing::airframe_named;
 
-constexpr double kDegree = EIGEN_PI / 180;
 const Vector3d kStart(0, 0, 30);
 
 struct Rates {
