@@ -39,7 +39,7 @@ function(throng_embed target symbol file)
     string(APPEND literal "R\"__throng__(${chunk})__throng__\"\n")
     math(EXPR position "${position} + 8000")
   endwhile()
-  file(CONFIGURE OUTPUT "${output}" CONTENT "#include <string_view>\nnamespace throng::embedded {\nextern const std::string_view ${symbol};\nconst std::string_view ${symbol} =\n@literal@;\n}  // namespace throng::embedded\n" @ONLY)
+  file(CONFIGURE OUTPUT "${output}" CONTENT "#include <string_view>\nnamespace throng::embedded {\nextern const std::string_view ${symbol};  // NOLINT\nconst std::string_view ${symbol} =  // NOLINT\n@literal@;\n}  // namespace throng::embedded\n" @ONLY)
   target_sources(${target} PRIVATE "${output}")
 endfunction()
 

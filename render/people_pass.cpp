@@ -32,10 +32,10 @@ struct Instance {
 };
 static_assert(sizeof(Instance) <= 64);
 
-using embedded::kShaderLight;
-using embedded::kShaderPersonFrag;
-using embedded::kShaderPersonVert;
-using embedded::kShaderView;
+using embedded::shader_light;
+using embedded::shader_person_frag;
+using embedded::shader_person_vert;
+using embedded::shader_view;
 
 constexpr std::string_view kShadow = "#define SHADOW\n";
 constexpr std::string_view kCoverage = "#define COVERAGE\n";
@@ -109,14 +109,14 @@ PeoplePass::PeoplePass(const skinning::Population& population)
   load_textures(population);
   array_ = make_person_array(vertices_, indices_, instances_);
   const auto camera_program = [](std::string_view a, std::string_view b) {
-    return make_program({kShaderView, kShaderLight, kShaderPersonVert},
-                        {a, b, kShaderLight, kShaderPersonFrag});
+    return make_program({shader_view, shader_light, shader_person_vert},
+                        {a, b, shader_light, shader_person_frag});
   };
   picture_ = camera_program("", "");
   picture_alpha_ = camera_program(kAlphaTest, "");
   coverage_ = camera_program(kCoverage, "");
   coverage_alpha_ = camera_program(kCoverage, kAlphaTest);
-  shadow_ = make_program({kShadow, kShaderLight, kShaderPersonVert}, {});
+  shadow_ = make_program({kShadow, shader_light, shader_person_vert}, {});
   check_gl("loading people");
 }
 

@@ -12,17 +12,17 @@ namespace throng::render {
 
 namespace {
 
-using embedded::kShaderLight;
-using embedded::kShaderNoise;
-using embedded::kShaderPlaceVert;
-using embedded::kShaderView;
+using embedded::shader_light;
+using embedded::shader_noise;
+using embedded::shader_place_vert;
+using embedded::shader_view;
 
 std::string_view ground_material(const world::Scenario& scenario) {
   const std::array<std::pair<std::string_view, std::string_view>, 4> materials = {{
-      {"pavers", embedded::kShaderGroundPavers},
-      {"asphalt", embedded::kShaderGroundAsphalt},
-      {"grass", embedded::kShaderGroundGrass},
-      {"concrete", embedded::kShaderGroundConcrete},
+      {"pavers", embedded::shader_ground_pavers},
+      {"asphalt", embedded::shader_ground_asphalt},
+      {"grass", embedded::shader_ground_grass},
+      {"concrete", embedded::shader_ground_concrete},
   }};
   for (const auto& [name, text] : materials) {
     if (name == scenario.ground_material) return text;
@@ -32,11 +32,11 @@ std::string_view ground_material(const world::Scenario& scenario) {
 }
 
 Program make_place_program(std::initializer_list<std::string_view> fragment) {
-  return make_program({kShaderView, kShaderPlaceVert}, fragment);
+  return make_program({shader_view, shader_place_vert}, fragment);
 }
 
 Program make_ground_program(std::string_view material) {
-  return make_place_program({kShaderLight, kShaderNoise, material, embedded::kShaderGroundFrag});
+  return make_place_program({shader_light, shader_noise, material, embedded::shader_ground_frag});
 }
 
 }  // namespace
@@ -46,11 +46,11 @@ PlacePass::PlacePass(const world::Scenario& scenario)
       vertices_(make_buffer(mesh_.vertices)),
       indices_(make_buffer(mesh_.indices)),
       array_(make_vertex_array()),
-      walls_(make_place_program({kShaderLight, kShaderNoise, embedded::kShaderWallFrag})),
-      roofs_(make_place_program({kShaderLight, kShaderNoise, embedded::kShaderRoofFrag})),
+      walls_(make_place_program({shader_light, shader_noise, embedded::shader_wall_frag})),
+      roofs_(make_place_program({shader_light, shader_noise, embedded::shader_roof_frag})),
       ground_(make_ground_program(ground_material(scenario))),
-      surroundings_(make_ground_program(embedded::kShaderGroundSurroundings)),
-      shadow_(make_program({kShaderLight, embedded::kShaderPlaceShadowVert}, {})) {
+      surroundings_(make_ground_program(embedded::shader_ground_surroundings)),
+      shadow_(make_program({shader_light, embedded::shader_place_shadow_vert}, {})) {
   describe_vertices(array_, 0, vertices_, sizeof(PlaceVertex), 0,
                     {{0, 3, GL_FLOAT, false, offsetof(PlaceVertex, position)},
                      {1, 3, GL_FLOAT, false, offsetof(PlaceVertex, normal)},

@@ -3,22 +3,24 @@
 
 #include <string_view>
 
+// NOLINTBEGIN(readability-identifier-naming): named after their files
 namespace throng::embedded {
 
-extern const std::string_view kShaderView;
-extern const std::string_view kShaderLight;
-extern const std::string_view kShaderNoise;
-extern const std::string_view kShaderPersonVert;
-extern const std::string_view kShaderPersonFrag;
-extern const std::string_view kShaderPlaceVert;
-extern const std::string_view kShaderPlaceShadowVert;
-extern const std::string_view kShaderGroundFrag;
-extern const std::string_view kShaderGroundPavers;
-extern const std::string_view kShaderGroundAsphalt;
-extern const std::string_view kShaderGroundGrass;
-extern const std::string_view kShaderGroundConcrete;
-extern const std::string_view kShaderGroundSurroundings;
-extern const std::string_view kShaderWallFrag;
-extern const std::string_view kShaderRoofFrag;
+extern const std::string_view shader_view;
+extern const std::string_view shader_light;
+extern const std::string_view shader_noise;
+extern const std::string_view shader_person_vert;
+extern const std::string_view shader_person_frag;
+extern const std::string_view shader_place_vert;
+extern const std::string_view shader_place_shadow_vert;
+extern const std::string_view shader_ground_frag;
+extern const std::string_view shader_ground_pavers;
+extern const std::string_view shader_ground_asphalt;
+extern const std::string_view shader_ground_grass;
+extern const std::string_view shader_ground_concrete;
+extern const std::string_view shader_ground_surroundings;
+extern const std::string_view shader_wall_frag;
+extern const std::string_view shader_roof_frag;
 
 }  // namespace throng::embedded
+// NOLINTEND(readability-identifier-naming)
