@@ -27,7 +27,7 @@ debootstrap --variant=minbase bookworm "$folder" "$mirror" >"$folder.debootstrap
 # How this machine reaches its registries: that is the machine's, not the project's.
 rm -f "$folder/etc/apt/sources.list"
 for path in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/apt.conf.d/*registry* \
-  /etc/resolv.conf /etc/hosts /etc/ssl/certs/ca-certificates.crt "$HOME/.npmrc" /etc/npmrc; do
+  /etc/resolv.conf /etc/hosts "$HOME/.npmrc" /etc/npmrc; do
   [ -e "$path" ] || continue
   target="$folder$path"
   case "$path" in "$HOME"/*) target="$folder/root/${path#"$HOME"/}" ;; esac
@@ -36,6 +36,8 @@ for path in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/apt
 done
 mkdir -p "$folder/usr/etc"
 [ -e /usr/etc/npmrc ] && cp -L /usr/etc/npmrc "$folder/usr/etc/npmrc"
+# Beside the bundle that installing ca-certificates will write there.
+cp -L /etc/ssl/certs/ca-certificates.crt "$folder/etc/host-certificates.crt"
 
 git clone -q --no-hardlinks "$root" "$folder/throng"
 for mount in proc sys dev dev/pts dev/shm; do
@@ -46,7 +48,8 @@ for command in "$@"; do
   echo "== fresh Debian: $command"
   start=$SECONDS
   env -i HOME=/root TERM=dumb LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin CI="${CI:-}" \
-    http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" no_proxy="${no_proxy:-}" \
+    npm_config_cafile=/etc/host-certificates.crt \
+    ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
     chroot "$folder" /bin/bash -c "cd /throng && $command"
   echo "== fresh Debian: $command took $((SECONDS - start)) s"
 done

@@ -6,5 +6,5 @@ mkdir -p "$root/build"
 install_packages
 fetch_assets
 say "building"
-build release
+build release throng
 bake_people
