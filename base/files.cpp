@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -34,6 +35,13 @@ void sync_path(const fs::path& path) {
   const int result = ::fsync(descriptor);
   ::close(descriptor);
   if (result != 0) fail("sync", path);
+}
+
+void sync_tree(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) sync_path(entry.path());
+  }
+  sync_path(folder);
 }
 
 fs::path parent_of(const fs::path& path) {
@@ -85,11 +93,18 @@ StagingFolder::~StagingFolder() {
   fs::remove_all(staging_, ignored);
 }
 
-void StagingFolder::commit() {
-  for (const auto& entry : fs::recursive_directory_iterator(staging_)) {
-    if (entry.is_regular_file()) sync_path(entry.path());
+void StagingFolder::commit_replacing() {
+  if (!fs::exists(final_)) return commit();
+  sync_tree(staging_);
+  // The old folder changes places with the new one, and goes with this object.
+  if (::renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) != 0) {
+    fail("replace", final_);
   }
-  sync_path(staging_);
+  sync_path(parent_of(final_));
+}
+
+void StagingFolder::commit() {
+  sync_tree(staging_);
   std::error_code error;
   fs::rename(staging_, final_, error);
   if (error && !fs::exists(final_)) {

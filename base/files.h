@@ -27,6 +27,9 @@ class StagingFolder {
 
   const std::filesystem::path& path() const { return staging_; }
   void commit();
+  /// Like commit(), but puts the new folder in the place of one that is there: whoever opens it
+  /// sees the old folder or the new one.
+  void commit_replacing();
 
  private:
   std::filesystem::path final_;

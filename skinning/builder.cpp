@@ -208,9 +208,7 @@ void build_population(const fs::path& makehuman_folder, const fs::path& output_f
   write_file_atomically(staging.path() / "NOTICE.txt", notice_text(people, bakery.wardrobe()));
   write_file_atomically(staging.path() / kIndexFile, encode_index(index, kLicence));
 
-  std::error_code error;
-  fs::remove_all(output_folder, error);
-  staging.commit();
+  staging.commit_replacing();
 }
 
 }  // namespace throng::skinning

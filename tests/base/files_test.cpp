@@ -82,6 +82,18 @@ TEST(StagingFolder, KeepsWhatIsPublishedAlready) {
   EXPECT_EQ(read_file(folder.path() / "done" / "file"), "first");
 }
 
+TEST(StagingFolder, ReplacesWhatIsThereWhenAsked) {
+  const TemporaryFolder folder;
+  for (const char* content : {"first", "second"}) {
+    StagingFolder staging(folder.path() / "done");
+    write_file_atomically(staging.path() / content, content);
+    staging.commit_replacing();
+  }
+  EXPECT_EQ(read_file(folder.path() / "done" / "second"), "second");
+  EXPECT_FALSE(fs::exists(folder.path() / "done" / "first"));
+  EXPECT_EQ(folder.entries(), 1U);
+}
+
 TEST(StagingFolder, TwoForOnePlaceDoNotMeet) {
   const TemporaryFolder folder;
   const StagingFolder one(folder.path() / "done");
