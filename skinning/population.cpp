@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <map>
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/resources.h"
 #include "skinning/glb.h"
 #include "skinning/image.h"
 #include "skinning/population_files.h"
@@ -75,12 +75,7 @@ Population load_population(const fs::path& folder) {
 }
 
 fs::path population_folder() {
-  const char* chosen = std::getenv("THRONG_PEOPLE");
-  if (chosen != nullptr && *chosen != '\0') return chosen;
-  const fs::path installed = "/usr/share/throng/people";
-  std::error_code error;
-  if (fs::is_directory(installed, error)) return installed;
-  return THRONG_PEOPLE_DIR;
+  return resource_folder("THRONG_PEOPLE", "people", THRONG_PEOPLE_DIR);
 }
 
 Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, float blend) {
