@@ -14,6 +14,7 @@
 #include <valijson/validator.hpp>
 
 #include "jobs/spec.h"
+#include "world/json_reader.h"
 
 namespace throng::jobs {
 
@@ -115,15 +116,6 @@ void add_field_problems(const json& object, const json& schema, const json::json
 
 }  // namespace
 
-std::string describe_found(const json& value) {
-  if (value.is_object()) return "an object";
-  if (value.is_array()) return fmt::format("an array of {}", value.size());
-  constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return text;
-}
-
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
   constexpr std::size_t kFarthest = 2;
   constexpr std::size_t kLongest = 40;
@@ -177,7 +169,7 @@ std::vector<Problem> schema_problems(const json& job, const std::string& source)
       add_field_problems(value, rules, place, source, problems);
     }
     if (innermost && problems.size() == before) {
-      problems.push_back({source, place.to_string(), describe_found(value), expectation(rules)});
+      problems.push_back({source, place.to_string(), world::describe(value), expectation(rules)});
     }
   }
   check(!problems.empty(), "a job that breaks the schema has a problem");

@@ -13,9 +13,6 @@ namespace throng::jobs {
 /// stands there and what should. Empty when it is valid. `source` names the text in the problems.
 std::vector<Problem> schema_problems(const nlohmann::json& job, const std::string& source);
 
-/// What stands somewhere, short enough for a message: "an object", "an array of 3", "-4".
-std::string describe_found(const nlohmann::json& value);
-
 /// The name among `names` that a misspelt `word` most likely means; "" if none is near.
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
 

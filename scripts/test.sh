@@ -41,8 +41,7 @@ step_tidy() {
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build asan
-  # Mesa's and TBB's caches live until exit; leaks of our own are found by the other sanitizer checks.
-  ASAN_OPTIONS=detect_leaks=0 ctest --preset asan -j2 -LE slow
+  ctest --preset asan -j2 -LE slow
 }
 
 step_tsan() {

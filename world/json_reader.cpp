@@ -12,16 +12,6 @@ using nlohmann::json;
 
 namespace {
 
-// What stands somewhere, short enough for a message.
-std::string describe(const json& value) {
-  if (value.is_object()) return "an object";
-  if (value.is_array()) return fmt::format("an array of {}", value.size());
-  constexpr std::size_t kLongest = 60;
-  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  return text;
-}
-
 // Keys are escaped as RFC 6901 wants it.
 std::string escaped(std::string_view key) {
   std::string text;
@@ -55,6 +45,15 @@ std::string joined(std::initializer_list<std::string_view> first,
 }
 
 }  // namespace
+
+std::string describe(const json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return fmt::format("an array of {}", value.size());
+  constexpr std::size_t kLongest = 60;
+  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  return text;
+}
 
 json parse_json(std::string_view text, const std::string& source) {
   // nlohmann keeps the last of two equal keys; a file that has both is a mistake.

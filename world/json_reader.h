@@ -18,6 +18,9 @@ namespace throng::world {
 /// an object holds twice. `source` is the file's name for messages.
 nlohmann::json parse_json(std::string_view text, const std::string& source);
 
+/// What stands somewhere, short enough for a message: "an array of 3", "-1", "\"red\"".
+std::string describe(const nlohmann::json& value);
+
 /// A value of a document and its place. Reading something of the wrong kind records a problem and
 /// returns a harmless value, so that reading goes on; reading below a value that is missing
 /// records nothing more.
