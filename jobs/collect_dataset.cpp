@@ -41,9 +41,10 @@ class Collector {
     json metrics = json::array();
     for (const RunPlan& run : plan_runs(job_)) {
       const json measured = take({Task::Kind::measure, run.index});
-      metrics.push_back({{"run", run_name(run.index)}, {"seed", run.seed}});
+      metrics.push_back({{"run", run_name(run.index)}, {"seed", measured.at("seed")}});
       metrics.back().update(measured.at("metrics"));
-      runs.push_back(take_frames(run));
+      runs.push_back(take_frames(run.index));
+      runs.back()["seed"] = measured.at("seed");
     }
     add("metrics.json", json{{"runs", metrics}}.dump(kJsonIndent) + "\n");
     if (wants(job_, "coco")) {
@@ -68,12 +69,12 @@ class Collector {
     return record;
   }
 
-  json take_frames(const RunPlan& run) {
+  json take_frames(int run) {
     std::int64_t images = 0;
     std::int64_t annotations = 0;
     std::set<std::uint32_t> agents;
-    for (const Shard& shard : plan_shards(job_, run.index)) {
-      const Task task{Task::Kind::render, run.index, shard.index};
+    for (const Shard& shard : plan_shards(job_, run)) {
+      const Task task{Task::Kind::render, run, shard.index};
       const json record = take(task);
       images += record.at("images").get<std::int64_t>();
       annotations += record.at("annotations").get<std::int64_t>();
@@ -84,8 +85,7 @@ class Collector {
     images_ += images;
     annotations_ += annotations;
     agents_ += agents.size();
-    return {{"run", run_name(run.index)},
-            {"seed", run.seed},
+    return {{"run", run_name(run)},
             {"frames", images},
             {"annotations", annotations},
             {"agents", agents.size()}};

@@ -56,7 +56,8 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
     }
     output.add("exits/" + run_name(run) + ".csv", annotate::exits_csv(exits, trace.time_s, frames));
   }
-  output.publish({{"metrics", figures}});
+  // The trace may come from elsewhere (`throng render`): its seed is the one that counts.
+  output.publish({{"seed", trace.header.seed}, {"metrics", figures}});
 }
 
 void do_task(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios,

@@ -106,6 +106,8 @@ class EndToEnd(unittest.TestCase):
         self.assertTrue(filecmp.cmp(self.dataset / "images/run001/d1/000010.jpg",
                                     rendered / "dataset/images/run000/d1/000010.jpg", shallow=False))
         check_dataset(rendered / "dataset")
+        seeds = [json.loads((d / "manifest.json").read_text())["runs"][-1]["seed"] for d in (self.dataset, rendered / "dataset")]
+        self.assertEqual(*seeds, "the manifest names the seed of the trace that was drawn")
 
     def test_bad_jobs_name_file_pointer_found_and_expected(self):
         self.bad_job(lambda j: j["capture"].update(rate_hz=-1), "/capture/rate_hz", "-1")
