@@ -4,10 +4,11 @@
 #include <httplib.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -61,12 +62,28 @@ constexpr std::array kPaths = {Path{kJobs, "GET, HEAD, POST"}, Path{kJob, "GET, 
                                Path{kArchive, "GET, HEAD"},    Path{kMetrics, "GET, HEAD"},
                                Path{kSchema, "GET, HEAD"},     Path{kHealth, "GET, HEAD"}};
 
+// Whether the library would find `path` by `pattern`.
+bool fits(std::string_view pattern, std::string_view path) {
+  constexpr std::string_view kId = "([a-z0-9]+)";
+  const std::size_t at = pattern.find(kId);
+  if (at == std::string_view::npos) return path == pattern;
+  const std::string_view before = pattern.substr(0, at);
+  const std::string_view after = pattern.substr(at + kId.size());
+  if (path.size() <= before.size() + after.size() || !path.starts_with(before) ||
+      !path.ends_with(after)) {
+    return false;
+  }
+  const std::string_view id = path.substr(at, path.size() - before.size() - after.size());
+  return std::all_of(id.begin(), id.end(),
+                     [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9'); });
+}
+
 // The library answers 404 for a method that a path does not know.
 void write_library_error(const Request& request, Response& response, int status,
                          const std::string& detail) {
   if (status == 404) {
     for (const Path& path : kPaths) {
-      if (!std::regex_match(request.path, std::regex(path.pattern))) continue;
+      if (!fits(path.pattern, request.path)) continue;
       response.set_header("Allow", path.methods);
       return write_problem(response, {405, fmt::format("{} is not possible here", request.method)});
     }
