@@ -29,19 +29,13 @@ enum class Change { set, offset, scale };
 
 class ChangeProperty : public Action {
  public:
-  ChangeProperty(Property property, Change change, const Distribution& operand, Draws draws,
-                 Saved<float> saved)
-      : property_(property),
-        change_(change),
-        operand_(operand),
-        draws_(draws),
-        saved_(std::move(saved)) {}
+  ChangeProperty(Property property, Change change, const Sampler& operand, Saved<float> saved)
+      : property_(property), change_(change), operand_(operand), saved_(std::move(saved)) {}
 
   void enter(Crowd& crowd, std::size_t agent) override {
     float& value = crowd.agents[property_][agent];
     saved_.save(agent, value);
-    const auto operand =
-        static_cast<float>(operand_.sample(draws_.at(agent, crowd.agents.entry[agent])));
+    const auto operand = static_cast<float>(operand_(agent, crowd.agents.entry[agent]));
     const PropertySpec& spec = spec_of(property_);
     value =
         std::clamp(changed(value, operand), spec.min * spec.file_unit, spec.max * spec.file_unit);
@@ -66,8 +60,7 @@ class ChangeProperty : public Action {
 
   Property property_;
   Change change_;
-  Distribution operand_;
-  Draws draws_;
+  Sampler operand_;
   Saved<float> saved_;
 };
 
@@ -106,15 +99,14 @@ class ChangeObstacles : public Action {
 
 class Teleport : public Action {
  public:
-  Teleport(const Distribution2& place, Draws draws) : place_(place), draws_(draws) {}
+  explicit Teleport(const Sampler2& place) : place_(place) {}
   void enter(Crowd& crowd, std::size_t agent) override {
-    crowd.agents.position[agent] = place_.sample(draws_.at(agent, crowd.agents.entry[agent]));
+    crowd.agents.position[agent] = place_(agent, crowd.agents.entry[agent]);
   }
   void leave(Crowd&, std::size_t) override {}
 
  private:
-  Distribution2 place_;
-  Draws draws_;
+  Sampler2 place_;
 };
 
 /// max_neighbors is not among them: files cannot change it.
@@ -149,7 +141,7 @@ std::unique_ptr<Action> make_change(const Element& element, const Attributes& at
                  fmt::format("a number from {:.6g} to {:.6g}", low, high));
   }
   return std::make_unique<ChangeProperty>(
-      property, kChange, operand, context.make_draws(operand.seed),
+      property, kChange, context.make_sampler(operand),
       Saved<float>(attributes.boolean("exit_reset"), context.agent_count));
 }
 
@@ -163,7 +155,7 @@ std::unique_ptr<Action> make_mask_change(const Element&, const Attributes& attri
 
 std::unique_ptr<Action> make_teleport(const Element&, const Attributes& attributes,
                                       BehaviorContext& context) {
-  return std::make_unique<Teleport>(attributes.distribution_2(), context.make_draws());
+  return std::make_unique<Teleport>(context.make_sampler(attributes.distribution_2()));
 }
 
 template <Change kChange>

@@ -73,11 +73,11 @@ class Reader {
     return number(name, require(name, expected_number("a number", min, max)), min, max);
   }
 
-  void reject_the_rest() const {
+  void warn_of_the_rest() const {
     for (std::size_t i = 0; i < given_.size(); ++i) {
       if (used_[i]) continue;
-      element_.fail_attribute(
-          given_[i].first, "an unknown attribute",
+      element_.warn_attribute(
+          given_[i].first, "an unknown attribute, which is ignored",
           known_.empty() ? "no attribute" : fmt::format("{}", fmt::join(known_, ", ")));
     }
   }
@@ -245,7 +245,7 @@ Attributes::Attributes(const Element& element, const AttributeTable& table) {
         value = read_text(element, spec, *given);
     }
   }
-  reader.reject_the_rest();
+  reader.warn_of_the_rest();
 }
 
 const Attributes::Value& Attributes::value(std::string_view name) const {

@@ -58,9 +58,9 @@ AttributeSpec optional(AttributeSpec spec, std::string_view default_text = "");
 
 using AttributeTable = std::vector<AttributeSpec>;
 
-/// The checked values of an element's attributes. Throws InputError for an attribute that is not
-/// in the table, is missing, malformed or out of range. Asking for one that is not in
-/// the table is a bug.
+/// The checked values of an element's attributes. Throws InputError for an attribute that is
+/// missing, malformed or out of range; one that is not in the table is ignored with a warning.
+/// Asking for one that is not in the table is a bug.
 class Attributes {
  public:
   Attributes(const Element& element, const AttributeTable& table);

@@ -19,7 +19,7 @@ AttributeTable state_attributes() {
 class Fixed : public Target {
  public:
   explicit Fixed(std::uint8_t state) : state_(state) {}
-  std::uint8_t state(const Crowd&, std::size_t) const override { return state_; }
+  std::uint8_t state(const Crowd&, std::size_t) override { return state_; }
 
  private:
   std::uint8_t state_;
@@ -146,12 +146,12 @@ std::vector<std::string> load_state_names(const Element& bfsm) {
 }
 
 Behavior load_behavior(const Element& bfsm, const std::vector<std::string>& state_names,
-                       std::size_t agent_count, std::uint64_t seed, Goals& goals) {
+                       std::uint64_t seed, Crowd& crowd) {
   const Attributes no_attributes(bfsm, {});
   for (const Element& child : bfsm.children()) {
-    if (child.name() == "GoalSet") goals.load_set(child);
+    if (child.name() == "GoalSet") crowd.goals.load_set(child);
   }
-  BehaviorContext context{goals, state_names, agent_count, seed};
+  BehaviorContext context{crowd, crowd.goals, state_names, crowd.agents.count(), seed};
   Behavior behavior;
   std::vector<Element> transitions;
   for (const Element& child : bfsm.children()) {
@@ -166,6 +166,7 @@ Behavior load_behavior(const Element& bfsm, const std::vector<std::string>& stat
     }
   }
   for (const Element& transition : transitions) load_transitions(transition, context, behavior);
+  behavior.processes = std::move(context.processes);
   return behavior;
 }
 

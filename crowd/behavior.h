@@ -9,15 +9,19 @@
 #include <vector>
 
 #include "crowd/crowd.h"
+#include "crowd/process.h"
 #include "crowd/registry.h"
+#include "crowd/sampler.h"
 
 namespace throng::crowd {
 
-/// Whether an agent leaves its state. Remembers nothing: what it draws is keyed by the agent and
-/// its entry into the state, so it may be asked as often and by as many threads as one likes.
+/// Whether an agent leaves its state. What it needs to remember of an agent it draws or looks up
+/// when the agent enters the state; it may be asked as often and by as many threads as one likes.
 class Condition {
  public:
   virtual ~Condition() = default;
+  /// An agent enters the state that this may lead out of. Called for one agent at a time.
+  virtual void enter(const Crowd&, std::size_t /*agent*/) {}
   virtual bool holds(const Crowd& crowd, std::size_t agent) const = 0;
 };
 
@@ -30,7 +34,8 @@ class GoalSelector {
   };
 
   virtual ~GoalSelector() = default;
-  virtual Choice select(const Crowd& crowd, std::size_t agent) const = 0;
+  /// Called for one agent at a time.
+  virtual Choice select(const Crowd& crowd, std::size_t agent) = 0;
 };
 
 struct PreferredVelocity {
@@ -42,8 +47,10 @@ struct PreferredVelocity {
 class VelComponent {
  public:
   virtual ~VelComponent() = default;
-  virtual void prefer(const Crowd& crowd, std::size_t agent,
-                      PreferredVelocity& preferred) const = 0;
+  /// An agent enters a state with this component; its goal is set. Called for one agent at a time.
+  virtual void enter(const Crowd&, std::size_t /*agent*/) {}
+  /// Called for different agents at once: what it remembers, it remembers per agent.
+  virtual void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) = 0;
 };
 
 /// Changes what a VelComponent said.
@@ -67,7 +74,8 @@ class Action {
 class Target {
  public:
   virtual ~Target() = default;
-  virtual std::uint8_t state(const Crowd& crowd, std::size_t agent) const = 0;
+  /// Called for one agent at a time.
+  virtual std::uint8_t state(const Crowd& crowd, std::size_t agent) = 0;
 };
 
 struct Transition {
@@ -87,18 +95,27 @@ struct MachineState {
 struct Behavior {
   std::vector<MachineState> states;
   std::vector<std::unique_ptr<VelModifier>> modifiers;  ///< of all states, after the state's own
+  std::vector<std::unique_ptr<Process>> processes;      ///< in the file's order
 };
 
 /// What makers of plug-ins may need.
 struct BehaviorContext {
+  const Crowd& crowd;  ///< with its agents, obstacles and goals
   const Goals& goals;
   const std::vector<std::string>& state_names;
   std::size_t agent_count = 0;
   std::uint64_t seed = 1;
+  std::vector<std::unique_ptr<Process>> processes = {};  ///< what plug-ins want to be run
   std::uint64_t next_draws = 0;  ///< elements that draw are numbered in the file's order
 
   /// The random numbers of one more element; `fixed_seed` is its own seed, if it gives one.
   Draws make_draws(std::optional<std::uint64_t> fixed_seed = {});
+  Sampler make_sampler(const Distribution& distribution) {
+    return {distribution, make_draws(distribution.seed)};
+  }
+  Sampler2 make_sampler(const Distribution2& distribution) { return {distribution, make_draws()}; }
+  /// Uniform in [0, 1).
+  Sampler make_unit_sampler() { return make_sampler({Distribution::Kind::uniform, 0, 1, {}}); }
   /// Throws InputError for a name that is no state's.
   std::uint8_t require_state(const Element& element, std::string_view attribute,
                              const std::string& name) const;
@@ -127,8 +144,8 @@ std::vector<ConditionRegistry::Entry> evacuation_conditions();
 
 /// The names of a behaviour file's states, in its order. Throws InputError when two are equal.
 std::vector<std::string> load_state_names(const Element& bfsm);
-/// Reads goals into `goals`, then states and transitions. Throws InputError.
+/// Reads goals into the crowd, then states and transitions. Throws InputError.
 Behavior load_behavior(const Element& bfsm, const std::vector<std::string>& state_names,
-                       std::size_t agent_count, std::uint64_t seed, Goals& goals);
+                       std::uint64_t seed, Crowd& crowd);
 
 }  // namespace throng::crowd

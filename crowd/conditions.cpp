@@ -14,20 +14,27 @@ class Always : public Condition {
 /// True some time after the state was entered.
 class Timer : public Condition {
  public:
-  Timer(const Distribution& delay, bool per_agent, Draws draws)
-      : delay_(per_agent ? delay : Distribution::constant(delay.sample(draws.at(0, 0)))),
-        draws_(draws) {}
+  /// The same for all.
+  explicit Timer(double delay_s, std::size_t agent_count)
+      : due_s_(agent_count), delay_s_(delay_s) {}
+  /// Another one for each agent and entry.
+  Timer(const Sampler& delay_s, std::size_t agent_count)
+      : due_s_(agent_count), delays_s_(delay_s) {}
+
+  void enter(const Crowd& crowd, std::size_t agent) override {
+    if (delays_s_) delay_s_ = (*delays_s_)(agent, crowd.agents.entry[agent]);
+    due_s_[agent] = crowd.time_s() + delay_s_;
+  }
 
   bool holds(const Crowd& crowd, std::size_t agent) const override {
-    const Agents& agents = crowd.agents;
-    const double delay_s = delay_.sample(draws_.at(agent, agents.entry[agent]));
     constexpr double kRounding = 1e-6;  // s
-    return crowd.time_s() + kRounding >= agents.entered_s[agent] + delay_s;
+    return crowd.time_s() + kRounding >= due_s_[agent];
   }
 
  private:
-  Distribution delay_;
-  Draws draws_;
+  std::vector<double> due_s_;
+  double delay_s_ = 0;
+  std::optional<Sampler> delays_s_;
 };
 
 class GoalReached : public Condition {
@@ -51,6 +58,10 @@ class Both : public Condition {
  public:
   Both(std::unique_ptr<Condition> a, std::unique_ptr<Condition> b)
       : a_(std::move(a)), b_(std::move(b)) {}
+  void enter(const Crowd& crowd, std::size_t agent) override {
+    a_->enter(crowd, agent);
+    b_->enter(crowd, agent);
+  }
   bool holds(const Crowd& crowd, std::size_t agent) const override {
     return a_->holds(crowd, agent) && b_->holds(crowd, agent);
   }
@@ -64,6 +75,10 @@ class Either : public Condition {
  public:
   Either(std::unique_ptr<Condition> a, std::unique_ptr<Condition> b)
       : a_(std::move(a)), b_(std::move(b)) {}
+  void enter(const Crowd& crowd, std::size_t agent) override {
+    a_->enter(crowd, agent);
+    b_->enter(crowd, agent);
+  }
   bool holds(const Crowd& crowd, std::size_t agent) const override {
     return a_->holds(crowd, agent) || b_->holds(crowd, agent);
   }
@@ -76,6 +91,7 @@ class Either : public Condition {
 class Not : public Condition {
  public:
   explicit Not(std::unique_ptr<Condition> negated) : negated_(std::move(negated)) {}
+  void enter(const Crowd& crowd, std::size_t agent) override { negated_->enter(crowd, agent); }
   bool holds(const Crowd& crowd, std::size_t agent) const override {
     return !negated_->holds(crowd, agent);
   }
@@ -119,9 +135,11 @@ std::unique_ptr<Condition> make_always(const Element& element, const Attributes&
 std::unique_ptr<Condition> make_timer(const Element& element, const Attributes& attributes,
                                       BehaviorContext& context) {
   element.require_no_children();
-  const Distribution& delay = attributes.distribution("");
-  return std::make_unique<Timer>(delay, attributes.boolean("per_agent"),
-                                 context.make_draws(delay.seed));
+  Sampler delay_s = context.make_sampler(attributes.distribution(""));
+  if (attributes.boolean("per_agent")) {
+    return std::make_unique<Timer>(delay_s, context.agent_count);
+  }
+  return std::make_unique<Timer>(delay_s(0, 0), context.agent_count);
 }
 
 std::unique_ptr<Condition> make_goal_reached(const Element& element, const Attributes& attributes,

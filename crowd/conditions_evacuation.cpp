@@ -18,19 +18,28 @@ bool near_goal_of_set(const Crowd& crowd, std::size_t agent, int set, float dist
 /// Near something that leads out, by an agent who is inclined to follow.
 class FollowNear : public Condition {
  public:
-  FollowNear(int set, float distance, double probability, Draws draws)
-      : set_(set), distance_(distance), probability_(probability), draws_(draws) {}
+  FollowNear(int set, float distance, double probability, const Sampler& unit,
+             std::size_t agent_count)
+      : set_(set),
+        distance_(distance),
+        probability_(probability),
+        unit_(unit),
+        inclined_(agent_count) {}
+
+  void enter(const Crowd& crowd, std::size_t agent) override {
+    inclined_[agent] = unit_(agent, crowd.agents.entry[agent]) < probability_ ? 1 : 0;
+  }
 
   bool holds(const Crowd& crowd, std::size_t agent) const override {
-    if (!near_goal_of_set(crowd, agent, set_, distance_)) return false;
-    return draws_.at(agent, crowd.agents.entry[agent]).uniform() < probability_;
+    return inclined_[agent] != 0 && near_goal_of_set(crowd, agent, set_, distance_);
   }
 
  private:
   int set_;
   float distance_;
   double probability_;
-  Draws draws_;
+  Sampler unit_;
+  std::vector<std::uint8_t> inclined_;
 };
 
 class Via : public Condition {
@@ -84,7 +93,8 @@ std::unique_ptr<Condition> make_follow(const Element& element, const Attributes&
   element.require_no_children();
   return std::make_unique<FollowNear>(
       context.goals.require_set(element, attributes, "goalSetToFollow"),
-      attributes.real("distance"), attributes.number("weight"), context.make_draws());
+      attributes.real("distance"), attributes.number("weight"), context.make_unit_sampler(),
+      context.agent_count);
 }
 
 std::unique_ptr<Condition> make_via(const Element& element, const Attributes& attributes,

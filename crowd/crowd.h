@@ -13,7 +13,9 @@ struct Crowd {
   Agents agents;
   Goals goals;
   Obstacles obstacles;
-  double dt_s = 0.1;
+  std::vector<float> model_constants;  ///< of the scene, in the order of the model's table
+  Compat compat = Compat::none;
+  double dt_s = 0.1;  ///< of one (sub-)step
   std::uint64_t step = 0;
 
   double time_s() const { return static_cast<double>(step) * dt_s; }

@@ -15,13 +15,13 @@ Choice stay(const Crowd& crowd, std::size_t agent) { return {-1, crowd.agents.po
 
 class Identity : public GoalSelector {
  public:
-  Choice select(const Crowd& crowd, std::size_t agent) const override { return stay(crowd, agent); }
+  Choice select(const Crowd& crowd, std::size_t agent) override { return stay(crowd, agent); }
 };
 
 class Mirror : public GoalSelector {
  public:
   explicit Mirror(const Eigen::Vector2f& sign) : sign_(sign) {}
-  Choice select(const Crowd& crowd, std::size_t agent) const override {
+  Choice select(const Crowd& crowd, std::size_t agent) override {
     return {-1, crowd.agents.position[agent].cwiseProduct(sign_)};
   }
 
@@ -31,21 +31,20 @@ class Mirror : public GoalSelector {
 
 class Offset : public GoalSelector {
  public:
-  Offset(const Distribution2& offset, Draws draws) : offset_(offset), draws_(draws) {}
-  Choice select(const Crowd& crowd, std::size_t agent) const override {
+  explicit Offset(const Sampler2& offset) : offset_(offset) {}
+  Choice select(const Crowd& crowd, std::size_t agent) override {
     const Agents& agents = crowd.agents;
-    return {-1, agents.position[agent] + offset_.sample(draws_.at(agent, agents.entry[agent]))};
+    return {-1, agents.position[agent] + offset_(agent, agents.entry[agent])};
   }
 
  private:
-  Distribution2 offset_;
-  Draws draws_;
+  Sampler2 offset_;
 };
 
 class Explicit : public GoalSelector {
  public:
   explicit Explicit(int goal) : goal_(goal) {}
-  Choice select(const Crowd& crowd, std::size_t agent) const override {
+  Choice select(const Crowd& crowd, std::size_t agent) override {
     return crowd.goals[goal_].has_room() ? Choice{.goal = goal_} : stay(crowd, agent);
   }
 
@@ -56,12 +55,13 @@ class Explicit : public GoalSelector {
 /// One of a set's goals with room, by their weights or all alike.
 class Lottery : public GoalSelector {
  public:
-  Lottery(int set, bool weighted, Draws draws) : set_(set), weighted_(weighted), draws_(draws) {}
+  Lottery(int set, bool weighted, const Sampler& unit)
+      : set_(set), weighted_(weighted), unit_(unit) {}
 
-  Choice select(const Crowd& crowd, std::size_t agent) const override {
+  Choice select(const Crowd& crowd, std::size_t agent) override {
     double total = 0;
     for (const int goal : crowd.goals.set(set_).goals) total += share(crowd.goals[goal]);
-    double left = draws_.at(agent, crowd.agents.entry[agent]).uniform() * total;
+    double left = unit_(agent, crowd.agents.entry[agent]) * total;
     Choice choice = stay(crowd, agent);
     for (const int goal : crowd.goals.set(set_).goals) {
       const double part = share(crowd.goals[goal]);
@@ -81,7 +81,7 @@ class Lottery : public GoalSelector {
 
   int set_;
   bool weighted_;
-  Draws draws_;
+  Sampler unit_;
 };
 
 /// By the distance to the goals' centres, among those with room.
@@ -90,7 +90,7 @@ class Ranked : public GoalSelector {
   enum class Rank { nearest, second_nearest, farthest };
   Ranked(int set, Rank rank) : set_(set), rank_(rank) {}
 
-  Choice select(const Crowd& crowd, std::size_t agent) const override {
+  Choice select(const Crowd& crowd, std::size_t agent) override {
     const float sign = rank_ == Rank::farthest ? -1.0F : 1.0F;
     Choice first = stay(crowd, agent);
     Choice second = first;
@@ -135,7 +135,7 @@ std::unique_ptr<GoalSelector> make_mirror(const Element&, const Attributes& attr
 
 std::unique_ptr<GoalSelector> make_offset(const Element&, const Attributes& attributes,
                                           BehaviorContext& context) {
-  return std::make_unique<Offset>(attributes.distribution_2(), context.make_draws());
+  return std::make_unique<Offset>(context.make_sampler(attributes.distribution_2()));
 }
 
 std::unique_ptr<GoalSelector> make_explicit(const Element& element, const Attributes& attributes,
@@ -155,7 +155,7 @@ template <bool kWeighted>
 std::unique_ptr<GoalSelector> make_lottery(const Element& element, const Attributes& attributes,
                                            BehaviorContext& context) {
   return std::make_unique<Lottery>(context.goals.require_set(element, attributes, "goal_set"),
-                                   kWeighted, context.make_draws());
+                                   kWeighted, context.make_unit_sampler());
 }
 
 template <Ranked::Rank kRank>

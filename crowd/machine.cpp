@@ -58,11 +58,23 @@ void Machine::follow_chain(Crowd& crowd, std::size_t agent, int transition) {
     const std::uint8_t to =
         behavior_.states[from].transitions[transition].target->state(crowd, agent);
     if (visited.test(to)) return;
-    leave(crowd, agent);
-    agents.previous_state[agent] = from;
-    enter(crowd, agent, to);
+    change_state(crowd, agent, to);
     transition = due_transition(crowd, agent);
   }
+}
+
+void Machine::change_state(Crowd& crowd, std::size_t agent, std::uint8_t state) {
+  leave(crowd, agent);
+  crowd.agents.previous_state[agent] = crowd.agents.state[agent];
+  enter(crowd, agent, state);
+}
+
+void Machine::run_processes_before(Crowd& crowd) {
+  for (const auto& process : behavior_.processes) process->before_decisions(crowd, *this);
+}
+
+void Machine::run_processes_after(Crowd& crowd) {
+  for (const auto& process : behavior_.processes) process->after_motion(crowd, *this);
 }
 
 void Machine::enter(Crowd& crowd, std::size_t agent, std::uint8_t state) {
@@ -70,12 +82,11 @@ void Machine::enter(Crowd& crowd, std::size_t agent, std::uint8_t state) {
   agents.state[agent] = state;
   agents.entered_s[agent] = crowd.time_s();
   ++agents.entry[agent];
-  for (const auto& action : behavior_.states[state].actions) action->enter(crowd, agent);
+  MachineState& entered = behavior_.states[state];
+  for (const auto& action : entered.actions) action->enter(crowd, agent);
 
   GoalSelector::Choice choice{-1, agents.position[agent]};
-  if (const auto& selector = behavior_.states[state].goal_selector) {
-    choice = selector->select(crowd, agent);
-  }
+  if (entered.goal_selector) choice = entered.goal_selector->select(crowd, agent);
   agents.goal[agent] = choice.goal;
   agents.own_goal[agent] = choice.point;
   agents.goal_id[agent] = {};
@@ -83,6 +94,10 @@ void Machine::enter(Crowd& crowd, std::size_t agent, std::uint8_t state) {
     Goal& goal = crowd.goals[choice.goal];
     ++goal.assigned;
     agents.goal_id[agent] = goal.id;
+  }
+  if (entered.velocity) entered.velocity->enter(crowd, agent);
+  for (const Transition& transition : entered.transitions) {
+    transition.condition->enter(crowd, agent);
   }
 }
 

@@ -17,6 +17,13 @@ class Machine {
   /// follows a chain of transitions, but enters no state twice in a step.
   void take_transitions(Crowd& crowd);
 
+  /// Puts an agent into a state from outside, as if a transition led there.
+  void change_state(Crowd& crowd, std::size_t agent, std::uint8_t state);
+
+  /// What goes on beside the agents' decisions, before them and after they have moved.
+  void run_processes_before(Crowd& crowd);
+  void run_processes_after(Crowd& crowd);
+
   /// Sets everybody's preferred velocity.
   void prefer(Crowd& crowd) const;
 

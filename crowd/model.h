@@ -22,7 +22,8 @@ class Model {
                     std::span<Eigen::Vector2f> new_velocity) = 0;
 };
 
-/// A parameter of a model: an attribute of its element in a profile, or a <Property> in there.
+/// A parameter of a model: an attribute of its element in a profile, or a <Property> in there; or
+/// an attribute of its element in the scene.
 struct ModelParameter {
   std::string_view name;
   float initial;
@@ -36,6 +37,7 @@ struct ModelEntry {
   std::string_view tag;   ///< of its element in a profile
   std::string_view help;
   std::vector<ModelParameter> parameters;  ///< in the order of Agents::model_parameters
+  std::vector<ModelParameter> constants;   ///< in the order of Crowd::model_constants
   std::unique_ptr<Model> (*make)(const Crowd& crowd);
 };
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/parallel.h"
 #include "crowd/model.h"
+#include "crowd/neighborhood.h"
 #include "crowd/orca_lines.h"
 
 namespace throng::crowd {
@@ -12,66 +12,49 @@ namespace {
 
 enum Parameter : std::size_t { tau, tau_obstacles };
 
-constexpr std::size_t kAvoidanceGrain = 64;  // agents per task
-
 /// What one thread works with; kept from step to step, so that a step allocates nothing.
 struct Workspace {
-  std::vector<Grid::Neighbor> neighbors;
-  std::vector<Obstacles::Near> walls;
   std::vector<HalfPlane> planes;
   std::vector<HalfPlane> scratch;
 };
 
 class Orca : public Model {
  public:
-  explicit Orca(const Crowd& crowd)
-      : reach_(crowd.agents.count(), kFirstReach), workspaces_(make_workspace(crowd)) {}
+  explicit Orca(const Crowd& crowd) : neighborhood_(crowd), workspaces_(make_workspace(crowd)) {}
 
   void step(const Crowd& crowd, const Grid& grid,
             std::span<Eigen::Vector2f> new_velocity) override {
-    parallel_ranges(grid.size(), kAvoidanceGrain, [&](std::size_t begin, std::size_t end) {
-      Workspace& workspace = workspaces_.local();
-      for (std::size_t slot = begin; slot < end; ++slot) {
-        new_velocity[grid.id(slot)] = velocity(crowd, grid, slot, workspace);
-      }
+    neighborhood_.for_each(crowd, grid, [&](const Surroundings& around) {
+      new_velocity[around.agent] = velocity(crowd, grid, around, workspaces_.local());
     });
   }
 
  private:
-  static constexpr float kFirstReach = 2;  // m
-
   static Workspace make_workspace(const Crowd& crowd) {
     const std::vector<float>& most = crowd.agents[Property::max_neighbors];
     const auto neighbors =
         most.empty() ? 0 : static_cast<std::size_t>(*std::max_element(most.begin(), most.end()));
     const std::size_t walls = crowd.obstacles.segments().size();
     Workspace workspace;
-    workspace.neighbors.resize(neighbors);
-    workspace.walls.reserve(walls);
     workspace.planes.reserve(neighbors + walls);
     workspace.scratch.reserve(neighbors + walls);
     return workspace;
   }
 
-  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, std::size_t slot,
-                           Workspace& workspace) {
+  static Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+                                  Workspace& workspace) {
     const Agents& agents = crowd.agents;
-    const std::size_t id = grid.id(slot);
-    const float range = agents[Property::neighbor_dist][id];
-    const Disc self{grid.position(slot), grid.velocity(slot), grid.radius(slot)};
+    const std::size_t id = around.agent;
+    const Disc self{grid.position(around.slot), grid.velocity(around.slot),
+                    grid.radius(around.slot)};
 
     workspace.planes.clear();
-    crowd.obstacles.near(self.position, range, agents.obstacle_mask[id], workspace.walls);
-    avoid_walls(self, crowd.obstacles.segments(), workspace.walls,
+    avoid_walls(self, crowd.obstacles.segments(), around.walls,
                 agents.model_parameters[tau_obstacles][id], workspace.planes);
     const std::size_t walls = workspace.planes.size();
 
-    const auto most = static_cast<std::size_t>(agents[Property::max_neighbors][id]);
-    const std::size_t count =
-        grid.nearest(slot, range, std::span(workspace.neighbors).first(most), reach_[id]);
     const float horizon_s = agents.model_parameters[tau][id];
-    for (std::size_t i = 0; i < count; ++i) {
-      const Grid::Neighbor& neighbor = workspace.neighbors[i];
+    for (const Grid::Neighbor& neighbor : around.neighbors) {
       Disc other{grid.position(neighbor.slot), grid.velocity(neighbor.slot),
                  grid.radius(neighbor.slot)};
       // Two in one place part along x, the one with the higher id to the right.
@@ -87,7 +70,7 @@ class Orca : public Model {
                          workspace.scratch);
   }
 
-  std::vector<float> reach_;  // per agent, see Grid::nearest
+  Neighborhood neighborhood_;
   tbb::enumerable_thread_specific<Workspace> workspaces_;
 };
 
@@ -101,6 +84,7 @@ ModelEntry orca_model() {
           "optimal reciprocal collision avoidance (van den Berg et al. 2011)",
           {{"tau", 2.5F, 1e-3F, 1000, "how long moves stay free of others, in s"},
            {"tauObst", 0.15F, 1e-3F, 1000, "how long moves stay free of walls, in s"}},
+          {},
           make_orca};
 }
 

@@ -202,7 +202,7 @@ HalfPlane avoid_disc(const Disc& self, const Disc& other, float horizon_s, float
 }
 
 void avoid_walls(const Disc& self, const std::vector<Segment>& segments,
-                 const std::vector<Obstacles::Near>& near, float horizon_s,
+                 std::span<const Obstacles::Near> near, float horizon_s,
                  std::vector<HalfPlane>& planes) {
   const WallAvoidance avoidance(self, segments, horizon_s);
   for (const Obstacles::Near& wall : near) {

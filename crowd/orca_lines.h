@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "crowd/obstacles.h"
@@ -35,7 +36,7 @@ HalfPlane avoid_disc(const Disc& self, const Disc& other, float horizon_s, float
 /// Appends the half-planes that keep `self` clear of the walls for `horizon_s`. `near` is sorted
 /// by distance; a wall that those before it already keep at bay adds nothing.
 void avoid_walls(const Disc& self, const std::vector<Segment>& segments,
-                 const std::vector<Obstacles::Near>& near, float horizon_s,
+                 std::span<const Obstacles::Near> near, float horizon_s,
                  std::vector<HalfPlane>& planes);
 
 /// The velocity nearest to `preferred` with at most `max_speed` in all half-planes. When there is

@@ -176,6 +176,18 @@ void load_spatial_query(const Element& element) {
   }
 }
 
+/// What a model's element in the scene says for all agents.
+void load_constants(const Element& element, const ModelEntry& model, std::vector<float>& values) {
+  AttributeTable table;
+  for (const ModelParameter& constant : model.constants) {
+    table.push_back(optional(number(constant.name, constant.help, constant.min, constant.max)));
+  }
+  const Attributes attributes(element, table);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (attributes.has(table[i].name)) values[i] = attributes.real(table[i].name);
+  }
+}
+
 /// For elements that a scene has once.
 void mark(const Element& element, bool& seen) {
   if (seen) element.fail(fmt::format("a second <{}>", element.name()), "only one");
@@ -188,6 +200,9 @@ void load_scene(const Element& experiment, const std::vector<std::string>& state
                 const ModelEntry& model, std::uint64_t seed, Crowd& crowd) {
   const Attributes root_attributes(experiment,
                                    {optional(text("version", "of the format: 2.0"), "2.0")});
+  for (const ModelParameter& constant : model.constants) {
+    crowd.model_constants.push_back(constant.initial);
+  }
   bool common = false;
   bool spatial_query = false;
   std::vector<Profile> profiles;
@@ -209,6 +224,8 @@ void load_scene(const Element& experiment, const std::vector<std::string>& state
       groups.push_back(child);
     } else if (child.name() == "ObstacleSet") {
       load_obstacles(child, crowd.obstacles);
+    } else if (child.name() == model.tag) {
+      load_constants(child, model, crowd.model_constants);
     } else if (!is_model_tag(child.name())) {
       child.fail_unknown(
           "<SpatialQuery>, <Common>, <Elevation>, <AgentProfile>, <AgentGroup>, <ObstacleSet> or a "

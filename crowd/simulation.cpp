@@ -61,9 +61,12 @@ struct Simulation::State {
         const LoadOptions& options);
 
   void step();
+  void sub_step();
   void move();
 
   Crowd crowd;
+  int sub_steps = 1;
+  std::vector<Problem> warnings;
   std::vector<std::string> state_names;
   std::unique_ptr<Machine> machine;
   std::unique_ptr<Model> model;
@@ -77,22 +80,34 @@ Simulation::State::State(const std::filesystem::path& scene_file,
   const XmlFile behavior(behavior_file, "BFSM");
   const ModelEntry& entry = find_model(options.model);
   state_names = load_state_names(behavior.root());
+  crowd.compat = options.compat;
   load_scene(scene.root(), state_names, entry, options.seed, crowd);
+  if (options.time_step_s) crowd.dt_s = *options.time_step_s;
+  sub_steps = 1 + options.sub_steps;
+  crowd.dt_s /= sub_steps;
   const std::size_t count = crowd.agents.count();
   machine = std::make_unique<Machine>(
-      load_behavior(behavior.root(), state_names, count, options.seed, crowd.goals), count);
+      load_behavior(behavior.root(), state_names, options.seed, crowd), count);
   model = entry.make(crowd);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
   machine->start(crowd);
+  warnings = scene.warnings();
+  warnings.insert(warnings.end(), behavior.warnings().begin(), behavior.warnings().end());
 }
 
 void Simulation::State::step() {
+  for (int i = 0; i < sub_steps; ++i) sub_step();
+}
+
+void Simulation::State::sub_step() {
+  machine->run_processes_before(crowd);
   machine->take_transitions(crowd);
   machine->prefer(crowd);
   grid.build(crowd.agents);
   model->step(crowd, grid, new_velocity);
   move();
   ++crowd.step;
+  machine->run_processes_after(crowd);
 }
 
 void Simulation::State::move() {
@@ -121,7 +136,9 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 void Simulation::step() { state_->step(); }
 
-double Simulation::dt_s() const { return state_->crowd.dt_s; }
+const std::vector<Problem>& Simulation::warnings() const { return state_->warnings; }
+
+double Simulation::dt_s() const { return state_->crowd.dt_s * state_->sub_steps; }
 
 double Simulation::time_s() const { return state_->crowd.time_s(); }
 

@@ -6,15 +6,28 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/error.h"
+
 namespace throng::crowd {
+
+/// Whose results are wanted where the files leave a choice.
+enum class Compat {
+  none,      ///< the sensible semantics that the documentation gives
+  menge,     ///< Menge's own, with its quirks and random numbers
+  huang2016  ///< also those of the elements that the paper's authors added to it
+};
 
 struct LoadOptions {
   std::uint64_t seed = 1;
   std::string model = "orca";  ///< the pedestrian model
+  Compat compat = Compat::none;
+  std::optional<double> time_step_s = {};  ///< instead of the scene's
+  int sub_steps = 0;                       ///< steps in between that nobody sees, per time step
 };
 
 /// A goal chosen by an agent: set and goal id of the behaviour file; -1 for one made on the fly
@@ -34,6 +47,9 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
+
+  /// What was ignored while loading.
+  const std::vector<Problem>& warnings() const;
 
   /// Advances by dt_s().
   void step();

@@ -14,12 +14,13 @@ class Lottery : public Target {
     double weight = 1;
   };
 
-  Lottery(std::vector<Ticket> tickets, Draws draws) : tickets_(std::move(tickets)), draws_(draws) {
+  Lottery(std::vector<Ticket> tickets, const Sampler& unit)
+      : tickets_(std::move(tickets)), unit_(unit) {
     for (const Ticket& ticket : tickets_) total_ += ticket.weight;
   }
 
-  std::uint8_t state(const Crowd& crowd, std::size_t agent) const override {
-    double left = draws_.at(agent, crowd.agents.entry[agent]).uniform() * total_;
+  std::uint8_t state(const Crowd& crowd, std::size_t agent) override {
+    double left = unit_(agent, crowd.agents.entry[agent]) * total_;
     std::uint8_t chosen = tickets_.front().state;
     for (const Ticket& ticket : tickets_) {
       if (ticket.weight == 0) continue;
@@ -34,13 +35,13 @@ class Lottery : public Target {
 
  private:
   std::vector<Ticket> tickets_;
-  Draws draws_;
+  Sampler unit_;
   double total_ = 0;
 };
 
 class Return : public Target {
  public:
-  std::uint8_t state(const Crowd& crowd, std::size_t agent) const override {
+  std::uint8_t state(const Crowd& crowd, std::size_t agent) override {
     return crowd.agents.previous_state[agent];
   }
 };
@@ -58,7 +59,7 @@ std::unique_ptr<Target> make_lottery(const Element& element, const Attributes&,
                        attributes.number("weight")});
   }
   if (tickets.empty()) element.fail("no states", "at least one <State>");
-  auto made = std::make_unique<Lottery>(std::move(tickets), context.make_draws());
+  auto made = std::make_unique<Lottery>(std::move(tickets), context.make_unit_sampler());
   if (made->total() == 0) element.fail("weights of 0", "a state with a weight above 0");
   return made;
 }

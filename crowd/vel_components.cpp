@@ -9,7 +9,7 @@ namespace {
 /// Straight to the goal, without looking at what stands between.
 class ToGoal : public VelComponent {
  public:
-  void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) const override {
+  void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) override {
     const Agents& agents = crowd.agents;
     const Eigen::Vector2f& p = agents.position[agent];
     const int goal = agents.goal[agent];
@@ -36,7 +36,7 @@ class Constant : public VelComponent {
   Constant(const Eigen::Vector2f& velocity, Speed speed)
       : direction_(velocity.normalized()), length_(velocity.norm()), speed_(speed) {}
 
-  void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) const override {
+  void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) override {
     if (length_ > 0) preferred.direction = direction_;
     preferred.speed =
         speed_ == Speed::preferred ? crowd.agents[Property::pref_speed][agent] : length_;

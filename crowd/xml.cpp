@@ -21,7 +21,7 @@ std::vector<Element> Element::children() const {
   std::vector<Element> all;
   for (const auto* node = node_->FirstChildElement(); node != nullptr;
        node = node->NextSiblingElement()) {
-    all.emplace_back(node, file_);
+    all.emplace_back(node, source_);
   }
   return all;
 }
@@ -58,10 +58,17 @@ void Element::require_no_children() const {
 
 Problem Element::problem(std::string found, std::string expected) const {
   const std::string name_text = in_quotes(name());
-  return {*file_,
+  return {source_->name,
           fmt::format("line {}, element <{}>", node_->GetLineNum(),
                       name_text.substr(1, name_text.size() - 2)),
           std::move(found), std::move(expected)};
+}
+
+Problem Element::attribute_problem(std::string_view attribute, std::string found,
+                                   std::string expected) const {
+  Problem what = problem(std::move(found), std::move(expected));
+  what.where += ", attribute " + in_quotes(attribute);
+  return what;
 }
 
 void Element::fail(std::string found, std::string expected) const {
@@ -70,32 +77,44 @@ void Element::fail(std::string found, std::string expected) const {
 
 void Element::fail_attribute(std::string_view attribute, std::string found,
                              std::string expected) const {
-  Problem what = problem(std::move(found), std::move(expected));
-  what.where += ", attribute " + in_quotes(attribute);
-  throw InputError(std::move(what));
+  throw InputError(attribute_problem(attribute, std::move(found), std::move(expected)));
 }
 
 void Element::fail_unknown(std::string expected) const {
   fail("an element that is not known here", std::move(expected));
 }
 
+void Element::warn(std::string found, std::string expected) const {
+  source_->warnings.push_back(problem(std::move(found), std::move(expected)));
+}
+
+void Element::warn_attribute(std::string_view attribute, std::string found,
+                             std::string expected) const {
+  source_->warnings.push_back(attribute_problem(attribute, std::move(found), std::move(expected)));
+}
+
+std::filesystem::path Element::file_beside(std::string_view file_name) const {
+  return source_->path.parent_path() / file_name;
+}
+
 XmlFile::XmlFile(const std::filesystem::path& path, std::string_view root_name)
-    : file_(path.filename().string()), document_(std::make_unique<tinyxml2::XMLDocument>()) {
+    : source_(std::make_unique<XmlSource>(XmlSource{path, path.filename().string(), {}})),
+      document_(std::make_unique<tinyxml2::XMLDocument>()) {
   const std::string text = read_file(path);
   if (document_->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    throw InputError(Problem{file_, fmt::format("line {}", std::max(1, document_->ErrorLineNum())),
-                             fmt::format("text that cannot be parsed ({})", document_->ErrorName()),
-                             "well-formed XML"});
+    throw InputError(Problem{
+        source_->name, fmt::format("line {}", std::max(1, document_->ErrorLineNum())),
+        fmt::format("text that cannot be parsed ({})", document_->ErrorName()), "well-formed XML"});
   }
   if (document_->RootElement() == nullptr) {
-    throw InputError(
-        Problem{file_, "line 1", "no element", fmt::format("a root element <{}>", root_name)});
+    throw InputError(Problem{source_->name, "line 1", "no element",
+                             fmt::format("a root element <{}>", root_name)});
   }
   if (root().name() != root_name) root().fail_unknown(fmt::format("the root <{}>", root_name));
 }
 
 XmlFile::~XmlFile() = default;
 
-Element XmlFile::root() const { return {document_->RootElement(), &file_}; }
+Element XmlFile::root() const { return {document_->RootElement(), source_.get()}; }
 
 }  // namespace throng::crowd

@@ -18,10 +18,17 @@ class XMLElement;
 
 namespace throng::crowd {
 
+/// Where elements come from, and what was odd about them.
+struct XmlSource {
+  std::filesystem::path path;
+  std::string name;               ///< of the file, for messages
+  std::vector<Problem> warnings;  ///< what was ignored
+};
+
 /// A view of one element; valid as long as its XmlFile.
 class Element {
  public:
-  Element(const tinyxml2::XMLElement* node, const std::string* file) : node_(node), file_(file) {}
+  Element(const tinyxml2::XMLElement* node, XmlSource* source) : node_(node), source_(source) {}
 
   std::string_view name() const;
   std::vector<Element> children() const;
@@ -40,11 +47,20 @@ class Element {
   /// For an element that does not belong here; `expected` lists those that do.
   [[noreturn]] void fail_unknown(std::string expected) const;
 
+  /// Notes that something is ignored, or surely not meant.
+  void warn(std::string found, std::string expected) const;
+  void warn_attribute(std::string_view attribute, std::string found, std::string expected) const;
+
+  /// The file that an attribute names: relative to the one that this element stands in.
+  std::filesystem::path file_beside(std::string_view file_name) const;
+
  private:
   Problem problem(std::string found, std::string expected) const;
+  Problem attribute_problem(std::string_view attribute, std::string found,
+                            std::string expected) const;
 
   const tinyxml2::XMLElement* node_;
-  const std::string* file_;
+  XmlSource* source_;
 };
 
 /// A parsed XML file.
@@ -56,9 +72,10 @@ class XmlFile {
   ~XmlFile();
 
   Element root() const;
+  const std::vector<Problem>& warnings() const { return source_->warnings; }
 
  private:
-  std::string file_;
+  std::unique_ptr<XmlSource> source_;
   std::unique_ptr<tinyxml2::XMLDocument> document_;
 };
 

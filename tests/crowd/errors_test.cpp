@@ -61,8 +61,6 @@ TEST(Errors, InConditions) {
   expect_problem(condition_problem(R"(<Condition type="moon"/>)"), "Condition", "type", "moon",
                  "goal_reached");
   expect_problem(condition_problem("<Condition/>"), "Condition", "type", "nothing", "auto");
-  expect_problem(condition_problem(R"(<Condition type="auto" colour="red"/>)"), "Condition",
-                 "colour", "unknown", "type");
   expect_problem(condition_problem(R"(<Condition type="goal_reached" distance="far"/>)"),
                  "Condition", "distance", "far", "a number");
   expect_problem(condition_problem(R"(<Condition type="goal_reached" distance="-1"/>)"),
@@ -165,8 +163,6 @@ TEST(Errors, InScene) {
   expect_problem(problem(scene_with(agent_at(0, 0), "", "Nowhere")), "StateSelector", "name",
                  "Nowhere", "Start");
   expect_problem(problem(scene_with(agent_at(0, 0), R"(r="0")")), "Common", "r", "0", "from 0.01");
-  expect_problem(problem(scene_with(agent_at(0, 0), R"(mass="80")")), "Common", "mass", "unknown",
-                 "max_speed");
   expect_problem(problem("<Experiment/>"), "Experiment", "", "no <Common>", "one");
   expect_problem(problem(R"(<Experiment><SpatialQuery type="nav_mesh"/></Experiment>)"),
                  "SpatialQuery", "type", "nav_mesh", "kd-tree");
@@ -266,6 +262,14 @@ TEST(Errors, MutatedFilesAreRejectedOrRunButNeverCrash) {
   }
   EXPECT_GT(rejected, 300);
   EXPECT_GT(accepted, 50) << "some changes are harmless";
+}
+
+TEST(Errors, UnknownAttributesAreOnlyWarnedOf) {
+  const Simulation crowd = load(scene_with(agent_at(0, 0), R"(mass="80")"),
+                                condition_behavior(R"(<Condition type="auto" colour="red"/>)"));
+  ASSERT_EQ(crowd.warnings().size(), 2);
+  expect_problem(crowd.warnings()[0], "Common", "mass", "unknown", "max_speed");
+  expect_problem(crowd.warnings()[1], "Condition", "colour", "unknown", "type");
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+// What each agent sees of the others and of the walls; pedestrian models are functions of it.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <span>
+#include <vector>
+
+#include "base/parallel.h"
+#include "crowd/crowd.h"
+#include "crowd/grid.h"
+
+namespace throng::crowd {
+
+/// What one agent sees.
+struct Surroundings {
+  std::size_t agent = 0;                      ///< its id
+  std::size_t slot = 0;                       ///< its place in the grid
+  std::span<const Grid::Neighbor> neighbors;  ///< nearest first, at most max_neighbors
+  std::span<const Obstacles::Near> walls;     ///< nearest first
+};
+
+/// Finds everybody's surroundings, step after step, without allocating after the first ones.
+class Neighborhood {
+ public:
+  explicit Neighborhood(const Crowd& crowd);
+
+  /// Calls act(surroundings) once for every agent in the grid, on all threads.
+  template <typename Act>
+  void for_each(const Crowd& crowd, const Grid& grid, const Act& act) {
+    parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      Found& found = found_.local();
+      for (std::size_t slot = begin; slot < end; ++slot) act(look(crowd, grid, slot, found));
+    });
+  }
+
+ private:
+  static constexpr std::size_t kGrain = 64;  // agents per task
+
+  /// What one thread works with.
+  struct Found {
+    std::vector<Grid::Neighbor> neighbors;
+    std::vector<Obstacles::Near> walls;
+  };
+
+  Surroundings look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
+
+  std::vector<float> reach_;  // per agent, see Grid::nearest
+  tbb::enumerable_thread_specific<Found> found_;
+};
+
+}  // namespace throng::crowd
