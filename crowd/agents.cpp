@@ -5,6 +5,9 @@ namespace throng::crowd {
 void Agents::resize(std::size_t count, std::size_t model_parameter_count) {
   const Eigen::Vector2f zero = Eigen::Vector2f::Zero();
   present.resize(count, 1);
+  awaited.resize(count, 0);
+  panicked.resize(count, 0);
+  social_group.resize(count, -1);
   position.resize(count, zero);
   velocity.resize(count, zero);
   orientation.resize(count, Eigen::Vector2f::UnitX());

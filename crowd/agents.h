@@ -63,7 +63,10 @@ struct Agents {
     return properties[static_cast<std::size_t>(property)];
   }
 
-  std::vector<std::uint8_t> present;
+  std::vector<std::uint8_t> present;  ///< 1: takes part
+  std::vector<std::uint8_t> awaited;  ///< 1: is still to arrive, see Arrivals
+  std::vector<std::uint8_t> panicked;
+  std::vector<std::int32_t> social_group;    ///< index into Crowd::social_groups; -1: alone
   std::vector<Eigen::Vector2f> position;     ///< m
   std::vector<Eigen::Vector2f> velocity;     ///< m/s
   std::vector<Eigen::Vector2f> orientation;  ///< unit

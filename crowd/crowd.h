@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "crowd/agents.h"
 #include "crowd/goals.h"
@@ -15,7 +16,9 @@ struct Crowd {
   Obstacles obstacles;
   std::vector<float> model_constants;  ///< of the scene, in the order of the model's table
   Compat compat = Compat::none;
-  double dt_s = 0.1;  ///< of one (sub-)step
+  std::vector<std::vector<std::uint32_t>> social_groups;  ///< the ids of their members
+  std::size_t awaited = 0;                                ///< agents still to arrive
+  double dt_s = 0.1;                                      ///< of one (sub-)step
   std::uint64_t step = 0;
 
   double time_s() const { return static_cast<double>(step) * dt_s; }

@@ -146,6 +146,7 @@ std::size_t Simulation::agent_count() const { return state_->crowd.agents.count(
 
 bool Simulation::all_final() const {
   const Agents& agents = state_->crowd.agents;
+  if (state_->crowd.awaited > 0) return false;
   for (std::size_t i = 0; i < agents.count(); ++i) {
     if (agents.present[i] != 0 && !state_->machine->is_final(agents.state[i])) return false;
   }
@@ -174,11 +175,24 @@ std::span<const std::uint8_t> Simulation::states() const { return state_->crowd.
 
 std::span<const GoalId> Simulation::goals() const { return state_->crowd.agents.goal_id; }
 
+std::span<const std::uint8_t> Simulation::present() const { return state_->crowd.agents.present; }
+
+std::span<const std::uint8_t> Simulation::panicked() const { return state_->crowd.agents.panicked; }
+
+std::span<const std::int32_t> Simulation::social_groups() const {
+  return state_->crowd.agents.social_group;
+}
+
 const std::vector<std::string>& Simulation::state_names() const { return state_->state_names; }
 
 void Simulation::set_present(std::size_t agent, bool present) {
   check(agent < agent_count(), "set_present is given one of the agents");
   Agents& agents = state_->crowd.agents;
+  if (agents.awaited[agent] != 0) {
+    if (present) return;  // in its own time
+    agents.awaited[agent] = 0;
+    --state_->crowd.awaited;
+  }
   agents.present[agent] = present ? 1 : 0;
   if (!present) agents.velocity[agent].setZero();
 }

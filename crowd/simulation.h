@@ -57,7 +57,8 @@ class Simulation {
   double dt_s() const;
   double time_s() const;
   std::size_t agent_count() const;
-  bool all_final() const;  ///< every agent that takes part is in a final state
+  /// Nobody is still to arrive, and every agent that takes part is in a final state.
+  bool all_final() const;
 
   std::span<const Eigen::Vector2f> positions() const;   ///< m
   std::span<const Eigen::Vector2f> velocities() const;  ///< m/s
@@ -66,10 +67,15 @@ class Simulation {
   std::span<const float> radii_m() const;
   std::span<const std::uint8_t> states() const;  ///< index into state_names()
   std::span<const GoalId> goals() const;
+  /// 1: takes part, i.e. has arrived and not left yet.
+  std::span<const std::uint8_t> present() const;
+  std::span<const std::uint8_t> panicked() const;  ///< 1: is in panic
+  /// Who walks with whom: agents of a social group have the same number; -1: alone.
+  std::span<const std::int32_t> social_groups() const;
   const std::vector<std::string>& state_names() const;
 
   /// Whether an agent takes part; one that does not neither moves nor is seen by others, and its
-  /// state rests. All do at first.
+  /// state rests. All do at first, but for those who are still to arrive, who then never do.
   void set_present(std::size_t agent, bool present);
 
   /// Moves a goal's centre, e.g. to a drone. Throws InputError when there is no such goal.

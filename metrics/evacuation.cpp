@@ -17,24 +17,30 @@ using nlohmann::json;
 
 constexpr std::array kPercents = {25, 50, 75, 90, 95, 99, 100};
 
-int people_in(const world::Trace& trace) {
-  return static_cast<int>(
-      std::count(trace.header.role.begin(), trace.header.role.end(), world::AgentRole::person));
-}
+struct Escapes {
+  int people = 0;               // who took part at any time
+  std::vector<double> times_s;  // of those who escaped, in order
+};
 
-// When each person was first outside, in order of time; only those who ever were.
-std::vector<double> escape_times_s(const world::Trace& trace, const world::Rectangle& inside) {
-  std::vector<double> times;
+// A person has escaped when first outside, or gone for good (at a sink).
+Escapes escapes_in(const world::Trace& trace, const world::Rectangle& inside) {
+  Escapes escapes;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (trace.header.role[agent] != world::AgentRole::person) continue;
+    bool arrived = false;
     for (std::size_t step = 0; step < trace.steps(); ++step) {
-      if (inside.contains(trace.position[trace.at(step, agent)].cast<double>())) continue;
-      times.push_back(trace.time_s[step]);
+      const bool present = trace.present(step, agent);
+      arrived = arrived || present;
+      if (!arrived) continue;
+      const Eigen::Vector2f& place = trace.position[trace.at(step, agent)];
+      if (present && inside.contains(place.cast<double>())) continue;
+      escapes.times_s.push_back(trace.time_s[step]);
       break;
     }
+    if (arrived) ++escapes.people;
   }
-  std::sort(times.begin(), times.end());
-  return times;
+  std::sort(escapes.times_s.begin(), escapes.times_s.end());
+  return escapes;
 }
 
 std::vector<double> curve_of(const std::vector<double>& times, int people, double duration_s) {
@@ -94,9 +100,9 @@ std::vector<ExitTotals> totals_of(const std::vector<ExitSeries>& exits, double d
 
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
                        const std::vector<ExitSeries>& exits) {
-  const std::vector<double> times = escape_times_s(trace, scenario.inside);
+  const auto [people, times] = escapes_in(trace, scenario.inside);
   RunMetrics metrics;
-  metrics.people = people_in(trace);
+  metrics.people = people;
   metrics.duration_s = trace.duration_s();
   metrics.escape_curve = curve_of(times, metrics.people, metrics.duration_s);
   for (const int percent : kPercents) {

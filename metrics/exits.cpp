@@ -102,6 +102,7 @@ class ExitObserver {
 
   void count_crossings(std::size_t step, double time_s) {
     for (std::size_t i = 0; i < people_.size(); ++i) {
+      if (!trace_.present(step, people_[i])) continue;
       const int crossing = counters_[i].step(line_, position(step, people_[i]));
       crossed_ += crossing;
       if (crossing > 0) last_outward_s_ = time_s;
@@ -112,6 +113,7 @@ class ExitObserver {
     Zone zone;
     for (const std::size_t person : people_) {
       const std::size_t at = trace_.at(step, person);
+      if (!trace_.present(step, person)) continue;
       if (intent_ && trace_.exit_intent[at] != static_cast<int>(*intent_)) continue;
       const Eigen::Vector2d place = position(step, person);
       if (!zone_.contains(place)) continue;

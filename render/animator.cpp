@@ -57,6 +57,7 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
   const Between at = find(trace.time_s, time_s);
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (trace.header.role[agent] != world::AgentRole::person) continue;
+    if (!trace.present(at.before, agent)) continue;
     const std::size_t a = trace.at(at.before, agent);
     const std::size_t b = trace.at(at.after, agent);
     const double* phase = &phase_[agent * trace.steps()];

@@ -14,8 +14,8 @@ class Animator {
  public:
   Animator(const world::Trace& trace, const skinning::Population& population);
 
-  /// The people at `time_s` (interpolated between crowd steps); agents that are not people are
-  /// left out.
+  /// The people at `time_s` (interpolated between crowd steps); agents that are not people,
+  /// have not arrived yet or have left are left out.
   Scene scene_at(double time_s, std::int64_t frame_index) const;
 
  private:

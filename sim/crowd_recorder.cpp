@@ -22,7 +22,9 @@ CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<
       moving_goals_(moving_goals),
       intents_(roles.size(), -1),
       led_(roles.size(), false),
-      escaped_(roles.size(), false) {}
+      arrived_(roles.size(), false),
+      escaped_(roles.size(), false),
+      flags_(roles.size(), 0) {}
 
 // Who heads for an exit intends it, also on the way on from there to safety. Who follows a drone
 // goes where it leads and intends none; who was led takes the exit at hand.
@@ -56,15 +58,21 @@ std::int8_t CrowdRecorder::nearest_exit(const Eigen::Vector2d& place) const {
 void CrowdRecorder::record(const crowd::Simulation& crowd, double time_s,
                            world::TraceWriter& trace) {
   const auto positions = crowd.positions();
+  const auto present = crowd.present();
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    flags_[i] = static_cast<std::uint8_t>((present[i] != 0 ? world::kPresent : 0) |
+                                          (crowd.panicked()[i] != 0 ? world::kPanicked : 0));
+    arrived_[i] = arrived_[i] || present[i] != 0;
+  }
   for (std::size_t i = 0; i < positions.size(); ++i) {
     update_intent(i, crowd.goals()[i], positions[i].cast<double>());
   }
   trace.add({time_s, copied(crowd.positions()), copied(crowd.velocities()),
              copied(crowd.yaws_rad()), copied(crowd.desired_speeds_mps()), copied(crowd.states()),
-             intents_});
+             intents_, flags_});
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (roles_[i] != AgentRole::person || escaped_[i]) continue;
-    if (scenario_.inside.contains(positions[i].cast<double>())) continue;
+    if (roles_[i] != AgentRole::person || escaped_[i] || !arrived_[i]) continue;
+    if (present[i] != 0 && scenario_.inside.contains(positions[i].cast<double>())) continue;
     escaped_[i] = true;
     trace.add_event({time_s, "agent_escaped", static_cast<std::int32_t>(i), -1,
                      static_cast<double>(intents_[i])});

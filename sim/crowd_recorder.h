@@ -29,7 +29,9 @@ class CrowdRecorder {
   const std::vector<world::GoalRef>& moving_goals_;
   std::vector<std::int8_t> intents_;
   std::vector<bool> led_;  ///< follows a drone
+  std::vector<bool> arrived_;
   std::vector<bool> escaped_;
+  std::vector<std::uint8_t> flags_;
 };
 
 }  // namespace throng::sim

@@ -92,6 +92,7 @@ world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spe
   header.radius_m.assign(crowd.radii_m().begin(), crowd.radii_m().end());
   const auto speeds = crowd.desired_speeds_mps();
   header.pref_speed_mps.assign(speeds.begin(), speeds.end());
+  header.group.assign(crowd.social_groups().begin(), crowd.social_groups().end());
   return header;
 }
 

@@ -21,6 +21,12 @@ enum class AgentRole : std::uint8_t {
   absent = 2,    ///< in the scenario but not in this run; neither drawn nor counted
 };
 
+/// Bits of what an agent is at a step.
+enum AgentFlag : std::uint8_t {
+  kPresent = 1,   ///< takes part: has arrived and not left yet
+  kPanicked = 2,  ///< is in panic
+};
+
 /// What does not change during a run.
 struct TraceHeader {
   std::string scenario_id;
@@ -33,6 +39,7 @@ struct TraceHeader {
   std::vector<AgentRole> role;        ///< per agent; size = number of agents
   std::vector<float> radius_m;        ///< per agent
   std::vector<float> pref_speed_mps;  ///< per agent, as generated
+  std::vector<std::int32_t> group;    ///< per agent: number of its social group; -1: walks alone
 
   std::size_t agent_count() const { return role.size(); }
 };
@@ -46,6 +53,7 @@ struct CrowdStep {
   std::vector<float> desired_speed_mps;   ///< what the agent wants now
   std::vector<std::uint8_t> state;        ///< index into TraceHeader::state_names
   std::vector<std::int8_t> exit_intent;   ///< index into exit_ids; -1: none
+  std::vector<std::uint8_t> flags;        ///< AgentFlag bits
 };
 
 /// One drone at one instant.
@@ -75,12 +83,17 @@ struct Trace {
   std::vector<float> desired_speed_mps;
   std::vector<std::uint8_t> state;
   std::vector<std::int8_t> exit_intent;
+  std::vector<std::uint8_t> flags;
   std::vector<std::vector<DroneSample>> drones;  ///< per drone, by time
   std::vector<TraceEvent> events;
 
   std::size_t steps() const { return time_s.size(); }
   std::size_t agents() const { return header.agent_count(); }
   std::size_t at(std::size_t step, std::size_t agent) const { return step * agents() + agent; }
+  /// Whether an agent takes part at a step; where it is means nothing otherwise.
+  bool present(std::size_t step, std::size_t agent) const {
+    return (flags[at(step, agent)] & kPresent) != 0;
+  }
   double duration_s() const { return time_s.empty() ? 0.0 : time_s.back(); }
   /// The drone between its samples: linear position and velocity, slerped orientation; clamped to
   /// the recorded span.

@@ -8,7 +8,7 @@ namespace throng::world {
 
 inline constexpr const char* kTraceFormat = "throng trace";
 /// Grows with every change that an older reader would misread.
-inline constexpr std::int32_t kTraceVersion = 1;
+inline constexpr std::int32_t kTraceVersion = 2;
 /// Fixed width of an event's type, with a final zero.
 inline constexpr std::size_t kEventTypeWidth = 32;
 

@@ -86,6 +86,7 @@ class Reader {
     }
     header.radius_m = numbers<float>(agents, "radius_m", {count});
     header.pref_speed_mps = numbers<float>(agents, "pref_speed_mps", {count});
+    header.group = numbers<std::int32_t>(agents, "group", {count});
     return header;
   }
 
@@ -107,6 +108,7 @@ class Reader {
     trace.desired_speed_mps = numbers<float>(crowd, "desired_speed_mps", {steps, agents});
     trace.state = numbers<std::uint8_t>(crowd, "state", {steps, agents});
     trace.exit_intent = numbers<std::int8_t>(crowd, "exit_intent", {steps, agents});
+    trace.flags = numbers<std::uint8_t>(crowd, "flags", {steps, agents});
     for (const std::uint8_t state : trace.state) {
       require_index(state, 0, trace.header.state_names.size(), "crowd/state");
     }

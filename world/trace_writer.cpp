@@ -67,7 +67,8 @@ struct CrowdColumns {
         yaw_rad(group, "yaw_rad", {agents}, rows, "rad"),
         desired_speed_mps(group, "desired_speed_mps", {agents}, rows, "m/s"),
         state(group, "state", {agents}, rows, ""),
-        exit_intent(group, "exit_intent", {agents}, rows, "") {}
+        exit_intent(group, "exit_intent", {agents}, rows, ""),
+        flags(group, "flags", {agents}, rows, "") {}
 
   void add(const CrowdStep& step) {
     const std::size_t agents = step.position.size();
@@ -78,6 +79,7 @@ struct CrowdColumns {
     desired_speed_mps.add(step.desired_speed_mps.data(), agents);
     state.add(step.state.data(), agents);
     exit_intent.add(step.exit_intent.data(), agents);
+    flags.add(step.flags.data(), agents);
   }
 
   void flush() {
@@ -88,6 +90,7 @@ struct CrowdColumns {
     desired_speed_mps.flush();
     state.flush();
     exit_intent.flush();
+    flags.flush();
   }
 
   Column<double> time_s;
@@ -97,6 +100,7 @@ struct CrowdColumns {
   Column<float> desired_speed_mps;
   Column<std::uint8_t> state;
   Column<std::int8_t> exit_intent;
+  Column<std::uint8_t> flags;
 };
 
 struct DroneColumns {
@@ -185,14 +189,17 @@ void write_header(const hdf5::Handle& file, const TraceHeader& header) {
   Column<std::uint8_t> role(agents, "role", {}, 1024, "");
   Column<float> radius_m(agents, "radius_m", {}, 1024, "m");
   Column<float> pref_speed_mps(agents, "pref_speed_mps", {}, 1024, "m/s");
+  Column<std::int32_t> group(agents, "group", {}, 1024, "");
   for (std::size_t i = 0; i < header.agent_count(); ++i) {
     role.add(static_cast<std::uint8_t>(header.role[i]));
     radius_m.add(header.radius_m[i]);
     pref_speed_mps.add(header.pref_speed_mps[i]);
+    group.add(header.group[i]);
   }
   role.flush();
   radius_m.flush();
   pref_speed_mps.flush();
+  group.flush();
 }
 
 void sync_to_disk(const fs::path& path) {
@@ -289,8 +296,9 @@ struct TraceWriter::File {
 TraceWriter::TraceWriter(fs::path path, const TraceHeader& header) {
   check(header.dt_s > 0, "a trace has a positive step");
   check(header.radius_m.size() == header.agent_count() &&
-            header.pref_speed_mps.size() == header.agent_count(),
-        "every agent has a role, a radius and a preferred speed");
+            header.pref_speed_mps.size() == header.agent_count() &&
+            header.group.size() == header.agent_count(),
+        "every agent has a role, a radius, a preferred speed and a group or none");
   const fs::path name = path;
   file_ = writing(name, [&] { return std::make_unique<File>(std::move(path), header); });
 }
@@ -304,7 +312,8 @@ void TraceWriter::add(const CrowdStep& step) {
   const std::size_t agents = file_->agents;
   check(step.position.size() == agents && step.velocity.size() == agents &&
             step.yaw_rad.size() == agents && step.desired_speed_mps.size() == agents &&
-            step.state.size() == agents && step.exit_intent.size() == agents,
+            step.state.size() == agents && step.exit_intent.size() == agents &&
+            step.flags.size() == agents,
         "a crowd step has one entry per agent");
   const double expected_s = static_cast<double>(file_->steps) * file_->dt_s;
   check(std::abs(step.time_s - expected_s) < 1e-6 * std::max(1.0, expected_s),

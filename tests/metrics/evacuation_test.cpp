@@ -69,6 +69,19 @@ TEST(RunMetrics, TheDisasterIsNotAPerson) {
   EXPECT_EQ(metrics.escape_curve.back(), 0);
 }
 
+TEST(RunMetrics, WhoLeavesAtASinkHasEscapedAndWhoNeverArrivesIsNoPerson) {
+  world::Trace trace = trace_of({standing({0, 0}), standing({1, 0}), standing({2, 0})});
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    if (step < 50 || step >= 200) trace.flags[trace.at(step, 0)] = 0;
+    trace.flags[trace.at(step, 1)] = 0;
+  }
+  const RunMetrics metrics = measure(trace);
+  EXPECT_EQ(metrics.people, 2);
+  EXPECT_EQ(metrics.not_escaped, 1);
+  EXPECT_DOUBLE_EQ(metrics.escape_curve[19], 0);
+  EXPECT_DOUBLE_EQ(metrics.escape_curve[20], 0.5);
+}
+
 TEST(RunMetrics, SumsUpEachExit) {
   std::vector<Walk> walks = {walking({-1, 0}, {1, 0}), walking({-2, 0}, {1, 0}),
                              walking({-3, 30}, {1, 0})};

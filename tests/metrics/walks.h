@@ -44,6 +44,7 @@ inline world::Trace trace_of(const std::vector<Walk>& walks, const CrowdOfTest& 
   trace.header.role.assign(walks.size(), world::AgentRole::person);
   trace.header.radius_m.assign(walks.size(), crowd.radius_m);
   trace.header.pref_speed_mps.assign(walks.size(), crowd.desired_speed_mps);
+  trace.header.group.assign(walks.size(), -1);
   const auto steps = std::lround(crowd.duration_s / crowd.dt_s);
   for (long step = 0; step <= steps; ++step) {
     const double time_s = static_cast<double>(step) * crowd.dt_s;
@@ -56,6 +57,7 @@ inline world::Trace trace_of(const std::vector<Walk>& walks, const CrowdOfTest& 
       trace.desired_speed_mps.push_back(crowd.desired_speed_mps);
       trace.state.push_back(0);
       trace.exit_intent.push_back(crowd.intent);
+      trace.flags.push_back(world::kPresent);
     }
   }
   return trace;

@@ -29,6 +29,7 @@ world::Trace made_trace() {
     }
     const auto turned = static_cast<float>((step == 0 ? 170 : -170) * kDegree);
     for (const float yaw : {0.0F, turned, 0.0F}) trace.yaw_rad.push_back(yaw);
+    trace.flags.insert(trace.flags.end(), 3, world::kPresent);
   }
   return trace;
 }
@@ -53,6 +54,16 @@ TEST_F(AnimatorTest, TheDisasterIsNotAPerson) {
   ASSERT_EQ(scene.people.size(), 2U);
   EXPECT_EQ(scene.people[0].agent, 0U);
   EXPECT_EQ(scene.people[1].agent, 1U);
+}
+
+TEST_F(AnimatorTest, WhoHasNotArrivedOrHasLeftIsNotThere) {
+  for (std::size_t step = 0; step < trace_.steps(); ++step) {
+    if (step < 10 || step > 20) trace_.flags[trace_.at(step, 0)] = 0;
+  }
+  EXPECT_EQ(animator_.scene_at(0.95, 0).people.size(), 1U);
+  EXPECT_EQ(animator_.scene_at(1.05, 0).people.size(), 2U);
+  EXPECT_EQ(animator_.scene_at(2.05, 0).people.size(), 2U);
+  EXPECT_EQ(animator_.scene_at(2.15, 0).people.size(), 1U);
 }
 
 TEST_F(AnimatorTest, HeadingsTurnTheShortWay) {

@@ -35,6 +35,7 @@ TraceHeader header_of(std::size_t agents) {
     header.role.push_back(static_cast<AgentRole>(i % 3));
     header.radius_m.push_back(0.2F + 0.01F * static_cast<float>(i));
     header.pref_speed_mps.push_back(1.0F + 0.1F * static_cast<float>(i));
+    header.group.push_back(static_cast<std::int32_t>(i / 2) - 1);
   }
   return header;
 }
@@ -50,6 +51,7 @@ CrowdStep step_of(std::size_t step, std::size_t agents) {
     crowd.desired_speed_mps.push_back(phase / 7);
     crowd.state.push_back(static_cast<std::uint8_t>((step + i) % 3));
     crowd.exit_intent.push_back(static_cast<std::int8_t>((step + i) % 3) - 1);
+    crowd.flags.push_back(static_cast<std::uint8_t>((step + i) % 4));
   }
   return crowd;
 }
@@ -101,6 +103,7 @@ TEST(Trace, ReadsBackWhatWasWritten) {
   EXPECT_EQ(trace.header.role, expected.role);
   EXPECT_EQ(trace.header.radius_m, expected.radius_m);
   EXPECT_EQ(trace.header.pref_speed_mps, expected.pref_speed_mps);
+  EXPECT_EQ(trace.header.group, expected.group);
 
   ASSERT_EQ(trace.steps(), kSteps);
   ASSERT_EQ(trace.position.size(), kSteps * kAgents);
@@ -115,6 +118,8 @@ TEST(Trace, ReadsBackWhatWasWritten) {
       EXPECT_EQ(trace.desired_speed_mps[at], crowd.desired_speed_mps[i]);
       EXPECT_EQ(trace.state[at], crowd.state[i]);
       EXPECT_EQ(trace.exit_intent[at], crowd.exit_intent[i]);
+      EXPECT_EQ(trace.flags[at], crowd.flags[i]);
+      EXPECT_EQ(trace.present(step, i), (crowd.flags[i] & kPresent) != 0);
     }
   }
 
