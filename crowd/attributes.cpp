@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "crowd/suggest.h"
 
 namespace throng::crowd {
 
@@ -29,6 +30,15 @@ std::optional<Number> parse(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// An integer, which may be written like 10.0.
+std::optional<long long> parse_whole(std::string_view text) {
+  if (const auto value = parse<long long>(text)) return value;
+  constexpr double kExact = 9007199254740992;  // 2^53
+  const auto value = parse<double>(text);
+  if (!value || std::trunc(*value) != *value || std::abs(*value) > kExact) return std::nullopt;
+  return static_cast<long long>(*value);
 }
 
 /// Reads the raw attributes of one element and remembers which ones were asked for.
@@ -62,7 +72,7 @@ class Reader {
   }
 
   long long integer(const std::string& name, std::string_view given, double min, double max) const {
-    const auto value = parse<long long>(given);
+    const auto value = parse_whole(given);
     if (!value || static_cast<double>(*value) < min || static_cast<double>(*value) > max) {
       element_.fail_attribute(name, in_quotes(given), expected_number("an integer", min, max));
     }
@@ -76,8 +86,10 @@ class Reader {
   void warn_of_the_rest() const {
     for (std::size_t i = 0; i < given_.size(); ++i) {
       if (used_[i]) continue;
+      const std::string_view name = given_[i].first;
+      const std::vector<std::string_view> known(known_.begin(), known_.end());
       element_.warn_attribute(
-          given_[i].first, "an unknown attribute, which is ignored",
+          name, "an unknown attribute, which is ignored" + did_you_mean(name, known),
           known_.empty() ? "no attribute" : fmt::format("{}", fmt::join(known_, ", ")));
     }
   }
@@ -152,8 +164,9 @@ std::optional<Distribution2> read_distribution_2(const Element& element, Reader&
 
 bool read_boolean(const Element& element, std::string_view name, std::string_view given) {
   const std::string_view value = trimmed(given);
-  if (value == "1" || value == "true") return true;
-  if (value == "0" || value == "false") return false;
+  if (value == "true") return true;
+  if (value == "false") return false;
+  if (const auto number = parse<long long>(value)) return *number != 0;
   element.fail_attribute(name, in_quotes(given), "0, 1, false or true");
 }
 
@@ -161,7 +174,7 @@ std::string read_text(const Element& element, const AttributeSpec& spec, std::st
   if (given.empty()) element.fail_attribute(spec.name, "an empty text", std::string(spec.help));
   if (!spec.words.empty() &&
       std::find(spec.words.begin(), spec.words.end(), given) == spec.words.end()) {
-    element.fail_attribute(spec.name, in_quotes(given),
+    element.fail_attribute(spec.name, in_quotes(given) + did_you_mean(given, spec.words),
                            fmt::format("one of {}", fmt::join(spec.words, ", ")));
   }
   return std::string(given);

@@ -21,7 +21,7 @@ constexpr double kHighestId = 1e9;
 enum class AttributeType {
   number,
   integer,
-  boolean,        ///< 0, 1, false or true
+  boolean,        ///< false or true or an integer, of which 0 is false
   text,           ///< not empty
   distribution,   ///< a group: <name>dist, <name>min, ...; the attribute's name is the prefix
   distribution_2  ///< a group: dist, x_value, y_value, min_x, ...

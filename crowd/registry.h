@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "crowd/attributes.h"
+#include "crowd/suggest.h"
 
 namespace throng::crowd {
 
@@ -57,7 +58,7 @@ class Registry {
     }
     std::vector<std::string_view> known;
     for (const Entry& entry : entries_) known.push_back(entry.type);
-    element.fail_attribute("type", type ? in_quotes(*type) : "nothing",
+    element.fail_attribute("type", type ? in_quotes(*type) + did_you_mean(*type, known) : "nothing",
                            fmt::format("one of {}", fmt::join(known, ", ")));
   }
 
