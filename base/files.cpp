@@ -61,22 +61,49 @@ std::string read_file(const fs::path& path) {
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
-  fs::create_directories(parent_of(path));
-  const fs::path temporary = temporary_beside(path);
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) fail("write", temporary);
-  }
-  sync_path(temporary);
+  StagedFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+StagedFile::StagedFile(fs::path final_path)
+    : final_(std::move(final_path)), staging_(temporary_beside(final_)) {
   std::error_code error;
-  fs::rename(temporary, path, error);
+  fs::create_directories(parent_of(final_), error);
   if (error) {
-    fs::remove(temporary, error);
-    fail("rename to", path);
+    throw EnvironmentError(
+        fmt::format("cannot create {}: {}", parent_of(final_).string(), error.message()));
   }
-  sync_path(parent_of(path));
+  file_.open(staging_, std::ios::binary);
+  if (!file_) fail("write", staging_);
+}
+
+StagedFile::~StagedFile() {
+  file_.close();
+  std::error_code ignored;
+  fs::remove(staging_, ignored);
+}
+
+void StagedFile::write(std::string_view bytes) {
+  file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file_) fail("write", staging_);
+}
+
+void StagedFile::flush() {
+  file_.flush();
+  if (!file_) fail("write", staging_);
+}
+
+void StagedFile::commit() {
+  file_.close();
+  if (!file_) fail("write", staging_);
+  sync_path(staging_);
+  std::error_code error;
+  fs::rename(staging_, final_, error);
+  if (error) {
+    throw EnvironmentError(fmt::format("cannot write {}: {}", final_.string(), error.message()));
+  }
+  sync_path(parent_of(final_));
 }
 
 StagingFolder::StagingFolder(fs::path final_path)

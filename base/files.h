@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,29 @@ std::string read_file(const std::filesystem::path& path);
 /// Writes, syncs and renames, so that a reader sees the old file or the new one, never a part.
 /// Creates the parent folder. Throws EnvironmentError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+/// A file under construction, for what is too big to be held in memory. commit() gives it its name
+/// (replacing an older file); otherwise the destructor removes it.
+class StagedFile {
+ public:
+  /// Creates the parent folder and a temporary file beside `final_path`. Throws EnvironmentError.
+  explicit StagedFile(std::filesystem::path final_path);
+  ~StagedFile();
+  StagedFile(const StagedFile&) = delete;
+  StagedFile& operator=(const StagedFile&) = delete;
+
+  const std::filesystem::path& path() const { return staging_; }  ///< until commit()
+  /// Throws EnvironmentError when the disk is full.
+  void write(std::string_view bytes);
+  /// Gives what has been written to the system, so that others can read it at path().
+  void flush();
+  void commit();
+
+ private:
+  std::filesystem::path final_;
+  std::filesystem::path staging_;
+  std::ofstream file_;
+};
 
 /// A folder under construction. commit() renames it to its final place (replacing nothing: an
 /// existing final folder is kept, since what is published is complete); otherwise the destructor

@@ -52,6 +52,33 @@ TEST(Files, ReaderNeverSeesAPartOfAFile) {
   }
 }
 
+TEST(StagedFile, AppearsWholeOnCommit) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "deep" / "file";
+  {
+    StagedFile file(path);
+    file.write("half");
+    file.flush();
+    EXPECT_FALSE(fs::exists(path));
+    EXPECT_EQ(read_file(file.path()), "half");
+    file.write(" and half");
+    file.commit();
+  }
+  EXPECT_EQ(read_file(path), "half and half");
+}
+
+TEST(StagedFile, LeavesNothingWithoutCommit) {
+  const TemporaryFolder folder;
+  { StagedFile(folder.path() / "file").write("half"); }
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(StagedFile, ThatCannotBeWrittenIsTheEnvironmentsFault) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path() / "file", "x");
+  EXPECT_THROW(StagedFile(folder.path() / "file" / "below"), EnvironmentError);
+}
+
 TEST(StagingFolder, AppearsWholeOnCommit) {
   const TemporaryFolder folder;
   {
