@@ -28,6 +28,8 @@ class Machine {
   void prefer(Crowd& crowd) const;
 
   bool is_final(std::uint8_t state) const { return behavior_.states[state].final; }
+  /// Whether any transition leads out of a state.
+  bool has_exits(std::uint8_t state) const { return !behavior_.states[state].transitions.empty(); }
 
  private:
   static constexpr int kNone = -1;

@@ -183,6 +183,19 @@ std::span<const std::int32_t> Simulation::social_groups() const {
   return state_->crowd.agents.social_group;
 }
 
+std::span<const std::int32_t> Simulation::agent_classes() const {
+  return state_->crowd.agents.agent_class;
+}
+
+Eigen::Vector2f Simulation::preferred_velocity(std::size_t agent) const {
+  const Agents& agents = state_->crowd.agents;
+  return agents.preferred_speed[agent] * agents.preferred_direction[agent];
+}
+
+bool Simulation::is_final(std::uint8_t state) const { return state_->machine->is_final(state); }
+
+bool Simulation::has_exits(std::uint8_t state) const { return state_->machine->has_exits(state); }
+
 const std::vector<std::string>& Simulation::state_names() const { return state_->state_names; }
 
 void Simulation::set_present(std::size_t agent, bool present) {

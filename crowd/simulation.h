@@ -72,7 +72,11 @@ class Simulation {
   std::span<const std::uint8_t> panicked() const;  ///< 1: is in panic
   /// Who walks with whom: agents of a social group have the same number; -1: alone.
   std::span<const std::int32_t> social_groups() const;
+  std::span<const std::int32_t> agent_classes() const;  ///< as profiles number them, for reports
+  Eigen::Vector2f preferred_velocity(std::size_t agent) const;  ///< if it were alone, m/s
   const std::vector<std::string>& state_names() const;
+  bool is_final(std::uint8_t state) const;
+  bool has_exits(std::uint8_t state) const;  ///< some transition leads out of it
 
   /// Whether an agent takes part; one that does not neither moves nor is seen by others, and its
   /// state rests. All do at first, but for those who are still to arrive, who then never do.
