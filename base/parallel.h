@@ -1,10 +1,13 @@
-// Loops over independent items on TBB's threads.
+// Loops over independent items on TBB's threads, which sleep when there is nothing to do.
 #pragma once
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #if defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
@@ -35,5 +38,32 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
       [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
 #endif
 }
+
+/// What each thread of a loop works with, made before the loop, so that a thread that joins late
+/// makes nothing.
+template <typename T>
+class PerThread {
+ public:
+  explicit PerThread(const T& initial) : initial_(initial) {}
+
+  /// To be called before the loop, by the thread that starts it.
+  void prepare() {
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    if (all_.size() < threads) all_.resize(threads, Padded{initial_});
+  }
+  /// To be called in the loop: this thread's own.
+  T& local() {
+    const int index = tbb::this_task_arena::current_thread_index();
+    return all_[static_cast<std::size_t>(std::max(index, 0))].value;
+  }
+
+ private:
+  struct alignas(128) Padded {  // no two in one cache line
+    T value;
+  };
+
+  T initial_;
+  std::vector<Padded> all_;
+};
 
 }  // namespace throng

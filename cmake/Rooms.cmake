@@ -11,6 +11,12 @@ function(throng_room name)
   throng_check_includes(${name} "${ARG_ROOMS}")
 endfunction()
 
+# throng_kernels(file...): files with loops for several instruction sets (base/instruction_set.h). Square roots do not
+# report errors, so that they can be vectors; the vectors stay inside functions, so their calling convention is nobody's.
+function(throng_kernels)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-Wno-psabi" SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # Fails when a file of the room includes a room that it did not declare.
 function(throng_check_includes name rooms)
   file(GLOB_RECURSE files "${PROJECT_SOURCE_DIR}/${name}/*.h" "${PROJECT_SOURCE_DIR}/${name}/*.cpp")

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/instruction_set.h"
 #include "crowd/agents.h"
 
 namespace throng::crowd {
@@ -20,33 +21,75 @@ class Grid {
     std::uint32_t slot = 0;
   };
 
+  /// Where someone is and how fast they go; kernels load it as four floats.
+  struct Body {
+    Eigen::Vector2f position;
+    Eigen::Vector2f velocity;
+  };
+
+  /// What searches work with; kept from one to the next, so that they allocate nothing.
+  class Candidates {
+   public:
+    /// For searches for at most `most` neighbours.
+    explicit Candidates(std::size_t most = 0);
+
+   private:
+    friend struct NearestKernel;
+    std::vector<float> distance_sq_;
+    std::vector<std::int32_t> slot_;
+    std::vector<Neighbor> sorted_;
+    std::size_t count_ = 0;
+  };
+
+  explicit Grid(InstructionSet set = best_instruction_set());
+
   /// Sorts the agents anew; allocates only when their number has grown.
   void build(const Agents& agents);
 
-  std::size_t size() const { return id_.size(); }
+  std::size_t size() const { return size_; }
   std::uint32_t id(std::size_t slot) const { return id_[slot]; }
-  const Eigen::Vector2f& position(std::size_t slot) const { return position_[slot]; }
-  const Eigen::Vector2f& velocity(std::size_t slot) const { return velocity_[slot]; }
+  const Eigen::Vector2f& position(std::size_t slot) const { return body_[slot].position; }
+  const Eigen::Vector2f& velocity(std::size_t slot) const { return body_[slot].velocity; }
   float radius(std::size_t slot) const { return radius_[slot]; }
 
-  /// The agents nearest to the one in `slot`, nearer than `range`, at most found.size(); sorted by
-  /// distance, ties by id. Returns how many there are. `reach` is a guess of how far they are,
-  /// which is updated for the next time and does not change the result.
-  std::size_t nearest(std::size_t slot, float range, std::span<Neighbor> found, float& reach) const;
+  /// The agents nearest to the one in `slot`, nearer than `range`, at most `most`; sorted by
+  /// distance, ties by id. They are in `candidates` until the next search with it. `reach` is a
+  /// guess of how far they are, which is updated for the next time and does not change the result.
+  std::span<const Neighbor> nearest(std::size_t slot, float range, std::size_t most, float& reach,
+                                    Candidates& candidates) const {
+    return nearest_(*this, slot, range, most, reach, candidates);
+  }
 
  private:
-  static constexpr float kCellSize = 1.0F;  // m; a few people fit in
+  friend struct NearestKernel;
+  using Nearest = std::span<const Neighbor>(const Grid&, std::size_t slot, float range,
+                                            std::size_t most, float& reach, Candidates&);
 
-  std::uint32_t bucket(int column, int row) const;
-  std::size_t scan(std::size_t slot, float reach, std::span<Neighbor> found) const;
+  static constexpr float kCellWidth = 1.0F;   // m; a few people fit in
+  static constexpr float kCellHeight = 2.0F;  // m; fewer, longer runs
+  static constexpr std::size_t kPadding = 8;  // searches load whole vectors
 
+  static Nearest* pick_nearest(InstructionSet set);
+  static int column_of(float x);
+  static int row_of(float y);
+  std::uint32_t bucket(int column, int row) const {
+    // Rows start at scattered places (the golden ratio's multiples), so that a crowd of any shape
+    // spreads over all buckets.
+    return (static_cast<std::uint32_t>(row) * 0x9E3779B1U + static_cast<std::uint32_t>(column)) &
+           bucket_mask_;
+  }
+
+  Nearest* nearest_;
+  std::size_t size_ = 0;
   std::uint32_t bucket_mask_ = 0;
   std::vector<std::uint32_t> bucket_begin_;  // first slot of each bucket, then the end
   std::vector<std::uint32_t> bucket_of_;     // of each agent
+  // By slot; those that are searched end with some padding.
   std::vector<std::uint32_t> id_;
-  std::vector<int> row_;
-  std::vector<Eigen::Vector2f> position_;
-  std::vector<Eigen::Vector2f> velocity_;
+  std::vector<std::int32_t> row_;
+  std::vector<float> x_;
+  std::vector<float> y_;
+  std::vector<Body> body_;
   std::vector<float> radius_;
 };
 

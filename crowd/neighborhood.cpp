@@ -10,13 +10,16 @@ constexpr float kFirstReach = 2;  // m
 
 }  // namespace
 
-Neighborhood::Neighborhood(const Crowd& crowd) : reach_(crowd.agents.count(), kFirstReach) {
+Neighborhood::Neighborhood(const Crowd& crowd)
+    : reach_(crowd.agents.count(), kFirstReach), found_(make_found(crowd)) {}
+
+Neighborhood::Found Neighborhood::make_found(const Crowd& crowd) {
   const std::vector<float>& most = crowd.agents[Property::max_neighbors];
   Found found;
-  found.neighbors.resize(
+  found.candidates = Grid::Candidates(
       most.empty() ? 0 : static_cast<std::size_t>(*std::max_element(most.begin(), most.end())));
   found.walls.reserve(crowd.obstacles.segments().size());
-  found_ = tbb::enumerable_thread_specific<Found>(found);
+  return found;
 }
 
 Surroundings Neighborhood::look(const Crowd& crowd, const Grid& grid, std::size_t slot,
@@ -26,9 +29,7 @@ Surroundings Neighborhood::look(const Crowd& crowd, const Grid& grid, std::size_
   const float range = agents[Property::neighbor_dist][id];
   crowd.obstacles.near(grid.position(slot), range, agents.obstacle_mask[id], found.walls);
   const auto most = static_cast<std::size_t>(agents[Property::max_neighbors][id]);
-  const std::span all(found.neighbors);
-  const std::size_t count = grid.nearest(slot, range, all.first(most), reach_[id]);
-  return {id, slot, all.first(count), found.walls};
+  return {id, slot, grid.nearest(slot, range, most, reach_[id], found.candidates), found.walls};
 }
 
 }  // namespace throng::crowd

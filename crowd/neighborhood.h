@@ -1,8 +1,6 @@
 // What each agent sees of the others and of the walls; pedestrian models are functions of it.
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <span>
 #include <vector>
 
@@ -28,6 +26,7 @@ class Neighborhood {
   /// Calls act(surroundings) once for every agent in the grid, on all threads.
   template <typename Act>
   void for_each(const Crowd& crowd, const Grid& grid, const Act& act) {
+    found_.prepare();
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Found& found = found_.local();
       for (std::size_t slot = begin; slot < end; ++slot) act(look(crowd, grid, slot, found));
@@ -39,14 +38,15 @@ class Neighborhood {
 
   /// What one thread works with.
   struct Found {
-    std::vector<Grid::Neighbor> neighbors;
+    Grid::Candidates candidates;
     std::vector<Obstacles::Near> walls;
   };
 
+  static Found make_found(const Crowd& crowd);
   Surroundings look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
 
   std::vector<float> reach_;  // per agent, see Grid::nearest
-  tbb::enumerable_thread_specific<Found> found_;
+  PerThread<Found> found_;
 };
 
 }  // namespace throng::crowd

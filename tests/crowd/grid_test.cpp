@@ -40,13 +40,14 @@ std::vector<std::uint32_t> brute_force(const Agents& agents, std::size_t self, f
 void expect_brute_force(const Agents& agents, float range, std::size_t most, float first_reach) {
   Grid grid;
   grid.build(agents);
-  std::vector<Grid::Neighbor> found(most);
+  Grid::Candidates candidates(most);
   for (std::size_t slot = 0; slot < grid.size(); ++slot) {
     float reach = first_reach;
     for (int again = 0; again < 2; ++again) {  // the second time with the reach of the first
-      const std::size_t count = grid.nearest(slot, range, found, reach);
       std::vector<std::uint32_t> ids;
-      for (std::size_t i = 0; i < count; ++i) ids.push_back(grid.id(found[i].slot));
+      for (const Grid::Neighbor& found : grid.nearest(slot, range, most, reach, candidates)) {
+        ids.push_back(grid.id(found.slot));
+      }
       ASSERT_EQ(ids, brute_force(agents, grid.id(slot), range, most))
           << "agent " << grid.id(slot) << " range " << range;
     }

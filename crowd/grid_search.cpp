@@ -1,0 +1,185 @@
+// The search for the nearest neighbours. Everybody within reach is collected, several at a time and
+// without branches that a processor could not foresee; their order is then found by counting for
+// each how many are nearer, which for so few is faster than sorting.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/simd.h"
+#include "crowd/grid.h"
+
+namespace throng::crowd {
+
+Grid::Candidates::Candidates(std::size_t most) {
+  // Whoever is added, room for a whole vector must be left.
+  constexpr std::size_t kRoom = 128;
+  const std::size_t capacity = most + kRoom + most / 2;
+  distance_sq_.resize(capacity);
+  slot_.resize(capacity);
+  sorted_.resize(capacity);
+}
+
+struct NearestKernel {
+  using Candidates = Grid::Candidates;
+  using Neighbor = Grid::Neighbor;
+
+  /// Where to look.
+  struct Place {
+    float x = 0;
+    float y = 0;
+    float limit_sq = 0;  // m^2; those further away are not wanted
+    std::size_t self = 0;
+    std::size_t most = 0;
+  };
+
+  template <int kWidth>
+  static std::span<const Neighbor> run(const Grid& grid, std::size_t slot, float range,
+                                       std::size_t most, float& reach, Candidates& candidates) {
+    if (most == 0 || !(range > 0)) return {};
+    constexpr float kSmallestReach = 0.5F;  // m
+    float radius = std::clamp(reach, std::min(kSmallestReach, range), range);
+    collect<kWidth>(grid, slot, radius, most, candidates);
+    while (candidates.count_ < most && radius < range) {
+      radius = std::min(2 * radius, range);
+      collect<kWidth>(grid, slot, radius, most, candidates);
+    }
+    sort<kWidth>(grid, candidates);
+    std::size_t count = std::min(most, candidates.count_);
+    const std::vector<Neighbor>& sorted = candidates.sorted_;
+    while (count > 0 && !(sorted[count - 1].distance_sq < range * range)) --count;
+    constexpr float kMargin = 1.15F;  // people move a little between steps
+    reach = count == most ? kMargin * std::sqrt(sorted[count - 1].distance_sq) : range;
+    return {sorted.data(), count};
+  }
+
+ private:
+  /// Finds everybody within the radius; if they are too many for the candidates' memory, at least
+  /// the `most` nearest of them.
+  template <int kWidth>
+  static void collect(const Grid& grid, std::size_t slot, float radius, std::size_t most,
+                      Candidates& candidates) {
+    constexpr float kRounding = 1e-3F;  // m; nobody at the edge is missed
+    Place place{grid.x_[slot], grid.y_[slot], radius * radius, slot, most};
+    candidates.count_ = 0;
+    const float padded = radius + kRounding;
+    const int first_row = Grid::row_of(place.y - padded);
+    const int last_row = Grid::row_of(place.y + padded);
+    const int first_column = Grid::column_of(place.x - padded);
+    const int last_column = Grid::column_of(place.x + padded);
+    const auto buckets = static_cast<std::size_t>(grid.bucket_mask_) + 1;
+    const auto columns = static_cast<std::size_t>(last_column - first_column) + 1;
+    const auto rows = static_cast<std::size_t>(last_row - first_row) + 1;
+    constexpr std::size_t kRowCost = 8;  // slots that are looked at in the time of a row
+    if (columns > buckets || rows * kRowCost > grid.size_) {
+      scan<kWidth, false>(grid, 0, grid.size_, 0, place, candidates);
+      return;
+    }
+    for (int row = first_row; row <= last_row; ++row) {
+      const std::size_t begin = grid.bucket(first_column, row);
+      const std::size_t end = begin + columns;
+      scan<kWidth, true>(grid, grid.bucket_begin_[begin],
+                         grid.bucket_begin_[std::min(end, buckets)], row, place, candidates);
+      if (end > buckets) {
+        scan<kWidth, true>(grid, grid.bucket_begin_[0], grid.bucket_begin_[end - buckets], row,
+                           place, candidates);
+      }
+    }
+  }
+
+  /// Adds those in the slots from `begin` to `end` that are near enough; with kRow, only those of
+  /// the row, since buckets may be shared with others, which would be found twice.
+  template <int kWidth, bool kRow>
+  static void scan(const Grid& grid, std::size_t begin, std::size_t end, int row, Place& place,
+                   Candidates& candidates) {
+    using V = Vectors<kWidth>;
+    for (std::size_t at = begin; at < end; at += kWidth) {
+      if (candidates.count_ + kWidth > candidates.slot_.size()) {
+        keep_nearest<kWidth>(grid, place, candidates);
+      }
+      const typename V::Float dx = load<kWidth>(&grid.x_[at]) - place.x;
+      const typename V::Float dy = load<kWidth>(&grid.y_[at]) - place.y;
+      const typename V::Float distance_sq = dx * dx + dy * dy;
+      typename V::Int wanted = distance_sq <= place.limit_sq;
+      wanted &= V::kIndex < static_cast<std::int32_t>(std::min<std::size_t>(end - at, kWidth));
+      wanted &= V::kIndex != static_cast<std::int32_t>(place.self - at);
+      if constexpr (kRow) wanted &= load<kWidth>(&grid.row_[at]) == row;
+      append<kWidth>(distance_sq, wanted, at, candidates);
+    }
+  }
+
+  template <int kWidth>
+  static void append(typename Vectors<kWidth>::Float distance_sq,
+                     typename Vectors<kWidth>::Int wanted, std::size_t at, Candidates& candidates) {
+    std::array<float, kWidth> distances;
+    std::array<std::int32_t, kWidth> adds;
+    store(distance_sq, distances.data());
+    store(-wanted, adds.data());
+    float* const distance_out = candidates.distance_sq_.data();
+    std::int32_t* const slot_out = candidates.slot_.data();
+    std::size_t count = candidates.count_;
+    for (std::size_t i = 0; i < kWidth; ++i) {
+      distance_out[count] = distances[i];
+      slot_out[count] = static_cast<std::int32_t>(at + i);
+      count += static_cast<std::size_t>(adds[i]);
+    }
+    candidates.count_ = count;
+  }
+
+  /// Makes room.
+  template <int kWidth>
+  static void keep_nearest(const Grid& grid, Place& place, Candidates& candidates) {
+    sort<kWidth>(grid, candidates);
+    const std::size_t kept = std::min(place.most, candidates.count_);
+    for (std::size_t i = 0; i < kept; ++i) {
+      candidates.distance_sq_[i] = candidates.sorted_[i].distance_sq;
+      candidates.slot_[i] = static_cast<std::int32_t>(candidates.sorted_[i].slot);
+    }
+    candidates.count_ = kept;
+    if (kept == place.most) place.limit_sq = candidates.distance_sq_[kept - 1];
+  }
+
+  /// Fills sorted_.
+  template <int kWidth>
+  static void sort(const Grid& grid, Candidates& candidates) {
+    constexpr std::size_t kFew = 128;
+    if (candidates.count_ <= kFew && sort_few<kWidth>(candidates)) return;
+    const auto end = candidates.sorted_.begin() + static_cast<std::ptrdiff_t>(candidates.count_);
+    for (std::size_t i = 0; i < candidates.count_; ++i) {
+      candidates.sorted_[i] = {candidates.distance_sq_[i],
+                               static_cast<std::uint32_t>(candidates.slot_[i])};
+    }
+    std::sort(candidates.sorted_.begin(), end, [&grid](const Neighbor& a, const Neighbor& b) {
+      return a.distance_sq != b.distance_sq ? a.distance_sq < b.distance_sq
+                                            : grid.id_[a.slot] < grid.id_[b.slot];
+    });
+  }
+
+  /// False when two are equally far.
+  template <int kWidth>
+  static bool sort_few(Candidates& candidates) {
+    using V = Vectors<kWidth>;
+    const std::size_t count = candidates.count_;
+    std::size_t ranks = 0;
+    for (std::size_t at = 0; at < count; at += kWidth) {
+      const typename V::Float mine = load<kWidth>(&candidates.distance_sq_[at]);
+      typename V::Int nearer{};
+      for (std::size_t i = 0; i < count; ++i) nearer -= candidates.distance_sq_[i] < mine;
+      std::array<std::int32_t, kWidth> rank;
+      store(nearer, rank.data());
+      const std::size_t end = std::min<std::size_t>(count - at, kWidth);
+      for (std::size_t i = 0; i < end; ++i) {
+        const auto place = static_cast<std::size_t>(rank[i]);
+        candidates.sorted_[place] = {candidates.distance_sq_[at + i],
+                                     static_cast<std::uint32_t>(candidates.slot_[at + i])};
+        ranks += place;
+      }
+    }
+    return 2 * ranks == count * (count - 1);
+  }
+};
+
+Grid::Nearest* Grid::pick_nearest(InstructionSet set) {
+  return Versions<NearestKernel, Nearest>::pick(set);
+}
+
+}  // namespace throng::crowd
