@@ -2,6 +2,7 @@
 // kernels only (see instruction_set.h), whose files throng_kernels() in cmake/Rooms.cmake names.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -104,10 +105,35 @@ typename Vectors<kWidth>::Float square_root(typename Vectors<kWidth>::Float v) {
   return v;
 }
 
-/// `count` rounded up to whole vectors.
-template <int kWidth>
-constexpr std::size_t whole(std::size_t count) {
-  return (count + kWidth - 1) / kWidth * kWidth;
+/// Turns records of four numbers into four vectors.
+inline void transpose(const std::array<Float4, 4>& r, Float4& a, Float4& b, Float4& c, Float4& d) {
+  const Float4 ab_low = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
+  const Float4 cd_low = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
+  const Float4 ab_high = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
+  const Float4 cd_high = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+  a = __builtin_shufflevector(ab_low, ab_high, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_low, ab_high, 2, 3, 6, 7);
+  c = __builtin_shufflevector(cd_low, cd_high, 0, 1, 4, 5);
+  d = __builtin_shufflevector(cd_low, cd_high, 2, 3, 6, 7);
+}
+
+inline Float8 join(Float4 low, Float4 high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+inline void transpose(const std::array<Float4, 8>& r, Float8& a, Float8& b, Float8& c, Float8& d) {
+  const Float8 r0 = join(r[0], r[4]);
+  const Float8 r1 = join(r[1], r[5]);
+  const Float8 r2 = join(r[2], r[6]);
+  const Float8 r3 = join(r[3], r[7]);
+  const Float8 ab_low = __builtin_shufflevector(r0, r1, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Float8 cd_low = __builtin_shufflevector(r0, r1, 2, 10, 3, 11, 6, 14, 7, 15);
+  const Float8 ab_high = __builtin_shufflevector(r2, r3, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Float8 cd_high = __builtin_shufflevector(r2, r3, 2, 10, 3, 11, 6, 14, 7, 15);
+  a = __builtin_shufflevector(ab_low, ab_high, 0, 1, 8, 9, 4, 5, 12, 13);
+  b = __builtin_shufflevector(ab_low, ab_high, 2, 3, 10, 11, 6, 7, 14, 15);
+  c = __builtin_shufflevector(cd_low, cd_high, 0, 1, 8, 9, 4, 5, 12, 13);
+  d = __builtin_shufflevector(cd_low, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
 }  // namespace throng

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/instruction_set.h"
 #include "crowd/agents.h"
 #include "crowd/goals.h"
 #include "crowd/obstacles.h"
@@ -16,9 +17,10 @@ struct Crowd {
   Obstacles obstacles;
   std::vector<float> model_constants;  ///< of the scene, in the order of the model's table
   Compat compat = Compat::none;
-  std::vector<std::vector<std::uint32_t>> social_groups;  ///< the ids of their members
-  std::size_t awaited = 0;                                ///< agents still to arrive
-  double dt_s = 0.1;                                      ///< of one (sub-)step
+  InstructionSet instruction_set = best_instruction_set();  ///< for the loops that have a choice
+  std::vector<std::vector<std::uint32_t>> social_groups;    ///< the ids of their members
+  std::size_t awaited = 0;                                  ///< agents still to arrive
+  double dt_s = 0.1;                                        ///< of one (sub-)step
   std::uint64_t step = 0;
 
   double time_s() const { return static_cast<double>(step) * dt_s; }

@@ -5,23 +5,7 @@
 
 namespace throng::crowd {
 
-namespace {
-
-/// The cell of a coordinate; far away, cells are shared.
-int cell_of(float coordinate, float cell_size) {
-  constexpr float kFar = 1e9F;  // cells
-  const float cells = std::min(std::max(coordinate / cell_size, -kFar), kFar);
-  const int towards_zero = static_cast<int>(cells);
-  return towards_zero - (static_cast<float>(towards_zero) > cells ? 1 : 0);
-}
-
-}  // namespace
-
 Grid::Grid(InstructionSet set) : nearest_(pick_nearest(set)) {}
-
-int Grid::column_of(float x) { return cell_of(x, kCellWidth); }
-
-int Grid::row_of(float y) { return cell_of(y, kCellHeight); }
 
 void Grid::build(const Agents& agents) {
   const std::size_t count = agents.count();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -48,6 +49,7 @@ class Grid {
 
   std::size_t size() const { return size_; }
   std::uint32_t id(std::size_t slot) const { return id_[slot]; }
+  const Body& body(std::size_t slot) const { return body_[slot]; }
   const Eigen::Vector2f& position(std::size_t slot) const { return body_[slot].position; }
   const Eigen::Vector2f& velocity(std::size_t slot) const { return body_[slot].velocity; }
   float radius(std::size_t slot) const { return radius_[slot]; }
@@ -70,8 +72,15 @@ class Grid {
   static constexpr std::size_t kPadding = 8;  // searches load whole vectors
 
   static Nearest* pick_nearest(InstructionSet set);
-  static int column_of(float x);
-  static int row_of(float y);
+  static int column_of(float x) { return cell_of(x / kCellWidth); }
+  static int row_of(float y) { return cell_of(y / kCellHeight); }
+  /// Far away, cells are shared.
+  static int cell_of(float cells) {
+    constexpr float kFar = 1e9F;
+    const float near = std::min(std::max(cells, -kFar), kFar);
+    const int towards_zero = static_cast<int>(near);
+    return towards_zero - (static_cast<float>(towards_zero) > near ? 1 : 0);
+  }
   std::uint32_t bucket(int column, int row) const {
     // Rows start at scattered places (the golden ratio's multiples), so that a crowd of any shape
     // spreads over all buckets.

@@ -1,5 +1,3 @@
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 
 #include "crowd/model.h"
@@ -14,16 +12,20 @@ enum Parameter : std::size_t { tau, tau_obstacles };
 
 /// What one thread works with; kept from step to step, so that a step allocates nothing.
 struct Workspace {
-  std::vector<HalfPlane> planes;
-  std::vector<HalfPlane> scratch;
+  HalfPlanes planes;
+  HalfPlanes scratch;
 };
 
 class Orca : public Model {
  public:
-  explicit Orca(const Crowd& crowd) : neighborhood_(crowd), workspaces_(make_workspace(crowd)) {}
+  explicit Orca(const Crowd& crowd)
+      : neighborhood_(crowd),
+        avoid_discs_(avoid_discs(crowd.instruction_set)),
+        workspaces_(make_workspace(crowd)) {}
 
   void step(const Crowd& crowd, const Grid& grid,
             std::span<Eigen::Vector2f> new_velocity) override {
+    workspaces_.prepare();
     neighborhood_.for_each(crowd, grid, [&](const Surroundings& around) {
       new_velocity[around.agent] = velocity(crowd, grid, around, workspaces_.local());
     });
@@ -41,37 +43,29 @@ class Orca : public Model {
     return workspace;
   }
 
-  static Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const Surroundings& around,
-                                  Workspace& workspace) {
+  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+                           Workspace& workspace) const {
     const Agents& agents = crowd.agents;
     const std::size_t id = around.agent;
-    const Disc self{grid.position(around.slot), grid.velocity(around.slot),
-                    grid.radius(around.slot)};
-
-    workspace.planes.clear();
-    avoid_walls(self, crowd.obstacles.segments(), around.walls,
-                agents.model_parameters[tau_obstacles][id], workspace.planes);
-    const std::size_t walls = workspace.planes.size();
-
-    const float horizon_s = agents.model_parameters[tau][id];
-    for (const Grid::Neighbor& neighbor : around.neighbors) {
-      Disc other{grid.position(neighbor.slot), grid.velocity(neighbor.slot),
-                 grid.radius(neighbor.slot)};
-      // Two in one place part along x, the one with the higher id to the right.
-      constexpr float kNudge = 1e-3F;  // m
-      if (neighbor.distance_sq == 0) {
-        other.position.x() += grid.id(neighbor.slot) > id ? kNudge : -kNudge;
-      }
-      workspace.planes.push_back(
-          avoid_disc(self, other, horizon_s, static_cast<float>(crowd.dt_s)));
+    HalfPlanes& planes = workspace.planes;
+    planes.clear();
+    if (!around.walls.empty()) {
+      const Disc self{grid.position(around.slot), grid.velocity(around.slot),
+                      grid.radius(around.slot)};
+      avoid_walls(self, crowd.obstacles.segments(), around.walls,
+                  agents.model_parameters[tau_obstacles][id], planes);
     }
+    const std::size_t walls = planes.size();
+    avoid_discs_(grid, around.slot, around.neighbors, agents.model_parameters[tau][id],
+                 static_cast<float>(crowd.dt_s), planes);
     const Eigen::Vector2f preferred = agents.preferred_speed[id] * agents.preferred_direction[id];
-    return best_velocity(workspace.planes, walls, preferred, agents[Property::max_speed][id],
-                         workspace.scratch);
+    return best_velocity(planes, walls, preferred, agents[Property::max_speed][id],
+                         workspace.scratch, crowd.instruction_set);
   }
 
   Neighborhood neighborhood_;
-  tbb::enumerable_thread_specific<Workspace> workspaces_;
+  AvoidDiscs* avoid_discs_;
+  PerThread<Workspace> workspaces_;
 };
 
 std::unique_ptr<Model> make_orca(const Crowd& crowd) { return std::make_unique<Orca>(crowd); }

@@ -94,14 +94,18 @@ class WallAvoidance {
       : self_(self), segments_(segments), rate_(1 / horizon_s) {}
 
   /// Whether the planes so far keep the whole wall out of reach.
-  bool covered(const Segment& wall, const std::vector<HalfPlane>& planes) const {
+  bool covered(const Segment& wall, const HalfPlanes& planes) const {
     const float radius = rate_ * self_.radius;
     const Eigen::Vector2f begin = rate_ * (wall.begin - self_.position);
     const Eigen::Vector2f end = rate_ * (wall.end - self_.position);
-    return std::any_of(planes.begin(), planes.end(), [&](const HalfPlane& plane) {
-      return cross(begin - plane.point, plane.direction) - radius >= -kOrcaEpsilon &&
-             cross(end - plane.point, plane.direction) - radius >= -kOrcaEpsilon;
-    });
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const HalfPlane plane = planes[i];
+      if (cross(begin - plane.point, plane.direction) - radius >= -kOrcaEpsilon &&
+          cross(end - plane.point, plane.direction) - radius >= -kOrcaEpsilon) {
+        return true;
+      }
+    }
+    return false;
   }
 
   std::optional<HalfPlane> plane(const Segment& wall) const {
@@ -176,34 +180,8 @@ class WallAvoidance {
 
 }  // namespace
 
-HalfPlane avoid_disc(const Disc& self, const Disc& other, float horizon_s, float dt_s) {
-  const Eigen::Vector2f apart = other.position - self.position;
-  const Eigen::Vector2f relative = self.velocity - other.velocity;
-  const float distance_sq = apart.squaredNorm();
-  const float radius = self.radius + other.radius;
-  const float radius_sq = radius * radius;
-  Eigen::Vector2f direction;
-  Eigen::Vector2f change;
-  const bool overlapping = distance_sq <= radius_sq;
-  const float rate = 1 / (overlapping ? dt_s : horizon_s);
-  const Eigen::Vector2f from_cutoff = relative - rate * apart;
-  const float ahead = from_cutoff.dot(apart);
-  if (overlapping || (ahead < 0 && ahead * ahead > radius_sq * from_cutoff.squaredNorm())) {
-    const float length = from_cutoff.norm();
-    const Eigen::Vector2f outward = unit(from_cutoff);
-    direction = -left_of(outward);
-    change = (radius * rate - length) * outward;
-  } else {
-    const Tangents legs = tangents(apart, radius);
-    direction = cross(apart, from_cutoff) > 0 ? legs.left : Eigen::Vector2f(-legs.right);
-    change = relative.dot(direction) * direction - relative;
-  }
-  return {self.velocity + 0.5F * change, direction};
-}
-
 void avoid_walls(const Disc& self, const std::vector<Segment>& segments,
-                 std::span<const Obstacles::Near> near, float horizon_s,
-                 std::vector<HalfPlane>& planes) {
+                 std::span<const Obstacles::Near> near, float horizon_s, HalfPlanes& planes) {
   const WallAvoidance avoidance(self, segments, horizon_s);
   for (const Obstacles::Near& wall : near) {
     const Segment& segment = segments[wall.segment];

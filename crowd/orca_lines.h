@@ -1,20 +1,16 @@
 // Optimal reciprocal collision avoidance (van den Berg et al. 2011): half-planes of velocities
-// that avoid a collision within some time, and the best velocity in all of them.
+// that avoid a collision within some time.
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
 #include <vector>
 
+#include "crowd/grid.h"
+#include "crowd/half_planes.h"
 #include "crowd/obstacles.h"
 
 namespace throng::crowd {
-
-/// The boundary of a half-plane of allowed velocities, which lie on the left of the direction.
-struct HalfPlane {
-  Eigen::Vector2f point;
-  Eigen::Vector2f direction;  ///< unit
-};
 
 /// What is nothing beside a speed (m/s) or a sine.
 inline constexpr float kOrcaEpsilon = 1e-5F;
@@ -36,14 +32,12 @@ HalfPlane avoid_disc(const Disc& self, const Disc& other, float horizon_s, float
 /// Appends the half-planes that keep `self` clear of the walls for `horizon_s`. `near` is sorted
 /// by distance; a wall that those before it already keep at bay adds nothing.
 void avoid_walls(const Disc& self, const std::vector<Segment>& segments,
-                 std::span<const Obstacles::Near> near, float horizon_s,
-                 std::vector<HalfPlane>& planes);
+                 std::span<const Obstacles::Near> near, float horizon_s, HalfPlanes& planes);
 
-/// The velocity nearest to `preferred` with at most `max_speed` in all half-planes. When there is
-/// none, the first `hard` half-planes are kept and the largest violation of the others is made as
-/// small as possible. `scratch` saves allocations.
-Eigen::Vector2f best_velocity(const std::vector<HalfPlane>& planes, std::size_t hard,
-                              const Eigen::Vector2f& preferred, float max_speed,
-                              std::vector<HalfPlane>& scratch);
+/// The same for a whole neighbourhood at a time: planes that are appended in its order. Two in one
+/// place part along x, the one with the higher id to the right.
+using AvoidDiscs = void(const Grid& grid, std::size_t self, std::span<const Grid::Neighbor> others,
+                        float horizon_s, float dt_s, HalfPlanes& planes);
+AvoidDiscs* avoid_discs(InstructionSet set);
 
 }  // namespace throng::crowd

@@ -16,8 +16,8 @@ float violation(const HalfPlane& plane, const Eigen::Vector2f& v) {
   return cross(plane.direction, plane.point - v);
 }
 
-std::vector<HalfPlane> random_planes(std::size_t count, std::uint64_t seed) {
-  std::vector<HalfPlane> planes;
+HalfPlanes random_planes(std::size_t count, std::uint64_t seed) {
+  HalfPlanes planes;
   Random random(seed, Stream::crowd_generator);
   for (std::size_t i = 0; i < count; ++i) {
     const double angle = random.uniform(0, 2 * std::numbers::pi);
@@ -34,8 +34,8 @@ struct Sampled {
   float distance = 1e9F;
 };
 
-Sampled sample_best(const std::vector<HalfPlane>& planes, std::size_t hard,
-                    const Eigen::Vector2f& preferred, float max_speed) {
+Sampled sample_best(const HalfPlanes& planes, std::size_t hard, const Eigen::Vector2f& preferred,
+                    float max_speed) {
   Sampled best;
   constexpr int kSteps = 150;
   for (int ix = -kSteps; ix <= kSteps; ++ix) {
@@ -58,16 +58,18 @@ Sampled sample_best(const std::vector<HalfPlane>& planes, std::size_t hard,
 }
 
 TEST(BestVelocity, IsAtLeastAsGoodAsAnySampledOne) {
-  std::vector<HalfPlane> scratch;
+  HalfPlanes scratch;
   constexpr float kMaxSpeed = 1.5F;
   int infeasible = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const std::vector<HalfPlane> planes = random_planes(1 + seed % 8, seed);
+    const HalfPlanes planes = random_planes(1 + seed % 8, seed);
     const Eigen::Vector2f preferred(1.2F, 0.3F);
     const Eigen::Vector2f v = best_velocity(planes, 0, preferred, kMaxSpeed, scratch);
     EXPECT_LE(v.norm(), kMaxSpeed + 1e-4F);
     float worst = 0;
-    for (const HalfPlane& plane : planes) worst = std::max(worst, violation(plane, v));
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      worst = std::max(worst, violation(planes[i], v));
+    }
     const Sampled sampled = sample_best(planes, 0, preferred, kMaxSpeed);
     EXPECT_LE(worst, sampled.violation + 1e-4F) << seed;
     if (worst <= 1e-5F) {
@@ -81,14 +83,14 @@ TEST(BestVelocity, IsAtLeastAsGoodAsAnySampledOne) {
 
 TEST(BestVelocity, KeepsHardPlanesWhenNotAllCanBeKept) {
   // A wall ahead (x <= 0 allowed, hard) against someone who pushes towards it (x >= 1).
-  const std::vector<HalfPlane> planes = {{{0, 0}, {0, 1}}, {{1, 0}, {0, -1}}};
-  std::vector<HalfPlane> scratch;
+  const HalfPlanes planes = {{{0, 0}, {0, 1}}, {{1, 0}, {0, -1}}};
+  HalfPlanes scratch;
   const Eigen::Vector2f v = best_velocity(planes, 1, {1, 0}, 2, scratch);
   EXPECT_LE(v.x(), 1e-5F);
 }
 
 TEST(AvoidDisc, TwoWhoTakeTheirHalvesDoNotTouchWithinTheHorizon) {
-  std::vector<HalfPlane> scratch;
+  HalfPlanes scratch;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Random random(seed, Stream::crowd_generator);
     const auto draw = [&](double half) { return static_cast<float>(random.uniform(-half, half)); };
@@ -111,7 +113,7 @@ TEST(AvoidDisc, OverlappingDiscsPartWithinTheStep) {
   const Disc a{{0, 0}, {0, 0}, 0.3F};
   const Disc b{{0.4F, 0}, {0, 0}, 0.3F};
   constexpr float kDt = 0.1F;
-  std::vector<HalfPlane> scratch;
+  HalfPlanes scratch;
   const Eigen::Vector2f va = best_velocity({avoid_disc(a, b, 3, kDt)}, 0, {0, 0}, 5, scratch);
   const Eigen::Vector2f vb = best_velocity({avoid_disc(b, a, 3, kDt)}, 0, {0, 0}, 5, scratch);
   EXPECT_NEAR((b.position + kDt * vb - a.position - kDt * va).norm(), 0.6F, 1e-4F);
@@ -125,7 +127,7 @@ TEST(AvoidWalls, AllowedVelocitiesDoNotHitABoxWithinTheHorizon) {
   constexpr float kHorizon = 1;
   constexpr float kRadius = 0.3F;
   std::vector<Obstacles::Near> near;
-  std::vector<HalfPlane> scratch;
+  HalfPlanes scratch;
   int deflected = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Random random(seed, Stream::crowd_generator);
@@ -138,7 +140,7 @@ TEST(AvoidWalls, AllowedVelocitiesDoNotHitABoxWithinTheHorizon) {
     };
     if (clearance(self.position) < kRadius + 0.01F) continue;
     obstacles.near(self.position, 20, 1, near);
-    std::vector<HalfPlane> planes;
+    HalfPlanes planes;
     avoid_walls(self, obstacles.segments(), near, kHorizon, planes);
     const Eigen::Vector2f v = best_velocity(planes, planes.size(), self.velocity, 5, scratch);
     if ((v - self.velocity).norm() > 1e-3F) ++deflected;
