@@ -192,6 +192,8 @@ Eigen::Vector2f Simulation::preferred_velocity(std::size_t agent) const {
   return agents.preferred_speed[agent] * agents.preferred_direction[agent];
 }
 
+float Simulation::ground_m(std::size_t) const { return 0; }
+
 bool Simulation::is_final(std::uint8_t state) const { return state_->machine->is_final(state); }
 
 bool Simulation::has_exits(std::uint8_t state) const { return state_->machine->has_exits(state); }

@@ -28,6 +28,7 @@ struct LoadOptions {
   Compat compat = Compat::none;
   std::optional<double> time_step_s = {};  ///< instead of the scene's
   int sub_steps = 0;                       ///< steps in between that nobody sees, per time step
+  bool hard_separation = false;            ///< bodies never overlap by more than 1 cm
 };
 
 /// A goal chosen by an agent: set and goal id of the behaviour file; -1 for one made on the fly
@@ -74,6 +75,7 @@ class Simulation {
   std::span<const std::int32_t> social_groups() const;
   std::span<const std::int32_t> agent_classes() const;  ///< as profiles number them, for reports
   Eigen::Vector2f preferred_velocity(std::size_t agent) const;  ///< if it were alone, m/s
+  float ground_m(std::size_t agent) const;                      ///< height where it stands
   const std::vector<std::string>& state_names() const;
   bool is_final(std::uint8_t state) const;
   bool has_exits(std::uint8_t state) const;  ///< some transition leads out of it
