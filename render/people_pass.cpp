@@ -94,9 +94,18 @@ void append_part(const skinning::Mesh& mesh, const skinning::Part& part, std::ui
   }
 }
 
-std::uint32_t packed(const std::array<std::uint8_t, 3>& srgb) {
-  return srgb[0] | (static_cast<std::uint32_t>(srgb[1]) << 8U) |
-         (static_cast<std::uint32_t>(srgb[2]) << 16U);
+/// The five tints in four words: three bytes each of top, bottom, hair and shoes, red lowest, with
+/// the item's red, green and blue as the first three words' high bytes.
+std::array<std::uint32_t, 4> packed(const std::array<skinning::Rgb, skinning::kTintCount>& tint) {
+  std::array<std::uint32_t, 4> words{};
+  const skinning::Rgb& item = tint[static_cast<std::size_t>(skinning::Tint::item)];
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const skinning::Rgb& srgb = tint[i + 1];
+    words[i] = srgb[0] | (static_cast<std::uint32_t>(srgb[1]) << 8U) |
+               (static_cast<std::uint32_t>(srgb[2]) << 16U);
+    if (i < item.size()) words[i] |= static_cast<std::uint32_t>(item[i]) << 24U;
+  }
+  return words;
 }
 
 }  // namespace
@@ -180,7 +189,6 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
               std::max(person.pose.a, person.pose.b) < palettes_per_character_,
           "people use characters and palettes that the population has");
     const std::uint32_t first_palette = character * palettes_per_character_;
-    const auto& tint = person.appearance.tint;
     const Level* level = &levels_[character][draw.level];
     if (batches.empty() || batches.back().level != level) {
       batches.push_back({level, static_cast<std::uint32_t>(instances.size()), 0});
@@ -191,7 +199,7 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
                          first_palette + person.pose.b,
                          std::bit_cast<std::uint32_t>(person.pose.blend),
                          id_of_agent(person.agent),
-                         {packed(tint[1]), packed(tint[2]), packed(tint[3]), packed(tint[4])},
+                         packed(person.appearance.tint),
                          draw.shift,
                          {std::cos(person.yaw_rad), std::sin(person.yaw_rad)}});
   }

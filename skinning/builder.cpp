@@ -93,7 +93,7 @@ void check_replaceable(const fs::path& folder) {
 
 struct Baked {
   std::string glb;
-  PopulationIndex::Entry entry;
+  Character entry;  // without its levels, which are in the GLB
   std::vector<Palette> palettes;
 };
 
@@ -146,7 +146,11 @@ class Bakery {
       const std::vector<Palette> palettes = bake_clip(walker, clip);
       baked.palettes.insert(baked.palettes.end(), palettes.begin(), palettes.end());
     }
-    baked.entry = {person.name, dressed.stature_m, person.tints};
+    baked.entry.name = person.name;
+    baked.entry.stature_m = dressed.stature_m;
+    baked.entry.age_years = static_cast<float>(person.age_years);
+    baked.entry.male = person.male;
+    baked.entry.tints = person.tints;
     baked.glb = encode_glb(asset);
     return baked;
   }

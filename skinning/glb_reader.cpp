@@ -66,7 +66,7 @@ class Reader {
     const std::string name = material.GetName().C_Str();
     const auto tint = std::find(kTintNames.begin(), kTintNames.end(), name);
     if (tint == kTintNames.end()) {
-      fail("material \"" + name + "\"", "none, top, bottom, hair or shoes");
+      fail("material \"" + name + "\"", "none, top, bottom, hair, shoes or item");
     }
     part.tint = static_cast<Tint>(tint - kTintNames.begin());
     int two_sided = 0;

@@ -2,23 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <span>
 
+#include "skinning/appearance.h"
 #include "skinning/population.h"
 
 namespace throng::skinning {
-
-/// What sets an agent apart from the others; a pure function of (run seed, agent id).
-struct Appearance {
-  std::uint32_t character = 0;         ///< index into Population::characters
-  float phase_offset = 0;              ///< strides, in [0, 1)
-  float cadence = 1;                   ///< about 1; multiplies the natural cadence
-  std::array<Rgb, kTintCount> tint{};  ///< by skinning::Tint; white where nothing is tinted
-};
-
-Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent);
 
 /// Length of one stride (two steps) in metres at a speed: Winiarski 2019 for walking, Fukuchi 2017
 /// for running, blended by smoothstep between 1.8 and 2.3 m/s.

@@ -48,11 +48,12 @@ class TextureLayers {
 Population load_population(const fs::path& folder) {
   const PopulationIndex index = read_index(folder);
   Population population;
+  population.content_hash = index.content_hash;
   population.texture_size = index.texture_size;
   population.clips = index.clips;
   population.palettes_per_character = index.palettes_per_character;
   TextureLayers layers(population);
-  for (const PopulationIndex::Entry& entry : index.characters) {
+  for (const Character& entry : index.characters) {
     const fs::path file = folder / (entry.name + ".glb");
     if (!fs::is_regular_file(file)) {
       throw InputError({file.string(), "", "no such file",
@@ -66,8 +67,8 @@ Population load_population(const fs::path& folder) {
             layers.layer_of(asset.pictures[static_cast<std::size_t>(part.texture)], file);
       }
     }
-    population.characters.push_back(
-        {entry.name, entry.stature_m, std::move(asset.levels), entry.tints});
+    Character& character = population.characters.emplace_back(entry);
+    character.levels = std::move(asset.levels);
   }
   population.palettes =
       read_palettes(folder, population.characters.size() * population.palettes_per_character);

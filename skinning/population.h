@@ -50,9 +50,9 @@ static_assert(sizeof(Vertex) == 40);
 
 /// What a part of a character is coloured with, per instance. The albedo of a tinted part is its
 /// texture times the instance's tint, both in linear light; such textures hold light and shade
-/// only. Tint::none is not tinted.
-enum class Tint : std::uint8_t { none, top, bottom, hair, shoes };
-inline constexpr std::size_t kTintCount = 5;
+/// only. Tint::none is not tinted. Hats are coloured like shoes.
+enum class Tint : std::uint8_t { none, top, bottom, hair, shoes, item };
+inline constexpr std::size_t kTintCount = 6;
 
 using Rgb = std::array<std::uint8_t, 3>;  ///< sRGB
 
@@ -73,9 +73,17 @@ struct Mesh {
   std::vector<Part> parts;
 };
 
+/// What somebody carries; see items.h for where it hangs and where a hand holds it.
+enum class Carry : std::uint8_t { nothing, backpack, shoulder_bag, handbag, umbrella };
+inline constexpr std::size_t kCarryCount = 5;
+
 struct Character {
   std::string name;
-  float stature_m = 0;       ///< sole of the shoes to crown, standing
+  float stature_m = 0;  ///< sole of the shoes to crown, standing
+  float age_years = 35;
+  bool male = true;
+  Carry carries = Carry::nothing;
+  std::string wears;         ///< in words, e.g. "t-shirt, jeans, trainers"
   std::vector<Mesh> levels;  ///< from most to least detailed; at least one
   /// Colours that suit this character, by Tint: what appearance_of picks from.
   std::array<std::vector<Rgb>, kTintCount> tints;
@@ -99,6 +107,7 @@ struct Clip {
 };
 
 struct Population {
+  std::string content_hash;  ///< SHA-256 of everything that the people were made from
   std::vector<Character> characters;
   int texture_size = 0;
   std::vector<Texture> textures;

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "skinning/items.h"
 #include "skinning/skeleton.h"
 
 namespace throng::skinning {
@@ -39,22 +41,52 @@ Rgb colour_of(const std::string& hex) {
   return colour;
 }
 
+Carry carry_named(const std::string& name) {
+  const auto found = std::find(kCarryNames.begin(), kCarryNames.end(), name);
+  if (found == kCarryNames.end()) throw std::out_of_range("thing to carry");
+  return static_cast<Carry>(found - kCarryNames.begin());
+}
+
+Character parse_character(const json& entry) {
+  Character character;
+  character.name = entry.at("name").get<std::string>();
+  character.stature_m = entry.at("stature_m").get<float>();
+  character.age_years = entry.at("age_years").get<float>();
+  character.male = entry.at("male").get<bool>();
+  character.wears = entry.at("wears").get<std::string>();
+  character.carries = carry_named(entry.at("carries").get<std::string>());
+  for (std::size_t tint = 0; tint < kTintCount; ++tint) {
+    const std::string name(kTintNames[tint]);
+    if (!entry.at("tints").contains(name)) continue;
+    for (const json& colour : entry.at("tints").at(name)) {
+      character.tints[tint].push_back(colour_of(colour.get<std::string>()));
+    }
+  }
+  return character;
+}
+
+json json_of(const Character& character) {
+  json tints = json::object();
+  for (std::size_t tint = 0; tint < kTintCount; ++tint) {
+    for (const Rgb& colour : character.tints[tint]) {
+      tints[std::string(kTintNames[tint])].push_back(hex_of(colour));
+    }
+  }
+  return {{"name", character.name},
+          {"stature_m", character.stature_m},
+          {"age_years", character.age_years},
+          {"male", character.male},
+          {"wears", character.wears},
+          {"carries", kCarryNames[static_cast<std::size_t>(character.carries)]},
+          {"tints", tints}};
+}
+
 PopulationIndex parse_index(const json& document) {
   PopulationIndex index;
   index.content_hash = document.at("content_hash").get<std::string>();
   index.texture_size = document.at("texture_size").get<int>();
   for (const json& entry : document.at("characters")) {
-    PopulationIndex::Entry character;
-    character.name = entry.at("name").get<std::string>();
-    character.stature_m = entry.at("stature_m").get<float>();
-    for (std::size_t tint = 0; tint < kTintCount; ++tint) {
-      const std::string name(kTintNames[tint]);
-      if (!entry.at("tints").contains(name)) continue;
-      for (const json& colour : entry.at("tints").at(name)) {
-        character.tints[tint].push_back(colour_of(colour.get<std::string>()));
-      }
-    }
-    index.characters.push_back(std::move(character));
+    index.characters.push_back(parse_character(entry));
   }
   for (const json& entry : document.at("clips")) {
     Clip clip;
@@ -75,15 +107,8 @@ std::string encode_index(const PopulationIndex& index, const std::string& licenc
   json document = {{"format", kPopulationFormat}, {"content_hash", index.content_hash},
                    {"licence", licence},          {"texture_size", index.texture_size},
                    {"characters", json::array()}, {"clips", json::array()}};
-  for (const PopulationIndex::Entry& character : index.characters) {
-    json tints = json::object();
-    for (std::size_t tint = 0; tint < kTintCount; ++tint) {
-      for (const Rgb& colour : character.tints[tint]) {
-        tints[std::string(kTintNames[tint])].push_back(hex_of(colour));
-      }
-    }
-    document["characters"].push_back(
-        {{"name", character.name}, {"stature_m", character.stature_m}, {"tints", tints}});
+  for (const Character& character : index.characters) {
+    document["characters"].push_back(json_of(character));
   }
   for (const Clip& clip : index.clips) {
     document["clips"].push_back(

@@ -10,20 +10,15 @@
 namespace throng::skinning {
 
 /// Changes whenever the files mean something else, so that old ones are refused.
-inline constexpr int kPopulationFormat = 1;
+inline constexpr int kPopulationFormat = 2;
 inline constexpr const char* kIndexFile = "population.json";
 inline constexpr const char* kPalettesFile = "palettes.bin";
 
 /// population.json.
 struct PopulationIndex {
-  struct Entry {
-    std::string name;  ///< its GLB is <name>.glb
-    float stature_m = 0;
-    std::array<std::vector<Rgb>, kTintCount> tints;
-  };
   std::string content_hash;  ///< of everything that the people were made from
   int texture_size = 0;
-  std::vector<Entry> characters;
+  std::vector<Character> characters;  ///< without their levels, which are in <name>.glb
   std::vector<Clip> clips;
   std::uint32_t palettes_per_character = 0;
 };

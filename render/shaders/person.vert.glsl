@@ -8,7 +8,7 @@ layout(location = 4) in vec4 weights;
 layout(location = 5) in uint part;             // texture layer, tint << 16
 layout(location = 6) in vec3 foot;             // per instance from here: position, m
 layout(location = 7) in uvec4 pose;            // palettes a and b, blend (a float's bits), id
-layout(location = 8) in uvec4 tints;           // top, bottom, hair, shoes: sRGB, red lowest
+layout(location = 8) in uvec4 tints;           // top, bottom, hair, shoes: sRGB, red lowest; item: high bytes
 layout(location = 9) in ivec2 shift;           // pixels
 layout(location = 10) in vec2 facing;          // cosine and sine of the heading
 
@@ -66,7 +66,13 @@ void main() {
   world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
   uint slot = part >> 16;
-  surface = uvec3(part & 0xFFFFu, slot == 0u ? 0xFFFFFFu : tints[slot - 1u], pose.w);
+  uint tint = 0xFFFFFFu;
+  if (slot == 5u) {
+    tint = tints.x >> 24 | tints.y >> 24 << 8 | tints.z >> 24 << 16;
+  } else if (slot > 0u) {
+    tint = tints[slot - 1u];
+  }
+  surface = uvec3(part & 0xFFFFu, tint, pose.w);
   gl_Position = project_movable(world, shift);
 }
 #endif

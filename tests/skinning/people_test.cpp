@@ -340,7 +340,7 @@ TEST_F(DamagedPeopleTest, ErrorsNameTheFileAndTheRemedy) {
     return changed;
   };
   for (const std::string& changed :
-       {std::string(), std::string("[1, 2]"), replaced("\"format\": 1", "\"format\": 999"),
+       {std::string(), std::string("[1, 2]"), replaced("\"format\": 2", "\"format\": 999"),
         replaced("\"clips\"", "\"chips\""), replaced("\"name\"", "\"game\""),
         replaced("\"frames\": 32", "\"frames\": 0"), replaced("\"#", "\"?")}) {
     write_file_atomically(folder / "population.json", changed);

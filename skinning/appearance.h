@@ -1,0 +1,21 @@
+// Who of the population an agent looks like, in which colours.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "skinning/population.h"
+
+namespace throng::skinning {
+
+/// What sets an agent apart from the others; a pure function of (run seed, agent id).
+struct Appearance {
+  std::uint32_t character = 0;         ///< index into Population::characters
+  float phase_offset = 0;              ///< strides, in [0, 1)
+  float cadence = 1;                   ///< about 1; multiplies the natural cadence
+  std::array<Rgb, kTintCount> tint{};  ///< by skinning::Tint; white where nothing is tinted
+};
+
+Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent);
+
+}  // namespace throng::skinning
