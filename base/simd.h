@@ -117,6 +117,26 @@ inline void transpose(const std::array<Float4, 4>& r, Float4& a, Float4& b, Floa
   d = __builtin_shufflevector(cd_low, cd_high, 2, 3, 6, 7);
 }
 
+/// Turns pairs of numbers into two vectors.
+inline void split(Float4 first, Float4 second, Float4& a, Float4& b) {
+  a = __builtin_shufflevector(first, second, 0, 2, 4, 6);
+  b = __builtin_shufflevector(first, second, 1, 3, 5, 7);
+}
+inline void split(Float8 first, Float8 second, Float8& a, Float8& b) {
+  a = __builtin_shufflevector(first, second, 0, 2, 4, 6, 8, 10, 12, 14);
+  b = __builtin_shufflevector(first, second, 1, 3, 5, 7, 9, 11, 13, 15);
+}
+
+/// Back to pairs.
+inline void mix(Float4 a, Float4 b, Float4& first, Float4& second) {
+  first = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  second = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+}
+inline void mix(Float8 a, Float8 b, Float8& first, Float8& second) {
+  first = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+  second = __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+
 inline Float8 join(Float4 low, Float4 high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }

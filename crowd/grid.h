@@ -36,6 +36,8 @@ class Grid {
 
    private:
     friend struct NearestKernel;
+    void make_room(std::size_t most);
+
     std::vector<float> distance_sq_;
     std::vector<std::int32_t> slot_;
     std::vector<Neighbor> sorted_;
@@ -77,7 +79,7 @@ class Grid {
   /// Far away, cells are shared.
   static int cell_of(float cells) {
     constexpr float kFar = 1e9F;
-    const float near = std::min(std::max(cells, -kFar), kFar);
+    const float near = std::min(kFar, std::max(-kFar, cells));  // in this order for NaN
     const int towards_zero = static_cast<int>(near);
     return towards_zero - (static_cast<float>(towards_zero) > near ? 1 : 0);
   }

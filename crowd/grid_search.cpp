@@ -10,10 +10,12 @@
 
 namespace throng::crowd {
 
-Grid::Candidates::Candidates(std::size_t most) {
-  // Whoever is added, room for a whole vector must be left.
-  constexpr std::size_t kRoom = 128;
-  const std::size_t capacity = most + kRoom + most / 2;
+Grid::Candidates::Candidates(std::size_t most) { make_room(most); }
+
+void Grid::Candidates::make_room(std::size_t most) {
+  constexpr std::size_t kMore = 128;  // than are wanted may be within reach
+  const std::size_t capacity = most + most / 2 + kMore;
+  if (slot_.size() >= capacity) return;
   distance_sq_.resize(capacity);
   slot_.resize(capacity);
   sorted_.resize(capacity);
@@ -36,6 +38,7 @@ struct NearestKernel {
   static std::span<const Neighbor> run(const Grid& grid, std::size_t slot, float range,
                                        std::size_t most, float& reach, Candidates& candidates) {
     if (most == 0 || !(range > 0)) return {};
+    candidates.make_room(most);
     constexpr float kSmallestReach = 0.5F;  // m
     float radius = std::clamp(reach, std::min(kSmallestReach, range), range);
     collect<kWidth>(grid, slot, radius, most, candidates);

@@ -4,12 +4,6 @@
 
 namespace throng::crowd {
 
-namespace {
-
-constexpr float kFirstReach = 2;  // m
-
-}  // namespace
-
 Neighborhood::Neighborhood(const Crowd& crowd)
     : reach_(crowd.agents.count(), kFirstReach), found_(make_found(crowd)) {}
 

@@ -27,6 +27,7 @@ class Neighborhood {
   template <typename Act>
   void for_each(const Crowd& crowd, const Grid& grid, const Act& act) {
     found_.prepare();
+    if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Found& found = found_.local();
       for (std::size_t slot = begin; slot < end; ++slot) act(look(crowd, grid, slot, found));
@@ -35,6 +36,7 @@ class Neighborhood {
 
  private:
   static constexpr std::size_t kGrain = 64;  // agents per task
+  static constexpr float kFirstReach = 2;    // m
 
   /// What one thread works with.
   struct Found {

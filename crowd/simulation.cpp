@@ -3,58 +3,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "crowd/behavior.h"
 #include "crowd/crowd.h"
 #include "crowd/grid.h"
 #include "crowd/machine.h"
 #include "crowd/model.h"
+#include "crowd/motion.h"
 #include "crowd/scene.h"
 #include "crowd/xml.h"
 
 namespace throng::crowd {
-
-namespace {
-
-constexpr std::size_t kMotionGrain = 512;  // agents per task
-
-/// v moved towards `wanted`, by at most `most`.
-Eigen::Vector2f approach(const Eigen::Vector2f& v, const Eigen::Vector2f& wanted, float most) {
-  const Eigen::Vector2f change = wanted - v;
-  const float size = change.norm();
-  return size > most ? Eigen::Vector2f(v + (most / size) * change) : wanted;
-}
-
-/// Where an agent turns to: its velocity, mixed with where it wants to go when it is slow.
-Eigen::Vector2f facing(const Agents& agents, std::size_t agent) {
-  constexpr float kStanding = 1e-6F;  // m/s
-  const Eigen::Vector2f& preferred = agents.preferred_direction[agent];
-  const float speed = agents.velocity[agent].norm();
-  const float pref_speed = agents[Property::pref_speed][agent];
-  if (speed < kStanding) return preferred;
-  const Eigen::Vector2f moving = agents.velocity[agent] / speed;
-  if (3 * speed >= pref_speed) return moving;
-  const float share = std::sqrt(3 * speed / pref_speed);
-  const Eigen::Vector2f mixed = share * moving + (1 - share) * preferred;
-  const float length = mixed.norm();
-  constexpr float kOpposed = 1e-3F;
-  return length > kOpposed ? Eigen::Vector2f(mixed / length) : agents.orientation[agent];
-}
-
-/// `from` turned towards `to` by at most `most_rad`.
-Eigen::Vector2f turn(const Eigen::Vector2f& from, const Eigen::Vector2f& to, float most_rad) {
-  const float angle = std::atan2(cross(from, to), from.dot(to));
-  if (std::abs(angle) <= most_rad) return to;
-  const float turned = std::copysign(most_rad, angle);
-  const float c = std::cos(turned);
-  const float s = std::sin(turned);
-  return Eigen::Vector2f(c * from.x() - s * from.y(), s * from.x() + c * from.y()).normalized();
-}
-
-}  // namespace
 
 struct Simulation::State {
   State(const std::filesystem::path& scene_file, const std::filesystem::path& behavior_file,
@@ -62,7 +22,6 @@ struct Simulation::State {
 
   void step();
   void sub_step();
-  void move();
 
   Crowd crowd;
   int sub_steps = 1;
@@ -105,25 +64,9 @@ void Simulation::State::sub_step() {
   machine->prefer(crowd);
   grid.build(crowd.agents);
   model->step(crowd, grid, new_velocity);
-  move();
+  move(crowd, new_velocity);
   ++crowd.step;
   machine->run_processes_after(crowd);
-}
-
-void Simulation::State::move() {
-  Agents& agents = crowd.agents;
-  const auto dt_s = static_cast<float>(crowd.dt_s);
-  parallel_ranges(agents.count(), kMotionGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (agents.present[i] == 0) continue;
-      agents.velocity[i] =
-          approach(agents.velocity[i], new_velocity[i], agents[Property::max_accel][i] * dt_s);
-      agents.position[i] += dt_s * agents.velocity[i];
-      agents.orientation[i] =
-          turn(agents.orientation[i], facing(agents, i), agents[Property::max_angle_vel][i] * dt_s);
-      agents.yaw_rad[i] = std::atan2(agents.orientation[i].y(), agents.orientation[i].x());
-    }
-  });
 }
 
 Simulation::Simulation(const std::filesystem::path& scene_file,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/random.h"
 
@@ -37,8 +38,9 @@ std::vector<std::uint32_t> brute_force(const Agents& agents, std::size_t self, f
   return ids;
 }
 
-void expect_brute_force(const Agents& agents, float range, std::size_t most, float first_reach) {
-  Grid grid;
+void expect_brute_force(const Agents& agents, float range, std::size_t most, float first_reach,
+                        InstructionSet set) {
+  Grid grid(set);
   grid.build(agents);
   Grid::Candidates candidates(most);
   for (std::size_t slot = 0; slot < grid.size(); ++slot) {
@@ -52,6 +54,11 @@ void expect_brute_force(const Agents& agents, float range, std::size_t most, flo
           << "agent " << grid.id(slot) << " range " << range;
     }
   }
+}
+
+void expect_brute_force(const Agents& agents, float range, std::size_t most, float first_reach) {
+  expect_brute_force(agents, range, most, first_reach, InstructionSet::baseline);
+  expect_brute_force(agents, range, most, first_reach, best_instruction_set());
 }
 
 TEST(Grid, FindsTheNearestAsBruteForceDoes) {
@@ -78,6 +85,27 @@ TEST(Grid, CopesWithSomeoneFarAway) {
   Agents agents = scattered(200, 8, 8, 4);
   agents.position[17] = {9e4F, -9e4F};
   expect_brute_force(agents, 5, 10, 2);
+}
+
+TEST(Grid, CopesWithMoreCandidatesThanItRemembers) {
+  expect_brute_force(scattered(900, 1.5, 1.5, 6), 5, 10, 100);
+  expect_brute_force(scattered(900, 1.5, 1.5, 6), 5, 300, 100);
+}
+
+TEST(Grid, CopesWithWhatIsNoNumber) {
+  Agents agents = scattered(200, 8, 8, 7);
+  agents.position[3].setConstant(std::numeric_limits<float>::quiet_NaN());
+  agents.position[4].setConstant(std::numeric_limits<float>::infinity());
+  agents.present[3] = agents.present[4] = 1;
+  Grid grid;
+  grid.build(agents);
+  Grid::Candidates candidates(10);
+  for (std::size_t slot = 0; slot < grid.size(); ++slot) {
+    float reach = 2;
+    for (const Grid::Neighbor& found : grid.nearest(slot, 5, 10, reach, candidates)) {
+      EXPECT_LT(found.distance_sq, 25);
+    }
+  }
 }
 
 TEST(Grid, HoldsThosePresentOnly) {

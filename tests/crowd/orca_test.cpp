@@ -81,6 +81,16 @@ TEST(BestVelocity, IsAtLeastAsGoodAsAnySampledOne) {
   EXPECT_GT(infeasible, 5);
 }
 
+TEST(BestVelocity, EveryInstructionSetGivesTheSameBits) {
+  HalfPlanes scratch;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const HalfPlanes planes = random_planes(seed % 25, seed);
+    const std::size_t hard = seed % 3;
+    EXPECT_EQ(best_velocity(planes, hard, {1.2F, 0.3F}, 1.5F, scratch, InstructionSet::baseline),
+              best_velocity(planes, hard, {1.2F, 0.3F}, 1.5F, scratch, best_instruction_set()));
+  }
+}
+
 TEST(BestVelocity, KeepsHardPlanesWhenNotAllCanBeKept) {
   // A wall ahead (x <= 0 allowed, hard) against someone who pushes towards it (x >= 1).
   const HalfPlanes planes = {{{0, 0}, {0, 1}}, {{1, 0}, {0, -1}}};
@@ -105,6 +115,49 @@ TEST(AvoidDisc, TwoWhoTakeTheirHalvesDoNotTouchWithinTheHorizon) {
     for (float t = 0; t <= kHorizon; t += 0.05F) {
       const float distance = (a.position + t * va - b.position - t * vb).norm();
       EXPECT_GE(distance, 0.7F - 1e-3F) << "seed " << seed << " t " << t;
+    }
+  }
+}
+
+/// A crowd in which some touch and some are in one place.
+Grid dense_crowd() {
+  Agents agents;
+  agents.resize(300, 0);
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    Random random(4, Stream::crowd_generator, i / 2 == 7 ? 7 : i);
+    const auto draw = [&](double half) { return static_cast<float>(random.uniform(-half, half)); };
+    agents.position[i] = {draw(5), draw(5)};
+    agents.velocity[i] = {draw(2), draw(2)};
+    agents[Property::radius][i] = 0.3F + draw(0.1);
+  }
+  Grid grid;
+  grid.build(agents);
+  return grid;
+}
+
+TEST(AvoidDiscs, AreAsManyTimesAvoidDisc) {
+  const Grid grid = dense_crowd();
+  Grid::Candidates candidates(11);
+  for (const InstructionSet set : {InstructionSet::baseline, best_instruction_set()}) {
+    for (std::size_t slot = 0; slot < grid.size(); ++slot) {
+      const auto disc_in = [&](std::size_t at) {
+        return Disc{grid.position(at), grid.velocity(at), grid.radius(at)};
+      };
+      float reach = 1;
+      const auto others = grid.nearest(slot, 5, 1 + slot % 11, reach, candidates);
+      HalfPlanes planes = {{{1, 2}, {0, 1}}};
+      avoid_discs(set)(grid, slot, others, 3, 0.1F, planes);
+      ASSERT_EQ(planes.size(), 1 + others.size());
+      EXPECT_EQ(planes[0].point, Eigen::Vector2f(1, 2));
+      for (std::size_t i = 0; i < others.size(); ++i) {
+        Disc other = disc_in(others[i].slot);
+        if (others[i].distance_sq == 0) {
+          other.position.x() += grid.id(others[i].slot) > grid.id(slot) ? 1e-3F : -1e-3F;
+        }
+        const HalfPlane expected = avoid_disc(disc_in(slot), other, 3, 0.1F);
+        EXPECT_EQ(planes[i + 1].point, expected.point) << slot << " " << i;
+        EXPECT_EQ(planes[i + 1].direction, expected.direction) << slot << " " << i;
+      }
     }
   }
 }
