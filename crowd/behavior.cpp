@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "crowd/diagnosis.h"
+#include "crowd/events.h"
+
 namespace throng::crowd {
 
 namespace {
@@ -20,6 +23,7 @@ class Fixed : public Target {
  public:
   explicit Fixed(std::uint8_t state) : state_(state) {}
   std::uint8_t state(const Crowd&, std::size_t) override { return state_; }
+  void list_states(std::vector<std::uint8_t>& states) const override { states.push_back(state_); }
 
  private:
   std::uint8_t state_;
@@ -44,13 +48,34 @@ void make_another(const Registry<Product, BehaviorContext>& registry, const Elem
   list.push_back(registry.make(element, context));
 }
 
-MachineState load_state(const Element& element, BehaviorContext& context) {
+/// A state whose goals are those of another.
+struct SharedGoal {
+  Element element;
+  std::size_t state = 0;
+  std::size_t of = 0;
+};
+
+void load_goal_selector(const Element& element, BehaviorContext& context, std::size_t state,
+                        std::shared_ptr<StateGoal>& place, std::vector<SharedGoal>& shared) {
+  if (place) element.fail("a second <GoalSelector>", "at most one <GoalSelector>");
+  element.require_no_children();
+  const GoalSelectorRegistry::Entry& entry = goal_selector_registry().find(element);
+  const Attributes attributes(element, entry.attributes);
+  context.shares_goal_of.reset();
+  place =
+      std::make_shared<StateGoal>(entry.make(element, attributes, context), context.agent_count);
+  if (attributes.boolean("persistent")) place->make_persistent();
+  if (context.shares_goal_of) shared.push_back({element, state, *context.shares_goal_of});
+}
+
+MachineState load_state(const Element& element, BehaviorContext& context, std::size_t index,
+                        std::vector<SharedGoal>& shared) {
   const Attributes attributes(element, state_attributes());
   MachineState state;
   state.final = attributes.boolean("final");
   for (const Element& child : element.children()) {
     if (child.name() == "GoalSelector") {
-      make_only(goal_selector_registry(), child, context, state.goal_selector);
+      load_goal_selector(child, context, index, state.goal, shared);
     } else if (child.name() == "VelComponent") {
       make_only(vel_component_registry(), child, context, state.velocity);
     } else if (child.name() == "Action") {
@@ -61,17 +86,39 @@ MachineState load_state(const Element& element, BehaviorContext& context) {
       child.fail_unknown("<GoalSelector>, <VelComponent>, <Action> or <VelModifier>");
     }
   }
+  if (!state.goal) state.goal = std::make_shared<StateGoal>(nullptr, context.agent_count);
   return state;
 }
 
-/// The names between the commas, without the spaces around them.
-std::vector<std::string> split_names(const std::string& list) {
+/// Throws when states share their goals in a circle.
+void share_goals(const std::vector<SharedGoal>& shared, Behavior& behavior) {
+  std::vector<std::size_t> owner(behavior.states.size());
+  for (std::size_t i = 0; i < owner.size(); ++i) owner[i] = i;
+  for (const SharedGoal& share : shared) owner[share.state] = share.of;
+  for (const SharedGoal& share : shared) {
+    std::size_t of = share.of;
+    for (std::size_t hops = 0; owner[of] != of; ++hops) {
+      if (hops > owner.size() || of == share.state) {
+        share.element.fail("states that share their goals in a circle",
+                           "a state with a goal selector of its own");
+      }
+      of = owner[of];
+    }
+    behavior.states[share.state].goal = behavior.states[of].goal;
+    behavior.states[of].goal->make_persistent();
+  }
+}
+
+/// The names between the commas. Menge takes the spaces around them for parts of the names.
+std::vector<std::string> split_names(const std::string& list, Compat compat) {
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
     std::string name = list.substr(begin, end - begin);
-    name.erase(0, std::min(name.find_first_not_of(' '), name.size()));
-    name.erase(name.find_last_not_of(' ') + 1);
+    if (compat == Compat::none) {
+      name.erase(0, std::min(name.find_first_not_of(' '), name.size()));
+      name.erase(name.find_last_not_of(' ') + 1);
+    }
     names.push_back(std::move(name));
     begin = end + 1;
   }
@@ -101,13 +148,50 @@ Transition load_transition(const Element& element, const Attributes& attributes,
   return transition;
 }
 
-/// A transition from several states is as many transitions, so that none shares what it draws.
-void load_transitions(const Element& element, BehaviorContext& context, Behavior& behavior) {
+/// A transition from several states is as many transitions, so that none remembers another's
+/// agents.
+void load_transitions(const Element& element, BehaviorContext& context, Behavior& behavior,
+                      Diagnosis& diagnosis) {
   const Attributes attributes(element, {text("from", "names of states, separated by commas"),
                                         optional(text("to", "the name of a state"))});
-  for (const std::string& name : split_names(attributes.text("from"))) {
+  const std::uint64_t first_draws = context.next_draws;
+  for (const std::string& name : split_names(attributes.text("from"), context.crowd.compat)) {
     const std::uint8_t from = context.require_state(element, "from", name);
+    context.next_draws = first_draws;
     behavior.states[from].transitions.push_back(load_transition(element, attributes, context));
+    diagnosis.note_transition(element, from);
+    context.is_copy = true;
+  }
+  context.is_copy = false;
+}
+
+/// Moves the goals that have a path.
+class MovingGoals : public Process {
+ public:
+  void after_motion(Crowd& crowd, Machine&) override { crowd.goals.advance_paths(crowd.dt_s); }
+};
+
+void load_goal_sets(const Element& bfsm, Goals& goals, Diagnosis& diagnosis) {
+  for (const Element& child : bfsm.children()) {
+    if (child.name() == "GoalSet") diagnosis.note_goal_set(child, goals.load_set(child));
+  }
+}
+
+/// Everything but goals and transitions, which come before and after it.
+void load_child(const Element& child, BehaviorContext& context, Behavior& behavior,
+                Diagnosis& diagnosis, std::vector<SharedGoal>& shared) {
+  if (child.name() == "State") {
+    const std::size_t index = behavior.states.size();
+    behavior.states.push_back(load_state(child, context, index, shared));
+    diagnosis.note_state(child);
+  } else if (child.name() == "VelModifier") {
+    make_another(vel_modifier_registry(), child, context, behavior.modifiers);
+  } else if (child.name() == "EventSystem") {
+    load_events(child, context);
+  } else if (child.name() == "Task") {
+    make_another(task_registry(), child, context, context.processes);
+  } else if (child.name() != "GoalSet" && child.name() != "Transition") {
+    child.fail_unknown("<GoalSet>, <State>, <Transition>, <VelModifier>, <EventSystem> or <Task>");
   }
 }
 
@@ -145,28 +229,30 @@ std::vector<std::string> load_state_names(const Element& bfsm) {
   return names;
 }
 
+const TaskRegistry& task_registry() {
+  static const TaskRegistry kRegistry({});
+  return kRegistry;
+}
+
 Behavior load_behavior(const Element& bfsm, const std::vector<std::string>& state_names,
                        std::uint64_t seed, Crowd& crowd) {
   const Attributes no_attributes(bfsm, {});
-  for (const Element& child : bfsm.children()) {
-    if (child.name() == "GoalSet") crowd.goals.load_set(child);
-  }
+  Diagnosis diagnosis;
+  load_goal_sets(bfsm, crowd.goals, diagnosis);
   BehaviorContext context{crowd, crowd.goals, state_names, crowd.agents.count(), seed};
+  if (crowd.goals.any_path()) context.processes.push_back(std::make_unique<MovingGoals>());
   Behavior behavior;
-  std::vector<Element> transitions;
+  std::vector<SharedGoal> shared;
   for (const Element& child : bfsm.children()) {
-    if (child.name() == "State") {
-      behavior.states.push_back(load_state(child, context));
-    } else if (child.name() == "Transition") {
-      transitions.push_back(child);
-    } else if (child.name() == "VelModifier") {
-      make_another(vel_modifier_registry(), child, context, behavior.modifiers);
-    } else if (child.name() != "GoalSet") {
-      child.fail_unknown("<GoalSet>, <State>, <Transition> or <VelModifier>");
-    }
+    load_child(child, context, behavior, diagnosis, shared);
   }
-  for (const Element& transition : transitions) load_transitions(transition, context, behavior);
+  share_goals(shared, behavior);
+  for (const Element& child : bfsm.children()) {
+    if (child.name() == "Transition") load_transitions(child, context, behavior, diagnosis);
+  }
   behavior.processes = std::move(context.processes);
+  behavior.signals = std::move(context.signals);
+  diagnosis.report(crowd, behavior, state_names, context.states_from_outside);
   return behavior;
 }
 

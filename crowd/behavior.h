@@ -12,6 +12,7 @@
 #include "crowd/process.h"
 #include "crowd/registry.h"
 #include "crowd/sampler.h"
+#include "crowd/state_goal.h"
 
 namespace throng::crowd {
 
@@ -23,19 +24,8 @@ class Condition {
   /// An agent enters the state that this may lead out of. Called for one agent at a time.
   virtual void enter(const Crowd&, std::size_t /*agent*/) {}
   virtual bool holds(const Crowd& crowd, std::size_t agent) const = 0;
-};
-
-/// Chooses an agent's goal on entry into a state.
-class GoalSelector {
- public:
-  struct Choice {
-    int goal = -1;  ///< index into Crowd::goals; -1: the point
-    Eigen::Vector2f point = Eigen::Vector2f::Zero();
-  };
-
-  virtual ~GoalSelector() = default;
-  /// Called for one agent at a time.
-  virtual Choice select(const Crowd& crowd, std::size_t agent) = 0;
+  /// Whether it holds for everybody at any time, as far as the file tells.
+  virtual bool is_always() const { return false; }
 };
 
 struct PreferredVelocity {
@@ -76,6 +66,14 @@ class Target {
   virtual ~Target() = default;
   /// Called for one agent at a time.
   virtual std::uint8_t state(const Crowd& crowd, std::size_t agent) = 0;
+  /// Adds the states that it may lead to; need not name those that an agent has been in anyway.
+  virtual void list_states(std::vector<std::uint8_t>&) const {}
+};
+
+/// Something from outside that events wait for, see Simulation::fire.
+struct Signal {
+  std::string name;
+  bool raised = false;
 };
 
 struct Transition {
@@ -85,7 +83,7 @@ struct Transition {
 
 struct MachineState {
   bool final = false;
-  std::unique_ptr<GoalSelector> goal_selector;
+  std::shared_ptr<StateGoal> goal;  ///< several states may share one
   std::unique_ptr<VelComponent> velocity;
   std::vector<std::unique_ptr<Action>> actions;
   std::vector<std::unique_ptr<VelModifier>> modifiers;
@@ -96,7 +94,10 @@ struct Behavior {
   std::vector<MachineState> states;
   std::vector<std::unique_ptr<VelModifier>> modifiers;  ///< of all states, after the state's own
   std::vector<std::unique_ptr<Process>> processes;      ///< in the file's order
+  std::vector<std::shared_ptr<Signal>> signals;
 };
+
+class Stress;
 
 /// What makers of plug-ins may need.
 struct BehaviorContext {
@@ -107,6 +108,15 @@ struct BehaviorContext {
   std::uint64_t seed = 1;
   std::vector<std::unique_ptr<Process>> processes = {};  ///< what plug-ins want to be run
   std::uint64_t next_draws = 0;  ///< elements that draw are numbered in the file's order
+  /// A transition from several states is read once for each; this is not the first time. Elements
+  /// that draw have the numbers that they had then.
+  bool is_copy = false;
+  std::vector<std::shared_ptr<Signal>> signals = {};  ///< that triggers wait for
+  /// Set by a goal selector that shares the one of another state.
+  std::optional<std::uint8_t> shares_goal_of = {};
+  Stress* stress = nullptr;  ///< the process that stresses agents, once an element needs it
+  /// Into these something else than transitions may put agents.
+  std::vector<std::uint8_t> states_from_outside = {};
 
   /// The random numbers of one more element; `fixed_seed` is its own seed, if it gives one.
   Draws make_draws(std::optional<std::uint64_t> fixed_seed = {});
@@ -127,6 +137,7 @@ using VelComponentRegistry = Registry<VelComponent, BehaviorContext>;
 using VelModifierRegistry = Registry<VelModifier, BehaviorContext>;
 using ActionRegistry = Registry<Action, BehaviorContext>;
 using TargetRegistry = Registry<Target, BehaviorContext>;
+using TaskRegistry = Registry<Process, BehaviorContext>;
 
 const ConditionRegistry& condition_registry();
 const GoalSelectorRegistry& goal_selector_registry();
@@ -134,13 +145,27 @@ const VelComponentRegistry& vel_component_registry();
 const VelModifierRegistry& vel_modifier_registry();
 const ActionRegistry& action_registry();
 const TargetRegistry& target_registry();
+/// There are none; Menge's came from plug-ins.
+const TaskRegistry& task_registry();
 
 /// The groups that make up the conditions, one file each.
 std::vector<ConditionRegistry::Entry> general_conditions();
 std::vector<ConditionRegistry::Entry> place_conditions();
+/// clear_AABB.
+std::vector<ConditionRegistry::Entry> aircraft_conditions();
 /// follow, via and proximity: flight from a disaster and following something that leads out
 /// (Huang 2016), with distances, growth and probabilities as the attributes say.
 std::vector<ConditionRegistry::Entry> evacuation_conditions();
+
+/// The groups that make up the goal selectors.
+std::vector<GoalSelectorRegistry::Entry> plain_goal_selectors();
+
+/// The groups that make up the actions.
+std::vector<ActionRegistry::Entry> property_actions();
+std::vector<ActionRegistry::Entry> obstacle_actions();
+std::vector<ActionRegistry::Entry> stress_actions();
+/// `exit_reset`, which actions have whose change can be undone.
+AttributeSpec exit_reset_attribute();
 
 /// The names of a behaviour file's states, in its order. Throws InputError when two are equal.
 std::vector<std::string> load_state_names(const Element& bfsm);

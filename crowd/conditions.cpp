@@ -9,6 +9,7 @@ namespace {
 class Always : public Condition {
  public:
   bool holds(const Crowd&, std::size_t) const override { return true; }
+  bool is_always() const override { return true; }
 };
 
 /// True some time after the state was entered.
@@ -45,8 +46,8 @@ class GoalReached : public Condition {
     const Agents& agents = crowd.agents;
     const Eigen::Vector2f& p = agents.position[agent];
     const int goal = agents.goal[agent];
-    const float distance =
-        goal < 0 ? (agents.own_goal[agent] - p).norm() : crowd.goals[goal].shape->distance(p);
+    const float distance = goal < 0 ? (agents.own_goal[agent] - p).norm()
+                                    : crowd.goals[goal].distance(p, crowd.compat);
     return distance <= distance_;
   }
 
@@ -65,6 +66,7 @@ class Both : public Condition {
   bool holds(const Crowd& crowd, std::size_t agent) const override {
     return a_->holds(crowd, agent) && b_->holds(crowd, agent);
   }
+  bool is_always() const override { return a_->is_always() && b_->is_always(); }
 
  private:
   std::unique_ptr<Condition> a_;
@@ -82,6 +84,7 @@ class Either : public Condition {
   bool holds(const Crowd& crowd, std::size_t agent) const override {
     return a_->holds(crowd, agent) || b_->holds(crowd, agent);
   }
+  bool is_always() const override { return a_->is_always() || b_->is_always(); }
 
  private:
   std::unique_ptr<Condition> a_;
@@ -170,7 +173,7 @@ std::vector<ConditionRegistry::Entry> general_conditions() {
 
 const ConditionRegistry& condition_registry() {
   static const ConditionRegistry kRegistry(
-      {general_conditions(), place_conditions(), evacuation_conditions()});
+      {general_conditions(), place_conditions(), aircraft_conditions(), evacuation_conditions()});
   return kRegistry;
 }
 

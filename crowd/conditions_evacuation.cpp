@@ -11,8 +11,9 @@ namespace {
 bool near_goal_of_set(const Crowd& crowd, std::size_t agent, int set, float distance) {
   const Eigen::Vector2f& p = crowd.agents.position[agent];
   const std::vector<int>& goals = crowd.goals.set(set).goals;
-  return std::any_of(goals.begin(), goals.end(),
-                     [&](int goal) { return crowd.goals[goal].shape->distance(p) <= distance; });
+  return std::any_of(goals.begin(), goals.end(), [&](int goal) {
+    return crowd.goals[goal].distance(p, crowd.compat) <= distance;
+  });
 }
 
 /// Near something that leads out, by an agent who is inclined to follow.
@@ -42,9 +43,9 @@ class FollowNear : public Condition {
   std::vector<std::uint8_t> inclined_;
 };
 
-class Via : public Condition {
+class Near : public Condition {
  public:
-  Via(int set, float distance) : set_(set), distance_(distance) {}
+  Near(int set, float distance) : set_(set), distance_(distance) {}
   bool holds(const Crowd& crowd, std::size_t agent) const override {
     return near_goal_of_set(crowd, agent, set_, distance_);
   }
@@ -83,6 +84,35 @@ class Proximity : public Condition {
   Spread spread_;
 };
 
+/// The paper's authors' own: one reach for all agents of a transition, which grows whenever an
+/// agent looks. In such runs one agent looks at a time, in the order of ids.
+class ProximityAsHuang : public Condition {
+ public:
+  ProximityAsHuang(std::size_t avoided, float distance) : avoided_(avoided), reach_(distance) {}
+
+  bool holds(const Crowd& crowd, std::size_t agent) const override {
+    constexpr float kFullReach = 20;        // m
+    constexpr float kReachGrowth = 0.2F;    // m per look
+    constexpr float kSpreadFrom = 3;        // m
+    constexpr float kSpreadGrowth = 4e-4F;  // m per look
+    if (reach_ < kFullReach) reach_ += kReachGrowth;
+    if (reach_ >= kSpreadFrom) spread_ += kSpreadGrowth;
+    const Agents& agents = crowd.agents;
+    const float distance = (agents.position[agent] - agents.position[avoided_]).norm();
+    return distance < agents[Property::radius][avoided_] + reach_ + spread_;
+  }
+
+ private:
+  std::size_t avoided_;
+  mutable float reach_;
+  mutable float spread_ = 0;
+};
+
+class Never : public Condition {
+ public:
+  bool holds(const Crowd&, std::size_t) const override { return false; }
+};
+
 AttributeTable near_set_attributes(std::string_view set) {
   return {number("distance", "from a goal's region in m", 0),
           integer(set, "id of a goal set", 0, kHighestId)};
@@ -91,17 +121,23 @@ AttributeTable near_set_attributes(std::string_view set) {
 std::unique_ptr<Condition> make_follow(const Element& element, const Attributes& attributes,
                                        BehaviorContext& context) {
   element.require_no_children();
-  return std::make_unique<FollowNear>(
-      context.goals.require_set(element, attributes, "goalSetToFollow"),
-      attributes.real("distance"), attributes.number("weight"), context.make_unit_sampler(),
-      context.agent_count);
+  const int set = context.goals.require_set(element, attributes, "goalSetToFollow");
+  const float distance = attributes.real("distance");
+  const double weight = attributes.number("weight");
+  if (context.crowd.compat == Compat::huang2016) return std::make_unique<Near>(set, distance);
+  if (weight > 1) {
+    element.warn_attribute("weight", fmt::format("{}; everybody follows", weight),
+                           "a probability from 0 to 1");
+  }
+  return std::make_unique<FollowNear>(set, distance, weight, context.make_unit_sampler(),
+                                      context.agent_count);
 }
 
 std::unique_ptr<Condition> make_via(const Element& element, const Attributes& attributes,
                                     BehaviorContext& context) {
   element.require_no_children();
-  return std::make_unique<Via>(context.goals.require_set(element, attributes, "goalsVia"),
-                               attributes.real("distance"));
+  return std::make_unique<Near>(context.goals.require_set(element, attributes, "goalsVia"),
+                                attributes.real("distance"));
 }
 
 std::unique_ptr<Condition> make_proximity(const Element& element, const Attributes& attributes,
@@ -111,6 +147,11 @@ std::unique_ptr<Condition> make_proximity(const Element& element, const Attribut
   if (avoided >= context.agent_count) {
     element.fail_attribute("agentToAvoid", fmt::format("{}", avoided),
                            fmt::format("an agent's id, below {}", context.agent_count));
+  }
+  if (context.crowd.compat == Compat::huang2016) {
+    // Copied for another state of a comma list it forgot whom to avoid.
+    if (context.is_copy) return std::make_unique<Never>();
+    return std::make_unique<ProximityAsHuang>(avoided, attributes.real("distance"));
   }
   Proximity::Spread spread;
   spread.distance = attributes.real("distance");
@@ -134,7 +175,7 @@ std::unique_ptr<Condition> make_proximity(const Element& element, const Attribut
 std::vector<ConditionRegistry::Entry> evacuation_conditions() {
   AttributeTable follow = near_set_attributes("goalSetToFollow");
   follow.push_back(optional(
-      number("weight", "probability that a near agent follows, decided once per entry", 0, 1),
+      number("weight", "probability that a near agent follows, decided once per entry", 0, 1e6),
       "1"));
   return {
       {"follow", "near a goal that leads out", std::move(follow), make_follow},

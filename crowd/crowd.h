@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "base/instruction_set.h"
@@ -16,6 +17,7 @@ struct Crowd {
   Goals goals;
   Obstacles obstacles;
   std::vector<float> model_constants;  ///< of the scene, in the order of the model's table
+  std::vector<std::string_view> model_parameter_names;  ///< of Agents::model_parameters
   Compat compat = Compat::none;
   InstructionSet instruction_set = best_instruction_set();  ///< for the loops that have a choice
   std::vector<std::vector<std::uint32_t>> social_groups;    ///< the ids of their members

@@ -119,6 +119,42 @@ class Ranked : public GoalSelector {
   Rank rank_;
 };
 
+/// What the paper's authors took for the second nearest: the goal that was the nearest of those
+/// before the nearest one in the file; if that comes first, itself.
+class SecondNearestAsHuang : public GoalSelector {
+ public:
+  explicit SecondNearestAsHuang(int set) : set_(set) {}
+
+  Choice select(const Crowd& crowd, std::size_t agent) override {
+    Choice nearest = stay(crowd, agent);
+    Choice before = nearest;
+    float nearest_sq = std::numeric_limits<float>::infinity();
+    for (const int goal : crowd.goals.set(set_).goals) {
+      const Goal& candidate = crowd.goals[goal];
+      if (!candidate.has_room()) continue;
+      const float distance_sq =
+          (candidate.shape->centre() - crowd.agents.position[agent]).squaredNorm();
+      if (distance_sq >= nearest_sq) continue;
+      before.goal = nearest.goal >= 0 ? nearest.goal : goal;
+      nearest.goal = goal;
+      nearest_sq = distance_sq;
+    }
+    return before;
+  }
+
+ private:
+  int set_;
+};
+
+/// The other state's selector chooses; the state that this stands in has none of its own.
+std::unique_ptr<GoalSelector> make_shared_selector(const Element& element,
+                                                   const Attributes& attributes,
+                                                   BehaviorContext& context) {
+  context.shares_goal_of =
+      context.require_state(element, "state_name", attributes.text("state_name"));
+  return nullptr;
+}
+
 AttributeSpec goal_set_attribute() {
   return integer("goal_set", "id of a goal set", 0, kHighestId);
 }
@@ -165,11 +201,21 @@ std::unique_ptr<GoalSelector> make_ranked(const Element& element, const Attribut
                                   kRank);
 }
 
+std::unique_ptr<GoalSelector> make_second_nearest(const Element& element,
+                                                  const Attributes& attributes,
+                                                  BehaviorContext& context) {
+  const int set = context.goals.require_set(element, attributes, "goal_set");
+  if (context.crowd.compat == Compat::huang2016) {
+    return std::make_unique<SecondNearestAsHuang>(set);
+  }
+  return std::make_unique<Ranked>(set, Ranked::Rank::second_nearest);
+}
+
 }  // namespace
 
-const GoalSelectorRegistry& goal_selector_registry() {
+std::vector<GoalSelectorRegistry::Entry> plain_goal_selectors() {
   using Rank = Ranked::Rank;
-  static const GoalSelectorRegistry kRegistry({{
+  return {
       {"identity", "the place where the agent is", {}, make_identity},
       {"mirror",
        "the agent's place seen in the axes",
@@ -187,9 +233,21 @@ const GoalSelectorRegistry& goal_selector_registry() {
       {"second_nearest",
        "the second nearest of a set, or its only one",
        {goal_set_attribute()},
-       make_ranked<Rank::second_nearest>},
+       make_second_nearest},
       {"farthest", "the farthest of a set", {goal_set_attribute()}, make_ranked<Rank::farthest>},
-  }});
+      {"shared",
+       "that of another state, which everybody then keeps for ever",
+       {text("state_name", "the name of the other state")},
+       make_shared_selector},
+  };
+}
+
+const GoalSelectorRegistry& goal_selector_registry() {
+  static const GoalSelectorRegistry kRegistry(
+      {plain_goal_selectors()},
+      {optional(
+          boolean("persistent", "1: who enters again keeps the goal, and occupies it meanwhile"),
+          "0")});
   return kRegistry;
 }
 

@@ -2,130 +2,63 @@
 
 #include <fmt/core.h>
 
-#include "crowd/shape_attributes.h"
+#include <algorithm>
 
 namespace throng::crowd {
 
-namespace {
-
-class PointGoal : public GoalShape {
- public:
-  explicit PointGoal(const Eigen::Vector2f& point) : point_(point) {}
-  Eigen::Vector2f centre() const override { return point_; }
-  void move_to(const Eigen::Vector2f& centre) override { point_ = centre; }
-  Eigen::Vector2f nearest_point(const Eigen::Vector2f&, float) const override { return point_; }
-
- private:
-  Eigen::Vector2f point_;
-};
-
-class CircleGoal : public GoalShape {
- public:
-  explicit CircleGoal(const Circle& circle) : circle_(circle) {}
-  Eigen::Vector2f centre() const override { return circle_.centre; }
-  void move_to(const Eigen::Vector2f& centre) override { circle_.centre = centre; }
-  Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const override {
-    return circle_.nearest_point(p, margin);
+int Goals::load_set(const Element& element) {
+  const Attributes attributes(element, {integer("id", "of the set", 0, kHighestId)});
+  const auto id = static_cast<int>(attributes.integer("id"));
+  int set = find_set(id);
+  if (set >= 0) {
+    element.warn_attribute("id", fmt::format("{} again; its goals join those of the first", id),
+                           "an id not used before");
+  } else {
+    set = static_cast<int>(sets_.size());
+    sets_.push_back({id, {}});
+    used_.push_back(0);
   }
-
- private:
-  Circle circle_;
-};
-
-class BoxGoal : public GoalShape {
- public:
-  explicit BoxGoal(const Box& box) : box_(box) {}
-  Eigen::Vector2f centre() const override { return box_.centre(); }
-  void move_to(const Eigen::Vector2f& centre) override {
-    const Eigen::Vector2f half = 0.5F * (box_.max - box_.min);
-    box_ = {centre - half, centre + half};
-  }
-  Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const override {
-    return box_.nearest_point(p, margin);
-  }
-
- private:
-  Box box_;
-};
-
-class TurnedBoxGoal : public GoalShape {
- public:
-  explicit TurnedBoxGoal(const TurnedBox& box) : box_(box) {}
-  Eigen::Vector2f centre() const override { return box_.to_world(box_.box().centre()); }
-  void move_to(const Eigen::Vector2f& centre) override { box_.pivot += centre - this->centre(); }
-  Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const override {
-    return box_.contains(p) && margin == 0
-               ? p
-               : box_.to_world(box_.box().nearest_point(box_.to_box(p), margin));
-  }
-
- private:
-  TurnedBox box_;
-};
-
-std::unique_ptr<GoalShape> make_point(const Element&, const Attributes& attributes, GoalContext&) {
-  return std::make_unique<PointGoal>(Eigen::Vector2f(attributes.real("x"), attributes.real("y")));
-}
-
-std::unique_ptr<GoalShape> make_circle(const Element&, const Attributes& attributes, GoalContext&) {
-  return std::make_unique<CircleGoal>(read_circle(attributes, "x", "y"));
-}
-
-std::unique_ptr<GoalShape> make_box(const Element& element, const Attributes& attributes,
-                                    GoalContext&) {
-  return std::make_unique<BoxGoal>(read_box(element, attributes));
-}
-
-std::unique_ptr<GoalShape> make_turned_box(const Element&, const Attributes& attributes,
-                                           GoalContext&) {
-  return std::make_unique<TurnedBoxGoal>(read_turned_box(attributes, "x", "y"));
-}
-
-}  // namespace
-
-const GoalRegistry& goal_registry() {
-  static const GoalRegistry kRegistry(
-      {{
-          {"point", "a point", {number("x", "in m"), number("y", "in m")}, make_point},
-          {"circle", "a disc", circle_attributes("x", "y"), make_circle},
-          {"AABB", "a box along the axes", box_attributes(), make_box},
-          {"OBB", "a turned box", turned_box_attributes("x", "y"), make_turned_box},
-      }},
-      {integer("id", "unique within its set", 0, kHighestId),
-       optional(integer("capacity", "how many agents may have it as their goal at a time", 0,
-                        std::numeric_limits<std::uint32_t>::max()),
-                "4294967295"),
-       optional(number("weight", "for the weighted selector", 0, 1e6), "1")});
-  return kRegistry;
-}
-
-void Goals::load_set(const Element& element) {
-  const Attributes set_attributes(element,
-                                  {integer("id", "unique among the goal sets", 0, kHighestId)});
-  GoalSet made;
-  made.id = static_cast<int>(set_attributes.integer("id"));
-  if (find_set(made.id) >= 0) {
-    element.fail_attribute("id", fmt::format("{} again", made.id), "an id not used before");
-  }
-  sets_.push_back(made);
   for (const Element& child : element.children()) {
     if (child.name() != "Goal") child.fail_unknown("<Goal>");
-    child.require_no_children();
-    const Attributes attributes(child, goal_registry().find(child).attributes);
-    Goal goal;
-    goal.id = {made.id, static_cast<std::int32_t>(attributes.integer("id"))};
-    if (find_goal(goal.id.set, goal.id.goal) >= 0) {
-      child.fail_attribute("id", fmt::format("{} again", goal.id.goal),
-                           "an id not used before in this set");
-    }
-    goal.capacity = static_cast<std::uint32_t>(attributes.integer("capacity"));
-    goal.weight = attributes.real("weight");
-    GoalContext context;
-    goal.shape = goal_registry().make(child, context);
-    sets_.back().goals.push_back(static_cast<int>(goals_.size()));
-    goals_.push_back(std::move(goal));
+    sets_[static_cast<std::size_t>(set)].goals.push_back(add_goal(child, set));
   }
-  if (sets_.back().goals.empty()) element.fail("an empty set", "at least one <Goal>");
+  return set;
+}
+
+int Goals::add_goal(const Element& element, int set) {
+  const GoalRegistry::Entry& entry = goal_registry().find(element);
+  if (entry.type != "path") element.require_no_children();
+  const Attributes attributes(element, entry.attributes);
+  Goal goal;
+  goal.id = {this->set(set).id, static_cast<std::int32_t>(attributes.integer("id"))};
+  if (find_goal(goal.id.set, goal.id.goal) >= 0) {
+    element.fail_attribute("id", fmt::format("{} again", goal.id.goal),
+                           "an id not used before in this set");
+  }
+  goal.capacity = static_cast<std::uint32_t>(attributes.integer("capacity"));
+  goal.weight = attributes.real("weight");
+  GoalContext context;
+  goal.shape = entry.make(element, attributes, context);
+  if (context.path) {
+    goal.on_path = goal.shape->centre();
+    goal.path = std::move(context.path);
+    goal.shape->move_to(goal.path->position() + goal.on_path);
+  }
+  goals_.push_back(std::move(goal));
+  return static_cast<int>(goals_.size()) - 1;
+}
+
+void Goals::advance_paths(double dt_s) {
+  for (Goal& goal : goals_) {
+    if (!goal.path) continue;
+    goal.path->advance(dt_s);
+    goal.shape->move_to(goal.path->position() + goal.on_path);
+  }
+}
+
+bool Goals::any_path() const {
+  return std::any_of(goals_.begin(), goals_.end(),
+                     [](const Goal& goal) { return goal.path != nullptr; });
 }
 
 int Goals::find_set(int set_id) const {
@@ -148,7 +81,14 @@ int Goals::require_set(const Element& element, const Attributes& attributes,
                        std::string_view attribute) const {
   const auto id = static_cast<int>(attributes.integer(attribute));
   const int index = find_set(id);
-  if (index >= 0) return index;
+  if (index >= 0) {
+    if (set(index).goals.empty()) {
+      element.fail_attribute(attribute, fmt::format("{}, which is an empty goal set", id),
+                             "a goal set with at least one <Goal>");
+    }
+    used_[static_cast<std::size_t>(index)] = 1;
+    return index;
+  }
   std::string known;
   for (const GoalSet& each : sets_) known += fmt::format(" {}", each.id);
   element.fail_attribute(

@@ -31,6 +31,12 @@ void Machine::start(Crowd& crowd) {
 
 void Machine::take_transitions(Crowd& crowd) {
   const std::size_t count = crowd.agents.count();
+  if (crowd.compat != Compat::none) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (crowd.agents.present[i] != 0) follow_chain(crowd, i, due_transition(crowd, i));
+    }
+    return;
+  }
   parallel_ranges(count, kDecisionGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       due_[i] = crowd.agents.present[i] != 0 ? due_transition(crowd, i) : kNone;
@@ -69,6 +75,16 @@ void Machine::change_state(Crowd& crowd, std::size_t agent, std::uint8_t state) 
   enter(crowd, agent, state);
 }
 
+bool Machine::fire(std::string_view name) {
+  bool any = false;
+  for (const auto& signal : behavior_.signals) {
+    if (signal->name != name) continue;
+    signal->raised = true;
+    any = true;
+  }
+  return any;
+}
+
 void Machine::run_processes_before(Crowd& crowd) {
   for (const auto& process : behavior_.processes) process->before_decisions(crowd, *this);
 }
@@ -85,16 +101,7 @@ void Machine::enter(Crowd& crowd, std::size_t agent, std::uint8_t state) {
   MachineState& entered = behavior_.states[state];
   for (const auto& action : entered.actions) action->enter(crowd, agent);
 
-  GoalSelector::Choice choice{-1, agents.position[agent]};
-  if (entered.goal_selector) choice = entered.goal_selector->select(crowd, agent);
-  agents.goal[agent] = choice.goal;
-  agents.own_goal[agent] = choice.point;
-  agents.goal_id[agent] = {};
-  if (choice.goal >= 0) {
-    Goal& goal = crowd.goals[choice.goal];
-    ++goal.assigned;
-    agents.goal_id[agent] = goal.id;
-  }
+  entered.goal->assign(crowd, agent);
   if (entered.velocity) entered.velocity->enter(crowd, agent);
   for (const Transition& transition : entered.transitions) {
     transition.condition->enter(crowd, agent);
@@ -108,7 +115,7 @@ void Machine::leave(Crowd& crowd, std::size_t agent) {
   for (auto action = actions.rbegin(); action != actions.rend(); ++action) {
     (*action)->leave(crowd, agent);
   }
-  if (agents.goal[agent] >= 0) --crowd.goals[agents.goal[agent]].assigned;
+  behavior_.states[agents.state[agent]].goal->release(crowd, agent);
 }
 
 void Machine::prefer(Crowd& crowd) const {

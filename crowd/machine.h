@@ -1,6 +1,8 @@
 // Runs the state machine: who changes state when, and where everybody wants to go.
 #pragma once
 
+#include <string_view>
+
 #include "crowd/behavior.h"
 
 namespace throng::crowd {
@@ -14,11 +16,16 @@ class Machine {
 
   /// Takes every transition that is due. What is due at first is seen by all in the same world;
   /// then agents move on in the order of their ids, since they share goals' capacities. An agent
-  /// follows a chain of transitions, but enters no state twice in a step.
+  /// follows a chain of transitions, but enters no state twice in a step. In compatible runs agents
+  /// both look and move on in the order of their ids, since some of the elements that were added to
+  /// Menge change with every look.
   void take_transitions(Crowd& crowd);
 
   /// Puts an agent into a state from outside, as if a transition led there.
   void change_state(Crowd& crowd, std::size_t agent, std::uint8_t state);
+
+  /// Raises the signals of this name; whether there are any.
+  bool fire(std::string_view name);
 
   /// What goes on beside the agents' decisions, before them and after they have moved.
   void run_processes_before(Crowd& crowd);

@@ -59,7 +59,8 @@ class Registry {
     std::vector<std::string_view> known;
     for (const Entry& entry : entries_) known.push_back(entry.type);
     element.fail_attribute("type", type ? in_quotes(*type) + did_you_mean(*type, known) : "nothing",
-                           fmt::format("one of {}", fmt::join(known, ", ")));
+                           known.empty() ? "nothing of the kind: there are no types"
+                                         : fmt::format("one of {}", fmt::join(known, ", ")));
   }
 
  private:

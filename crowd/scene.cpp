@@ -203,6 +203,9 @@ void load_scene(const Element& experiment, const std::vector<std::string>& state
   for (const ModelParameter& constant : model.constants) {
     crowd.model_constants.push_back(constant.initial);
   }
+  for (const ModelParameter& parameter : model.parameters) {
+    crowd.model_parameter_names.push_back(parameter.name);
+  }
   bool common = false;
   bool spatial_query = false;
   std::vector<Profile> profiles;

@@ -164,4 +164,10 @@ void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& centre) {
   state_->crowd.goals[index].shape->move_to(centre);
 }
 
+void Simulation::fire(const std::string& trigger) {
+  if (state_->machine->fire(trigger)) return;
+  throw InputError(Problem{"", "fired trigger", trigger,
+                           "the name of an external trigger of the behaviour file"});
+}
+
 }  // namespace throng::crowd

@@ -87,6 +87,10 @@ class Simulation {
   /// Moves a goal's centre, e.g. to a drone. Throws InputError when there is no such goal.
   void move_goal(int set, int goal, const Eigen::Vector2f& centre);
 
+  /// Fires the behaviour file's external triggers of this name; their events happen in the next
+  /// step. Throws InputError when there is none.
+  void fire(const std::string& trigger);
+
  private:
   struct State;
   std::unique_ptr<State> state_;

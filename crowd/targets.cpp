@@ -33,6 +33,12 @@ class Lottery : public Target {
 
   double total() const { return total_; }
 
+  void list_states(std::vector<std::uint8_t>& states) const override {
+    for (const Ticket& ticket : tickets_) {
+      if (ticket.weight > 0) states.push_back(ticket.state);
+    }
+  }
+
  private:
   std::vector<Ticket> tickets_;
   Sampler unit_;

@@ -97,17 +97,18 @@ TEST(Errors, InConditions) {
 
 TEST(Errors, InBehaviour) {
   expect_problem(behavior_problem("<BFSM/>"), "BFSM", "", "no states", "<State>");
-  expect_problem(behavior_problem(R"(<BFSM><State name="Start" final="0"/><Task/></BFSM>)"), "Task",
-                 "", "not known here", "<Transition>");
+  expect_problem(
+      behavior_problem(R"(<BFSM><State name="Start" final="0"/><Task type="x"/></BFSM>)"), "Task",
+      "type", "x", "there are no types");
   expect_problem(behavior_problem(R"(<BFSM><State name="Start"/></BFSM>)"), "State", "final",
                  "nothing", "");
   expect_problem(
       behavior_problem(
           R"(<BFSM><State name="Start" final="0"/><State name="Start" final="0"/></BFSM>)"),
       "State", "name", "again", "name");
-  expect_problem(
-      behavior_problem(R"(<BFSM><GoalSet id="1"/><State name="Start" final="0"/></BFSM>)"),
-      "GoalSet", "", "empty", "<Goal>");
+  expect_problem(behavior_problem(R"(<BFSM><GoalSet id="1"/><State name="Start" final="0">
+                          <GoalSelector type="random" goal_set="1"/></State></BFSM>)"),
+                 "GoalSelector", "goal_set", "empty", "<Goal>");
   expect_problem(behavior_problem(R"(<BFSM><GoalSet id="1"><Goal id="0" type="cube"/></GoalSet>
                                      <State name="Start" final="0"/></BFSM>)"),
                  "Goal", "type", "cube", "circle");
