@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "crowd/agents.h"
 #include "crowd/goals.h"
 #include "crowd/obstacles.h"
+#include "crowd/shared_parts.h"
 
 namespace throng::crowd {
 
@@ -16,6 +18,8 @@ struct Crowd {
   Agents agents;
   Goals goals;
   Obstacles obstacles;
+  /// What several elements of the files use, e.g. a mesh; who loads an element may add to it.
+  std::shared_ptr<SharedParts> parts = std::make_shared<SharedParts>();
   std::vector<float> model_constants;  ///< of the scene, in the order of the model's table
   std::vector<std::string_view> model_parameter_names;  ///< of Agents::model_parameters
   Compat compat = Compat::none;

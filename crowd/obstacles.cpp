@@ -1,20 +1,10 @@
 #include "crowd/obstacles.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 
 #include "base/error.h"
 
 namespace throng::crowd {
-
-namespace {
-
-constexpr int kLeafSize = 4;
-
-Eigen::Vector2f middle(const Segment& segment) { return 0.5F * (segment.begin + segment.end); }
-
-}  // namespace
 
 Eigen::Vector2f nearest_on_segment(const Eigen::Vector2f& a, const Eigen::Vector2f& b,
                                    const Eigen::Vector2f& p) {
@@ -25,11 +15,25 @@ Eigen::Vector2f nearest_on_segment(const Eigen::Vector2f& a, const Eigen::Vector
   return a + t * edge;
 }
 
+float segment_distance_sq(const Eigen::Vector2f& a, const Eigen::Vector2f& b,
+                          const Eigen::Vector2f& c, const Eigen::Vector2f& d) {
+  const float c_side = cross(b - a, c - a);
+  const float d_side = cross(b - a, d - a);
+  const float a_side = cross(d - c, a - c);
+  const float b_side = cross(d - c, b - c);
+  if (c_side * d_side < 0 && a_side * b_side < 0) return 0;
+  return std::min({(nearest_on_segment(a, b, c) - c).squaredNorm(),
+                   (nearest_on_segment(a, b, d) - d).squaredNorm(),
+                   (nearest_on_segment(c, d, a) - a).squaredNorm(),
+                   (nearest_on_segment(c, d, b) - b).squaredNorm()});
+}
+
 void Obstacles::add_polygon(std::span<const Eigen::Vector2f> corners,
                             std::uint32_t obstacle_class) {
   const int first = static_cast<int>(segments_.size());
   const int count = static_cast<int>(corners.size());
   check(count >= 3, "an obstacle has three corners or more");
+  double area = 0;
   for (int i = 0; i < count; ++i) {
     const int next = (i + 1) % count;
     const int previous = (i + count - 1) % count;
@@ -42,72 +46,86 @@ void Obstacles::add_polygon(std::span<const Eigen::Vector2f> corners,
     segment.convex = cross(corners[i] - corners[previous], corners[next] - corners[i]) >= 0;
     segment.obstacle_class = obstacle_class;
     segments_.push_back(segment);
+    area += cross(corners[i] - corners[0], corners[next] - corners[0]);
   }
+  polygons_.push_back({first, count, area >= 0, obstacle_class});
 }
 
 void Obstacles::build() {
-  order_.resize(segments_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  nodes_.clear();
-  if (!order_.empty()) build_node(0, static_cast<int>(order_.size()));
-}
-
-void Obstacles::build_node(int begin, int end) {
-  const std::size_t index = nodes_.size();
-  Node node;
-  node.begin = begin;
-  node.end = end;
-  node.min = node.max = segments_[order_[begin]].begin;
-  for (int i = begin; i < end; ++i) {
-    const Segment& segment = segments_[order_[i]];
-    node.min = node.min.cwiseMin(segment.begin).cwiseMin(segment.end);
-    node.max = node.max.cwiseMax(segment.begin).cwiseMax(segment.end);
+  std::vector<Box> boxes;
+  boxes.reserve(segments_.size());
+  for (const Segment& segment : segments_) {
+    boxes.push_back({segment.begin.cwiseMin(segment.end), segment.begin.cwiseMax(segment.end)});
   }
-  nodes_.push_back(node);
-  if (end - begin <= kLeafSize) return;
-  const Eigen::Vector2f extent = node.max - node.min;
-  const int axis = extent.x() >= extent.y() ? 0 : 1;
-  std::sort(order_.begin() + begin, order_.begin() + end, [&](int a, int b) {
-    const float at_a = middle(segments_[a])[axis];
-    const float at_b = middle(segments_[b])[axis];
-    return at_a != at_b ? at_a < at_b : a < b;
-  });
-  const int split = (begin + end) / 2;
-  build_node(begin, split);
-  nodes_[index].second = static_cast<int>(nodes_.size());
-  build_node(split, end);
+  tree_.build(boxes);
+  walls_.clear();
+  for (const int index : tree_.order()) {
+    const Segment& segment = segments_[index];
+    const Eigen::Vector2f edge = segment.end - segment.begin;
+    const float length_sq = edge.squaredNorm();
+    walls_.push_back(
+        {segment.begin, edge, length_sq > 0 ? 1 / length_sq : 0, segment.obstacle_class});
+  }
 }
 
 void Obstacles::near(const Eigen::Vector2f& point, float range, std::uint32_t class_mask,
                      std::vector<Near>& found) const {
   found.clear();
-  if (nodes_.empty()) return;
   const float range_sq = range * range;
-  std::array<int, 64> stack{};  // halving 2^31 segments takes fewer levels
-  std::size_t waiting = 0;
-  stack[waiting++] = 0;
-  while (waiting > 0) {
-    const int index = stack[--waiting];
-    const Node& node = nodes_[index];
-    const Eigen::Vector2f inside = point.cwiseMax(node.min).cwiseMin(node.max);
-    if ((inside - point).squaredNorm() >= range_sq) continue;
-    if (node.second != 0) {
-      stack[waiting++] = index + 1;
-      stack[waiting++] = node.second;
-      continue;
-    }
-    for (int i = node.begin; i < node.end; ++i) {
-      const Segment& segment = segments_[order_[i]];
-      if ((segment.obstacle_class & class_mask) == 0) continue;
-      if (cross(segment.direction, point - segment.begin) >= 0) continue;
-      const float distance_sq =
-          (nearest_on_segment(segment.begin, segment.end, point) - point).squaredNorm();
-      if (distance_sq < range_sq) found.push_back({distance_sq, order_[i]});
-    }
-  }
+  tree_.near(point, range_sq, [&](int i) {
+    const Wall& wall = walls_[i];
+    if ((wall.obstacle_class & class_mask) == 0) return;
+    const Eigen::Vector2f from_begin = point - wall.begin;
+    if (cross(wall.edge, from_begin) >= 0) return;
+    const float t =
+        std::clamp(from_begin.dot(wall.edge) * wall.inverse_length_sq, 0.0F, 1.0F);
+    const float distance_sq = (from_begin - t * wall.edge).squaredNorm();
+    if (distance_sq < range_sq) found.push_back({distance_sq, tree_.order()[i]});
+  });
   std::sort(found.begin(), found.end(), [](const Near& a, const Near& b) {
     return a.distance_sq != b.distance_sq ? a.distance_sq < b.distance_sq : a.segment < b.segment;
   });
+}
+
+bool Obstacles::visible(const Eigen::Vector2f& from, const Eigen::Vector2f& to, float radius,
+                        std::uint32_t class_mask) const {
+  return !tree_.any_along(from, to, radius, [&](int i) {
+    const Wall& wall = walls_[i];
+    if ((wall.obstacle_class & class_mask) == 0) return false;
+    const float from_side = cross(wall.edge, from - wall.begin);
+    const float to_side = cross(wall.edge, to - wall.begin);
+    if (from_side > 0 || to_side < 0 || from_side == to_side) return false;
+    const Eigen::Vector2f end = wall.begin + wall.edge;
+    const float distance_sq = segment_distance_sq(from, to, wall.begin, end);
+    return distance_sq < radius * radius || distance_sq == 0;
+  });
+}
+
+bool Obstacles::encloses(const Polygon& polygon, const Eigen::Vector2f& point) const {
+  bool inside = false;
+  for (int i = polygon.first; i < polygon.first + polygon.count; ++i) {
+    const Eigen::Vector2f& a = segments_[i].begin;
+    const Eigen::Vector2f& b = segments_[i].end;
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    if (point.x() < a.x() + (b.x() - a.x()) * (point.y() - a.y()) / (b.y() - a.y())) {
+      inside = !inside;
+    }
+  }
+  return inside;
+}
+
+bool Obstacles::is_solid(const Eigen::Vector2f& point, std::uint32_t class_mask) const {
+  bool any_outer_wall = false;
+  bool inside_outer_wall = false;
+  for (const Polygon& polygon : polygons_) {
+    if ((polygon.obstacle_class & class_mask) == 0) continue;
+    const bool enclosed = encloses(polygon, point);
+    if (polygon.solid && enclosed) return true;
+    if (polygon.solid) continue;
+    any_outer_wall = true;
+    inside_outer_wall = inside_outer_wall || enclosed;
+  }
+  return any_outer_wall && !inside_outer_wall;
 }
 
 }  // namespace throng::crowd

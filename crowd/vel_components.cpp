@@ -1,6 +1,5 @@
-#include <algorithm>
-
-#include "crowd/behavior.h"
+#include "crowd/navigation.h"
+#include "crowd/steering.h"
 
 namespace throng::crowd {
 
@@ -10,22 +9,7 @@ namespace {
 class ToGoal : public VelComponent {
  public:
   void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) override {
-    const Agents& agents = crowd.agents;
-    const Eigen::Vector2f& p = agents.position[agent];
-    const int goal = agents.goal[agent];
-    const Eigen::Vector2f target =
-        goal < 0 ? agents.own_goal[agent]
-                 : crowd.goals[goal].shape->nearest_point(p, agents[Property::radius][agent]);
-    const Eigen::Vector2f way = target - p;
-    const float distance = way.norm();
-    constexpr float kArrived = 0.01F;  // m
-    if (distance <= kArrived) {
-      preferred.speed = 0;
-      return;
-    }
-    preferred.direction = way / distance;
-    preferred.speed =
-        std::min(agents[Property::pref_speed][agent], distance / static_cast<float>(crowd.dt_s));
+    head_for(crowd, agent, goal_place(crowd, agent, crowd.agents.position[agent]), preferred);
   }
 };
 
@@ -103,6 +87,9 @@ const VelComponentRegistry& vel_component_registry() {
        {number("x", "of the direction"), number("y", "of the direction")},
        make_constant_direction},
       {"zero", "stand", {}, make_zero},
+      nav_mesh_component(),
+      road_map_component(),
+      vector_field_component(),
   }});
   return kRegistry;
 }

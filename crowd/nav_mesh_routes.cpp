@@ -1,0 +1,153 @@
+#include "crowd/nav_mesh_routes.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowd/navigation.h"
+
+namespace throng::crowd {
+
+NavMeshRoutes::NavMeshRoutes(std::shared_ptr<const NavMeshFile> file, std::string file_name,
+                             Lengths lengths)
+    : file_(std::move(file)),
+      file_name_(std::move(file_name)),
+      finders_(PathFinder(file_->mesh, lengths)) {}
+
+void NavMeshRoutes::enter(const Crowd& crowd, std::size_t agent) {
+  if (agent >= routes_.size()) routes_.resize(std::max(crowd.agents.count(), agent + 1));
+  routes_[agent].known = false;
+  if (crowd.step > 0) return;  // later on people may be pushed over the mesh's edge
+  const Eigen::Vector2f& p = crowd.agents.position[agent];
+  const float distance = (file_->mesh.nearest(p).point - p).norm();
+  if (distance > crowd.agents[Property::radius][agent]) {
+    throw InputError(Problem{file_name_,
+                             fmt::format("agent {} at ({:.2f}, {:.2f})", agent, p.x(), p.y()),
+                             fmt::format("a place {:.2f} m outside of the mesh", distance),
+                             "agents with this velocity component on the mesh"});
+  }
+}
+
+void NavMeshRoutes::prefer(const Crowd& crowd, std::size_t agent, float heading_cos,
+                           PreferredVelocity& preferred) {
+  Route& route = routes_[agent];
+  const Eigen::Vector2f& p = crowd.agents.position[agent];
+  // How far the goal may move, as a share of its distance, before the way is looked for again.
+  constexpr float kMoved = 0.02F;
+  const float moved = (goal_place(crowd, agent, route.target) - route.target).norm();
+  if (!route.known || moved > kMoved * (route.target - p).norm() || !keep_up(p, route) ||
+      (route.next == route.count && !route.whole)) {
+    plan(crowd, agent, route);
+  }
+  if (is_pushed_off(p, heading_cos, route)) plan(crowd, agent, route);
+  if (route.next == route.count) {
+    head_for(crowd, agent, goal_place(crowd, agent, p), preferred);
+    return;
+  }
+  head_through(crowd, agent, route.legs[static_cast<std::size_t>(route.next)].crossing, preferred);
+}
+
+bool NavMeshRoutes::is_pushed_off(const Eigen::Vector2f& position, float heading_cos,
+                                  const Route& route) {
+  if (route.next == route.count) return false;
+  const Leg& leg = route.legs[static_cast<std::size_t>(route.next)];
+  const Eigen::Vector2f way = leg.crossing - position;
+  const float distance = way.norm();
+  constexpr float kAtPortal = 0.05F;  // m; too near for a direction
+  return distance > kAtPortal && way.dot(leg.heading) < heading_cos * distance;
+}
+
+/// Finds out how far the agent has come; false if it has left its way.
+bool NavMeshRoutes::keep_up(const Eigen::Vector2f& position, Route& route) const {
+  const int polygon = file_->mesh.find(position, route.polygon);
+  if (polygon < 0 || polygon == route.polygon) return true;
+  for (int i = route.next; i < route.count; ++i) {
+    if (route.legs[static_cast<std::size_t>(i)].polygon != polygon) continue;
+    route.next = i + 1;
+    route.polygon = polygon;
+    return true;
+  }
+  return false;
+}
+
+void NavMeshRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
+  const NavMesh& mesh = file_->mesh;
+  const Eigen::Vector2f& p = crowd.agents.position[agent];
+  const Eigen::Vector2f target = goal_place(crowd, agent, p);
+  NavMesh::Place from{mesh.find(p, route.polygon), p};
+  if (from.polygon < 0) from = mesh.nearest(p);
+  NavMesh::Place to{mesh.find(target), target};
+  const int island = from.polygon < 0 ? -1 : mesh[from.polygon].island;
+  if (to.polygon < 0 || mesh[to.polygon].island != island) to = mesh.nearest(target, island);
+
+  route.known = true;
+  route.whole = true;
+  route.polygon = from.polygon;
+  route.next = 0;
+  route.count = 0;
+  route.target = target;
+  PathFinder& finder = finders_.local();
+  if (!finder.find(from, to, crowd.agents[Property::radius][agent])) return;
+  Eigen::Vector2f at = p;
+  for (const Gate& gate : finder.gates()) {
+    if (route.count == kMostLegs) {
+      route.whole = false;
+      return;
+    }
+    const Eigen::Vector2f way = gate.crossing - at;
+    const float distance = way.norm();
+    route.legs[static_cast<std::size_t>(route.count++)] = {
+        gate.polygon, gate.crossing,
+        distance > 0 ? Eigen::Vector2f(way / distance) : Eigen::Vector2f::Zero()};
+    at = gate.crossing;
+  }
+}
+
+namespace {
+
+/// Along a mesh from a file to the agent's goal.
+class AcrossMesh : public VelComponent {
+ public:
+  AcrossMesh(std::shared_ptr<NavMeshRoutes> routes, float heading_cos)
+      : routes_(std::move(routes)), heading_cos_(heading_cos) {}
+  void enter(const Crowd& crowd, std::size_t agent) override { routes_->enter(crowd, agent); }
+  void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) override {
+    routes_->prefer(crowd, agent, heading_cos_, preferred);
+  }
+
+ private:
+  std::shared_ptr<NavMeshRoutes> routes_;
+  float heading_cos_;
+};
+
+std::unique_ptr<VelComponent> make_across_mesh(const Element& element,
+                                               const Attributes& attributes,
+                                               BehaviorContext& context) {
+  SharedParts& parts = *context.crowd.parts;
+  const std::filesystem::path path = element.file_beside(attributes.text("file_name"));
+  const Lengths lengths =
+      context.crowd.compat == Compat::none ? Lengths::points : Lengths::centres;
+  auto routes = parts.get<NavMeshRoutes>(path.lexically_normal().string(), [&] {
+    return std::make_shared<NavMeshRoutes>(shared_nav_mesh(path, parts),
+                                           path.filename().string(), lengths);
+  });
+  return std::make_unique<AcrossMesh>(
+      std::move(routes), std::cos(attributes.real("heading_threshold") * kRadiansPerDegree));
+}
+
+}  // namespace
+
+VelComponentRegistry::Entry nav_mesh_component() {
+  return {"nav_mesh",
+          "the shortest way across a navigation mesh",
+          {text("file_name", "of the mesh (.nav)"),
+           optional(number("heading_threshold",
+                           "how far others may push one off the way's heading before a new way is "
+                           "looked for, in degrees",
+                           0, 180),
+                    "180")},
+          make_across_mesh};
+}
+
+}  // namespace throng::crowd

@@ -1,0 +1,14 @@
+// Plug-ins that know the way around walls, one file each.
+#pragma once
+
+#include <vector>
+
+#include "crowd/behavior.h"
+
+namespace throng::crowd {
+
+VelComponentRegistry::Entry nav_mesh_component();
+VelComponentRegistry::Entry road_map_component();
+VelComponentRegistry::Entry vector_field_component();
+
+}  // namespace throng::crowd

@@ -1,0 +1,179 @@
+#include "crowd/path_finder.h"
+
+#include <algorithm>
+
+#include "crowd/obstacles.h"
+
+namespace throng::crowd {
+
+namespace {
+
+/// The portal for a disc: its ends moved inwards by the radius, at most to its middle.
+Gate make_gate(const Portal& portal, float radius) {
+  const Eigen::Vector2f across = portal.right - portal.left;
+  const float width = across.norm();
+  const Eigen::Vector2f inset = width > 0 ? Eigen::Vector2f(std::min(radius / width, 0.5F) * across)
+                                          : Eigen::Vector2f::Zero();
+  return {portal.to, portal.left + inset, portal.right - inset, portal.left};
+}
+
+/// Where the straight line from a to b passes a gate, or the gate's end nearest to the line.
+Eigen::Vector2f pass(const Gate& gate, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+  if (a == gate.left || a == gate.right) return a;
+  const float left = cross(b - a, gate.left - a);
+  const float right = cross(b - a, gate.right - a);
+  if (left <= 0) return gate.left;
+  if (right >= 0) return gate.right;
+  return gate.left + left / (left - right) * (gate.right - gate.left);
+}
+
+/// Twice the area of a triangle, positive when c is to the right of a -> b.
+float right_turn(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
+  return cross(c - a, b - a);
+}
+
+}  // namespace
+
+PathFinder::PathFinder(const NavMesh& mesh, Lengths lengths) : mesh_(&mesh), lengths_(lengths) {
+  for (std::size_t polygon = 0; polygon < mesh.polygons().size(); ++polygon) {
+    first_portal_.push_back(static_cast<int>(owner_.size()));
+    owner_.insert(owner_.end(), mesh.polygons()[polygon].portals.size(),
+                  static_cast<int>(polygon));
+  }
+  nodes_.resize(owner_.size());
+  open_.reserve(owner_.size());
+  gates_.reserve(mesh.polygons().size());
+  bends_.reserve(mesh.polygons().size() + 1);
+}
+
+bool PathFinder::find(const NavMesh::Place& from, const NavMesh::Place& to, float radius) {
+  gates_.clear();
+  if (from.polygon < 0 || to.polygon < 0) return false;
+  if (from.polygon != to.polygon) {
+    if ((*mesh_)[from.polygon].island != (*mesh_)[to.polygon].island) return false;
+    if (!search(from, to, radius, false) && !search(from, to, radius, true)) return false;
+  }
+  pull_tight(from.point, to.point);
+  return true;
+}
+
+const Portal& PathFinder::portal(int number) const {
+  const int polygon = owner_[static_cast<std::size_t>(number)];
+  const int first = first_portal_[static_cast<std::size_t>(polygon)];
+  return (*mesh_)[polygon].portals[static_cast<std::size_t>(number - first)];
+}
+
+bool PathFinder::search(const NavMesh::Place& from, const NavMesh::Place& to, float radius,
+                        bool narrow) {
+  ++search_;
+  open_.clear();
+  const bool by_centres = lengths_ == Lengths::centres;
+  const Eigen::Vector2f& end = by_centres ? (*mesh_)[to.polygon].centre : to.point;
+  expand(from.polygon, -1, by_centres ? (*mesh_)[from.polygon].centre : from.point, end, radius,
+         narrow);
+  const auto worse = [](const Open& a, const Open& b) {
+    return a.estimate != b.estimate ? a.estimate > b.estimate : a.portal > b.portal;
+  };
+  while (!open_.empty()) {
+    std::pop_heap(open_.begin(), open_.end(), worse);
+    const Open best = open_.back();
+    open_.pop_back();
+    Node& node = nodes_[static_cast<std::size_t>(best.portal)];
+    if (node.done) continue;
+    node.done = true;
+    const int behind = portal(best.portal).to;
+    if (behind == to.polygon) {
+      collect_gates(best.portal, radius);
+      return true;
+    }
+    expand(behind, best.portal, node.point, end, radius, narrow);
+  }
+  return false;
+}
+
+void PathFinder::expand(int polygon, int before, const Eigen::Vector2f& start,
+                        const Eigen::Vector2f& end, float radius, bool narrow) {
+  const auto worse = [](const Open& a, const Open& b) {
+    return a.estimate != b.estimate ? a.estimate > b.estimate : a.portal > b.portal;
+  };
+  const float cost_before = before < 0 ? 0 : nodes_[static_cast<std::size_t>(before)].cost;
+  const int back = before < 0 ? -1 : owner_[static_cast<std::size_t>(before)];
+  int number = first_portal_[static_cast<std::size_t>(polygon)];
+  for (const Portal& next : (*mesh_)[polygon].portals) {
+    Node& node = nodes_[static_cast<std::size_t>(number)];
+    const int portal = number++;
+    if (next.to == back) continue;
+    if (node.search == search_ && node.done) continue;
+    if (!narrow && (next.right - next.left).squaredNorm() < 4 * radius * radius) continue;
+    const Eigen::Vector2f point = lengths_ == Lengths::centres
+                                      ? (*mesh_)[next.to].centre
+                                      : pass(make_gate(next, radius), start, end);
+    const float cost = cost_before + (point - start).norm();
+    if (node.search == search_ && cost >= node.cost) continue;
+    node = {search_, false, before, cost, point};
+    open_.push_back({cost + (end - point).norm(), portal, cost});
+    std::push_heap(open_.begin(), open_.end(), worse);
+  }
+}
+
+void PathFinder::collect_gates(int last, float radius) {
+  for (int number = last; number >= 0; number = nodes_[static_cast<std::size_t>(number)].before) {
+    gates_.push_back(make_gate(portal(number), radius));
+  }
+  std::reverse(gates_.begin(), gates_.end());
+}
+
+/// The way goes straight from the last bend to `point`, which lies in or behind the gates before
+/// `gate`.
+void PathFinder::bend_at(std::size_t gate, const Eigen::Vector2f& point) {
+  for (; crossed_ < gate; ++crossed_) {
+    gates_[crossed_].crossing = pass(gates_[crossed_], apex_, point);
+  }
+  length_m_ += (point - apex_).norm();
+  apex_ = point;
+  if (bends_.empty() || bends_.back() != point) bends_.push_back(point);
+}
+
+/// The funnel from the apex through the gates so far has a left and a right side; it narrows gate
+/// by gate, and where it would turn inside out the way bends around the other side's corner.
+void PathFinder::pull_tight(const Eigen::Vector2f& start, const Eigen::Vector2f& end) {
+  bends_.clear();
+  crossed_ = 0;
+  length_m_ = 0;
+  apex_ = start;
+  Eigen::Vector2f left = start;
+  Eigen::Vector2f right = start;
+  std::size_t left_gate = 0;
+  std::size_t right_gate = 0;
+  for (std::size_t i = 0; i <= gates_.size(); ++i) {
+    const Eigen::Vector2f& next_left = i < gates_.size() ? gates_[i].left : end;
+    const Eigen::Vector2f& next_right = i < gates_.size() ? gates_[i].right : end;
+    if (right_turn(apex_, right, next_right) <= 0) {
+      if (right == apex_ || right_turn(apex_, left, next_right) > 0) {
+        right = next_right;
+        right_gate = i;
+      } else {
+        i = left_gate;
+        bend_at(i, left);
+        right = left;
+        right_gate = i;
+        continue;
+      }
+    }
+    if (right_turn(apex_, left, next_left) >= 0) {
+      if (left == apex_ || right_turn(apex_, right, next_left) < 0) {
+        left = next_left;
+        left_gate = i;
+      } else {
+        i = right_gate;
+        bend_at(i, right);
+        left = right;
+        left_gate = i;
+        continue;
+      }
+    }
+  }
+  bend_at(gates_.size(), end);
+}
+
+}  // namespace throng::crowd
