@@ -17,6 +17,7 @@ void Agents::resize(std::size_t count, std::size_t model_parameter_count) {
   for (std::vector<float>& values : properties) values.resize(count, 0);
   obstacle_mask.resize(count, std::numeric_limits<std::uint32_t>::max());
   agent_class.resize(count, 0);
+  profile.resize(count, 0);
   model_parameters.resize(model_parameter_count);
   for (std::vector<float>& values : model_parameters) values.resize(count, 0);
   state.resize(count, 0);

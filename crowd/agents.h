@@ -79,6 +79,7 @@ struct Agents {
   std::array<std::vector<float>, kPropertyCount> properties;
   std::vector<std::uint32_t> obstacle_mask;  ///< obstacles of these classes are in the way
   std::vector<std::int32_t> agent_class;
+  std::vector<std::uint32_t> profile;  ///< number of the <AgentProfile> in the scene
   /// Per parameter of the pedestrian model's table, per agent.
   std::vector<std::vector<float>> model_parameters;
 

@@ -155,9 +155,11 @@ void load_transitions(const Element& element, BehaviorContext& context, Behavior
   const Attributes attributes(element, {text("from", "names of states, separated by commas"),
                                         optional(text("to", "the name of a state"))});
   const std::uint64_t first_draws = context.next_draws;
+  const std::uint64_t first_sequence = context.sequences.count();
   for (const std::string& name : split_names(attributes.text("from"), context.crowd.compat)) {
     const std::uint8_t from = context.require_state(element, "from", name);
     context.next_draws = first_draws;
+    context.sequences.rewind(first_sequence);
     behavior.states[from].transitions.push_back(load_transition(element, attributes, context));
     diagnosis.note_transition(element, from);
     context.is_copy = true;
@@ -171,26 +173,60 @@ class MovingGoals : public Process {
   void after_motion(Crowd& crowd, Machine&) override { crowd.goals.advance_paths(crowd.dt_s); }
 };
 
-void load_goal_sets(const Element& bfsm, Goals& goals, Diagnosis& diagnosis) {
+/// A behaviour file that is being read. All goals are read first, since states refer to them; the
+/// rest in the file's order, in which the elements that draw get their random numbers.
+struct Loading {
+  BehaviorContext& context;
+  Behavior& behavior;
+  Diagnosis& diagnosis;
+  std::vector<int> goal_sets = {};  ///< indices, one per <GoalSet>
+  std::size_t next_goal_set = 0;
+  std::size_t next_state = 0;
+  std::vector<SharedGoal> shared = {};
+};
+
+void load_goal_sets(const Element& bfsm, Goals& goals, Loading& loading) {
   for (const Element& child : bfsm.children()) {
-    if (child.name() == "GoalSet") diagnosis.note_goal_set(child, goals.load_set(child));
+    if (child.name() != "GoalSet") continue;
+    loading.goal_sets.push_back(goals.load_set(child));
+    loading.diagnosis.note_goal_set(child, loading.goal_sets.back());
+    loading.context.set_sequences.push_back(std::make_shared<MengeRandom>(0));  // until its turn
   }
 }
 
-/// Everything but goals and transitions, which come before and after it.
-void load_child(const Element& child, BehaviorContext& context, Behavior& behavior,
-                Diagnosis& diagnosis, std::vector<SharedGoal>& shared) {
+/// The next <GoalSet>'s turn to get random numbers; one that adds to another has none.
+void take_goal_set(Loading& loading) {
+  const auto here =
+      loading.goal_sets.begin() + static_cast<std::ptrdiff_t>(loading.next_goal_set++);
+  if (std::find(loading.goal_sets.begin(), here, *here) != here) return;
+  if (const auto sequence = loading.context.sequences.next()) {
+    *loading.context.set_sequences[static_cast<std::size_t>(*here)] = *sequence;
+  }
+}
+
+void take_state(const Element& element, Loading& loading) {
+  const std::size_t index = loading.next_state++;
+  MachineState state = load_state(element, loading.context, index, loading.shared);
+  state.transitions = std::move(loading.behavior.states[index].transitions);  // read before it
+  loading.behavior.states[index] = std::move(state);
+  loading.diagnosis.note_state(element);
+}
+
+void load_child(const Element& child, Loading& loading) {
+  BehaviorContext& context = loading.context;
   if (child.name() == "State") {
-    const std::size_t index = behavior.states.size();
-    behavior.states.push_back(load_state(child, context, index, shared));
-    diagnosis.note_state(child);
+    take_state(child, loading);
+  } else if (child.name() == "Transition") {
+    load_transitions(child, context, loading.behavior, loading.diagnosis);
+  } else if (child.name() == "GoalSet") {
+    take_goal_set(loading);
   } else if (child.name() == "VelModifier") {
-    make_another(vel_modifier_registry(), child, context, behavior.modifiers);
+    make_another(vel_modifier_registry(), child, context, loading.behavior.modifiers);
   } else if (child.name() == "EventSystem") {
     load_events(child, context);
   } else if (child.name() == "Task") {
     make_another(task_registry(), child, context, context.processes);
-  } else if (child.name() != "GoalSet" && child.name() != "Transition") {
+  } else {
     child.fail_unknown("<GoalSet>, <State>, <Transition>, <VelModifier>, <EventSystem> or <Task>");
   }
 }
@@ -200,6 +236,27 @@ void load_child(const Element& child, BehaviorContext& context, Behavior& behavi
 Draws BehaviorContext::make_draws(std::optional<std::uint64_t> fixed_seed) {
   const std::uint64_t number = next_draws++;
   return Draws(fixed_seed ? *fixed_seed : derive_seed(seed, Stream::crowd_behavior, number));
+}
+
+Sampler BehaviorContext::make_sampler(const Distribution& distribution) {
+  const Draws draws = make_draws(distribution.seed);
+  const std::shared_ptr<MengeRandom> sequence = sequences.next(distribution);
+  return {distribution, draws, is_copy ? MengeSequences::copy(sequence) : sequence};
+}
+
+Sampler2 BehaviorContext::make_sampler(const Distribution2& distribution) {
+  const Draws draws = make_draws();
+  if (distribution.is_constant()) return {distribution, draws};
+  const std::shared_ptr<MengeRandom> x = sequences.next();
+  const std::shared_ptr<MengeRandom> y = sequences.next();
+  return {distribution, draws, is_copy ? MengeSequences::copy(x) : x,
+          is_copy ? MengeSequences::copy(y) : y};
+}
+
+Sampler BehaviorContext::make_set_sampler(int set) {
+  const Distribution unit{Distribution::Kind::uniform, 0, 1, {}};
+  if (!sequences.compatible()) return {unit, make_draws()};
+  return {unit, make_draws(), set_sequences[static_cast<std::size_t>(set)]};
 }
 
 std::uint8_t BehaviorContext::require_state(const Element& element, std::string_view attribute,
@@ -235,21 +292,25 @@ const TaskRegistry& task_registry() {
 }
 
 Behavior load_behavior(const Element& bfsm, const std::vector<std::string>& state_names,
-                       std::uint64_t seed, Crowd& crowd) {
+                       const std::vector<std::vector<Element>>& profile_modifiers,
+                       MengeSequences& sequences, Crowd& crowd) {
   const Attributes no_attributes(bfsm, {});
   Diagnosis diagnosis;
-  load_goal_sets(bfsm, crowd.goals, diagnosis);
-  BehaviorContext context{crowd, crowd.goals, state_names, crowd.agents.count(), seed};
-  if (crowd.goals.any_path()) context.processes.push_back(std::make_unique<MovingGoals>());
   Behavior behavior;
-  std::vector<SharedGoal> shared;
-  for (const Element& child : bfsm.children()) {
-    load_child(child, context, behavior, diagnosis, shared);
+  behavior.states.resize(state_names.size());
+  BehaviorContext context{crowd,      crowd.goals, state_names, crowd.agents.count(),
+                          crowd.seed, sequences};
+  Loading loading{context, behavior, diagnosis};
+  load_goal_sets(bfsm, crowd.goals, loading);
+  if (crowd.goals.any_path()) context.processes.push_back(std::make_unique<MovingGoals>());
+  for (const std::vector<Element>& elements : profile_modifiers) {
+    auto& modifiers = behavior.profile_modifiers.emplace_back();
+    for (const Element& element : elements) {
+      make_another(vel_modifier_registry(), element, context, modifiers);
+    }
   }
-  share_goals(shared, behavior);
-  for (const Element& child : bfsm.children()) {
-    if (child.name() == "Transition") load_transitions(child, context, behavior, diagnosis);
-  }
+  for (const Element& child : bfsm.children()) load_child(child, loading);
+  share_goals(loading.shared, behavior);
   behavior.processes = std::move(context.processes);
   behavior.signals = std::move(context.signals);
   diagnosis.report(crowd, behavior, state_names, context.states_from_outside);

@@ -95,6 +95,8 @@ struct Behavior {
   std::vector<std::unique_ptr<VelModifier>> modifiers;  ///< of all states, after the state's own
   std::vector<std::unique_ptr<Process>> processes;      ///< in the file's order
   std::vector<std::shared_ptr<Signal>> signals;
+  /// By Agents::profile, after all others.
+  std::vector<std::vector<std::unique_ptr<VelModifier>>> profile_modifiers;
 };
 
 class Stress;
@@ -106,6 +108,8 @@ struct BehaviorContext {
   const std::vector<std::string>& state_names;
   std::size_t agent_count = 0;
   std::uint64_t seed = 1;
+  MengeSequences& sequences;  ///< of random numbers, of compatible runs
+  std::vector<std::shared_ptr<MengeRandom>> set_sequences = {};  ///< the same, per goal set
   std::vector<std::unique_ptr<Process>> processes = {};  ///< what plug-ins want to be run
   std::uint64_t next_draws = 0;  ///< elements that draw are numbered in the file's order
   /// A transition from several states is read once for each; this is not the first time. Elements
@@ -120,12 +124,13 @@ struct BehaviorContext {
 
   /// The random numbers of one more element; `fixed_seed` is its own seed, if it gives one.
   Draws make_draws(std::optional<std::uint64_t> fixed_seed = {});
-  Sampler make_sampler(const Distribution& distribution) {
-    return {distribution, make_draws(distribution.seed)};
-  }
-  Sampler2 make_sampler(const Distribution2& distribution) { return {distribution, make_draws()}; }
+  Sampler make_sampler(const Distribution& distribution);
+  Sampler2 make_sampler(const Distribution2& distribution);
   /// Uniform in [0, 1).
   Sampler make_unit_sampler() { return make_sampler({Distribution::Kind::uniform, 0, 1, {}}); }
+  /// The same for choosing among the goals of a set: in compatible runs all who do so share the
+  /// set's sequence.
+  Sampler make_set_sampler(int set);
   /// Throws InputError for a name that is no state's.
   std::uint8_t require_state(const Element& element, std::string_view attribute,
                              const std::string& name) const;
@@ -169,8 +174,10 @@ AttributeSpec exit_reset_attribute();
 
 /// The names of a behaviour file's states, in its order. Throws InputError when two are equal.
 std::vector<std::string> load_state_names(const Element& bfsm);
-/// Reads goals into the crowd, then states and transitions. Throws InputError.
+/// Reads goals into the crowd, then states and transitions; `profile_modifiers` are the scene's,
+/// by profile. Throws InputError.
 Behavior load_behavior(const Element& bfsm, const std::vector<std::string>& state_names,
-                       std::uint64_t seed, Crowd& crowd);
+                       const std::vector<std::vector<Element>>& profile_modifiers,
+                       MengeSequences& sequences, Crowd& crowd);
 
 }  // namespace throng::crowd

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/random.h"
+#include "crowd/menge_random.h"
 
 namespace throng::crowd {
 
@@ -22,8 +23,10 @@ struct Distribution {
   static Distribution constant(double value) { return {Kind::constant, value, 0, {}}; }
 
   double sample(Random random) const;
+  double sample(MengeRandom& random) const;
   /// A whole number; a uniform distribution includes both of its ends.
   int sample_integer(Random random) const;
+  int sample_integer(MengeRandom& random) const;
 };
 
 /// A distribution of points: one point, or uniform over a rectangle.
@@ -31,7 +34,9 @@ struct Distribution2 {
   Eigen::Vector2f low = Eigen::Vector2f::Zero();
   Eigen::Vector2f high = Eigen::Vector2f::Zero();
 
+  bool is_constant() const { return low == high; }
   Eigen::Vector2f sample(Random random) const;
+  Eigen::Vector2f sample(MengeRandom& x, MengeRandom& y) const;
 };
 
 /// The random numbers of one element of the behaviour file. What an agent gets depends on how

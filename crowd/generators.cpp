@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +52,110 @@ class RectangularGrid : public Generator {
   Eigen::Vector2f axis_;
 };
 
+/// Closest packing of discs: rows whose neighbours are shifted by half a disc.
+class HexLattice : public Generator {
+ public:
+  enum class Alignment { left, center, right };
+  struct Shape {
+    Eigen::Vector2f anchor = Eigen::Vector2f::Zero();
+    float angle_rad = 0;
+    float density = 1;  ///< per m^2
+    float width_m = 1;  ///< from left to right
+    std::size_t population = 1;
+    Alignment alignment = Alignment::center;
+  };
+
+  HexLattice(const Shape& shape, float radius)
+      : shape_(shape),
+        axis_(std::cos(shape.angle_rad), std::sin(shape.angle_rad)),
+        radius_(radius),
+        row_distance_(radius * std::numbers::sqrt3_v<float>) {}
+
+  /// Of the discs of a lattice that dense.
+  static float radius_m(float density) {
+    return 1 / std::sqrt(2 * density * std::numbers::sqrt3_v<float>);
+  }
+
+  Eigen::Vector2f place(std::size_t index, const Eigen::Vector2f& noise) const override {
+    const Eigen::Vector2f local = local_place(index) + noise;
+    return shape_.anchor + local.x() * axis_ + local.y() * Eigen::Vector2f(-axis_.y(), axis_.x());
+  }
+
+ protected:
+  virtual Eigen::Vector2f local_place(std::size_t index) const = 0;
+
+  /// Where `count` things `step` apart begin that are aligned with 0.
+  float first_of(std::size_t count, float step) const {
+    const float extent = static_cast<float>(count - 1) * step;
+    switch (shape_.alignment) {
+      case Alignment::left:
+        return 0;
+      case Alignment::right:
+        return -extent;
+      case Alignment::center:
+        break;
+    }
+    return -0.5F * extent;
+  }
+
+  Shape shape_;
+  Eigen::Vector2f axis_;
+  float radius_;
+  float row_distance_;
+};
+
+/// Rows from left to right, every other one has one agent less; rows are added until there are
+/// more agents than the population asked for.
+class HexRows : public HexLattice {
+ public:
+  HexRows(const Shape& shape, float radius)
+      : HexLattice(shape, radius),
+        row_(std::max<std::size_t>(1, static_cast<std::size_t>(shape.width_m / (2 * radius)))) {}
+
+  std::size_t count() const override {
+    const std::size_t two_rows = 2 * row_ - 1;
+    const std::size_t pairs = shape_.population / two_rows;
+    const std::size_t rest = shape_.population % two_rows;
+    return pairs * two_rows + (rest < row_ ? row_ : two_rows);
+  }
+
+  Eigen::Vector2f local_place(std::size_t index) const override {
+    const std::size_t two_rows = 2 * row_ - 1;
+    const bool shifted = index % two_rows >= row_;
+    const std::size_t row = 2 * (index / two_rows) + (shifted ? 1 : 0);
+    const std::size_t column = index % two_rows - (shifted ? row_ : 0);
+    const float left = first_of(row_, 2 * radius_) + (shifted ? radius_ : 0);
+    return {left + 2 * radius_ * static_cast<float>(column),
+            row_distance_ * static_cast<float>(row)};
+  }
+
+ private:
+  std::size_t row_;  // agents in the first row
+};
+
+/// Rows upwards, side by side from left to right, all with as many agents: one more than the
+/// population asked for takes.
+class HexColumns : public HexLattice {
+ public:
+  HexColumns(const Shape& shape, float radius)
+      : HexLattice(shape, radius),
+        columns_(std::max<std::size_t>(1, static_cast<std::size_t>(shape.width_m / row_distance_))),
+        column_(shape.population / columns_ + 1) {}
+
+  std::size_t count() const override { return columns_ * column_; }
+
+  Eigen::Vector2f local_place(std::size_t index) const override {
+    const std::size_t column = index / column_;
+    const float bottom = column % 2 == 0 ? 0 : radius_;
+    return {first_of(columns_, row_distance_) + row_distance_ * static_cast<float>(column),
+            bottom + 2 * radius_ * static_cast<float>(index % column_)};
+  }
+
+ private:
+  std::size_t columns_;
+  std::size_t column_;  // agents in each
+};
+
 std::unique_ptr<Generator> make_listed(const Element& element, const Attributes&,
                                        GeneratorContext&) {
   std::vector<Eigen::Vector2f> places;
@@ -75,15 +180,58 @@ std::unique_ptr<Generator> make_grid(const Element& element, const Attributes& a
       attributes.real("rotation") * kRadiansPerDegree);
 }
 
-/// As far as the distribution says, in any direction.
-Eigen::Vector2f draw_noise(const Distribution& radius, Random random) {
-  const double angle = random.uniform(0, 2 * std::numbers::pi);
-  const double length = radius.sample(random);
-  return {static_cast<float>(length * std::cos(angle)),
-          static_cast<float>(length * std::sin(angle))};
+std::unique_ptr<Generator> make_hex_lattice(const Element& element, const Attributes& attributes,
+                                            GeneratorContext&) {
+  element.require_no_children();
+  using Alignment = HexLattice::Alignment;
+  HexLattice::Shape shape;
+  shape.anchor = {attributes.real("anchor_x"), attributes.real("anchor_y")};
+  shape.angle_rad = attributes.real("rotation") * kRadiansPerDegree;
+  shape.density = attributes.real("density");
+  shape.width_m = attributes.real("width");
+  shape.population = static_cast<std::size_t>(attributes.integer("population"));
+  const std::string& alignment = attributes.text("alignment");
+  shape.alignment = alignment == "left"    ? Alignment::left
+                    : alignment == "right" ? Alignment::right
+                                           : Alignment::center;
+  const float radius = HexLattice::radius_m(shape.density);
+  if (attributes.text("row_direction") == "x") return std::make_unique<HexRows>(shape, radius);
+  return std::make_unique<HexColumns>(shape, radius);
 }
 
 constexpr std::string_view kNoisePrefix = "displace_";
+
+/// How far agents are from their exact places: as far as a distribution says, in any direction.
+class Noise {
+ public:
+  Noise(const Attributes& attributes, std::uint64_t seed, MengeSequences& sequences) : seed_(seed) {
+    if (!attributes.has(kNoisePrefix)) return;
+    radius_ = attributes.distribution(kNoisePrefix);
+    radii_ = sequences.next(radius_);
+    directions_ = sequences.next();
+  }
+
+  Eigen::Vector2f draw(std::size_t agent) const {
+    if (directions_) {
+      const double length = radii_ ? radius_.sample(*radii_) : radius_.first;
+      return polar(length, 2 * std::numbers::pi * directions_->uniform());
+    }
+    Random random(radius_.seed.value_or(seed_), Stream::crowd_generator, agent);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    return polar(radius_.sample(random), angle);
+  }
+
+ private:
+  static Eigen::Vector2f polar(double length, double angle) {
+    return {static_cast<float>(length * std::cos(angle)),
+            static_cast<float>(length * std::sin(angle))};
+  }
+
+  std::uint64_t seed_;
+  Distribution radius_;
+  std::shared_ptr<MengeRandom> radii_;
+  std::shared_ptr<MengeRandom> directions_;
+};
 
 }  // namespace
 
@@ -100,28 +248,37 @@ const GeneratorRegistry& generator_registry() {
             integer("count_y", "rows", 1, kMostAgents),
             optional(number("rotation", "about the first agent in degrees", -3600, 3600), "0")},
            make_grid},
+          {"hex_lattice",
+           "closest packing of discs, at least as many as asked for",
+           {number("anchor_x", "where the first row begins, in m"),
+            number("anchor_y", "where the first row begins, in m"),
+            word("alignment", {"center", "left", "right"}, "what of the rows is at the anchor"),
+            word("row_direction", {"x", "y"}, "along which rows run before they are turned"),
+            number("density", "agents per m^2", 1e-6, 1000),
+            number("width", "from left to right in m", 1e-3, kFarthest),
+            integer("population", "lowest number of agents; rows are completed", 1, kMostAgents),
+            optional(number("rotation", "about the anchor in degrees", -3600, 3600), "0")},
+           make_hex_lattice},
       }},
       {optional(distribution(kNoisePrefix, "distance from the exact place in m"))});
   return kRegistry;
 }
 
 std::vector<Eigen::Vector2f> generate_places(const Element& element, std::uint64_t seed,
-                                             std::size_t first_agent) {
+                                             MengeSequences& sequences, std::size_t first_agent) {
   GeneratorContext context;
-  const std::unique_ptr<Generator> generator = generator_registry().make(element, context);
+  const GeneratorRegistry::Entry& entry = generator_registry().find(element);
+  const Attributes attributes(element, entry.attributes);
+  const std::unique_ptr<Generator> generator = entry.make(element, attributes, context);
   const std::size_t count = generator->count();
   if (count > kMostAgents - std::min(first_agent, kMostAgents)) {
     element.fail(fmt::format("{} more agents", count),
                  fmt::format("at most {} agents in a scene", kMostAgents));
   }
-  const Attributes attributes(element, generator_registry().find(element).attributes);
-  const Distribution noise = attributes.has(kNoisePrefix) ? attributes.distribution(kNoisePrefix)
-                                                          : Distribution::constant(0);
+  const Noise noise(attributes, seed, sequences);
   std::vector<Eigen::Vector2f> places(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t agent = first_agent + i;
-    places[i] = generator->place(
-        i, draw_noise(noise, Random(noise.seed.value_or(seed), Stream::crowd_generator, agent)));
+    places[i] = generator->place(i, noise.draw(first_agent + i));
   }
   return places;
 }

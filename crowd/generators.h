@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "crowd/menge_random.h"
 #include "crowd/registry.h"
 
 namespace throng::crowd {
@@ -22,11 +23,12 @@ class Generator {
 
 struct GeneratorContext {};
 using GeneratorRegistry = Registry<Generator, GeneratorContext>;
-/// explicit, rect_grid.
+/// explicit, rect_grid, hex_lattice.
 const GeneratorRegistry& generator_registry();
 
-/// The places of a <Generator>'s agents; `first_agent` is the id of the first of them.
+/// The places of a <Generator>'s agents; `first_agent` is the id of the first of them. Compatible
+/// runs draw the noise from `sequences`.
 std::vector<Eigen::Vector2f> generate_places(const Element& element, std::uint64_t seed,
-                                             std::size_t first_agent);
+                                             MengeSequences& sequences, std::size_t first_agent);
 
 }  // namespace throng::crowd

@@ -190,8 +190,8 @@ std::unique_ptr<GoalSelector> make_explicit(const Element& element, const Attrib
 template <bool kWeighted>
 std::unique_ptr<GoalSelector> make_lottery(const Element& element, const Attributes& attributes,
                                            BehaviorContext& context) {
-  return std::make_unique<Lottery>(context.goals.require_set(element, attributes, "goal_set"),
-                                   kWeighted, context.make_unit_sampler());
+  const int set = context.goals.require_set(element, attributes, "goal_set");
+  return std::make_unique<Lottery>(set, kWeighted, context.make_set_sampler(set));
 }
 
 template <Ranked::Rank kRank>

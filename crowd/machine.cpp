@@ -20,13 +20,26 @@ void Machine::start(Crowd& crowd) {
   Agents& agents = crowd.agents;
   for (std::size_t i = 0; i < agents.count(); ++i) {
     agents.previous_state[i] = agents.state[i];
-    enter(crowd, i, agents.state[i]);
+    if (agents.present[i] != 0) enter(crowd, i, agents.state[i]);
   }
   prefer(crowd);
-  for (std::size_t i = 0; i < agents.count(); ++i) {
-    agents.orientation[i] = agents.preferred_direction[i];
-    agents.yaw_rad[i] = std::atan2(agents.orientation[i].y(), agents.orientation[i].x());
-  }
+  for (std::size_t i = 0; i < agents.count(); ++i) face_the_way(agents, i);
+}
+
+void Machine::arrive(Crowd& crowd, std::size_t agent) {
+  Agents& agents = crowd.agents;
+  agents.awaited[agent] = 0;
+  agents.present[agent] = 1;
+  --crowd.awaited;
+  enter(crowd, agent, agents.state[agent]);
+  prefer(crowd, agent);
+  face_the_way(agents, agent);
+}
+
+void Machine::face_the_way(Agents& agents, std::size_t agent) {
+  agents.orientation[agent] = agents.preferred_direction[agent];
+  agents.yaw_rad[agent] =
+      std::atan2(agents.orientation[agent].y(), agents.orientation[agent].x());
 }
 
 void Machine::take_transitions(Crowd& crowd) {
@@ -65,6 +78,7 @@ void Machine::follow_chain(Crowd& crowd, std::size_t agent, int transition) {
         behavior_.states[from].transitions[transition].target->state(crowd, agent);
     if (visited.test(to)) return;
     change_state(crowd, agent, to);
+    if (agents.present[agent] == 0) return;
     transition = due_transition(crowd, agent);
   }
 }
@@ -73,6 +87,12 @@ void Machine::change_state(Crowd& crowd, std::size_t agent, std::uint8_t state) 
   leave(crowd, agent);
   crowd.agents.previous_state[agent] = crowd.agents.state[agent];
   enter(crowd, agent, state);
+}
+
+void Machine::change_goal(Crowd& crowd, std::size_t agent, int goal) {
+  MachineState& state = behavior_.states[crowd.agents.state[agent]];
+  state.goal->change(crowd, agent, goal);
+  if (state.velocity) state.velocity->enter(crowd, agent);
 }
 
 bool Machine::fire(std::string_view name) {
@@ -100,6 +120,12 @@ void Machine::enter(Crowd& crowd, std::size_t agent, std::uint8_t state) {
   ++agents.entry[agent];
   MachineState& entered = behavior_.states[state];
   for (const auto& action : entered.actions) action->enter(crowd, agent);
+  if (agents.present[agent] == 0) {  // an action took it out of the simulation
+    agents.velocity[agent].setZero();
+    agents.goal[agent] = -1;
+    agents.goal_id[agent] = {};
+    return;
+  }
 
   entered.goal->assign(crowd, agent);
   if (entered.velocity) entered.velocity->enter(crowd, agent);
@@ -120,7 +146,9 @@ void Machine::leave(Crowd& crowd, std::size_t agent) {
 
 void Machine::prefer(Crowd& crowd) const {
   parallel_ranges(crowd.agents.count(), kDecisionGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) prefer(crowd, i);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (crowd.agents.present[i] != 0) prefer(crowd, i);
+    }
   });
 }
 
@@ -131,6 +159,9 @@ void Machine::prefer(Crowd& crowd, std::size_t agent) const {
   if (state.velocity) state.velocity->prefer(crowd, agent, preferred);
   for (const auto& modifier : state.modifiers) modifier->modify(crowd, agent, preferred);
   for (const auto& modifier : behavior_.modifiers) modifier->modify(crowd, agent, preferred);
+  for (const auto& modifier : behavior_.profile_modifiers[agents.profile[agent]]) {
+    modifier->modify(crowd, agent, preferred);
+  }
   agents.preferred_direction[agent] = preferred.direction;
   agents.preferred_speed[agent] = preferred.speed;
 }

@@ -18,7 +18,8 @@ struct Variable {
   double min = 0;
   double max = 0;
   std::string_view help;
-  Distribution* value = nullptr;
+  std::string_view alias;  ///< another name for <Property>
+  ProfileValue* value = nullptr;
 };
 
 AttributeTable variable_attributes(const std::vector<Variable>& variables) {
@@ -29,13 +30,15 @@ AttributeTable variable_attributes(const std::vector<Variable>& variables) {
   return table;
 }
 
-void load_property(const Element& element, const std::vector<Variable>& variables) {
+void load_property(const Element& element, const std::vector<Variable>& variables,
+                   MengeSequences& sequences) {
   if (element.name() != "Property") element.fail_unknown("<Property>");
   element.require_no_children();
   const std::string name(element.attribute("name").value_or(""));
-  const auto variable = std::find_if(variables.begin(), variables.end(),
-                                     [&](const Variable& v) { return v.name == name; });
-  if (variable == variables.end()) {
+  const auto variable = std::find_if(variables.begin(), variables.end(), [&](const Variable& v) {
+    return v.name == name || v.alias == name;
+  });
+  if (variable == variables.end() || name.empty()) {
     std::vector<std::string_view> names;
     names.reserve(variables.size());
     for (const Variable& v : variables) names.push_back(v.name);
@@ -45,24 +48,25 @@ void load_property(const Element& element, const std::vector<Variable>& variable
   const Attributes attributes(
       element,
       {text("name", "a property"), distribution("", variable->help, variable->min, variable->max)});
-  *variable->value = attributes.distribution("");
+  const Distribution& distribution = attributes.distribution("");
+  *variable->value = {distribution, sequences.next(distribution)};
 }
 
 void load_variables(const Element& element, const Attributes& attributes,
-                    const std::vector<Variable>& variables) {
+                    const std::vector<Variable>& variables, MengeSequences& sequences) {
   for (const Variable& variable : variables) {
     if (attributes.has(variable.name)) {
-      *variable.value = Distribution::constant(attributes.number(variable.name));
+      *variable.value = {Distribution::constant(attributes.number(variable.name)), nullptr};
     }
   }
-  for (const Element& child : element.children()) load_property(child, variables);
+  for (const Element& child : element.children()) load_property(child, variables, sequences);
 }
 
-void load_common(const Element& element, Profile& profile) {
+void load_common(const Element& element, Profile& profile, MengeSequences& sequences) {
   std::vector<Variable> variables;
   for (std::size_t i = 0; i < kPropertyCount; ++i) {
     const PropertySpec& spec = kProperties[i];
-    variables.push_back({spec.name, spec.min, spec.max, spec.help, &profile.properties[i]});
+    variables.push_back({spec.name, spec.min, spec.max, spec.help, "", &profile.properties[i]});
   }
   AttributeTable table = variable_attributes(variables);
   table.push_back(
@@ -75,34 +79,45 @@ void load_common(const Element& element, Profile& profile) {
   if (attributes.has("class")) {
     profile.agent_class = static_cast<std::int32_t>(attributes.integer("class"));
   }
-  load_variables(element, attributes, variables);
+  load_variables(element, attributes, variables, sequences);
   const Distribution& neighbors =
-      profile.properties[static_cast<std::size_t>(Property::max_neighbors)];
+      profile.properties[static_cast<std::size_t>(Property::max_neighbors)].distribution;
   if (neighbors.first != std::round(neighbors.first) ||
       neighbors.second != std::round(neighbors.second)) {
     element.fail_attribute("max_neighbors", fmt::format("{}", neighbors.first), "a whole number");
   }
 }
 
-void load_model_parameters(const Element& element, const ModelEntry& model, Profile& profile) {
+void load_model_parameters(const Element& element, const ModelEntry& model, Profile& profile,
+                           MengeSequences& sequences) {
   std::vector<Variable> variables;
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
     const ModelParameter& parameter = model.parameters[i];
     variables.push_back({parameter.name, parameter.min, parameter.max, parameter.help,
-                         &profile.model_parameters[i]});
+                         parameter.property_name, &profile.model_parameters[i]});
   }
-  load_variables(element, Attributes(element, variable_attributes(variables)), variables);
+  load_variables(element, Attributes(element, variable_attributes(variables)), variables,
+                 sequences);
 }
 
 Profile initial_profile(const ModelEntry& model) {
   Profile profile;
   for (std::size_t i = 0; i < kPropertyCount; ++i) {
-    profile.properties[i] = Distribution::constant(kProperties[i].initial);
+    profile.properties[i].distribution = Distribution::constant(kProperties[i].initial);
   }
   for (const ModelParameter& parameter : model.parameters) {
-    profile.model_parameters.push_back(Distribution::constant(parameter.initial));
+    profile.model_parameters.push_back({Distribution::constant(parameter.initial), nullptr});
   }
   return profile;
+}
+
+/// A profile's own sequences of random numbers, beside those of the one that it was copied from.
+void copy_sequences(Profile& profile) {
+  const auto renew = [](ProfileValue& value) {
+    value.sequence = MengeSequences::copy(value.sequence);
+  };
+  std::for_each(profile.properties.begin(), profile.properties.end(), renew);
+  std::for_each(profile.model_parameters.begin(), profile.model_parameters.end(), renew);
 }
 
 Profile inherited_profile(const Element& element, const Attributes& attributes,
@@ -110,16 +125,30 @@ Profile inherited_profile(const Element& element, const Attributes& attributes,
   if (!attributes.has("inherits")) return initial_profile(model);
   const std::string& parent = attributes.text("inherits");
   for (const Profile& profile : earlier) {
-    if (profile.name == parent) return profile;
+    if (profile.name != parent) continue;
+    Profile heir = profile;
+    copy_sequences(heir);
+    return heir;
   }
   element.fail_attribute("inherits", in_quotes(parent), "the name of a profile further up");
 }
 
-Random draw(std::uint64_t seed, std::size_t agent, std::size_t variable,
-            const Distribution& distribution) {
+/// The random numbers of an agent's variable, where runs are not compatible.
+Random keyed(std::uint64_t seed, std::size_t agent, std::size_t variable,
+             const Distribution& distribution) {
   constexpr int kVariableBits = 16;
   return Random(distribution.seed.value_or(seed), Stream::crowd_profile,
                 (static_cast<std::uint64_t>(agent) << kVariableBits) | variable);
+}
+
+double sample(const ProfileValue& value, Random random) {
+  return value.sequence ? value.distribution.sample(*value.sequence)
+                        : value.distribution.sample(random);
+}
+
+int sample_integer(const ProfileValue& value, Random random) {
+  return value.sequence ? value.distribution.sample_integer(*value.sequence)
+                        : value.distribution.sample_integer(random);
 }
 
 }  // namespace
@@ -132,7 +161,7 @@ bool is_model_tag(std::string_view name) {
 }
 
 Profile load_profile(const Element& element, const std::vector<Profile>& earlier,
-                     const ModelEntry& model) {
+                     const ModelEntry& model, MengeSequences& sequences) {
   const Attributes attributes(element,
                               {text("name", "a name that no other profile has"),
                                optional(text("inherits", "the name of a profile further up"))});
@@ -145,11 +174,14 @@ Profile load_profile(const Element& element, const std::vector<Profile>& earlier
   }
   for (const Element& child : element.children()) {
     if (child.name() == "Common") {
-      load_common(child, profile);
+      load_common(child, profile, sequences);
     } else if (child.name() == model.tag) {
-      load_model_parameters(child, model, profile);
+      load_model_parameters(child, model, profile, sequences);
+    } else if (child.name() == "VelModifier") {
+      child.require_no_children();
+      profile.modifiers.push_back(child);
     } else if (!is_model_tag(child.name())) {
-      child.fail_unknown("<Common> or a model's element");
+      child.fail_unknown("<Common>, <VelModifier> or a model's element");
     }
   }
   return profile;
@@ -158,18 +190,18 @@ Profile load_profile(const Element& element, const std::vector<Profile>& earlier
 void apply_profile(const Profile& profile, std::uint64_t seed, std::size_t agent, Agents& agents) {
   for (std::size_t i = 0; i < kPropertyCount; ++i) {
     const PropertySpec& spec = kProperties[i];
-    const Distribution& distribution = profile.properties[i];
-    const Random random = draw(seed, agent, i, distribution);
+    const ProfileValue& property = profile.properties[i];
+    const Random random = keyed(seed, agent, i, property.distribution);
     const double value = static_cast<Property>(i) == Property::max_neighbors
-                             ? distribution.sample_integer(random)
-                             : distribution.sample(random);
+                             ? sample_integer(property, random)
+                             : sample(property, random);
     agents.properties[i][agent] =
         std::clamp(static_cast<float>(value), spec.min, spec.max) * spec.file_unit;
   }
   for (std::size_t i = 0; i < profile.model_parameters.size(); ++i) {
-    const Distribution& distribution = profile.model_parameters[i];
-    agents.model_parameters[i][agent] = static_cast<float>(
-        distribution.sample(draw(seed, agent, kPropertyCount + i, distribution)));
+    const ProfileValue& parameter = profile.model_parameters[i];
+    const Random random = keyed(seed, agent, kPropertyCount + i, parameter.distribution);
+    agents.model_parameters[i][agent] = static_cast<float>(sample(parameter, random));
   }
   agents.obstacle_mask[agent] = profile.obstacle_mask;
   agents.agent_class[agent] = profile.agent_class;

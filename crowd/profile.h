@@ -7,22 +7,30 @@
 
 #include "crowd/agents.h"
 #include "crowd/distribution.h"
+#include "crowd/menge_random.h"
 #include "crowd/model.h"
 #include "crowd/xml.h"
 
 namespace throng::crowd {
 
+/// What an agent's property or parameter is drawn from.
+struct ProfileValue {
+  Distribution distribution;
+  std::shared_ptr<MengeRandom> sequence;  ///< where compatible runs draw from it
+};
+
 struct Profile {
   std::string name;
-  std::array<Distribution, kPropertyCount> properties;  ///< in the files' units
-  std::vector<Distribution> model_parameters;           ///< in the order of the model's table
+  std::array<ProfileValue, kPropertyCount> properties;  ///< in the files' units
+  std::vector<ProfileValue> model_parameters;           ///< in the order of the model's table
   std::uint32_t obstacle_mask = std::numeric_limits<std::uint32_t>::max();
   std::int32_t agent_class = 0;
+  std::vector<Element> modifiers;  ///< its <VelModifier>s, which need the behaviour to be made
 };
 
 /// Reads an <AgentProfile>; `earlier` are those that it may inherit from. Throws InputError.
 Profile load_profile(const Element& element, const std::vector<Profile>& earlier,
-                     const ModelEntry& model);
+                     const ModelEntry& model, MengeSequences& sequences);
 
 /// Gives agent `agent` what its profile says, drawn with the run's seed.
 void apply_profile(const Profile& profile, std::uint64_t seed, std::size_t agent, Agents& agents);

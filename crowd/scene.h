@@ -5,14 +5,20 @@
 #include <vector>
 
 #include "crowd/crowd.h"
+#include "crowd/menge_random.h"
 #include "crowd/model.h"
 #include "crowd/xml.h"
 
 namespace throng::crowd {
 
-/// Reads an <Experiment> into `crowd`: time step, obstacles and agents with their properties,
-/// positions and first states. Throws InputError.
-void load_scene(const Element& experiment, const std::vector<std::string>& state_names,
-                const ModelEntry& model, std::uint64_t seed, Crowd& crowd);
+/// What cannot be made before the behaviour file is read.
+struct Scene {
+  std::vector<std::vector<Element>> profile_modifiers;  ///< the <VelModifier>s of each profile
+};
+
+/// Reads an <Experiment> into `crowd`, whose seed and compat are set: time step, obstacles and
+/// agents with their properties, positions and first states. Throws InputError.
+Scene load_scene(const Element& experiment, const std::vector<std::string>& state_names,
+                 const ModelEntry& model, MengeSequences& sequences, Crowd& crowd);
 
 }  // namespace throng::crowd

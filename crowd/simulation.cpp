@@ -40,13 +40,16 @@ Simulation::State::State(const std::filesystem::path& scene_file,
   const ModelEntry& entry = find_model(options.model);
   state_names = load_state_names(behavior.root());
   crowd.compat = options.compat;
-  load_scene(scene.root(), state_names, entry, options.seed, crowd);
+  crowd.seed = options.seed;
+  MengeSequences sequences(options.compat, options.seed);
+  const Scene parts = load_scene(scene.root(), state_names, entry, sequences, crowd);
   if (options.time_step_s) crowd.dt_s = *options.time_step_s;
   sub_steps = 1 + options.sub_steps;
   crowd.dt_s /= sub_steps;
   const std::size_t count = crowd.agents.count();
   machine = std::make_unique<Machine>(
-      load_behavior(behavior.root(), state_names, options.seed, crowd), count);
+      load_behavior(behavior.root(), state_names, parts.profile_modifiers, sequences, crowd),
+      count);
   model = entry.make(crowd);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
   machine->start(crowd);
@@ -166,8 +169,8 @@ void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& centre) {
 
 void Simulation::fire(const std::string& trigger) {
   if (state_->machine->fire(trigger)) return;
-  throw InputError(Problem{"", "fired trigger", trigger,
-                           "the name of an external trigger of the behaviour file"});
+  throw InputError(
+      Problem{"", "fired trigger", trigger, "the name of an external trigger of the behaviour file"});
 }
 
 }  // namespace throng::crowd

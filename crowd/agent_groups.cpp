@@ -1,0 +1,177 @@
+#include "crowd/agent_groups.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "crowd/generators.h"
+
+namespace throng::crowd {
+
+namespace {
+
+class OneProfile : public ProfileSelector {
+ public:
+  explicit OneProfile(std::size_t profile) : profile_(profile) {}
+  std::size_t select(std::size_t) override { return profile_; }
+
+ private:
+  std::size_t profile_;
+};
+
+/// One of several profiles, by weight.
+class ProfileLottery : public ProfileSelector {
+ public:
+  struct Ticket {
+    std::size_t profile = 0;
+    double weight = 1;
+  };
+
+  ProfileLottery(std::vector<Ticket> tickets, std::uint64_t seed,
+                 std::shared_ptr<MengeRandom> sequence)
+      : tickets_(std::move(tickets)), seed_(seed), sequence_(std::move(sequence)) {
+    for (const Ticket& ticket : tickets_) total_ += ticket.weight;
+  }
+
+  std::size_t select(std::size_t agent) override {
+    double left = draw(agent) * total_;
+    for (const Ticket& ticket : tickets_) {
+      if (left < ticket.weight) return ticket.profile;
+      left -= ticket.weight;
+    }
+    return tickets_.back().profile;
+  }
+
+ private:
+  double draw(std::size_t agent) {
+    if (sequence_) return sequence_->uniform();
+    constexpr std::uint64_t kWhichProfile = std::uint64_t{1} << 63;  // apart from properties
+    return Random(seed_, Stream::crowd_profile, kWhichProfile | agent).uniform();
+  }
+
+  std::vector<Ticket> tickets_;
+  double total_ = 0;
+  std::uint64_t seed_;
+  std::shared_ptr<MengeRandom> sequence_;
+};
+
+class OneState : public StateSelector {
+ public:
+  explicit OneState(std::uint8_t state) : state_(state) {}
+  std::uint8_t select(std::size_t) override { return state_; }
+
+ private:
+  std::uint8_t state_;
+};
+
+std::size_t require_profile(const Element& element, const std::string& name,
+                            const std::vector<Profile>& profiles) {
+  std::vector<std::string_view> known;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    if (profiles[i].name == name) return i;
+    known.push_back(profiles[i].name);
+  }
+  element.fail_attribute("name", in_quotes(name),
+                         fmt::format("the name of a profile: {}", fmt::join(known, ", ")));
+}
+
+AttributeSpec profile_name() { return text("name", "the name of a profile"); }
+
+std::unique_ptr<ProfileSelector> make_one_profile(const Element& element,
+                                                  const Attributes& attributes,
+                                                  GroupContext& context) {
+  element.require_no_children();
+  return std::make_unique<OneProfile>(
+      require_profile(element, attributes.text("name"), context.profiles));
+}
+
+template <bool kWeighted>
+std::unique_ptr<ProfileSelector> make_lottery(const Element& element, const Attributes&,
+                                              GroupContext& context) {
+  AttributeTable table = {profile_name()};
+  if (kWeighted) table.push_back(number("weight", "share of the agents, above 0", 1e-6, 1e6));
+  std::vector<ProfileLottery::Ticket> tickets;
+  for (const Element& child : element.children()) {
+    if (child.name() != "Profile") child.fail_unknown("<Profile>");
+    child.require_no_children();
+    const Attributes choice(child, table);
+    tickets.push_back({require_profile(child, choice.text("name"), context.profiles),
+                       kWeighted ? choice.number("weight") : 1});
+  }
+  if (tickets.empty()) element.fail("no profiles", "at least one <Profile>");
+  return std::make_unique<ProfileLottery>(std::move(tickets), context.seed,
+                                          context.sequences.next());
+}
+
+std::unique_ptr<StateSelector> make_one_state(const Element& element, const Attributes& attributes,
+                                              GroupContext& context) {
+  element.require_no_children();
+  const std::vector<std::string>& names = context.state_names;
+  const auto found = std::find(names.begin(), names.end(), attributes.text("name"));
+  if (found == names.end()) {
+    element.fail_attribute("name", in_quotes(attributes.text("name")),
+                           fmt::format("the name of a state: {}", fmt::join(names, ", ")));
+  }
+  return std::make_unique<OneState>(static_cast<std::uint8_t>(found - names.begin()));
+}
+
+/// The one child of an <AgentGroup> with this name.
+Element only(const Element& group, std::string_view name) {
+  std::optional<Element> found;
+  for (const Element& child : group.children()) {
+    if (child.name() != name) continue;
+    if (found) child.fail(fmt::format("a second <{}>", name), fmt::format("one <{}>", name));
+    found = child;
+  }
+  if (!found) group.fail(fmt::format("no <{}>", name), fmt::format("exactly one <{}>", name));
+  return *found;
+}
+
+}  // namespace
+
+const ProfileSelectorRegistry& profile_selector_registry() {
+  static const ProfileSelectorRegistry kRegistry({{
+      {"const", "one profile for all", {profile_name()}, make_one_profile},
+      {"random", "any of its <Profile> children", {}, make_lottery<false>},
+      {"weighted", "any of its <Profile> children, by weight", {}, make_lottery<true>},
+  }});
+  return kRegistry;
+}
+
+const StateSelectorRegistry& state_selector_registry() {
+  static const StateSelectorRegistry kRegistry(
+      {{{"const", "one state for all", {text("name", "the name of a state")}, make_one_state}}});
+  return kRegistry;
+}
+
+void load_group(const Element& group, GroupContext& context, Crowd& crowd) {
+  const Attributes no_attributes(group, {});
+  const auto profile = profile_selector_registry().make(only(group, "ProfileSelector"), context);
+  const auto state = state_selector_registry().make(only(group, "StateSelector"), context);
+  Agents& agents = crowd.agents;
+  bool any_generator = false;
+  for (const Element& child : group.children()) {
+    if (child.name() == "Generator") {
+      any_generator = true;
+      const std::size_t first = agents.count();
+      const std::vector<Eigen::Vector2f> places =
+          generate_places(child, context.seed, context.sequences, first);
+      agents.resize(first + places.size(), context.profiles.front().model_parameters.size());
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::size_t agent = first + i;
+        const std::size_t chosen = profile->select(agent);
+        apply_profile(context.profiles[chosen], context.seed, agent, agents);
+        agents.profile[agent] = static_cast<std::uint32_t>(chosen);
+        agents.position[agent] = places[i];
+        agents.state[agent] = state->select(agent);
+      }
+    } else if (child.name() != "ProfileSelector" && child.name() != "StateSelector") {
+      child.fail_unknown("<ProfileSelector>, <StateSelector> or <Generator>");
+    }
+  }
+  if (!any_generator) group.fail("no <Generator>", "at least one <Generator>");
+}
+
+}  // namespace throng::crowd
