@@ -21,6 +21,7 @@ enum class Stream : std::uint32_t {
   environment = 10,
   randomize = 11,     ///< values drawn for a job's distributions
   participants = 12,  ///< who of a scenario's people takes part in a run
+  crowd_model = 17,  ///< noise of pedestrian models
 };
 
 /// A generator keyed by (seed, stream, index): Philox 4x32-10 (Salmon et al. 2011) from Random123.

@@ -5,14 +5,17 @@
 namespace throng::crowd {
 
 const std::vector<ModelEntry>& models() {
-  static const std::vector<ModelEntry> kModels = {orca_model()};
+  static const std::vector<ModelEntry> kModels = {
+      orca_model(),     pedvo_model(), johansson_model(), karamouzas_model(),
+      zanlungo_model(), gcf_model(),   dummy_model(),
+  };
   return kModels;
 }
 
 const ModelEntry& find_model(std::string_view name) {
   std::string known;
   for (const ModelEntry& model : models()) {
-    if (model.name == name) return model;
+    if (model.name == name || (!model.alias.empty() && model.alias == name)) return model;
     known += (known.empty() ? "" : ", ") + std::string(model.name);
   }
   throw InputError(Problem{"", "pedestrian model", in_quotes(name), "one of " + known});

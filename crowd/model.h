@@ -30,6 +30,7 @@ struct ModelParameter {
   float min;
   float max;
   std::string_view help;
+  std::string_view property_name = {};  ///< in a <Property>, where that has another name
 };
 
 struct ModelEntry {
@@ -39,6 +40,7 @@ struct ModelEntry {
   std::vector<ModelParameter> parameters;  ///< in the order of Agents::model_parameters
   std::vector<ModelParameter> constants;   ///< in the order of Crowd::model_constants
   std::unique_ptr<Model> (*make)(const Crowd& crowd);
+  std::string_view alias = {};  ///< another name, if it has one
 };
 
 const std::vector<ModelEntry>& models();
@@ -46,5 +48,11 @@ const std::vector<ModelEntry>& models();
 const ModelEntry& find_model(std::string_view name);
 
 ModelEntry orca_model();
+ModelEntry pedvo_model();
+ModelEntry johansson_model();
+ModelEntry karamouzas_model();
+ModelEntry zanlungo_model();
+ModelEntry gcf_model();
+ModelEntry dummy_model();
 
 }  // namespace throng::crowd

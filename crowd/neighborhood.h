@@ -26,12 +26,21 @@ class Neighborhood {
   /// Calls act(surroundings) once for every agent in the grid, on all threads.
   template <typename Act>
   void for_each(const Crowd& crowd, const Grid& grid, const Act& act) {
-    found_.prepare();
-    if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
+    prepare(crowd);
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Found& found = found_.local();
       for (std::size_t slot = begin; slot < end; ++slot) act(look(crowd, grid, slot, found));
     });
+  }
+
+  /// To be called before a loop that looks at single agents, by the thread that starts it.
+  void prepare(const Crowd& crowd) {
+    found_.prepare();
+    if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
+  }
+  /// What one agent sees; valid until this thread looks at another.
+  Surroundings look(const Crowd& crowd, const Grid& grid, std::size_t slot) {
+    return look(crowd, grid, slot, found_.local());
   }
 
  private:

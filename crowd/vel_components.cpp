@@ -32,17 +32,6 @@ class Constant : public VelComponent {
   Speed speed_;
 };
 
-class Scale : public VelModifier {
- public:
-  explicit Scale(float factor) : factor_(factor) {}
-  void modify(const Crowd&, std::size_t, PreferredVelocity& preferred) const override {
-    preferred.speed *= factor_;
-  }
-
- private:
-  float factor_;
-};
-
 std::unique_ptr<VelComponent> make_to_goal(const Element&, const Attributes&, BehaviorContext&) {
   return std::make_unique<ToGoal>();
 }
@@ -68,11 +57,6 @@ std::unique_ptr<VelComponent> make_zero(const Element&, const Attributes&, Behav
   return std::make_unique<Constant>(Eigen::Vector2f::Zero(), Constant::Speed::of_vector);
 }
 
-std::unique_ptr<VelModifier> make_scale(const Element&, const Attributes& attributes,
-                                        BehaviorContext&) {
-  return std::make_unique<Scale>(attributes.real("scale"));
-}
-
 }  // namespace
 
 const VelComponentRegistry& vel_component_registry() {
@@ -90,13 +74,6 @@ const VelComponentRegistry& vel_component_registry() {
       nav_mesh_component(),
       road_map_component(),
       vector_field_component(),
-  }});
-  return kRegistry;
-}
-
-const VelModifierRegistry& vel_modifier_registry() {
-  static const VelModifierRegistry kRegistry({{
-      {"scale", "changes the speed", {number("scale", "factor of the speed", 0, 100)}, make_scale},
   }});
   return kRegistry;
 }
