@@ -5,8 +5,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "base/instruction_set.h"
-
 namespace throng::crowd {
 
 /// The boundary of a half-plane of allowed velocities, which lie on the left of the direction.
@@ -54,6 +52,6 @@ class HalfPlanes {
 /// small as possible. `scratch` saves allocations.
 Eigen::Vector2f best_velocity(const HalfPlanes& planes, std::size_t hard,
                               const Eigen::Vector2f& preferred, float max_speed,
-                              HalfPlanes& scratch, InstructionSet set = best_instruction_set());
+                              HalfPlanes& scratch);
 
 }  // namespace throng::crowd

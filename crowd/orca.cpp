@@ -2,6 +2,7 @@
 
 #include "crowd/model.h"
 #include "crowd/neighborhood.h"
+#include "crowd/orca_batch.h"
 #include "crowd/orca_lines.h"
 
 namespace throng::crowd {
@@ -12,59 +13,74 @@ enum Parameter : std::size_t { tau, tau_obstacles };
 
 /// What one thread works with; kept from step to step, so that a step allocates nothing.
 struct Workspace {
-  HalfPlanes planes;
-  HalfPlanes scratch;
+  OrcaBatch batch;
+  HalfPlanes walls;
 };
 
 class Orca : public Model {
  public:
   explicit Orca(const Crowd& crowd)
       : neighborhood_(crowd),
-        avoid_discs_(avoid_discs(crowd.instruction_set)),
+        solve_(OrcaBatch::kernel(crowd.instruction_set)),
         workspaces_(make_workspace(crowd)) {}
 
   void step(const Crowd& crowd, const Grid& grid,
             std::span<Eigen::Vector2f> new_velocity) override {
+    neighborhood_.prepare(crowd);
     workspaces_.prepare();
-    neighborhood_.for_each(crowd, grid, [&](const Surroundings& around) {
-      new_velocity[around.agent] = velocity(crowd, grid, around, workspaces_.local());
+    parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      Workspace& workspace = workspaces_.local();
+      for (std::size_t slot = begin; slot < end; slot += OrcaBatch::kAgents) {
+        step_batch(crowd, grid, slot, std::min(slot + OrcaBatch::kAgents, end), workspace,
+                   new_velocity);
+      }
     });
   }
 
  private:
+  static constexpr std::size_t kGrain = 64;  // agents per task
+
   static Workspace make_workspace(const Crowd& crowd) {
     const std::vector<float>& most = crowd.agents[Property::max_neighbors];
     const auto neighbors =
         most.empty() ? 0 : static_cast<std::size_t>(*std::max_element(most.begin(), most.end()));
     const std::size_t walls = crowd.obstacles.segments().size();
-    Workspace workspace;
-    workspace.planes.reserve(neighbors + walls);
-    workspace.scratch.reserve(neighbors + walls);
+    Workspace workspace{OrcaBatch(neighbors, walls), {}};
+    workspace.walls.reserve(walls);
     return workspace;
   }
 
-  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const Surroundings& around,
-                           Workspace& workspace) const {
+  void step_batch(const Crowd& crowd, const Grid& grid, std::size_t begin, std::size_t end,
+                  Workspace& workspace, std::span<Eigen::Vector2f> new_velocity) {
+    workspace.batch.clear();
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      add(crowd, grid, neighborhood_.look(crowd, grid, slot), workspace);
+    }
+    solve_(grid, static_cast<float>(crowd.dt_s), workspace.batch);
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      new_velocity[grid.id(slot)] = workspace.batch.velocity(slot - begin);
+    }
+  }
+
+  static void add(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+                  Workspace& workspace) {
     const Agents& agents = crowd.agents;
     const std::size_t id = around.agent;
-    HalfPlanes& planes = workspace.planes;
-    planes.clear();
+    workspace.walls.clear();
     if (!around.walls.empty()) {
       const Disc self{grid.position(around.slot), grid.velocity(around.slot),
                       grid.radius(around.slot)};
       avoid_walls(self, crowd.obstacles.segments(), around.walls,
-                  agents.model_parameters[tau_obstacles][id], planes);
+                  agents.model_parameters[tau_obstacles][id], workspace.walls);
     }
-    const std::size_t walls = planes.size();
-    avoid_discs_(grid, around.slot, around.neighbors, agents.model_parameters[tau][id],
-                 static_cast<float>(crowd.dt_s), planes);
-    const Eigen::Vector2f preferred = agents.preferred_speed[id] * agents.preferred_direction[id];
-    return best_velocity(planes, walls, preferred, agents[Property::max_speed][id],
-                         workspace.scratch, crowd.instruction_set);
+    workspace.batch.add({around.slot, agents.model_parameters[tau][id],
+                         agents.preferred_speed[id] * agents.preferred_direction[id],
+                         agents[Property::max_speed][id]},
+                        workspace.walls, around.neighbors);
   }
 
   Neighborhood neighborhood_;
-  AvoidDiscs* avoid_discs_;
+  OrcaBatch::Kernel* solve_;
   PerThread<Workspace> workspaces_;
 };
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "crowd/orca_batch.h"
 #include "crowd/orca_lines.h"
 #include "crowd_files.h"
 
@@ -81,16 +82,6 @@ TEST(BestVelocity, IsAtLeastAsGoodAsAnySampledOne) {
   EXPECT_GT(infeasible, 5);
 }
 
-TEST(BestVelocity, EveryInstructionSetGivesTheSameBits) {
-  HalfPlanes scratch;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    const HalfPlanes planes = random_planes(seed % 25, seed);
-    const std::size_t hard = seed % 3;
-    EXPECT_EQ(best_velocity(planes, hard, {1.2F, 0.3F}, 1.5F, scratch, InstructionSet::baseline),
-              best_velocity(planes, hard, {1.2F, 0.3F}, 1.5F, scratch, best_instruction_set()));
-  }
-}
-
 TEST(BestVelocity, KeepsHardPlanesWhenNotAllCanBeKept) {
   // A wall ahead (x <= 0 allowed, hard) against someone who pushes towards it (x >= 1).
   const HalfPlanes planes = {{{0, 0}, {0, 1}}, {{1, 0}, {0, -1}}};
@@ -133,6 +124,33 @@ Grid dense_crowd() {
   Grid grid;
   grid.build(agents);
   return grid;
+}
+
+TEST(OrcaBatch, GivesEveryoneTheirBestVelocity) {
+  const Grid grid = dense_crowd();
+  const HalfPlanes walls = {{{0, 0.5F}, {-1, 0}}, {{0.4F, 0}, {0, 1}}};
+  Grid::Candidates candidates(20);
+  HalfPlanes scratch;
+  const std::size_t batch_sizes = 8;
+  for (const InstructionSet set : {InstructionSet::baseline, best_instruction_set()}) {
+    for (std::size_t slot = 0; slot + batch_sizes <= grid.size(); slot += 3) {
+      OrcaBatch batch(1, 0);
+      std::vector<Eigen::Vector2f> expected;
+      for (std::size_t i = 0; i < 1 + slot % batch_sizes; ++i) {
+        float reach = 1;
+        const auto others = grid.nearest(slot + i, 5, (7 * i + slot) % 20, reach, candidates);
+        HalfPlanes kept;
+        for (std::size_t wall = 0; wall < (slot + i) % 3; ++wall) kept.push_back(walls[wall]);
+        const Eigen::Vector2f preferred(1, 0.1F * static_cast<float>(i));
+        batch.add({slot + i, 2 + 0.1F * static_cast<float>(i), preferred, 1.5F}, kept, others);
+        HalfPlanes planes = kept;
+        avoid_discs(set)(grid, slot + i, others, 2 + 0.1F * static_cast<float>(i), 0.1F, planes);
+        expected.push_back(best_velocity(planes, kept.size(), preferred, 1.5F, scratch));
+      }
+      OrcaBatch::kernel(set)(grid, 0.1F, batch);
+      for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(batch.velocity(i), expected[i]);
+    }
+  }
 }
 
 TEST(AvoidDiscs, AreAsManyTimesAvoidDisc) {

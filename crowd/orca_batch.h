@@ -1,0 +1,72 @@
+// ORCA for several agents at once, one per lane: their half-planes and the best velocities.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/instruction_set.h"
+#include "crowd/grid.h"
+#include "crowd/half_planes.h"
+
+namespace throng::crowd {
+
+/// A few agents and what they see. Kept from batch to batch, so that nothing is allocated.
+class OrcaBatch {
+ public:
+  static constexpr std::size_t kAgents = 8;
+  using Lanes = std::array<float, kAgents>;
+
+  struct Agent {
+    std::size_t slot = 0;  ///< in the grid
+    float horizon_s = 0;
+    Eigen::Vector2f preferred;  ///< velocity
+    float max_speed = 0;
+  };
+
+  /// Room for so many at first.
+  OrcaBatch(std::size_t neighbors, std::size_t walls);
+
+  void clear();
+  std::size_t size() const { return size_; }
+  /// Adds one of at most kAgents; `walls` are half-planes that it has to keep.
+  void add(const Agent& agent, const HalfPlanes& walls, std::span<const Grid::Neighbor> neighbors);
+
+  /// Of each agent, in the order in which they were added, once a kernel has run.
+  Eigen::Vector2f velocity(std::size_t i) const { return {velocity_x_[i], velocity_y_[i]}; }
+
+  /// Computes the velocities; `dt_s` is the time within which those part who overlap. An agent's
+  /// does not depend on who else is in the batch.
+  using Kernel = void(const Grid& grid, float dt_s, OrcaBatch& batch);
+  static Kernel* kernel(InstructionSet set);
+
+ private:
+  friend struct OrcaKernel;
+  /// Half-planes of all agents.
+  struct Row {
+    Lanes point_x;
+    Lanes point_y;
+    Lanes direction_x;
+    Lanes direction_y;
+  };
+
+  void make_room(std::size_t neighbors, std::size_t walls);
+
+  std::size_t size_ = 0;
+  std::size_t wall_rows_ = 0;
+  std::size_t neighbor_rows_ = 0;
+  std::array<std::uint32_t, kAgents> slots_{};
+  Lanes cutoff_{};  // 1/s
+  Lanes preferred_x_{};
+  Lanes preferred_y_{};
+  Lanes max_speed_{};
+  Lanes walls_{};      // how many
+  Lanes neighbors_{};  // how many
+  Lanes velocity_x_{};
+  Lanes velocity_y_{};
+  std::vector<std::array<std::uint32_t, kAgents>> others_;  // their slots
+  std::vector<Row> planes_;                                 // of walls, then of others
+  std::vector<Row> scratch_;
+};
+
+}  // namespace throng::crowd
