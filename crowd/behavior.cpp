@@ -97,7 +97,7 @@ void share_goals(const std::vector<SharedGoal>& shared, Behavior& behavior) {
   for (const SharedGoal& share : shared) owner[share.state] = share.of;
   for (const SharedGoal& share : shared) {
     std::size_t of = share.of;
-    for (std::size_t hops = 0; owner[of] != of; ++hops) {
+    for (std::size_t hops = 0; owner[of] != of || of == share.state; ++hops) {
       if (hops > owner.size() || of == share.state) {
         share.element.fail("states that share their goals in a circle",
                            "a state with a goal selector of its own");

@@ -169,6 +169,8 @@ std::vector<GoalSelectorRegistry::Entry> plain_goal_selectors();
 std::vector<ActionRegistry::Entry> property_actions();
 std::vector<ActionRegistry::Entry> obstacle_actions();
 std::vector<ActionRegistry::Entry> stress_actions();
+/// formation.
+std::vector<VelModifierRegistry::Entry> formation_modifiers();
 /// `exit_reset`, which actions have whose change can be undone.
 AttributeSpec exit_reset_attribute();
 

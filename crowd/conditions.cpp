@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "crowd/behavior.h"
 
 namespace throng::crowd {
@@ -138,10 +140,14 @@ std::unique_ptr<Condition> make_always(const Element& element, const Attributes&
 std::unique_ptr<Condition> make_timer(const Element& element, const Attributes& attributes,
                                       BehaviorContext& context) {
   element.require_no_children();
-  Sampler delay_s = context.make_sampler(attributes.distribution(""));
   if (attributes.boolean("per_agent")) {
-    return std::make_unique<Timer>(delay_s, context.agent_count);
+    return std::make_unique<Timer>(context.make_sampler(attributes.distribution("")),
+                                   context.agent_count);
   }
+  // The same for the copies too.
+  const bool is_copy = std::exchange(context.is_copy, false);
+  Sampler delay_s = context.make_sampler(attributes.distribution(""));
+  context.is_copy = is_copy;
   return std::make_unique<Timer>(delay_s(0, 0), context.agent_count);
 }
 

@@ -23,17 +23,15 @@ std::unique_ptr<VelModifier> make_scale(const Element&, const Attributes& attrib
 
 std::vector<VelModifierRegistry::Entry> plain_modifiers() {
   return {
-      {"scale",
-       "changes the speed",
-       {number("scale", "factor of the speed", 0, 100)},
-       make_scale},
+      {"scale", "changes the speed", {number("scale", "factor of the speed", 0, 100)}, make_scale},
   };
 }
 
 }  // namespace
 
 const VelModifierRegistry& vel_modifier_registry() {
-  static const VelModifierRegistry kRegistry({plain_modifiers(), density_modifiers()});
+  static const VelModifierRegistry kRegistry(
+      {plain_modifiers(), density_modifiers(), formation_modifiers()});
   return kRegistry;
 }
 
