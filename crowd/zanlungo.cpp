@@ -22,40 +22,42 @@ class Earliest {
   std::optional<float> time_s_;
 };
 
-/// When somebody collides first or, if never, is nearest to something they approach.
+/// When somebody collides with others first; if never, when they touch a wall or are nearest to
+/// somebody they approach. Of the readings of "obstacles included" tried, walls in this second
+/// place come nearest to Menge's series: 4square's mean speeds to 1 % over 6 s, pedModelSwap's to
+/// 0.01 %. (In cross the four agents' way past each other is decided by the last digits.)
 class Foresight {
  public:
-  /// Something at -offset that one moves towards at `velocity`.
-  void add(const Eigen::Vector2f& offset, const Eigen::Vector2f& velocity, float radius) {
+  /// Somebody at -offset that one moves towards at `velocity`.
+  void add_other(const Eigen::Vector2f& offset, const Eigen::Vector2f& velocity, float radius) {
     const float approach = -offset.dot(velocity);
     if (const auto time_s = time_to_disc(offset, velocity, radius)) collision_.add(*time_s);
-    if (approach > 0) closest_.add(approach / velocity.squaredNorm());
+    if (approach > 0) otherwise_.add(approach / velocity.squaredNorm());
   }
   void add_wall(const Segment& wall, const Walker& self) {
-    const Apart apart(self, wall);
     const Eigen::Vector2f outward(wall.direction.y(), -wall.direction.x());
     const float approach = -outward.dot(self.velocity);
-    const float height = outward.dot(self.position - wall.begin);
     if (approach > 0) {
-      // Where the disc touches the wall's line, and how far along the wall that is.
+      const float height = outward.dot(self.position - wall.begin);
       const float touch_s = std::max(0.0F, (height - self.radius) / approach);
-      const float along =
-          wall.direction.dot(self.position + touch_s * self.velocity - wall.begin);
+      const float along = wall.direction.dot(self.position + touch_s * self.velocity - wall.begin);
       if (along >= 0 && along <= (wall.end - wall.begin).norm()) {
-        collision_.add(touch_s);
+        otherwise_.add(touch_s);
         return;
       }
     }
-    add(self.position - wall.begin, self.velocity, self.radius);
-    add(self.position - wall.end, self.velocity, self.radius);
+    for (const Eigen::Vector2f& corner : {wall.begin, wall.end}) {
+      const auto time_s = time_to_disc(self.position - corner, self.velocity, self.radius);
+      if (time_s) otherwise_.add(*time_s);
+    }
   }
   std::optional<float> time_s() const {
-    return collision_.time_s() ? collision_.time_s() : closest_.time_s();
+    return collision_.time_s() ? collision_.time_s() : otherwise_.time_s();
   }
 
  private:
   Earliest collision_;
-  Earliest closest_;
+  Earliest otherwise_;
 };
 
 /// Social forces between where everybody will be when the next collision is due (Zanlungo, Ikeda
@@ -69,16 +71,14 @@ class Zanlungo : public LocalModel {
                            const Surroundings& around) override {
     const Walker self(crowd, grid, around.slot);
     const float inertia = crowd.agents.model_parameters[mass][self.id];
-    Eigen::Vector2f force = inertia *
-                            (self.preferred_velocity() - self.velocity) /
-                            constants_[reaction_time];
+    Eigen::Vector2f force =
+        inertia * (self.preferred_velocity() - self.velocity) / constants_[reaction_time];
     if (const auto time_s = foresee(crowd, grid, around, self)) {
       for (const Grid::Neighbor& neighbor : around.neighbors) {
         force += push(Encounter(crowd, grid, self, neighbor.slot), *time_s);
       }
-      for_each_wall(crowd, grid, around, [&](const Segment& wall) {
-        force += push(self, wall, *time_s);
-      });
+      for_each_wall(crowd, grid, around,
+                    [&](const Segment& wall) { force += push(self, wall, *time_s); });
     }
     return self.velocity + static_cast<float>(crowd.dt_s) / inertia * force;
   }
@@ -115,11 +115,10 @@ class Zanlungo : public LocalModel {
     Foresight foresight;
     for (const Grid::Neighbor& neighbor : around.neighbors) {
       const Encounter encounter(crowd, grid, self, neighbor.slot);
-      foresight.add(encounter.apart.offset, encounter.velocity, encounter.radius);
+      foresight.add_other(encounter.apart.offset, encounter.velocity, encounter.radius);
     }
-    for_each_wall(crowd, grid, around, [&](const Segment& wall) {
-      foresight.add_wall(wall, self);
-    });
+    for_each_wall(crowd, grid, around,
+                  [&](const Segment& wall) { foresight.add_wall(wall, self); });
     if (!foresight.time_s()) return std::nullopt;
     return std::max(*foresight.time_s(), static_cast<float>(crowd.dt_s));
   }
@@ -129,8 +128,11 @@ class Zanlungo : public LocalModel {
     const bool approaching = apart.offset.dot(encounter.velocity) < 0 || apart.distance == 0;
     if (!approaching) return Eigen::Vector2f::Zero();
     const Eigen::Vector2f later = apart.offset + time_s * encounter.velocity;
-    return encounter.weight * strength(constants_[agent_scale], encounter.velocity.norm(), time_s,
-                                       later.norm() - encounter.radius) *
+    // Two in one place that go the same way would stay there.
+    constexpr float kParting = 1;  // m/s
+    const float speed = apart.distance > 0 ? encounter.velocity.norm() : kParting;
+    return encounter.weight *
+           strength(constants_[agent_scale], speed, time_s, later.norm() - encounter.radius) *
            unit_or(later, apart.away);
   }
 

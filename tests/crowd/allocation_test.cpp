@@ -7,6 +7,7 @@
 #include <new>
 
 #include "crowd_files.h"
+#include "model_scenes.h"
 
 namespace {
 
@@ -40,6 +41,26 @@ TEST(Allocation, AStepAllocatesNothingAfterWarmUp) {
   for (int i = 0; i < 400; ++i) crowd.step();
   EXPECT_EQ(allocations - before, 0);
 }
+
+class AllocationOfModel : public testing::TestWithParam<std::string> {};
+
+TEST_P(AllocationOfModel, AStepAllocatesNothingAfterWarmUp) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+  const std::string modifier = R"(<VelModifier type="fundamental_diagram" factor_dist="c"
+      factor_value="1.57" buffer_dist="c" buffer_value="0.9"/>)";
+  Simulation crowd = test::load(
+      test::model_scene(test::agent_at(0, 0) + test::agent_at(0.5, 0.1) + test::agent_at(1, 0), "",
+                        test::box(3, -4, 4, 4)),
+      test::eastward_behavior(modifier), {.model = GetParam()});
+  for (int i = 0; i < 20; ++i) crowd.step();
+  const long before = allocations;
+  for (int i = 0; i < 100; ++i) crowd.step();
+  EXPECT_EQ(allocations - before, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, AllocationOfModel,
+                         testing::Values("pedvo", "johannson", "karamouzas", "zanlungo", "gcf",
+                                         "dummy"));
 
 }  // namespace
 }  // namespace throng::crowd
