@@ -24,6 +24,13 @@ pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(isal REQUIRED IMPORTED_TARGET libisal)
 find_package(valijson REQUIRED)
 
+# Debian's Recast comes without files for CMake.
+add_library(throng_recast INTERFACE)
+find_library(RECAST_LIBRARY Recast REQUIRED)
+find_path(RECAST_INCLUDE Recast.h PATH_SUFFIXES recastnavigation REQUIRED)
+target_link_libraries(throng_recast INTERFACE "${RECAST_LIBRARY}")
+target_include_directories(throng_recast SYSTEM INTERFACE "${RECAST_INCLUDE}")
+
 # Only core and imgproc: Debian's CMake files come with all of OpenCV, which is ten times the size.
 add_library(throng_opencv INTERFACE)
 foreach(module IN ITEMS core imgproc)

@@ -13,7 +13,8 @@ class BoxTree {
   /// Over the boxes of things 0, 1, ...
   void build(const std::vector<Box>& boxes);
 
-  /// The things in the order of the leaves; who stores them in this order finds neighbours together.
+  /// The things in the order of the leaves; who stores them in this order finds neighbours
+  /// together.
   const std::vector<int>& order() const { return order_; }
 
   /// Calls visit(i) for every i with the box of order()[i] no farther than sqrt(range_sq) from the

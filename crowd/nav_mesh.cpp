@@ -12,7 +12,7 @@ namespace {
 /// has the points on their common edge.
 constexpr float kTolerance = 1e-4F;
 
-Box bounds(const NavPolygon& polygon) {
+Box bounds_of(const NavPolygon& polygon) {
   Box box{polygon.corners.front(), polygon.corners.front()};
   for (const Eigen::Vector2f& corner : polygon.corners) {
     box.min = box.min.cwiseMin(corner);
@@ -41,7 +41,11 @@ Eigen::Vector2f nearest_on(const NavPolygon& polygon, const Eigen::Vector2f& poi
 NavMesh::NavMesh(std::vector<NavPolygon> polygons) : polygons_(std::move(polygons)) {
   std::vector<Box> boxes;
   boxes.reserve(polygons_.size());
-  for (const NavPolygon& polygon : polygons_) boxes.push_back(bounds(polygon));
+  for (const NavPolygon& polygon : polygons_) boxes.push_back(bounds_of(polygon));
+  if (!boxes.empty()) bounds_ = boxes.front();
+  for (const Box& box : boxes) {
+    bounds_ = {bounds_.min.cwiseMin(box.min), bounds_.max.cwiseMax(box.max)};
+  }
   tree_.build(boxes);
   find_islands();
 }
@@ -110,6 +114,27 @@ NavMesh::Place NavMesh::nearest(const Eigen::Vector2f& point, int island) const 
     }
   });
   return best;
+}
+
+bool NavMesh::is_clear(const Place& from, const Eigen::Vector2f& to) const {
+  const Eigen::Vector2f way = to - from.point;
+  const float slack = kTolerance * way.norm();
+  int polygon = from.polygon;
+  int before = -1;
+  for (std::size_t passed = 0; polygon >= 0 && passed <= polygons_.size(); ++passed) {
+    if (contains(polygon, to)) return true;
+    int next = -1;
+    for (const Portal& portal : (*this)[polygon].portals) {
+      if (portal.to == before) continue;
+      const bool between = cross(way, portal.left - from.point) >= -slack &&
+                           cross(way, portal.right - from.point) <= slack;
+      const bool leaves = cross(way, portal.left - portal.right) > 0;
+      if (between && leaves) next = portal.to;
+    }
+    before = polygon;
+    polygon = next;
+  }
+  return false;
 }
 
 }  // namespace throng::crowd

@@ -40,18 +40,24 @@ class NavMesh {
     return polygons_[static_cast<std::size_t>(polygon)];
   }
 
+  /// The smallest box around the mesh; an empty mesh has none.
+  const Box& bounds() const { return bounds_; }
+
   bool contains(int polygon, const Eigen::Vector2f& point) const;
   /// The polygon that contains the point, -1 if there is none. `hint` is looked at first, then the
   /// polygons around it: where the point was a moment ago.
   int find(const Eigen::Vector2f& point, int hint = -1) const;
   /// The place of the mesh that is nearest to the point and, unless island is -1, on that island.
   Place nearest(const Eigen::Vector2f& point, int island = -1) const;
+  /// Whether the straight way from a place to a point stays on the mesh.
+  bool is_clear(const Place& from, const Eigen::Vector2f& to) const;
 
  private:
   void find_islands();
 
   std::vector<NavPolygon> polygons_;
   BoxTree tree_;
+  Box bounds_;
 };
 
 }  // namespace throng::crowd

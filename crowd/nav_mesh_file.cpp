@@ -202,9 +202,8 @@ NavMeshFile load_nav_mesh(const std::filesystem::path& path) { return Reader(pat
 
 std::shared_ptr<const NavMeshFile> shared_nav_mesh(const std::filesystem::path& path,
                                                    SharedParts& parts) {
-  return parts.get<NavMeshFile>(path.lexically_normal().string(), [&] {
-    return std::make_shared<NavMeshFile>(load_nav_mesh(path));
-  });
+  return parts.get<NavMeshFile>(path.lexically_normal().string(),
+                                [&] { return std::make_shared<NavMeshFile>(load_nav_mesh(path)); });
 }
 
 }  // namespace throng::crowd

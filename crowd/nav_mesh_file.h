@@ -14,7 +14,7 @@ namespace throng::crowd {
 
 struct NavMeshFile {
   NavMesh mesh;
-  std::vector<std::string> groups;                    ///< by NavPolygon::group
+  std::vector<std::string> groups;                     ///< by NavPolygon::group
   std::vector<std::vector<Eigen::Vector2f>> outlines;  ///< of the obstacles, solid on the left
 };
 

@@ -121,16 +121,15 @@ class AcrossMesh : public VelComponent {
   float heading_cos_;
 };
 
-std::unique_ptr<VelComponent> make_across_mesh(const Element& element,
-                                               const Attributes& attributes,
+std::unique_ptr<VelComponent> make_across_mesh(const Element& element, const Attributes& attributes,
                                                BehaviorContext& context) {
   SharedParts& parts = *context.crowd.parts;
   const std::filesystem::path path = element.file_beside(attributes.text("file_name"));
   const Lengths lengths =
-      context.crowd.compat == Compat::none ? Lengths::points : Lengths::centres;
+      context.crowd.compat == Compat::none ? Lengths::shortest : Lengths::centres;
   auto routes = parts.get<NavMeshRoutes>(path.lexically_normal().string(), [&] {
-    return std::make_shared<NavMeshRoutes>(shared_nav_mesh(path, parts),
-                                           path.filename().string(), lengths);
+    return std::make_shared<NavMeshRoutes>(shared_nav_mesh(path, parts), path.filename().string(),
+                                           lengths);
   });
   return std::make_unique<AcrossMesh>(
       std::move(routes), std::cos(attributes.real("heading_threshold") * kRadiansPerDegree));

@@ -47,8 +47,7 @@ class NavMeshRoutes {
   };
 
   void plan(const Crowd& crowd, std::size_t agent, Route& route);
-  static bool is_pushed_off(const Eigen::Vector2f& position, float heading_cos,
-                            const Route& route);
+  static bool is_pushed_off(const Eigen::Vector2f& position, float heading_cos, const Route& route);
   bool keep_up(const Eigen::Vector2f& position, Route& route) const;
 
   std::shared_ptr<const NavMeshFile> file_;

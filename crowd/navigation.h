@@ -7,6 +7,7 @@
 
 namespace throng::crowd {
 
+VelComponentRegistry::Entry auto_component();
 VelComponentRegistry::Entry nav_mesh_component();
 VelComponentRegistry::Entry road_map_component();
 VelComponentRegistry::Entry vector_field_component();

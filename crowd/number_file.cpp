@@ -64,9 +64,9 @@ int NumberFile::integer(std::string_view what, int min, int max) {
   const auto [end, error] = std::from_chars(found.data(), found.data() + found.size(), value);
   const bool is_integer = error == std::errc() && end == found.data() + found.size();
   if (!is_integer || value < min || value > max) {
-    fail(in_quotes(found),
-         max < min ? fmt::format("{} (there is none)", what)
-                   : fmt::format("{}: a whole number from {} to {}", what, min, max));
+    fail(in_quotes(found), max < min
+                               ? fmt::format("{} (there is none)", what)
+                               : fmt::format("{}: a whole number from {} to {}", what, min, max));
   }
   return value;
 }

@@ -77,8 +77,7 @@ void Obstacles::near(const Eigen::Vector2f& point, float range, std::uint32_t cl
     if ((wall.obstacle_class & class_mask) == 0) return;
     const Eigen::Vector2f from_begin = point - wall.begin;
     if (cross(wall.edge, from_begin) >= 0) return;
-    const float t =
-        std::clamp(from_begin.dot(wall.edge) * wall.inverse_length_sq, 0.0F, 1.0F);
+    const float t = std::clamp(from_begin.dot(wall.edge) * wall.inverse_length_sq, 0.0F, 1.0F);
     const float distance_sq = (from_begin - t * wall.edge).squaredNorm();
     if (distance_sq < range_sq) found.push_back({distance_sq, tree_.order()[i]});
   });

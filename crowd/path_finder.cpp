@@ -1,6 +1,7 @@
 #include "crowd/path_finder.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "crowd/obstacles.h"
 
@@ -37,21 +38,48 @@ float right_turn(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen
 PathFinder::PathFinder(const NavMesh& mesh, Lengths lengths) : mesh_(&mesh), lengths_(lengths) {
   for (std::size_t polygon = 0; polygon < mesh.polygons().size(); ++polygon) {
     first_portal_.push_back(static_cast<int>(owner_.size()));
-    owner_.insert(owner_.end(), mesh.polygons()[polygon].portals.size(),
-                  static_cast<int>(polygon));
+    owner_.insert(owner_.end(), mesh.polygons()[polygon].portals.size(), static_cast<int>(polygon));
   }
   nodes_.resize(owner_.size());
   open_.reserve(owner_.size());
   gates_.reserve(mesh.polygons().size());
+  best_gates_.reserve(mesh.polygons().size());
   bends_.reserve(mesh.polygons().size() + 1);
 }
 
 bool PathFinder::find(const NavMesh::Place& from, const NavMesh::Place& to, float radius) {
   gates_.clear();
   if (from.polygon < 0 || to.polygon < 0) return false;
-  if (from.polygon != to.polygon) {
-    if ((*mesh_)[from.polygon].island != (*mesh_)[to.polygon].island) return false;
-    if (!search(from, to, radius, false) && !search(from, to, radius, true)) return false;
+  if ((*mesh_)[from.polygon].island != (*mesh_)[to.polygon].island) return false;
+  if (from.polygon == to.polygon) {
+    pull_tight(from.point, to.point);
+    return true;
+  }
+  if (lengths_ == Lengths::centres) return find_by(Pass::centre_behind, from, to, radius);
+  // None of them is always right, but they seldom fail together.
+  float best_m = std::numeric_limits<float>::infinity();
+  for (const Pass pass : {Pass::near_line, Pass::near_start, Pass::middle}) {
+    if (!find_by(pass, from, to, radius) || length_m_ >= best_m) continue;
+    best_m = length_m_;
+    best_gates_.swap(gates_);
+  }
+  if (best_m == std::numeric_limits<float>::infinity()) return false;
+  gates_.swap(best_gates_);
+  pull_tight(from.point, to.point);
+  return true;
+}
+
+bool PathFinder::find_by(Pass pass, const NavMesh::Place& from, const NavMesh::Place& to,
+                         float radius) {
+  Search how{from.point, to.point, radius, pass, false};
+  if (pass == Pass::centre_behind) {
+    how.start = (*mesh_)[from.polygon].centre;
+    how.end = (*mesh_)[to.polygon].centre;
+  }
+  gates_.clear();
+  if (!search(how, from.polygon, to.polygon)) {
+    how.narrow = true;
+    if (!search(how, from.polygon, to.polygon)) return false;
   }
   pull_tight(from.point, to.point);
   return true;
@@ -63,56 +91,62 @@ const Portal& PathFinder::portal(int number) const {
   return (*mesh_)[polygon].portals[static_cast<std::size_t>(number - first)];
 }
 
-bool PathFinder::search(const NavMesh::Place& from, const NavMesh::Place& to, float radius,
-                        bool narrow) {
+bool PathFinder::search(const Search& how, int from, int to) {
   ++search_;
   open_.clear();
-  const bool by_centres = lengths_ == Lengths::centres;
-  const Eigen::Vector2f& end = by_centres ? (*mesh_)[to.polygon].centre : to.point;
-  expand(from.polygon, -1, by_centres ? (*mesh_)[from.polygon].centre : from.point, end, radius,
-         narrow);
-  const auto worse = [](const Open& a, const Open& b) {
-    return a.estimate != b.estimate ? a.estimate > b.estimate : a.portal > b.portal;
-  };
+  expand(how, from, -1);
   while (!open_.empty()) {
-    std::pop_heap(open_.begin(), open_.end(), worse);
-    const Open best = open_.back();
+    std::pop_heap(open_.begin(), open_.end());
+    const int number = open_.back().portal;
     open_.pop_back();
-    Node& node = nodes_[static_cast<std::size_t>(best.portal)];
+    Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.done) continue;
     node.done = true;
-    const int behind = portal(best.portal).to;
-    if (behind == to.polygon) {
-      collect_gates(best.portal, radius);
+    if (portal(number).to == to) {
+      collect_gates(number, how.radius);
       return true;
     }
-    expand(behind, best.portal, node.point, end, radius, narrow);
+    expand(how, portal(number).to, number);
   }
   return false;
 }
 
-void PathFinder::expand(int polygon, int before, const Eigen::Vector2f& start,
-                        const Eigen::Vector2f& end, float radius, bool narrow) {
-  const auto worse = [](const Open& a, const Open& b) {
-    return a.estimate != b.estimate ? a.estimate > b.estimate : a.portal > b.portal;
-  };
-  const float cost_before = before < 0 ? 0 : nodes_[static_cast<std::size_t>(before)].cost;
-  const int back = before < 0 ? -1 : owner_[static_cast<std::size_t>(before)];
+Eigen::Vector2f PathFinder::passing_point(const Search& how, const Portal& next,
+                                          const Eigen::Vector2f& start) const {
+  const Gate gate = make_gate(next, how.radius);
+  switch (how.pass) {
+    case Pass::near_line:
+      return pass(gate, start, how.end);
+    case Pass::near_start:
+      return nearest_on_segment(gate.left, gate.right, start);
+    case Pass::middle:
+      return 0.5F * (gate.left + gate.right);
+    case Pass::centre_behind:
+      break;
+  }
+  return (*mesh_)[next.to].centre;
+}
+
+/// Reaches for the portals of a polygon that was entered through portal `before`.
+void PathFinder::expand(const Search& how, int polygon, int before) {
+  const bool first = before < 0;
+  const Node from = first ? Node{} : nodes_[static_cast<std::size_t>(before)];
+  const Eigen::Vector2f& start = first ? how.start : from.point;
+  const int back = first ? -1 : owner_[static_cast<std::size_t>(before)];
   int number = first_portal_[static_cast<std::size_t>(polygon)];
   for (const Portal& next : (*mesh_)[polygon].portals) {
-    Node& node = nodes_[static_cast<std::size_t>(number)];
-    const int portal = number++;
-    if (next.to == back) continue;
-    if (node.search == search_ && node.done) continue;
-    if (!narrow && (next.right - next.left).squaredNorm() < 4 * radius * radius) continue;
-    const Eigen::Vector2f point = lengths_ == Lengths::centres
-                                      ? (*mesh_)[next.to].centre
-                                      : pass(make_gate(next, radius), start, end);
-    const float cost = cost_before + (point - start).norm();
-    if (node.search == search_ && cost >= node.cost) continue;
+    const int reached = number++;
+    Node& node = nodes_[static_cast<std::size_t>(reached)];
+    const bool known = node.search == search_;
+    if (next.to == back || (known && node.done)) continue;
+    const float too_narrow = 4 * how.radius * how.radius;
+    if (!how.narrow && (next.right - next.left).squaredNorm() < too_narrow) continue;
+    const Eigen::Vector2f point = passing_point(how, next, start);
+    const float cost = from.cost + (point - start).norm();
+    if (known && cost >= node.cost) continue;
     node = {search_, false, before, cost, point};
-    open_.push_back({cost + (end - point).norm(), portal, cost});
-    std::push_heap(open_.begin(), open_.end(), worse);
+    open_.push_back({cost + (how.end - point).norm(), reached});
+    std::push_heap(open_.begin(), open_.end());
   }
 }
 

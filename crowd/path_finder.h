@@ -17,10 +17,10 @@ struct Gate {
   Eigen::Vector2f crossing;  ///< where the way passes it
 };
 
-/// What A* takes for the length of a way from polygon to polygon.
+/// What A* takes for the length of a way from portal to portal.
 enum class Lengths {
-  points,  ///< between points of the portals near the straight line to the end
-  centres  ///< between the polygons' centres, as Menge does; it may miss the shortest way
+  shortest,  ///< between points of the portals, chosen in several ways: the best result counts
+  centres    ///< between the polygons' centres, as Menge does; it may miss the shortest way
 };
 
 /// Finds ways. The polygons to pass are searched for with A* over the portals (Hart, Nilsson and
@@ -29,7 +29,7 @@ enum class Lengths {
 class PathFinder {
  public:
   /// The mesh must outlive this.
-  explicit PathFinder(const NavMesh& mesh, Lengths lengths = Lengths::points);
+  explicit PathFinder(const NavMesh& mesh, Lengths lengths = Lengths::shortest);
 
   /// Finds a way for a disc of this radius from one place of the mesh to another. Portals that are
   /// too narrow for it count only if there is no other way. Returns false if there is none at all.
@@ -52,12 +52,28 @@ class PathFinder {
   struct Open {
     float estimate = 0;  // m from start to end by way of this portal
     int portal = 0;
-    float cost = 0;
+
+    /// For a heap whose first is the best.
+    bool operator<(const Open& other) const {
+      return estimate != other.estimate ? estimate > other.estimate : portal > other.portal;
+    }
   };
 
-  bool search(const NavMesh::Place& from, const NavMesh::Place& to, float radius, bool narrow);
-  void expand(int polygon, int before, const Eigen::Vector2f& start, const Eigen::Vector2f& end,
-              float radius, bool narrow);
+  /// Where a way passes a portal, as long as nobody knows better.
+  enum class Pass { near_line, near_start, middle, centre_behind };
+  struct Search {
+    Eigen::Vector2f start;
+    Eigen::Vector2f end;
+    float radius = 0;
+    Pass pass = Pass::near_line;
+    bool narrow = false;  // portals that are too narrow, too
+  };
+
+  bool find_by(Pass pass, const NavMesh::Place& from, const NavMesh::Place& to, float radius);
+  bool search(const Search& how, int from, int to);
+  void expand(const Search& how, int polygon, int before);
+  Eigen::Vector2f passing_point(const Search& how, const Portal& next,
+                                const Eigen::Vector2f& start) const;
   const Portal& portal(int number) const;
   void collect_gates(int last, float radius);
   void pull_tight(const Eigen::Vector2f& start, const Eigen::Vector2f& end);
@@ -65,13 +81,14 @@ class PathFinder {
 
   const NavMesh* mesh_;
   Lengths lengths_;
-  std::vector<int> first_portal_;   // by polygon: the number of its first portal
-  std::vector<int> owner_;          // by portal: the polygon that it leads out of
-  std::vector<Node> nodes_;         // by portal
-  std::vector<Open> open_;          // a heap
+  std::vector<int> first_portal_;  // by polygon: the number of its first portal
+  std::vector<int> owner_;         // by portal: the polygon that it leads out of
+  std::vector<Node> nodes_;        // by portal
+  std::vector<Open> open_;         // a heap
   unsigned search_ = 0;
 
   std::vector<Gate> gates_;
+  std::vector<Gate> best_gates_;
   std::vector<Eigen::Vector2f> bends_;
   std::size_t crossed_ = 0;  // gates whose crossing is known
   Eigen::Vector2f apex_ = Eigen::Vector2f::Zero();

@@ -101,8 +101,8 @@ bool RoadMapRoutes::advance(const Crowd& crowd, std::size_t agent, const Eigen::
                             Route& route) const {
   const Agents& agents = crowd.agents;
   const auto sees = [&](const Eigen::Vector2f& place) {
-    return crowd.obstacles.visible(agents.position[agent], place,
-                                   agents[Property::radius][agent], agents.obstacle_mask[agent]);
+    return crowd.obstacles.visible(agents.position[agent], place, agents[Property::radius][agent],
+                                   agents.obstacle_mask[agent]);
   };
   if (route.whole && sees(target)) {
     route.next = route.count;
@@ -164,8 +164,7 @@ class AlongRoads : public VelComponent {
   std::shared_ptr<RoadMapRoutes> routes_;
 };
 
-std::unique_ptr<VelComponent> make_along_roads(const Element& element,
-                                               const Attributes& attributes,
+std::unique_ptr<VelComponent> make_along_roads(const Element& element, const Attributes& attributes,
                                                BehaviorContext& context) {
   const std::filesystem::path path = element.file_beside(attributes.text("file_name"));
   return std::make_unique<AlongRoads>(context.crowd.parts->get<RoadMapRoutes>(

@@ -19,7 +19,7 @@ struct RoadMap {
     float length_m = 0;
   };
 
-  std::vector<Eigen::Vector2f> places;  ///< at least one
+  std::vector<Eigen::Vector2f> places;   ///< at least one
   std::vector<std::vector<Road>> roads;  ///< by place
 };
 

@@ -48,8 +48,7 @@ Eigen::Vector2f VectorField::interpolated(const Eigen::Vector2f& point) const {
   const Eigen::Vector2f share = centre - corner;
   const int row = static_cast<int>(corner.y());
   const int column = static_cast<int>(corner.x());
-  const Eigen::Vector2f below =
-      (1 - share.x()) * at(row, column) + share.x() * at(row, column + 1);
+  const Eigen::Vector2f below = (1 - share.x()) * at(row, column) + share.x() * at(row, column + 1);
   const Eigen::Vector2f above =
       (1 - share.x()) * at(row + 1, column) + share.x() * at(row + 1, column + 1);
   return (1 - share.y()) * below + share.y() * above;
@@ -76,8 +75,7 @@ class AlongField : public VelComponent {
   bool use_nearest_;
 };
 
-std::unique_ptr<VelComponent> make_along_field(const Element& element,
-                                               const Attributes& attributes,
+std::unique_ptr<VelComponent> make_along_field(const Element& element, const Attributes& attributes,
                                                BehaviorContext& context) {
   const std::filesystem::path path = element.file_beside(attributes.text("file_name"));
   return std::make_unique<AlongField>(

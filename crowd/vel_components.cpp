@@ -71,6 +71,7 @@ const VelComponentRegistry& vel_component_registry() {
        {number("x", "of the direction"), number("y", "of the direction")},
        make_constant_direction},
       {"zero", "stand", {}, make_zero},
+      auto_component(),
       nav_mesh_component(),
       road_map_component(),
       vector_field_component(),
