@@ -164,7 +164,11 @@ std::optional<Distribution2> read_distribution_2(const Element& element, Reader&
 
 bool read_boolean(const Element& element, std::string_view name, std::string_view given) {
   const std::string_view value = trimmed(given);
-  if (value == "true") return true;
+  if (value == "true") {
+    element.warn_attribute(name, "\"true\"",
+                           "1 (Menge reads words as 0, and so do compatible runs)");
+    return !element.words_are_zero();
+  }
   if (value == "false") return false;
   if (const auto number = parse<long long>(value)) return *number != 0;
   element.fail_attribute(name, in_quotes(given), "0, 1, false or true");
@@ -242,6 +246,9 @@ Attributes::Attributes(const Element& element, const AttributeTable& table) {
     if (!given && spec.presence == Presence::required) {
       element.fail_attribute(name, "nothing", std::string(spec.help));
     }
+    // An empty text is none; that is how Menge's own files say that something is not wanted.
+    const bool is_text = spec.type == AttributeType::text;
+    if (is_text && spec.presence == Presence::optional && given == "") given.reset();
     if (!given && !spec.default_text.empty()) given = spec.default_text;
     if (!given) continue;
     switch (spec.type) {

@@ -1,12 +1,14 @@
 #include "crowd/generators.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "crowd/agents.h"
+#include "crowd/nav_mesh_file.h"
 
 namespace throng::crowd {
 
@@ -156,17 +158,51 @@ class HexColumns : public HexLattice {
   std::size_t column_;  // agents in each
 };
 
-std::unique_ptr<Generator> make_listed(const Element& element, const Attributes&,
-                                       GeneratorContext&) {
+constexpr int kAnyGroup = -1;
+
+/// Throws for a place off the mesh, or off the polygons of the group.
+void require_on_mesh(const Element& element, const NavMeshFile& file, int group,
+                     const Eigen::Vector2f& place) {
+  const int polygon = file.mesh.find(place);
+  if (polygon >= 0 && (group == kAnyGroup || file.mesh[polygon].group == group)) return;
+  element.fail(fmt::format("({}, {}), which is not on the mesh", place.x(), place.y()),
+               group == kAnyGroup
+                   ? "a place on the mesh"
+                   : fmt::format("a place on the mesh's group {}",
+                                 in_quotes(file.groups[static_cast<std::size_t>(group)])));
+}
+
+std::unique_ptr<Generator> make_listed_on(const Element& element, const NavMeshFile* mesh,
+                                          int group) {
   std::vector<Eigen::Vector2f> places;
   for (const Element& child : element.children()) {
     if (child.name() != "Agent") child.fail_unknown("<Agent>");
     child.require_no_children();
     const Attributes attributes(child, {number("p_x", "in m"), number("p_y", "in m")});
     places.emplace_back(attributes.real("p_x"), attributes.real("p_y"));
+    if (mesh != nullptr) require_on_mesh(child, *mesh, group, places.back());
   }
   if (places.empty()) element.fail("no agents", "at least one <Agent>");
   return std::make_unique<Listed>(std::move(places));
+}
+
+std::unique_ptr<Generator> make_listed(const Element& element, const Attributes&,
+                                       GeneratorContext&) {
+  return make_listed_on(element, nullptr, kAnyGroup);
+}
+
+std::unique_ptr<Generator> make_listed_on_mesh(const Element& element, const Attributes& attributes,
+                                               GeneratorContext& context) {
+  const auto mesh =
+      shared_nav_mesh(element.file_beside(attributes.text("file_name")), context.parts);
+  if (!attributes.has("group_name")) return make_listed_on(element, mesh.get(), kAnyGroup);
+  const std::string& name = attributes.text("group_name");
+  const auto found = std::find(mesh->groups.begin(), mesh->groups.end(), name);
+  if (found == mesh->groups.end()) {
+    element.fail_attribute("group_name", in_quotes(name),
+                           fmt::format("a group of the mesh: {}", fmt::join(mesh->groups, ", ")));
+  }
+  return make_listed_on(element, mesh.get(), static_cast<int>(found - mesh->groups.begin()));
 }
 
 std::unique_ptr<Generator> make_grid(const Element& element, const Attributes& attributes,
@@ -259,14 +295,20 @@ const GeneratorRegistry& generator_registry() {
             integer("population", "lowest number of agents; rows are completed", 1, kMostAgents),
             optional(number("rotation", "about the anchor in degrees", -3600, 3600), "0")},
            make_hex_lattice},
+          {"nav_mesh_explicit",
+           "places listed one by one, each on a navigation mesh",
+           {text("file_name", "a .nav file"),
+            optional(text("group_name", "of polygons, on which they have to be"))},
+           make_listed_on_mesh},
       }},
       {optional(distribution(kNoisePrefix, "distance from the exact place in m"))});
   return kRegistry;
 }
 
 std::vector<Eigen::Vector2f> generate_places(const Element& element, std::uint64_t seed,
-                                             MengeSequences& sequences, std::size_t first_agent) {
-  GeneratorContext context;
+                                             MengeSequences& sequences, SharedParts& parts,
+                                             std::size_t first_agent) {
+  GeneratorContext context{parts};
   const GeneratorRegistry::Entry& entry = generator_registry().find(element);
   const Attributes attributes(element, entry.attributes);
   const std::unique_ptr<Generator> generator = entry.make(element, attributes, context);

@@ -6,6 +6,7 @@
 
 #include "crowd/menge_random.h"
 #include "crowd/registry.h"
+#include "crowd/shared_parts.h"
 
 namespace throng::crowd {
 
@@ -21,14 +22,17 @@ class Generator {
   virtual Eigen::Vector2f place(std::size_t index, const Eigen::Vector2f& noise) const = 0;
 };
 
-struct GeneratorContext {};
+struct GeneratorContext {
+  SharedParts& parts;
+};
 using GeneratorRegistry = Registry<Generator, GeneratorContext>;
-/// explicit, rect_grid, hex_lattice.
+/// explicit, rect_grid, hex_lattice, nav_mesh_explicit.
 const GeneratorRegistry& generator_registry();
 
 /// The places of a <Generator>'s agents; `first_agent` is the id of the first of them. Compatible
 /// runs draw the noise from `sequences`.
 std::vector<Eigen::Vector2f> generate_places(const Element& element, std::uint64_t seed,
-                                             MengeSequences& sequences, std::size_t first_agent);
+                                             MengeSequences& sequences, SharedParts& parts,
+                                             std::size_t first_agent);
 
 }  // namespace throng::crowd

@@ -185,7 +185,7 @@ std::string_view in_words(tinyxml2::XMLError error) {
 }  // namespace
 
 XmlFile::XmlFile(const std::filesystem::path& path, std::string_view root_name)
-    : source_(std::make_unique<XmlSource>(XmlSource{path, path.filename().string(), {}})),
+    : source_(std::make_unique<XmlSource>(XmlSource{path, path.filename().string(), {}, false})),
       document_(std::make_unique<tinyxml2::XMLDocument>()) {
   const std::string text = read_text(*source_);
   const tinyxml2::XMLError error = document_->Parse(text.data(), text.size());

@@ -23,6 +23,7 @@ struct XmlSource {
   std::filesystem::path path;
   std::string name;               ///< of the file, for messages
   std::vector<Problem> warnings;  ///< what was ignored
+  bool words_are_zero = false;    ///< "true" is 0, as for who expects a number: Menge
 };
 
 /// A view of one element; valid as long as its XmlFile.
@@ -34,6 +35,9 @@ class Element {
   std::vector<Element> children() const;
   std::vector<std::pair<std::string_view, std::string_view>> attributes() const;
   std::optional<std::string_view> attribute(std::string_view name) const;
+
+  /// Whether the words true and false are both 0 in this file.
+  bool words_are_zero() const { return source_->words_are_zero; }
 
   /// The only child, which must be there. `expected` names it in the error.
   Element only_child(std::string_view expected) const;
@@ -73,6 +77,7 @@ class XmlFile {
 
   Element root() const;
   const std::vector<Problem>& warnings() const { return source_->warnings; }
+  void take_words_for_zero() { source_->words_are_zero = true; }
 
  private:
   std::unique_ptr<XmlSource> source_;

@@ -1,10 +1,13 @@
 // Against series recorded with Menge itself, where they are at hand (they are not in the
-// repository).
+// repository): its example projects, run with seed 1234 on one thread.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <sstream>
 
+#include "crowd/project.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {
@@ -13,65 +16,187 @@ namespace {
 const std::filesystem::path kExamples =
     std::filesystem::path(THRONG_SOURCE_DIR) / "../shared/data/menge_examples";
 
-struct Row {
-  double time_s = 0;
-  double in_final_state = 0;
-  double mean_speed = 0;
+/// How long a run can be expected to follow Menge's. Rounding differs, and dense crowds multiply a
+/// difference by ten every few seconds: what two of Menge's own runs that start 1 micrometre apart
+/// do not have in common is not asked for.
+struct Agreement {
+  std::string name;     ///< of the series
+  std::string project;  ///< without .xml
+  std::string model = "orca";
+  double places_until_s = 5;     ///< within 0.05 m
+  double states_until_s = 1000;  ///< share of the agents in each state, within 0.05
+  double end_share = 0.05;       ///< of the time at which all are final; 0: it has no end
+  double run_until_s = 1000;
 };
 
-std::vector<Row> read_series(const std::filesystem::path& file) {
+std::ostream& operator<<(std::ostream& out, const Agreement& agreement) {
+  return out << agreement.name;
+}
+
+/// A file of comma-separated values with a line of names.
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+  std::size_t column(const std::string& name) const {
+    return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
+                                    columns.begin());
+  }
+  double number(const std::vector<std::string>& row, const std::string& name) const {
+    return std::stod(row[column(name)]);
+  }
+};
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+Table read_table(const std::filesystem::path& file) {
   std::ifstream in(file);
+  Table table;
   std::string line;
   std::getline(in, line);
-  std::vector<Row> rows;
-  while (std::getline(in, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    Row row;
-    double terminal = 0;
-    fields >> row.time_s >> row.in_final_state >> terminal >> row.mean_speed;
-    rows.push_back(row);
-  }
-  return rows;
+  table.columns = split(line);
+  while (std::getline(in, line)) table.rows.push_back(split(line));
+  return table;
 }
 
-double share_in(const Simulation& crowd, const std::string& state) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
-    if (test::state_of(crowd, i) == state) ++count;
+class MengeReference : public testing::TestWithParam<Agreement> {
+ protected:
+  void SetUp() override {
+    const Agreement& agreement = GetParam();
+    const auto series_file = kExamples / "reference" / ("core_" + agreement.name + ".csv");
+    if (!std::filesystem::exists(series_file)) GTEST_SKIP() << "no reference series here";
+    series_ = read_table(series_file);
+    const Table places =
+        read_table(kExamples / "reference" / ("core_" + agreement.name + "_pos.csv"));
+    for (const auto& row : places.rows) {
+      places_[places.number(row, "time")].push_back({static_cast<float>(places.number(row, "x")),
+                                                     static_cast<float>(places.number(row, "y"))});
+    }
+    Project project = load_project(kExamples / (agreement.project + ".xml"));
+    project.options.seed = 1234;
+    project.options.model = agreement.model;
+    project.options.compat = Compat::menge;
+    if (agreement.model != "orca") project.options.time_step_s = 0.1;
+    crowd_ =
+        std::make_unique<Simulation>(project.scene_file, project.behavior_file, project.options);
   }
-  return static_cast<double>(count) / static_cast<double>(crowd.agent_count());
+
+  void advance_to(double time_s) {
+    while (!crowd_->all_final() && crowd_->time_s() < time_s - 0.5 * crowd_->dt_s()) crowd_->step();
+  }
+
+  double share_in(const std::string& state) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < crowd_->agent_count(); ++i) {
+      if (test::state_of(*crowd_, i) == state) ++count;
+    }
+    return static_cast<double>(count) / static_cast<double>(crowd_->agent_count());
+  }
+
+  void expect_states(const std::vector<std::string>& row) const {
+    const auto count = static_cast<double>(crowd_->agent_count());
+    for (const std::string& state : crowd_->state_names()) {
+      EXPECT_NEAR(share_in(state), series_.number(row, "n_" + state) / count, 0.05)
+          << state << " at " << row[0] << " s";
+    }
+  }
+
+  void expect_places(double time_s) const {
+    const auto found = places_.find(time_s);
+    if (found == places_.end()) return;
+    ASSERT_EQ(crowd_->agent_count(), found->second.size());
+    const float tolerance = time_s == 0 ? 1e-4F : 0.05F;
+    for (std::size_t i = 0; i < crowd_->agent_count(); ++i) {
+      EXPECT_LT((crowd_->positions()[i] - found->second[i]).norm(), tolerance)
+          << "agent " << i << " at " << time_s << " s";
+    }
+  }
+
+  /// The middle of the crowd and how far it spreads, which the series have for every second.
+  void expect_spread(const std::vector<std::string>& row) const {
+    const auto count = static_cast<float>(crowd_->agent_count());
+    Eigen::Array2f sum = Eigen::Array2f::Zero();
+    for (const Eigen::Vector2f& place : crowd_->positions()) sum += place.array();
+    const Eigen::Array2f mean = sum / count;
+    Eigen::Array2f squares = Eigen::Array2f::Zero();
+    for (const Eigen::Vector2f& place : crowd_->positions()) {
+      squares += (place.array() - mean).square();
+    }
+    const Eigen::Array2f spread = (squares / count).sqrt();
+    for (int axis = 0; axis < 2; ++axis) {
+      const std::string suffix = axis == 0 ? "_x" : "_y";
+      EXPECT_NEAR(mean[axis], series_.number(row, "mean" + suffix), 0.01) << row[0] << " s";
+      EXPECT_NEAR(spread[axis], series_.number(row, "std" + suffix), 0.01) << row[0] << " s";
+    }
+  }
+
+  Table series_;
+  std::map<double, std::vector<Eigen::Vector2f>> places_;
+  std::unique_ptr<Simulation> crowd_;
+};
+
+TEST_P(MengeReference, Agrees) {
+  const Agreement& agreement = GetParam();
+  EXPECT_EQ(crowd_->state_names().size(),
+            std::count_if(series_.columns.begin(), series_.columns.end(),
+                          [](const auto& name) { return name.starts_with("n_"); }));
+  std::map<double, const std::vector<std::string>*> moments;
+  for (const auto& row : series_.rows) moments[series_.number(row, "time")] = &row;
+  for (const auto& [time_s, places] : places_) moments.try_emplace(time_s, nullptr);
+  for (const auto& [time_s, row] : moments) {
+    if (time_s > agreement.run_until_s) break;
+    advance_to(time_s);
+    if (crowd_->all_final()) break;
+    if (time_s <= agreement.places_until_s) expect_places(time_s);
+    if (row != nullptr && time_s <= agreement.places_until_s) expect_spread(*row);
+    if (row != nullptr && time_s <= agreement.states_until_s) expect_states(*row);
+  }
+  if (agreement.end_share == 0) return;
+  const double end_s = series_.number(series_.rows.back(), "time");
+  advance_to(2 * end_s);
+  EXPECT_NEAR(crowd_->time_s(), end_s, agreement.end_share * end_s);
 }
 
-class MengeReference : public testing::TestWithParam<std::string> {};
+constexpr double kEndless = 0;
+constexpr double kChaotic = 0.4;  // Menge's own runs are as far apart
 
-TEST_P(MengeReference, ArrivalsAndSpeedsAgree) {
-  const std::string name = GetParam();
-  const auto series_file = kExamples / "reference" / ("core_" + name + ".csv");
-  if (!std::filesystem::exists(series_file)) GTEST_SKIP() << "no reference series here";
-  Simulation crowd(kExamples / name / (name + "S.xml"), kExamples / name / (name + "B.xml"), {});
-  double speed_difference = 0;
-  std::size_t seconds = 0;
-  double menge_half_s = 0;
-  double half_s = 0;
-  for (const Row& row : read_series(series_file)) {
-    while (crowd.time_s() < row.time_s - 1e-6) crowd.step();
-    double speed = 0;
-    for (const Eigen::Vector2f& v : crowd.velocities()) speed += v.norm();
-    speed /= static_cast<double>(crowd.agent_count());
-    if (menge_half_s == 0 && row.in_final_state >= 0.5) menge_half_s = row.time_s;
-    if (half_s == 0 && share_in(crowd, "Stop") >= 0.5) half_s = row.time_s;
-    speed_difference += std::abs(speed - row.mean_speed);
-    ++seconds;
-  }
-  // The agents' noise differs, and the middle of such a crowd is chaotic.
-  EXPECT_LT(speed_difference / static_cast<double>(seconds), 0.12);
-  EXPECT_NEAR(half_s, menge_half_s, 0.15 * menge_half_s);
-  RecordProperty("half_arrived_s", std::to_string(half_s));
-  RecordProperty("half_arrived_menge_s", std::to_string(menge_half_s));
+std::vector<Agreement> agreements() {
+  const std::string events = "events/state_population_event/";
+  return {
+      {"boolean", "boolean", "orca", 40},
+      {"circle", "circle", "orca", 4, 12, kChaotic},
+      {"cross", "cross", "orca", 130, 130, kEndless},
+      {"4square", "4square", "orca", 10, 20, kChaotic},
+      {"profileSelect", "profileSelect", "orca", 25},
+      {"obstacleSwitch", "obstacleSwitch", "orca", 60.5, 60, kEndless, 61},
+      {"persistGoal", "persistGoal", "orca", 55, 55, kEndless, 60},
+      {"randomGoal", "randomGoal", "orca", 6, 8, kEndless, 10},
+      {"pedModelSwap", "pedModelSwap", "orca", 12.1, 20, kEndless, 20},
+      {"events_change_state_effect_change_state", "events/change_state_effect/change_state", "orca",
+       24.5},
+      {"events_state_population_event_do_decrease", events + "do_decrease", "orca", 11.5, 1000,
+       kChaotic},
+      {"events_state_population_event_do_increase", events + "do_increase", "orca", 11.5, 1000,
+       kChaotic},
+      {"events_state_population_event_drop_to", events + "drop_to", "orca", 25.5},
+      {"events_state_population_event_rise_to", events + "rise_to", "orca", 25.5},
+      {"cross__pedvo", "cross", "pedvo", 130, 130, kEndless},
+      {"4square__pedvo", "4square", "pedvo", 12.1, 20, kEndless, 20},
+      {"pedModelSwap__pedvo", "pedModelSwap", "pedvo", 12.1, 20, kEndless, 20},
+  };
 }
 
-INSTANTIATE_TEST_SUITE_P(Core, MengeReference, testing::Values("circle", "4square"));
+INSTANTIATE_TEST_SUITE_P(Core, MengeReference, testing::ValuesIn(agreements()),
+                         [](const auto& tested) {
+                           std::string name = tested.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace throng::crowd
