@@ -1,0 +1,144 @@
+#include "crowd/project.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "crowd/model.h"
+#include "crowd/xml.h"
+
+namespace throng::crowd {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kHighestSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr double kLongestRunS = 1e7;
+constexpr std::uint64_t kSeedInsteadOfClock = 1;
+
+template <std::size_t N>
+std::size_t index_of(std::string_view word, const std::array<std::string_view, N>& words,
+                     const char* what) {
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end()) {
+    throw InputError(Problem{"", what, in_quotes(word) + did_you_mean(word, words),
+                             fmt::format("one of {}", fmt::join(words, ", "))});
+  }
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+template <std::size_t N>
+std::vector<std::string_view> listed(const std::array<std::string_view, N>& words) {
+  return {words.begin(), words.end()};
+}
+
+/// A file that an attribute names, which has to be there.
+fs::path require_file(const Element& element, const Attributes& attributes, const char* name) {
+  if (!attributes.has(name)) return {};
+  fs::path path = element.file_beside(attributes.text(name));
+  if (!fs::is_regular_file(path)) {
+    element.fail_attribute(name, fmt::format("{}, which is no file", path.string()),
+                           "a file, relative to the project's folder");
+  }
+  return path;
+}
+
+std::uint64_t seed_of(const Element& element, const Attributes& attributes) {
+  const long long given = attributes.integer("random");
+  if (given != 0) return static_cast<std::uint64_t>(given);
+  if (element.attribute("random")) {
+    element.warn_attribute("random", "0, which makes every run of Menge another one; here it is 1",
+                           "a seed above 0");
+  }
+  return kSeedInsteadOfClock;
+}
+
+std::string model_of(const Element& element, const Attributes& attributes) {
+  const std::string& name = attributes.text("model");
+  try {
+    return std::string(find_model(name).name);
+  } catch (const InputError& error) {
+    element.fail_attribute("model", error.problems().front().found,
+                           error.problems().front().expected);
+  }
+}
+
+std::optional<double> time_step_of(const Element& element, const Attributes& attributes) {
+  constexpr double kShortestS = 1e-4;
+  const double time_step_s = attributes.number("timeStep");
+  if (time_step_s <= 0) return std::nullopt;
+  if (time_step_s < kShortestS) {
+    element.fail_attribute("timeStep", fmt::format("{} s", time_step_s),
+                           fmt::format("at least {} s", kShortestS));
+  }
+  return time_step_s;
+}
+
+void require_file(const fs::path& path, const char* what) {
+  if (!fs::is_regular_file(path)) {
+    throw InputError(Problem{path.string(), what, path.empty() ? "nothing" : "no file",
+                             fmt::format("the {} file of a run", what)});
+  }
+}
+
+}  // namespace
+
+Compat compat_of(std::string_view word) {
+  return static_cast<Compat>(index_of(word, kCompatWords, "compat"));
+}
+
+bool is_hard(std::string_view separation) {
+  return index_of(separation, kSeparationWords, "separation") == 1;
+}
+
+AttributeTable project_attributes() {
+  return {
+      optional(text("scene", "scene file")),
+      optional(text("behavior", "behaviour file")),
+      optional(text("model", "pedestrian model"), "orca"),
+      optional(number("duration", "longest time to simulate, in s", 0, kLongestRunS), "400"),
+      optional(number("timeStep", "in s; not above 0: as the scene says", -kFarthest, 10), "-1"),
+      optional(integer("subSteps", "steps in between that are not recorded", 0, 1000), "0"),
+      optional(integer("random", "seed; 0 is taken for 1", 0, kHighestSeed), "0"),
+      optional(word("compat", listed(kCompatWords), "whose results are wanted"), "none"),
+      optional(
+          word("separation", listed(kSeparationWords), "hard: bodies overlap by no more than 1 cm"),
+          "soft"),
+      optional(text("output", "trajectory file to write: .scb or .h5")),
+      optional(word("scbVersion", listed(kScbVersions), "of an .scb file"), "2.1"),
+      optional(text("view", "camera and lights of Menge's viewer; not used")),
+      optional(text("dumpPath", "folder of Menge's screenshots; not used")),
+  };
+}
+
+Project load_project(const fs::path& file) {
+  require_file(file, "project");
+  const XmlFile xml(file, "Project");
+  const Element element = xml.root();
+  const Attributes attributes(element, project_attributes());
+  for (const Element& child : element.children()) child.warn("an element", "none in a project");
+  Project project;
+  project.scene_file = require_file(element, attributes, "scene");
+  project.behavior_file = require_file(element, attributes, "behavior");
+  project.options.model = model_of(element, attributes);
+  project.options.seed = seed_of(element, attributes);
+  project.options.compat = compat_of(attributes.text("compat"));
+  project.options.hard_separation = is_hard(attributes.text("separation"));
+  project.options.sub_steps = static_cast<int>(attributes.integer("subSteps"));
+  project.options.time_step_s = time_step_of(element, attributes);
+  project.duration_s = attributes.number("duration");
+  if (attributes.has("output")) project.output = element.file_beside(attributes.text("output"));
+  project.scb_version = attributes.text("scbVersion");
+  project.warnings = xml.warnings();
+  return project;
+}
+
+Simulation load_simulation(const Project& project) {
+  require_file(project.scene_file, "scene");
+  require_file(project.behavior_file, "behaviour");
+  return {project.scene_file, project.behavior_file, project.options};
+}
+
+}  // namespace throng::crowd

@@ -1,0 +1,46 @@
+// A Menge project file: which scene and behaviour are run, with which model, for how long.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "crowd/attributes.h"
+#include "crowd/scb.h"
+#include "crowd/simulation.h"
+
+namespace throng::crowd {
+
+/// The words for Compat, in its order.
+inline constexpr std::array<std::string_view, 3> kCompatWords = {"none", "menge", "huang2016"};
+/// The words for LoadOptions::hard_separation, false first.
+inline constexpr std::array<std::string_view, 2> kSeparationWords = {"soft", "hard"};
+
+/// Throws InputError for a word that is not in kCompatWords.
+Compat compat_of(std::string_view word);
+/// Throws InputError for a word that is not in kSeparationWords.
+bool is_hard(std::string_view separation);
+
+struct Project {
+  std::filesystem::path scene_file;  ///< empty when it is not given
+  std::filesystem::path behavior_file;
+  LoadOptions options;
+  double duration_s = 400;             ///< no longer than this
+  std::filesystem::path output;        ///< trajectories, empty: none
+  std::string scb_version = "2.1";     ///< of an .scb output, one of kScbVersions
+  std::vector<Problem> warnings = {};  ///< what was ignored
+};
+
+/// The attributes of <Project>.
+AttributeTable project_attributes();
+
+/// Reads a <Project>. What it names is relative to its folder. Throws InputError, also when there
+/// is no such file, EnvironmentError when it cannot be read.
+Project load_project(const std::filesystem::path& file);
+
+/// The simulation that the project describes. Throws InputError and EnvironmentError like
+/// Simulation's constructor, and InputError when there is no such file.
+Simulation load_simulation(const Project& project);
+
+}  // namespace throng::crowd

@@ -1,0 +1,176 @@
+#include "crowd/vocabulary.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include "crowd/agent_groups.h"
+#include "crowd/agents.h"
+#include "crowd/behavior.h"
+#include "crowd/events.h"
+#include "crowd/generators.h"
+#include "crowd/goals.h"
+#include "crowd/model.h"
+#include "crowd/project.h"
+
+namespace throng::crowd {
+
+namespace {
+
+std::string name_of(const AttributeSpec& spec) {
+  if (spec.type == AttributeType::distribution) return fmt::format("{}dist ...", spec.name);
+  if (spec.type == AttributeType::distribution_2) return "dist ...";
+  return std::string(spec.name);
+}
+
+std::string type_of(const AttributeSpec& spec) {
+  switch (spec.type) {
+    case AttributeType::number:
+      return "number";
+    case AttributeType::integer:
+      return "integer";
+    case AttributeType::boolean:
+      return "0 or 1";
+    case AttributeType::text:
+      return spec.words.empty() ? "text" : fmt::format("one of {}", fmt::join(spec.words, ", "));
+    case AttributeType::distribution:
+      return "distribution";
+    case AttributeType::distribution_2:
+      return "distribution of points";
+  }
+  return {};
+}
+
+/// Limits that only keep numbers sane are not worth saying.
+std::string range_of(double min, double max) {
+  if (min <= -kFarthest && max >= kFarthest) return {};
+  if (max >= kFarthest) return fmt::format("at least {:g}", min);
+  if (min <= -kFarthest) return fmt::format("at most {:g}", max);
+  return fmt::format("{:g} to {:g}", min, max);
+}
+
+VocabularyAttribute described(const AttributeSpec& spec) {
+  const bool has_range = spec.type == AttributeType::number ||
+                         spec.type == AttributeType::integer ||
+                         spec.type == AttributeType::distribution;
+  return {.name = name_of(spec),
+          .type = type_of(spec),
+          .required = spec.presence == Presence::required,
+          .default_text = std::string(spec.default_text),
+          .range = has_range ? range_of(spec.min, spec.max) : std::string(),
+          .help = std::string(spec.help)};
+}
+
+VocabularyAttribute described(const ModelParameter& parameter) {
+  return {.name = std::string(parameter.name),
+          .type = "number",
+          .default_text = fmt::format("{:g}", parameter.initial),
+          .range = range_of(parameter.min, parameter.max),
+          .help = std::string(parameter.help)};
+}
+
+std::vector<VocabularyAttribute> described(const AttributeTable& table) {
+  std::vector<VocabularyAttribute> all;
+  for (const AttributeSpec& spec : table) all.push_back(described(spec));
+  return all;
+}
+
+std::vector<VocabularyAttribute> described(const std::vector<ModelParameter>& table) {
+  std::vector<VocabularyAttribute> all;
+  for (const ModelParameter& parameter : table) all.push_back(described(parameter));
+  return all;
+}
+
+template <typename Product, typename Context>
+VocabularyKind of(const Registry<Product, Context>& registry, std::string title,
+                  std::string element) {
+  VocabularyKind kind{std::move(title), std::move(element), {}};
+  for (const auto& entry : registry.entries()) {
+    // The first attribute is the type itself.
+    const AttributeTable rest(entry.attributes.begin() + 1, entry.attributes.end());
+    kind.entries.push_back({std::string(entry.type), std::string(entry.help), described(rest)});
+  }
+  return kind;
+}
+
+VocabularyKind project() {
+  return {"Project",
+          "the root of a project file",
+          {{"Project", "what is run, and for how long", described(project_attributes())}}};
+}
+
+VocabularyKind pedestrian_models() {
+  VocabularyKind kind{"Pedestrian models", "`model` of a project, or `--model`", {}};
+  for (const ModelEntry& model : models()) {
+    kind.entries.push_back({std::string(model.name), std::string(model.help), {}});
+  }
+  return kind;
+}
+
+VocabularyKind model_constants() {
+  VocabularyKind kind{"Models in a scene", "an element of <Experiment>, for all agents", {}};
+  for (const ModelEntry& model : models()) {
+    if (model.constants.empty()) continue;
+    kind.entries.push_back({std::string(model.tag), fmt::format("the model {}", model.name),
+                            described(model.constants)});
+  }
+  return kind;
+}
+
+VocabularyKind model_parameters() {
+  VocabularyKind kind{
+      "Models in a profile",
+      "an element of <AgentProfile>; each attribute may be a <Property name dist ...> instead",
+      {}};
+  for (const ModelEntry& model : models()) {
+    if (model.parameters.empty()) continue;
+    kind.entries.push_back({std::string(model.tag), fmt::format("the model {}", model.name),
+                            described(model.parameters)});
+  }
+  return kind;
+}
+
+VocabularyKind properties() {
+  VocabularyEntry common{"Common", "what all models know of an agent", {}};
+  for (const PropertySpec& spec : kProperties) {
+    common.attributes.push_back({.name = std::string(spec.name),
+                                 .type = "number",
+                                 .default_text = fmt::format("{:g}", spec.initial),
+                                 .range = range_of(spec.min, spec.max),
+                                 .help = std::string(spec.help)});
+  }
+  return {"Agents' properties",
+          "an element of <AgentProfile>; each attribute may be a <Property name dist ...> instead",
+          {std::move(common)}};
+}
+
+}  // namespace
+
+std::vector<VocabularyKind> vocabulary() {
+  std::vector<VocabularyKind> all = {
+      project(),
+      pedestrian_models(),
+      model_constants(),
+      properties(),
+      model_parameters(),
+      of(profile_selector_registry(), "Profile selectors", "<ProfileSelector> in <AgentGroup>"),
+      of(state_selector_registry(), "State selectors",
+         "<StateSelector> in <AgentGroup> or <Effect>"),
+      of(generator_registry(), "Generators", "<Generator> in <AgentGroup>"),
+      of(goal_registry(), "Goals", "<Goal> in <GoalSet>"),
+      of(goal_selector_registry(), "Goal selectors", "<GoalSelector> in <State>"),
+      of(vel_component_registry(), "Velocity components", "<VelComponent> in <State>"),
+      of(vel_modifier_registry(), "Velocity modifiers",
+         "<VelModifier> in <State>, <BFSM> or <AgentProfile>"),
+      of(action_registry(), "Actions", "<Action> in <State>"),
+      of(condition_registry(), "Conditions", "<Condition> in <Transition>"),
+      of(target_registry(), "Targets", "<Target> in <Transition>"),
+      of(task_registry(), "Tasks", "<Task> in <BFSM>"),
+      of(event_trigger_registry(), "Triggers", "<Trigger> in <Event>"),
+      of(event_target_registry(), "Targets of events", "<Target> in <EventSystem>"),
+      of(event_effect_registry(), "Effects of events", "<Effect> in <EventSystem>"),
+  };
+  std::erase_if(all, [](const VocabularyKind& kind) { return kind.entries.empty(); });
+  return all;
+}
+
+}  // namespace throng::crowd
