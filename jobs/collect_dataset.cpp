@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/version.h"
 #include "jobs/manifest.h"
+#include "jobs/people.h"
 #include "jobs/pipeline.h"
 #include "jobs/publication.h"
 
@@ -110,6 +111,7 @@ class Collector {
         {"generator", kGenerator},
         {"job", to_json(job_)},
         {"devices", devices_},
+        {"people", {{"content_hash", pinned_people(folder_)}}},
         {"counts", {{"frames", images_}, {"annotations", annotations_}, {"agents", agents_}}},
         {"runs", std::move(runs)},
         {"files", files_}};

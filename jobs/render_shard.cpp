@@ -13,6 +13,7 @@
 #include "camera/camera.h"
 #include "jobs/gimbal.h"
 #include "jobs/light.h"
+#include "jobs/people.h"
 #include "jobs/pipeline.h"
 #include "jobs/publication.h"
 #include "render/animator.h"
@@ -124,6 +125,7 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
   const world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, shard.run}));
   const skinning::Population population = skinning::load_population(skinning::population_folder());
+  pin_people(folder, population.content_hash);
   const render::Animator animator(trace, population);
   render::Renderer renderer(scenario, population, sun_at(job.time_of_day_h));
 

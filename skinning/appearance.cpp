@@ -12,36 +12,46 @@ namespace throng::skinning {
 
 namespace {
 
-// The characters of agents block * count .. in an order of their own, so that within a block
-// nobody has a twin.
-std::uint32_t shuffled_character(std::uint64_t seed, std::uint32_t block, std::uint32_t slot,
-                                 std::uint32_t count) {
-  constexpr std::uint64_t kBlocks = std::uint64_t{1} << 40;  // apart from the agents' own indices
-  Random random(seed, Stream::appearance, kBlocks + block);
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  for (std::uint32_t i = count - 1; i > 0; --i) std::swap(order[i], order[random.below(i + 1)]);
-  return order[slot];
+constexpr std::uint64_t kOrders = std::uint64_t{1} << 40;  // apart from the agents' own indices
+constexpr std::uint64_t kColours = std::uint64_t{1} << 41;
+
+void shuffle(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end,
+             Random& random) {
+  for (std::size_t i = end; i > begin + 1; --i) {
+    std::swap(order[i - 1], order[begin + random.below(static_cast<std::uint32_t>(i - begin))]);
+  }
 }
 
+// Agents come in blocks in which everybody occurs once. The people are dealt into two halves for
+// the whole run, and each block has the one half in an order of its own before the other: between
+// two agents with the same character there is always at least the other half.
 std::uint32_t character_of(std::uint64_t seed, std::uint32_t agent, std::uint32_t count) {
-  const std::uint32_t block = agent / count;
-  const std::uint32_t slot = agent % count;
-  const std::uint32_t character = shuffled_character(seed, block, slot, count);
-  if (block == 0 || slot > 1 || count < 3) return character;
-  // Where two blocks meet, the first two of the later one change places if the first would repeat
-  // the last of the earlier one.
-  const std::uint32_t first = shuffled_character(seed, block, 0, count);
-  const std::uint32_t before = shuffled_character(seed, block - 1, count - 1, count);
-  return first == before ? shuffled_character(seed, block, 1 - slot, count) : character;
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  Random dealing(seed, Stream::appearance, kOrders);
+  shuffle(order, 0, count, dealing);
+  Random ordering(seed, Stream::appearance, kOrders + 1 + agent / count);
+  const std::size_t half = (count + 1) / 2;
+  shuffle(order, 0, half, ordering);
+  shuffle(order, half, count, ordering);
+  return order[agent % count];
+}
+
+// Which of its colours a character shows in a block: the next one each time, from a start of its
+// own, and the kinds of things drift against each other, so that equal outfits are far apart.
+std::size_t colour_number(std::uint64_t seed, std::uint32_t character, std::size_t tint,
+                          std::uint32_t block, std::size_t colours) {
+  Random random(seed, Stream::appearance, kColours + kTintCount * character + tint);
+  const std::uint64_t start = random.below(static_cast<std::uint32_t>(colours));
+  return (start + block + tint * (block / colours)) % colours;
 }
 
 // The same colour in slightly different cloth.
 Rgb varied(const Rgb& colour, Random& random) {
-  const double light = random.uniform(0.9, 1.08);
+  const double light = random.uniform(0.86, 1.1);
   Rgb result{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double value = colour[channel] * light * random.uniform(0.97, 1.03);
+    const double value = colour[channel] * light * random.uniform(0.95, 1.05);
     result[channel] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
   }
   return result;
@@ -59,12 +69,14 @@ Appearance appearance_of(const Population& population, std::uint64_t run_seed,
   appearance.phase_offset = static_cast<float>(random.uniform());
   appearance.cadence = static_cast<float>(random.uniform(0.97, 1.03));
   const Character& character = population.characters[appearance.character];
+  const std::uint32_t block = agent / static_cast<std::uint32_t>(population.characters.size());
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {
     const std::vector<Rgb>& colours = character.tints[tint];
     appearance.tint[tint] = {255, 255, 255};
     if (colours.empty()) continue;
-    const Rgb& colour = colours[random.below(static_cast<std::uint32_t>(colours.size()))];
-    appearance.tint[tint] = varied(colour, random);
+    const std::size_t number =
+        colour_number(run_seed, appearance.character, tint, block, colours.size());
+    appearance.tint[tint] = varied(colours[number], random);
   }
   return appearance;
 }

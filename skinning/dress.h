@@ -15,7 +15,6 @@ namespace throng::skinning {
 struct DressedPerson {
   std::vector<Surface> surfaces;      ///< the skin first
   std::vector<Eigen::Vector3f> body;  ///< every body vertex in the A-pose
-  std::vector<bool> covered;          ///< per body vertex: under clothes
   Joints joints;                      ///< standing neutrally
   Palette to_neutral;                 ///< from the A-pose
   float stature_m = 0;                ///< sole of the shoes to crown

@@ -195,7 +195,10 @@ void MakeHuman::load_base_mesh() {
   as_known(path, [&] {
     positions_ = read_positions(mesh);
     uvs_ = read_uvs(mesh);
-    skin_ = read_quads(mesh, path, 0, positions_.size(), uvs_.size());
+    constexpr int kBodyMaterial = 0;
+    constexpr int kSkirtMaterial = 2;
+    skin_ = read_quads(mesh, path, kBodyMaterial, positions_.size(), uvs_.size());
+    skirt_ = read_quads(mesh, path, kSkirtMaterial, positions_.size(), uvs_.size());
     joints_ = mesh.at("metadata").at("joint_pos_idxs").get<decltype(joints_)>();
     for (const auto& [name, vertices] : joints_) {
       for (const std::uint32_t vertex : vertices) static_cast<void>(positions_.at(vertex));

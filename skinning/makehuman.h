@@ -41,6 +41,7 @@ struct Proxy {
   std::vector<Anchor> anchors;             ///< per vertex
   std::vector<BoneWeights> weights;        ///< per vertex
   std::vector<bool> hides;                 ///< per body vertex: covered, so not drawn
+  std::vector<bool> tucks;  ///< per body vertex: covered, so kept from showing through
 };
 
 /// What the sliders of the body mean; every value in [0, 1].
@@ -72,6 +73,8 @@ class MakeHuman {
 
   /// Faces of the skin, without helpers.
   const std::vector<Quad>& skin() const { return skin_; }
+  /// Faces of the helper skirt, a cone around the legs.
+  const std::vector<Quad>& skirt() const { return skirt_; }
   const std::vector<Eigen::Vector2f>& uvs() const { return uvs_; }
   const std::vector<BoneWeights>& weights() const { return weights_; }
   const std::vector<Eigen::Vector3f>& base_positions() const { return positions_; }
@@ -104,6 +107,7 @@ class MakeHuman {
 
   std::filesystem::path folder_;
   std::vector<Quad> skin_;
+  std::vector<Quad> skirt_;
   std::vector<Eigen::Vector2f> uvs_;
   std::vector<Eigen::Vector3f> positions_;
   std::vector<BoneWeights> weights_;

@@ -1,15 +1,12 @@
-// One sampled person: who they are and what they wear. Everything here is a pure function of the
-// population's seed and the person's index.
+// One sampled person: who they are, how they are built and what they wear. Everything here is a
+// pure function of the population's seed, the person's index and the options.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "skinning/makehuman.h"
-#include "skinning/population.h"
+#include "skinning/outfit.h"
 
 namespace throng::skinning {
 
@@ -20,31 +17,28 @@ struct PersonSpec {
   double height_m = 1.7;  ///< barefoot
   BodyShape shape;        ///< its height slider is still to be solved
   std::string skin;       ///< folder below public/data/skins
-  std::string top;        ///< suit whose upper part is worn; equal to `bottom` for an overall
-  std::string bottom;
-  std::string shoes;
-  std::string hair;
   std::string eyebrows;
   std::string eyes;  ///< texture of the eyes
-  /// Colours that suit this person, by Tint.
-  std::array<std::vector<Rgb>, kTintCount> tints;
+  Outfit outfit;
 };
 
-/// Person `index` of the population with this seed. Adult heights are normal, 1.76 +- 0.07 m for
-/// men and 1.63 +- 0.065 m for women; every eighth person is a child.
-PersonSpec sample_person(std::uint64_t seed, int index);
+/// Person `index` of the population with this seed.
+///
+/// Half are women. Of all people 12 % are 6 to 17 years old, 42 % 18 to 39, 32 % 40 to 64 and 14 %
+/// 65 to 85, evenly within each range. Adult heights are normal, 1.76 +- 0.07 m for men and 1.63
+/// +- 0.065 m for women; children follow the WHO's growth reference, and from 40 on people shrink
+/// (see person.cpp). Weight and muscle are normal on MakeHuman's scales, with one adult of ten
+/// drawn from the heavy end. Ancestry: 48 % mostly Caucasian, 26 % Asian, 26 % African; a quarter
+/// at most is mixed in. Age, sex and ancestry are drawn from a sequence that spreads evenly, so
+/// that small populations hold everybody too.
+PersonSpec sample_person(std::uint64_t seed, int index, bool with_attribution = false);
 
-/// What the wardrobe knows of a garment.
-struct Suit {
-  std::string_view name;
-  bool top_for_men;
-  bool top_for_women;
-  bool bottom_for_men;
-  bool bottom_for_women;
-  bool overall;  ///< top and bottom only go together
-};
+/// Median height of children in metres, for ages from 6 to 18 (de Onis et al. 2007, the WHO growth
+/// reference for school-aged children).
+double child_height_m(bool male, double age_years);
 
-/// The suits of the CC0 whitelist that are used.
-extern const std::vector<Suit> kSuits;
+/// How much shorter an adult has become, in metres: 3 cm by 70 for men and 5 cm for women (Sorkin
+/// et al. 1999), growing with the square of the years after 40.
+double height_lost_m(bool male, double age_years);
 
 }  // namespace throng::skinning

@@ -84,6 +84,7 @@ json json_of(const Character& character) {
 PopulationIndex parse_index(const json& document) {
   PopulationIndex index;
   index.content_hash = document.at("content_hash").get<std::string>();
+  index.licence = document.at("licence").get<std::string>();
   index.texture_size = document.at("texture_size").get<int>();
   for (const json& entry : document.at("characters")) {
     index.characters.push_back(parse_character(entry));
@@ -103,9 +104,21 @@ PopulationIndex parse_index(const json& document) {
 
 }  // namespace
 
-std::string encode_index(const PopulationIndex& index, const std::string& licence) {
+std::string encode_character(const Character& character) { return json_of(character).dump(); }
+
+Character read_character(const fs::path& path) {
+  try {
+    return parse_character(json::parse(read_file(path)));
+  } catch (const json::exception& error) {
+    throw InputError({path.string(), "", error.what(), "a baked character"});
+  } catch (const std::out_of_range& error) {
+    throw InputError({path.string(), "", error.what(), "a baked character"});
+  }
+}
+
+std::string encode_index(const PopulationIndex& index) {
   json document = {{"format", kPopulationFormat}, {"content_hash", index.content_hash},
-                   {"licence", licence},          {"texture_size", index.texture_size},
+                   {"licence", index.licence},    {"texture_size", index.texture_size},
                    {"characters", json::array()}, {"clips", json::array()}};
   for (const Character& character : index.characters) {
     document["characters"].push_back(json_of(character));

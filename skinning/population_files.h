@@ -17,16 +17,22 @@ inline constexpr const char* kPalettesFile = "palettes.bin";
 /// population.json.
 struct PopulationIndex {
   std::string content_hash;  ///< of everything that the people were made from
+  std::string licence;       ///< SPDX expression
   int texture_size = 0;
   std::vector<Character> characters;  ///< without their levels, which are in <name>.glb
   std::vector<Clip> clips;
   std::uint32_t palettes_per_character = 0;
 };
 
-std::string encode_index(const PopulationIndex& index, const std::string& licence);
+std::string encode_index(const PopulationIndex& index);
 
 /// Throws InputError naming what is missing or malformed.
 PopulationIndex read_index(const std::filesystem::path& folder);
+
+/// One character of the index on its own.
+inline constexpr const char* kCharacterExtension = ".character.json";
+std::string encode_character(const Character& character);
+Character read_character(const std::filesystem::path& path);
 
 std::string encode_palettes(const std::vector<Palette>& palettes);
 

@@ -31,6 +31,24 @@ void compute_normals(Surface& surface, std::size_t source_count) {
 
 std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
+// A new vertex between two.
+std::uint32_t add_between(Surface& surface, std::uint32_t a, std::uint32_t b, float share_of_b) {
+  const float share_of_a = 1 - share_of_b;
+  surface.source.push_back(surface.source[share_of_b < 0.5F ? a : b]);
+  surface.fitted.push_back(share_of_a * surface.fitted[a] + share_of_b * surface.fitted[b]);
+  surface.positions.push_back(share_of_a * surface.positions[a] +
+                              share_of_b * surface.positions[b]);
+  surface.normals.push_back(
+      (share_of_a * surface.normals[a] + share_of_b * surface.normals[b]).normalized());
+  surface.uvs.push_back(share_of_a * surface.uvs[a] + share_of_b * surface.uvs[b]);
+  BoneWeights weights;
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    weights[bone] = share_of_a * surface.weights[a][bone] + share_of_b * surface.weights[b][bone];
+  }
+  surface.weights.push_back(weights);
+  return static_cast<std::uint32_t>(surface.source.size() - 1);
+}
+
 }  // namespace
 
 Surface make_surface(std::span<const Quad> quads, std::span<const Eigen::Vector2f> uvs,
@@ -88,6 +106,49 @@ void set_weights(Vertex& vertex, const BoneWeights& weights) {
   }
   vertex.bones[0] = static_cast<std::uint8_t>(order[0]);
   vertex.weights[0] = static_cast<std::uint8_t>(left);
+}
+
+void cut_surface(Surface& surface, std::span<const float> value) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> borders;
+  const auto border_on = [&](std::uint32_t in, std::uint32_t out) {
+    const auto [entry, is_new] = borders.try_emplace({in, out}, 0);
+    if (is_new) {
+      entry->second = add_between(surface, in, out, value[in] / (value[in] - value[out]));
+    }
+    return entry->second;
+  };
+  std::vector<std::uint32_t> kept;
+  for (std::size_t at = 0; at < surface.indices.size(); at += 3) {
+    std::vector<std::uint32_t> polygon;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t here = surface.indices[at + corner];
+      const std::uint32_t next = surface.indices[at + (corner + 1) % 3];
+      if (value[here] >= 0) polygon.push_back(here);
+      if (value[here] >= 0 && value[next] < 0) polygon.push_back(border_on(here, next));
+      if (value[here] < 0 && value[next] >= 0) polygon.push_back(border_on(next, here));
+    }
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+      kept.insert(kept.end(), {polygon[0], polygon[i], polygon[i + 1]});
+    }
+  }
+  surface.indices = std::move(kept);
+}
+
+std::uint32_t add_turned(Surface& surface, std::uint32_t vertex) {
+  const std::uint32_t turned = add_between(surface, vertex, vertex, 0);
+  surface.normals[turned] = -surface.normals[turned];
+  return turned;
+}
+
+void append(Mesh& mesh, const Mesh& more) {
+  const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto first_index = static_cast<std::uint32_t>(mesh.indices.size());
+  mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
+  for (const std::uint32_t index : more.indices) mesh.indices.push_back(first_vertex + index);
+  for (Part part : more.parts) {
+    part.first_index += first_index;
+    mesh.parts.push_back(part);
+  }
 }
 
 void simplify(Surface& surface, std::size_t triangles) {

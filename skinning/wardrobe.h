@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "skinning/garments.h"
 #include "skinning/image.h"
 #include "skinning/makehuman.h"
 #include "skinning/person.h"
@@ -21,41 +24,68 @@ struct Garment {
   std::string texture;  ///< key of Wardrobe::textures
 };
 
+/// One thing that somebody wears: its pieces, and the skin that it hides.
+struct Worn {
+  const Proxy* proxy = nullptr;
+  std::vector<Garment> pieces;
+};
+
 /// Everything that a set of people wears, loaded once; read-only afterwards.
 class Wardrobe {
  public:
   /// Loads what `people` wear. Textures become squares of `texture_size`; those of tinted pieces
-  /// are reduced to light and shade, with the median of the piece at kMedianShade.
+  /// are light and shade, with the median at kMedianShade.
   Wardrobe(const MakeHuman& makehuman, const std::vector<PersonSpec>& people, int texture_size);
 
-  /// The pieces of a proxy that are worn as `tint`; empty when it has none.
-  const std::vector<Garment>& pieces(const std::string& proxy, Tint tint) const;
-  const Proxy& proxy(const std::string& name) const { return proxies_.at(name); }
+  /// What the outfit has in a place; no pieces and no proxy where it has nothing.
+  const Worn& top(const Outfit& outfit) const;
+  const Worn& bottom(const Outfit& outfit) const;
+  const Worn& shoes(const Outfit& outfit) const;
+  const Worn& hat(const Outfit& outfit) const;
+  const Worn& hair(const Outfit& outfit) const;
+  const Worn& eyebrows(const std::string& name) const;
+  const Proxy& eyes() const { return *eyes_; }
+
+  /// Author of a proxy that is worn, as the package names them; empty when it does not.
+  const std::string& author_of(const std::string& proxy) const;
 
   /// By key. The keys of skins and eyes are their names.
   const std::map<std::string, Image>& textures() const { return textures_; }
 
  private:
-  void add_suit(const std::string& name);
-  void add_shoes(const std::string& name);
-  void add_whole(const std::string& kind, const std::string& name, Tint tint);
+  /// Which part of a suit, in which cloth, coloured how.
+  struct Key {
+    std::string name;
+    Slot slot = Slot::top;
+    Cloth cloth = Cloth::plain;
+    Tint tint = Tint::none;
+    auto operator<=>(const Key&) const = default;
+  };
+  static Key key_of_top(const Outfit& outfit);
+  static Key key_of_bottom(const Outfit& outfit);
+
+  const Worn& find(const Key& key) const;
+  void add(const Key& key);
+  void add_clothes(const Key& key, Worn& worn);
+  void add_shoes(const Key& key, Worn& worn);
+  void add_head(const Key& key, Worn& worn);
   const Proxy& load(const std::string& kind, const std::string& name);
-  void add_piece(Garment garment, Tint worn_as, const std::filesystem::path& picture,
-                 const std::string& key);
+  void add_piece(Worn& worn, Garment garment, Cloth cloth, const std::filesystem::path& folder);
   void add_picture(const std::string& key, const std::filesystem::path& picture);
 
   const MakeHuman* makehuman_;
   int texture_size_;
+  const Proxy* eyes_ = nullptr;
   std::map<std::string, Proxy> proxies_;
-  std::map<std::pair<std::string, Tint>, std::vector<Garment>> pieces_;
+  std::map<Key, Worn> worn_;
   std::map<std::string, Image> textures_;
 };
 
-/// sRGB value that the median of a tinted piece's texture has: bright enough for white shirts,
-/// dark enough to leave room for highlights.
-inline constexpr std::uint8_t kMedianShade = 205;
-
 /// The picture of a skin, e.g. "old_asian_male". Throws InputError when the package has none.
 std::filesystem::path skin_picture(const std::filesystem::path& package, const std::string& skin);
+
+/// The package's folders that hold what these people are made of besides their bodies.
+std::set<std::filesystem::path> folders_used(const std::filesystem::path& package,
+                                             const std::vector<PersonSpec>& people);
 
 }  // namespace throng::skinning

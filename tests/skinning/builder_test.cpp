@@ -1,10 +1,19 @@
 #include "skinning/builder.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <map>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "skinning/notice.h"
 #include "skinning/population.h"
+#include "skinning/population_files.h"
+#include "skinning/wardrobe.h"
+#include "skinning/workbench.h"
 
 namespace throng::skinning {
 namespace {
@@ -60,6 +69,9 @@ TEST_F(BuilderTest, OptionsOutOfRangeAreRefused) {
   BuildOptions none;
   none.count = 0;
   EXPECT_THROW(build_population(folder, folder / "out", none), InputError);
+  BuildOptions many;
+  many.count = 1001;
+  EXPECT_THROW(build_population(folder, folder / "out", many), InputError);
   BuildOptions tiny;
   tiny.texture_size = 1;
   EXPECT_THROW(build_population(folder, folder / "out", tiny), InputError);
@@ -73,36 +85,106 @@ TEST_F(BuilderTest, AFolderWithOtherThingsInItIsLeftAlone) {
   EXPECT_EQ(read_file(folder / "out/thesis.txt"), "three years of work");
 }
 
-TEST_F(BuilderTest, BakesTheSameTwiceAndOnlyWhenNeeded) {
-  if (!fs::exists(package_folder())) {
-    GTEST_SKIP() << "no " << package_folder() << ": run scripts/setup.sh";
+class BakingTest : public BuilderTest {
+ protected:
+  void SetUp() override {
+    BuilderTest::SetUp();
+    if (!fs::exists(package_folder())) {
+      GTEST_SKIP() << "no " << package_folder() << ": run scripts/setup.sh";
+    }
+    options.count = 1;
+    options.texture_size = 64;
   }
+
   BuildOptions options;
-  options.count = 1;
-  options.texture_size = 64;
   int baked = 0;
-  const BuildProgress count = [&](int, int) { ++baked; };
+  BuildProgress count = [&](int, int) { ++baked; };
+};
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    files[entry.path().filename().string()] = read_file(entry.path());
+  }
+  return files;
+}
+
+TEST_F(BakingTest, BakesTheSameTwiceAndOnlyWhenNeeded) {
   const fs::path first = folder / "first";
   const fs::path second = folder / "second";
   build_population(package_folder(), first, options, count);
   fs::create_directories(second);
   build_population(package_folder(), second, options, count);
   EXPECT_EQ(baked, 2);
-  int files = 0;
-  for (const auto& entry : fs::directory_iterator(first)) {
-    const std::string name = entry.path().filename().string();
-    EXPECT_EQ(read_file(entry.path()), read_file(second / name)) << name;
-    ++files;
-  }
-  EXPECT_EQ(files, 4);  // GLB, palettes, index, notice
-  EXPECT_NE(read_file(first / "NOTICE.txt").find("CC0"), std::string::npos);
+  EXPECT_EQ(files_in(first), files_in(second));
+  EXPECT_EQ(files_in(first).size(), 4U);  // GLB, palettes, index, notice
+  EXPECT_FALSE(fs::exists(folder / "first.part"));
 
   build_population(package_folder(), first, options, count);
   EXPECT_EQ(baked, 2) << "nothing has changed";
   options.seed = 2;
   build_population(package_folder(), first, options, count);
   EXPECT_EQ(baked, 3) << "other people are wanted";
-  EXPECT_EQ(load_population(first).texture_size, 64);
+  const Population people = load_population(first);
+  EXPECT_EQ(people.texture_size, 64);
+  EXPECT_EQ(people.content_hash, read_index(first).content_hash);
+  EXPECT_NE(people.content_hash, read_index(second).content_hash);
+}
+
+// What a build that was killed leaves behind is a bench with the people that were finished.
+TEST_F(BakingTest, GoesOnAfterAKill) {
+  options.count = 3;
+  const fs::path whole = folder / "whole";
+  build_population(package_folder(), whole, options, count);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    build_population(package_folder(), folder / "out", options, [](int done, int) {
+      if (done >= 1) ::raise(SIGKILL);
+    });
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+  ASSERT_TRUE(fs::exists(folder / "out.part"));
+
+  int first_done = 0;
+  build_population(package_folder(), folder / "out", options, [&](int done, int) {
+    if (first_done == 0) first_done = done;
+  });
+  EXPECT_GE(first_done, 1) << "somebody was finished already";
+  EXPECT_EQ(files_in(folder / "out"), files_in(whole));
+  EXPECT_FALSE(fs::exists(folder / "out.part"));
+}
+
+TEST_F(BakingTest, OneBuildAtATimeWritesAFolder) {
+  const Workbench other(folder / "out", "somebody else's");
+  EXPECT_THROW(build_population(package_folder(), folder / "out", options), EnvironmentError);
+}
+
+TEST_F(BakingTest, TheNoticeNamesEverythingThatIsWorn) {
+  options.count = 4;
+  for (const bool with_attribution : {false, true}) {
+    options.with_attribution = with_attribution;
+    std::vector<PersonSpec> people;
+    for (int i = 0; i < 60; ++i) people.push_back(sample_person(1, i, with_attribution));
+    const MakeHuman makehuman(package_folder());
+    const Wardrobe wardrobe(makehuman, people, 32);
+    const std::string notice = notice_text(people, wardrobe);
+    for (const PersonSpec& person : people) {
+      const Outfit& outfit = person.outfit;
+      for (const std::string& name : {outfit.top, outfit.bottom, outfit.shoes, outfit.hair,
+                                      outfit.hat, person.eyebrows, person.skin}) {
+        if (!name.empty()) {
+          EXPECT_NE(notice.find("- " + name), std::string::npos) << name;
+        }
+      }
+    }
+    EXPECT_EQ(notice.find("CC BY 3.0 (") != std::string::npos, with_attribution);
+    EXPECT_EQ(notice.find("punkduck") != std::string::npos, with_attribution);
+    EXPECT_EQ(licence_expression(people).find("CC-BY") != std::string::npos, with_attribution);
+  }
 }
 
 }  // namespace

@@ -45,6 +45,18 @@ Palette rest_palette() {
   return palette;
 }
 
+// Without what is carried, which may be above the head.
+std::vector<Vertex> worn_vertices(const Mesh& mesh) {
+  std::vector<Vertex> vertices;
+  for (const Part& part : mesh.parts) {
+    if (part.tint == Tint::item) continue;
+    for (std::uint32_t at = 0; at < part.index_count; ++at) {
+      vertices.push_back(mesh.vertices[mesh.indices[part.first_index + at]]);
+    }
+  }
+  return vertices;
+}
+
 TEST_F(PeopleTest, AreAtLeastEightAndAllDifferent) {
   ASSERT_GE(people_->characters.size(), 8U);
   std::set<std::string> names;
@@ -91,7 +103,7 @@ TEST_F(PeopleTest, LevelsGetSimpler) {
   for (const Character& character : people_->characters) {
     std::vector<std::size_t> triangles;
     for (const Mesh& mesh : character.levels) triangles.push_back(mesh.indices.size() / 3);
-    EXPECT_LE(triangles[0], 9000U) << character.name;
+    EXPECT_LE(triangles[0], 8000U) << character.name;
     EXPECT_LE(triangles[1], 3600U) << character.name;
     EXPECT_LE(triangles[2], 1200U) << character.name;
     EXPECT_LE(triangles[3], 700U) << character.name;
@@ -109,7 +121,8 @@ TEST_F(PeopleTest, StatureIsThatOfTheMesh) {
       for (std::uint32_t at = 0; at < part.index_count; ++at) {
         const float z = mesh.vertices[mesh.indices[part.first_index + at]].position[2];
         sole = std::min(sole, z);
-        if (part.tint == Tint::none) crown = std::max(crown, z);
+        if (part.tint == Tint::none)
+          crown = std::max(crown, z);  // of the head, not of hair or hats
       }
     }
     EXPECT_NEAR(sole, 0, 0.01) << character.name;
@@ -123,7 +136,7 @@ TEST_F(PeopleTest, HeadsAreOnTopAndFeetBelowPointingForwards) {
   for (const Character& character : people_->characters) {
     float toes = 0;
     float heels = 0;
-    for (const Vertex& vertex : character.levels.front().vertices) {
+    for (const Vertex& vertex : worn_vertices(character.levels.front())) {
       const auto bone = static_cast<Bone>(vertex.bones[0]);
       if (vertex.position[2] > 0.95F * character.stature_m) {
         EXPECT_EQ(bone, Bone::head);
@@ -138,15 +151,16 @@ TEST_F(PeopleTest, HeadsAreOnTopAndFeetBelowPointingForwards) {
 }
 
 TEST_F(PeopleTest, LeftIsPositiveY) {
+  constexpr float kTouching_m = 0.01F;  // heavy legs touch
   for (const Character& character : people_->characters) {
     for (const Vertex& vertex : character.levels.front().vertices) {
       if (vertex.weights[0] < 250) continue;
       const auto bone = static_cast<Bone>(vertex.bones[0]);
       if (bone == Bone::left_hand || bone == Bone::left_shin) {
-        EXPECT_GT(vertex.position[1], 0);
+        EXPECT_GT(vertex.position[1], -kTouching_m);
       }
       if (bone == Bone::right_hand || bone == Bone::right_shin) {
-        EXPECT_LT(vertex.position[1], 0);
+        EXPECT_LT(vertex.position[1], kTouching_m);
       }
     }
   }
@@ -251,7 +265,7 @@ TEST_F(PeopleTest, LevelsKeepTheSilhouette) {
     const Palette& palette = people_->palette(i, pose_at(*people_, 0.1, 1.35, 0).a);
     for (const float yaw : {0.0F, 1.0F}) {
       const std::vector<bool> full = silhouette(character.levels[0], palette, yaw);
-      EXPECT_GT(overlap(full, silhouette(character.levels[1], palette, yaw)), 0.88)
+      EXPECT_GT(overlap(full, silhouette(character.levels[1], palette, yaw)), 0.85)
           << character.name;
       EXPECT_GT(overlap(full, silhouette(character.levels[2], palette, yaw)), 0.82)
           << character.name;

@@ -2,73 +2,252 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <set>
+
+#include "skinning/garments.h"
 
 namespace throng::skinning {
 namespace {
+
+constexpr int kMany = 2000;
+
+std::vector<PersonSpec> sample_many(std::uint64_t seed, bool with_attribution = false) {
+  std::vector<PersonSpec> people;
+  for (int i = 0; i < kMany; ++i) people.push_back(sample_person(seed, i, with_attribution));
+  return people;
+}
+
+std::vector<double> heights_of(const std::vector<PersonSpec>& people,
+                               const std::function<bool(const PersonSpec&)>& wanted) {
+  std::vector<double> heights;
+  for (const PersonSpec& person : people) {
+    if (wanted(person)) heights.push_back(person.height_m);
+  }
+  return heights;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double deviation_of(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double sum = 0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
+// Largest distance between the sample's distribution and a normal one (Kolmogorov, Smirnov).
+double distance_from_normal(std::vector<double> values, double mean, double deviation) {
+  std::sort(values.begin(), values.end());
+  double distance = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double expected = 0.5 * std::erfc(-(values[i] - mean) / deviation / std::numbers::sqrt2);
+    const auto count = static_cast<double>(values.size());
+    distance = std::max({distance, std::abs(expected - static_cast<double>(i) / count),
+                         std::abs(expected - static_cast<double>(i + 1) / count)});
+  }
+  return distance;
+}
 
 TEST(Person, DependsOnSeedAndIndexOnly) {
   const PersonSpec a = sample_person(3, 17);
   const PersonSpec b = sample_person(3, 17);
   EXPECT_EQ(a.height_m, b.height_m);
-  EXPECT_EQ(a.top, b.top);
+  EXPECT_EQ(a.outfit.top, b.outfit.top);
+  EXPECT_EQ(a.outfit.tints, b.outfit.tints);
   EXPECT_EQ(a.skin, b.skin);
   EXPECT_NE(a.height_m, sample_person(4, 17).height_m);
 }
 
 TEST(Person, AdultHeightsFollowThePublishedDistributions) {
-  double sum[2] = {0, 0};
-  double squares[2] = {0, 0};
-  int count[2] = {0, 0};
-  for (int i = 0; i < 4000; ++i) {
-    const PersonSpec person = sample_person(1, i);
-    if (person.age_years < 18) continue;
-    const int sex = person.male ? 1 : 0;
-    sum[sex] += person.height_m;
-    squares[sex] += person.height_m * person.height_m;
-    ++count[sex];
+  const std::vector<PersonSpec> people = sample_many(1);
+  for (const bool male : {true, false}) {
+    const double mean = male ? 1.76 : 1.63;
+    const double deviation = male ? 0.07 : 0.065;
+    const std::vector<double> heights = heights_of(people, [&](const PersonSpec& person) {
+      return person.male == male && person.age_years >= 18 && person.age_years < 40;
+    });
+    ASSERT_GT(heights.size(), 300U);
+    EXPECT_NEAR(mean_of(heights), mean, 0.01);
+    EXPECT_NEAR(deviation_of(heights), deviation, 0.006);
+    // 1.63 / sqrt(n) is exceeded by one sample of a hundred.
+    EXPECT_LT(distance_from_normal(heights, mean, deviation),
+              1.63 / std::sqrt(static_cast<double>(heights.size())));
   }
-  const double mean[2] = {sum[0] / count[0], sum[1] / count[1]};
-  EXPECT_NEAR(mean[1], 1.76, 0.01);
-  EXPECT_NEAR(mean[0], 1.63, 0.01);
-  EXPECT_NEAR(std::sqrt(squares[1] / count[1] - mean[1] * mean[1]), 0.07, 0.007);
-  EXPECT_NEAR(std::sqrt(squares[0] / count[0] - mean[0] * mean[0]), 0.065, 0.007);
 }
 
-TEST(Person, TheDefaultPopulationHasBothSexesAndAChild) {
-  int men = 0;
-  int children = 0;
-  for (int i = 0; i < 12; ++i) {
-    const PersonSpec person = sample_person(1, i);
-    men += person.male ? 1 : 0;
-    children += person.age_years < 16 ? 1 : 0;
-    EXPECT_GE(person.age_years, 6);
-    EXPECT_LE(person.age_years, 85);
+TEST(Person, OldPeopleAreALittleShorter) {
+  const std::vector<PersonSpec> people = sample_many(2);
+  for (const bool male : {true, false}) {
+    const double old = mean_of(heights_of(people, [&](const PersonSpec& person) {
+      return person.male == male && person.age_years >= 65;
+    }));
+    const double lost = (male ? 1.76 : 1.63) - old;
+    EXPECT_GT(lost, 0.02);
+    EXPECT_LT(lost, 0.09);
   }
-  EXPECT_GE(men, 4);
-  EXPECT_LE(men, 8);
-  EXPECT_GE(children, 1);
 }
 
-TEST(Person, OverallsAreWornWhole) {
-  for (int i = 0; i < 500; ++i) {
-    const PersonSpec person = sample_person(2, i);
-    for (const Suit& suit : kSuits) {
-      if (suit.overall) {
-        EXPECT_EQ(person.top == suit.name, person.bottom == suit.name) << i;
+TEST(Person, ChildrenGrow) {
+  const std::vector<PersonSpec> people = sample_many(3);
+  double before = 1.0;
+  for (int age = 6; age < 18; age += 3) {
+    const std::vector<double> heights = heights_of(people, [&](const PersonSpec& person) {
+      return person.age_years >= age && person.age_years < age + 3;
+    });
+    ASSERT_GT(heights.size(), 20U) << age;
+    const double mean = mean_of(heights);
+    EXPECT_GT(mean, before) << age;
+    EXPECT_NEAR(mean, 0.5 * (child_height_m(true, age + 1.5) + child_height_m(false, age + 1.5)),
+                0.03)
+        << age;
+    before = mean;
+  }
+}
+
+TEST(Person, AgesFollowTheStatedShares) {
+  const std::vector<PersonSpec> people = sample_many(4);
+  const auto share = [&](double from, double to) {
+    return static_cast<double>(std::count_if(people.begin(), people.end(),
+                                             [&](const PersonSpec& person) {
+                                               return person.age_years >= from &&
+                                                      person.age_years < to;
+                                             })) /
+           kMany;
+  };
+  EXPECT_NEAR(share(6, 18), 0.12, 0.01);
+  EXPECT_NEAR(share(18, 40), 0.42, 0.01);
+  EXPECT_NEAR(share(40, 65), 0.32, 0.01);
+  EXPECT_NEAR(share(65, 85.001), 0.14, 0.01);
+  EXPECT_NEAR(share(6, 85.001), 1, 1e-9);
+}
+
+TEST(Person, ASmallPopulationHasEverybody) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    int men = 0;
+    int children = 0;
+    int old = 0;
+    for (int i = 0; i < 24; ++i) {
+      const PersonSpec person = sample_person(seed, i);
+      men += person.male ? 1 : 0;
+      children += person.age_years < 18 ? 1 : 0;
+      old += person.age_years >= 65 ? 1 : 0;
+    }
+    EXPECT_GE(men, 10) << seed;
+    EXPECT_LE(men, 14) << seed;
+    EXPECT_GE(children, 2) << seed;
+    EXPECT_GE(old, 2) << seed;
+  }
+}
+
+TEST(Person, SomeAreHeavyAndSomeAreThin) {
+  int heavy = 0;
+  int thin = 0;
+  for (const PersonSpec& person : sample_many(5)) {
+    heavy += person.shape.weight > 0.8 ? 1 : 0;
+    thin += person.shape.weight < 0.4 ? 1 : 0;
+  }
+  EXPECT_GT(heavy, kMany / 20);
+  EXPECT_LT(heavy, kMany / 5);
+  EXPECT_GT(thin, kMany / 20);
+  EXPECT_LT(thin, kMany / 5);
+}
+
+TEST(Outfit, FitsTogether) {
+  for (const bool with_attribution : {false, true}) {
+    for (const PersonSpec& person : sample_many(6, with_attribution)) {
+      const Outfit& outfit = person.outfit;
+      EXPECT_FALSE(description_of(outfit).empty());
+      EXPECT_FALSE(outfit.shoes.empty());
+      if (outfit.bottom.empty()) {
+        EXPECT_EQ(garment(outfit.top, Slot::dress).slot, Slot::dress) << person.name;
+        EXPECT_FALSE(person.male);
+        continue;
+      }
+      if (outfit.one_piece) continue;
+      const GarmentInfo& top = garment(outfit.top, Slot::top);
+      const GarmentInfo& bottom = garment(outfit.bottom, Slot::bottom);
+      if (top.high) {
+        EXPECT_TRUE(bottom.high) << person.name << ": " << top.name << ", " << bottom.name;
+      }
+      for (const GarmentInfo* worn : {&top, &bottom}) {
+        EXPECT_TRUE(person.male ? worn->wearers.men : worn->wearers.women) << worn->name;
+        if (person.age_years < 16) {
+          EXPECT_TRUE(worn->wearers.children) << worn->name;
+        }
       }
     }
   }
 }
 
-TEST(Person, ClothesMixWidely) {
-  std::set<std::pair<std::string, std::string>> outfits;
-  for (int i = 0; i < 200; ++i) {
-    const PersonSpec person = sample_person(5, i);
-    outfits.emplace(person.top, person.bottom);
+TEST(Outfit, IsFreeOfAttributionUnlessAsked) {
+  bool any = false;
+  for (const bool with_attribution : {false, true}) {
+    for (const PersonSpec& person : sample_many(7, with_attribution)) {
+      const Outfit& outfit = person.outfit;
+      for (const std::string& name :
+           {outfit.top, outfit.bottom, outfit.shoes, outfit.hair, outfit.hat, person.eyebrows}) {
+        if (name.empty()) continue;
+        const bool free = licence_of(name) == Licence::cc0;
+        if (!with_attribution) {
+          EXPECT_TRUE(free) << name;
+        }
+        any = any || !free;
+      }
+    }
   }
-  EXPECT_GE(outfits.size(), 30U);
+  EXPECT_TRUE(any);
+}
+
+TEST(Outfit, MixesWidely) {
+  std::set<std::tuple<std::string, std::string, Hem, Cloth>> outfits;
+  std::set<Carry> carried;
+  int hats = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Outfit outfit = sample_person(5, i).outfit;
+    outfits.emplace(outfit.top, outfit.bottom, outfit.hem, outfit.top_cloth);
+    carried.insert(outfit.carries);
+    hats += outfit.hat.empty() ? 0 : 1;
+  }
+  EXPECT_GE(outfits.size(), 80U);
+  EXPECT_EQ(carried.size(), kCarryCount);
+  EXPECT_GE(hats, 5);
+  EXPECT_LE(hats, 40);
+}
+
+TEST(Outfit, HasColoursForWhatIsColoured) {
+  for (const PersonSpec& person : sample_many(8)) {
+    const auto& tints = person.outfit.tints;
+    for (const Tint tint : {Tint::top, Tint::bottom, Tint::hair, Tint::shoes}) {
+      EXPECT_GE(tints[static_cast<std::size_t>(tint)].size(), 5U);
+    }
+    EXPECT_EQ(tints[static_cast<std::size_t>(Tint::item)].empty(),
+              person.outfit.carries == Carry::nothing);
+    EXPECT_TRUE(tints[static_cast<std::size_t>(Tint::none)].empty());
+  }
+}
+
+// Clothes come in subdued colours: hardly anybody is dressed in saturated cyan or pink.
+TEST(Outfit, ColoursAreThoseOfClothes) {
+  int vivid = 0;
+  int all = 0;
+  for (const PersonSpec& person : sample_many(9)) {
+    for (const Tint tint : {Tint::top, Tint::bottom}) {
+      for (const Rgb& colour : person.outfit.tints[static_cast<std::size_t>(tint)]) {
+        const auto [low, high] = std::minmax_element(colour.begin(), colour.end());
+        vivid += *high > 150 && *high - *low > 110 ? 1 : 0;
+        ++all;
+      }
+    }
+  }
+  EXPECT_LT(vivid, all / 25);
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// Colours that clothes, hair, shoes and bags come in.
+#pragma once
+
+#include <vector>
+
+#include "base/random.h"
+#include "skinning/population.h"
+
+namespace throng::skinning {
+
+/// Something that is coloured from one palette. `suit` holds faint tints for a picture that has
+/// colours of its own.
+enum class Dye : std::uint8_t {
+  shirt,
+  dress,
+  denim,
+  trousers,
+  skirt,
+  workwear,
+  suit,
+  leather,
+  bag,
+  umbrella
+};
+
+/// `count` colours of a dye, drawn by how often they are seen (with repetition).
+std::vector<Rgb> draw_colours(Dye dye, std::size_t count, Random& random);
+
+/// Who the hair belongs to.
+enum class HairRange : std::uint8_t { dark, any, greying, grey };
+std::vector<Rgb> draw_hair(HairRange range, std::size_t count, Random& random);
+
+}  // namespace throng::skinning

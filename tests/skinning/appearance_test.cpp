@@ -1,0 +1,125 @@
+// That a crowd drawn from few bodies shows no twins side by side.
+#include "skinning/appearance.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "skinning/person.h"
+
+namespace throng::skinning {
+namespace {
+
+constexpr std::uint32_t kAgents = 2000;
+
+// The people of a baked population as far as their colours go.
+Population people_of(int count) {
+  Population population;
+  for (int i = 0; i < count; ++i) {
+    Character character;
+    character.tints = sample_person(1, i).outfit.tints;
+    population.characters.push_back(std::move(character));
+  }
+  return population;
+}
+
+std::vector<Appearance> crowd_of(const Population& population, std::uint64_t seed) {
+  std::vector<Appearance> crowd;
+  for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
+    crowd.push_back(appearance_of(population, seed, agent));
+  }
+  return crowd;
+}
+
+bool alike(const Rgb& a, const Rgb& b) {
+  int difference = 0;
+  for (std::size_t i = 0; i < 3; ++i) difference = std::max(difference, std::abs(a[i] - b[i]));
+  return difference < 24;
+}
+
+bool dressed_alike(const Appearance& a, const Appearance& b) {
+  return alike(a.tint[static_cast<std::size_t>(Tint::top)],
+               b.tint[static_cast<std::size_t>(Tint::top)]) &&
+         alike(a.tint[static_cast<std::size_t>(Tint::bottom)],
+               b.tint[static_cast<std::size_t>(Tint::bottom)]);
+}
+
+TEST(Twins, EqualBodiesAreFarApartInId) {
+  for (const int count : {24, 96, 97}) {
+    const Population population = people_of(count);
+    std::map<std::uint32_t, std::uint32_t> last;
+    for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
+      const std::uint32_t character = appearance_of(population, 5, agent).character;
+      if (last.contains(character)) {
+        EXPECT_GE(agent - last[character], static_cast<std::uint32_t>(count) / 2);
+      }
+      last[character] = agent;
+    }
+  }
+}
+
+TEST(Twins, EverybodyIsUsedEquallyOften) {
+  const Population population = people_of(96);
+  std::map<std::uint32_t, int> used;
+  for (const Appearance& appearance : crowd_of(population, 7)) ++used[appearance.character];
+  ASSERT_EQ(used.size(), 96U);
+  for (const auto& [unused, times] : used) {
+    EXPECT_GE(times, 20);
+    EXPECT_LE(times, 21);
+  }
+}
+
+// Crowds start in rectangular grids row by row, so that neighbours are one row apart in id.
+TEST(Twins, NoneStandSideBySideInAGrid) {
+  const Population population = people_of(96);
+  int pairs = 0;
+  int same_body = 0;
+  int twins = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const std::vector<Appearance> crowd = crowd_of(population, seed);
+    for (std::uint32_t width = 10; width <= 200; ++width) {
+      for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
+        for (const std::uint32_t step : {1U, width - 1, width, width + 1}) {
+          if (agent + step >= kAgents) continue;
+          const Appearance& a = crowd[agent];
+          const Appearance& b = crowd[agent + step];
+          ++pairs;
+          same_body += a.character == b.character ? 1 : 0;
+          twins += a.character == b.character && dressed_alike(a, b) ? 1 : 0;
+        }
+      }
+    }
+  }
+  RecordProperty("same_body_per_million", static_cast<int>(1e6 * same_body / pairs));
+  RecordProperty("twins_per_million", static_cast<int>(1e6 * twins / pairs));
+  // By chance one neighbour of 96 would have the same body.
+  EXPECT_LT(same_body, pairs / 96);
+  EXPECT_LT(twins, pairs / 5000);
+}
+
+TEST(Twins, ABodyRarelyWearsTheSameColoursAgain) {
+  const Population population = people_of(96);
+  const std::vector<Appearance> crowd = crowd_of(population, 11);
+  std::map<std::uint32_t, std::vector<const Appearance*>> by_body;
+  for (const Appearance& appearance : crowd) by_body[appearance.character].push_back(&appearance);
+  int repeats = 0;
+  int next_repeats = 0;
+  for (const auto& [unused, wearers] : by_body) {
+    for (std::size_t i = 1; i < wearers.size(); ++i) {
+      next_repeats += dressed_alike(*wearers[i], *wearers[i - 1]) ? 1 : 0;
+      for (std::size_t j = 0; j < i; ++j) {
+        if (!dressed_alike(*wearers[i], *wearers[j])) continue;
+        ++repeats;
+        break;
+      }
+    }
+  }
+  RecordProperty("repeats", repeats);
+  RecordProperty("next_repeats", next_repeats);
+  EXPECT_LT(next_repeats, static_cast<int>(kAgents) / 40);
+  EXPECT_LT(repeats, static_cast<int>(kAgents) / 3);
+}
+
+}  // namespace
+}  // namespace throng::skinning
