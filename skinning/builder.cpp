@@ -188,10 +188,7 @@ class Bakery {
     baked.character.wears = description_of(person.outfit);
     baked.character.tints = person.outfit.tints;
     const Walker walker = walker_of(dressed.joints, dressed.stature_m, asset.levels.front());
-    for (const Clip& clip : clips_) {
-      const std::vector<Palette> palettes = bake_clip(walker, clip);
-      baked.palettes.insert(baked.palettes.end(), palettes.begin(), palettes.end());
-    }
+    for (const Clip& clip : clips_) baked.motion += encode_palettes(bake_clip(walker, clip));
     for (std::size_t level = 0; level < asset.levels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));

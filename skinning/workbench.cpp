@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kHashFile = "content_hash";
+constexpr const char* kMotionExtension = ".motion";
 constexpr const char* kNoticeFile = "NOTICE.txt";
 
 // Where a finished folder shares a file's bytes with the bench, nothing is written twice.
@@ -60,7 +61,7 @@ bool Workbench::has(const std::string& name) const {
 void Workbench::keep(const BakedPerson& person) const {
   const std::string& name = person.character.name;
   write_file_atomically(file(name, ".glb"), person.glb);
-  write_file_atomically(file(name, ".palettes"), encode_palettes(person.palettes));
+  write_file_atomically(file(name, kMotionExtension), person.motion);
   write_file_atomically(file(name, kCharacterExtension), encode_character(person.character));
 }
 
@@ -73,7 +74,7 @@ void Workbench::finish(const std::vector<PersonSpec>& people, PopulationIndex in
   StagedFile palettes(staging.path() / kPalettesFile);
   for (const PersonSpec& person : people) {
     link_or_copy(file(person.name, ".glb"), staging.path() / (person.name + ".glb"));
-    palettes.write(read_file(file(person.name, ".palettes")));
+    palettes.write(read_file(file(person.name, kMotionExtension)));
     index.characters.push_back(read_character(file(person.name, kCharacterExtension)));
   }
   palettes.commit();

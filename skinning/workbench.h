@@ -14,7 +14,7 @@ namespace throng::skinning {
 struct BakedPerson {
   std::string glb;
   Character character;  ///< without its levels, which are in the GLB
-  std::vector<Palette> palettes;
+  std::string motion;   ///< its share of palettes.bin
 };
 
 /// The folder `<output>.part`, held by one build at a time.
