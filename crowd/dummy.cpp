@@ -13,7 +13,8 @@ enum Constant : std::size_t { stddev };
 class Dummy : public LocalModel {
  public:
   explicit Dummy(const Crowd& crowd)
-      : LocalModel(crowd), jump_{Distribution::Kind::normal, 0, crowd.model_constants[stddev], {}} {}
+      : LocalModel(crowd),
+        jump_{Distribution::Kind::normal, 0, crowd.model_constants[stddev], {}} {}
 
  protected:
   Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,

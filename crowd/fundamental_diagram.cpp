@@ -10,12 +10,10 @@ namespace throng::crowd {
 namespace {
 
 constexpr float kPi = 3.14159265F;
-constexpr float kAhead = 1;           // m
+constexpr float kAhead = 1;  // m
 constexpr float kAsideStretch = 2.5F;
 
-float bell(float distance_sq, float sigma) {
-  return std::exp(-distance_sq / (2 * sigma * sigma));
-}
+float bell(float distance_sq, float sigma) { return std::exp(-distance_sq / (2 * sigma * sigma)); }
 
 }  // namespace
 

@@ -37,7 +37,9 @@ float hermite(float x, float x0, float y0, float slope0, float x1, float y1, flo
 class Gcf : public LocalModel {
  public:
   explicit Gcf(const Crowd& crowd)
-      : LocalModel(crowd), constants_(crowd.model_constants), quirks_(crowd.compat != Compat::none) {
+      : LocalModel(crowd),
+        constants_(crowd.model_constants),
+        quirks_(crowd.compat != Compat::none) {
     constexpr float kWider = 5.0F / 3;
     blend_ = std::clamp(kWider * constants_[agent_interp_width], kNearest,
                         0.5F * constants_[max_agent_dist]);
@@ -80,14 +82,14 @@ class Gcf : public LocalModel {
   float push(const Walker& self, const Ellipse& body, const Apart& apart,
              const Eigen::Vector2f& other_velocity, const Ellipse& other_body) const {
     // Bodies are no longer than this, so that far ones need no closer look.
-    const float reach = std::max(body.along, body.across) +
-                        std::max(other_body.along, other_body.across);
+    const float reach =
+        std::max(body.along, body.across) + std::max(other_body.along, other_body.across);
     if (apart.distance - reach >= constants_[max_agent_dist]) return 0;
     const float gap = apart.distance - contact_distance(body, other_body, apart.away);
     if (gap >= constants_[max_agent_dist]) return 0;
     const float closing = std::max(0.0F, apart.away.dot(other_velocity - self.velocity));
-    const float rush = constants_[agent_force_strength] * self.preferred_speed +
-                       closing / std::max(gap, kNearest);
+    const float rush =
+        constants_[agent_force_strength] * self.preferred_speed + closing / std::max(gap, kNearest);
     // 1 for who is ahead, 0.1 for who is behind.
     const float attention = 0.55F - 0.45F * apart.away.dot(self.orientation);
     const float strength = attention * response(gap) * rush * rush;
@@ -136,7 +138,8 @@ ModelEntry gcf_model() {
        {"slow_width", 0.25F, 0.01F, 10, "half of the width of a body at rest, in m", "perp_max"},
        {"sway_change", 0.05F, 0, 10, "by which that falls at 1.3 m/s, in m", "perp_growth"}},
       {{"reaction_time", 0.5F, 1e-3F, 1000, "in which the preferred velocity is taken, in s"},
-       {"agent_force_strength", 0.3F, 0, 1000, "share of the preferred speed in the push by others"},
+       {"agent_force_strength", 0.3F, 0, 1000,
+        "share of the preferred speed in the push by others"},
        {"max_agent_dist", 2, 0.1F, 1000, "from how far others push, in m"},
        {"max_agent_force", 3, 0, 1e4F, "a third of the push of who touches, in m/s^2"},
        {"agent_interp_width", 0.12F, 0, 1000, "over which the push is blended at its ends, in m"},

@@ -107,8 +107,7 @@ class Karamouzas : public LocalModel {
       if (offset.squaredNorm() < radius * radius) {
         now.add(0, neighbor.slot);
       } else if (-offset.dot(facing) >= least_cosine_ * offset.norm()) {
-        const auto time_s =
-            time_to_disc(offset, desired - grid.velocity(neighbor.slot), radius);
+        const auto time_s = time_to_disc(offset, desired - grid.velocity(neighbor.slot), radius);
         if (time_s && *time_s < horizon_s) soon.add(*time_s, neighbor.slot);
       }
     }
@@ -127,8 +126,7 @@ class Karamouzas : public LocalModel {
                        const Urgent::Collision& collision) const {
     const std::uint32_t slot = collision.slot;
     const Apart apart(self, grid.id(slot), grid.position(slot));
-    const Eigen::Vector2f later =
-        apart.offset + collision.time_s * (desired - grid.velocity(slot));
+    const Eigen::Vector2f later = apart.offset + collision.time_s * (desired - grid.velocity(slot));
     const float gap = std::max(0.0F, later.norm() - self.radius - grid.radius(slot));
     return strength(desired.norm() * collision.time_s + gap) * unit_or(later, apart.away);
   }

@@ -82,8 +82,7 @@ void LocalModel::step(const Crowd& crowd, const Grid& grid,
                       std::span<Eigen::Vector2f> new_velocity) {
   prepare();
   neighborhood_.for_each(crowd, grid, [&](const Surroundings& around) {
-    new_velocity[around.agent] =
-        possible(crowd, around.agent, velocity(crowd, grid, around));
+    new_velocity[around.agent] = possible(crowd, around.agent, velocity(crowd, grid, around));
   });
 }
 

@@ -9,14 +9,7 @@ namespace throng::crowd {
 
 namespace {
 
-enum Parameter : std::size_t {
-  tau,
-  tau_obstacles,
-  turning_bias,
-  factor,
-  buffer,
-  density_aware
-};
+enum Parameter : std::size_t { tau, tau_obstacles, turning_bias, factor, buffer, density_aware };
 
 /// What one thread works with; kept from step to step, so that a step allocates nothing.
 struct Workspace {
@@ -86,7 +79,7 @@ class PedVo : public LocalModel {
         preferred_speed(crowd, grid, around, self) * self.preferred_direction;
     const Eigen::Vector2f best =
         best_velocity(planes, walls, preferred, crowd.agents[Property::max_speed][self.id],
-                      workspace.scratch, crowd.instruction_set);
+                      workspace.scratch);
     return bias.is_none() ? best : bias.undo(best);
   }
 
@@ -101,8 +94,8 @@ class PedVo : public LocalModel {
     const float density =
         density_ahead(crowd, grid, around, self.preferred_direction, DensityKernel{});
     return std::min(self.preferred_speed,
-                    speed_at_density(density, {parameter(crowd, factor, self),
-                                               parameter(crowd, buffer, self)}));
+                    speed_at_density(
+                        density, {parameter(crowd, factor, self), parameter(crowd, buffer, self)}));
   }
 
   /// Makes anew the planes, from `first` on, of those who have another priority. Who has no right
@@ -128,8 +121,7 @@ class PedVo : public LocalModel {
             agents.preferred_speed[id] * agents.preferred_direction[id];
         const Eigen::Vector2f deviation = other.velocity - preferred;
         const float length = deviation.norm();
-        other.velocity =
-            preferred + (length > kTolerance ? kTolerance / length : 1.0F) * deviation;
+        other.velocity = preferred + (length > kTolerance ? kTolerance / length : 1.0F) * deviation;
       }
       HalfPlane plane = avoid_disc(self, other, agents.model_parameters[tau][around.agent],
                                    static_cast<float>(crowd.dt_s));
