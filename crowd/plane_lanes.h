@@ -183,14 +183,16 @@ class PlaneSolver {
   }
 
   /// The boundary of where the violation of `other` is at most that of `plane`. When the two point
-  /// the same way, one of them is always violated more: nothing is bounded.
+  /// the same way, one of them is always violated more: nothing is bounded. Nor is it where `other`
+  /// allows everything.
   static PlaneLanes<Float> bisect(const PlaneLanes<Float>& plane, const PlaneLanes<Float>& other) {
     const Float sine =
         plane.direction_x * other.direction_y - plane.direction_y * other.direction_x;
     const Float cosine =
         plane.direction_x * other.direction_x + plane.direction_y * other.direction_y;
     const auto parallel = (sine <= kParallel) & (sine >= -kParallel);
-    const auto same = parallel & (cosine > 0);
+    const auto nothing = (other.direction_x == 0) & (other.direction_y == 0);
+    const auto same = (parallel & (cosine > 0)) | nothing;
     const Float t = (other.direction_x * (plane.point_y - other.point_y) -
                      other.direction_y * (plane.point_x - other.point_x)) /
                     sine;

@@ -306,5 +306,23 @@ TEST(Orca, TwoInOnePlaceWalkApart) {
   EXPECT_GE(smallest_gap(crowd), -0.01F);
 }
 
+TEST(Orca, WallsOfOthersDoNotMatter) {
+  // Five in a heap, where there is no velocity that is free of all others; and one who leans on a
+  // wall far away, or the same without the wall.
+  const auto heap_after = [](const std::string& extra) {
+    std::string agents = agent_at(40, 0);
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(0.3, 0.1), std::pair(0.1, 0.3),
+                               std::pair(-0.2, 0.2), std::pair(0.15, -0.25)}) {
+      agents += agent_at(x, y);
+    }
+    Simulation crowd = load(scene_with(agents, "", "Start", extra), mirror_behavior());
+    for (int i = 0; i < 10; ++i) crowd.step();
+    return std::vector<Eigen::Vector2f>(crowd.positions().begin() + 1, crowd.positions().end());
+  };
+  EXPECT_EQ(heap_after(""), heap_after(R"(<ObstacleSet type="explicit" class="1">
+      <Obstacle closed="1"><Vertex p_x="39" p_y="-2"/><Vertex p_x="41" p_y="-2"/>
+      <Vertex p_x="41" p_y="-0.3"/><Vertex p_x="39" p_y="-0.3"/></Obstacle></ObstacleSet>)"));
+}
+
 }  // namespace
 }  // namespace throng::crowd
