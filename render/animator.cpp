@@ -1,12 +1,22 @@
 #include "render/animator.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <string>
+
+#include "base/angle.h"
+#include "base/random.h"
 
 namespace throng::render {
 
 namespace {
+
+using skinning::Gaze;
+using skinning::Moment;
 
 /// Two neighbouring crowd steps and how far between them.
 struct Between {
@@ -30,21 +40,112 @@ float turned(float a, float b, float share) {
   return a + share * std::remainder(b - a, kTurn);
 }
 
+/// When somebody looks at drones: now and then, if at all.
+struct Curiosity {
+  bool looks;
+  double every_s;
+  double for_s;
+  double offset_s;
+
+  explicit Curiosity(Random random)
+      : looks(random.uniform() < 0.6),
+        every_s(random.uniform(10, 22)),
+        for_s(random.uniform(3, 6)),
+        offset_s(random.uniform(0, 22)) {}
+  bool at(double time_s) const { return looks && std::fmod(time_s + offset_s, every_s) < for_s; }
+};
+
+/// Where a drone is that is near and high enough to be looked at.
+Gaze gaze_at(const Eigen::Vector3d& drone, const Eigen::Vector2f& from, float yaw_rad) {
+  constexpr double kFar_m = 45;
+  constexpr double kEyes_m = 1.6;
+  constexpr double kLowest = 15 * kDegree;
+  constexpr double kAhead = 35 * kDegree;
+  constexpr double kBehind = 120 * kDegree;
+  const Eigen::Vector2d to = drone.head<2>() - from.cast<double>();
+  const double away = to.norm();
+  if (away > kFar_m || std::atan2(drone.z() - kEyes_m, away) < kLowest) return Gaze::none;
+  const double bearing =
+      std::remainder(std::atan2(to.y(), to.x()) - static_cast<double>(yaw_rad), 360 * kDegree);
+  if (std::abs(bearing) < kAhead) return Gaze::ahead;
+  if (std::abs(bearing) > kBehind) return Gaze::none;
+  return bearing > 0 ? Gaze::left : Gaze::right;
+}
+
+/// One agent of a trace as its motion sees it.
+class Watcher {
+ public:
+  Watcher(const world::Trace& trace, const std::vector<char>& down_states)
+      : trace_(trace), down_states_(down_states), drones_(trace.steps()) {
+    for (std::size_t step = 0; step < trace.steps(); ++step) {
+      for (std::size_t drone = 0; drone < trace.drones.size(); ++drone) {
+        if (trace.drones[drone].empty()) continue;
+        drones_[step].push_back(trace.drone_at(drone, trace.time_s[step]).position);
+      }
+    }
+  }
+
+  Moment moment(std::size_t agent, std::size_t step, const Curiosity& curiosity) const {
+    const std::size_t at = trace_.at(step, agent);
+    Moment moment;
+    moment.position = trace_.position[at];
+    moment.yaw_rad = trace_.yaw_rad[at];
+    moment.panicked = (trace_.flags[at] & world::kPanicked) != 0;
+    if (at < trace_.state.size() && trace_.state[at] < down_states_.size()) {
+      moment.down = down_states_[trace_.state[at]] != 0;
+    }
+    if (!curiosity.at(trace_.time_s[step])) return moment;
+    for (const Eigen::Vector3d& drone : drones_[step]) {
+      moment.gaze = gaze_at(drone, moment.position, moment.yaw_rad);
+      if (moment.gaze != Gaze::none) break;
+    }
+    return moment;
+  }
+
+ private:
+  const world::Trace& trace_;
+  const std::vector<char>& down_states_;
+  std::vector<std::vector<Eigen::Vector3d>> drones_;  ///< [step]
+};
+
 }  // namespace
 
+bool is_down(std::string_view state_name) {
+  std::string lower(state_name);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array<std::string_view, 10> kWords = {
+      "fallen",  "incapacitated", "dead",  "unconscious", "collapsed",
+      "fainted", "casualty",      "lying", "trampled",    "killed"};
+  return std::any_of(kWords.begin(), kWords.end(),
+                     [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
 Animator::Animator(const world::Trace& trace, const skinning::Population& population)
-    : trace_(&trace), population_(&population), phase_(trace.agents() * trace.steps(), 0.0) {
-  std::vector<float> speed_mps(trace.steps());
+    : trace_(&trace), population_(&population), stays_(trace.agents()) {
+  std::vector<char> down_states;
+  for (const std::string& name : trace.header.state_names) {
+    down_states.push_back(is_down(name) ? 1 : 0);
+  }
+  const Watcher watcher(trace, down_states);
+  std::vector<Moment> moments;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     appearance_.push_back(
         skinning::appearance_of(population, trace.header.seed, static_cast<std::uint32_t>(agent)));
+    if (trace.header.role[agent] != world::AgentRole::person) continue;
+    const std::uint64_t key = derive_seed(trace.header.seed, Stream::motion, agent);
+    const Curiosity curiosity(Random(key, Stream::motion, 1));
     for (std::size_t step = 0; step < trace.steps(); ++step) {
-      speed_mps[step] = trace.velocity[trace.at(step, agent)].norm();
+      if (!trace.present(step, agent)) continue;
+      const std::size_t first = step;
+      moments.clear();
+      for (; step < trace.steps() && trace.present(step, agent); ++step) {
+        moments.push_back(watcher.moment(agent, step, curiosity));
+      }
+      stays_[agent].push_back({first, skinning::MotionPlan(population, appearance_.back(),
+                                                           derive_seed(key, Stream::motion, first),
+                                                           moments, trace.header.dt_s)});
     }
-    const skinning::Appearance& appearance = appearance_.back();
-    skinning::integrate_phase(speed_mps, trace.header.dt_s,
-                              population.characters[appearance.character].stature_m, appearance,
-                              std::span(phase_).subspan(agent * trace.steps(), trace.steps()));
   }
 }
 
@@ -58,22 +159,22 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (trace.header.role[agent] != world::AgentRole::person) continue;
     if (!trace.present(at.before, agent)) continue;
+    const bool leaves = !trace.present(at.after, agent);
     const std::size_t a = trace.at(at.before, agent);
-    const std::size_t b = trace.at(at.after, agent);
-    const double* phase = &phase_[agent * trace.steps()];
+    const std::size_t b = leaves ? a : trace.at(at.after, agent);
+    const float share = leaves ? 0 : at.share;
     PersonInstance person;
     person.agent = static_cast<std::uint32_t>(agent);
     person.appearance = appearance_[agent];
-    person.position.head<2>() =
-        trace.position[a] + at.share * (trace.position[b] - trace.position[a]);
-    person.velocity = trace.velocity[a] + at.share * (trace.velocity[b] - trace.velocity[a]);
-    person.yaw_rad = turned(trace.yaw_rad[a], trace.yaw_rad[b], at.share);
-    const double strides = phase[at.before] + at.share * (phase[at.after] - phase[at.before]);
-    // People who stand must not breathe in step: each lives a little ahead of the clock.
-    constexpr double kSpread_s = 20;
-    person.pose =
-        skinning::pose_at(*population_, strides, person.velocity.norm(),
-                          time_s + kSpread_s * static_cast<double>(person.appearance.phase_offset));
+    person.position.head<2>() = trace.position[a] + share * (trace.position[b] - trace.position[a]);
+    person.velocity = trace.velocity[a] + share * (trace.velocity[b] - trace.velocity[a]);
+    person.yaw_rad = turned(trace.yaw_rad[a], trace.yaw_rad[b], share);
+    const std::vector<Stay>& stays = stays_[agent];
+    const auto stay =
+        std::upper_bound(stays.begin(), stays.end(), at.before,
+                         [](std::size_t step, const Stay& s) { return step < s.first_step; }) -
+        1;
+    person.pose = stay->plan.at(static_cast<double>(at.before - stay->first_step) + share);
     scene.people.push_back(person);
   }
   return scene;

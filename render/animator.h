@@ -2,14 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
+#include <vector>
 
 #include "render/renderer.h"
+#include "skinning/plan.h"
 #include "skinning/population.h"
 #include "world/trace.h"
 
 namespace throng::render {
 
-/// Precomputes each agent's stride phase along the trace. The trace and population must outlive it.
+/// Whether somebody in a behaviour's state of this name cannot stand: its name contains one of the
+/// words in docs/trace.md, in upper or lower case.
+bool is_down(std::string_view state_name);
+
+/// Plans each agent's motion along the trace. The trace and population must outlive it.
 class Animator {
  public:
   Animator(const world::Trace& trace, const skinning::Population& population);
@@ -19,10 +26,15 @@ class Animator {
   Scene scene_at(double time_s, std::int64_t frame_index) const;
 
  private:
+  /// From an agent's arrival to its departure.
+  struct Stay {
+    std::size_t first_step;
+    skinning::MotionPlan plan;
+  };
   const world::Trace* trace_;
   const skinning::Population* population_;
   std::vector<skinning::Appearance> appearance_;  ///< per agent
-  std::vector<double> phase_;                     ///< [agent][step], strides
+  std::vector<std::vector<Stay>> stays_;          ///< per agent, by time
 };
 
 }  // namespace throng::render

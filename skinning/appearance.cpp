@@ -67,7 +67,8 @@ Appearance appearance_of(const Population& population, std::uint64_t run_seed,
       character_of(run_seed, agent, static_cast<std::uint32_t>(population.characters.size()));
   Random random(run_seed, Stream::appearance, agent);
   appearance.phase_offset = static_cast<float>(random.uniform());
-  appearance.cadence = static_cast<float>(random.uniform(0.97, 1.03));
+  appearance.cadence = static_cast<float>(random.uniform(0.95, 1.05));
+  appearance.amplitude = static_cast<float>(random.uniform(0.92, 1.08));
   const Character& character = population.characters[appearance.character];
   const std::uint32_t block = agent / static_cast<std::uint32_t>(population.characters.size());
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {

@@ -10,9 +10,12 @@ namespace throng::skinning {
 
 /// What sets an agent apart from the others; a pure function of (run seed, agent id).
 struct Appearance {
-  std::uint32_t character = 0;         ///< index into Population::characters
-  float phase_offset = 0;              ///< strides, in [0, 1)
-  float cadence = 1;                   ///< about 1; multiplies the natural cadence
+  std::uint32_t character = 0;  ///< index into Population::characters
+  float phase_offset = 0;       ///< strides, in [0, 1)
+  /// Against the natural ones at a speed, within 5 % and 8 %. At a given speed more steps are
+  /// shorter ones, so that both act on the stride: amplitude / cadence times the natural length.
+  float cadence = 1;
+  float amplitude = 1;
   std::array<Rgb, kTintCount> tint{};  ///< by skinning::Tint; white where nothing is tinted
 };
 

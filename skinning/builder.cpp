@@ -11,13 +11,14 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "skinning/clips.h"
 #include "skinning/dress.h"
-#include "skinning/gait.h"
 #include "skinning/glb.h"
 #include "skinning/hull.h"
 #include "skinning/item_shapes.h"
 #include "skinning/makehuman.h"
 #include "skinning/notice.h"
+#include "skinning/packed.h"
 #include "skinning/person.h"
 #include "skinning/population_files.h"
 #include "skinning/wardrobe.h"
@@ -30,7 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 5;
+constexpr int kBuilderVersion = 6;
 
 struct HullLevel {
   std::size_t triangles;  // before the cuts along the borders of clothes, which add up to a half
@@ -95,7 +96,8 @@ std::string content_hash(const fs::path& package, const std::vector<PersonSpec>&
                   kBuilderVersion, kPopulationFormat, options.count, options.seed,
                   options.texture_size, options.with_attribution);
   for (const Clip& clip : standard_clips()) {
-    content += fmt::format("clip {} {} {}\n", clip.name, clip.speed_mps, clip.frames);
+    content +=
+        fmt::format("clip {} {} {} {}\n", clip.name, clip.speed_mps, clip.frames, clip.stride);
   }
   const std::vector<fs::path> files = files_used(package, people);
   std::vector<std::string> lines(files.size());
@@ -187,8 +189,9 @@ class Bakery {
     baked.character.carries = carries;
     baked.character.wears = description_of(person.outfit);
     baked.character.tints = person.outfit.tints;
-    const Walker walker = walker_of(dressed.joints, dressed.stature_m, asset.levels.front());
-    for (const Clip& clip : clips_) baked.motion += encode_palettes(bake_clip(walker, clip));
+    Walker walker = walker_of(dressed.joints, dressed.stature_m, asset.levels.front());
+    walker.manner = manner_of(baked.character);
+    for (const Clip& clip : clips_) baked.motion += pack(dressed.joints, bake_clip(walker, clip));
     for (std::size_t level = 0; level < asset.levels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));

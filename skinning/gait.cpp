@@ -1,23 +1,19 @@
 #include "skinning/gait.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/angle.h"
 #include "skinning/gait_tables.h"
-#include "skinning/motion.h"
+#include "skinning/posture.h"
 
 namespace throng::skinning {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-// Frames in which a stride is worked out before every fourth is kept.
-constexpr int kFineFrames = 4 * static_cast<int>(kClipFrames);
+constexpr int kSamples = 40;  // per stride, where heights are settled
 
 double wrapped(double phase) { return phase - std::floor(phase); }
 
@@ -42,249 +38,208 @@ double smooth(double low, double high, double x) {
   return t * t * (3 - 2 * t);
 }
 
-// How one walks or runs at one speed.
-struct Style {
-  bool runs = false;
-  double speed_mps = 0;
-  double amplitude = 1;  // of the leg's swing against the measured one
-};
+const GaitTable& table_of(const Gait& gait) { return gait.runs ? kRunTable : kWalkTable; }
 
-// Share of the weight that a foot carries; the feet hand over while both are on the ground.
-double support(const Style& style, double phase) {
-  const double at = wrapped(phase);
-  if (style.runs) return smooth(0, 0.05, at) * (1 - smooth(0.33, 0.38, at));
-  return smooth(0, 0.12, at) * (1 - smooth(0.5, 0.62, at));
-}
-
-void pose_leg(const Style& style, Bone thigh, double phase, double roll_rad, Pose& pose) {
-  const GaitTable& table = style.runs ? kRunTable : kWalkTable;
-  // Faster walking swings the hips further but bends knees and ankles hardly more (Schwartz et
-  // al. 2008); slower walking reduces both.
-  const double joints = style.amplitude < 1 ? style.amplitude : 1 + 0.15 * (style.amplitude - 1);
-  const double hip = style.amplitude * (sample(table.hip, phase) - table.pelvis_tilt_deg);
-  const double knee = joints * sample(table.knee, phase);
-  const double ankle = joints * sample(table.ankle, phase);
-  const double foot = hip - knee + ankle;
-  // The toes stay flat while the heel rises.
-  const double at = wrapped(phase);
-  const double toe_off = style.runs ? 0.38 : 0.62;
-  const double planted = smooth(0.1, 0.2, at) * (1 - smooth(toe_off, toe_off + 0.12, at));
-  const double toes = foot + planted * std::clamp(-foot, 0.0, 35.0);
-
-  const std::size_t first = index_of(thigh);
-  const Eigen::Matrix3f roll = turn_x(roll_rad);
-  pose.rotation[first] = roll * turn_y(-hip * kDegree);
-  pose.rotation[first + 1] = roll * turn_y(-(hip - knee) * kDegree);
-  pose.rotation[first + 2] = turn_y(-foot * kDegree);
-  pose.rotation[first + 3] = turn_y(-toes * kDegree);
-}
-
-struct ArmSwing {
-  double shoulder_deg;
-  double elbow_deg;
-  double out_deg;
-  double inward_deg;
-};
-
-void pose_arm(const ArmSwing& swing, Bone upper_arm, double chest_yaw_rad, Pose& pose) {
-  const double side = upper_arm == Bone::left_upper_arm ? 1 : -1;
-  const Eigen::Matrix3f base = turn_z(chest_yaw_rad) * turn_x(side * swing.out_deg * kDegree);
-  const std::size_t first = index_of(upper_arm);
-  pose.rotation[first] = base * turn_y(-swing.shoulder_deg * kDegree);
-  pose.rotation[first + 1] = base * turn_z(-side * swing.inward_deg * kDegree) *
-                             turn_y(-(swing.shoulder_deg + swing.elbow_deg) * kDegree);
-  pose.rotation[first + 2] = pose.rotation[first + 1];
+double own_phase(Side side, double phase) {
+  return wrapped(side == Side::left ? phase : phase + 0.5);
 }
 
 // The arm swings against the leg of its side.
-ArmSwing arm_swing(const Style& style, double phase) {
-  const double forward = -wave(phase);
-  if (style.runs) return {-8 + 25 * forward, 82 + 17 * forward, 6, 22};
-  const double reach = std::clamp(8 + 8 * style.speed_mps, 8.0, 24.0);
-  return {1 + reach * forward, 16 + 0.5 * reach * forward, 0, 4};
-}
-
-double leg_length(const Joints& joints) {
-  return (joints[index_of(Bone::left_shin)] - joints[index_of(Bone::left_thigh)]).norm() +
-         (joints[index_of(Bone::left_foot)] - joints[index_of(Bone::left_shin)]).norm();
-}
-
-void pose_trunk(double pelvis_yaw_rad, double chest_yaw_rad, double tilt_rad, double lean_rad,
-                Pose& pose) {
-  pose.of(Bone::hips) = turn_z(pelvis_yaw_rad) * turn_x(tilt_rad) * turn_y(0.3 * lean_rad);
-  pose.of(Bone::spine) = turn_z(0.5 * (pelvis_yaw_rad + chest_yaw_rad)) * turn_x(0.3 * tilt_rad) *
-                         turn_y(0.8 * lean_rad);
-  pose.of(Bone::chest) = turn_z(chest_yaw_rad) * turn_y(lean_rad);
-  pose.of(Bone::left_clavicle) = pose.of(Bone::right_clavicle) = pose.of(Bone::chest);
-  pose.of(Bone::neck) = turn_z(0.3 * chest_yaw_rad) * turn_y(0.7 * lean_rad);
-  pose.of(Bone::head) = turn_y(0.2 * lean_rad);
-}
-
-Pose stride_pose(const Walker& walker, const Style& style, double phase) {
-  Pose pose;
-  const double vigour = std::min(style.amplitude, 1.2);
-  const double yaw = -(style.runs ? 7.0 : 5.0) * kDegree * vigour * wave(phase);
-  const double tilt = (style.runs ? 4.5 : 3.5) * kDegree * vigour * wave(phase - 0.15);
-  const double lean = (style.runs ? 7.0 : 2.5) * kDegree;
-  pose_trunk(yaw, -1.2 * yaw, tilt, lean, pose);
-  // The hips swing over the foot that stands; the legs slant so that the feet do not.
-  const double sway_m = (style.runs ? 0.008 : 0.018) * walker.stature_m / 1.76 * wave(phase - 0.3);
-  pose.shift.y() = static_cast<float>(sway_m);
-  const double roll = -sway_m / leg_length(walker.joints);
-  pose_leg(style, Bone::left_thigh, phase, roll, pose);
-  pose_leg(style, Bone::right_thigh, phase + 0.5, roll, pose);
-  pose_arm(arm_swing(style, phase), Bone::left_upper_arm, -1.2 * yaw, pose);
-  pose_arm(arm_swing(style, phase + 0.5), Bone::right_upper_arm, -1.2 * yaw, pose);
-  return pose;
-}
-
-Pose idle_pose(const Walker& walker, double phase) {
-  Pose pose;
-  const double breath = wave(2 * phase);
-  pose_trunk(0.01 * wave(phase), 0.02 * wave(phase + 0.1), 0.012 * wave(phase + 0.25),
-             0.018 + 0.008 * breath, pose);
-  pose.of(Bone::head) = turn_z(0.22 * wave(phase + 0.4)) * turn_y(0.03 * wave(phase));
-  const double sway_m = 0.012 * wave(phase + 0.25);
-  pose.shift.y() = static_cast<float>(sway_m);
-  const double roll = -sway_m / leg_length(walker.joints);
-  for (const Bone thigh : {Bone::left_thigh, Bone::right_thigh}) {
-    const std::size_t first = index_of(thigh);
-    pose.rotation[first] = pose.rotation[first + 1] = turn_x(roll);
+Arm arm_swing(const Gait& gait, const Manner& manner, double own) {
+  const double forward = -wave(own);
+  const double swing = manner.arm_swing;
+  if (gait.panics) return {72 - 14 * wave(2 * own + 0.1), 66 + 12 * forward, 0, 12, 52};
+  if (gait.runs) {
+    // The faster, the more the elbows are bent.
+    const double elbow = std::clamp(62 + 45 * (gait.stride - 0.9), 60.0, 85.0);
+    return {-8 + 25 * std::min(swing, 1.2) * forward, elbow + 17 * forward, 6 + manner.arms_out_deg,
+            22};
   }
-  const ArmSwing arms = {1 + 1.5 * breath, 9 + 2 * wave(phase + 0.3), 0, 4};
-  pose_arm(arms, Bone::left_upper_arm, 0, pose);
-  pose_arm(arms, Bone::right_upper_arm, 0, pose);
-  return pose;
-}
-
-// Where the ball of the left foot is against the hips, forwards, through a stride. The right
-// foot's is the same half a stride later.
-std::vector<double> ball_track(const Walker& walker, const Style& style) {
-  std::vector<double> track(kFineFrames);
-  for (int frame = 0; frame < kFineFrames; ++frame) {
-    const Pose pose = stride_pose(walker, style, static_cast<double>(frame) / kFineFrames);
-    track[frame] = pose_joints(walker.joints, pose)[index_of(Bone::left_toe)].x();
-  }
-  return track;
-}
-
-// How fast the hips have to move forwards, in metres per frame, for the feet that carry weight to
-// stand still; where nothing carries, they keep the mean speed.
-std::vector<double> hip_advance(const Walker& walker, const Style& style, double mean_m) {
-  const std::vector<double> track = ball_track(walker, style);
-  const auto step = [&](int frame) {
-    return track[(frame + 1) % kFineFrames] - track[frame % kFineFrames];
-  };
-  std::vector<double> advance(kFineFrames);
-  for (int frame = 0; frame < kFineFrames; ++frame) {
-    const double middle = (frame + 0.5) / kFineFrames;
-    const double left = support(style, middle);
-    const double right = support(style, middle + 0.5);
-    advance[frame] =
-        mean_m + left * (-step(frame) - mean_m) + right * (-step(frame + kFineFrames / 2) - mean_m);
-  }
-  return advance;
-}
-
-double total(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum;
-}
-
-// The swing of the legs with which the standing foot moves back just as fast as the ground.
-double solve_amplitude(const Walker& walker, Style style, double stride_m) {
-  double low = 0.1;
-  double high = 2;
-  constexpr int kSteps = 16;
-  for (int step = 0; step < kSteps; ++step) {
-    style.amplitude = 0.5 * (low + high);
-    const double travel = total(hip_advance(walker, style, stride_m / kFineFrames));
-    (travel < stride_m ? low : high) = style.amplitude;
-  }
-  return 0.5 * (low + high);
-}
-
-float lowest_sole(const Walker& walker, const Palette& palette) {
-  float lowest = std::numeric_limits<float>::max();
-  for (const Vertex& vertex : walker.soles) {
-    lowest = std::min(lowest, skin(vertex, palette, palette, 0).z());
-  }
-  return walker.soles.empty() ? 0 : lowest;
-}
-
-Palette grounded_palette(const Walker& walker, const Pose& pose) {
-  Palette palette = pose_palette(walker.joints, pose);
-  const float lowest = lowest_sole(walker, palette);
-  for (BoneMatrix& matrix : palette) matrix(2, 3) -= lowest;
-  return palette;
-}
-
-std::vector<Palette> bake_standing(const Walker& walker, std::uint32_t frames) {
-  std::vector<Palette> palettes;
-  for (std::uint32_t frame = 0; frame < frames; ++frame) {
-    palettes.push_back(grounded_palette(walker, idle_pose(walker, double(frame) / frames)));
-  }
-  return palettes;
-}
-
-std::vector<Palette> bake_stride(const Walker& walker, const Clip& clip) {
-  Style style{clip.name == "run", clip.speed_mps, 1};
-  const double stride_m = stride_length_m(clip.speed_mps, walker.stature_m);
-  style.amplitude = solve_amplitude(walker, style, stride_m);
-  const std::vector<double> advance = hip_advance(walker, style, stride_m / kFineFrames);
-  const double mean = total(advance) / kFineFrames;
-  // The hips surge a little forwards and back around their mean speed.
-  std::vector<double> surge(kFineFrames, 0);
-  for (int frame = 1; frame < kFineFrames; ++frame) {
-    surge[frame] = surge[frame - 1] + advance[frame - 1] - mean;
-  }
-  const double middle = total(surge) / kFineFrames;
-  std::vector<Palette> palettes;
-  for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
-    const double phase = static_cast<double>(frame) / clip.frames;
-    Pose pose = stride_pose(walker, style, phase);
-    const auto fine = static_cast<std::size_t>(phase * kFineFrames);
-    pose.shift.x() = static_cast<float>(surge[fine] - middle);
-    palettes.push_back(grounded_palette(walker, pose));
-  }
-  return palettes;
+  const double reach = swing * std::clamp(30 * gait.stride - 7, 4.0, 24.0);
+  // Who walks as fast as others jog bends the elbows.
+  const double elbow = 16 + manner.elbow_deg + 30 * smooth(0.9, 1.1, gait.stride);
+  return {1 + reach * forward, elbow + 0.5 * reach * forward, manner.arms_out_deg, 4};
 }
 
 }  // namespace
 
-std::vector<Clip> standard_clips() {
-  std::vector<Clip> clips = {{"idle", 0, 0, kClipFrames}};
-  const auto add = [&](const char* name, float speed_mps) {
-    clips.push_back({name, speed_mps, clips.back().first + clips.back().frames, kClipFrames});
-  };
-  for (const float speed :
-       {0.3F, 0.4F, 0.5F, 0.62F, 0.75F, 0.9F, 1.05F, 1.2F, 1.35F, 1.5F, 1.67F, 1.85F, 2.0F}) {
-    add("walk", speed);
+double duty(const Gait& gait) {
+  if (gait.runs) return std::clamp(0.39 - 0.075 * (gait.stride - 0.95), 0.31, 0.40);
+  return std::clamp(0.645 - 0.15 * (gait.stride - 0.74), 0.59, 0.68);
+}
+
+double middle(const Gait& gait) {
+  if (gait.runs) return std::clamp(0.13 + 0.04 * (gait.stride - 1), 0.12, 0.16);
+  return kWalkMiddle;
+}
+
+// How far hips swing for a stride: measured on this rig with the tables' angles (a stride of 0.77
+// statures for walking as in the table, 0.91 for running).
+Stride::Stride(const Walker& walker, const Gait& gait)
+    : walker_(&walker),
+      gait_(gait),
+      swing_(gait.runs ? (gait.stride + 0.07) / 0.98 : gait.stride / 0.77),
+      duty_(duty(gait)) {
+  // Faster walking swings the hips further but bends knees and ankles hardly more (Schwartz et
+  // al. 2008); slower walking reduces both.
+  bend_ = swing_ < 1 ? std::max(swing_, 0.35) : 1 + 0.15 * (swing_ - 1);
+  if (gait.runs) {
+    settle_running_height();
+  } else {
+    settle_walking_height();
   }
-  for (const float speed : {2.15F, 2.4F, 2.7F, 3.0F, 3.4F, 3.8F, 4.3F, 4.9F}) add("run", speed);
-  return clips;
+  height_m_[0] -= std::max(excess_height_m(), 0.0);
 }
 
-std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip) {
-  return clip.name == "idle" ? bake_standing(walker, clip.frames) : bake_stride(walker, clip);
+Pose Stride::trunk_at(double phase) const {
+  Pose pose;
+  const double vigour = std::min(swing_, 1.2) * walker_->manner.liveliness;
+  Trunk trunk;
+  trunk.hips_yaw = -(gait_.runs ? 7.0 : 5.0) * kDegree * vigour * wave(phase);
+  trunk.chest_yaw = -1.2 * trunk.hips_yaw;
+  trunk.tilt = (gait_.runs ? 4.5 : 3.5) * kDegree * vigour * wave(phase - 0.15);
+  trunk.lean = (gait_.runs ? 7.0 : 2.5) * kDegree + (gait_.panics ? 7 * kDegree : 0);
+  if (gait_.looks_up) {
+    trunk.head_down = -34 * kDegree;
+    trunk.lean -= 3 * kDegree;
+  }
+  pose_trunk(*walker_, trunk, pose);
+  // The hips swing over the foot that stands.
+  const double sway = (gait_.runs ? 0.006 : 0.012) * std::max(1.4 - 0.4 * swing_, 0.8);
+  pose.shift.y() = static_cast<float>(sway * walker_->stature_m * wave(phase - 0.3));
+  const double step = 2 * phase;
+  pose.shift.z() = static_cast<float>(height_m_[0] + height_m_[1] * wave(step) +
+                                      height_m_[2] * wave(step - 0.25));
+  return pose;
 }
 
-Walker walker_of(const Joints& joints, float stature_m, const Mesh& level) {
-  Walker walker{joints, stature_m, {}};
-  const auto is_foot = [](std::uint8_t bone) {
-    const auto named = static_cast<Bone>(bone);
-    return named == Bone::left_foot || named == Bone::left_toe || named == Bone::right_foot ||
-           named == Bone::right_toe;
-  };
-  for (const Vertex& vertex : level.vertices) {
-    int share = 0;
-    for (std::size_t slot = 0; slot < 4; ++slot) {
-      if (is_foot(vertex.bones[slot])) share += vertex.weights[slot];
+Figure Stride::at(double phase) const {
+  Figure figure;
+  figure.pose = trunk_at(phase);
+  pose_arms(
+      *walker_,
+      {arm_swing(gait_, walker_->manner, phase), arm_swing(gait_, walker_->manner, phase + 0.5)},
+      figure.pose);
+  for (const Side side : kSides) {
+    figure.of(side) = foot_at(side, own_phase(side, phase), figure.pose);
+  }
+  return figure;
+}
+
+bool Stride::supported(double phase) const {
+  return own_phase(Side::left, phase) <= duty_ || own_phase(Side::right, phase) <= duty_;
+}
+
+// Pitch of the foot while it stands: as measured, but flat in between.
+double Stride::pitch_rad(double own) const {
+  const GaitTable& table = table_of(gait_);
+  const double measured = swing_ * (sample(table.hip, own) - table.pelvis_tilt_deg) +
+                          bend_ * (sample(table.ankle, own) - sample(table.knee, own));
+  const double at = wrapped(own);
+  if (at > duty_) return measured * kDegree;
+  const double down = gait_.runs ? 0.08 : 0.10;
+  const double up = gait_.runs ? 0.14 : 0.30;
+  const double flat =
+      smooth(0.2 * down, down, at) * (1 - smooth(up, std::min(up + 0.2, duty_), at));
+  return (1 - flat) * std::clamp(measured, -62.0, 26.0) * kDegree;
+}
+
+Foot Stride::stance_foot(Side side, double own) const {
+  const double standing_x = walker_->joints[index_of(on(side, Bone::left_toe))].x();
+  const double passed_m = (own - middle(gait_)) * length_m();
+  return standing_foot(*walker_, side, standing_x - passed_m, pitch_rad(own));
+}
+
+// Where the measured joint angles swing the foot.
+Foot Stride::swung_foot(Side side, double own, const Pose& pose) const {
+  const GaitTable& table = table_of(gait_);
+  const double hip = swing_ * (sample(table.hip, own) - table.pelvis_tilt_deg);
+  const double knee = bend_ * sample(table.knee, own);
+  const Limb leg = leg_of(*walker_, side);
+  Foot foot;
+  foot.ankle = hip_of(*walker_, pose, side) + turn_y(-hip * kDegree) * leg.upper +
+               turn_y(-(hip - knee) * kDegree) * leg.lower;
+  foot.pitch_rad = (hip - knee + bend_ * sample(table.ankle, own)) * kDegree;
+  return foot;
+}
+
+Foot Stride::foot_at(Side side, double own, const Pose& pose) const {
+  if (own <= duty_) return stance_foot(side, own);
+  // The swing leads from where the foot stood to where it will stand.
+  const double other = side == Side::left ? 0 : 0.5;
+  const Foot left_from = stance_foot(side, duty_);
+  Foot strikes_at = stance_foot(side, 0);
+  const Foot swung_from = swung_foot(side, duty_, trunk_at(duty_ + other));
+  const Foot swung_to = swung_foot(side, 1, trunk_at(other));
+  const double t = (own - duty_) / (1 - duty_);
+  const auto share = static_cast<float>(smooth(0, 1, t));
+  Foot foot = swung_foot(side, own, pose);
+  foot.ankle += (1 - share) * (left_from.ankle - swung_from.ankle) +
+                share * (strikes_at.ankle - swung_to.ankle);
+  foot.pitch_rad += (1 - share) * (left_from.pitch_rad - swung_from.pitch_rad) +
+                    share * (strikes_at.pitch_rad - swung_to.pitch_rad);
+  // Toes that were flat on the ground come back to the foot's line.
+  const double bent = 1 - smooth(0, 0.3, t);
+  foot.toes_rad = foot.pitch_rad < 0 ? (1 - bent) * foot.pitch_rad : foot.pitch_rad;
+  const double arch = std::sin(kPi * t);
+  foot.ankle.y() += static_cast<float>(0.008 * arch) * sign_of(side);
+  const double wanted_m =
+      (gait_.runs ? 0.04 : 0.012 + 0.01 * walker_->manner.liveliness * gait_.stride) * arch;
+  const double missing_m = wanted_m - clearance_m(*walker_, side, foot);
+  foot.ankle.z() += static_cast<float>(std::max(missing_m, 0.0));
+  return foot;
+}
+
+// How far up the hips are carried by a standing leg whose knee is bent by this much.
+double Stride::hip_height_m(double phase, Side side, double own, double knee_rad) const {
+  Pose pose = trunk_at(phase);
+  pose.shift.z() = 0;
+  const Eigen::Vector3f hip = hip_of(*walker_, pose, side);
+  const Foot foot = stance_foot(side, own);
+  const double chord = chord_m(leg_of(*walker_, side), knee_rad);
+  const double across = (hip - foot.ankle).head<2>().norm();
+  return foot.ankle.z() - hip.z() + std::sqrt(std::max(chord * chord - across * across, 0.01));
+}
+
+// Walkers are highest in the middle of a stance, on an almost straight leg, and sink between two
+// stances just as far as both legs need to reach the ground.
+void Stride::settle_walking_height() {
+  constexpr double kHighest = 0.30;
+  const double knee = std::clamp(12 * bend_, 7.0, 14.0) * kDegree;
+  const double high = hip_height_m(kHighest, Side::left, kHighest, knee);
+  const double step = 2 * kHighest;
+  const double most_m = 0.022 * walker_->stature_m;
+  for (double half_m = 0.003; half_m <= most_m; half_m += 0.001) {
+    height_m_ = {high - half_m, half_m * wave(step), half_m * wave(step - 0.25)};
+    if (excess_height_m() <= 0) break;
+  }
+}
+
+// Runners are lowest in the middle of a stance and fly between two: the hips move up and down by
+// 4.5 % of stature (Fukuchi 2017).
+void Stride::settle_running_height() {
+  const double middle = 0.5 * duty_;
+  const double knee = bend_ * sample(kRunTable.knee, middle) * kDegree;
+  const double low = hip_height_m(middle, Side::left, middle, knee);
+  const double half_m = 0.5 * 0.045 * walker_->stature_m;
+  const double step = 2 * middle;
+  height_m_ = {low + half_m, -half_m * wave(step), -half_m * wave(step - 0.25)};
+}
+
+// How much higher the hips are than the legs that stand can carry them, at worst.
+double Stride::excess_height_m() const {
+  double excess = -1;
+  for (int i = 0; i < kSamples; ++i) {
+    const double phase = static_cast<double>(i) / kSamples;
+    const double height = trunk_at(phase).shift.z();
+    for (const Side side : kSides) {
+      const double own = own_phase(side, phase);
+      if (own > duty_) continue;
+      constexpr double kStraightest = 3 * kDegree;
+      excess = std::max(excess, height - hip_height_m(phase, side, own, kStraightest));
     }
-    if (share > 127) walker.soles.push_back(vertex);
   }
-  return walker;
+  return excess;
 }
 
 }  // namespace throng::skinning

@@ -1,40 +1,55 @@
-// How people stand, walk and run: joint angles from published measurements, put on a character's
-// own limbs so that stride length and speed agree.
+// How people walk and run: joint angles from published measurements, put on a character's own limbs
+// so that the feet that stand do so in their place while the body passes over them.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "skinning/population.h"
-#include "skinning/skeleton.h"
+#include "skinning/figure.h"
 
 namespace throng::skinning {
 
-/// What of a character its motion depends on.
-struct Walker {
-  Joints joints;
-  float stature_m = 0;
-  std::vector<Vertex> soles;  ///< vertices of which the lowest stands on the ground
+/// One way of getting on.
+struct Gait {
+  bool runs = false;
+  double stride = 0.8;    ///< length of a stride (two steps), in statures
+  bool panics = false;    ///< arms up and out, leaning forwards
+  bool looks_up = false;  ///< at something in the sky ahead
 };
 
-/// Frames per stride, and per period of standing.
-inline constexpr std::uint32_t kClipFrames = 32;
-/// After this many seconds standing repeats.
-inline constexpr double kIdlePeriod = 8;
-/// Below this speed, in m/s, people are taken to stand.
-inline constexpr double kStandingSpeed = 0.15;
-/// Above this speed, in m/s, people run; walking and running strides are blended around it.
-inline constexpr double kRunningSpeed = 2.05;
+/// Share of a stride that a foot is on the ground: Winiarski 2019 (walking), Fukuchi 2017
+/// (running; less the faster).
+double duty(const Gait& gait);
 
-/// The clips that every character gets: idle, then walking and running by rising speed.
-std::vector<Clip> standard_clips();
+/// Phase at which the left foot's toe joint is under the same point of the body as in standing:
+/// there one clip can follow another. Runners put their feet down further back.
+double middle(const Gait& gait);
+inline constexpr double kWalkMiddle = 0.25;
 
-/// The palettes of one clip: `clip.frames` of them, from the left foot's strike.
-std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip);
+/// One stride of one character. Phases are in strides from the left foot's strike.
+class Stride {
+ public:
+  Stride(const Walker& walker, const Gait& gait);
 
-/// The walker of a character: the soles are the vertices of its most detailed level that mostly
-/// hang on feet and toes.
-Walker walker_of(const Joints& joints, float stature_m, const Mesh& level);
+  Figure at(double phase) const;
+  /// Whether any foot touches the ground.
+  bool supported(double phase) const;
+  double length_m() const { return gait_.stride * walker_->stature_m; }
+
+ private:
+  Pose trunk_at(double phase) const;
+  Foot foot_at(Side side, double own_phase, const Pose& pose) const;
+  Foot stance_foot(Side side, double own_phase) const;
+  Foot swung_foot(Side side, double own_phase, const Pose& pose) const;
+  double pitch_rad(double own_phase) const;
+  double hip_height_m(double phase, Side side, double own_phase, double knee_rad) const;
+  void settle_walking_height();
+  void settle_running_height();
+  double excess_height_m() const;
+
+  const Walker* walker_;
+  Gait gait_;
+  double swing_;  ///< of the hips against the measured gait
+  double bend_;   ///< of knees and ankles against the measured gait
+  double duty_;
+  std::array<double, 3> height_m_{};  ///< of the hips: mean, and cosine and sine over a step
+};
 
 }  // namespace throng::skinning

@@ -1,12 +1,11 @@
 #include "skinning/motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "base/error.h"
-#include "skinning/gait.h"
 
 namespace throng::skinning {
 
@@ -14,57 +13,80 @@ namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2
 
-const Clip& clip_at(const Population& population, double speed_mps) {
-  const Clip* best = &population.clips.front();
-  double best_distance = std::numeric_limits<double>::max();
-  const bool stands = speed_mps < kStandingSpeed;
-  const bool runs = speed_mps >= kRunningSpeed;
-  for (const Clip& clip : population.clips) {
-    const bool fits = stands ? clip.name == "idle" : clip.name == (runs ? "run" : "walk");
-    const double distance = std::abs(clip.speed_mps - speed_mps);
-    if (fits && distance < best_distance) {
-      best = &clip;
-      best_distance = distance;
-    }
-  }
-  return *best;
+double smooth(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
 }
 
 }  // namespace
 
-double stride_length_m(double speed_mps, double stature_m) {
+double running_speed_mps(double stature_m) { return 1.55 * std::sqrt(stature_m); }
+
+double stride_length_m(double speed_mps, double stature_m, double age_years) {
   const double relative_speed = speed_mps / std::sqrt(kGravity * stature_m);
   const double walk = 0.42 + 1.22 * relative_speed;
   const double run = 0.30 + 1.29 * relative_speed;
-  const double t = std::clamp((speed_mps - 1.8) / (2.3 - 1.8), 0.0, 1.0);
-  const double blend = t * t * (3 - 2 * t);
-  return stature_m * (walk + blend * (run - walk));
+  const double change = running_speed_mps(stature_m);
+  const double blend = smooth(change - 0.25, change + 0.25, speed_mps);
+  const double young = walk + blend * (run - walk);
+  const double age = 1 - std::clamp(0.006 * (age_years - 60), 0.0, 0.15);
+  const double shuffle = std::min(0.5 + 0.5 * speed_mps / 0.3, 1.0);
+  return stature_m * young * age * shuffle;
 }
 
-void integrate_phase(std::span<const float> speed_mps, double dt_s, double stature_m,
-                     const Appearance& appearance, std::span<double> phase) {
-  check(speed_mps.size() == phase.size(), "a phase for each speed");
-  const auto rate_hz = [&](float speed) {
-    return appearance.cadence * speed / stride_length_m(speed, stature_m);
-  };
-  double strides = appearance.phase_offset;
-  for (std::size_t step = 0; step < phase.size(); ++step) {
-    if (step > 0) {
-      strides += 0.5 * dt_s * (rate_hz(speed_mps[step - 1]) + rate_hz(speed_mps[step]));
-    }
-    phase[step] = strides;
+PoseBlend frame_of(const Clip& clip, double frame) {
+  const auto frames = static_cast<double>(clip.frames);
+  if (clip.cyclic) {
+    const double at = frame - frames * std::floor(frame / frames);
+    const auto before = std::min(static_cast<std::uint32_t>(at), clip.frames - 1);
+    return {clip.first + before, clip.first + (before + 1) % clip.frames,
+            static_cast<float>(at - before)};
   }
+  const double at = std::clamp(frame, 0.0, frames - 1);
+  const auto before = static_cast<std::uint32_t>(at);
+  return {clip.first + before, clip.first + std::min(before + 1, clip.frames - 1),
+          static_cast<float>(at - before)};
 }
 
 PoseBlend pose_at(const Population& population, double phase, double speed_mps, double time_s) {
   check(!population.clips.empty(), "a population has clips");
-  const Clip& clip = clip_at(population, speed_mps);
-  const bool stands = clip.name == "idle";
-  const double turns = stands ? phase + time_s / kIdlePeriod : phase;
-  const double at = (turns - std::floor(turns)) * clip.frames;
-  const auto frame = std::min(static_cast<std::uint32_t>(at), clip.frames - 1);
-  return {clip.first + frame, clip.first + (frame + 1) % clip.frames,
-          static_cast<float>(at - frame)};
+  const ClipSet clips(population);
+  constexpr double kStature_m = 1.75;
+  if (speed_mps < kStandingSpeed) {
+    const Clip& idle = clips.nearest("idle");
+    return frame_of(idle, (phase + time_s / kIdlePeriod) * idle.frames);
+  }
+  const bool runs = speed_mps > running_speed_mps(kStature_m);
+  const Clip& clip =
+      clips.nearest(runs ? "run" : "walk", stride_length_m(speed_mps, kStature_m) / kStature_m);
+  return frame_of(clip, phase * clip.frames);
+}
+
+const Clip* ClipSet::find(std::string_view name, double stride) const {
+  const Clip* best = nullptr;
+  double best_distance = std::numeric_limits<double>::max();
+  for (const Clip& clip : *clips_) {
+    const double distance = std::abs(clip.stride - stride);
+    if (clip.name != name || distance >= best_distance) continue;
+    best = &clip;
+    best_distance = distance;
+  }
+  return best;
+}
+
+const Clip& ClipSet::nearest(std::string_view name, double stride) const {
+  constexpr std::array<std::array<std::string_view, 3>, 4> kInstead = {
+      {{"panic", "run", "walk"},
+       {"run", "walk", "walk"},
+       {"walk_look_up", "walk", "run"},
+       {"walk", "run", "run"}}};
+  const Clip* clip = find(name, stride);
+  for (const auto& names : kInstead) {
+    if (names[0] != name) continue;
+    if (clip == nullptr) clip = find(names[1], stride);
+    if (clip == nullptr) clip = find(names[2], stride);
+  }
+  return clip != nullptr ? *clip : clips_->front();
 }
 
 }  // namespace throng::skinning

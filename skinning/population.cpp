@@ -53,6 +53,7 @@ Population load_population(const fs::path& folder) {
   population.clips = index.clips;
   population.palettes_per_character = index.palettes_per_character;
   TextureLayers layers(population);
+  std::vector<Joints> joints;
   for (const Character& entry : index.characters) {
     const fs::path file = folder / (entry.name + ".glb");
     if (!fs::is_regular_file(file)) {
@@ -69,9 +70,9 @@ Population load_population(const fs::path& folder) {
     }
     Character& character = population.characters.emplace_back(entry);
     character.levels = std::move(asset.levels);
+    joints.push_back(asset.joints);
   }
-  population.palettes =
-      read_palettes(folder, population.characters.size() * population.palettes_per_character);
+  population.palettes = read_palettes(folder, joints, population.palettes_per_character);
   return population;
 }
 

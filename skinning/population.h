@@ -98,12 +98,15 @@ struct Texture {
 using BoneMatrix = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 using Palette = std::array<BoneMatrix, kBoneCount>;
 
-/// Frames of one cyclic or static clip inside every character's palettes.
+/// Frames of one clip inside every character's palettes.
 struct Clip {
-  std::string name;          ///< "idle", "walk", "run"
-  float speed_mps = 0;       ///< ground speed that it is for, whoever walks
+  std::string name;          ///< what it shows, e.g. "walk"; the list is in clips.h
+  float speed_mps = 0;       ///< natural ground speed of a person of 1.7 m; 0 on the spot
   std::uint32_t first = 0;   ///< index of its first palette
-  std::uint32_t frames = 0;  ///< evenly spaced over one stride (two steps) or one idle period
+  std::uint32_t frames = 0;  ///< evenly spaced
+  float stride = 0;          ///< length of a stride (two steps), in statures; 0 on the spot
+  float middle = 0;          ///< phase at which the left foot is below the body as in standing
+  bool cyclic = true;        ///< the first frame follows the last
 };
 
 struct Population {

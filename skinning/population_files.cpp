@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "skinning/items.h"
+#include "skinning/packed.h"
 #include "skinning/skeleton.h"
 
 namespace throng::skinning {
@@ -95,6 +96,11 @@ PopulationIndex parse_index(const json& document) {
     clip.speed_mps = entry.at("speed_mps").get<float>();
     clip.first = index.palettes_per_character;
     clip.frames = entry.at("frames").get<std::uint32_t>();
+    clip.stride = entry.at("stride").get<float>();
+    clip.middle = entry.at("middle").get<float>();
+    clip.cyclic = entry.at("cyclic").get<bool>();
+    if (!(clip.stride >= 0 && clip.stride < 10)) throw std::out_of_range("stride");
+    if (!(clip.middle >= 0 && clip.middle < 1)) throw std::out_of_range("middle");
     if (clip.frames == 0 || clip.frames > 100'000) throw std::out_of_range("frames");
     index.palettes_per_character += clip.frames;
     index.clips.push_back(std::move(clip));
@@ -124,8 +130,12 @@ std::string encode_index(const PopulationIndex& index) {
     document["characters"].push_back(json_of(character));
   }
   for (const Clip& clip : index.clips) {
-    document["clips"].push_back(
-        {{"name", clip.name}, {"speed_mps", clip.speed_mps}, {"frames", clip.frames}});
+    document["clips"].push_back({{"name", clip.name},
+                                 {"speed_mps", clip.speed_mps},
+                                 {"frames", clip.frames},
+                                 {"stride", clip.stride},
+                                 {"middle", clip.middle},
+                                 {"cyclic", clip.cyclic}});
   }
   return document.dump(1) + "\n";
 }
@@ -162,29 +172,26 @@ PopulationIndex read_index(const fs::path& folder) {
   return index;
 }
 
-std::string encode_palettes(const std::vector<Palette>& palettes) {
-  std::string bytes(palettes.size() * sizeof(Palette), '\0');
-  std::memcpy(bytes.data(), palettes.data(), bytes.size());
-  return bytes;
-}
-
-std::vector<Palette> read_palettes(const fs::path& folder, std::size_t count) {
+std::vector<Palette> read_palettes(const fs::path& folder, const std::vector<Joints>& characters,
+                                   std::size_t per_character) {
   const fs::path path = folder / kPalettesFile;
   const std::string bytes = fs::is_regular_file(path) ? read_file(path) : std::string();
-  if (bytes.size() != count * sizeof(Palette)) {
+  const std::size_t share = per_character * kPackedBytes;
+  if (bytes.size() != characters.size() * share) {
     throw InputError({path.string(), "", fmt::format("{} bytes", bytes.size()),
-                      fmt::format("{} bytes of palettes{}", count * sizeof(Palette), kRemedy)});
+                      fmt::format("{} bytes of poses{}", characters.size() * share, kRemedy)});
   }
-  std::vector<Palette> palettes(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-      BoneMatrix& matrix = palettes[i][bone];
-      std::memcpy(matrix.data(), bytes.data() + i * sizeof(Palette) + bone * sizeof(BoneMatrix),
-                  sizeof(BoneMatrix));
-      if (!matrix.allFinite()) {
-        throw InputError({path.string(), fmt::format("palette {}", i), "a number that is not",
-                          std::string("finite matrices") + kRemedy});
-      }
+  std::vector<Palette> palettes;
+  palettes.reserve(characters.size() * per_character);
+  for (std::size_t i = 0; i < characters.size(); ++i) {
+    try {
+      const std::vector<Palette> own =
+          unpack(characters[i], std::string_view(bytes).substr(i * share, share));
+      palettes.insert(palettes.end(), own.begin(), own.end());
+    } catch (const std::out_of_range& error) {
+      throw InputError({path.string(), fmt::format("character {}", i),
+                        fmt::format("a {} out of range", error.what()),
+                        std::string("poses") + kRemedy});
     }
   }
   return palettes;

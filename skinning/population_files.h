@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "skinning/population.h"
+#include "skinning/skeleton.h"
 
 namespace throng::skinning {
 
 /// Changes whenever the files mean something else, so that old ones are refused.
-inline constexpr int kPopulationFormat = 2;
+inline constexpr int kPopulationFormat = 3;
 inline constexpr const char* kIndexFile = "population.json";
 inline constexpr const char* kPalettesFile = "palettes.bin";
 
@@ -34,9 +35,11 @@ inline constexpr const char* kCharacterExtension = ".character.json";
 std::string encode_character(const Character& character);
 Character read_character(const std::filesystem::path& path);
 
-std::string encode_palettes(const std::vector<Palette>& palettes);
-
-/// Throws InputError when the file is missing or does not hold `count` palettes.
-std::vector<Palette> read_palettes(const std::filesystem::path& folder, std::size_t count);
+/// The palettes of all characters, whose joints these are, one character after the other; see
+/// packed.h. Throws InputError when the file is missing or does not hold `per_character` poses of
+/// each.
+std::vector<Palette> read_palettes(const std::filesystem::path& folder,
+                                   const std::vector<Joints>& characters,
+                                   std::size_t per_character);
 
 }  // namespace throng::skinning

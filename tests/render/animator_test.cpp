@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "stage.h"
 
 namespace throng::render {
@@ -88,6 +91,103 @@ TEST_F(AnimatorTest, IsAFunctionOfTimeAlone) {
       EXPECT_EQ(first.people[i].pose.blend, again.people[i].pose.blend);
     }
   }
+}
+
+TEST_F(AnimatorTest, FramesCanBeAskedForInAnyOrder) {
+  std::vector<Scene> in_order;
+  for (int frame = 0; frame < 60; ++frame) in_order.push_back(animator_.scene_at(frame / 12.0, 0));
+  const Animator other(trace_, people_);
+  for (int i = 0; i < 60; ++i) {
+    const int frame = (i * 37) % 60;
+    const Scene scene = other.scene_at(frame / 12.0, 0);
+    ASSERT_EQ(scene.people.size(), in_order[frame].people.size());
+    for (std::size_t k = 0; k < scene.people.size(); ++k) {
+      EXPECT_EQ(scene.people[k].pose.a, in_order[frame].people[k].pose.a);
+      EXPECT_EQ(scene.people[k].pose.b, in_order[frame].people[k].pose.b);
+      EXPECT_EQ(scene.people[k].pose.blend, in_order[frame].people[k].pose.blend);
+    }
+  }
+}
+
+TEST_F(AnimatorTest, WhoComesBackHasAPlanForEachStay) {
+  for (std::size_t step = 20; step < 30; ++step) trace_.flags[trace_.at(step, 0)] = 0;
+  trace_.position[trace_.at(20, 0)] = {1e6F, 1e6F};  // where somebody is who is not there
+  const Animator animator(trace_, people_);
+  EXPECT_EQ(animator.scene_at(1.95, 0).people.size(), 2U);
+  EXPECT_LT(animator.scene_at(1.95, 0).people[0].position.x(), 4);
+  EXPECT_EQ(animator.scene_at(2.5, 0).people.size(), 1U);
+  EXPECT_EQ(animator.scene_at(3.5, 0).people.size(), 2U);
+}
+
+TEST(IsDown, KnowsTheWordsOfStatesInWhichNobodyStands) {
+  for (const char* name : {"Fallen", "incapacitated", "is_dead", "Collapsed2", "CASUALTY"}) {
+    EXPECT_TRUE(is_down(name)) << name;
+  }
+  for (const char* name : {"walk", "Wait", "flee", "GoToExit", ""}) {
+    EXPECT_FALSE(is_down(name)) << name;
+  }
+}
+
+class AnimatorWithClipsTest : public AnimatorTest {
+ protected:
+  /// As baked people have them, each of one frame.
+  void add_clip(const char* name, std::uint32_t frames) {
+    people_.clips.push_back({name, 0, people_.palettes_per_character, frames, 0, 0, false});
+    people_.palettes_per_character += frames;
+    const skinning::Palette palette = people_.palettes.front();
+    people_.palettes.assign(people_.characters.size() * people_.palettes_per_character, palette);
+  }
+  std::string clip_of(const Animator& animator, double time_s, std::size_t person) {
+    const std::uint32_t palette = animator.scene_at(time_s, 0).people[person].pose.a;
+    std::string name;
+    for (const skinning::Clip& clip : people_.clips) {
+      if (clip.first <= palette) name = clip.name;
+    }
+    return name;
+  }
+};
+
+TEST_F(AnimatorWithClipsTest, StatesThatSaySoMakePeopleLie) {
+  add_clip("fall_forwards", 4);
+  add_clip("fall_backwards", 4);
+  trace_.header.state_names = {"walking", "incapacitated"};
+  trace_.state.assign(trace_.flags.size(), 0);
+  for (std::size_t step = 20; step < trace_.steps(); ++step) trace_.state[trace_.at(step, 1)] = 1;
+  const Animator animator(trace_, people_);
+  EXPECT_EQ(clip_of(animator, 1.0, 1), "idle");
+  EXPECT_EQ(clip_of(animator, 4.5, 1).substr(0, 4), "fall");
+  EXPECT_EQ(clip_of(animator, 4.5, 0), "walk");
+}
+
+TEST_F(AnimatorWithClipsTest, SomeLookUpAtADroneThatIsNearAndHigh) {
+  add_clip("look_up", 9);
+  const auto lookers = [&](const Eigen::Vector3d& drone) {
+    // Forty people who stand for a minute, facing +x.
+    trace_ = {};
+    trace_.header.dt_s = 0.5;
+    trace_.header.role.assign(40, world::AgentRole::person);
+    for (int step = 0; step <= 120; ++step) trace_.time_s.push_back(0.5 * step);
+    const std::size_t all = 40 * trace_.time_s.size();
+    trace_.position.assign(all, Eigen::Vector2f::Zero());
+    trace_.velocity.assign(all, Eigen::Vector2f::Zero());
+    trace_.yaw_rad.assign(all, 0);
+    trace_.flags.assign(all, world::kPresent);
+    world::DroneSample sample;
+    sample.position = drone;
+    trace_.drones = {{sample}};
+    const Animator animator(trace_, people_);
+    int count = 0;
+    for (double time = 0.3; time < 60; time += 3) {
+      for (std::size_t person = 0; person < 40; ++person) {
+        count += clip_of(animator, time, person) == "look_up" ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(lookers({10, 0, 15}), 40);
+  EXPECT_EQ(lookers({200, 0, 15}), 0) << "too far";
+  EXPECT_EQ(lookers({10, 0, 2}), 0) << "too low";
+  EXPECT_EQ(lookers({-20, 0, 15}), 0) << "behind";
 }
 
 TEST_F(AnimatorTest, WhoWalksStrides) {

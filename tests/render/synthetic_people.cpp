@@ -163,8 +163,8 @@ skinning::Population synthetic_people(std::size_t characters) {
   people.texture_size = kTextureSize;
   people.textures = {plain(205, 160, 130), plain(235, 235, 235), strands()};
   people.clips = {{"idle", 0.0F, 0, 1},
-                  {"walk", 1.3F, 1, kFramesPerStride},
-                  {"run", 3.0F, 1 + kFramesPerStride, kFramesPerStride}};
+                  {"walk", 1.3F, 1, kFramesPerStride, 0.8F, 0.25F},
+                  {"run", 3.0F, 1 + kFramesPerStride, kFramesPerStride, 1.2F, 0.13F}};
   people.palettes_per_character = 1 + 2 * kFramesPerStride;
   const skinning::Mesh fine = boxes_mesh(2);
   const skinning::Mesh coarse = boxes_mesh(1);

@@ -5,39 +5,40 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "made_up.h"
-#include "skinning/motion.h"
+#include "base/angle.h"
+#include "walkers.h"
 
 namespace throng::skinning {
 namespace {
 
-// A walker whose soles are heel and toe tip of both feet.
-Walker made_up_walker() {
-  Walker walker{made_up_joints(), 1.8F, {}};
-  for (const bool left : {true, false}) {
-    const float side = left ? 1 : -1;
-    const Bone foot = left ? Bone::left_foot : Bone::right_foot;
-    const Bone toe = left ? Bone::left_toe : Bone::right_toe;
-    walker.soles.push_back(made_up_vertex({-0.06F, side * 0.08F, 0}, foot, foot, 0));
-    walker.soles.push_back(made_up_vertex({0.14F, side * 0.09F, 0}, foot, toe, 128));
-    walker.soles.push_back(made_up_vertex({0.2F, side * 0.09F, 0}, toe, toe, 0));
+Clip clip_named(const std::string& name, double stride) {
+  const Population population = population_of({});
+  return *ClipSet(population).find(name, stride);
+}
+
+Eigen::Vector3f joint_at(const Walker& walker, const Palette& palette, Bone bone) {
+  const Eigen::Vector3f& joint = walker.joints[index_of(bone)];
+  return palette[index_of(bone)].leftCols<3>() * joint + palette[index_of(bone)].col(3);
+}
+
+float lowest_of(const std::vector<Vertex>& vertices, const Palette& palette) {
+  float lowest = 10;
+  for (const Vertex& vertex : vertices) {
+    lowest = std::min(lowest, skin(vertex, palette, palette, 0).z());
   }
-  return walker;
+  return lowest;
 }
 
-Clip clip_named(const std::string& name, float speed_mps) {
-  return {name, speed_mps, 0, kClipFrames};
-}
-
-TEST(Gait, EveryClipIsFiniteAndStandsOnTheGround) {
+TEST(Gait, EveryClipIsFiniteAndWhoTouchesTheGroundStandsOnIt) {
   const Walker walker = made_up_walker();
   for (const Clip& clip : standard_clips()) {
-    for (const Palette& palette : bake_clip(walker, clip)) {
-      float lowest = 10;
-      for (const Vertex& vertex : walker.soles) {
-        lowest = std::min(lowest, skin(vertex, palette, palette, 0).z());
-      }
-      EXPECT_NEAR(lowest, 0, 1e-4) << clip.name << " " << clip.speed_mps;
+    const std::vector<Palette> palettes = bake_clip(walker, clip);
+    ASSERT_EQ(palettes.size(), clip.frames);
+    const bool runs = clip.name == "run" || clip.name == "panic";
+    for (const Palette& palette : palettes) {
+      const float lowest = lowest_of(walker.body, palette);
+      EXPECT_GT(lowest, -0.02F) << clip.name << " " << clip.stride;
+      EXPECT_LT(lowest, runs ? 0.2F : 0.001F) << clip.name << " " << clip.stride;
       for (const BoneMatrix& matrix : palette) EXPECT_TRUE(matrix.allFinite());
     }
   }
@@ -53,14 +54,14 @@ TEST(Gait, ClipsLieBehindOneAnother) {
 
 TEST(Gait, LeftAndRightDoTheSameHalfAStrideApart) {
   const Walker walker = made_up_walker();
-  for (const Clip& clip : {clip_named("walk", 1.35F), clip_named("run", 2.7F)}) {
+  for (const Clip& clip : {clip_named("walk", 0.8), clip_named("run", 1.2)}) {
     const std::vector<Palette> palettes = bake_clip(walker, clip);
     for (std::uint32_t frame = 0; frame < kClipFrames; ++frame) {
       const Palette& now = palettes[frame];
       const Palette& later = palettes[(frame + kClipFrames / 2) % kClipFrames];
       for (std::size_t i = 0; i < 3; ++i) {
-        const Eigen::Vector3f left = skin(walker.soles[i], now, now, 0);
-        Eigen::Vector3f right = skin(walker.soles[i + 3], later, later, 0);
+        const Eigen::Vector3f left = skin(made_up_marks(Side::left)[i], now, now, 0);
+        Eigen::Vector3f right = skin(made_up_marks(Side::right)[i], later, later, 0);
         right.y() = -right.y();
         EXPECT_LT((left - right).norm(), 0.002F) << clip.name << " frame " << frame;
       }
@@ -68,59 +69,149 @@ TEST(Gait, LeftAndRightDoTheSameHalfAStrideApart) {
   }
 }
 
-// What the eye sees as skating: how far the ball of a planted foot moves over the ground.
-double slide_m(const Walker& walker, const Clip& clip, double from, double to) {
-  const std::vector<Palette> palettes = bake_clip(walker, clip);
-  const double stride_m = stride_length_m(clip.speed_mps, walker.stature_m);
-  double low = 1e9;
-  double high = -1e9;
-  for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
-    const double phase = static_cast<double>(frame) / clip.frames;
-    if (phase < from || phase > to) continue;
-    const double x =
-        phase * stride_m + skin(walker.soles[1], palettes[frame], palettes[frame], 0).x();
-    low = std::min(low, x);
-    high = std::max(high, x);
+TEST(Gait, StandingFeetMoveBackAsFastAsTheGround) {
+  for (const float scale : {0.65F, 1.0F}) {
+    const Walker walker = made_up_walker(scale);
+    for (const Clip& clip : standard_clips()) {
+      if (clip.stride <= 0 || !clip.cyclic) continue;
+      const std::vector<Palette> palettes = bake_clip(walker, clip);
+      const double lasts = duty({clip.name == "run" || clip.name == "panic", clip.stride});
+      const Vertex ball = made_up_marks(Side::left, scale)[1];
+      const float begin = skin(ball, palettes[2], palettes[2], 0).x();
+      for (std::uint32_t frame = 2; frame < lasts * kClipFrames; ++frame) {
+        const double passed = (frame - 2.0) / kClipFrames * clip.stride * walker.stature_m;
+        EXPECT_NEAR(skin(ball, palettes[frame], palettes[frame], 0).x(), begin - passed, 0.005)
+            << clip.name << " " << clip.stride << " frame " << frame;
+      }
+    }
   }
-  return high - low;
 }
 
-TEST(Gait, PlantedFeetHardlySlide) {
+TEST(Gait, FeetAreFlatInTheMiddleOfAStance) {
+  const Walker walker = made_up_walker();
+  for (const double stride : {0.5, 0.78, 0.94}) {
+    const std::vector<Palette> palettes = bake_clip(walker, clip_named("walk", stride));
+    for (const std::uint32_t frame : {3U, 4U, 5U}) {
+      for (const Vertex& vertex : made_up_marks(Side::left)) {
+        EXPECT_LT(skin(vertex, palettes[frame], palettes[frame], 0).z(), 0.005F) << stride;
+      }
+    }
+  }
+}
+
+TEST(Gait, ArmsSwingAgainstTheLegsAsFarAsMeasured) {
+  const Walker walker = made_up_walker();
+  const std::vector<Palette> palettes = bake_clip(walker, clip_named("walk", 0.82));
+  const auto foot = [&](std::size_t frame) {
+    return joint_at(walker, palettes[frame], Bone::left_foot).x();
+  };
+  // From the shoulder to the elbow, against straight down.
+  const auto upper_arm_deg = [&](std::size_t frame) {
+    const Eigen::Vector3f arm = joint_at(walker, palettes[frame], Bone::left_forearm) -
+                                joint_at(walker, palettes[frame], Bone::left_upper_arm);
+    return std::atan2(arm.x(), -arm.z()) / kDegree;
+  };
+  EXPECT_GT(foot(0), foot(kClipFrames / 2) + 0.4F);
+  const double swing = upper_arm_deg(kClipFrames / 2) - upper_arm_deg(0);
+  EXPECT_GT(swing, 25);
+  EXPECT_LT(swing, 45);
+}
+
+TEST(Gait, RunnersFlyTwiceAStrideAndWalkersNever) {
   const Walker walker = made_up_walker();
   for (const Clip& clip : standard_clips()) {
-    if (clip.name == "idle" || clip.speed_mps > 4) continue;
-    const bool runs = clip.name == "run";
-    EXPECT_LT(slide_m(walker, clip, 0.08, runs ? 0.32 : 0.56), 0.04)
-        << clip.name << " " << clip.speed_mps;
+    if (clip.stride <= 0 || !clip.cyclic) continue;
+    const std::vector<Palette> palettes = bake_clip(walker, clip);
+    int flights = 0;
+    for (std::size_t frame = 0; frame < palettes.size(); ++frame) {
+      const bool flies = lowest_of(walker.soles, palettes[frame]) > 0.008F;
+      const std::size_t before = (frame + palettes.size() - 1) % palettes.size();
+      const bool flew = lowest_of(walker.soles, palettes[before]) > 0.008F;
+      flights += flies && !flew ? 1 : 0;
+    }
+    const bool runs = clip.name == "run" || clip.name == "panic";
+    EXPECT_EQ(flights, runs ? 2 : 0) << clip.name << " " << clip.stride;
   }
-}
-
-TEST(Gait, ArmsSwingAgainstTheLegs) {
-  const Walker walker = made_up_walker();
-  const std::vector<Palette> palettes = bake_clip(walker, clip_named("walk", 1.35F));
-  const Vertex hand =
-      made_up_vertex(walker.joints[index_of(Bone::left_hand)], Bone::left_hand, Bone::left_hand, 0);
-  const Vertex& foot = walker.soles[0];
-  const auto x = [&](const Vertex& vertex, std::size_t frame) {
-    return skin(vertex, palettes[frame], palettes[frame], 0).x();
-  };
-  // At its strike the left foot is far forward and the left hand behind.
-  EXPECT_GT(x(foot, 0), x(foot, kClipFrames / 2) + 0.4F);
-  EXPECT_LT(x(hand, 0), x(hand, kClipFrames / 2) - 0.2F);
 }
 
 TEST(Gait, KneesBendBackwardsAndNotForwards) {
   const Walker walker = made_up_walker();
-  for (const Clip& clip : {clip_named("walk", 1.2F), clip_named("run", 3.4F)}) {
+  for (const Clip& clip : standard_clips()) {
+    if (clip.stride <= 0) continue;
     for (const Palette& palette : bake_clip(walker, clip)) {
-      const auto place = [&](Bone joint) {
-        const Vertex vertex = made_up_vertex(walker.joints[index_of(joint)], joint, joint, 0);
-        return skin(vertex, palette, palette, 0);
-      };
-      const Eigen::Vector3f thigh = place(Bone::left_shin) - place(Bone::left_thigh);
-      const Eigen::Vector3f shin = place(Bone::left_foot) - place(Bone::left_shin);
-      EXPECT_GT(thigh.cross(shin).y(), -0.01F) << clip.name;
+      for (const Side side : kSides) {
+        const Eigen::Vector3f hip = joint_at(walker, palette, on(side, Bone::left_thigh));
+        const Eigen::Vector3f knee = joint_at(walker, palette, on(side, Bone::left_shin));
+        const Eigen::Vector3f ankle = joint_at(walker, palette, on(side, Bone::left_foot));
+        EXPECT_GT((knee - hip).cross(ankle - knee).y(), -0.005F) << clip.name;
+      }
     }
+  }
+}
+
+TEST(Gait, StandingLegsAreNeitherLockedNorCrouching) {
+  const Walker walker = made_up_walker();
+  for (const double stride : {0.5, 0.66, 0.82, 0.94}) {
+    const Stride walk(walker, {false, stride});
+    const Pose pose = solve(walker, walk.at(0.3));
+    const Eigen::Matrix3f bend = pose.rotation[index_of(Bone::left_thigh)].transpose() *
+                                 pose.rotation[index_of(Bone::left_shin)];
+    const double knee_deg = Eigen::AngleAxisf(bend).angle() / kDegree;
+    EXPECT_GT(knee_deg, 3) << stride;
+    EXPECT_LT(knee_deg, 22) << stride;
+  }
+}
+
+TEST(Gait, TheHipsOfRunnersMoveUpAndDownMore) {
+  const Walker walker = made_up_walker();
+  const auto bob_m = [&](const Gait& gait) {
+    const Stride stride(walker, gait);
+    float low = 10;
+    float high = -10;
+    for (double phase = 0; phase < 1; phase += 0.01) {
+      low = std::min(low, stride.at(phase).pose.shift.z());
+      high = std::max(high, stride.at(phase).pose.shift.z());
+    }
+    return (high - low) / walker.stature_m;
+  };
+  // Walking 2 to 4 % of stature, running 3.5 to 5.5 %.
+  EXPECT_GT(bob_m({false, 0.82}), 0.012);
+  EXPECT_LT(bob_m({false, 0.82}), 0.045);
+  EXPECT_GT(bob_m({true, 1.1}), 0.035);
+  EXPECT_LT(bob_m({true, 1.1}), 0.055);
+}
+
+TEST(Gait, OldPeopleStoop) {
+  Walker walker = made_up_walker();
+  const auto head_x = [&] {
+    const Pose pose = Stride(walker, {false, 0.7}).at(0).pose;
+    return pose_joints(walker.joints, pose)[index_of(Bone::head)].x();
+  };
+  walker.manner.age_years = 30;
+  const float young = head_x();
+  walker.manner.age_years = 82;
+  EXPECT_GT(head_x(), young + 0.05F);
+}
+
+TEST(Gait, PanicRaisesTheArms) {
+  const Walker walker = made_up_walker();
+  const auto hand_z = [&](const char* name) {
+    const std::vector<Palette> palettes = bake_clip(walker, clip_named(name, 1.2));
+    return joint_at(walker, palettes[4], Bone::right_hand).z();
+  };
+  EXPECT_GT(hand_z("panic"), hand_z("run") + 0.3F);
+  EXPECT_GT(hand_z("panic"), 1.3F);
+}
+
+TEST(Gait, AnUmbrellaIsHeldInItsPlaceThroughoutTheStride) {
+  Walker walker = made_up_walker();
+  walker.manner.carries = Carry::umbrella;
+  const std::vector<Palette> palettes = bake_clip(walker, clip_named("walk", 0.8));
+  for (const Palette& palette : palettes) {
+    const Eigen::Vector3f chest = joint_at(walker, palette, Bone::chest);
+    const Eigen::Vector3f hand = joint_at(walker, palette, Bone::right_hand);
+    EXPECT_GT(hand.x(), chest.x() + 0.1F);
+    EXPECT_GT(hand.z(), 1.0F);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "skinning/gait.h"
+#include "skinning/clips.h"
 
 namespace throng::skinning {
 namespace {
@@ -42,35 +42,42 @@ TEST(Stride, GrowsSteadilyWithSpeed) {
   }
 }
 
-TEST(Phase, StridesTimesTheirLengthIsTheWayWalked) {
-  constexpr double kStep_s = 0.1;
-  for (const float speed : {0.5F, 1.3F, 2.0F, 3.1F}) {
-    const std::vector<float> speeds(101, speed);
-    std::vector<double> phase(101);
-    Appearance appearance;
-    appearance.phase_offset = 0.4F;
-    integrate_phase(speeds, kStep_s, 1.7, appearance, phase);
-    const double walked_m = (phase.back() - phase.front()) * stride_length_m(speed, 1.7);
-    EXPECT_NEAR(walked_m, 100 * kStep_s * speed, 1e-4);
-    EXPECT_NEAR(phase.front(), 0.4, 1e-6);
+TEST(Stride, IsShorterForTheOldAndFollowsStature) {
+  EXPECT_LT(stride_length_m(1.2, 1.7, 80), 0.9 * stride_length_m(1.2, 1.7, 30));
+  EXPECT_DOUBLE_EQ(stride_length_m(1.2, 1.7, 60), stride_length_m(1.2, 1.7, 20));
+  EXPECT_LT(stride_length_m(1.2, 1.2), 0.85 * stride_length_m(1.2, 1.8));
+}
+
+TEST(Stride, ChildrenRunSooner) {
+  EXPECT_NEAR(running_speed_mps(1.75), 2.05, 0.05);
+  EXPECT_LT(running_speed_mps(1.15), 1.7);
+}
+
+TEST(Clips, AreSpacedSoThatTheNearestIsNearEnough) {
+  const Population population = made_up_population(1);
+  const ClipSet clips(population);
+  for (double speed = 0.3; speed <= 4; speed += 0.01) {
+    const double stride = stride_length_m(speed, 1.7) / 1.7;
+    const char* name = speed > running_speed_mps(1.7) ? "run" : "walk";
+    EXPECT_NEAR(clips.nearest(name, stride).stride, stride, 0.05 * stride) << speed;
   }
 }
 
-TEST(Phase, StandsStillWithTheAgent) {
-  const std::vector<float> speeds(10, 0.0F);
-  std::vector<double> phase(10);
-  integrate_phase(speeds, 0.1, 1.7, {}, phase);
-  EXPECT_EQ(phase.front(), phase.back());
+TEST(Clips, AnotherTakesThePlaceOfAMissingOne) {
+  Population population;
+  population.clips = {{"stand there", 0, 0, 1}, {"walk", 1, 1, 8, 0.8F}};
+  const ClipSet clips(population);
+  EXPECT_EQ(clips.nearest("panic", 1.2).name, "walk");
+  EXPECT_EQ(clips.nearest("idle").name, "stand there");
+  EXPECT_EQ(clips.find("phone"), nullptr);
 }
 
-TEST(Phase, APartOfTheTraceGivesTheSameAsTheWhole) {
-  std::vector<float> speeds(50);
-  for (int i = 0; i < 50; ++i) speeds[i] = 1.5F + std::sin(0.3F * static_cast<float>(i));
-  std::vector<double> whole(50);
-  std::vector<double> part(20);
-  integrate_phase(speeds, 0.1, 1.7, {}, whole);
-  integrate_phase(std::span(speeds).first(20), 0.1, 1.7, {}, part);
-  EXPECT_TRUE(std::equal(part.begin(), part.end(), whole.begin()));
+const Clip& clip_of(const Population& population, std::uint32_t palette) {
+  const Clip* found = &population.clips.front();
+  for (const Clip& clip : population.clips) {
+    if (clip.first <= palette) found = &clip;
+  }
+  return *found;
 }
 
 TEST(Pose, BlendsNeighbouringFramesOfOneClip) {
@@ -78,10 +85,9 @@ TEST(Pose, BlendsNeighbouringFramesOfOneClip) {
   for (double speed = 0; speed < 5; speed += 0.07) {
     for (double phase = -3; phase < 3; phase += 0.013) {
       const PoseBlend pose = pose_at(population, phase, speed, 12.5);
-      EXPECT_LT(pose.a, population.palettes_per_character);
-      EXPECT_LT(pose.b, population.palettes_per_character);
-      EXPECT_EQ(pose.a / kClipFrames, pose.b / kClipFrames);
-      EXPECT_EQ(pose.b % kClipFrames, (pose.a + 1) % kClipFrames);
+      const Clip& clip = clip_of(population, pose.a);
+      EXPECT_EQ(&clip, &clip_of(population, pose.b));
+      EXPECT_EQ((pose.a - clip.first + 1) % clip.frames, pose.b - clip.first);
       EXPECT_GE(pose.blend, 0);
       EXPECT_LE(pose.blend, 1);
     }
@@ -91,12 +97,20 @@ TEST(Pose, BlendsNeighbouringFramesOfOneClip) {
 TEST(Pose, TakesTheClipOfTheSpeed) {
   const Population population = made_up_population(1);
   const auto clip = [&](double speed) {
-    return population.clips[pose_at(population, 0.3, speed, 0).a / kClipFrames];
+    return clip_of(population, pose_at(population, 0.3, speed, 0).a);
   };
   EXPECT_EQ(clip(0.05).name, "idle");
   EXPECT_EQ(clip(1.3).name, "walk");
   EXPECT_NEAR(clip(1.3).speed_mps, 1.3, 0.1);
   EXPECT_EQ(clip(3.0).name, "run");
+}
+
+TEST(Pose, ClipsThatDoNotRepeatEnd) {
+  const Clip clip{"fall_forwards", 0, 10, 5, 0, 0, false};
+  EXPECT_EQ(frame_of(clip, -1).a, 10U);
+  EXPECT_EQ(frame_of(clip, 99).b, 14U);
+  EXPECT_EQ(frame_of(clip, 2.25).a, 12U);
+  EXPECT_EQ(frame_of(clip, 2.25).b, 13U);
 }
 
 TEST(Pose, StandingPeopleMoveWithTime) {
@@ -146,6 +160,7 @@ TEST(AppearanceOf, CloneColoursDiffer) {
     EXPECT_GE(appearance.phase_offset, 0);
     EXPECT_LT(appearance.phase_offset, 1);
     EXPECT_NEAR(appearance.cadence, 1, 0.05);
+    EXPECT_NEAR(appearance.amplitude, 1, 0.08);
   }
   EXPECT_GT(tops.size(), 50U);
 }

@@ -1,0 +1,22 @@
+// The clips that every character gets, and baking them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "skinning/figure.h"
+#include "skinning/population.h"
+
+namespace throng::skinning {
+
+/// Frames per stride.
+inline constexpr std::uint32_t kClipFrames = 20;
+
+/// The clips of every baked character, one behind the other; docs/formats.md lists them.
+std::vector<Clip> standard_clips();
+
+/// The palettes of one of the standard clips.
+std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip);
+
+}  // namespace throng::skinning
