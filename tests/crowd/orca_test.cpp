@@ -311,8 +311,8 @@ TEST(Orca, WallsOfOthersDoNotMatter) {
   // wall far away, or the same without the wall.
   const auto heap_after = [](const std::string& extra) {
     std::string agents = agent_at(40, 0);
-    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(0.3, 0.1), std::pair(0.1, 0.3),
-                               std::pair(-0.2, 0.2), std::pair(0.15, -0.25)}) {
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(0.1, 0.03), std::pair(0.03, 0.1),
+                               std::pair(-0.1, 0.05), std::pair(0.05, -0.1)}) {
       agents += agent_at(x, y);
     }
     Simulation crowd = load(scene_with(agents, "", "Start", extra), mirror_behavior());
