@@ -8,6 +8,7 @@
 
 #include "base/instruction_set.h"
 #include "crowd/agents.h"
+#include "crowd/elevation.h"
 #include "crowd/goals.h"
 #include "crowd/obstacles.h"
 #include "crowd/shared_parts.h"
@@ -20,6 +21,7 @@ struct Crowd {
   Obstacles obstacles;
   /// What several elements of the files use, e.g. a mesh; who loads an element may add to it.
   std::shared_ptr<SharedParts> parts = std::make_shared<SharedParts>();
+  std::shared_ptr<const Elevation> elevation;  ///< none: level ground
   std::vector<float> model_constants;  ///< of the scene, in the order of the model's table
   std::vector<std::string_view> model_parameter_names;  ///< of Agents::model_parameters
   Compat compat = Compat::none;

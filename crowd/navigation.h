@@ -12,4 +12,9 @@ VelComponentRegistry::Entry nav_mesh_component();
 VelComponentRegistry::Entry road_map_component();
 VelComponentRegistry::Entry vector_field_component();
 
+/// By the length of the way across a mesh.
+std::vector<GoalSelectorRegistry::Entry> navigation_goal_selectors();
+/// What the ground's slopes do.
+std::vector<VelModifierRegistry::Entry> slope_modifiers();
+
 }  // namespace throng::crowd

@@ -108,7 +108,10 @@ Scene load_scene(const Element& experiment, const std::vector<std::string>& stat
       mark(child, spatial_query);
       load_spatial_query(child, crowd);
     } else if (child.name() == "Elevation") {
-      const Attributes flat(child, {word("type", {"flat"}, "only flat ground is known")});
+      if (crowd.elevation) child.fail("a second <Elevation>", "only one");
+      child.require_no_children();
+      ElevationContext ground{*crowd.parts};
+      crowd.elevation = elevation_registry().make(child, ground);
     } else if (child.name() == "AgentProfile") {
       profiles.push_back(load_profile(child, profiles, model, sequences));
     } else if (child.name() == "AgentGroup") {

@@ -138,7 +138,10 @@ Eigen::Vector2f Simulation::preferred_velocity(std::size_t agent) const {
   return agents.preferred_speed[agent] * agents.preferred_direction[agent];
 }
 
-float Simulation::ground_m(std::size_t) const { return 0; }
+float Simulation::ground_m(std::size_t agent) const {
+  const Crowd& crowd = state_->crowd;
+  return crowd.elevation ? crowd.elevation->height_m(crowd.agents.position[agent]) : 0;
+}
 
 bool Simulation::is_final(std::uint8_t state) const { return state_->machine->is_final(state); }
 

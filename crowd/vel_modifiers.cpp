@@ -1,5 +1,6 @@
 #include "crowd/behavior.h"
 #include "crowd/fundamental_diagram.h"
+#include "crowd/navigation.h"
 
 namespace throng::crowd {
 
@@ -31,7 +32,7 @@ std::vector<VelModifierRegistry::Entry> plain_modifiers() {
 
 const VelModifierRegistry& vel_modifier_registry() {
   static const VelModifierRegistry kRegistry(
-      {plain_modifiers(), density_modifiers(), formation_modifiers()});
+      {plain_modifiers(), density_modifiers(), formation_modifiers(), slope_modifiers()});
   return kRegistry;
 }
 

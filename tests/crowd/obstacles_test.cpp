@@ -66,5 +66,34 @@ TEST(Obstacles, KnowsConvexCorners) {
   }
 }
 
+TEST(Obstacles, KnowsSolidGroundAndOuterWalls) {
+  Obstacles obstacles;
+  const std::array<Eigen::Vector2f, 4> room = {{{0, 0}, {0, 9}, {9, 9}, {9, 0}}};
+  const std::array<Eigen::Vector2f, 4> pillar = {{{4, 4}, {5, 4}, {5, 5}, {4, 5}}};
+  obstacles.add_polygon(room, 1);
+  obstacles.add_polygon(pillar, 2);
+  obstacles.build();
+  EXPECT_FALSE(obstacles.polygons()[0].solid);
+  EXPECT_TRUE(obstacles.polygons()[1].solid);
+  EXPECT_FALSE(obstacles.is_solid({1, 1}, 3));
+  EXPECT_TRUE(obstacles.is_solid({4.5F, 4.5F}, 3));
+  EXPECT_FALSE(obstacles.is_solid({4.5F, 4.5F}, 1)) << "minds no pillars";
+  EXPECT_TRUE(obstacles.is_solid({10, 1}, 3));
+  EXPECT_FALSE(obstacles.is_solid({10, 1}, 2)) << "minds no outer walls";
+}
+
+TEST(Obstacles, HidesWhatWallsAreBefore) {
+  Obstacles obstacles;
+  const std::array<Eigen::Vector2f, 4> box = {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}};
+  obstacles.add_polygon(box, 2);
+  obstacles.build();
+  EXPECT_FALSE(obstacles.visible({-1, 2}, {5, 2}, 0, 2));
+  EXPECT_TRUE(obstacles.visible({-1, 2}, {5, 2}, 0, 1)) << "of another class";
+  EXPECT_TRUE(obstacles.visible({-1, -0.1F}, {5, -0.1F}, 0, 2));
+  EXPECT_FALSE(obstacles.visible({-1, -0.1F}, {5, -0.1F}, 0.2F, 2)) << "too narrow for a disc";
+  EXPECT_TRUE(obstacles.visible({1, -0.1F}, {3, -0.1F}, 0.2F, 2)) << "along the wall";
+  EXPECT_TRUE(obstacles.visible({2, 2}, {9, 2}, 0, 2)) << "from inside";
+}
+
 }  // namespace
 }  // namespace throng::crowd

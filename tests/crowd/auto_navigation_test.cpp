@@ -1,0 +1,167 @@
+// Ways around all obstacles without a mesh by hand.
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <cmath>
+
+#include "crowd/path_finder.h"
+#include "crowd/walkable_mesh.h"
+#include "crowd_files.h"
+#include "navigation_files.h"
+
+namespace throng::crowd {
+namespace {
+
+using test::agent_at;
+using test::obstacles;
+using test::scene_with;
+
+std::string go_to(const std::string& goal, const std::string& component = R"(type="auto")") {
+  return fmt::format(R"(<BFSM>
+  <GoalSet id="1">{}</GoalSet>
+  <State name="Start" final="0"><GoalSelector type="explicit" goal_set="1" goal="0"/>
+    <VelComponent {}/></State>
+  <State name="End" final="1"/>
+  <Transition from="Start" to="End"><Condition type="goal_reached" distance="0.3"/></Transition>
+</BFSM>)",
+                     goal, component);
+}
+
+std::string point_goal(double x, double y) {
+  return fmt::format(R"(<Goal type="point" id="0" x="{}" y="{}"/>)", x, y);
+}
+
+/// Steps until everybody has arrived or the time is over; no one may be deeper inside of a wall
+/// than a centimetre.
+void run(Simulation& crowd, double until_s, const std::vector<Box>& walls) {
+  while (!crowd.all_final() && crowd.time_s() < until_s) {
+    crowd.step();
+    for (const Eigen::Vector2f& p : crowd.positions()) {
+      for (const Box& wall : walls) ASSERT_FALSE(test::grown(wall, -0.01F).contains(p));
+    }
+  }
+}
+
+TEST(AutoNavigation, GoesAroundAWall) {
+  const std::vector<Box> wall = {{{-10, 4}, {10, 5}}};
+  const std::string scene = scene_with(agent_at(0, 0), "", "Start", obstacles(wall));
+  Simulation straight = test::load(scene, go_to(point_goal(0, 10), R"(type="goal")"));
+  run(straight, 60, wall);
+  EXPECT_FALSE(straight.all_final()) << "the test's wall is in the way";
+  Simulation crowd = test::load(scene, go_to(point_goal(0, 10)));
+  run(crowd, 60, wall);
+  EXPECT_TRUE(crowd.all_final());
+  const double way = std::hypot(10.2, 4) + 1 + std::hypot(10.2, 5);
+  EXPECT_LT(crowd.time_s(), 1.1 * way / 1.34) << "not a long way round";
+}
+
+TEST(AutoNavigation, WaysAreShortAndNeverCrossWalls) {
+  constexpr float kRadius = 0.36F;
+  constexpr float kSize = 50;
+  int found = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const std::vector<Box> boxes = test::random_boxes(25, kSize, seed);
+    Obstacles walls;
+    std::vector<Box> tight;
+    std::vector<Box> wide;
+    for (const Box& box : boxes) {
+      walls.add_polygon(test::corners_of(box), 1);
+      tight.push_back(test::grown(box, 0.3F * kRadius));
+      wide.push_back(test::grown(box, 1.4F * kRadius));
+    }
+    walls.build();
+    const NavMesh mesh = make_walkable_mesh(walls, 1, kRadius, {{0, 0}, {kSize, kSize}}, {});
+    PathFinder finder(mesh);
+    for (std::uint64_t i = 0; i < 30; ++i) {
+      Random random(seed, Stream::crowd_profile, i);
+      const auto draw = [&] { return static_cast<float>(random.uniform(-2, kSize + 2)); };
+      const Eigen::Vector2f from(draw(), draw());
+      const Eigen::Vector2f to(draw(), draw());
+      // Boxes a bit bigger than where an agent's centre may be: the way may be a little longer.
+      const float length = test::shortest_way(wide, from, to);
+      if (!std::isfinite(length) || mesh.find(from) < 0 || mesh.find(to) < 0) continue;
+      ASSERT_TRUE(finder.find({mesh.find(from), from}, {mesh.find(to), to}, 0));
+      EXPECT_LE(finder.length_m(), 1.03F * length + 0.2F) << "seed " << seed << ", way " << i;
+      Eigen::Vector2f at = from;
+      for (const Eigen::Vector2f& bend : finder.bends()) {
+        EXPECT_TRUE(test::sees(tight, at, bend)) << "seed " << seed << ", way " << i;
+        at = bend;
+      }
+      EXPECT_EQ(at, to);
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 30);
+}
+
+TEST(AutoNavigation, GoesAsNearAsPossibleToAGoalInsideABuilding) {
+  const std::vector<Box> building = {{{5, -5}, {15, 5}}};
+  Simulation crowd = test::load(scene_with(agent_at(0, 8), "", "Start", obstacles(building)),
+                                go_to(point_goal(14, 0)));
+  run(crowd, 40, building);
+  const Eigen::Vector2f p = crowd.positions()[0];
+  EXPECT_NEAR(p.x(), 15.2, 0.3);
+  EXPECT_NEAR(p.y(), 0, 0.3);
+  EXPECT_LT(crowd.velocities()[0].norm(), 0.1F);
+}
+
+TEST(AutoNavigation, LeavesABuilding) {
+  const std::vector<Box> building = {{{0, 0}, {10, 10}}};
+  Simulation crowd = test::load(scene_with(agent_at(2, 5), "", "Start", obstacles(building)),
+                                go_to(point_goal(20, 5)));
+  while (!crowd.all_final() && crowd.time_s() < 60) crowd.step();
+  EXPECT_TRUE(crowd.all_final());
+}
+
+TEST(AutoNavigation, StaysInsideOuterWallsAndFindsTheDoor) {
+  // A room 20 m wide, clockwise, with a wall across that leaves 2 m free.
+  const std::string room = R"(<ObstacleSet type="explicit" class="1"><Obstacle closed="1">
+    <Vertex p_x="0" p_y="0"/><Vertex p_x="0" p_y="20"/><Vertex p_x="20" p_y="20"/>
+    <Vertex p_x="20" p_y="0"/></Obstacle></ObstacleSet>)";
+  const std::vector<Box> wall = {{{9, -1}, {10, 18}}};
+  Simulation crowd = test::load(scene_with(agent_at(5, 2), "", "Start", room + obstacles(wall)),
+                                go_to(point_goal(15, 2)));
+  while (!crowd.all_final() && crowd.time_s() < 60) {
+    crowd.step();
+    EXPECT_TRUE((Box{{0, 0}, {20, 20}}.contains(crowd.positions()[0])));
+  }
+  EXPECT_TRUE(crowd.all_final());
+}
+
+TEST(AutoNavigation, FollowsAGoalThatMoves) {
+  const std::vector<Box> building = {{{5, -5}, {15, 5}}};
+  Simulation crowd = test::load(scene_with(agent_at(0, 0), "", "Start", obstacles(building)),
+                                go_to(point_goal(2, 0.5)));
+  for (double x = 2; x < 30; x += 0.1) {
+    crowd.move_goal(1, 0, {static_cast<float>(x), 8 + static_cast<float>(x) / 10});
+    crowd.step();
+  }
+  run(crowd, 60, building);
+  EXPECT_TRUE(crowd.all_final());
+}
+
+TEST(AutoNavigation, MindsTheObstaclesOfItsClassesOnly) {
+  const std::vector<Box> wall = {{{-10, 4}, {10, 5}}};
+  Simulation crowd =
+      test::load(scene_with(agent_at(0, 0), R"(obstacleSet="2")", "Start", obstacles(wall)),
+                 go_to(point_goal(0, 10)));
+  while (!crowd.all_final() && crowd.time_s() < 60) crowd.step();
+  EXPECT_LT(crowd.time_s(), 9);
+}
+
+TEST(AutoNavigation, IsTheSameForAnyNumberOfThreads) {
+  const std::vector<Box> boxes = test::random_boxes(10, 30, 4);
+  std::string agents;
+  for (int i = 0; i < 300; ++i) agents += agent_at(-3 - i % 20, 1 + 1.5 * (i / 20));
+  const auto positions_after = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Simulation crowd =
+        test::load(scene_with(agents, "", "Start", obstacles(boxes)), go_to(point_goal(40, 15)));
+    for (int i = 0; i < 100; ++i) crowd.step();
+    return std::vector<Eigen::Vector2f>(crowd.positions().begin(), crowd.positions().end());
+  };
+  EXPECT_EQ(positions_after(1), positions_after(4));
+}
+
+}  // namespace
+}  // namespace throng::crowd

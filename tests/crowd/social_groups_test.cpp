@@ -1,0 +1,151 @@
+// Pairs and small groups.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "crowd_files.h"
+
+namespace throng::crowd {
+namespace {
+
+std::string street(const std::string& groups, int people) {
+  return fmt::format(R"(<Experiment version="2.0">
+  <SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
+  {}
+  <AgentProfile name="a"><Common r="0.2" max_speed="2" max_accel="5">
+    <Property name="pref_speed" dist="u" min="1" max="1.6"/></Common></AgentProfile>
+  <AgentGroup>
+    <ProfileSelector type="const" name="a"/><StateSelector type="const" name="Walk"/>
+    <Generator type="rect_grid" anchor_x="0" anchor_y="0" offset_x="1.5" offset_y="1.5"
+               count_x="{}" count_y="10"/>
+  </AgentGroup>
+</Experiment>)",
+                     groups, people / 10);
+}
+
+const std::string kEastwards = R"(<BFSM>
+  <State name="Walk" final="0"><VelComponent type="const_dir" x="1" y="0"/></State></BFSM>)";
+
+std::map<int, std::vector<std::size_t>> groups_of(const Simulation& crowd) {
+  std::map<int, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
+    if (crowd.social_groups()[i] >= 0) groups[crowd.social_groups()[i]].push_back(i);
+  }
+  return groups;
+}
+
+/// The mean over the groups of the largest distance between two members, m.
+double mean_extent_m(const Simulation& crowd,
+                     const std::map<int, std::vector<std::size_t>>& groups) {
+  double sum = 0;
+  for (const auto& [number, members] : groups) {
+    float extent = 0;
+    for (const std::size_t a : members) {
+      for (const std::size_t b : members) {
+        extent = std::max(extent, (crowd.positions()[a] - crowd.positions()[b]).norm());
+      }
+    }
+    sum += extent;
+  }
+  return sum / static_cast<double>(groups.size());
+}
+
+TEST(SocialGroups, HaveTheShareAndSizesAsked) {
+  const Simulation crowd = test::load(
+      street(R"(<SocialGroups share="0.5" pairs="1" threes="1" fours="0"/>)", 400), kEastwards);
+  const auto groups = groups_of(crowd);
+  std::size_t grouped = 0;
+  std::map<std::size_t, int> sizes;
+  for (const auto& [number, members] : groups) {
+    grouped += members.size();
+    ++sizes[members.size()];
+  }
+  EXPECT_NEAR(static_cast<double>(grouped), 200, 3);
+  EXPECT_EQ(sizes.size(), 2);
+  EXPECT_NEAR(sizes[2], sizes[3], 25);
+  // Each as fast as its slowest.
+  for (const auto& [number, members] : groups) {
+    for (const std::size_t member : members) {
+      EXPECT_EQ(crowd.desired_speeds_mps()[member], crowd.desired_speeds_mps()[members[0]]);
+    }
+  }
+}
+
+TEST(SocialGroups, AreTheSameForEqualSeedsOnly) {
+  const std::string scene = street(R"(<SocialGroups share="0.5"/>)", 200);
+  const auto numbers = [&](std::uint64_t seed) {
+    const Simulation crowd = test::load(scene, kEastwards, {.seed = seed});
+    return std::vector<std::int32_t>(crowd.social_groups().begin(), crowd.social_groups().end());
+  };
+  EXPECT_EQ(numbers(1), numbers(1));
+  EXPECT_NE(numbers(1), numbers(2));
+}
+
+TEST(SocialGroups, NobodyIsInOneUnlessAsked) {
+  EXPECT_TRUE(groups_of(test::load(street("", 100), kEastwards)).empty());
+}
+
+TEST(SocialGroups, StayTogetherThroughACrowd) {
+  // With and without the forces, from the same groups.
+  const std::string with = R"(<SocialGroups share="0.6"/>)";
+  const std::string without = R"(<SocialGroups share="0.6" gaze="0" cohesion="0" spacing="0"/>)";
+  std::map<std::string, double> extent_m;
+  for (const std::string& groups : {with, without}) {
+    // Half of them come the other way.
+    std::string scene = street(groups, 100);
+    const std::string other_way = R"(<AgentGroup>
+      <ProfileSelector type="const" name="a"/><StateSelector type="const" name="Back"/>
+      <Generator type="rect_grid" anchor_x="40" anchor_y="0.7" offset_x="1.5" offset_y="1.5"
+                 count_x="10" count_y="10"/></AgentGroup></Experiment>)";
+    scene.replace(scene.find("</Experiment>"), 13, other_way);
+    Simulation crowd = test::load(scene, R"(<BFSM>
+      <State name="Walk" final="0"><VelComponent type="const_dir" x="1" y="0"/></State>
+      <State name="Back" final="0"><VelComponent type="const_dir" x="-1" y="0"/></State></BFSM>)");
+    const auto members = groups_of(crowd);
+    while (crowd.time_s() < 40) crowd.step();
+    extent_m[groups] = mean_extent_m(crowd, members);
+  }
+  EXPECT_LT(extent_m[with], 2.0);
+  EXPECT_GT(extent_m[without], 1.4 * extent_m[with]);
+  RecordProperty("extent_m", std::to_string(extent_m[with]));
+}
+
+TEST(SocialGroups, PairsWalkAbreast) {
+  // Started one behind the other.
+  Simulation crowd = test::load(R"(<Experiment version="2.0">
+    <SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
+    <SocialGroups share="1" pairs="1" threes="0" fours="0"/>
+    <AgentProfile name="a"><Common r="0.2" max_speed="2" max_accel="5"/></AgentProfile>
+    <AgentGroup><ProfileSelector type="const" name="a"/><StateSelector type="const" name="Walk"/>
+      <Generator type="explicit"><Agent p_x="0" p_y="0"/><Agent p_x="2" p_y="0.2"/></Generator>
+    </AgentGroup></Experiment>)",
+                                kEastwards);
+  ASSERT_EQ(groups_of(crowd).size(), 1);
+  while (crowd.time_s() < 30) crowd.step();
+  const Eigen::Vector2f apart = crowd.positions()[1] - crowd.positions()[0];
+  EXPECT_LT(std::abs(apart.x()), 0.4F);
+  EXPECT_GT(std::abs(apart.y()), 0.4F);
+  EXPECT_LT(std::abs(apart.y()), 1.2F);
+}
+
+TEST(SocialGroups, ShareTheirGoals) {
+  std::string goals;
+  for (int i = 0; i < 40; ++i) {
+    goals += fmt::format(R"(<Goal id="{}" type="point" x="300" y="{}"/>)", i, 20 * (i - 20));
+  }
+  const Simulation crowd = test::load(street(R"(<SocialGroups share="0.6"/>)", 100),
+                                      fmt::format(R"(<BFSM><GoalSet id="0">{}</GoalSet>
+      <State name="Walk" final="0"><GoalSelector type="random" goal_set="0"/>
+        <VelComponent type="goal"/></State></BFSM>)",
+                                                  goals));
+  for (const auto& [number, members] : groups_of(crowd)) {
+    for (const std::size_t member : members) {
+      EXPECT_EQ(crowd.goals()[member].goal, crowd.goals()[members[0]].goal);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace throng::crowd
