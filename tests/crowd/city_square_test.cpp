@@ -96,5 +96,24 @@ TEST(CitySquare, PeopleFollowWhatLeadsThem) {
   EXPECT_GT(most_followers, 20U);
 }
 
+TEST(CitySquare, NobodyGetsStuckBehindABuilding) {
+  for (const std::uint64_t seed : {1, 2}) {
+    Simulation crowd = test::load_city_square(seed);
+    // The guide crosses a building and waits behind it.
+    const Eigen::Vector2f waiting(-26, -8);
+    while (crowd.time_s() < 160) {
+      const auto x = static_cast<float>(-7 - std::max(0.0, crowd.time_s() - 30));
+      crowd.move_goal(99, 0, {std::max(x, waiting.x()), waiting.y()});
+      crowd.step();
+    }
+    for (std::size_t i = 0; i < kPeople; ++i) {
+      const Eigen::Vector2f p = crowd.positions()[i];
+      EXPECT_TRUE(has_escaped(p) || (p - waiting).norm() < 5)
+          << "seed " << seed << ", agent " << i << " at " << p.transpose() << " in state "
+          << test::state_of(crowd, i);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace throng::crowd
