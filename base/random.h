@@ -21,6 +21,10 @@ enum class Stream : std::uint32_t {
   environment = 10,
   randomize = 11,     ///< values drawn for a job's distributions
   participants = 12,  ///< who of a scenario's people takes part in a run
+  crowd_arrivals = 13,
+  crowd_groups = 14,  ///< who walks with whom
+  crowd_panic = 15,
+  crowd_exits = 16,  ///< which exits somebody knows
   crowd_model = 17,  ///< noise of pedestrian models
 };
 

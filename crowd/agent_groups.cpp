@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "crowd/arrivals.h"
 #include "crowd/generators.h"
 
 namespace throng::crowd {
@@ -117,16 +118,36 @@ std::unique_ptr<StateSelector> make_one_state(const Element& element, const Attr
   return std::make_unique<OneState>(static_cast<std::uint8_t>(found - names.begin()));
 }
 
-/// The one child of an <AgentGroup> with this name.
-Element only(const Element& group, std::string_view name) {
+std::optional<Element> at_most_one(const Element& group, std::string_view name) {
   std::optional<Element> found;
   for (const Element& child : group.children()) {
     if (child.name() != name) continue;
     if (found) child.fail(fmt::format("a second <{}>", name), fmt::format("one <{}>", name));
     found = child;
   }
+  return found;
+}
+
+/// The one child of an <AgentGroup> with this name.
+Element only(const Element& group, std::string_view name) {
+  const std::optional<Element> found = at_most_one(group, name);
   if (!found) group.fail(fmt::format("no <{}>", name), fmt::format("exactly one <{}>", name));
   return *found;
+}
+
+void add_agents(const std::vector<Eigen::Vector2f>& places, ProfileSelector& profile,
+                StateSelector& state, const GroupContext& context, Crowd& crowd) {
+  Agents& agents = crowd.agents;
+  const std::size_t first = agents.count();
+  agents.resize(first + places.size(), context.profiles.front().model_parameters.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::size_t agent = first + i;
+    const std::size_t chosen = profile.select(agent);
+    apply_profile(context.profiles[chosen], context.seed, agent, agents);
+    agents.profile[agent] = static_cast<std::uint32_t>(chosen);
+    agents.position[agent] = places[i];
+    agents.state[agent] = state.select(agent);
+  }
 }
 
 }  // namespace
@@ -146,32 +167,41 @@ const StateSelectorRegistry& state_selector_registry() {
   return kRegistry;
 }
 
-void load_group(const Element& group, GroupContext& context, Crowd& crowd) {
+void load_group(const Element& group, GroupContext& context, Crowd& crowd,
+                std::vector<std::unique_ptr<Process>>& processes) {
   const Attributes no_attributes(group, {});
   const auto profile = profile_selector_registry().make(only(group, "ProfileSelector"), context);
   const auto state = state_selector_registry().make(only(group, "StateSelector"), context);
-  Agents& agents = crowd.agents;
-  bool any_generator = false;
+  const std::size_t first = crowd.agents.count();
+  const std::optional<Element> arrivals = at_most_one(group, "Arrivals");
+  std::vector<Eigen::Vector2f> places;
   for (const Element& child : group.children()) {
     if (child.name() == "Generator") {
-      any_generator = true;
-      const std::size_t first = agents.count();
-      const std::vector<Eigen::Vector2f> places =
-          generate_places(child, context.seed, context.sequences, first);
-      agents.resize(first + places.size(), context.profiles.front().model_parameters.size());
-      for (std::size_t i = 0; i < places.size(); ++i) {
-        const std::size_t agent = first + i;
-        const std::size_t chosen = profile->select(agent);
-        apply_profile(context.profiles[chosen], context.seed, agent, agents);
-        agents.profile[agent] = static_cast<std::uint32_t>(chosen);
-        agents.position[agent] = places[i];
-        agents.state[agent] = state->select(agent);
-      }
-    } else if (child.name() != "ProfileSelector" && child.name() != "StateSelector") {
-      child.fail_unknown("<ProfileSelector>, <StateSelector> or <Generator>");
+      const std::vector<Eigen::Vector2f> more = generate_places(
+          child, context.seed, context.sequences, *crowd.parts, first + places.size());
+      places.insert(places.end(), more.begin(), more.end());
+      // Each generator's agents are made at once: the order in which compatible runs draw.
+      if (!arrivals) add_agents(more, *profile, *state, context, crowd);
+    } else if (child.name() != "ProfileSelector" && child.name() != "StateSelector" &&
+               child.name() != "Arrivals") {
+      child.fail_unknown("<ProfileSelector>, <StateSelector>, <Generator> or <Arrivals>");
     }
   }
-  if (!any_generator) group.fail("no <Generator>", "at least one <Generator>");
+  if (places.empty()) group.fail("no <Generator>", "at least one <Generator>");
+  if (!arrivals) {
+    if (context.social_groups) {
+      form_social_groups(*context.social_groups, first, places.size(), context.seed, crowd);
+    }
+    return;
+  }
+  ArrivalPlan plan = load_arrivals(*arrivals, places, first, context.seed);
+  std::vector<Eigen::Vector2f> entrances(plan.time_s.size());
+  for (std::size_t i = 0; i < entrances.size(); ++i) entrances[i] = places[i % places.size()];
+  add_agents(entrances, *profile, *state, context, crowd);
+  if (context.social_groups) {
+    form_arriving_groups(*context.social_groups, first, plan.time_s, context.seed, crowd);
+  }
+  processes.push_back(make_arrivals(std::move(plan), crowd));
 }
 
 }  // namespace throng::crowd

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "crowd/crowd.h"
 #include "crowd/menge_random.h"
+#include "crowd/process.h"
 #include "crowd/profile.h"
 #include "crowd/registry.h"
+#include "crowd/social_groups.h"
 
 namespace throng::crowd {
 
@@ -18,6 +22,7 @@ struct GroupContext {
   const std::vector<std::string>& state_names;
   std::uint64_t seed = 1;
   MengeSequences& sequences;
+  std::optional<SocialGroupsSpec> social_groups;
 };
 
 /// Chooses the profile of each agent of a group.
@@ -42,7 +47,9 @@ const ProfileSelectorRegistry& profile_selector_registry();
 /// const.
 const StateSelectorRegistry& state_selector_registry();
 
-/// Adds the agents of an <AgentGroup> to the crowd. Throws InputError.
-void load_group(const Element& group, GroupContext& context, Crowd& crowd);
+/// Adds the agents of an <AgentGroup> to the crowd, and to `processes` what lets them come later.
+/// Throws InputError.
+void load_group(const Element& group, GroupContext& context, Crowd& crowd,
+                std::vector<std::unique_ptr<Process>>& processes);
 
 }  // namespace throng::crowd

@@ -8,6 +8,7 @@
 
 #include "crowd/diagnosis.h"
 #include "crowd/events.h"
+#include "crowd/panic.h"
 
 namespace throng::crowd {
 
@@ -226,8 +227,13 @@ void load_child(const Element& child, Loading& loading) {
     load_events(child, context);
   } else if (child.name() == "Task") {
     make_another(task_registry(), child, context, context.processes);
+  } else if (child.name() == "Panic") {
+    const PanicSpec panic = load_panic(child);
+    context.processes.push_back(make_panic_contagion(panic, context.seed));
+    loading.behavior.modifiers.push_back(make_panic_modifier(panic));
   } else {
-    child.fail_unknown("<GoalSet>, <State>, <Transition>, <VelModifier>, <EventSystem> or <Task>");
+    child.fail_unknown(
+        "<GoalSet>, <State>, <Transition>, <VelModifier>, <EventSystem>, <Task> or <Panic>");
   }
 }
 

@@ -110,7 +110,7 @@ struct BehaviorContext {
   std::uint64_t seed = 1;
   MengeSequences& sequences;  ///< of random numbers, of compatible runs
   std::vector<std::shared_ptr<MengeRandom>> set_sequences = {};  ///< the same, per goal set
-  std::vector<std::unique_ptr<Process>> processes = {};  ///< what plug-ins want to be run
+  std::vector<std::unique_ptr<Process>> processes = {};          ///< what plug-ins want to be run
   std::uint64_t next_draws = 0;  ///< elements that draw are numbered in the file's order
   /// A transition from several states is read once for each; this is not the first time. Elements
   /// that draw have the numbers that they had then.
@@ -164,11 +164,15 @@ std::vector<ConditionRegistry::Entry> evacuation_conditions();
 
 /// The groups that make up the goal selectors.
 std::vector<GoalSelectorRegistry::Entry> plain_goal_selectors();
+/// exit_choice.
+std::vector<GoalSelectorRegistry::Entry> evacuation_goal_selectors();
 
 /// The groups that make up the actions.
 std::vector<ActionRegistry::Entry> property_actions();
 std::vector<ActionRegistry::Entry> obstacle_actions();
 std::vector<ActionRegistry::Entry> stress_actions();
+/// leave.
+std::vector<ActionRegistry::Entry> presence_actions();
 /// formation.
 std::vector<VelModifierRegistry::Entry> formation_modifiers();
 /// `exit_reset`, which actions have whose change can be undone.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "crowd/behavior.h"
+#include "crowd/panic.h"
 
 namespace throng::crowd {
 
@@ -178,8 +179,9 @@ std::vector<ConditionRegistry::Entry> general_conditions() {
 }
 
 const ConditionRegistry& condition_registry() {
-  static const ConditionRegistry kRegistry(
-      {general_conditions(), place_conditions(), aircraft_conditions(), evacuation_conditions()});
+  static const ConditionRegistry kRegistry({general_conditions(), place_conditions(),
+                                            aircraft_conditions(), evacuation_conditions(),
+                                            panic_conditions()});
   return kRegistry;
 }
 

@@ -108,14 +108,14 @@ class Gcf : public LocalModel {
     return hermite(gap, far, 1 / far, -1 / (far * far), constants_[max_agent_dist], 0, 0);
   }
 
-  /// Falls with the distance from the body to the wall. Menge's is negative, so that walls attract,
-  /// once the body reaches through the wall.
+  /// Falls with the distance from the body to the wall. Menge's series of the bottleneck, met to
+  /// 1 cm over 20 s and in its duration to 6 %, know no push by walls that are nearer than half of
+  /// the body's extent (its formula is described as attractive there).
   float wall_push(const Walker& self, const Ellipse& body, const Apart& apart) const {
     const float extent = contact_distance(body, apart.away);
-    float gap = apart.distance - extent;
-    if (!quirks_ || std::abs(gap) < kNearest) gap = std::max(gap, kNearest);
-    const float strength = self.preferred_speed * extent / gap;
-    return quirks_ ? strength : std::min(strength, response(0));
+    const float gap = apart.distance - extent;
+    if (quirks_) return gap < 0.5F * extent ? 0 : self.preferred_speed * extent / gap;
+    return std::min(self.preferred_speed * extent / std::max(gap, kNearest), response(0));
   }
 
   const std::vector<float>& constants_;
@@ -132,7 +132,7 @@ ModelEntry gcf_model() {
       "gcf",
       "GCF",
       "repulsion between ellipses that grow with speed (Chraibi et al. 2010); with Menge's quirks "
-      "forces have no limit, and walls attract who reaches through them",
+      "forces have no limit, and walls do not push who is very near",
       {{"stand_depth", 0.18F, 0.01F, 10, "half of the depth of a body at rest, in m", "facing_min"},
        {"move_scale", 0.53F, 0, 10, "by which that grows with speed, in s", "facing_rate"},
        {"slow_width", 0.25F, 0.01F, 10, "half of the width of a body at rest, in m", "perp_max"},

@@ -245,7 +245,7 @@ std::vector<GoalSelectorRegistry::Entry> plain_goal_selectors() {
 
 const GoalSelectorRegistry& goal_selector_registry() {
   static const GoalSelectorRegistry kRegistry(
-      {plain_goal_selectors(), navigation_goal_selectors()},
+      {plain_goal_selectors(), navigation_goal_selectors(), evacuation_goal_selectors()},
       {optional(
           boolean("persistent", "1: who enters again keeps the goal, and occupies it meanwhile"),
           "0")});

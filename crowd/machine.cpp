@@ -38,8 +38,7 @@ void Machine::arrive(Crowd& crowd, std::size_t agent) {
 
 void Machine::face_the_way(Agents& agents, std::size_t agent) {
   agents.orientation[agent] = agents.preferred_direction[agent];
-  agents.yaw_rad[agent] =
-      std::atan2(agents.orientation[agent].y(), agents.orientation[agent].x());
+  agents.yaw_rad[agent] = std::atan2(agents.orientation[agent].y(), agents.orientation[agent].x());
 }
 
 void Machine::take_transitions(Crowd& crowd) {

@@ -11,7 +11,7 @@ class Machine {
  public:
   explicit Machine(Behavior behavior, std::size_t agent_count);
 
-  /// Puts every agent into its start state and makes it face where it wants to go.
+  /// Puts every agent that is there into its start state and makes it face where it wants to go.
   void start(Crowd& crowd);
 
   /// Takes every transition that is due. What is due at first is seen by all in the same world;
@@ -23,6 +23,15 @@ class Machine {
 
   /// Puts an agent into a state from outside, as if a transition led there.
   void change_state(Crowd& crowd, std::size_t agent, std::uint8_t state);
+
+  /// An agent that was awaited is there now: puts it into its start state.
+  void arrive(Crowd& crowd, std::size_t agent);
+
+  /// Gives an agent another goal than its state's selector chose on entry.
+  void change_goal(Crowd& crowd, std::size_t agent, int goal);
+  const GoalSelector* goal_selector(std::uint8_t state) const {
+    return behavior_.states[state].goal->selector();
+  }
 
   /// Raises the signals of this name; whether there are any.
   bool fire(std::string_view name);
@@ -46,6 +55,7 @@ class Machine {
   void enter(Crowd& crowd, std::size_t agent, std::uint8_t state);
   void leave(Crowd& crowd, std::size_t agent);
   void prefer(Crowd& crowd, std::size_t agent) const;
+  static void face_the_way(Agents& agents, std::size_t agent);
 
   Behavior behavior_;
   std::vector<int> due_;  // per agent

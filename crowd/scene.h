@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "crowd/behavior.h"
 #include "crowd/crowd.h"
 #include "crowd/menge_random.h"
 #include "crowd/model.h"
@@ -14,6 +15,8 @@ namespace throng::crowd {
 /// What cannot be made before the behaviour file is read.
 struct Scene {
   std::vector<std::vector<Element>> profile_modifiers;  ///< the <VelModifier>s of each profile
+  std::vector<std::unique_ptr<Process>> processes;      ///< arrivals
+  std::vector<std::unique_ptr<VelModifier>> modifiers;  ///< social groups; before the file's own
 };
 
 /// Reads an <Experiment> into `crowd`, whose seed and compat are set: time step, obstacles and

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/error.h"
 #include "crowd/behavior.h"
@@ -35,21 +36,28 @@ struct Simulation::State {
 
 Simulation::State::State(const std::filesystem::path& scene_file,
                          const std::filesystem::path& behavior_file, const LoadOptions& options) {
-  const XmlFile scene(scene_file, "Experiment");
-  const XmlFile behavior(behavior_file, "BFSM");
+  XmlFile scene(scene_file, "Experiment");
+  XmlFile behavior(behavior_file, "BFSM");
+  if (options.compat != Compat::none) {
+    scene.take_words_for_zero();
+    behavior.take_words_for_zero();
+  }
   const ModelEntry& entry = find_model(options.model);
   state_names = load_state_names(behavior.root());
   crowd.compat = options.compat;
   crowd.seed = options.seed;
   MengeSequences sequences(options.compat, options.seed);
-  const Scene parts = load_scene(scene.root(), state_names, entry, sequences, crowd);
+  Scene parts = load_scene(scene.root(), state_names, entry, sequences, crowd);
   if (options.time_step_s) crowd.dt_s = *options.time_step_s;
   sub_steps = 1 + options.sub_steps;
   crowd.dt_s /= sub_steps;
   const std::size_t count = crowd.agents.count();
-  machine = std::make_unique<Machine>(
-      load_behavior(behavior.root(), state_names, parts.profile_modifiers, sequences, crowd),
-      count);
+  Behavior made =
+      load_behavior(behavior.root(), state_names, parts.profile_modifiers, sequences, crowd);
+  std::move(parts.processes.begin(), parts.processes.end(), std::back_inserter(made.processes));
+  made.modifiers.insert(made.modifiers.begin(), std::move_iterator(parts.modifiers.begin()),
+                        std::move_iterator(parts.modifiers.end()));
+  machine = std::make_unique<Machine>(std::move(made), count);
   model = entry.make(crowd);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
   machine->start(crowd);
@@ -172,8 +180,8 @@ void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& centre) {
 
 void Simulation::fire(const std::string& trigger) {
   if (state_->machine->fire(trigger)) return;
-  throw InputError(
-      Problem{"", "fired trigger", trigger, "the name of an external trigger of the behaviour file"});
+  throw InputError(Problem{"", "fired trigger", trigger,
+                           "the name of an external trigger of the behaviour file"});
 }
 
 }  // namespace throng::crowd

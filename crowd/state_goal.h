@@ -23,7 +23,8 @@ class GoalSelector {
 };
 
 /// Gives agents goals as they enter a state, and takes them back as they leave it: a goal with a
-/// capacity is full while as many agents have it. Several states may share one.
+/// capacity is full while as many agents have it. Several states may share one. Who enters a state
+/// in which somebody of the same social group has a goal already goes there too, if there is room.
 class StateGoal {
  public:
   /// Without a selector agents stay where they are.
@@ -35,6 +36,10 @@ class StateGoal {
 
   void assign(Crowd& crowd, std::size_t agent);
   void release(Crowd& crowd, std::size_t agent);
+  /// Gives the agent another goal than it was assigned.
+  void change(Crowd& crowd, std::size_t agent, int goal);
+
+  const GoalSelector* selector() const { return selector_.get(); }
 
  private:
   GoalSelector::Choice choose(Crowd& crowd, std::size_t agent);

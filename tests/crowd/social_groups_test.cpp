@@ -10,19 +10,19 @@
 namespace throng::crowd {
 namespace {
 
-std::string street(const std::string& groups, int people) {
+std::string street(const std::string& groups, int people, double spacing_m = 1.5) {
   return fmt::format(R"(<Experiment version="2.0">
   <SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
-  {}
+  {0}
   <AgentProfile name="a"><Common r="0.2" max_speed="2" max_accel="5">
     <Property name="pref_speed" dist="u" min="1" max="1.6"/></Common></AgentProfile>
   <AgentGroup>
     <ProfileSelector type="const" name="a"/><StateSelector type="const" name="Walk"/>
-    <Generator type="rect_grid" anchor_x="0" anchor_y="0" offset_x="1.5" offset_y="1.5"
-               count_x="{}" count_y="10"/>
+    <Generator type="rect_grid" anchor_x="0" anchor_y="0" offset_x="{2}" offset_y="{2}"
+               count_x="{1}" count_y="10"/>
   </AgentGroup>
 </Experiment>)",
-                     groups, people / 10);
+                     groups, people / 10, spacing_m);
 }
 
 const std::string kEastwards = R"(<BFSM>
@@ -87,18 +87,17 @@ TEST(SocialGroups, NobodyIsInOneUnlessAsked) {
   EXPECT_TRUE(groups_of(test::load(street("", 100), kEastwards)).empty());
 }
 
-TEST(SocialGroups, StayTogetherThroughACrowd) {
-  // With and without the forces, from the same groups.
+TEST(SocialGroups, FindEachOtherAndStayTogetherThroughACrowd) {
+  // With and without the forces, from the same places 3 m apart; as many come the other way.
   const std::string with = R"(<SocialGroups share="0.6"/>)";
   const std::string without = R"(<SocialGroups share="0.6" gaze="0" cohesion="0" spacing="0"/>)";
   std::map<std::string, double> extent_m;
   for (const std::string& groups : {with, without}) {
-    // Half of them come the other way.
-    std::string scene = street(groups, 100);
+    std::string scene = street(groups, 60, 3);
     const std::string other_way = R"(<AgentGroup>
       <ProfileSelector type="const" name="a"/><StateSelector type="const" name="Back"/>
-      <Generator type="rect_grid" anchor_x="40" anchor_y="0.7" offset_x="1.5" offset_y="1.5"
-                 count_x="10" count_y="10"/></AgentGroup></Experiment>)";
+      <Generator type="rect_grid" anchor_x="40" anchor_y="0.7" offset_x="3" offset_y="3"
+                 count_x="6" count_y="10"/></AgentGroup></Experiment>)";
     scene.replace(scene.find("</Experiment>"), 13, other_way);
     Simulation crowd = test::load(scene, R"(<BFSM>
       <State name="Walk" final="0"><VelComponent type="const_dir" x="1" y="0"/></State>
@@ -107,9 +106,8 @@ TEST(SocialGroups, StayTogetherThroughACrowd) {
     while (crowd.time_s() < 40) crowd.step();
     extent_m[groups] = mean_extent_m(crowd, members);
   }
-  EXPECT_LT(extent_m[with], 2.0);
+  EXPECT_LT(extent_m[with], 2.2);
   EXPECT_GT(extent_m[without], 1.4 * extent_m[with]);
-  RecordProperty("extent_m", std::to_string(extent_m[with]));
 }
 
 TEST(SocialGroups, PairsWalkAbreast) {
