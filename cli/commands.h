@@ -12,6 +12,7 @@ namespace throng::cli {
 void add_run(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_render(CLI::App& app);
+void add_crowd(CLI::App& app);
 void add_serve(CLI::App& app);
 void add_worker(CLI::App& app);
 void add_people(CLI::App& app);

@@ -29,16 +29,20 @@ void simulate(const SimulateArguments& arguments) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),
                       fmt::format("a run of the job: 0 to {}", job.runs - 1)});
   }
+  std::vector<Problem> warnings;
   {
     const Interrupt interrupt;
     ProgressBar bar("simulating");
-    sim::simulate(
+    warnings = sim::simulate(
         world::find_scenario(world::scenarios_folder(), job.scenario),
         jobs::run_spec(job, arguments.run), arguments.trace_file,
         [&](double done_s, double total_s) {
           bar.show(done_s / total_s, fmt::format("{:.0f} of {:.0f} s", done_s, total_s));
         },
         interrupt.token());
+  }
+  for (const Problem& warning : warnings) {
+    fmt::print(stderr, "throng: warning: {}\n", warning.text());
   }
   fmt::print("{}\n", arguments.trace_file);
 }

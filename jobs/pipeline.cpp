@@ -1,6 +1,9 @@
 #include "jobs/pipeline.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "annotate/exits_csv.h"
@@ -26,6 +29,7 @@ sim::RunSpec run_spec(const JobSpec& job, int run) {
   spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
   spec.duration_s = job.capture.to_s;
   spec.people = job.agents;
+  spec.crowd = job.crowd;
   for (const DroneSpec& drone : job.drones) spec.drones.push_back(drone.mission);
   return spec;
 }
@@ -37,8 +41,10 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   const auto progress = [&](double done_s, double total_s) {
     if (on_progress) on_progress({done_s, total_s});
   };
-  sim::simulate(world::find_scenario(scenarios, job.scenario), run_spec(job, run), trace, progress,
-                stop);
+  const std::vector<Problem> warnings = sim::simulate(world::find_scenario(scenarios, job.scenario),
+                                                      run_spec(job, run), trace, progress, stop);
+  if (run > 0) return;  // all runs read the same files
+  for (const Problem& warning : warnings) fmt::print(stderr, "warning: {}\n", warning.text());
 }
 
 void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run) {

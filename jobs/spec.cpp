@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "crowd/model.h"
+#include "crowd/project.h"
 #include "crowd/simulation.h"
 #include "jobs/light.h"
 #include "jobs/schema.h"
@@ -74,6 +76,17 @@ DroneSpec read_drone(const json& value) {
   return drone;
 }
 
+void read_crowd(const json& value, JobSpec& job) {
+  if (value.contains("agents")) job.agents = value["agents"].get<int>();
+  read(value, "model", job.crowd.model);
+  if (value.contains("compat")) {
+    job.crowd.compat = crowd::compat_of(value["compat"].get<std::string>());
+  }
+  if (value.contains("separation")) {
+    job.crowd.hard_separation = crowd::is_hard(value["separation"].get<std::string>());
+  }
+}
+
 double hours_of(const std::string& text) {
   return std::stoi(text.substr(0, 2)) + std::stoi(text.substr(3)) / double{kMinutesPerHour};
 }
@@ -91,9 +104,7 @@ JobSpec read_job(const json& value) {
   read(value, "name", job.name);
   read(value, "seed", job.seed);
   read(value, "runs", job.runs);
-  if (part(value, "crowd").contains("agents")) {
-    job.agents = value["crowd"]["agents"].get<int>();
-  }
+  read_crowd(part(value, "crowd"), job);
   for (const json& drone : part(value, "drones")) job.drones.push_back(read_drone(drone));
   const json& capture = part(value, "capture");
   read(capture, "rate_hz", job.capture.rate_hz);
@@ -157,8 +168,15 @@ void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
   std::vector<sim::DroneMission> missions;
   for (const DroneSpec& drone : job.drones) missions.push_back(drone.mission);
   sim::plan_drones(scenario, missions, problems);
+  try {
+    crowd::find_model(job.crowd.model);
+  } catch (const InputError& error) {
+    const Problem& problem = error.problems().front();
+    problems.push_back({"", "/crowd/model", problem.found, problem.expected});
+    return;
+  }
   if (job.agents) {
-    const crowd::Simulation crowd(scenario.scene_file, scenario.behavior_file, {job.seed});
+    const crowd::Simulation crowd = sim::load_crowd(scenario, job.seed, job.crowd);
     sim::choose_roles(scenario, crowd.agent_count(), job.agents, job.seed, problems);
   }
 }
@@ -239,6 +257,10 @@ json to_json(const JobSpec& job) {
       {"scenario", job.scenario},
       {"seed", job.seed},
       {"runs", job.runs},
+      {"crowd",
+       {{"model", job.crowd.model},
+        {"compat", crowd::kCompatWords[static_cast<std::size_t>(job.crowd.compat)]},
+        {"separation", crowd::kSeparationWords[job.crowd.hard_separation ? 1 : 0]}}},
       {"drones", std::move(drones)},
       {"capture",
        {{"rate_hz", job.capture.rate_hz},

@@ -47,6 +47,7 @@ struct JobSpec {
   std::uint64_t seed = 1;
   int runs = 1;
   std::optional<int> agents;
+  sim::CrowdSpec crowd;
   std::vector<DroneSpec> drones;
   CaptureSpec capture;
   double time_of_day_h = 15.5;

@@ -2,18 +2,11 @@
 
 #include <algorithm>
 
+#include "sim/crowd_trace.h"
+
 namespace throng::sim {
 
 using world::AgentRole;
-
-namespace {
-
-template <typename T>
-std::vector<T> copied(std::span<const T> values) {
-  return {values.begin(), values.end()};
-}
-
-}  // namespace
 
 CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<AgentRole>& roles,
                              const std::vector<world::GoalRef>& moving_goals)
@@ -23,8 +16,7 @@ CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<
       intents_(roles.size(), -1),
       led_(roles.size(), false),
       arrived_(roles.size(), false),
-      escaped_(roles.size(), false),
-      flags_(roles.size(), 0) {}
+      escaped_(roles.size(), false) {}
 
 // Who heads for an exit intends it, also on the way on from there to safety. Who follows a drone
 // goes where it leads and intends none; who was led takes the exit at hand.
@@ -60,16 +52,13 @@ void CrowdRecorder::record(const crowd::Simulation& crowd, double time_s,
   const auto positions = crowd.positions();
   const auto present = crowd.present();
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    flags_[i] = static_cast<std::uint8_t>((present[i] != 0 ? world::kPresent : 0) |
-                                          (crowd.panicked()[i] != 0 ? world::kPanicked : 0));
     arrived_[i] = arrived_[i] || present[i] != 0;
-  }
-  for (std::size_t i = 0; i < positions.size(); ++i) {
     update_intent(i, crowd.goals()[i], positions[i].cast<double>());
   }
-  trace.add({time_s, copied(crowd.positions()), copied(crowd.velocities()),
-             copied(crowd.yaws_rad()), copied(crowd.desired_speeds_mps()), copied(crowd.states()),
-             intents_, flags_});
+  world::CrowdStep step = crowd_step(crowd);
+  step.time_s = time_s;
+  step.exit_intent = intents_;
+  trace.add(step);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (roles_[i] != AgentRole::person || escaped_[i] || !arrived_[i]) continue;
     if (present[i] != 0 && scenario_.inside.contains(positions[i].cast<double>())) continue;

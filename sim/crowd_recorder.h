@@ -31,7 +31,6 @@ class CrowdRecorder {
   std::vector<bool> led_;  ///< follows a drone
   std::vector<bool> arrived_;
   std::vector<bool> escaped_;
-  std::vector<std::uint8_t> flags_;
 };
 
 }  // namespace throng::sim

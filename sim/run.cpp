@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/version.h"
 #include "crowd/simulation.h"
 #include "sim/crowd_recorder.h"
+#include "sim/crowd_trace.h"
 #include "sim/flight.h"
 #include "sim/participants.h"
 #include "sim/plan.h"
@@ -80,31 +80,34 @@ std::vector<world::GoalRef> goals_moved_by(const std::vector<PlannedDrone>& dron
 world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spec,
                              const crowd::Simulation& crowd,
                              const std::vector<world::AgentRole>& roles) {
-  world::TraceHeader header;
+  world::TraceHeader header = crowd_header(crowd, spec.seed);
   header.scenario_id = scenario.id;
-  header.generator = kGenerator;
-  header.seed = spec.seed;
-  header.dt_s = crowd.dt_s();
-  header.state_names = crowd.state_names();
   for (const world::Exit& exit : scenario.exits) header.exit_ids.push_back(exit.id);
   for (const DroneMission& mission : spec.drones) header.drone_ids.push_back(mission.id);
   header.role = roles;
-  header.radius_m.assign(crowd.radii_m().begin(), crowd.radii_m().end());
-  const auto speeds = crowd.desired_speeds_mps();
-  header.pref_speed_mps.assign(speeds.begin(), speeds.end());
-  header.group.assign(crowd.social_groups().begin(), crowd.social_groups().end());
   return header;
 }
 
 }  // namespace
 
-void simulate(const world::Scenario& scenario, const RunSpec& spec, const fs::path& trace_file,
-              const RunProgress& progress, const std::stop_token& stop) {
+crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
+                             const CrowdSpec& spec) {
+  crowd::LoadOptions options;
+  options.seed = seed;
+  options.model = spec.model;
+  options.compat = spec.compat;
+  options.hard_separation = spec.hard_separation;
+  return {scenario.scene_file, scenario.behavior_file, options};
+}
+
+std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
+                              const fs::path& trace_file, const RunProgress& progress,
+                              const std::stop_token& stop) {
   std::vector<Problem> problems;
   check_times(spec, problems);
   check_exits(scenario, problems);
   const std::vector<PlannedDrone> drones = plan_drones(scenario, spec.drones, problems);
-  crowd::Simulation crowd(scenario.scene_file, scenario.behavior_file, {spec.seed});
+  crowd::Simulation crowd = load_crowd(scenario, spec.seed, spec.crowd);
   const std::vector<world::AgentRole> roles =
       choose_roles(scenario, crowd.agent_count(), spec.people, spec.seed, problems);
   check_goals(drones, crowd, problems);
@@ -135,6 +138,7 @@ void simulate(const world::Scenario& scenario, const RunSpec& spec, const fs::pa
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
   }
   trace.finish();
+  return crowd.warnings();
 }
 
 }  // namespace throng::sim

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
+#include "crowd/simulation.h"
 #include "world/scenario.h"
 
 namespace throng::sim {
@@ -25,23 +27,35 @@ struct DroneMission {
   std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
 };
 
+/// How the crowd engine computes.
+struct CrowdSpec {
+  std::string model = "orca";  ///< a name in crowd::models()
+  crowd::Compat compat = crowd::Compat::none;
+  bool hard_separation = false;
+};
+
 struct RunSpec {
   std::uint64_t seed = 1;
   double duration_s = 120;    ///< simulated time; the run may not end earlier
   std::optional<int> people;  ///< how many of the scenario's people take part; default all
+  CrowdSpec crowd;
   std::vector<DroneMission> drones;
   double physics_dt_s = 1.0 / 480;  ///< at most 1/240 s
 };
+
+/// The crowd of a run as the scenario begins. Throws like crowd::Simulation's constructor.
+crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
+                             const CrowdSpec& spec);
 
 /// Called with simulated seconds done and the total.
 using RunProgress = std::function<void(double done_s, double total_s)>;
 
 /// Simulates one run and writes the trace at `trace_file` (complete or absent). Same scenario and
-/// spec give the same bytes. Throws InputError for a spec the scenario cannot serve (too many
-/// people, unknown airframe or policy, waypoint below ground or inside a building), Cancelled when
-/// `stop` asks.
-void simulate(const world::Scenario& scenario, const RunSpec& spec,
-              const std::filesystem::path& trace_file, const RunProgress& progress = {},
-              const std::stop_token& stop = {});
+/// spec give the same bytes. Returns what was ignored in the scenario's files. Throws InputError
+/// for a spec the scenario cannot serve (too many people, unknown airframe or policy, waypoint
+/// below ground or inside a building), Cancelled when `stop` asks.
+std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
+                              const std::filesystem::path& trace_file,
+                              const RunProgress& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace throng::sim

@@ -86,7 +86,8 @@ TEST_F(Spec, DefaultsAreThoseOfTheSchema) {
 
 TEST_F(Spec, ReadsEveryField) {
   const JobSpec job = parse(R"({
-    "name": "n", "scenario": "yard", "seed": 9007199254740991, "runs": 5, "crowd": {"agents": 2},
+    "name": "n", "scenario": "yard", "seed": 9007199254740991, "runs": 5,
+    "crowd": {"agents": 2, "model": "orca", "compat": "huang2016", "separation": "hard"},
     "drones": [{"id": "a", "airframe": "f450", "start": [1, 2, 3], "moves_goal": [4, 5],
                 "guidance": {"policy": "waypoints", "waypoints": [[1, 2, 3], [4, 5, 6]],
                              "speed_mps": 2},
@@ -98,6 +99,9 @@ TEST_F(Spec, ReadsEveryField) {
                 "density": {"sigma_px": 6}, "previews": 0}})");
   EXPECT_EQ(job.seed, 9007199254740991U);
   EXPECT_EQ(job.agents, 2);
+  EXPECT_EQ(job.crowd.model, "orca");
+  EXPECT_EQ(job.crowd.compat, crowd::Compat::huang2016);
+  EXPECT_TRUE(job.crowd.hard_separation);
   EXPECT_EQ(job.drones[0].mission.start, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(job.drones[0].mission.waypoints[1], Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));
@@ -123,6 +127,11 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
       {R"({"scenario": "yard", "crowd": {"agents": 0}})", "/crowd/agents"},
       {R"({"scenario": "yard", "crowd": {"agents": 3}})", "/crowd/agents"},
       {R"({"scenario": "yard", "crowd": 260})", "/crowd"},
+      {R"({"scenario": "yard", "crowd": {"model": "orka"}})", "/crowd/model"},
+      {R"({"scenario": "yard", "crowd": {"model": "orka", "agents": 1}})", "/crowd/model"},
+      {R"({"scenario": "yard", "crowd": {"model": 3}})", "/crowd/model"},
+      {R"({"scenario": "yard", "crowd": {"compat": "meng"}})", "/crowd/compat"},
+      {R"({"scenario": "yard", "crowd": {"separation": true}})", "/crowd/separation"},
       {R"({"scenario": "yard", "drones": []})", "/drones"},
       {R"({"scenario": "yard", "drones": [{}]})", "/drones/0/id"},
       {R"({"scenario": "yard", "drones": [{"id": "../x"}]})", "/drones/0/id"},

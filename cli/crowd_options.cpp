@@ -1,0 +1,98 @@
+#include "cli/crowd_options.h"
+
+namespace throng::cli {
+
+namespace {
+
+constexpr double kShortestStepS = 1e-4;
+constexpr double kLongestStepS = 10;
+constexpr double kLongestRunS = 1e7;
+constexpr int kMostSubSteps = 1000;
+constexpr int kMostThreads = 1024;
+
+void add_run_options(CLI::App& command, CrowdArguments& arguments) {
+  command.add_option("project", arguments.project_file, "Menge project file (docs/crowd.md)");
+  command.add_option("-s,--scene", arguments.scene_file, "Scene file instead of the project's");
+  command.add_option("-b,--behavior", arguments.behavior_file,
+                     "Behaviour file instead of the project's");
+  command.add_option("-m,--model", arguments.model, "Pedestrian model instead of the project's");
+  command
+      .add_option("-d,--duration", arguments.duration_s,
+                  "Longest time to simulate, in s, instead of the project's")
+      ->check(CLI::Range(0.0, kLongestRunS));
+  command.add_option("-r,--random", arguments.seed, "Seed instead of the project's");
+  command
+      .add_option("-t,--time-step", arguments.time_step_s,
+                  "Time step in s instead of the project's or scene's")
+      ->check(CLI::Range(kShortestStepS, kLongestStepS));
+  command
+      .add_option("--sub-steps", arguments.sub_steps,
+                  "Steps in between that are not recorded, per time step")
+      ->check(CLI::Range(0, kMostSubSteps));
+  command
+      .add_option("--compat", arguments.compat,
+                  "Whose results are wanted: the sensible ones (none), Menge's with its quirks "
+                  "(menge), or also those of the paper's authors (huang2016)")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(crowd::kCompatWords.begin(), crowd::kCompatWords.end())));
+  command
+      .add_option("--separation", arguments.separation,
+                  "hard: no two bodies overlap by more than 1 cm, whatever the model does")
+      ->check(CLI::IsMember(std::vector<std::string>(crowd::kSeparationWords.begin(),
+                                                     crowd::kSeparationWords.end())));
+  command.add_option("--threads", arguments.threads, "Threads to compute with (0: one per core)")
+      ->check(CLI::Range(0, kMostThreads))
+      ->capture_default_str();
+}
+
+void add_output_options(CLI::App& command, CrowdArguments& arguments) {
+  command.add_option("-o,--output", arguments.output,
+                     "Trajectories to write: a trace if the name ends with .h5, else .scb");
+  command
+      .add_option("--scb-version,--scbVersion", arguments.scb_version, "Version of an .scb output")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(crowd::kScbVersions.begin(), crowd::kScbVersions.end())));
+  command.add_option("--series", arguments.series_file,
+                     "Table (CSV) to write: what the crowd does as a whole, every second");
+  auto* positions = command.add_option("--positions", arguments.positions_file,
+                                       "Table (CSV) to write: where everybody is at some times");
+  command
+      .add_option("--at", arguments.positions_at_s,
+                  "Times of --positions in s (without: begin, 10, 25, 50, 75 % and end)")
+      ->delimiter(',')
+      ->check(CLI::NonNegativeNumber)
+      ->needs(positions);
+  command.add_flag("-q,--quiet", arguments.quiet, "Say nothing but errors");
+  auto* list = command.add_flag("-l,--list", arguments.list,
+                                "Print all that the files may say, and run nothing");
+  command.add_flag("--json", arguments.json, "Print the list as JSON")->needs(list);
+  command.add_flag("--markdown", arguments.markdown, "Print the list as docs/ has it")->needs(list);
+}
+
+}  // namespace
+
+void add_crowd_options(CLI::App& command, CrowdArguments& arguments) {
+  add_run_options(command, arguments);
+  add_output_options(command, arguments);
+}
+
+crowd::Project project_of(const CrowdArguments& arguments) {
+  crowd::Project project;
+  if (!arguments.project_file.empty()) project = crowd::load_project(arguments.project_file);
+  if (!arguments.scene_file.empty()) project.scene_file = arguments.scene_file;
+  if (!arguments.behavior_file.empty()) project.behavior_file = arguments.behavior_file;
+  if (!arguments.model.empty()) project.options.model = arguments.model;
+  if (!arguments.compat.empty()) project.options.compat = crowd::compat_of(arguments.compat);
+  if (!arguments.separation.empty()) {
+    project.options.hard_separation = crowd::is_hard(arguments.separation);
+  }
+  if (!arguments.output.empty()) project.output = arguments.output;
+  if (!arguments.scb_version.empty()) project.scb_version = arguments.scb_version;
+  if (arguments.duration_s) project.duration_s = *arguments.duration_s;
+  if (arguments.time_step_s) project.options.time_step_s = arguments.time_step_s;
+  if (arguments.sub_steps) project.options.sub_steps = *arguments.sub_steps;
+  if (arguments.seed) project.options.seed = *arguments.seed;
+  return project;
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,42 @@
+// What `throng crowd` is asked to do: a project file with whatever the command line puts in its
+// place.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowd/project.h"
+
+namespace throng::cli {
+
+struct CrowdArguments {
+  std::string project_file;
+  std::string scene_file;
+  std::string behavior_file;
+  std::string model;
+  std::string compat;
+  std::string separation;
+  std::string output;
+  std::string scb_version;
+  std::optional<double> duration_s;
+  std::optional<double> time_step_s;
+  std::optional<int> sub_steps;
+  std::optional<std::uint64_t> seed;
+  std::string series_file;
+  std::string positions_file;
+  std::vector<double> positions_at_s;
+  int threads = 0;
+  bool quiet = false;
+  bool list = false;
+  bool json = false;
+  bool markdown = false;
+};
+
+void add_crowd_options(CLI::App& command, CrowdArguments& arguments);
+
+/// The project with the command line's changes. Throws InputError.
+crowd::Project project_of(const CrowdArguments& arguments);
+
+}  // namespace throng::cli
