@@ -99,11 +99,13 @@ TEST(CitySquare, PeopleFollowWhatLeadsThem) {
 TEST(CitySquare, NobodyGetsStuckBehindABuilding) {
   for (const std::uint64_t seed : {1, 2}) {
     Simulation crowd = test::load_city_square(seed);
-    // The guide crosses a building and waits behind it.
+    // The guide leaves the middle exit, flies over a building and waits behind it.
     const Eigen::Vector2f waiting(-26, -8);
     while (crowd.time_s() < 160) {
-      const auto x = static_cast<float>(-7 - std::max(0.0, crowd.time_s() - 30));
-      crowd.move_goal(99, 0, {std::max(x, waiting.x()), waiting.y()});
+      const auto flown = static_cast<float>(std::max(0.0, crowd.time_s() - 16));
+      const Eigen::Vector2f guide(std::clamp(-7 - (flown - 7), waiting.x(), -7.0F),
+                                  std::max(-1 - flown, waiting.y()));
+      crowd.move_goal(99, 0, guide);
       crowd.step();
     }
     for (std::size_t i = 0; i < kPeople; ++i) {
