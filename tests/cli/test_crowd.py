@@ -1,0 +1,192 @@
+"""throng crowd: Menge projects from the command line, and what comes of them."""
+import csv
+import json
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+THRONG = sys.argv.pop(1)
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT.parent / "shared" / "data" / "menge_examples"
+
+SCENE = """<Experiment version="2.0">
+  <SpatialQuery type="kd-tree"/>
+  <Common time_step="0.1"/>
+  <AgentProfile name="p"><Common r="0.2" pref_speed="1.3" {common}/></AgentProfile>
+  <AgentGroup>
+    <ProfileSelector type="const" name="p"/>
+    <StateSelector type="const" name="Walk"/>
+    <Generator type="rect_grid" anchor_x="-8" anchor_y="0" offset_x="1" offset_y="1" count_x="{n}" count_y="{n}"/>
+  </AgentGroup>
+</Experiment>"""
+BEHAVIOR = """<BFSM>
+  <GoalSet id="0"><Goal type="AABB" id="0" min_x="10" max_x="20" min_y="-10" max_y="10"/></GoalSet>
+  <State name="Walk" final="0"><GoalSelector type="explicit" goal_set="0" goal="0"/><VelComponent type="goal"/></State>
+  <State name="Stop" final="1"/>
+  <Transition from="Walk" to="Stop"><Condition type="goal_reached" distance="0"/></Transition>
+</BFSM>"""
+
+
+def crowd(*arguments, **options):
+    return subprocess.run([THRONG, "crowd", *map(str, arguments)], capture_output=True, text=True, timeout=300, **options)
+
+
+def read_scb(path):
+    """The frames of a version 2.1 file, each a list of (x, y, orientation, state)."""
+    data = pathlib.Path(path).read_bytes()
+    assert data[:4] == b"2.1\0", data[:4]
+    count, = struct.unpack_from("<i", data, 4)
+    header = 12 + 4 * count
+    frame = 16 * count
+    assert (len(data) - header) % frame == 0
+    return [list(struct.iter_unpack("<4f", data[at:at + frame])) for at in range(header, len(data), frame)]
+
+
+def read_rows(path):
+    with open(path) as file:
+        return list(csv.DictReader(file))
+
+
+class Crowd(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.base = pathlib.Path(self.folder.name)
+        self.write(n=3)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, n, common="", project=""):
+        (self.base / "scene.xml").write_text(SCENE.format(n=n, common=common))
+        (self.base / "behavior.xml").write_text(BEHAVIOR)
+        self.project = self.base / "project.xml"
+        self.project.write_text(
+            f'<Project scene="scene.xml" behavior="behavior.xml" model="orca" view="" {project}/>')
+
+    def names(self):
+        return sorted(p.name for p in self.base.iterdir())
+
+    def test_runs_until_all_are_in_final_states(self):
+        out, series, positions = self.base / "out.scb", self.base / "s.csv", self.base / "p.csv"
+        done = crowd(self.project, "-o", out, "--series", series, "--positions", positions)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"^9 agents, [\d.]+ s in \d+ steps, .* 9 of 9 in final states\n$")
+        frames = read_scb(out)
+        self.assertEqual(len(frames[0]), 9)
+        self.assertEqual(frames[0][0][:2], (-8.0, 0.0))
+        self.assertTrue(all(agent[3] == 1 for agent in frames[-1]))
+        self.assertFalse(all(agent[3] == 1 for agent in frames[-2]))
+        rows = read_rows(series)
+        self.assertEqual(rows[0]["time"], "0.0000")
+        self.assertEqual(rows[-1]["frac_final_state"], "1.0000")
+        self.assertEqual(rows[-1]["time"], f"{(len(frames) - 1) / 10:.4f}")
+        places = read_rows(positions)
+        self.assertEqual(len(places), 6 * 9)
+        self.assertAlmostEqual(float(places[-1]["x"]), frames[-1][-1][0], places=4)
+
+    def test_the_command_line_overrides_the_project(self):
+        self.write(n=2, project='duration="1" timeStep="0.5" output="ours.scb" scbVersion="2.2"')
+        self.assertEqual(crowd(self.project, "-q").stdout, "")
+        self.assertEqual((self.base / "ours.scb").stat().st_size, 12 + 4 * 4 + 3 * 4 * 32)
+        done = crowd(self.project, "-d", "2", "-t", "0.25", "--sub-steps", "1", "-o", self.base / "b", "--scb-version", "2.1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(read_scb(self.base / "b.scb")), 9)
+        other = self.base / "other.xml"
+        other.write_text(SCENE.format(n=1, common=""))
+        done = crowd("-s", other, "-b", self.base / "behavior.xml", "-d", "0", "-o", self.base / "c.scb")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([len(f) for f in read_scb(self.base / "c.scb")], [1])
+
+    def test_writes_a_trace(self):
+        done = crowd(self.project, "-o", self.base / "trace.h5", "-d", "3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.base / "trace.h5").read_bytes()[:8], b"\x89HDF\r\n\x1a\n")
+
+    def test_is_the_same_for_any_number_of_threads(self):
+        self.write(n=40, common='max_accel="4"')
+        for threads in (1, 2, 5):
+            done = crowd(self.project, "-d", "5", "--threads", threads, "-o", self.base / f"{threads}.scb")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        one = (self.base / "1.scb").read_bytes()
+        self.assertEqual(one, (self.base / "2.scb").read_bytes())
+        self.assertEqual(one, (self.base / "5.scb").read_bytes())
+
+    def test_takes_positions_at_given_times(self):
+        done = crowd(self.project, "--positions", self.base / "p.csv", "--at", "0.5,2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([row["time"] for row in read_rows(self.base / "p.csv")], ["0.5000"] * 9 + ["2.0000"] * 9)
+
+    def test_says_what_is_wrong_and_leaves_nothing(self):
+        before = self.names()
+        cases = [
+            ([], "nothing"),
+            ([self.base], "no file"),
+            ([self.base / "nowhere.xml"], "no file"),
+            ([self.base / "scene.xml"], "<Project>"),
+            ([self.project, "-m", "orka"], "orca"),
+            ([self.project, "-d", "-1"], "duration"),
+            ([self.project, "-t", "0"], "time-step"),
+            ([self.project, "--compat", "meng"], "compat"),
+            ([self.project, "--scb-version", "9"], "scb-version"),
+            ([self.project, "--at", "3"], "positions"),
+            ([self.project, "-s", self.base / "behavior.xml", "-o", self.base / "o.scb"], "<Experiment>"),
+        ]
+        for arguments, said in cases:
+            done = crowd(*arguments)
+            self.assertEqual(done.returncode, 2, (arguments, done.stderr, done.stdout))
+            self.assertIn(said, done.stderr)
+        done = crowd(self.project, "-o", self.base / "project.xml" / "below.scb")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(self.names(), before)
+
+    def test_warns_with_a_suggestion(self):
+        self.write(n=1, common='max_sped="3"', project='random="0"')
+        done = crowd(self.project, "-d", "1")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("did you mean max_speed?", done.stderr)
+        self.assertIn("every run of Menge another one", done.stderr)
+        self.assertEqual(crowd(self.project, "-d", "1", "--quiet").stderr, "")
+
+    def test_ends_cleanly_when_it_is_interrupted(self):
+        self.write(n=60, project='timeStep="0.001" duration="100000"')
+        before = self.names()
+        process = subprocess.Popen([THRONG, "crowd", self.project, "-o", self.base / "o.scb", "--series", self.base / "s.csv",
+                                    "--positions", self.base / "p.csv"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60
+        while len(self.names()) < len(before) + 3 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self.assertNotIn("o.scb", self.names())
+        os.kill(process.pid, signal.SIGINT)
+        said = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130, said)
+        self.assertIn("cancelled", said)
+        self.assertEqual(self.names(), before)
+
+    def test_lists_what_the_files_may_say(self):
+        kinds = {kind["kind"]: kind for kind in json.loads(crowd("--list", "--json").stdout)}
+        conditions = {entry["name"]: entry for entry in kinds["Conditions"]["entries"]}
+        distance, = [a for a in conditions["goal_reached"]["attributes"] if a["name"] == "distance"]
+        self.assertEqual(distance["default"], "0")
+        self.assertIn("goal_reached", crowd("--list").stdout)
+
+    def test_the_documented_list_is_the_program_s(self):
+        written = (ROOT / "docs" / "crowd_vocabulary.md").read_text()
+        self.assertEqual(crowd("--list", "--markdown").stdout, written,
+                         "run: throng crowd --list --markdown > docs/crowd_vocabulary.md")
+
+    @unittest.skipUnless(EXAMPLES.exists(), "Menge's examples are not here")
+    def test_runs_menge_s_examples_unchanged(self):
+        for project in sorted(EXAMPLES.glob("*.xml")):
+            done = crowd(project, "-d", "2", "-r", "1234", "--compat", "menge", "--series", self.base / "s.csv")
+            self.assertEqual(done.returncode, 0, (project, done.stderr))
+            reference = EXAMPLES / "reference" / f"core_{project.stem}.csv"
+            self.assertEqual((self.base / "s.csv").read_text().splitlines()[0], reference.read_text().splitlines()[0])
+
+
+unittest.main()
