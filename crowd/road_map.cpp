@@ -96,25 +96,23 @@ void RoadMapRoutes::prefer(const Crowd& crowd, std::size_t agent, PreferredVeloc
   }
 }
 
-/// Looks from the end of the way backwards for what the agent can walk to; false if it is lost.
+/// Goes on from place to place as long as the agent sees the next; false if it is lost.
 bool RoadMapRoutes::advance(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
                             Route& route) const {
   const Agents& agents = crowd.agents;
-  const auto sees = [&](const Eigen::Vector2f& place) {
-    return crowd.obstacles.visible(agents.position[agent], place, agents[Property::radius][agent],
-                                   agents.obstacle_mask[agent]);
+  const auto place = [&](std::size_t i) {
+    return i == route.count ? target : map_.places[route.places[i]];
   };
-  if (route.whole && sees(target)) {
-    route.next = route.count;
-    return true;
-  }
-  if (!route.whole && route.next + 1 >= route.count) return false;
-  for (std::size_t i = route.count; i > route.next; --i) {
-    if (!sees(map_.places[route.places[i - 1]])) continue;
-    route.next = i - 1;
-    return true;
-  }
-  return false;
+  const auto sees = [&](std::size_t i) {
+    return crowd.obstacles.visible(agents.position[agent], place(i),
+                                   agents[Property::radius][agent], agents.obstacle_mask[agent]);
+  };
+  // After the last place comes the goal, unless that is not the end of the way.
+  const std::size_t last = route.whole || route.count == 0 ? route.count : route.count - 1;
+  const std::size_t before = route.next;
+  while (route.next < last && sees(route.next + 1)) ++route.next;
+  if (!route.whole && route.next == last) return false;
+  return route.next > before || sees(route.next);
 }
 
 void RoadMapRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {

@@ -56,8 +56,9 @@ class RoadFinder {
 };
 
 /// The ways of all agents that use one map, in whatever state. An agent begins at the nearest place
-/// that it sees, heads for the last place of its way that it sees, and looks for a new way when it
-/// sees none or its goal has moved. Walls hide what an agent cannot get to straight.
+/// that it sees, goes on to the next as soon as it sees that, and looks for a new way when it does
+/// not see the place it heads for or its goal has moved. Walls hide what an agent cannot get to
+/// straight.
 class RoadMapRoutes {
  public:
   explicit RoadMapRoutes(RoadMap map);
