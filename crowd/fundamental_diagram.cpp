@@ -64,7 +64,7 @@ class Lookout : public Process {
     for (std::size_t slot = 0; slot < grid_.size(); ++slot) {
       slots_[grid_.id(slot)] = static_cast<std::int64_t>(slot);
     }
-    neighborhood_.prepare(crowd);
+    neighborhood_.prepare(crowd, grid_);
   }
 
   bool knows(std::size_t agent) const { return agent < slots_.size() && slots_[agent] != kNone; }

@@ -23,7 +23,10 @@ Surroundings Neighborhood::look(const Crowd& crowd, const Grid& grid, std::size_
   const float range = agents[Property::neighbor_dist][id];
   crowd.obstacles.near(grid.position(slot), range, agents.obstacle_mask[id], found.walls);
   const auto most = static_cast<std::size_t>(agents[Property::max_neighbors][id]);
-  return {id, slot, grid.nearest(slot, range, most, reach_[id], found.candidates), found.walls};
+  const auto neighbors = crowd.compat == Compat::none
+                             ? grid.nearest(slot, range, most, reach_[id], found.candidates)
+                             : tree_.nearest(grid, slot, range, most, found.search);
+  return {id, slot, neighbors, found.walls};
 }
 
 }  // namespace throng::crowd

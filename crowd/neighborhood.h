@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "crowd/crowd.h"
 #include "crowd/grid.h"
+#include "crowd/menge_tree.h"
 
 namespace throng::crowd {
 
@@ -26,7 +27,7 @@ class Neighborhood {
   /// Calls act(surroundings) once for every agent in the grid, on all threads.
   template <typename Act>
   void for_each(const Crowd& crowd, const Grid& grid, const Act& act) {
-    prepare(crowd);
+    prepare(crowd, grid);
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Found& found = found_.local();
       for (std::size_t slot = begin; slot < end; ++slot) act(look(crowd, grid, slot, found));
@@ -34,8 +35,9 @@ class Neighborhood {
   }
 
   /// To be called before a loop that looks at single agents, by the thread that starts it.
-  void prepare(const Crowd& crowd) {
+  void prepare(const Crowd& crowd, const Grid& grid) {
     found_.prepare();
+    if (crowd.compat != Compat::none) tree_.build(grid, crowd.agents.count());
     if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
   }
   /// What one agent sees; valid until this thread looks at another.
@@ -50,12 +52,14 @@ class Neighborhood {
   /// What one thread works with.
   struct Found {
     Grid::Candidates candidates;
+    MengeTree::Search search;
     std::vector<Obstacles::Near> walls;
   };
 
   static Found make_found(const Crowd& crowd);
   Surroundings look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
 
+  MengeTree tree_;            // of compatible runs
   std::vector<float> reach_;  // per agent, see Grid::nearest
   PerThread<Found> found_;
 };

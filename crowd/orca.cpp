@@ -26,7 +26,7 @@ class Orca : public Model {
 
   void step(const Crowd& crowd, const Grid& grid,
             std::span<Eigen::Vector2f> new_velocity) override {
-    neighborhood_.prepare(crowd);
+    neighborhood_.prepare(crowd, grid);
     workspaces_.prepare();
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Workspace& workspace = workspaces_.local();
