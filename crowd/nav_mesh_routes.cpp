@@ -40,22 +40,22 @@ void NavMeshRoutes::prefer(const Crowd& crowd, std::size_t agent, float heading_
       (route.next == route.count && !route.whole)) {
     plan(crowd, agent, route);
   }
-  if (is_pushed_off(p, heading_cos, route)) plan(crowd, agent, route);
+  if (is_pushed_off(p, heading_cos, route)) straighten(p, route);
   if (route.next == route.count) {
     head_for(crowd, agent, goal_place(crowd, agent, p), preferred);
     return;
   }
-  head_through(crowd, agent, route.legs[static_cast<std::size_t>(route.next)].crossing, preferred);
+  head_through(crowd, agent, route.gates[static_cast<std::size_t>(route.next)].crossing, preferred);
 }
 
 bool NavMeshRoutes::is_pushed_off(const Eigen::Vector2f& position, float heading_cos,
                                   const Route& route) {
   if (route.next == route.count) return false;
-  const Leg& leg = route.legs[static_cast<std::size_t>(route.next)];
-  const Eigen::Vector2f way = leg.crossing - position;
+  const auto next = static_cast<std::size_t>(route.next);
+  const Eigen::Vector2f way = route.gates[next].crossing - position;
   const float distance = way.norm();
   constexpr float kAtPortal = 0.05F;  // m; too near for a direction
-  return distance > kAtPortal && way.dot(leg.heading) < heading_cos * distance;
+  return distance > kAtPortal && way.dot(route.headings[next]) < heading_cos * distance;
 }
 
 /// Finds out how far the agent has come; false if it has left its way.
@@ -63,7 +63,7 @@ bool NavMeshRoutes::keep_up(const Eigen::Vector2f& position, Route& route) const
   const int polygon = file_->mesh.find(position, route.polygon);
   if (polygon < 0 || polygon == route.polygon) return true;
   for (int i = route.next; i < route.count; ++i) {
-    if (route.legs[static_cast<std::size_t>(i)].polygon != polygon) continue;
+    if (route.gates[static_cast<std::size_t>(i)].polygon != polygon) continue;
     route.next = i + 1;
     route.polygon = polygon;
     return true;
@@ -87,19 +87,38 @@ void NavMeshRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   route.next = 0;
   route.count = 0;
   route.target = target;
+  route.end = to.point;
   PathFinder& finder = finders_.local();
-  if (!finder.find(from, to, crowd.agents[Property::radius][agent])) return;
-  Eigen::Vector2f at = p;
-  for (const Gate& gate : finder.gates()) {
-    if (route.count == kMostLegs) {
+  if (finder.find(from, to, crowd.agents[Property::radius][agent])) {
+    take_gates(finder.gates(), p, 0, route);
+  }
+}
+
+/// The shortest way through the gates that are left. If those do not lead to the goal, the last
+/// one's crossing stays where it is.
+void NavMeshRoutes::straighten(const Eigen::Vector2f& position, Route& route) {
+  const auto next = static_cast<std::size_t>(route.next);
+  const auto left = static_cast<std::size_t>(route.count) - next;
+  const std::span<const Gate> gates = std::span<const Gate>(route.gates).subspan(next, left);
+  PathFinder& finder = finders_.local();
+  finder.find_through(gates, position, route.whole ? route.end : gates.back().crossing);
+  take_gates(finder.gates(), position, route.next, route);
+}
+
+void NavMeshRoutes::take_gates(std::span<const Gate> gates, const Eigen::Vector2f& position,
+                               int first, Route& route) {
+  route.count = first;
+  Eigen::Vector2f at = position;
+  for (const Gate& gate : gates) {
+    if (route.count == kMostGates) {
       route.whole = false;
       return;
     }
     const Eigen::Vector2f way = gate.crossing - at;
     const float distance = way.norm();
-    route.legs[static_cast<std::size_t>(route.count++)] = {
-        gate.polygon, gate.crossing,
-        distance > 0 ? Eigen::Vector2f(way / distance) : Eigen::Vector2f::Zero()};
+    const auto i = static_cast<std::size_t>(route.count++);
+    route.gates[i] = gate;
+    route.headings[i] = distance > 0 ? Eigen::Vector2f(way / distance) : Eigen::Vector2f::Zero();
     at = gate.crossing;
   }
 }

@@ -15,8 +15,8 @@
 namespace throng::crowd {
 
 /// The ways of all agents that use one mesh, in whatever state. An agent heads for the point where
-/// its way passes the next portal, and looks for a new way when it has left the polygons of the
-/// old one, is pushed off its heading, or its goal has moved.
+/// its way passes the next portal. It looks for a new way when it has left the polygons of the old
+/// one or its goal has moved, and straightens what is left of it when pushed off its heading.
 class NavMeshRoutes {
  public:
   NavMeshRoutes(std::shared_ptr<const NavMeshFile> file, std::string file_name, Lengths lengths);
@@ -28,25 +28,24 @@ class NavMeshRoutes {
               PreferredVelocity& preferred);
 
  private:
-  static constexpr int kMostLegs = 16;
+  static constexpr int kMostGates = 16;
 
-  /// From portal to portal.
-  struct Leg {
-    int polygon = 0;  ///< behind the portal
-    Eigen::Vector2f crossing = Eigen::Vector2f::Zero();
-    Eigen::Vector2f heading = Eigen::Vector2f::Zero();  ///< unit, along the leg
-  };
   struct Route {
     bool known = false;
-    bool whole = false;  ///< the legs lead to the goal's polygon
+    bool whole = false;  ///< the gates lead to the goal's polygon
     int polygon = -1;    ///< where the agent was last
-    int next = 0;        ///< leg
+    int next = 0;        ///< gate
     int count = 0;
     Eigen::Vector2f target = Eigen::Vector2f::Zero();
-    std::array<Leg, kMostLegs> legs;
+    Eigen::Vector2f end = Eigen::Vector2f::Zero();  ///< the place on the mesh nearest to the target
+    std::array<Gate, kMostGates> gates;
+    std::array<Eigen::Vector2f, kMostGates> headings;  ///< unit; from gate to gate
   };
 
   void plan(const Crowd& crowd, std::size_t agent, Route& route);
+  void straighten(const Eigen::Vector2f& position, Route& route);
+  static void take_gates(std::span<const Gate> gates, const Eigen::Vector2f& position, int first,
+                         Route& route);
   static bool is_pushed_off(const Eigen::Vector2f& position, float heading_cos, const Route& route);
   bool keep_up(const Eigen::Vector2f& position, Route& route) const;
 

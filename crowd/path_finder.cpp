@@ -69,6 +69,12 @@ bool PathFinder::find(const NavMesh::Place& from, const NavMesh::Place& to, floa
   return true;
 }
 
+void PathFinder::find_through(std::span<const Gate> gates, const Eigen::Vector2f& start,
+                              const Eigen::Vector2f& end) {
+  gates_.assign(gates.begin(), gates.end());
+  pull_tight(start, end);
+}
+
 bool PathFinder::find_by(Pass pass, const NavMesh::Place& from, const NavMesh::Place& to,
                          float radius) {
   Search how{from.point, to.point, radius, pass, false};
@@ -93,6 +99,7 @@ const Portal& PathFinder::portal(int number) const {
 
 bool PathFinder::search(const Search& how, int from, int to) {
   ++search_;
+  reached_ = 0;
   open_.clear();
   expand(how, from, -1);
   while (!open_.empty()) {
@@ -145,7 +152,7 @@ void PathFinder::expand(const Search& how, int polygon, int before) {
     const float cost = from.cost + (point - start).norm();
     if (known && cost >= node.cost) continue;
     node = {search_, false, before, cost, point};
-    open_.push_back({cost + (how.end - point).norm(), reached});
+    open_.push_back({cost + (how.end - point).norm(), reached_++, reached});
     std::push_heap(open_.begin(), open_.end());
   }
 }

@@ -35,6 +35,10 @@ class PathFinder {
   /// too narrow for it count only if there is no other way. Returns false if there is none at all.
   bool find(const NavMesh::Place& from, const NavMesh::Place& to, float radius);
 
+  /// The shortest way through portals that are known: finds where it passes and bends.
+  void find_through(std::span<const Gate> gates, const Eigen::Vector2f& start,
+                    const Eigen::Vector2f& end);
+
   /// The way found last: the portals passed; the points where it bends, then its end.
   std::span<const Gate> gates() const { return gates_; }
   std::span<const Eigen::Vector2f> bends() const { return bends_; }
@@ -51,11 +55,12 @@ class PathFinder {
   };
   struct Open {
     float estimate = 0;  // m from start to end by way of this portal
+    int rank = 0;        // of several with the same estimate, the one that was reached first
     int portal = 0;
 
-    /// For a heap whose first is the best.
+    // For a heap whose first is the best.
     bool operator<(const Open& other) const {
-      return estimate != other.estimate ? estimate > other.estimate : portal > other.portal;
+      return estimate != other.estimate ? estimate > other.estimate : rank > other.rank;
     }
   };
 
@@ -86,6 +91,7 @@ class PathFinder {
   std::vector<Node> nodes_;        // by portal
   std::vector<Open> open_;         // a heap
   unsigned search_ = 0;
+  int reached_ = 0;  // portals, in this search
 
   std::vector<Gate> gates_;
   std::vector<Gate> best_gates_;
