@@ -1,5 +1,9 @@
 #include "crowd/model.h"
 
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include "crowd/suggest.h"
 #include "crowd/xml.h"
 
 namespace throng::crowd {
@@ -13,12 +17,13 @@ const std::vector<ModelEntry>& models() {
 }
 
 const ModelEntry& find_model(std::string_view name) {
-  std::string known;
+  std::vector<std::string_view> known;
   for (const ModelEntry& model : models()) {
     if (model.name == name || (!model.alias.empty() && model.alias == name)) return model;
-    known += (known.empty() ? "" : ", ") + std::string(model.name);
+    known.push_back(model.name);
   }
-  throw InputError(Problem{"", "pedestrian model", in_quotes(name), "one of " + known});
+  throw InputError(Problem{"", "pedestrian model", in_quotes(name) + did_you_mean(name, known),
+                           fmt::format("one of {}", fmt::join(known, ", "))});
 }
 
 }  // namespace throng::crowd

@@ -126,14 +126,17 @@ std::unique_ptr<Condition> make_panicked(const Element& element, const Attribute
 
 }  // namespace
 
+AttributeTable panic_attributes() {
+  return {
+      optional(number("radius", "how far panic is noticed, in m", 0.1, 100), "3"),
+      optional(number("rate", "chance in a second to catch it from each nearby", 0, 1e3), "0.2"),
+      optional(number("recovery", "chance in a second to calm down", 0, 1e3), "0"),
+      optional(number("speed_factor", "of the preferred speed in panic", 0, 10), "1.5")};
+}
+
 PanicSpec load_panic(const Element& element) {
   element.require_no_children();
-  const Attributes attributes(
-      element,
-      {optional(number("radius", "how far panic is noticed, in m", 0.1, 100), "3"),
-       optional(number("rate", "chance in a second to catch it from each nearby", 0, 1e3), "0.2"),
-       optional(number("recovery", "chance in a second to calm down", 0, 1e3), "0"),
-       optional(number("speed_factor", "of the preferred speed in panic", 0, 10), "1.5")});
+  const Attributes attributes(element, panic_attributes());
   return {attributes.real("radius"), attributes.number("rate"), attributes.number("recovery"),
           attributes.real("speed_factor")};
 }

@@ -16,6 +16,8 @@ struct PanicSpec {
   float speed_factor = 1.5F;  ///< of the preferred speed while in panic
 };
 
+AttributeTable panic_attributes();
+
 /// Throws InputError.
 PanicSpec load_panic(const Element& element);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array kShares = {0.0, 0.10, 0.25, 0.50, 0.75, 1.0};
 constexpr int kTimeDecimals = 4;
-constexpr int kDecimals = 5;
+constexpr int kPlaceDecimals = 5;
 
 std::optional<std::vector<std::size_t>> frames_at(const std::optional<std::vector<double>>& times_s,
                                                   double dt_s) {
@@ -51,7 +51,7 @@ void write_frame(const std::vector<float>& floats, std::size_t floats_per_agent,
     lines += fmt::format("{},{},{},{}", time, agent, crowd.agent_classes()[agent],
                          csv_text(crowd.state_names()[static_cast<std::size_t>(values[kState])]));
     for (std::size_t i = 0; i < floats_per_agent; ++i) {
-      if (i != kState) lines += fmt::format(",{}", csv_number(values[i], kDecimals));
+      if (i != kState) lines += fmt::format(",{}", csv_number(values[i], kPlaceDecimals));
     }
     lines += "\n";
   }

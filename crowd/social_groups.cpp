@@ -171,16 +171,19 @@ class SocialGroupForces : public VelModifier {
 
 }  // namespace
 
+AttributeTable social_groups_attributes() {
+  return {optional(number("share", "of the people who walk in groups", 0, 1), "0.6"),
+          optional(number("pairs", "weight of groups of two", 0, 1e6), "0.7"),
+          optional(number("threes", "weight of groups of three", 0, 1e6), "0.2"),
+          optional(number("fours", "weight of groups of four", 0, 1e6), "0.1"),
+          optional(number("gaze", "how much they slow to see each other", 0, 100), "4"),
+          optional(number("cohesion", "how much they draw near, m/s^2", 0, 100), "3"),
+          optional(number("spacing", "how much they keep off, m/s^2", 0, 100), "1")};
+}
+
 SocialGroupsSpec load_social_groups(const Element& element) {
   element.require_no_children();
-  const Attributes attributes(
-      element, {optional(number("share", "of the people who walk in groups", 0, 1), "0.6"),
-                optional(number("pairs", "weight of groups of two", 0, 1e6), "0.7"),
-                optional(number("threes", "weight of groups of three", 0, 1e6), "0.2"),
-                optional(number("fours", "weight of groups of four", 0, 1e6), "0.1"),
-                optional(number("gaze", "how much they slow to see each other", 0, 100), "4"),
-                optional(number("cohesion", "how much they draw near, m/s^2", 0, 100), "3"),
-                optional(number("spacing", "how much they keep off, m/s^2", 0, 100), "1")});
+  const Attributes attributes(element, social_groups_attributes());
   SocialGroupsSpec spec;
   spec.share = attributes.number("share");
   spec.weights = {attributes.number("pairs"), attributes.number("threes"),

@@ -19,6 +19,8 @@ struct SocialGroupsSpec {
   float spacing = 1;                ///< beta_3, m/s^2
 };
 
+AttributeTable social_groups_attributes();
+
 /// Throws InputError.
 SocialGroupsSpec load_social_groups(const Element& element);
 

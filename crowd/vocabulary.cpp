@@ -5,12 +5,17 @@
 
 #include "crowd/agent_groups.h"
 #include "crowd/agents.h"
+#include "crowd/arrivals.h"
 #include "crowd/behavior.h"
+#include "crowd/elevation.h"
 #include "crowd/events.h"
 #include "crowd/generators.h"
 #include "crowd/goals.h"
 #include "crowd/model.h"
+#include "crowd/obstacle_sets.h"
+#include "crowd/panic.h"
 #include "crowd/project.h"
+#include "crowd/social_groups.h"
 
 namespace throng::crowd {
 
@@ -92,10 +97,10 @@ VocabularyKind of(const Registry<Product, Context>& registry, std::string title,
   return kind;
 }
 
-VocabularyKind project() {
-  return {"Project",
-          "the root of a project file",
-          {{"Project", "what is run, and for how long", described(project_attributes())}}};
+/// An element of which there is one type.
+VocabularyKind one(const std::string& name, std::string element, std::string help,
+                   const AttributeTable& attributes) {
+  return {name, std::move(element), {{name, std::move(help), described(attributes)}}};
 }
 
 VocabularyKind pedestrian_models() {
@@ -147,15 +152,21 @@ VocabularyKind properties() {
 
 std::vector<VocabularyKind> vocabulary() {
   std::vector<VocabularyKind> all = {
-      project(),
+      one("Project", "the root of a project file", "what is run, and for how long",
+          project_attributes()),
       pedestrian_models(),
       model_constants(),
+      of(elevation_registry(), "Elevations", "<Elevation> in <Experiment>"),
+      of(obstacle_set_registry(), "Obstacle sets", "<ObstacleSet> in <Experiment>"),
+      one("SocialGroups", "an element of <Experiment>", "pairs and small groups who walk together",
+          social_groups_attributes()),
       properties(),
       model_parameters(),
       of(profile_selector_registry(), "Profile selectors", "<ProfileSelector> in <AgentGroup>"),
       of(state_selector_registry(), "State selectors",
          "<StateSelector> in <AgentGroup> or <Effect>"),
       of(generator_registry(), "Generators", "<Generator> in <AgentGroup>"),
+      of(arrival_registry(), "Arrivals", "<Arrivals> in <AgentGroup>"),
       of(goal_registry(), "Goals", "<Goal> in <GoalSet>"),
       of(goal_selector_registry(), "Goal selectors", "<GoalSelector> in <State>"),
       of(vel_component_registry(), "Velocity components", "<VelComponent> in <State>"),
@@ -164,6 +175,8 @@ std::vector<VocabularyKind> vocabulary() {
       of(action_registry(), "Actions", "<Action> in <State>"),
       of(condition_registry(), "Conditions", "<Condition> in <Transition>"),
       of(target_registry(), "Targets", "<Target> in <Transition>"),
+      one("Panic", "an element of <BFSM>", "how panic spreads and what it does",
+          panic_attributes()),
       of(task_registry(), "Tasks", "<Task> in <BFSM>"),
       of(event_trigger_registry(), "Triggers", "<Trigger> in <Event>"),
       of(event_target_registry(), "Targets of events", "<Target> in <EventSystem>"),
