@@ -105,8 +105,10 @@ std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip) {
   std::vector<Palette> palettes;
   palettes.reserve(clip.frames);
   if (starts_with(clip.name, "fall")) {
+    // Nobody lies on a backpack.
+    const bool forwards = clip.name == "fall_forwards" || walker.manner.carries == Carry::backpack;
     for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
-      const Pose pose = fall(walker, clip.name == "fall_forwards", share_of(clip, frame));
+      const Pose pose = fall(walker, forwards, share_of(clip, frame));
       palettes.push_back(grounded(walker, pose, walker.body));
     }
     return palettes;

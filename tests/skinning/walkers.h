@@ -94,35 +94,41 @@ inline Eigen::Vector3f placed(const Population& population, std::size_t characte
   return world;
 }
 
-/// How far, at most, a vertex moves over the ground while it is on it (within 0.5 mm), and how far
-/// it ever gets below it.
+/// How far, at most, a vertex moves over the ground while it is on it, how low it ever is, and how
+/// often it comes down.
 struct Contact {
   double slide_m = 0;
-  double lowest_m = 0;
+  double lowest_m = 1;
   int landings = 0;
 };
 
+/// On the ground is what is within `near_m` of it, or of the vertex's own lowest place when that is
+/// higher; `trim` of each contact is left out at both ends, where a foot comes and goes.
 inline Contact contact_of(const Population& population, std::size_t character,
                           const MotionPlan& plan, std::span<const Moment> moments, double from_step,
-                          double to_step, const Vertex& vertex) {
+                          double to_step, const Vertex& vertex, float near_m = 0.0005F,
+                          double trim = 0) {
+  std::vector<Eigen::Vector3f> path;
   Contact contact;
-  bool down = false;
-  Eigen::Vector2f low(0, 0);
-  Eigen::Vector2f high(0, 0);
   for (double step = from_step; step <= to_step; step += 0.05) {
-    const Eigen::Vector3f at = placed(population, character, plan, moments, step, vertex);
-    contact.lowest_m = std::min<double>(contact.lowest_m, at.z());
-    const bool on_ground = at.z() < 0.0005F;
-    if (on_ground && !down) {
-      low = high = at.head<2>();
-      ++contact.landings;
+    path.push_back(placed(population, character, plan, moments, step, vertex));
+    contact.lowest_m = std::min<double>(contact.lowest_m, path.back().z());
+  }
+  const float ground_m = std::max(static_cast<float>(contact.lowest_m), 0.0F) + near_m;
+  for (std::size_t begin = 0; begin < path.size(); ++begin) {
+    if (path[begin].z() >= ground_m) continue;
+    std::size_t end = begin;
+    while (end < path.size() && path[end].z() < ground_m) ++end;
+    const auto left_out = static_cast<std::size_t>(trim * static_cast<double>(end - begin));
+    Eigen::Vector2f low = path[begin + left_out].head<2>();
+    Eigen::Vector2f high = low;
+    for (std::size_t i = begin + left_out; i < end - left_out; ++i) {
+      low = low.cwiseMin(path[i].head<2>());
+      high = high.cwiseMax(path[i].head<2>());
     }
-    if (on_ground) {
-      low = low.cwiseMin(at.head<2>());
-      high = high.cwiseMax(at.head<2>());
-      contact.slide_m = std::max<double>(contact.slide_m, (high - low).norm());
-    }
-    down = on_ground;
+    contact.slide_m = std::max<double>(contact.slide_m, (high - low).norm());
+    ++contact.landings;
+    begin = end;
   }
   return contact;
 }
