@@ -9,6 +9,34 @@
 
 namespace throng::crowd {
 
+namespace {
+
+/// The direction from `from` that just touches a circle, on its right (turn = -1) or left side.
+Eigen::Vector2f tangent(const Eigen::Vector2f& from, const Eigen::Vector2f& centre, float radius,
+                        float turn) {
+  const Eigen::Vector2f way = (centre - from).normalized();
+  const float s = turn * std::min(1.0F, radius / (centre - from).norm());
+  const float c = std::sqrt(1 - s * s);
+  return {c * way.x() - s * way.y(), s * way.x() + c * way.y()};
+}
+
+/// The direction turned as far as need be to pass the corners of a gate at a distance.
+Eigen::Vector2f clear_of_corners(const Eigen::Vector2f& direction, const Gate& gate,
+                                 const Eigen::Vector2f& from, float radius) {
+  const float too_near = radius * radius;
+  const bool near_left = (gate.left_corner - from).squaredNorm() <= too_near;
+  const bool near_right = (gate.right_corner - from).squaredNorm() <= too_near;
+  if (near_left || near_right) return direction;
+  const Eigen::Vector2f leftmost = tangent(from, gate.left_corner, radius, -1);
+  const Eigen::Vector2f rightmost = tangent(from, gate.right_corner, radius, 1);
+  if (cross(rightmost, leftmost) <= 0) return direction;  // too narrow
+  if (cross(direction, leftmost) < 0) return leftmost;
+  if (cross(rightmost, direction) < 0) return rightmost;
+  return direction;
+}
+
+}  // namespace
+
 NavMeshRoutes::NavMeshRoutes(std::shared_ptr<const NavMeshFile> file, std::string file_name,
                              Lengths lengths)
     : file_(std::move(file)),
@@ -45,7 +73,10 @@ void NavMeshRoutes::prefer(const Crowd& crowd, std::size_t agent, float heading_
     head_for(crowd, agent, goal_place(crowd, agent, p), preferred);
     return;
   }
-  head_through(crowd, agent, route.gates[static_cast<std::size_t>(route.next)].crossing, preferred);
+  const Gate& gate = route.gates[static_cast<std::size_t>(route.next)];
+  head_through(crowd, agent, gate.crossing, preferred);
+  preferred.direction =
+      clear_of_corners(preferred.direction, gate, p, crowd.agents[Property::radius][agent]);
 }
 
 bool NavMeshRoutes::is_pushed_off(const Eigen::Vector2f& position, float heading_cos,

@@ -15,7 +15,8 @@ Gate make_gate(const Portal& portal, float radius) {
   const float width = across.norm();
   const Eigen::Vector2f inset = width > 0 ? Eigen::Vector2f(std::min(radius / width, 0.5F) * across)
                                           : Eigen::Vector2f::Zero();
-  return {portal.to, portal.left + inset, portal.right - inset, portal.left};
+  return {portal.to,   portal.left + inset, portal.right - inset,
+          portal.left, portal.left,         portal.right};
 }
 
 /// Where the straight line from a to b passes a gate, or the gate's end nearest to the line.

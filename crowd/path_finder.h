@@ -15,6 +15,8 @@ struct Gate {
   Eigen::Vector2f left;
   Eigen::Vector2f right;
   Eigen::Vector2f crossing;  ///< where the way passes it
+  Eigen::Vector2f left_corner;
+  Eigen::Vector2f right_corner;
 };
 
 /// What A* takes for the length of a way from portal to portal.
