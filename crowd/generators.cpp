@@ -54,7 +54,9 @@ class RectangularGrid : public Generator {
   Eigen::Vector2f axis_;
 };
 
-/// Closest packing of discs: rows whose neighbours are shifted by half a disc.
+/// Closest packing of discs: rows whose neighbours are shifted by half a disc. Along x every other
+/// row has one agent less, and rows are added until there are more agents than the population
+/// asked for. Along y rows stand side by side, all with as many agents: one more than it takes.
 class HexLattice : public Generator {
  public:
   enum class Alignment { left, center, right };
@@ -65,30 +67,36 @@ class HexLattice : public Generator {
     float width_m = 1;  ///< from left to right
     std::size_t population = 1;
     Alignment alignment = Alignment::center;
+    bool along_x = true;
   };
 
-  HexLattice(const Shape& shape, float radius)
+  explicit HexLattice(const Shape& shape)
       : shape_(shape),
         axis_(std::cos(shape.angle_rad), std::sin(shape.angle_rad)),
-        radius_(radius),
-        row_distance_(radius * std::numbers::sqrt3_v<float>) {}
+        radius_(1 / std::sqrt(2 * shape.density * std::numbers::sqrt3_v<float>)),
+        row_distance_(radius_ * std::numbers::sqrt3_v<float>) {
+    const float step = shape.along_x ? 2 * radius_ : row_distance_;
+    across_ = std::max<std::size_t>(1, static_cast<std::size_t>(shape.width_m / step));
+    left_ = left_end(static_cast<float>(across_ - 1) * step);
+  }
 
-  /// Of the discs of a lattice that dense.
-  static float radius_m(float density) {
-    return 1 / std::sqrt(2 * density * std::numbers::sqrt3_v<float>);
+  std::size_t count() const override {
+    if (!shape_.along_x) return across_ * column();
+    const std::size_t pairs = shape_.population / two_rows();
+    const std::size_t rest = shape_.population % two_rows();
+    return pairs * two_rows() + (rest < across_ ? across_ : two_rows());
   }
 
   Eigen::Vector2f place(std::size_t index, const Eigen::Vector2f& noise) const override {
-    const Eigen::Vector2f local = local_place(index) + noise;
+    const Eigen::Vector2f local = (shape_.along_x ? in_rows(index) : in_columns(index)) + noise;
     return shape_.anchor + local.x() * axis_ + local.y() * Eigen::Vector2f(-axis_.y(), axis_.x());
   }
 
- protected:
-  virtual Eigen::Vector2f local_place(std::size_t index) const = 0;
+ private:
+  std::size_t two_rows() const { return 2 * across_ - 1; }
+  std::size_t column() const { return shape_.population / across_ + 1; }
 
-  /// Where `count` things `step` apart begin that are aligned with 0.
-  float first_of(std::size_t count, float step) const {
-    const float extent = static_cast<float>(count - 1) * step;
+  float left_end(float extent) const {
     switch (shape_.alignment) {
       case Alignment::left:
         return 0;
@@ -100,62 +108,26 @@ class HexLattice : public Generator {
     return -0.5F * extent;
   }
 
-  Shape shape_;
-  Eigen::Vector2f axis_;
-  float radius_;
-  float row_distance_;
-};
-
-/// Rows from left to right, every other one has one agent less; rows are added until there are
-/// more agents than the population asked for.
-class HexRows : public HexLattice {
- public:
-  HexRows(const Shape& shape, float radius)
-      : HexLattice(shape, radius),
-        row_(std::max<std::size_t>(1, static_cast<std::size_t>(shape.width_m / (2 * radius)))) {}
-
-  std::size_t count() const override {
-    const std::size_t two_rows = 2 * row_ - 1;
-    const std::size_t pairs = shape_.population / two_rows;
-    const std::size_t rest = shape_.population % two_rows;
-    return pairs * two_rows + (rest < row_ ? row_ : two_rows);
-  }
-
-  Eigen::Vector2f local_place(std::size_t index) const override {
-    const std::size_t two_rows = 2 * row_ - 1;
-    const bool shifted = index % two_rows >= row_;
-    const std::size_t row = 2 * (index / two_rows) + (shifted ? 1 : 0);
-    const std::size_t column = index % two_rows - (shifted ? row_ : 0);
-    const float left = first_of(row_, 2 * radius_) + (shifted ? radius_ : 0);
-    return {left + 2 * radius_ * static_cast<float>(column),
+  Eigen::Vector2f in_rows(std::size_t index) const {
+    const bool shifted = index % two_rows() >= across_;
+    const std::size_t row = 2 * (index / two_rows()) + (shifted ? 1 : 0);
+    const std::size_t place = index % two_rows() - (shifted ? across_ : 0);
+    return {left_ + (shifted ? radius_ : 0) + 2 * radius_ * static_cast<float>(place),
             row_distance_ * static_cast<float>(row)};
   }
 
- private:
-  std::size_t row_;  // agents in the first row
-};
-
-/// Rows upwards, side by side from left to right, all with as many agents: one more than the
-/// population asked for takes.
-class HexColumns : public HexLattice {
- public:
-  HexColumns(const Shape& shape, float radius)
-      : HexLattice(shape, radius),
-        columns_(std::max<std::size_t>(1, static_cast<std::size_t>(shape.width_m / row_distance_))),
-        column_(shape.population / columns_ + 1) {}
-
-  std::size_t count() const override { return columns_ * column_; }
-
-  Eigen::Vector2f local_place(std::size_t index) const override {
-    const std::size_t column = index / column_;
-    const float bottom = column % 2 == 0 ? 0 : radius_;
-    return {first_of(columns_, row_distance_) + row_distance_ * static_cast<float>(column),
-            bottom + 2 * radius_ * static_cast<float>(index % column_)};
+  Eigen::Vector2f in_columns(std::size_t index) const {
+    const std::size_t number = index / column();
+    return {left_ + row_distance_ * static_cast<float>(number),
+            (number % 2 == 0 ? 0 : radius_) + 2 * radius_ * static_cast<float>(index % column())};
   }
 
- private:
-  std::size_t columns_;
-  std::size_t column_;  // agents in each
+  Shape shape_;
+  Eigen::Vector2f axis_;
+  float radius_;  // of the discs, m
+  float row_distance_;
+  float left_ = 0;          // x of the first agent
+  std::size_t across_ = 1;  // agents in the first row, or columns
 };
 
 constexpr int kAnyGroup = -1;
@@ -230,9 +202,8 @@ std::unique_ptr<Generator> make_hex_lattice(const Element& element, const Attrib
   shape.alignment = alignment == "left"    ? Alignment::left
                     : alignment == "right" ? Alignment::right
                                            : Alignment::center;
-  const float radius = HexLattice::radius_m(shape.density);
-  if (attributes.text("row_direction") == "x") return std::make_unique<HexRows>(shape, radius);
-  return std::make_unique<HexColumns>(shape, radius);
+  shape.along_x = attributes.text("row_direction") == "x";
+  return std::make_unique<HexLattice>(shape);
 }
 
 constexpr std::string_view kNoisePrefix = "displace_";

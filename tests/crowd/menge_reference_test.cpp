@@ -70,96 +70,97 @@ class MengeReference : public testing::TestWithParam<Agreement> {
     const Agreement& agreement = GetParam();
     const auto series_file = kExamples / "reference" / ("core_" + agreement.name + ".csv");
     if (!std::filesystem::exists(series_file)) GTEST_SKIP() << "no reference series here";
-    series_ = read_table(series_file);
-    const Table places =
+    series = read_table(series_file);
+    const Table place_table =
         read_table(kExamples / "reference" / ("core_" + agreement.name + "_pos.csv"));
-    for (const auto& row : places.rows) {
-      places_[places.number(row, "time")].push_back({static_cast<float>(places.number(row, "x")),
-                                                     static_cast<float>(places.number(row, "y"))});
+    for (const auto& row : place_table.rows) {
+      places[place_table.number(row, "time")].push_back(
+          {static_cast<float>(place_table.number(row, "x")),
+           static_cast<float>(place_table.number(row, "y"))});
     }
     Project project = load_project(kExamples / (agreement.project + ".xml"));
     project.options.seed = 1234;
     project.options.model = agreement.model;
     project.options.compat = Compat::menge;
     if (agreement.model != "orca") project.options.time_step_s = 0.1;
-    crowd_ =
+    crowd =
         std::make_unique<Simulation>(project.scene_file, project.behavior_file, project.options);
   }
 
   void advance_to(double time_s) {
-    while (!crowd_->all_final() && crowd_->time_s() < time_s - 0.5 * crowd_->dt_s()) crowd_->step();
+    while (!crowd->all_final() && crowd->time_s() < time_s - 0.5 * crowd->dt_s()) crowd->step();
   }
 
   double share_in(const std::string& state) const {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < crowd_->agent_count(); ++i) {
-      if (test::state_of(*crowd_, i) == state) ++count;
+    for (std::size_t i = 0; i < crowd->agent_count(); ++i) {
+      if (test::state_of(*crowd, i) == state) ++count;
     }
-    return static_cast<double>(count) / static_cast<double>(crowd_->agent_count());
+    return static_cast<double>(count) / static_cast<double>(crowd->agent_count());
   }
 
   void expect_states(const std::vector<std::string>& row) const {
-    const auto count = static_cast<double>(crowd_->agent_count());
-    for (const std::string& state : crowd_->state_names()) {
-      EXPECT_NEAR(share_in(state), series_.number(row, "n_" + state) / count, 0.05)
+    const auto count = static_cast<double>(crowd->agent_count());
+    for (const std::string& state : crowd->state_names()) {
+      EXPECT_NEAR(share_in(state), series.number(row, "n_" + state) / count, 0.05)
           << state << " at " << row[0] << " s";
     }
   }
 
   void expect_places(double time_s) const {
-    const auto found = places_.find(time_s);
-    if (found == places_.end()) return;
-    ASSERT_EQ(crowd_->agent_count(), found->second.size());
+    const auto found = places.find(time_s);
+    if (found == places.end()) return;
+    ASSERT_EQ(crowd->agent_count(), found->second.size());
     const float tolerance = time_s == 0 ? 1e-4F : 0.05F;
-    for (std::size_t i = 0; i < crowd_->agent_count(); ++i) {
-      EXPECT_LT((crowd_->positions()[i] - found->second[i]).norm(), tolerance)
+    for (std::size_t i = 0; i < crowd->agent_count(); ++i) {
+      EXPECT_LT((crowd->positions()[i] - found->second[i]).norm(), tolerance)
           << "agent " << i << " at " << time_s << " s";
     }
   }
 
   /// The middle of the crowd and how far it spreads, which the series have for every second.
   void expect_spread(const std::vector<std::string>& row) const {
-    const auto count = static_cast<float>(crowd_->agent_count());
+    const auto count = static_cast<float>(crowd->agent_count());
     Eigen::Array2f sum = Eigen::Array2f::Zero();
-    for (const Eigen::Vector2f& place : crowd_->positions()) sum += place.array();
+    for (const Eigen::Vector2f& place : crowd->positions()) sum += place.array();
     const Eigen::Array2f mean = sum / count;
     Eigen::Array2f squares = Eigen::Array2f::Zero();
-    for (const Eigen::Vector2f& place : crowd_->positions()) {
+    for (const Eigen::Vector2f& place : crowd->positions()) {
       squares += (place.array() - mean).square();
     }
     const Eigen::Array2f spread = (squares / count).sqrt();
     for (int axis = 0; axis < 2; ++axis) {
       const std::string suffix = axis == 0 ? "_x" : "_y";
-      EXPECT_NEAR(mean[axis], series_.number(row, "mean" + suffix), 0.01) << row[0] << " s";
-      EXPECT_NEAR(spread[axis], series_.number(row, "std" + suffix), 0.01) << row[0] << " s";
+      EXPECT_NEAR(mean[axis], series.number(row, "mean" + suffix), 0.01) << row[0] << " s";
+      EXPECT_NEAR(spread[axis], series.number(row, "std" + suffix), 0.01) << row[0] << " s";
     }
   }
 
-  Table series_;
-  std::map<double, std::vector<Eigen::Vector2f>> places_;
-  std::unique_ptr<Simulation> crowd_;
+  Table series;
+  std::map<double, std::vector<Eigen::Vector2f>> places;
+  std::unique_ptr<Simulation> crowd;
 };
 
 TEST_P(MengeReference, Agrees) {
   const Agreement& agreement = GetParam();
-  EXPECT_EQ(crowd_->state_names().size(),
-            std::count_if(series_.columns.begin(), series_.columns.end(),
+  EXPECT_EQ(crowd->state_names().size(),
+            std::count_if(series.columns.begin(), series.columns.end(),
                           [](const auto& name) { return name.starts_with("n_"); }));
   std::map<double, const std::vector<std::string>*> moments;
-  for (const auto& row : series_.rows) moments[series_.number(row, "time")] = &row;
-  for (const auto& [time_s, places] : places_) moments.try_emplace(time_s, nullptr);
+  for (const auto& row : series.rows) moments[series.number(row, "time")] = &row;
+  for (const auto& [time_s, them] : places) moments.try_emplace(time_s, nullptr);
   for (const auto& [time_s, row] : moments) {
     if (time_s > agreement.run_until_s) break;
     advance_to(time_s);
-    if (crowd_->all_final()) break;
+    if (crowd->all_final()) break;
     if (time_s <= agreement.places_until_s) expect_places(time_s);
     if (row != nullptr && time_s <= agreement.places_until_s) expect_spread(*row);
     if (row != nullptr && time_s <= agreement.states_until_s) expect_states(*row);
   }
   if (agreement.end_share == 0) return;
-  const double end_s = series_.number(series_.rows.back(), "time");
+  const double end_s = series.number(series.rows.back(), "time");
   advance_to(2 * end_s);
-  EXPECT_NEAR(crowd_->time_s(), end_s, agreement.end_share * end_s);
+  EXPECT_NEAR(crowd->time_s(), end_s, agreement.end_share * end_s);
 }
 
 constexpr double kEndless = 0;
@@ -185,6 +186,8 @@ std::vector<Agreement> agreements() {
        kChaotic},
       {"events_state_population_event_drop_to", events + "drop_to", "orca", 25.5},
       {"events_state_population_event_rise_to", events + "rise_to", "orca", 25.5},
+      {"globalNavSwap-vectorfield", "globalNavSwap-vectorfield", "orca", 25},
+      {"globalNavSwap-roadmap", "globalNavSwap-roadmap", "orca", 5, 11},
       {"cross__pedvo", "cross", "pedvo", 130, 130, kEndless},
       {"4square__pedvo", "4square", "pedvo", 12.1, 20, kEndless, 20},
       {"pedModelSwap__pedvo", "pedModelSwap", "pedvo", 12.1, 20, kEndless, 20},

@@ -48,6 +48,7 @@ TEST(MengeTree, TiesComeInTheOrderOfItsBoxes) {
   // Too many for one box: cut at x = 5.5, which brings those on the right from the end of the list
   // to where the wrong ones on the left were.
   std::vector<Eigen::Vector2f> places;
+  places.reserve(12);
   for (int i = 0; i < 12; ++i) places.emplace_back(static_cast<float>(11 - i), 0.0F);
   const Agents agents = agents_at(places);
   Grid grid;

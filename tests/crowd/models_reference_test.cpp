@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(Core, ModelReference,
                                          Case{"pedModelSwap", "karamouzas", 9, 3, 0.05, 0.05},
                                          Case{"bottleneck", "pedvo", 0, 15, 0.01, 0.01},
                                          Case{"bottleneck", "gcf", 9, 18, 0.02, 0.02}),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           return "In" + info.param.scene + "With" + info.param.model;
+                         [](const testing::TestParamInfo<Case>& tested) {
+                           return "In" + tested.param.scene + "With" + tested.param.model;
                          });
 
 }  // namespace
