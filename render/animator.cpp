@@ -122,7 +122,7 @@ bool is_down(std::string_view state_name) {
 }
 
 Animator::Animator(const world::Trace& trace, const skinning::Population& population)
-    : trace_(&trace), population_(&population), stays_(trace.agents()) {
+    : trace_(&trace), stays_(trace.agents()) {
   std::vector<char> down_states;
   for (const std::string& name : trace.header.state_names) {
     down_states.push_back(is_down(name) ? 1 : 0);

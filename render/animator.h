@@ -32,7 +32,6 @@ class Animator {
     skinning::MotionPlan plan;
   };
   const world::Trace* trace_;
-  const skinning::Population* population_;
   std::vector<skinning::Appearance> appearance_;  ///< per agent
   std::vector<std::vector<Stay>> stays_;          ///< per agent, by time
 };

@@ -12,7 +12,7 @@ namespace throng::skinning {
 
 namespace {
 
-constexpr double kStandardStature_m = 1.7;
+constexpr double kStandardStatureM = 1.7;
 constexpr double kLookAside = 55 * kDegree;
 
 // The speed at which a stride of this length is natural.
@@ -21,7 +21,7 @@ float natural_speed(double stride) {
   double high = 8;
   for (int step = 0; step < 40; ++step) {
     const double middle = 0.5 * (low + high);
-    const double length = stride_length_m(middle, kStandardStature_m) / kStandardStature_m;
+    const double length = stride_length_m(middle, kStandardStatureM) / kStandardStatureM;
     (length < stride ? low : high) = middle;
   }
   return static_cast<float>(low);

@@ -11,11 +11,11 @@ namespace throng::skinning {
 
 namespace {
 
-constexpr double kFall_s = 1.3;
-constexpr double kGetUp_s = 2.2;
-constexpr double kFastFall_mps = 1.2;  // who is faster falls on the face
-constexpr double kSlowTurn_radps = 12 * kDegree;
-constexpr double kSmallTurn_rad = 15 * kDegree;
+constexpr double kFallS = 1.3;
+constexpr double kGetUpS = 2.2;
+constexpr double kFastFallMps = 1.2;  // who is faster falls on the face
+constexpr double kSlowTurnRadps = 12 * kDegree;
+constexpr double kSmallTurnRad = 15 * kDegree;
 
 double turned(const Moment& from, const Moment& to) {
   return std::remainder(to.yaw_rad - from.yaw_rad, 360 * kDegree);
@@ -77,11 +77,11 @@ void RestLayer::stand(const Stretch& stretch, bool first, bool last) {
     double angle = 0;
     while (end < stretch.last) {
       const double step = turned(moments[end], moments[end + 1]);
-      if (std::abs(step) < kSlowTurn_radps * way_.dt_s() || step * angle < 0) break;
+      if (std::abs(step) < kSlowTurnRadps * way_.dt_s() || step * angle < 0) break;
       angle += step;
       ++end;
     }
-    if (std::abs(angle) >= kSmallTurn_rad) {
+    if (std::abs(angle) >= kSmallTurnRad) {
       idle(begin, static_cast<double>(at));
       turn(at, end);
       begin = static_cast<double>(end);
@@ -204,7 +204,7 @@ void RestLayer::lie(const Stretch& stretch, bool first, bool last) {
   const double before = std::max(begin - steps(1.0), 0.0);
   const double speed = (way_.distance_m(begin) - way_.distance_m(before)) /
                        std::max((begin - before) * way_.dt_s(), 1e-6);
-  const bool forwards = random_.uniform() < (speed > kFastFall_mps ? 0.9 : 0.5);
+  const bool forwards = random_.uniform() < (speed > kFastFallMps ? 0.9 : 0.5);
   const Clip* clip = clips_.find(forwards ? "fall_forwards" : "fall_backwards");
   if (clip == nullptr) {
     idle(begin, std::max(end, begin + 1));
@@ -213,13 +213,13 @@ void RestLayer::lie(const Stretch& stretch, bool first, bool last) {
   const double lying = clip->frames - 1;
   double lies_from = begin;
   if (!first) {
-    lies_from = begin + std::min(steps(kFall_s), 0.5 * (end - begin));
+    lies_from = begin + std::min(steps(kFallS), 0.5 * (end - begin));
     // Slowly at first, as everything falls.
     const double halfway = std::lerp(begin, lies_from, 0.6);
     add(*clip, begin, halfway, 0, 0.45 * lying);
     add(*clip, halfway, lies_from, 0.45 * lying, lying);
   }
-  const double lies_to = last ? end + 1 : end - std::min(steps(kGetUp_s), 0.5 * (end - begin));
+  const double lies_to = last ? end + 1 : end - std::min(steps(kGetUpS), 0.5 * (end - begin));
   add(*clip, lies_from, lies_to, lying, lying);
   if (!last) add(*clip, lies_to, end, lying, 0);
 }

@@ -10,12 +10,12 @@ namespace throng::skinning {
 namespace {
 
 // Nobody moves faster; a longer way within a step is a jump and no walk.
-constexpr double kFastest_mps = 12;
+constexpr double kFastestMps = 12;
 // Who gets no further than this within this time stands.
-constexpr double kShuffle_m = 0.02;
-constexpr double kPause_s = 0.9;
+constexpr double kShuffleM = 0.02;
+constexpr double kPauseS = 0.9;
 // Shorter ways are no walk.
-constexpr double kShortest_m = 0.12;
+constexpr double kShortestM = 0.12;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Way::Way(std::span<const Moment> moments, double dt_s) : moments_(moments), dt_s
   distance_m_.push_back(0);
   for (std::size_t step = 1; step < moments.size(); ++step) {
     const double moved = (moments[step].position - moments[step - 1].position).norm();
-    if (moved < kFastest_mps * dt_s) distance += moved;
+    if (moved < kFastestMps * dt_s) distance += moved;
     distance_m_.push_back(static_cast<float>(distance));
   }
   find_stretches();
@@ -62,10 +62,10 @@ double Way::speed_mps(double from_m, double to_m, std::size_t first, std::size_t
 
 // Looks around a step, not at its speed alone: crowds jostle people who stand.
 bool Way::stands_at(std::size_t step) const {
-  const auto reach = static_cast<std::size_t>(std::ceil(0.5 * kPause_s / dt_s_));
+  const auto reach = static_cast<std::size_t>(std::ceil(0.5 * kPauseS / dt_s_));
   const std::size_t before = step - std::min(step, reach);
   const std::size_t after = std::min(step + 1 + reach, last());
-  return (moments_[after].position - moments_[before].position).norm() < kShuffle_m;
+  return (moments_[after].position - moments_[before].position).norm() < kShuffleM;
 }
 
 void Way::find_stretches() {
@@ -80,7 +80,7 @@ void Way::find_stretches() {
     if (stretches_.empty() || stretches_.back().doing != Doing::moving) return;
     const Stretch walk = stretches_.back();
     const bool cut_off = walk.first == 0 || walk.last == last();
-    if (cut_off || distance_m_[walk.last] - distance_m_[walk.first] >= kShortest_m) return;
+    if (cut_off || distance_m_[walk.last] - distance_m_[walk.first] >= kShortestM) return;
     stretches_.pop_back();
     add(Doing::standing, walk.first, walk.last);
   };

@@ -14,7 +14,7 @@
 namespace throng::skinning {
 namespace {
 
-constexpr double kDt_s = 0.1;
+constexpr double kDtS = 0.1;
 
 /// Baked once: an adult and a child.
 const Population& two_people() {
@@ -45,7 +45,7 @@ MotionPlan plan_for(std::span<const Moment> moments, std::uint32_t character = 0
   appearance.character = character;
   appearance.phase_offset = phase_offset;
   appearance.amplitude = amplitude;
-  return {two_people(), appearance, 17, moments, kDt_s};
+  return {two_people(), appearance, 17, moments, kDtS};
 }
 
 std::string clip_at(const MotionPlan& plan, double step) {
@@ -78,7 +78,7 @@ TEST(Plan, FeetDoNotSkateAtAnySpeed) {
   for (std::uint32_t character = 0; character < 2; ++character) {
     for (double speed = 0.3; speed <= 4.01; speed += 0.07) {
       for (const float amplitude : {0.88F, 1.0F, 1.13F}) {
-        const std::vector<Moment> moments = straight_way(std::vector<double>(45, speed), kDt_s);
+        const std::vector<Moment> moments = straight_way(std::vector<double>(45, speed), kDtS);
         const MotionPlan plan = plan_for(moments, character, 0.6F, amplitude);
         const Contact contact = worst_contact(plan, character, moments);
         worst_m = std::max(worst_m, contact.slide_m);
@@ -95,7 +95,7 @@ TEST(Plan, FeetDoNotSkateWhenTheSpeedChanges) {
   for (std::uint32_t character = 0; character < 2; ++character) {
     for (double top = 0.3; top < 4; top += 0.17) {
       const std::vector<Moment> moments =
-          straight_way(there_and_back(top, 10, 30 + static_cast<int>(20 * top)), kDt_s);
+          straight_way(there_and_back(top, 10, 30 + static_cast<int>(20 * top)), kDtS);
       const MotionPlan plan = plan_for(moments, character, static_cast<float>(0.2 * top));
       EXPECT_LT(worst_contact(plan, character, moments).slide_m, 0.015)
           << top << " m/s, character " << character;
@@ -106,7 +106,7 @@ TEST(Plan, FeetDoNotSkateWhenTheSpeedChanges) {
 TEST(Plan, StridesFollowThePublishedLaw) {
   // Counts the strikes of the left heel over a long way.
   for (const double speed : {0.5, 0.8, 1.04, 1.32, 1.62, 1.9, 2.5, 3.0, 3.5}) {
-    const std::vector<Moment> moments = straight_way(std::vector<double>(600, speed), kDt_s);
+    const std::vector<Moment> moments = straight_way(std::vector<double>(600, speed), kDtS);
     const MotionPlan plan = plan_for(moments);
     std::vector<double> strikes;
     bool down = true;
@@ -117,8 +117,8 @@ TEST(Plan, StridesFollowThePublishedLaw) {
       if (now && !down) strikes.push_back(step);
       down = now;
     }
-    const double stride_m = (strikes.back() - strikes.front()) * kDt_s * speed /
-                            static_cast<double>(strikes.size() - 1);
+    const double stride_m =
+        (strikes.back() - strikes.front()) * kDtS * speed / static_cast<double>(strikes.size() - 1);
     const double law_m = stride_length_m(speed, 1.8);
     EXPECT_NEAR(stride_m, law_m, 0.05 * law_m) << speed;
   }
@@ -128,7 +128,7 @@ TEST(Plan, NothingJumps) {
   std::vector<double> way = there_and_back(1.4, 8, 40);
   const std::vector<double> run = there_and_back(3.0, 12, 40);
   way.insert(way.end(), run.begin(), run.end());
-  std::vector<Moment> moments = straight_way(way, kDt_s);
+  std::vector<Moment> moments = straight_way(way, kDtS);
   // A turn while standing in between.
   for (std::size_t step = 0; step < moments.size(); ++step) {
     const double t = std::clamp((static_cast<double>(step) - 75) / 12, 0.0, 1.0);
@@ -137,7 +137,7 @@ TEST(Plan, NothingJumps) {
   }
   const MotionPlan plan = plan_for(moments);
   const Walker walker = made_up_walker();
-  constexpr double kFrame = 1 / 60.0 / kDt_s;
+  constexpr double kFrame = 1 / 60.0 / kDtS;
   for (const Vertex& vertex : walker.body) {
     Eigen::Vector3f before = placed(two_people(), 0, plan, moments, 0, vertex);
     for (double step = kFrame; step < static_cast<double>(way.size()); step += kFrame) {
@@ -152,13 +152,14 @@ TEST(Plan, NothingJumps) {
 }
 
 TEST(Plan, IsAFunctionOfTheMomentAlone) {
-  const std::vector<Moment> moments = straight_way(there_and_back(2.4, 10, 50), kDt_s);
+  const std::vector<Moment> moments = straight_way(there_and_back(2.4, 10, 50), kDtS);
   const MotionPlan plan = plan_for(moments);
   std::vector<double> steps;
   for (double step = -2; step < static_cast<double>(moments.size()) + 3; step += 0.37) {
     steps.push_back(step);
   }
   std::vector<PoseBlend> in_order;
+  in_order.reserve(steps.size());
   for (const double step : steps) in_order.push_back(plan.at(step));
   std::vector<std::size_t> order(steps.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -173,7 +174,7 @@ TEST(Plan, IsAFunctionOfTheMomentAlone) {
 
 TEST(Plan, StandsWalksRunsAndPanics) {
   std::vector<Moment> moments =
-      straight_way(speeds({{30, 0}, {60, 1.3}, {60, 3.0}, {60, 3.0}, {40, 0}}), kDt_s);
+      straight_way(speeds({{30, 0}, {60, 1.3}, {60, 3.0}, {60, 3.0}, {40, 0}}), kDtS);
   for (std::size_t step = 150; step < moments.size(); ++step) moments[step].panicked = true;
   const MotionPlan plan = plan_for(moments);
   EXPECT_NE(clip_at(plan, 10), "walk");
@@ -184,7 +185,7 @@ TEST(Plan, StandsWalksRunsAndPanics) {
 }
 
 TEST(Plan, WhoStopsStandsOnBothFeet) {
-  const std::vector<Moment> moments = straight_way(there_and_back(1.3, 8, 33), kDt_s);
+  const std::vector<Moment> moments = straight_way(there_and_back(1.3, 8, 33), kDtS);
   const MotionPlan plan = plan_for(moments);
   for (double step = static_cast<double>(moments.size()) - 15;
        step < static_cast<double>(moments.size()); step += 1) {
@@ -197,7 +198,7 @@ TEST(Plan, WhoStopsStandsOnBothFeet) {
 }
 
 TEST(Plan, PeopleWhoTurnOnTheSpotStep) {
-  std::vector<Moment> moments = straight_way(std::vector<double>(200, 0), kDt_s);
+  std::vector<Moment> moments = straight_way(std::vector<double>(200, 0), kDtS);
   for (std::size_t step = 120; step < moments.size(); ++step) {
     const double t = std::clamp((static_cast<double>(step) - 120) / 10, 0.0, 1.0);
     moments[step].yaw_rad = static_cast<float>(-80 * kDegree * t);
@@ -208,7 +209,7 @@ TEST(Plan, PeopleWhoTurnOnTheSpotStep) {
 }
 
 TEST(Plan, WhoIsDownFallsLiesAndGetsUp) {
-  std::vector<Moment> moments = straight_way(speeds({{40, 1.5}, {160, 0}}), kDt_s);
+  std::vector<Moment> moments = straight_way(speeds({{40, 1.5}, {160, 0}}), kDtS);
   for (std::size_t step = 40; step < 120; ++step) moments[step].down = true;
   const MotionPlan plan = plan_for(moments);
   const Vertex head =
@@ -225,7 +226,7 @@ TEST(Plan, WhoIsDownFallsLiesAndGetsUp) {
 }
 
 TEST(Plan, PeopleLookUpAtWhatFlies) {
-  std::vector<Moment> moments = straight_way(speeds({{150, 0}, {100, 1.3}}), kDt_s);
+  std::vector<Moment> moments = straight_way(speeds({{150, 0}, {100, 1.3}}), kDtS);
   for (std::size_t step = 50; step < 100; ++step) moments[step].gaze = Gaze::left;
   for (std::size_t step = 180; step < 230; ++step) moments[step].gaze = Gaze::ahead;
   const MotionPlan plan = plan_for(moments);
@@ -235,12 +236,12 @@ TEST(Plan, PeopleLookUpAtWhatFlies) {
 }
 
 TEST(Plan, PeopleDoNotStandInStep) {
-  const std::vector<Moment> moments = straight_way(std::vector<double>(600, 0), kDt_s);
+  const std::vector<Moment> moments = straight_way(std::vector<double>(600, 0), kDtS);
   std::vector<std::string> seen;
   for (std::uint64_t key = 0; key < 40; ++key) {
     Appearance appearance;
     appearance.phase_offset = static_cast<float>(key) / 40;
-    const MotionPlan plan(two_people(), appearance, key, moments, kDt_s);
+    const MotionPlan plan(two_people(), appearance, key, moments, kDtS);
     for (double step = 0; step < 600; step += 7) seen.push_back(clip_at(plan, step));
   }
   for (const char* name : {"idle", "look_around", "phone"}) {
@@ -259,8 +260,8 @@ TEST(Plan, JostlingIsNoWalk) {
 
 TEST(Plan, StepsAddUpToTheWay) {
   for (double top = 0.4; top < 3.5; top += 0.13) {
-    const std::vector<Moment> moments = straight_way(there_and_back(top, 7, 23), kDt_s);
-    const Way way(moments, kDt_s);
+    const std::vector<Moment> moments = straight_way(there_and_back(top, 7, 23), kDtS);
+    const Way way(moments, kDtS);
     for (const Stretch& stretch : way.stretches()) {
       if (stretch.doing != Doing::moving) continue;
       const ClipSet clips(two_people());
@@ -290,14 +291,14 @@ TEST(Plan, WorksWithFewClipsAndShortStays) {
   sparse.clips = {{"idle", 0, 0, 1}, {"walk", 1.3F, 1, 8, 0.8F, 0.25F}};
   sparse.palettes_per_character = 9;
   for (const std::size_t length : {1U, 2U, 3U, 40U}) {
-    std::vector<Moment> moments = straight_way(std::vector<double>(length - 1, 2.0), kDt_s);
+    std::vector<Moment> moments = straight_way(std::vector<double>(length - 1, 2.0), kDtS);
     for (const bool down : {false, true}) {
       for (Moment& moment : moments) {
         moment.down = down;
         moment.panicked = true;
         moment.gaze = Gaze::ahead;
       }
-      const MotionPlan plan(sparse, {}, 1, moments, kDt_s);
+      const MotionPlan plan(sparse, {}, 1, moments, kDtS);
       for (double step = -1; step < static_cast<double>(length) + 1; step += 0.3) {
         EXPECT_LT(plan.at(step).a, 9U);
         EXPECT_LT(plan.at(step).b, 9U);

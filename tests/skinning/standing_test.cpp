@@ -86,7 +86,7 @@ TEST(Standing, APhoneIsHeldBeforeTheChestByTheFreeHand) {
     const bool left = carries == Carry::umbrella;
     Pose pose = look_at_phone(walker, 1, 0).pose;
     const Joints joints = pose_joints(walker.joints, pose);
-    const Eigen::Vector3f hand = joints[index_of(left ? Bone::left_hand : Bone::right_hand)];
+    const Eigen::Vector3f& hand = joints[index_of(left ? Bone::left_hand : Bone::right_hand)];
     EXPECT_GT(hand.x(), 0.15F);
     EXPECT_GT(hand.z(), 1.1F);
     EXPECT_LT(pose.of(Bone::head).col(0).z(), -0.3F) << "looks down";
