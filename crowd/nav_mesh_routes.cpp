@@ -130,6 +130,7 @@ void NavMeshRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
 void NavMeshRoutes::straighten(const Eigen::Vector2f& position, Route& route) {
   const auto next = static_cast<std::size_t>(route.next);
   const auto left = static_cast<std::size_t>(route.count) - next;
+  if (left == 0) return;
   const std::span<const Gate> gates = std::span<const Gate>(route.gates).subspan(next, left);
   PathFinder& finder = finders_.local();
   finder.find_through(gates, position, route.whole ? route.end : gates.back().crossing);

@@ -81,11 +81,7 @@ void RoadMapRoutes::enter(const Crowd& crowd, std::size_t agent) {
 void RoadMapRoutes::prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) {
   Route& route = routes_[agent];
   const Eigen::Vector2f target = goal_place(crowd, agent, crowd.agents.position[agent]);
-  // How far the goal may move, as a share of its distance, before the way is looked for again.
-  constexpr float kMoved = 0.1F;
-  const float moved = (goal_place(crowd, agent, route.target) - route.target).norm();
-  const float distance = (route.target - crowd.agents.position[agent]).norm();
-  if (!route.known || moved > kMoved * distance || !advance(crowd, agent, target, route)) {
+  if (!route.known || is_elsewhere(crowd, agent, route) || !advance(crowd, agent, target, route)) {
     plan(crowd, agent, route);
     advance(crowd, agent, target, route);
   }
@@ -94,6 +90,14 @@ void RoadMapRoutes::prefer(const Crowd& crowd, std::size_t agent, PreferredVeloc
   } else {
     head_through(crowd, agent, map_.places[route.places[route.next]], preferred);
   }
+}
+
+/// Whether the goal has moved to where another place is the nearest.
+bool RoadMapRoutes::is_elsewhere(const Crowd& crowd, std::size_t agent, Route& route) const {
+  const Eigen::Vector2f now = goal_place(crowd, agent, route.target);
+  if (now == route.target) return false;
+  route.target = now;
+  return nearest_visible(crowd, agent, now) != route.end;
 }
 
 /// Goes on from place to place as long as the agent sees the next; false if it is lost.
@@ -123,8 +127,8 @@ void RoadMapRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   route.count = 0;
   route.target = goal_place(crowd, agent, p);
   RoadFinder& finder = finders_.local();
-  const int from = nearest_visible(crowd, agent, p);
-  if (!finder.find(map_, from, nearest_visible(crowd, agent, route.target))) return;
+  route.end = nearest_visible(crowd, agent, route.target);
+  if (!finder.find(map_, nearest_visible(crowd, agent, p), route.end)) return;
   route.count = std::min(finder.places().size(), kMostPlaces);
   route.whole = route.count == finder.places().size();
   std::copy_n(finder.places().begin(), route.count, route.places.begin());

@@ -74,11 +74,13 @@ class RoadMapRoutes {
     bool whole = false;  ///< after the last place comes the goal
     std::size_t next = 0;
     std::size_t count = 0;
+    int end = -1;  ///< the place nearest to the goal
     Eigen::Vector2f target = Eigen::Vector2f::Zero();
     std::array<int, kMostPlaces> places{};
   };
 
   void plan(const Crowd& crowd, std::size_t agent, Route& route);
+  bool is_elsewhere(const Crowd& crowd, std::size_t agent, Route& route) const;
   bool advance(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
                Route& route) const;
   int nearest_visible(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& point) const;
