@@ -168,5 +168,19 @@ TEST(ObstacleSets, WarnOfTheWrongWinding) {
               testing::ElementsAre(testing::HasSubstr("agents that start inside")));
 }
 
+TEST(Compat, WordsAreNumbersForMenge) {
+  const std::string behavior = R"(<BFSM><State name="Start" final="true"/></BFSM>)";
+  const auto loaded = [&](Compat compat) {
+    return load(scene_with(agent_at(0, 0)), behavior, {.compat = compat});
+  };
+  const Simulation plain = loaded(Compat::none);
+  const Simulation menge = loaded(Compat::menge);
+  EXPECT_TRUE(plain.all_final());
+  EXPECT_FALSE(menge.all_final()) << "a word is 0";
+  for (const Simulation* crowd : {&plain, &menge}) {
+    EXPECT_THAT(crowd->warnings().front().text(), testing::HasSubstr("Menge reads words as 0"));
+  }
+}
+
 }  // namespace
 }  // namespace throng::crowd
