@@ -34,15 +34,16 @@ void for_each_texel(const ClothFaces& faces, const Image& image, const Visit& vi
     const Eigen::Vector2f& uv = faces.proxy->uvs[quad.uv[at]];
     return {uv.x() * static_cast<float>(image.width), uv.y() * static_cast<float>(image.height)};
   };
+  const auto& positions = faces.proxy->positions;
   for (const Quad& quad : faces.quads) {
-    for (const auto& [a, b, c] : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
-      const auto& positions = faces.proxy->positions;
-      for_each_pixel(corner(quad, a), corner(quad, b), corner(quad, c), image.width, image.height,
-                     [&](int x, int y, const Eigen::Vector3f& barycentric) {
+    for (const std::size_t second : {1, 2}) {
+      const std::size_t third = second + 1;
+      for_each_pixel(corner(quad, 0), corner(quad, second), corner(quad, third), image.width,
+                     image.height, [&](int x, int y, const Eigen::Vector3f& barycentric) {
                        visit(x, y,
-                             Eigen::Vector3f(barycentric.x() * positions[quad.vertex[a]] +
-                                             barycentric.y() * positions[quad.vertex[b]] +
-                                             barycentric.z() * positions[quad.vertex[c]]));
+                             Eigen::Vector3f(barycentric.x() * positions[quad.vertex[0]] +
+                                             barycentric.y() * positions[quad.vertex[second]] +
+                                             barycentric.z() * positions[quad.vertex[third]]));
                      });
     }
   }

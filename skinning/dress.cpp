@@ -67,9 +67,10 @@ CoveredSkin covered_skin(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   covered.tucked.resize(makehuman.weights().size());
   for (std::size_t vertex = 0; vertex < covered.hidden.size(); ++vertex) {
     const bool lower_half = below_waist(makehuman.weights()[vertex]) > 0.5F;
-    const Proxy* over = lower_half && bottom != nullptr ? bottom : top;
-    const bool above_hem = over == top || body[vertex].z() > hem;
-    const bool inside = over == top || body[vertex].z() > hem + kInside_m;
+    const bool by_bottom = lower_half && bottom != nullptr;
+    const Proxy* over = by_bottom ? bottom : top;
+    const bool above_hem = !by_bottom || body[vertex].z() > hem;
+    const bool inside = !by_bottom || body[vertex].z() > hem + kInside_m;
     covered.hidden[vertex] = shoes->hides[vertex] || (over->hides[vertex] && inside);
     covered.tucked[vertex] = shoes->tucks[vertex] || (over->tucks[vertex] && above_hem) ||
                              (hair != nullptr && hair->tucks[vertex]) ||
@@ -264,7 +265,7 @@ void add_simplified(std::vector<Surface> more, std::size_t triangles, std::vecto
   for (const Surface& surface : more) indices += surface.indices.size();
   for (Surface& surface : more) {
     if (surface.indices.empty()) continue;
-    simplify(surface, triangles * surface.indices.size() / indices);
+    simplify(surface, triangles * surface.indices.size() / indices, lined == Lined::yes);
     if (lined == Lined::yes) add_linings(surface);
     all.push_back(std::move(surface));
   }

@@ -85,7 +85,7 @@ void add_box(Shape& shape, const Vector3f& centre, const Vector3f& half, Bone bo
     }
   }
   const auto at = [&](int ring, int column) {
-    return place[static_cast<std::size_t>(ring * (columns + 1) + column)];
+    return place[static_cast<std::size_t>(ring) * (columns + 1) + column];
   };
   for (int ring = 0; ring < rings; ++ring) {
     for (int column = 0; column < columns; ++column) {
@@ -136,7 +136,9 @@ struct Site {
   int finer(int finest) const { return std::max(2, finest >> level); }
 };
 
-constexpr float kStrapLift_m = 0.008F;
+constexpr float kStrapLift = 0.009F;  // m
+// The hulls of lower levels are coarser than that: straps would sink into them in places.
+constexpr int kStrapsUpTo = 1;
 
 // Points of a strap over the trunk where rays from `origin` leave it.
 void add_outline(const TrunkOutline& trunk, const Vector3f& origin, const Vector3f& direction,
@@ -167,7 +169,7 @@ void add_backpack(Shape& shape, const Site& site) {
     add_box(shape, centre - Vector3f(0.8F * half.x(), 0, 0.35F * half.z()),
             Vector3f(0.5F * half.x(), 0.72F * half.y(), 0.45F * half.z()), Bone::chest, 6, 8);
   }
-  if (site.level > 2) return;
+  if (site.level > kStrapsUpTo) return;
   const int steps = site.finer(9);
   for (const float side : {1.0F, -1.0F}) {
     const float y = side * 0.52F * shoulder.y();
@@ -177,14 +179,14 @@ void add_backpack(Shape& shape, const Site& site) {
     for (int i = 0; i <= steps; ++i) {
       const float turn =
           (150 - 185 * static_cast<float>(i) / static_cast<float>(steps)) * kPi / 180;
-      add_outline(trunk, over, {std::cos(turn), 0, std::sin(turn)}, kStrapLift_m, path);
+      add_outline(trunk, over, {std::cos(turn), 0, std::sin(turn)}, kStrapLift, path);
     }
     // ... then below the arm to the lower corner of the pack.
     for (int i = 1; i <= steps; ++i) {
       const float share = static_cast<float>(i) / static_cast<float>(steps);
       const float turn = side * (48 + 92 * share) * kPi / 180;
       const Vector3f under(chest.x(), 0, shoulder.z() - (0.17F + 0.17F * share) * s);
-      add_outline(trunk, under, {std::cos(turn), std::sin(turn), 0}, kStrapLift_m, path);
+      add_outline(trunk, under, {std::cos(turn), std::sin(turn), 0}, kStrapLift, path);
     }
     if (path.size() > 2) add_strap(shape, path, 0.045F * s, false);
   }
@@ -203,10 +205,10 @@ void add_shoulder_bag(Shape& shape, const Site& site) {
   std::vector<StrapPoint> path;
   for (int i = 0; i < steps; ++i) {
     const float turn = 2 * kPi * static_cast<float>(i) / static_cast<float>(steps);
-    add_outline(trunk, origin, std::cos(turn) * up + std::sin(turn) * Vector3f::UnitX(),
-                kStrapLift_m, path);
+    add_outline(trunk, origin, std::cos(turn) * up + std::sin(turn) * Vector3f::UnitX(), kStrapLift,
+                path);
   }
-  if (site.level < 3 && path.size() > 4) add_strap(shape, path, 0.035F * s, true);
+  if (site.level <= kStrapsUpTo && path.size() > 4) add_strap(shape, path, 0.035F * s, true);
   // The bag lies behind the hip, where the arm does not swing through it.
   const Vector3f half(0.13F * s, 0.05F * s, 0.11F * s);
   const float turn = -125 * kPi / 180;
@@ -297,10 +299,13 @@ void add_umbrella(Shape& shape, const Site& site) {
     }
     for (int ring = 0; ring < rings; ++ring) {
       for (int panel = 0; panel < panels; ++panel) {
-        const auto a = place[static_cast<std::size_t>(ring * (panels + 1) + panel)];
-        const auto b = place[static_cast<std::size_t>(ring * (panels + 1) + panel + 1)];
-        const auto c = place[static_cast<std::size_t>((ring + 1) * (panels + 1) + panel)];
-        const auto d = place[static_cast<std::size_t>((ring + 1) * (panels + 1) + panel + 1)];
+        const auto at = [&](int down, int along) {
+          return place[static_cast<std::size_t>(ring + down) * (panels + 1) + panel + along];
+        };
+        const std::uint32_t a = at(0, 0);
+        const std::uint32_t b = at(0, 1);
+        const std::uint32_t c = at(1, 0);
+        const std::uint32_t d = at(1, 1);
         if (ring > 0) outside ? shape.triangle(a, c, b) : shape.triangle(a, b, c);
         outside ? shape.triangle(b, c, d) : shape.triangle(b, d, c);
       }

@@ -10,7 +10,7 @@ namespace throng::skinning {
 
 namespace {
 
-constexpr double kChildUntil_years = 16;
+constexpr double kChildUntil = 16;  // years
 
 // Few colours per person and kind leave room for differences between people.
 constexpr std::size_t kColours = 12;
@@ -35,7 +35,7 @@ class Stylist {
   }
 
  private:
-  bool child() const { return wearer_.age_years < kChildUntil_years; }
+  bool child() const { return wearer_.age_years < kChildUntil; }
   bool formal() const {
     return outfit_.top == "male_elegantsuit01" || outfit_.bottom == "female_elegantsuit01";
   }

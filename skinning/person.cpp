@@ -13,8 +13,8 @@ namespace throng::skinning {
 
 namespace {
 
-constexpr double kAdultFrom_years = 18;
-constexpr double kOldest_years = 85;
+constexpr double kAdultFrom = 18;  // years
+constexpr double kOldest = 85;     // years
 
 enum class Ancestry : std::uint8_t { african, asian, caucasian };
 
@@ -23,9 +23,8 @@ struct AgeRange {
   double from_years;
   double to_years;
 };
-constexpr std::array kAges = {AgeRange{0.12, 6, kAdultFrom_years},
-                              AgeRange{0.42, kAdultFrom_years, 40}, AgeRange{0.32, 40, 65},
-                              AgeRange{0.14, 65, kOldest_years}};
+constexpr std::array kAges = {AgeRange{0.12, 6, kAdultFrom}, AgeRange{0.42, kAdultFrom, 40},
+                              AgeRange{0.32, 40, 65}, AgeRange{0.14, 65, kOldest}};
 
 // Shares in [0, 1) for age, sex and ancestry that spread evenly over the people (a Kronecker
 // sequence), from a start that depends on the seed.
@@ -48,13 +47,13 @@ double age_at(double share) {
     }
     share -= range.share;
   }
-  return kOldest_years;
+  return kOldest;
 }
 
 double sample_height(bool male, double age_years, Random& random) {
   constexpr double kWidest = 2.8;  // standard deviations
   const double deviation = std::clamp(random.normal(0, 1), -kWidest, kWidest);
-  if (age_years < kAdultFrom_years) {
+  if (age_years < kAdultFrom) {
     constexpr double kChildSpread = 0.045;  // of the median
     return child_height_m(male, age_years) * (1 + kChildSpread * deviation);
   }
@@ -63,7 +62,7 @@ double sample_height(bool male, double age_years, Random& random) {
 }
 
 void sample_shape(PersonSpec& person, Random& random) {
-  const bool child = person.age_years < kAdultFrom_years;
+  const bool child = person.age_years < kAdultFrom;
   BodyShape& shape = person.shape;
   shape.male = person.male ? random.uniform(0.85, 1) : random.uniform(0, 0.15);
   shape.age = slider_of_age(person.age_years);

@@ -31,8 +31,9 @@ struct Triangle {
   Eigen::Vector3f to_c;
 };
 
-constexpr float kBelow_m = 0.01F;  // garments may dip below the skin
-constexpr float kAbove_m = 0.035F;
+// How far from the skin a garment lies, in metres: it may dip below it.
+constexpr float kBelow = 0.01F;
+constexpr float kAbove = 0.035F;
 
 // The garment's triangles by the cells of a grid that anything within reach of them starts in.
 class Cells {
@@ -45,7 +46,7 @@ class Cells {
         const Eigen::Vector3f& c = garment.positions[quad.vertex[k]];
         Eigen::AlignedBox3f box(a);
         box.extend(b).extend(c);
-        const Eigen::Vector3f reach = Eigen::Vector3f::Constant(kAbove_m + kBelow_m);
+        const Eigen::Vector3f reach = Eigen::Vector3f::Constant(kAbove + kBelow);
         const Cell low = cell_of(box.min() - reach);
         const Cell high = cell_of(box.max() + reach);
         for (int x = low[0]; x <= high[0]; ++x) {
@@ -89,7 +90,7 @@ bool crosses(const Triangle& triangle, const Eigen::Vector3f& origin,
   const float v = direction.dot(q) / determinant;
   if (v < 0 || u + v > 1) return false;
   const float distance = triangle.to_c.dot(q) / determinant;
-  return distance >= 0 && distance <= kAbove_m + kBelow_m;
+  return distance >= 0 && distance <= kAbove + kBelow;
 }
 
 }  // namespace
@@ -101,7 +102,7 @@ std::vector<bool> skin_under(const MakeHuman& makehuman, const Proxy& garment) {
   std::vector<bool> under(positions.size(), false);
   for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
     if (normals[vertex].isZero()) continue;  // of a helper
-    const Eigen::Vector3f origin = positions[vertex] - kBelow_m * normals[vertex];
+    const Eigen::Vector3f origin = positions[vertex] - kBelow * normals[vertex];
     const std::vector<Triangle>* near = cells.at(origin);
     if (near == nullptr) continue;
     under[vertex] = std::any_of(near->begin(), near->end(), [&](const Triangle& triangle) {

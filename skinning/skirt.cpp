@@ -17,9 +17,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // Heights on the unmorphed body, in metres from its middle.
-constexpr float kWaist_m = 0.184F;
-constexpr float kKnee_m = -0.37F;
-constexpr float kLowest_m = -0.728F;
+constexpr float kWaist = 0.184F;
+constexpr float kKnee = -0.37F;
+constexpr float kLowest = -0.728F;
 
 float smooth(float low, float high, float x) {
   const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
@@ -29,7 +29,7 @@ float smooth(float low, float high, float x) {
 BoneWeights hang(const Eigen::Vector3f& point) {
   const float legs = 1 - smooth(-0.16F, 0.04F, point.z());
   const float spine = smooth(0.08F, 0.2F, point.z());
-  const float shins = 0.5F * (1 - smooth(kKnee_m - 0.12F, kKnee_m + 0.05F, point.z()));
+  const float shins = 0.5F * (1 - smooth(kKnee - 0.12F, kKnee + 0.05F, point.z()));
   const float left = smooth(-0.07F, 0.07F, point.y());
   BoneWeights weights{};
   weights[index_of(Bone::spine)] = spine;
@@ -48,7 +48,7 @@ std::array<Eigen::Vector2f, 4> unrolled(const Quad& quad, const MakeHuman& makeh
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const Eigen::Vector3f& point = makehuman.base_positions()[quad.vertex[corner]];
     const double turn = std::atan2(point.y(), point.x()) / (2 * kPi) + 0.5;
-    uv[corner] = {static_cast<float>(turn), (kWaist_m - point.z()) / (kWaist_m - kLowest_m)};
+    uv[corner] = {static_cast<float>(turn), (kWaist - point.z()) / (kWaist - kLowest)};
     if (corner > 0 && uv[corner].x() - uv[0].x() > 0.5F) uv[corner].x() = 0;
     if (corner > 0 && uv[0].x() - uv[corner].x() > 0.5F) uv[corner].x() = 1;
   }
@@ -85,7 +85,7 @@ Proxy make_skirt(const MakeHuman& makehuman) {
     for (const std::uint32_t vertex : quad.vertex) {
       const Eigen::Vector3f& point = body[vertex];
       const bool arm = std::abs(point.y()) > 0.25F;
-      proxy.hides[vertex] = !arm && point.z() < kWaist_m - 0.04F;
+      proxy.hides[vertex] = !arm && point.z() < kWaist - 0.04F;
     }
   }
   return proxy;

@@ -151,13 +151,14 @@ void append(Mesh& mesh, const Mesh& more) {
   }
 }
 
-void simplify(Surface& surface, std::size_t triangles) {
+void simplify(Surface& surface, std::size_t triangles, bool keep_borders) {
   if (3 * triangles >= surface.indices.size()) return;
   std::vector<std::uint32_t> indices(surface.indices.size());
   constexpr float kWorstError = 0.05F;  // relative to the surface's size
   indices.resize(meshopt_simplify(indices.data(), surface.indices.data(), surface.indices.size(),
                                   surface.positions.front().data(), surface.positions.size(),
-                                  sizeof(Eigen::Vector3f), 3 * triangles, kWorstError, 0, nullptr));
+                                  sizeof(Eigen::Vector3f), 3 * triangles, kWorstError,
+                                  keep_borders ? meshopt_SimplifyLockBorder : 0, nullptr));
   surface.indices = std::move(indices);
 }
 

@@ -57,8 +57,8 @@ void keep_triangles(Surface& surface, const Keep& keep) {
 /// the triangles that the border runs through. One value per vertex.
 void cut_surface(Surface& surface, std::span<const float> value);
 
-/// Reduces the surface to about this many triangles.
-void simplify(Surface& surface, std::size_t triangles);
+/// Reduces the surface to about this many triangles; its open borders keep their shape if asked.
+void simplify(Surface& surface, std::size_t triangles, bool keep_borders = false);
 
 /// The surfaces as one mesh. `texture_of` gives a texture's number by its key.
 Mesh assemble(std::span<const Surface> surfaces, const std::map<std::string, int>& texture_of);
