@@ -6,6 +6,7 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 option(THRONG_BENCHMARKS "Build the programs in bench/" OFF)
+option(THRONG_FUZZ "Build the programs in tests/fuzz/ (clang only, preset fuzz)" OFF)
 set(THRONG_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address,undefined or thread")
 
 find_program(CCACHE_PROGRAM ccache)
@@ -25,7 +26,10 @@ if(THRONG_SANITIZE)
     -fno-sanitize-recover=all -fno-sanitize=null,object-size,pointer-overflow,alignment,vptr -Wno-maybe-uninitialized)
   target_link_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE})
 endif()
-if(CMAKE_UNITY_BUILD)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  # Only the fuzz targets; g++ decides on warnings, and has some that clang does not know.
+  target_compile_options(throng_flags INTERFACE -Wno-error -Wno-unknown-warning-option)
+elseif(CMAKE_UNITY_BUILD)
   # The sanitizer builds compile several files as one; g++ then takes a file's own namespace for a header's.
   target_compile_options(throng_flags INTERFACE -Wno-subobject-linkage)
 endif()

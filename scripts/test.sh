@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds everything and runs every check and test.
-# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan   (default: all of them)
+# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz   (default: all of them)
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$root"
 mkdir -p build
 steps=("$@")
-[ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan)
+[ ${#steps[@]} -gt 0 ] || steps=(format release tidy asan tsan fuzz)
 
 sources() { git ls-files --cached --others --exclude-standard -- '*.cpp' '*.h'; }
 
@@ -48,6 +48,20 @@ step_tsan() {
   say "building and testing (ThreadSanitizer): the concurrent parts"
   build tsan test_base test_crowd test_jobs test_server
   TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" ctest --preset tsan -j2 -L '^(base|crowd|jobs|server)$'
+}
+
+# A minute of new inputs on top of the corpus. What it finds stays in build/fuzz; make it a file of
+# tests/fuzz/corpus once it is mended.
+step_fuzz() {
+  say "fuzzing the files' readers (AddressSanitizer, UndefinedBehaviorSanitizer)"
+  build fuzz
+  local target
+  for target in crowd files; do
+    mkdir -p "build/fuzz/corpus/$target"
+    "build/fuzz/tests/fuzz/fuzz_$target" -max_total_time=30 -timeout=20 -rss_limit_mb=3000 -max_len=8000 \
+      -dict=tests/fuzz/crowd.dict -artifact_prefix="build/fuzz/$target-" -print_final_stats=1 -verbosity=0 \
+      "build/fuzz/corpus/$target" "tests/fuzz/corpus/$target"
+  done
 }
 
 install_packages
