@@ -134,8 +134,6 @@ TEST_F(BakingTest, BakesTheSameTwiceAndOnlyWhenNeeded) {
 // What a build that was killed leaves behind is a bench with the people that were finished.
 TEST_F(BakingTest, GoesOnAfterAKill) {
   options.count = 3;
-  const fs::path whole = folder / "whole";
-  build_population(package_folder(), whole, options, count);
   const pid_t child = ::fork();
   if (child == 0) {
     build_population(package_folder(), folder / "out", options, [](int done, int) {
@@ -149,6 +147,8 @@ TEST_F(BakingTest, GoesOnAfterAKill) {
   EXPECT_FALSE(fs::exists(folder / "out"));
   ASSERT_TRUE(fs::exists(folder / "out.part"));
 
+  const fs::path whole = folder / "whole";
+  build_population(package_folder(), whole, options, count);
   int first_done = 0;
   build_population(package_folder(), folder / "out", options, [&](int done, int) {
     if (first_done == 0) first_done = done;
