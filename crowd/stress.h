@@ -23,7 +23,8 @@ class Stressor {
 /// what files and other actions make it.
 class Stress : public Process {
  public:
-  enum Affected { neighbor_dist, max_neighbors, radius, pref_speed, time_horizon, kAffectedCount };
+  enum Affected { neighbor_dist, max_neighbors, radius, pref_speed, time_horizon };
+  static constexpr int kAffectedCount = 5;
   using Deltas = std::array<float, kAffectedCount>;
 
   /// When the state with the stressor is left.

@@ -1,6 +1,8 @@
 // Triggers, targets and effects, seen through what agents do.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "crowd_files.h"
 
 namespace throng::crowd {
@@ -59,7 +61,7 @@ int firings(const std::string& behavior) {
                             response("faster", "all")));
   for (int i = 0; i < 50; ++i) crowd.step();
   EXPECT_TRUE(crowd.all_final());
-  return static_cast<int>(crowd.desired_speeds_mps()[0] + 0.5F) - 1;
+  return static_cast<int>(std::lround(crowd.desired_speeds_mps()[0])) - 1;
 }
 
 TEST(Events, StatePopulations) {
