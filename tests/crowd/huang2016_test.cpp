@@ -11,7 +11,7 @@ using test::load;
 using test::scene_with;
 using test::state_of;
 
-constexpr LoadOptions kHuang = {.compat = Compat::huang2016};
+LoadOptions as_huang() { return {.compat = Compat::huang2016}; }
 
 /// 260 people in state Start, agent 0 at x = 0 and the others far away, and agent 260, of radius
 /// 0.5, in state Disaster `distance` m from agent 0, as in the scene "outside" of 2016.
@@ -35,7 +35,7 @@ Simulation people_and_disaster(double distance, const std::string& from = "Start
     <Transition from=")" +
           from + R"(" to="End"><Condition type="proximity" distance="2" agentToAvoid="260"/>
     </Transition></BFSM>)",
-      kHuang);
+      as_huang());
 }
 
 /// The time at which agent 0 notices a disaster at this distance; 100: it does not.
@@ -72,7 +72,7 @@ TEST(Huang2016, FewerWhoLookMakeItGrowSlower) {
       <Transition from="Start" to="End"><Condition type="and">
         <Condition type="circle" center_x="0" center_y="0" radius="1" inside="1"/>
         <Condition type="proximity" distance="2" agentToAvoid="1"/></Condition></Transition></BFSM>)",
-             kHuang);
+             as_huang());
     while (state_of(crowd, 0) != "End" && crowd.time_s() < 60) crowd.step();
     return crowd.time_s() - 0.1;
   };
