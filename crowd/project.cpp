@@ -34,13 +34,19 @@ std::vector<std::string_view> listed(const std::array<std::string_view, N>& word
   return {words.begin(), words.end()};
 }
 
+/// Also for names that no file can have.
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
 /// A file that an attribute names, which has to be there.
 fs::path require_file(const Element& element, const Attributes& attributes, const char* name) {
   if (!attributes.has(name)) return {};
   fs::path path = element.file_beside(attributes.text(name));
-  if (!fs::is_regular_file(path)) {
-    element.fail_attribute(name, fmt::format("{}, which is no file", path.string()),
-                           "a file, relative to the project's folder");
+  if (!is_file(path)) {
+    element.fail_attribute(name, in_quotes(attributes.text(name)) + ", which is no file",
+                           fmt::format("a file in {}", path.parent_path().string()));
   }
   return path;
 }
@@ -77,7 +83,7 @@ std::optional<double> time_step_of(const Element& element, const Attributes& att
 }
 
 void require_file(const fs::path& path, const char* what) {
-  if (!fs::is_regular_file(path)) {
+  if (!is_file(path)) {
     throw InputError(Problem{path.string(), what, path.empty() ? "nothing" : "no file",
                              fmt::format("the {} file of a run", what)});
   }

@@ -90,6 +90,7 @@ TEST_F(Projects, NameWhatIsWrong) {
   EXPECT_THAT(problem_of(R"(scene="nowhere.xml" behavior="b.xml")").where,
               HasSubstr("attribute \"scene\""));
   EXPECT_THAT(problem_of(R"(scene="." behavior="b.xml")").found, HasSubstr("no file"));
+  EXPECT_THAT(problem_of("scene=\"" + std::string(1000, 'x') + "\"").found, HasSubstr("no file"));
   EXPECT_THAT(problem_of(R"(scene="s.xml" behavior="b.xml" model="orka")").found,
               HasSubstr("orka"));
   EXPECT_THAT(problem_of(R"(duration="-1")").where, HasSubstr("duration"));
