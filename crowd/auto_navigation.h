@@ -39,7 +39,12 @@ class AutoNavigation {
     tbb::enumerable_thread_specific<PathFinder> finders;
 
     Ground(std::uint32_t mask, float radius_m, NavMesh made)
-        : obstacle_mask(mask), radius(radius_m), mesh(std::move(made)), finders(PathFinder(mesh)) {}
+        : obstacle_mask(mask),
+          radius(radius_m),
+          mesh(std::move(made)),
+          finders([this] { return PathFinder(mesh); }) {
+      finders.local();  // this thread's, so that no step has to make it
+    }
   };
   struct Route {
     int ground = -1;

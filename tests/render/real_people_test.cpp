@@ -23,7 +23,7 @@ TEST(RealPeople, AreDrawnWithTightBoxesAndExactAreas) {
     person.pose = skinning::pose_at(people, 0.1 * i, 1.4, 0);
     scene.people.push_back(person);
   }
-  const Frame frame = renderer.draw(scene, camera_at({-5, 2, 4}, 0, -25, 640, 480));
+  const Frame frame = renderer.draw(scene, camera_at({-9, 3.75, 5}, 0, -20, 1280, 960));
   EXPECT_EQ(frame.people.size(), count);
   for (const PersonInView& person : frame.people) {
     EXPECT_GT(person.stature_m, 0.8);
