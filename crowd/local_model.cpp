@@ -14,14 +14,15 @@ float highest_speed(const Crowd& crowd, std::size_t agent) {
   return crowd.compat == Compat::none ? crowd.agents[Property::max_speed][agent] : kNoLimit;
 }
 
-Eigen::Vector2f possible(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& velocity) {
+}  // namespace
+
+Eigen::Vector2f possible_velocity(const Crowd& crowd, std::size_t agent,
+                                  const Eigen::Vector2f& velocity) {
   if (!velocity.allFinite()) return crowd.agents.velocity[agent];
   const float most = highest_speed(crowd, agent);
-  const float speed = std::hypot(velocity.x(), velocity.y());
+  const float speed = velocity.norm();
   return speed > most ? Eigen::Vector2f(velocity * (most / speed)) : velocity;
 }
-
-}  // namespace
 
 Eigen::Vector2f unit_or(const Eigen::Vector2f& v, const Eigen::Vector2f& otherwise) {
   const float length = v.norm();
@@ -82,7 +83,8 @@ void LocalModel::step(const Crowd& crowd, const Grid& grid,
                       std::span<Eigen::Vector2f> new_velocity) {
   prepare();
   neighborhood_.for_each(crowd, grid, [&](const Surroundings& around) {
-    new_velocity[around.agent] = possible(crowd, around.agent, velocity(crowd, grid, around));
+    new_velocity[around.agent] =
+        possible_velocity(crowd, around.agent, velocity(crowd, grid, around));
   });
 }
 

@@ -10,6 +10,11 @@
 
 namespace throng::crowd {
 
+/// What comes of a velocity that forces ask for: at most max_speed, and what is not finite leaves
+/// the velocity as it is.
+Eigen::Vector2f possible_velocity(const Crowd& crowd, std::size_t agent,
+                                  const Eigen::Vector2f& velocity);
+
 /// v at unit length; `otherwise` when v has none.
 Eigen::Vector2f unit_or(const Eigen::Vector2f& v, const Eigen::Vector2f& otherwise);
 

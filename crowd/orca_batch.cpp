@@ -2,33 +2,33 @@
 
 #include <algorithm>
 
-#include "crowd/disc_lanes.h"
-
 namespace throng::crowd {
 
-OrcaBatch::OrcaBatch(std::size_t neighbors, std::size_t walls) { make_room(neighbors, walls); }
-
-void OrcaBatch::make_room(std::size_t neighbors, std::size_t walls) {
-  if (others_.size() < neighbors) others_.resize(neighbors);
-  if (planes_.size() < neighbors + walls) {
-    planes_.resize(neighbors + walls);
-    scratch_.resize(neighbors + walls);
-  }
+OrcaBatch::OrcaBatch(std::size_t neighbors, std::size_t walls) : agents_(neighbors) {
+  make_room(neighbors + walls);
 }
 
-void OrcaBatch::clear() { size_ = wall_rows_ = neighbor_rows_ = 0; }
+void OrcaBatch::make_room(std::size_t planes) {
+  if (planes_.size() >= planes) return;
+  planes_.resize(planes);
+  scratch_.resize(planes);
+}
+
+void OrcaBatch::clear() {
+  agents_.clear();
+  wall_rows_ = 0;
+}
 
 void OrcaBatch::add(const Agent& agent, const HalfPlanes& walls,
                     std::span<const Grid::Neighbor> neighbors) {
-  make_room(std::max(neighbor_rows_, neighbors.size()), std::max(wall_rows_, walls.size()));
-  const std::size_t lane = size_++;
-  slots_[lane] = static_cast<std::uint32_t>(agent.slot);
+  const std::size_t lane = agents_.add(agent.slot, neighbors);
+  wall_rows_ = std::max(wall_rows_, walls.size());
+  make_room(wall_rows_ + agents_.rows());
   cutoff_[lane] = 1 / agent.horizon_s;
   preferred_x_[lane] = agent.preferred.x();
   preferred_y_[lane] = agent.preferred.y();
   max_speed_[lane] = agent.max_speed;
   walls_[lane] = static_cast<float>(walls.size());
-  neighbors_[lane] = static_cast<float>(neighbors.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {
     Row& row = planes_[i];
     row.point_x[lane] = walls.point_x[i];
@@ -36,9 +36,6 @@ void OrcaBatch::add(const Agent& agent, const HalfPlanes& walls,
     row.direction_x[lane] = walls.direction_x[i];
     row.direction_y[lane] = walls.direction_y[i];
   }
-  for (std::size_t i = 0; i < neighbors.size(); ++i) others_[i][lane] = neighbors[i].slot;
-  wall_rows_ = std::max(wall_rows_, walls.size());
-  neighbor_rows_ = std::max(neighbor_rows_, neighbors.size());
 }
 
 struct OrcaKernel {
@@ -47,18 +44,17 @@ struct OrcaKernel {
 
   template <int kWidth>
   static void run(const Grid& grid, float dt_s, OrcaBatch& batch) {
+    batch.make_room(1);
     fill(batch);
-    for (std::size_t first = 0; first < batch.size_; first += kWidth) {
+    for (std::size_t first = 0; first < batch.agents_.size(); first += kWidth) {
       lanes<kWidth>(grid, dt_s, first, batch);
     }
   }
 
-  /// Lanes without an agent do what the first one does.
   static void fill(OrcaBatch& batch) {
-    for (std::size_t lane = batch.size_; lane < OrcaBatch::kAgents; ++lane) {
-      batch.slots_[lane] = batch.slots_[0];
-      batch.walls_[lane] = batch.neighbors_[lane] = 0;
-      batch.preferred_x_[lane] = batch.preferred_y_[lane] = 0;
+    batch.agents_.fill();
+    for (std::size_t lane = batch.agents_.size(); lane < OrcaBatch::kAgents; ++lane) {
+      batch.walls_[lane] = batch.preferred_x_[lane] = batch.preferred_y_[lane] = 0;
       batch.cutoff_[lane] = batch.max_speed_[lane] = 1;
     }
   }
@@ -72,22 +68,19 @@ struct OrcaKernel {
 
   template <int kWidth>
   static void lanes(const Grid& grid, float dt_s, std::size_t first, OrcaBatch& batch) {
-    if (batch.planes_.empty()) batch.make_room(1, 0);
     const WritablePlaneRows planes = rows<kWidth>(batch.planes_, first);
     const WritablePlaneRows scratch = rows<kWidth>(batch.scratch_, first);
     forget_absent<kWidth>(planes, first, batch);
-    const auto self = discs<kWidth>(grid, &batch.slots_[first]);
+    const LaneBatch& agents = batch.agents_;
+    const auto self = discs_in<kWidth>(grid, &agents.slots()[first]);
     const Float<kWidth> cutoff = load<kWidth>(&batch.cutoff_[first]);
-    const Float<kWidth> count = load<kWidth>(&batch.neighbors_[first]);
-    for (std::size_t i = 0; i < batch.neighbor_rows_; ++i) {
+    const Float<kWidth> count = load<kWidth>(&agents.neighbors()[first]);
+    for (std::size_t i = 0; i < agents.rows(); ++i) {
       const auto there = count > static_cast<float>(i);
-      auto others = batch.others_[i];
-      for (std::size_t lane = first; lane < first + kWidth; ++lane) {
-        if (!(batch.neighbors_[lane] > static_cast<float>(i))) others[lane] = batch.slots_[lane];
-      }
-      auto other = discs<kWidth>(grid, &others[first]);
+      const LaneBatch::Slots others = agents.row(i);
+      auto other = discs_in<kWidth>(grid, &others[first]);
       if (any(there & (other.x == self.x) & (other.y == self.y))) {
-        part<kWidth>(grid, self, &batch.slots_[first], &others[first], other);
+        part<kWidth>(grid, self, &agents.slots()[first], &others[first], other);
       }
       const auto plane =
           avoid_disc_lanes<Float<kWidth>>(self, other, cutoff, every<kWidth>(1 / dt_s));
@@ -98,7 +91,7 @@ struct OrcaKernel {
            there ? plane.direction_x : none, there ? plane.direction_y : none});
     }
     const auto v = PlaneSolver<Float<kWidth>>::solve(
-        planes, batch.wall_rows_ + batch.neighbor_rows_, load<kWidth>(&batch.walls_[first]),
+        planes, batch.wall_rows_ + agents.rows(), load<kWidth>(&batch.walls_[first]),
         {load<kWidth>(&batch.preferred_x_[first]), load<kWidth>(&batch.preferred_y_[first])},
         load<kWidth>(&batch.max_speed_[first]), scratch);
     store(v.x, &batch.velocity_x_[first]);
@@ -118,18 +111,6 @@ struct OrcaKernel {
           i, {there ? plane.point_x : none, there ? plane.point_y : none,
               there ? plane.direction_x : none, there ? plane.direction_y : none});
     }
-  }
-
-  template <int kWidth>
-  static DiscLanes<Float<kWidth>> discs(const Grid& grid, const std::uint32_t* slots) {
-    DiscLanes<Float<kWidth>> discs;
-    std::array<Float4, kWidth> bodies;
-    for (std::size_t i = 0; i < kWidth; ++i) {
-      bodies[i] = load<4>(grid.body(slots[i]).position.data());
-      discs.radius[i] = grid.radius(slots[i]);
-    }
-    transpose(bodies, discs.x, discs.y, discs.vx, discs.vy);
-    return discs;
   }
 
   /// Two in one place part along x, the one with the higher id to the right.

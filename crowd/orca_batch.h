@@ -1,21 +1,19 @@
 // ORCA for several agents at once, one per lane: their half-planes and the best velocities.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "base/instruction_set.h"
 #include "crowd/grid.h"
 #include "crowd/half_planes.h"
+#include "crowd/lane_batch.h"
 
 namespace throng::crowd {
 
 /// A few agents and what they see. Kept from batch to batch, so that nothing is allocated.
 class OrcaBatch {
  public:
-  static constexpr std::size_t kAgents = 8;
-  using Lanes = std::array<float, kAgents>;
+  static constexpr std::size_t kAgents = LaneBatch::kAgents;
 
   struct Agent {
     std::size_t slot = 0;  ///< in the grid
@@ -28,7 +26,6 @@ class OrcaBatch {
   OrcaBatch(std::size_t neighbors, std::size_t walls);
 
   void clear();
-  std::size_t size() const { return size_; }
   /// Adds one of at most kAgents; `walls` are half-planes that it has to keep.
   void add(const Agent& agent, const HalfPlanes& walls, std::span<const Grid::Neighbor> neighbors);
 
@@ -42,6 +39,8 @@ class OrcaBatch {
 
  private:
   friend struct OrcaKernel;
+  using Lanes = LaneBatch::Lanes;
+
   /// Half-planes of all agents.
   struct Row {
     Lanes point_x;
@@ -50,22 +49,18 @@ class OrcaBatch {
     Lanes direction_y;
   };
 
-  void make_room(std::size_t neighbors, std::size_t walls);
+  void make_room(std::size_t planes);
 
-  std::size_t size_ = 0;
+  LaneBatch agents_;
   std::size_t wall_rows_ = 0;
-  std::size_t neighbor_rows_ = 0;
-  std::array<std::uint32_t, kAgents> slots_{};
   Lanes cutoff_{};  // 1/s
   Lanes preferred_x_{};
   Lanes preferred_y_{};
   Lanes max_speed_{};
-  Lanes walls_{};      // how many
-  Lanes neighbors_{};  // how many
+  Lanes walls_{};  // how many
   Lanes velocity_x_{};
   Lanes velocity_y_{};
-  std::vector<std::array<std::uint32_t, kAgents>> others_;  // their slots
-  std::vector<Row> planes_;                                 // of walls, then of others
+  std::vector<Row> planes_;  // of walls, then of others
   std::vector<Row> scratch_;
 };
 
