@@ -1,5 +1,6 @@
 // Agent-steps per second of the crowd engine. Open squares: everyone keeps walking to random
-// places, sees at most 10 others within 5 m, at 0.5 or 2 people per m^2.
+// places, sees at most 10 others within 5 m, at 0.5 or 2 people per m^2. Names tell the pedestrian
+// model, the density in people per m^2, the number of agents and of threads.
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 #include <tbb/global_control.h>
@@ -10,6 +11,7 @@
 #include <fstream>
 #include <string>
 
+#include "crowd/model.h"
 #include "crowd/simulation.h"
 
 namespace throng::crowd {
@@ -21,11 +23,13 @@ std::filesystem::path write(const std::filesystem::path& file, const std::string
 }
 
 /// `side`² agents; they turn around before they leave the square.
-Simulation open_square(int side, double density) {
+Simulation open_square(const std::string& model, int side, double density) {
   const double spacing = 1 / std::sqrt(density);
   const double half = 0.5 * spacing * (side - 1);
   const std::string scene = fmt::format(
       R"(<Experiment version="2.0"><SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
+  <Helbing agent_scale="2000" obstacle_scale="4000" reaction_time="0.5" body_force="1200"
+           friction="2400" force_distance="0.015"/>
   <AgentProfile name="a">
     <Common r="0.2" pref_speed="1.3" max_speed="2" max_accel="5" neighbor_dist="5"
             max_neighbors="10"/>
@@ -58,7 +62,7 @@ Simulation open_square(int side, double density) {
       std::filesystem::temp_directory_path() / fmt::format("throng_bench_crowd_{}", getpid());
   std::filesystem::create_directories(folder);
   Simulation crowd(write(folder / "scene.xml", scene), write(folder / "behavior.xml", behavior),
-                   {});
+                   {.model = model});
   std::filesystem::remove_all(folder);
   return crowd;
 }
@@ -69,9 +73,10 @@ void run(benchmark::State& state, Simulation crowd) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(crowd.agent_count()));
 }
 
-void step_open_square(benchmark::State& state, int side, double density, std::size_t threads) {
+void step_open_square(benchmark::State& state, const std::string& model, int side, double density,
+                      std::size_t threads) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-  run(state, open_square(side, density));
+  run(state, open_square(model, side, density));
 }
 
 void step_city_square(benchmark::State& state, std::size_t threads) {
@@ -93,17 +98,26 @@ void add(const std::string& name, std::size_t threads, int iterations, Function 
   if (iterations > 0) bench->Iterations(iterations);
 }
 
+void add_open_square(const std::string& model, double density, int side, std::size_t threads) {
+  add(fmt::format("BM_Step/{}/open_square/density:{}/agents:{}", model, density, side * side),
+      threads, 0,
+      [=](benchmark::State& state) { step_open_square(state, model, side, density, threads); });
+}
+
 bool register_all() {
   for (const std::size_t threads : {1, 2}) {
-    for (const int side : {32, 100}) {
-      for (const double density : {0.5, 2.0}) {
-        add(fmt::format("BM_Step/orca/open_square/density:{}/agents:{}", density, side * side),
-            threads, 0,
-            [=](benchmark::State& state) { step_open_square(state, side, density, threads); });
+    for (const std::string model : {"orca", "helbing"}) {
+      for (const int side : {32, 100, 316, 1000}) {
+        for (const double density : {0.5, 2.0}) add_open_square(model, density, side, threads);
       }
     }
     add("BM_Step/orca/city_square/agents:261", threads, 400,
         [=](benchmark::State& state) { step_city_square(state, threads); });
+  }
+  for (const ModelEntry& model : models()) {
+    if (model.name == "orca" || model.name == "helbing") continue;
+    for (const double density : {0.5, 2.0})
+      add_open_square(std::string(model.name), density, 32, 1);
   }
   return true;
 }

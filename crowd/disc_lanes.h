@@ -2,6 +2,9 @@
 // (Float is float) or for several, one per lane: what would be a branch is computed on both sides.
 #pragma once
 
+#include <array>
+
+#include "crowd/grid.h"
 #include "crowd/plane_lanes.h"
 
 namespace throng::crowd {
@@ -63,6 +66,19 @@ PlaneLanes<Float> avoid_disc_lanes(const DiscLanes<Float>& self, const DiscLanes
   const Float change_y = round ? out * outward_y : projected * leg_y - relative_y;
   return {self.vx + 0.5F * change_x, self.vy + 0.5F * change_y, round ? outward_y : leg_x,
           round ? -outward_x : leg_y};
+}
+
+/// What the grid knows of those in kWidth slots.
+template <int kWidth>
+DiscLanes<typename Vectors<kWidth>::Float> discs_in(const Grid& grid, const std::uint32_t* slots) {
+  DiscLanes<typename Vectors<kWidth>::Float> discs;
+  std::array<Float4, kWidth> bodies;
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    bodies[i] = load<4>(grid.body(slots[i]).position.data());
+    discs.radius[i] = grid.radius(slots[i]);
+  }
+  transpose(bodies, discs.x, discs.y, discs.vx, discs.vy);
+  return discs;
 }
 
 }  // namespace throng::crowd

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -64,6 +65,16 @@ class Grid {
     return nearest_(*this, slot, range, most, reach, candidates);
   }
 
+  /// Calls visit(slot) once for everybody within the range of a point, and for some beyond.
+  template <typename Visit>
+  void visit(const Eigen::Vector2f& point, float range, const Visit& visit) const {
+    for_each_run(point, range, [&](std::size_t begin, std::size_t end, std::optional<int> row) {
+      for (std::size_t slot = begin; slot < end; ++slot) {
+        if (!row || row_[slot] == *row) visit(slot);
+      }
+    });
+  }
+
  private:
   friend struct NearestKernel;
   using Nearest = std::span<const Neighbor>(const Grid&, std::size_t slot, float range,
@@ -88,6 +99,35 @@ class Grid {
     // spreads over all buckets.
     return (static_cast<std::uint32_t>(row) * 0x9E3779B1U + static_cast<std::uint32_t>(column)) &
            bucket_mask_;
+  }
+
+  /// Calls look(begin, end, row) for runs of slots that hold everybody within the range of a point.
+  /// With a row, only those of the row count: others share its buckets and would be found twice.
+  template <typename Look>
+  void for_each_run(const Eigen::Vector2f& point, float range, const Look& look) const {
+    constexpr float kRounding = 1e-3F;  // m; nobody at the edge is missed
+    const float padded = range + kRounding;
+    const int first_row = row_of(point.y() - padded);
+    const int last_row = row_of(point.y() + padded);
+    const int first_column = column_of(point.x() - padded);
+    const int last_column = column_of(point.x() + padded);
+    const auto buckets = static_cast<std::size_t>(bucket_mask_) + 1;
+    const auto columns = static_cast<std::size_t>(last_column - first_column) + 1;
+    const auto rows = static_cast<std::size_t>(last_row - first_row) + 1;
+    constexpr std::size_t kRowCost = 8;  // slots that are looked at in the time of a row
+    if (columns > buckets || rows * kRowCost > size_) {
+      look(std::size_t{0}, size_, std::optional<int>());
+      return;
+    }
+    for (int row = first_row; row <= last_row; ++row) {
+      const std::size_t begin = bucket(first_column, row);
+      const std::size_t end = begin + columns;
+      look(std::size_t{bucket_begin_[begin]}, std::size_t{bucket_begin_[std::min(end, buckets)]},
+           std::optional(row));
+      if (end > buckets) {
+        look(std::size_t{0}, std::size_t{bucket_begin_[end - buckets]}, std::optional(row));
+      }
+    }
   }
 
   Nearest* nearest_;

@@ -61,32 +61,16 @@ struct NearestKernel {
   template <int kWidth>
   static void collect(const Grid& grid, std::size_t slot, float radius, std::size_t most,
                       Candidates& candidates) {
-    constexpr float kRounding = 1e-3F;  // m; nobody at the edge is missed
     Place place{grid.x_[slot], grid.y_[slot], radius * radius, slot, most};
     candidates.count_ = 0;
-    const float padded = radius + kRounding;
-    const int first_row = Grid::row_of(place.y - padded);
-    const int last_row = Grid::row_of(place.y + padded);
-    const int first_column = Grid::column_of(place.x - padded);
-    const int last_column = Grid::column_of(place.x + padded);
-    const auto buckets = static_cast<std::size_t>(grid.bucket_mask_) + 1;
-    const auto columns = static_cast<std::size_t>(last_column - first_column) + 1;
-    const auto rows = static_cast<std::size_t>(last_row - first_row) + 1;
-    constexpr std::size_t kRowCost = 8;  // slots that are looked at in the time of a row
-    if (columns > buckets || rows * kRowCost > grid.size_) {
-      scan<kWidth, false>(grid, 0, grid.size_, 0, place, candidates);
-      return;
-    }
-    for (int row = first_row; row <= last_row; ++row) {
-      const std::size_t begin = grid.bucket(first_column, row);
-      const std::size_t end = begin + columns;
-      scan<kWidth, true>(grid, grid.bucket_begin_[begin],
-                         grid.bucket_begin_[std::min(end, buckets)], row, place, candidates);
-      if (end > buckets) {
-        scan<kWidth, true>(grid, grid.bucket_begin_[0], grid.bucket_begin_[end - buckets], row,
-                           place, candidates);
-      }
-    }
+    grid.for_each_run(grid.position(slot), radius,
+                      [&](std::size_t begin, std::size_t end, std::optional<int> row) {
+                        if (row) {
+                          scan<kWidth, true>(grid, begin, end, *row, place, candidates);
+                        } else {
+                          scan<kWidth, false>(grid, begin, end, 0, place, candidates);
+                        }
+                      });
   }
 
   /// Adds those in the slots from `begin` to `end` that are near enough; with kRow, only those of

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowd/disc_lanes.h"
 #include "crowd/lane_batch.h"
 #include "crowd/local_model.h"
 #include "crowd/model.h"

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "crowd/disc_lanes.h"
 #include "crowd/grid.h"
 
 namespace throng::crowd {
@@ -63,18 +62,5 @@ class LaneBatch {
   Lanes neighbors_{};
   std::vector<Slots> others_;
 };
-
-/// What the grid knows of those in kWidth slots.
-template <int kWidth>
-DiscLanes<typename Vectors<kWidth>::Float> discs_in(const Grid& grid, const std::uint32_t* slots) {
-  DiscLanes<typename Vectors<kWidth>::Float> discs;
-  std::array<Float4, kWidth> bodies;
-  for (std::size_t i = 0; i < kWidth; ++i) {
-    bodies[i] = load<4>(grid.body(slots[i]).position.data());
-    discs.radius[i] = grid.radius(slots[i]);
-  }
-  transpose(bodies, discs.x, discs.y, discs.vx, discs.vy);
-  return discs;
-}
 
 }  // namespace throng::crowd

@@ -54,10 +54,13 @@ class Neighborhood {
     Grid::Candidates candidates;
     MengeTree::Search search;
     std::vector<Obstacles::Near> walls;
+    std::vector<Grid::Neighbor> visible;
   };
 
   static Found make_found(const Crowd& crowd);
   Surroundings look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
+  std::span<const Grid::Neighbor> nearest_visible(const Crowd& crowd, const Grid& grid,
+                                                  std::size_t slot, std::size_t most, Found& found);
 
   MengeTree tree_;            // of compatible runs
   std::vector<float> reach_;  // per agent, see Grid::nearest

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "crowd/disc_lanes.h"
 namespace throng::crowd {
 
 OrcaBatch::OrcaBatch(std::size_t neighbors, std::size_t walls) : agents_(neighbors) {

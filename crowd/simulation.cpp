@@ -13,6 +13,7 @@
 #include "crowd/model.h"
 #include "crowd/motion.h"
 #include "crowd/scene.h"
+#include "crowd/separation.h"
 #include "crowd/xml.h"
 
 namespace throng::crowd {
@@ -30,6 +31,7 @@ struct Simulation::State {
   std::vector<std::string> state_names;
   std::unique_ptr<Machine> machine;
   std::unique_ptr<Model> model;
+  std::unique_ptr<Separation> separation;  // where it is wanted
   Grid grid;
   std::vector<Eigen::Vector2f> new_velocity;
 };
@@ -59,6 +61,7 @@ Simulation::State::State(const std::filesystem::path& scene_file,
                         std::move_iterator(parts.modifiers.end()));
   machine = std::make_unique<Machine>(std::move(made), count);
   model = entry.make(crowd);
+  if (options.hard_separation) separation = std::make_unique<Separation>(crowd);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
   machine->start(crowd);
   warnings = scene.warnings();
@@ -75,7 +78,9 @@ void Simulation::State::sub_step() {
   machine->prefer(crowd);
   grid.build(crowd.agents);
   model->step(crowd, grid, new_velocity);
+  if (separation) separation->remember(crowd);
   move(crowd, new_velocity);
+  if (separation) separation->separate(crowd);
   ++crowd.step;
   machine->run_processes_after(crowd);
 }
