@@ -177,7 +177,7 @@ class Helbing : public Model {
     const bool right_of_way =
         std::any_of(priority.begin(), priority.end(), [](float value) { return value != 0; });
     const Setting setting{crowd, grid, right_of_way};
-    neighborhood_.prepare(crowd);
+    neighborhood_.prepare(crowd, grid);
     workspaces_.prepare();
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Workspace& work = workspaces_.local();

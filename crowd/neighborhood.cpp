@@ -23,30 +23,32 @@ Surroundings Neighborhood::look(const Crowd& crowd, const Grid& grid, std::size_
   const float range = agents[Property::neighbor_dist][id];
   crowd.obstacles.near(grid.position(slot), range, agents.obstacle_mask[id], found.walls);
   const auto most = static_cast<std::size_t>(agents[Property::max_neighbors][id]);
-<<<<<<< HEAD
-  const auto neighbors = crowd.compat == Compat::none
-                             ? grid.nearest(slot, range, most, reach_[id], found.candidates)
-                             : tree_.nearest(grid, slot, range, most, found.search);
-  return {id, slot, neighbors, found.walls};
-=======
   // Walls beyond the range hide nobody within it.
-  if (crowd.test_visibility && !found.walls.empty()) {
-    return {id, slot, nearest_visible(crowd, grid, slot, most, found), found.walls};
-  }
-  return {id, slot, grid.nearest(slot, range, most, reach_[id], found.candidates), found.walls};
->>>>>>> 6c678b2 (Keep bodies apart where that is wanted; walls hide neighbours where that is wanted; measure every model)
+  const bool hidden = crowd.test_visibility && !found.walls.empty();
+  return {id, slot,
+          hidden ? nearest_visible(crowd, grid, slot, most, found)
+                 : nearest(crowd, grid, slot, most, found),
+          found.walls};
+}
+
+std::span<const Grid::Neighbor> Neighborhood::nearest(const Crowd& crowd, const Grid& grid,
+                                                      std::size_t slot, std::size_t most,
+                                                      Found& found) {
+  const std::size_t id = grid.id(slot);
+  const float range = crowd.agents[Property::neighbor_dist][id];
+  return crowd.compat == Compat::none
+             ? grid.nearest(slot, range, most, reach_[id], found.candidates)
+             : tree_.nearest(grid, slot, range, most, found.search);
 }
 
 std::span<const Grid::Neighbor> Neighborhood::nearest_visible(const Crowd& crowd, const Grid& grid,
                                                               std::size_t slot, std::size_t most,
                                                               Found& found) {
-  const std::size_t id = grid.id(slot);
-  const std::uint32_t mask = crowd.agents.obstacle_mask[id];
-  const float range = crowd.agents[Property::neighbor_dist][id];
+  const std::uint32_t mask = crowd.agents.obstacle_mask[grid.id(slot)];
   // Those whom walls hide do not count: one may have to look at more to see as many.
   for (std::size_t wanted = most;; wanted *= 2) {
     found.visible.clear();
-    const auto all = grid.nearest(slot, range, wanted, reach_[id], found.candidates);
+    const auto all = nearest(crowd, grid, slot, wanted, found);
     for (const Grid::Neighbor& neighbor : all) {
       if (found.visible.size() == most) break;
       if (crowd.obstacles.visible(grid.position(slot), grid.position(neighbor.slot), 0, mask)) {

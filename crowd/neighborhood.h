@@ -59,6 +59,8 @@ class Neighborhood {
 
   static Found make_found(const Crowd& crowd);
   Surroundings look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
+  std::span<const Grid::Neighbor> nearest(const Crowd& crowd, const Grid& grid, std::size_t slot,
+                                          std::size_t most, Found& found);
   std::span<const Grid::Neighbor> nearest_visible(const Crowd& crowd, const Grid& grid,
                                                   std::size_t slot, std::size_t most, Found& found);
 
