@@ -11,6 +11,9 @@
 #include <emmintrin.h>
 #endif
 
+// Vectors stay inside of functions that are inlined: how they would be passed is nobody's concern.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace throng {
 
 using Float4 [[gnu::vector_size(16)]] = float;
