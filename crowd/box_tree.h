@@ -77,7 +77,7 @@ void BoxTree::near(const Eigen::Vector2f& point, const float& range_sq, const Vi
       continue;
     }
     Waiting nearer{next.node + 1,
-                   distance_sq(nodes_[static_cast<std::size_t>(next.node + 1)].box, point)};
+                   distance_sq(nodes_[static_cast<std::size_t>(next.node) + 1].box, point)};
     Waiting farther{node.second,
                     distance_sq(nodes_[static_cast<std::size_t>(node.second)].box, point)};
     if (farther.distance_sq < nearer.distance_sq) std::swap(nearer, farther);
