@@ -22,15 +22,15 @@ struct Crowd {
   /// What several elements of the files use, e.g. a mesh; who loads an element may add to it.
   std::shared_ptr<SharedParts> parts = std::make_shared<SharedParts>();
   std::shared_ptr<const Elevation> elevation;  ///< none: level ground
-  std::vector<float> model_constants;  ///< of the scene, in the order of the model's table
+  std::vector<float> model_constants;          ///< of the scene, in the order of the model's table
   std::vector<std::string_view> model_parameter_names;  ///< of Agents::model_parameters
   Compat compat = Compat::none;
-  bool test_visibility = false;  ///< walls hide neighbours
+  bool test_visibility = false;                             ///< walls hide neighbours
   InstructionSet instruction_set = best_instruction_set();  ///< for the loops that have a choice
-  std::uint64_t seed = 1;  ///< of the run
-  std::vector<std::vector<std::uint32_t>> social_groups;  ///< the ids of their members
-  std::size_t awaited = 0;                                ///< agents still to arrive
-  double dt_s = 0.1;                                      ///< of one (sub-)step
+  std::uint64_t seed = 1;                                   ///< of the run
+  std::vector<std::vector<std::uint32_t>> social_groups;    ///< the ids of their members
+  std::size_t awaited = 0;                                  ///< agents still to arrive
+  double dt_s = 0.1;                                        ///< of one (sub-)step
   std::uint64_t step = 0;
 
   double time_s() const { return static_cast<double>(step) * dt_s; }

@@ -77,9 +77,8 @@ class PedVo : public LocalModel {
     }
     const Eigen::Vector2f preferred =
         preferred_speed(crowd, grid, around, self) * self.preferred_direction;
-    const Eigen::Vector2f best =
-        best_velocity(planes, walls, preferred, crowd.agents[Property::max_speed][self.id],
-                      workspace.scratch);
+    const Eigen::Vector2f best = best_velocity(
+        planes, walls, preferred, crowd.agents[Property::max_speed][self.id], workspace.scratch);
     return bias.is_none() ? best : bias.undo(best);
   }
 
