@@ -17,8 +17,8 @@ const std::filesystem::path kExamples =
     std::filesystem::path(THRONG_SOURCE_DIR) / "../shared/data/menge_examples";
 
 /// How long a run can be expected to follow Menge's. Rounding differs, and dense crowds multiply a
-/// difference by ten every few seconds: what two of Menge's own runs that start 1 micrometre apart
-/// do not have in common is not asked for.
+/// difference by ten every few seconds: what two of our own runs that start 1 micrometre apart do
+/// not have in common is not asked for.
 struct Agreement {
   std::string name;     ///< of the series
   std::string project;  ///< without .xml
@@ -164,7 +164,7 @@ TEST_P(MengeReference, Agrees) {
 }
 
 constexpr double kEndless = 0;
-constexpr double kChaotic = 0.4;  // Menge's own runs are as far apart
+constexpr double kChaotic = 0.4;  // as far apart as our own runs that start 1 micrometre apart
 
 std::vector<Agreement> agreements() {
   const std::string events = "events/state_population_event/";
