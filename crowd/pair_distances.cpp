@@ -60,7 +60,7 @@ PairDistances PairDistancesMeter::measure(std::span<const Eigen::Vector2f> posit
     placed_.push_back({0, 0, static_cast<std::uint32_t>(i)});
     largest_m = std::max(largest_m, static_cast<double>(radii_m[i]));
   }
-  PairDistances found{kNoPair, 0};
+  PairDistances found;
   if (placed_.size() < 2) return found;
   // In cells this wide all pairs that may overlap are near. When no two are as near as that, wider
   // cells find the nearest ones.
@@ -70,7 +70,7 @@ PairDistances PairDistancesMeter::measure(std::span<const Eigen::Vector2f> posit
     for_near_pairs(placed_, [&](const Placed& a, const Placed& b) {
       const double distance_m =
           (positions[a.agent].cast<double>() - positions[b.agent].cast<double>()).norm();
-      found.nearest_m = std::min(found.nearest_m, distance_m);
+      found.nearest_m = std::fmin(found.nearest_m, distance_m);
       const double touching_m = kTouching * (double{radii_m[a.agent]} + radii_m[b.agent]);
       if (first && distance_m < touching_m) ++found.overlapping;
     });

@@ -4,19 +4,19 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace throng::crowd {
 
 struct PairDistances {
-  double nearest_m = 0;         ///< between two middles; kNoPair when there are no two
+  /// Between two middles; not a number when there are no two.
+  double nearest_m = std::numeric_limits<double>::quiet_NaN();
   std::size_t overlapping = 0;  ///< pairs nearer than kTouching of the sum of their radii
 };
 
-/// As the reference series that were measured with Menge have it.
-constexpr double kNoPair = 1e9;
-/// Bodies that only touch do not overlap.
+/// Bodies that only touch do not overlap: as the series that were measured with Menge have it.
 constexpr double kTouching = 0.999;
 
 /// Measures pairs in about n log n, not n^2. Keeps its memory for the next time.

@@ -100,7 +100,7 @@ TEST(Series, LeavesOutWhoTakesNoPart) {
 
   Simulation nobody = four_agents();
   for (std::size_t i = 0; i < 4; ++i) nobody.set_present(i, false);
-  EXPECT_THAT(series_of(std::move(nobody), 0)[1], StartsWith("0.0000,nan,nan,nan,nan,1000000000"));
+  EXPECT_THAT(series_of(std::move(nobody), 0)[1], StartsWith("0.0000,nan,nan,nan,nan,nan,0,nan"));
 }
 
 std::vector<std::string> positions_of(int steps,
@@ -162,7 +162,7 @@ TEST(PairDistances, AreThoseOfAllPairs) {
       radii.push_back(static_cast<float>(random.uniform(0.1, 0.6)));
       present.push_back(random.below(10) > 0 ? 1 : 0);
     }
-    double nearest_m = kNoPair;
+    double nearest_m = INFINITY;
     std::size_t overlapping = 0;
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -173,7 +173,7 @@ TEST(PairDistances, AreThoseOfAllPairs) {
       }
     }
     const PairDistances found = meter.measure(places, radii, present);
-    EXPECT_EQ(found.nearest_m, nearest_m) << round;
+    EXPECT_EQ(std::isnan(found.nearest_m) ? INFINITY : found.nearest_m, nearest_m) << round;
     EXPECT_EQ(found.overlapping, overlapping) << round;
   }
 }
