@@ -15,12 +15,14 @@ class Alarmed {
   void gather(const Agents& agents, float cell_m) {
     cell_m_ = cell_m;
     entries_.clear();
+    entries_.reserve(agents.count());
     for (std::size_t i = 0; i < agents.count(); ++i) {
       if (agents.present[i] == 0 || agents.panicked[i] == 0) continue;
       entries_.push_back({cell(agents.position[i], 0, 0), agents.position[i]});
     }
-    std::stable_sort(entries_.begin(), entries_.end(),
-                     [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
+    // The order within a cell does not matter: those in it are only counted.
+    std::sort(entries_.begin(), entries_.end(),
+              [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
   }
 
   bool empty() const { return entries_.empty(); }

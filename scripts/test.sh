@@ -41,7 +41,7 @@ step_tidy() {
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build asan
-  ctest --preset asan -j2 -LE slow
+  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" ctest --preset asan -j2 -LE slow
 }
 
 step_tsan() {

@@ -231,7 +231,7 @@ void add_linings(Surface& surface) {
   const auto edge = [&](std::size_t at, std::size_t corner) {
     const std::uint32_t a = surface.source[surface.indices[at + corner]];
     const std::uint32_t b = surface.source[surface.indices[at + (corner + 1) % 3]];
-    return std::minmax(a, b);
+    return std::pair(std::min(a, b), std::max(a, b));  // std::minmax would return references
   };
   for (std::size_t at = 0; at < surface.indices.size(); at += 3) {
     for (std::size_t corner = 0; corner < 3; ++corner) ++edges[edge(at, corner)];

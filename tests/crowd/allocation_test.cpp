@@ -22,6 +22,11 @@ std::atomic<long> allocations{0};
   throw std::bad_alloc();
 }
 
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size);  // NOLINT(cppcoreguidelines-owning-memory)
+}
+
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   std::free(memory);  // NOLINT(cppcoreguidelines-owning-memory)
 }
