@@ -21,6 +21,7 @@ std::optional<std::vector<std::size_t>> frames_at(const std::optional<std::vecto
   if (!times_s) return std::nullopt;
   constexpr double kMost = 1e15;
   std::vector<std::size_t> frames;
+  frames.reserve(times_s->size());
   for (const double time_s : *times_s) {
     frames.push_back(static_cast<std::size_t>(std::clamp(std::round(time_s / dt_s), 0.0, kMost)));
   }

@@ -75,12 +75,14 @@ VocabularyAttribute described(const ModelParameter& parameter) {
 
 std::vector<VocabularyAttribute> described(const AttributeTable& table) {
   std::vector<VocabularyAttribute> all;
+  all.reserve(table.size());
   for (const AttributeSpec& spec : table) all.push_back(described(spec));
   return all;
 }
 
 std::vector<VocabularyAttribute> described(const std::vector<ModelParameter>& table) {
   std::vector<VocabularyAttribute> all;
+  all.reserve(table.size());
   for (const ModelParameter& parameter : table) all.push_back(described(parameter));
   return all;
 }
