@@ -21,7 +21,6 @@ std::optional<std::vector<std::size_t>> frames_at(const std::optional<std::vecto
   if (!times_s) return std::nullopt;
   constexpr double kMost = 1e15;
   std::vector<std::size_t> frames;
-  frames.reserve(times_s->size());
   for (const double time_s : *times_s) {
     frames.push_back(static_cast<std::size_t>(std::clamp(std::round(time_s / dt_s), 0.0, kMost)));
   }
@@ -33,6 +32,7 @@ std::optional<std::vector<std::size_t>> frames_at(const std::optional<std::vecto
 /// Which frames show the shares of a run; halves go to the even neighbour.
 std::vector<std::size_t> frames_of_shares(std::size_t last) {
   std::vector<std::size_t> frames;
+  frames.reserve(kShares.size());
   for (const double share : kShares) {
     frames.push_back(static_cast<std::size_t>(std::nearbyint(share * static_cast<double>(last))));
   }
