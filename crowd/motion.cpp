@@ -189,7 +189,9 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
   write(velocity, &agents.velocity[i]);
   write(mover.position + step_s * velocity, &agents.position[i]);
 
-  constexpr unsigned kAll = (1U << (sizeof(Float) / sizeof(float))) - 1;
+  constexpr std::size_t kLanes =
+      sizeof(Float) / sizeof(float);  // NOLINT(bugprone-sizeof-expression)
+  constexpr unsigned kAll = (1U << kLanes) - 1;
   const unsigned there = which(nearly_there(mover.orientation, ahead, mover.most_turn_rad));
   if (there == kAll) {
     write(ahead, &agents.orientation[i]);
@@ -198,7 +200,7 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
   }
   std::array<Eigen::Vector2f, 8> goals;
   write(ahead, goals.data());
-  for (std::size_t lane = 0; lane < sizeof(Float) / sizeof(float); ++lane) {
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
     Eigen::Vector2f& now = agents.orientation[i + lane];
     Vector<float> turned{goals[lane].x(), goals[lane].y()};
     if ((there & (1U << lane)) == 0) {

@@ -174,8 +174,8 @@ class PlaneSolver {
       const Float offset = other.direction_x * (plane.point_y - other.point_y) -
                            other.direction_y * (plane.point_x - other.point_x);
       const Float t = offset / slope;
-      high = (slope > kParallel) & (t < high) ? t : high;
-      low = (slope < -kParallel) & (t > low) ? t : low;
+      high = ((slope > kParallel) & (t < high)) ? t : high;
+      low = ((slope < -kParallel) & (t > low)) ? t : low;
       const Mask<Float> excluded = (slope <= kParallel) & (slope >= -kParallel) & (offset < 0);
       possible = possible & (excluded == 0);
     }

@@ -12,9 +12,9 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr std::size_t kSmallest = 2;   // members of a group
-constexpr float kMostApart = 5;        // m, between those who are put into one group
-constexpr float kRelaxation_s = 0.5F;  // of the social force model (Helbing, Molnar 1995)
+constexpr std::size_t kSmallest = 2;  // members of a group
+constexpr float kMostApart = 5;       // m, between those who are put into one group
+constexpr float kRelaxationS = 0.5F;  // of the social force model (Helbing, Molnar 1995)
 
 /// Who is still alone, by square cells as wide as a group may be.
 class Loners {
@@ -48,6 +48,7 @@ class Loners {
     }
     std::sort(found.begin(), found.end());
     std::vector<std::size_t> ids;
+    ids.reserve(found.size());
     for (const auto& [apart, other] : found) ids.push_back(other);
     return ids;
   }
@@ -113,7 +114,7 @@ class SocialGroupForces : public VelModifier {
     const Eigen::Vector2f force = gaze(agents, agent, preferred, to_others) +
                                   cohesion(agents.position[agent], sum, others) +
                                   spec_.spacing * spacing;
-    const Eigen::Vector2f wanted = preferred.speed * preferred.direction + kRelaxation_s * force;
+    const Eigen::Vector2f wanted = preferred.speed * preferred.direction + kRelaxationS * force;
     const float speed = wanted.norm();
     constexpr float kStanding = 1e-3F;  // m/s
     if (speed < kStanding) {

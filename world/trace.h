@@ -21,11 +21,10 @@ enum class AgentRole : std::uint8_t {
   absent = 2,    ///< in the scenario but not in this run; neither drawn nor counted
 };
 
-/// Bits of what an agent is at a step.
-enum AgentFlag : std::uint8_t {
-  kPresent = 1,   ///< takes part: has arrived and not left yet
-  kPanicked = 2,  ///< is in panic
-};
+/// Bits of Trace::flags, what an agent is at a step: takes part, i.e. has arrived and not left yet;
+/// is in panic.
+inline constexpr std::uint8_t kPresent = 1;
+inline constexpr std::uint8_t kPanicked = 2;
 
 /// What does not change during a run.
 struct TraceHeader {
@@ -53,7 +52,7 @@ struct CrowdStep {
   std::vector<float> desired_speed_mps;   ///< what the agent wants now
   std::vector<std::uint8_t> state;        ///< index into TraceHeader::state_names
   std::vector<std::int8_t> exit_intent;   ///< index into exit_ids; -1: none
-  std::vector<std::uint8_t> flags;        ///< AgentFlag bits
+  std::vector<std::uint8_t> flags;        ///< kPresent, kPanicked
 };
 
 /// One drone at one instant.
