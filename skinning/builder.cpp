@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 10;
+constexpr int kBuilderVersion = 11;
 
 struct HullLevel {
   std::size_t triangles;  // before the cuts along the borders of clothes, which add up to a half

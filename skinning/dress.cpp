@@ -333,11 +333,11 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
 
   // Triangles at full detail, below 8 000 in all: most where people look.
   auto& all = dressed.surfaces;
-  add_simplified({skin_of(makehuman, person, dressed, covered)}, 2400, all);
-  add_simplified(std::move(tops), bottoms.empty() ? 2300 : 1500, all, Lined::yes);
+  add_simplified({skin_of(makehuman, person, dressed, covered)}, 2200, all);
+  add_simplified(std::move(tops), bottoms.empty() ? 2000 : 1300, all, Lined::yes);
   add_simplified(std::move(bottoms), 800, all, Lined::yes);
   add_simplified(std::move(shoes), 550, all);
-  add_simplified(std::move(hair), hat.empty() ? 1400 : 900, all);
+  add_simplified(std::move(hair), hat.empty() ? 1250 : 900, all);
   add_simplified(std::move(hat), 350, all, Lined::yes);
   add_simplified(std::move(face), 250, all);
   put_on_ground(dressed, stance.highest);
