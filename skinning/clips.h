@@ -13,7 +13,7 @@ namespace throng::skinning {
 /// Frames per stride.
 inline constexpr std::uint32_t kClipFrames = 20;
 
-/// The clips of every baked character, one behind the other; docs/formats.md lists them.
+/// The clips of every baked character, one behind the other.
 std::vector<Clip> standard_clips();
 
 /// The palettes of one of the standard clips.

@@ -7,8 +7,6 @@
 #include <memory>
 #include <set>
 
-#include "base/error.h"
-#include "base/files.h"
 #include "skinning/gait.h"
 #include "skinning/motion.h"
 #include "skinning/population.h"
@@ -369,60 +367,6 @@ TEST_F(PeopleTest, FeetDoNotSkateAtAnySpeed) {
     }
   }
   RecordProperty("worst_slide_mm", static_cast<int>(worst_mm));
-}
-
-class DamagedPeopleTest : public PeopleTest {
- protected:
-  void SetUp() override {
-    PeopleTest::SetUp();
-    if (IsSkipped()) return;
-    folder = fs::path(testing::TempDir()) / "damaged_people";
-    fs::remove_all(folder);
-    fs::copy(population_folder(), folder);
-  }
-  void TearDown() override {
-    if (!folder.empty()) fs::remove_all(folder);
-  }
-  std::string message() const {
-    try {
-      load_population(folder);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
-  }
-  fs::path folder;
-};
-
-TEST_F(DamagedPeopleTest, ErrorsNameTheFileAndTheRemedy) {
-  const std::string index = read_file(folder / "population.json");
-  const auto expect_message_about = [&](const std::string& file) {
-    EXPECT_NE(message().find(file), std::string::npos) << message();
-    EXPECT_NE(message().find("throng people build"), std::string::npos) << message();
-  };
-  const auto replaced = [&](const std::string& from, const std::string& to) {
-    std::string changed = index;
-    changed.replace(changed.find(from), from.size(), to);
-    return changed;
-  };
-  for (const std::string& changed :
-       {std::string(), std::string("[1, 2]"), replaced("\"format\": 3", "\"format\": 999"),
-        replaced("\"clips\"", "\"chips\""), replaced("\"name\"", "\"game\""),
-        replaced("\"frames\": 24", "\"frames\": 0"), replaced("\"#", "\"?")}) {
-    write_file_atomically(folder / "population.json", changed);
-    expect_message_about("population.json");
-  }
-  write_file_atomically(folder / "population.json", index);
-
-  fs::resize_file(folder / "palettes.bin", 1000);
-  expect_message_about("palettes.bin");
-  const fs::path glb = folder / (people_->characters[1].name + ".glb");
-  fs::resize_file(glb, 5000);
-  expect_message_about(glb.filename().string());
-  fs::remove(glb);
-  expect_message_about(glb.filename().string());
-  fs::remove(folder / "population.json");
-  expect_message_about("population.json");
 }
 
 }  // namespace
