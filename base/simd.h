@@ -37,6 +37,10 @@ inline unsigned bits(Int4 mask) {
 }
 inline unsigned bits(Int8 mask) { return bits(low_half(mask)) | (bits(high_half(mask)) << 4U); }
 
+/// Whether a mask is true in any lane.
+inline bool any(Int4 mask) { return bits(mask) != 0; }
+inline bool any(Int8 mask) { return any(low_half(mask) | high_half(mask)); }
+
 /// Lane by lane; b where one of them is no number.
 template <typename Vector>
 Vector smaller(Vector a, Vector b) {
@@ -100,6 +104,41 @@ template <typename Vector, typename Value>
 void store(Vector v, Value* to) {
   static_assert(sizeof(v[0]) == sizeof(Value));
   std::memcpy(to, &v, sizeof(v));
+}
+
+/// Where the lanes that are true in a mask come from when they are moved together: [bits][lane].
+inline constexpr auto kPackedLanes = [] {
+  std::array<std::array<std::int32_t, 8>, 256> lanes{};
+  for (std::size_t mask = 0; mask < lanes.size(); ++mask) {
+    std::size_t count = 0;
+    for (int lane = 0; lane < 8; ++lane) {
+      if ((mask >> lane & 1U) != 0) lanes[mask][count++] = lane;
+    }
+  }
+  return lanes;
+}();
+
+/// Stores the lanes of two vectors for which the mask is true, one after the other. Returns how
+/// many there are; what follows them, up to a whole vector, may be written too.
+template <int kWidth>
+std::size_t store_some(typename Vectors<kWidth>::Float a, typename Vectors<kWidth>::Int b,
+                       typename Vectors<kWidth>::Int mask, float* to_a, std::int32_t* to_b) {
+#if !defined(__clang__)  // which has no shuffle by a variable
+  if constexpr (kWidth == 8) {
+    const unsigned which = bits(mask);
+    const Int8 from = load<8>(kPackedLanes[which].data());
+    store(__builtin_shuffle(a, from), to_a);
+    store(__builtin_shuffle(b, from), to_b);
+    return static_cast<std::size_t>(__builtin_popcount(which));
+  }
+#endif
+  std::size_t count = 0;
+  for (int lane = 0; lane < kWidth; ++lane) {
+    to_a[count] = a[lane];
+    to_b[count] = b[lane];
+    count += mask[lane] != 0 ? 1 : 0;
+  }
+  return count;
 }
 
 template <int kWidth>

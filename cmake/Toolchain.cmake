@@ -3,7 +3,6 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 option(THRONG_BENCHMARKS "Build the programs in bench/" OFF)
 option(THRONG_FUZZ "Build the programs in tests/fuzz/ (clang only, preset fuzz)" OFF)

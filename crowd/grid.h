@@ -15,7 +15,8 @@ namespace throng::crowd {
 
 /// A copy of what neighbours may know of the agents that are present, sorted by cell, so that those
 /// who are near in space are near in memory. Cells are hashed into buckets such that a row's
-/// neighbouring cells stay neighbours: a query scans one run of slots per row.
+/// neighbouring cells stay neighbours: a query scans one run of slots per row. Where the crowd
+/// fills its area, rows follow each other as they do in space.
 class Grid {
  public:
   struct Neighbor {
@@ -47,7 +48,7 @@ class Grid {
 
   explicit Grid(InstructionSet set = best_instruction_set());
 
-  /// Sorts the agents anew; allocates only when their number has grown.
+  /// Sorts the agents anew, on all threads; allocates only when their number has grown.
   void build(const Agents& agents);
 
   std::size_t size() const { return size_; }
@@ -84,6 +85,11 @@ class Grid {
   static constexpr float kCellHeight = 2.0F;  // m; fewer, longer runs
   static constexpr std::size_t kPadding = 8;  // searches load whole vectors
 
+  struct Extent {
+    Eigen::Vector2f low;
+    Eigen::Vector2f high;
+  };
+
   static Nearest* pick_nearest(InstructionSet set);
   static int column_of(float x) { return cell_of(x / kCellWidth); }
   static int row_of(float y) { return cell_of(y / kCellHeight); }
@@ -95,9 +101,8 @@ class Grid {
     return towards_zero - (static_cast<float>(towards_zero) > near ? 1 : 0);
   }
   std::uint32_t bucket(int column, int row) const {
-    // Rows start at scattered places (the golden ratio's multiples), so that a crowd of any shape
-    // spreads over all buckets.
-    return (static_cast<std::uint32_t>(row) * 0x9E3779B1U + static_cast<std::uint32_t>(column)) &
+    return (static_cast<std::uint32_t>(row) * row_stride_ + static_cast<std::uint32_t>(column) -
+            first_cell_) &
            bucket_mask_;
   }
 
@@ -130,11 +135,26 @@ class Grid {
     }
   }
 
+  Extent extent_of(const Agents& agents);
+  void lay_out(const Agents& agents);
+  void count_parts(const Agents& agents);
+  void split(const Agents& agents);
+  void sort_part(const Agents& agents, std::size_t part);
+
   Nearest* nearest_;
   std::size_t size_ = 0;
   std::uint32_t bucket_mask_ = 0;
+  std::uint32_t row_stride_ = 1;             // buckets from a row to the next
+  std::uint32_t first_cell_ = 0;             // what the first bucket's cell would have without this
   std::vector<std::uint32_t> bucket_begin_;  // first slot of each bucket, then the end
-  std::vector<std::uint32_t> bucket_of_;     // of each agent
+  // While sorting.
+  std::vector<Extent> extents_;
+  int part_shift_ = 0;                    // a part has 2 to this buckets
+  std::size_t parts_ = 1;                 // runs of buckets, sorted one by one
+  std::vector<std::uint32_t> bucket_of_;  // of each agent
+  std::vector<std::uint32_t> by_part_;    // agents' ids, by part and then by id
+  std::vector<std::uint32_t> place_;      // [run of agents][part]: how many; then where in by_part_
+  std::vector<std::uint32_t> part_begin_;  // in by_part_, then the end
   // By slot; those that are searched end with some padding.
   std::vector<std::uint32_t> id_;
   std::vector<std::int32_t> row_;

@@ -50,7 +50,7 @@ struct NearestKernel {
     std::size_t count = std::min(most, candidates.count_);
     const std::vector<Neighbor>& sorted = candidates.sorted_;
     while (count > 0 && !(sorted[count - 1].distance_sq < range * range)) --count;
-    constexpr float kMargin = 1.15F;  // people move a little between steps
+    constexpr float kMargin = 1.1F;  // people move a little between steps
     reach = count == most ? kMargin * std::sqrt(sorted[count - 1].distance_sq) : range;
     return {sorted.data(), count};
   }
@@ -78,36 +78,47 @@ struct NearestKernel {
   template <int kWidth, bool kRow>
   static void scan(const Grid& grid, std::size_t begin, std::size_t end, int row, Place& place,
                    Candidates& candidates) {
-    using V = Vectors<kWidth>;
-    for (std::size_t at = begin; at < end; at += kWidth) {
-      if (candidates.count_ + kWidth > candidates.slot_.size()) {
+    while (begin < end) {
+      std::size_t room = candidates.slot_.size() - candidates.count_;
+      if (room < 2 * kWidth) {
         keep_nearest<kWidth>(grid, place, candidates);
+        room = candidates.slot_.size() - candidates.count_;
       }
-      const typename V::Float dx = load<kWidth>(&grid.x_[at]) - place.x;
-      const typename V::Float dy = load<kWidth>(&grid.y_[at]) - place.y;
-      const typename V::Float distance_sq = dx * dx + dy * dy;
-      typename V::Int wanted = distance_sq <= place.limit_sq;
-      wanted &= V::kIndex < static_cast<std::int32_t>(std::min<std::size_t>(end - at, kWidth));
-      wanted &= V::kIndex != static_cast<std::int32_t>(place.self - at);
-      if constexpr (kRow) wanted &= load<kWidth>(&grid.row_[at]) == row;
-      append<kWidth>(distance_sq, wanted, at, candidates);
+      // Whole vectors, so that the next ones start where these end.
+      const std::size_t stop = std::min(end, begin + (room / kWidth - 1) * kWidth);
+      scan_some<kWidth, kRow>(grid, begin, stop, row, place, candidates);
+      begin = stop;
     }
   }
 
-  template <int kWidth>
-  static void append(typename Vectors<kWidth>::Float distance_sq,
-                     typename Vectors<kWidth>::Int wanted, std::size_t at, Candidates& candidates) {
-    std::array<float, kWidth> distances;
-    std::array<std::int32_t, kWidth> adds;
-    store(distance_sq, distances.data());
-    store(-wanted, adds.data());
-    float* const distance_out = candidates.distance_sq_.data();
-    std::int32_t* const slot_out = candidates.slot_.data();
+  /// The same where there is room for all. Whole vectors are looked at: what follows the last slot
+  /// is of other rows, or too far away.
+  template <int kWidth, bool kRow>
+  static void scan_some(const Grid& grid, std::size_t begin, std::size_t end, int row,
+                        const Place& place, Candidates& candidates) {
+    using V = Vectors<kWidth>;
+    const auto x = every<kWidth>(place.x);
+    const auto y = every<kWidth>(place.y);
+    const auto limit_sq = every<kWidth>(place.limit_sq);
+    const float* const xs = grid.x_.data();
+    const float* const ys = grid.y_.data();
+    const std::int32_t* const rows = grid.row_.data();
+    float* const distances = candidates.distance_sq_.data();
+    std::int32_t* const slots = candidates.slot_.data();
     std::size_t count = candidates.count_;
-    for (std::size_t i = 0; i < kWidth; ++i) {
-      distance_out[count] = distances[i];
-      slot_out[count] = static_cast<std::int32_t>(at + i);
-      count += static_cast<std::size_t>(adds[i]);
+    for (std::size_t at = begin; at < end; at += kWidth) {
+      const typename V::Float dx = load<kWidth>(xs + at) - x;
+      const typename V::Float dy = load<kWidth>(ys + at) - y;
+      const typename V::Float distance_sq = dx * dx + dy * dy;
+      const typename V::Int slot = V::kIndex + static_cast<std::int32_t>(at);
+      typename V::Int wanted = distance_sq <= limit_sq;
+      wanted &= slot != static_cast<std::int32_t>(place.self);
+      if constexpr (kRow) {
+        wanted &= load<kWidth>(rows + at) == row;
+      } else {
+        wanted &= slot < static_cast<std::int32_t>(end);
+      }
+      count += store_some<kWidth>(distance_sq, slot, wanted, distances + count, slots + count);
     }
     candidates.count_ = count;
   }

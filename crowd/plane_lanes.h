@@ -17,8 +17,7 @@ template <typename Float>
 using Mask = decltype((Float{} < Float{}) & (Float{} < Float{}));
 
 inline bool any(int mask) { return mask != 0; }
-inline bool any(Int4 mask) { return bits(mask) != 0; }
-inline bool any(Int8 mask) { return bits(mask) != 0; }
+using throng::any;
 
 inline float root(float v) { return std::sqrt(v); }
 inline Float4 root(Float4 v) { return square_root<4>(v); }

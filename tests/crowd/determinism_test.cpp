@@ -1,7 +1,15 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
+#include <chrono>
+#include <ctime>
+#include <functional>
+#include <thread>
+
+#include "crowd/model.h"
 #include "crowd_files.h"
+#include "model_scenes.h"
 
 namespace throng::crowd {
 namespace {
@@ -13,26 +21,71 @@ struct Outcome {
   bool operator==(const Outcome&) const = default;
 };
 
-Outcome run_city_square(std::uint64_t seed, std::size_t threads) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-  Simulation crowd = test::load_city_square(seed);
-  for (int i = 0; i < 300; ++i) {
-    crowd.move_goal(99, 0, {-10 + 0.1F * static_cast<float>(i), 5});
-    crowd.step();
-  }
+Outcome outcome_of(const Simulation& crowd) {
   return {{crowd.positions().begin(), crowd.positions().end()},
           {crowd.yaws_rad().begin(), crowd.yaws_rad().end()},
           {crowd.states().begin(), crowd.states().end()}};
 }
 
+/// With as many threads, whatever the machine has.
+void with_threads(int threads, const std::function<void()>& action) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(action);
+}
+
+Outcome run_city_square(std::uint64_t seed, int threads) {
+  Outcome outcome;
+  with_threads(threads, [&] {
+    Simulation crowd = test::load_city_square(seed);
+    for (int i = 0; i < 300; ++i) {
+      crowd.move_goal(99, 0, {-10 + 0.1F * static_cast<float>(i), 5});
+      crowd.step();
+    }
+    outcome = outcome_of(crowd);
+  });
+  return outcome;
+}
+
+constexpr int kCrowd = 700;  // more than one thread's share
+
+Outcome run_model(std::string_view model, int threads) {
+  Outcome outcome;
+  with_threads(threads, [&] {
+    Simulation crowd = test::load(test::model_crowd_scene(kCrowd), test::to_point_behavior(5, 4),
+                                  {.model = std::string(model), .hard_separation = true});
+    for (int i = 0; i < 60; ++i) crowd.step();
+    outcome = outcome_of(crowd);
+  });
+  return outcome;
+}
+
 TEST(Determinism, ThreadsDoNotChangeASingleBit) {
   const Outcome one = run_city_square(5, 1);
   EXPECT_TRUE(one == run_city_square(5, 2));
-  EXPECT_TRUE(one == run_city_square(5, 8));
+  EXPECT_TRUE(one == run_city_square(5, 16));
+}
+
+TEST(Determinism, ThreadsDoNotChangeASingleBitOfAnyModel) {
+  for (const ModelEntry& model : models()) {
+    const Outcome one = run_model(model.name, 1);
+    EXPECT_TRUE(one == run_model(model.name, 2)) << model.name;
+    EXPECT_TRUE(one == run_model(model.name, 16)) << model.name;
+  }
 }
 
 TEST(Determinism, AnotherSeedIsAnotherRun) {
   EXPECT_FALSE(run_city_square(5, 2) == run_city_square(6, 2));
+}
+
+TEST(Threads, SleepWhenThereIsNothingToDo) {
+  run_model("orca", 16);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // until they have fallen asleep
+  const std::clock_t before = std::clock();
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  const double used_s = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  EXPECT_LT(used_s, 0.1);  // of the whole process; a single spinning thread would use 0.4 s
 }
 
 }  // namespace
