@@ -20,16 +20,18 @@ Eigen::Vector2f tangent(const Eigen::Vector2f& from, const Eigen::Vector2f& cent
   return {c * way.x() - s * way.y(), s * way.x() + c * way.y()};
 }
 
-/// The direction turned as far as need be to pass the corners of a gate at a distance.
+/// The direction turned as far as need be to pass the corners of a gate at a distance. Where there
+/// is no room for that it stays, but in compatible runs.
 Eigen::Vector2f clear_of_corners(const Eigen::Vector2f& direction, const Gate& gate,
-                                 const Eigen::Vector2f& from, float radius) {
-  const float too_near = radius * radius;
+                                 const Eigen::Vector2f& from, float radius, Compat compat) {
+  const float too_near = compat == Compat::none ? radius * radius : 0;
   const bool near_left = (gate.left_corner - from).squaredNorm() <= too_near;
   const bool near_right = (gate.right_corner - from).squaredNorm() <= too_near;
   if (near_left || near_right) return direction;
   const Eigen::Vector2f leftmost = tangent(from, gate.left_corner, radius, -1);
   const Eigen::Vector2f rightmost = tangent(from, gate.right_corner, radius, 1);
-  if (cross(rightmost, leftmost) <= 0) return direction;  // too narrow
+  const bool narrow = cross(rightmost, leftmost) <= 0;
+  if (narrow && compat == Compat::none) return direction;
   if (cross(direction, leftmost) < 0) return leftmost;
   if (cross(rightmost, direction) < 0) return rightmost;
   return direction;
@@ -68,25 +70,26 @@ void NavMeshRoutes::prefer(const Crowd& crowd, std::size_t agent, float heading_
       (route.next == route.count && !route.whole)) {
     plan(crowd, agent, route);
   }
-  if (is_pushed_off(p, heading_cos, route)) straighten(p, route);
+  // In m; what is nearer has no direction to speak of.
+  const float at_portal = crowd.compat == Compat::none ? 0.05F : 0;
+  if (is_pushed_off(p, heading_cos, at_portal, route)) straighten(p, route);
   if (route.next == route.count) {
     head_for(crowd, agent, goal_place(crowd, agent, p), preferred);
     return;
   }
   const Gate& gate = route.gates[static_cast<std::size_t>(route.next)];
   head_through(crowd, agent, gate.crossing, preferred);
-  preferred.direction =
-      clear_of_corners(preferred.direction, gate, p, crowd.agents[Property::radius][agent]);
+  preferred.direction = clear_of_corners(preferred.direction, gate, p,
+                                         crowd.agents[Property::radius][agent], crowd.compat);
 }
 
 bool NavMeshRoutes::is_pushed_off(const Eigen::Vector2f& position, float heading_cos,
-                                  const Route& route) {
+                                  float at_portal, const Route& route) {
   if (route.next == route.count) return false;
   const auto next = static_cast<std::size_t>(route.next);
   const Eigen::Vector2f way = route.gates[next].crossing - position;
   const float distance = way.norm();
-  constexpr float kAtPortal = 0.05F;  // m; too near for a direction
-  return distance > kAtPortal && way.dot(route.headings[next]) < heading_cos * distance;
+  return distance > at_portal && way.dot(route.headings[next]) < heading_cos * distance;
 }
 
 /// Finds out how far the agent has come; false if it has left its way.

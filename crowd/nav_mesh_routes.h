@@ -46,7 +46,9 @@ class NavMeshRoutes {
   void straighten(const Eigen::Vector2f& position, Route& route);
   static void take_gates(std::span<const Gate> gates, const Eigen::Vector2f& position, int first,
                          Route& route);
-  static bool is_pushed_off(const Eigen::Vector2f& position, float heading_cos, const Route& route);
+  /// Unless it is nearer to the portal than `at_portal`.
+  static bool is_pushed_off(const Eigen::Vector2f& position, float heading_cos, float at_portal,
+                            const Route& route);
   bool keep_up(const Eigen::Vector2f& position, Route& route) const;
 
   std::shared_ptr<const NavMeshFile> file_;

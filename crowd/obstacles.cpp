@@ -93,7 +93,7 @@ bool Obstacles::visible(const Eigen::Vector2f& from, const Eigen::Vector2f& to, 
     if ((wall.obstacle_class & class_mask) == 0) return false;
     const float from_side = cross(wall.edge, from - wall.begin);
     const float to_side = cross(wall.edge, to - wall.begin);
-    if (from_side > 0 || to_side < 0 || from_side == to_side) return false;
+    if (from_side >= 0 || to_side <= 0) return false;
     const Eigen::Vector2f end = wall.begin + wall.edge;
     const float distance_sq = segment_distance_sq(from, to, wall.begin, end);
     return distance_sq < radius * radius || distance_sq == 0;

@@ -26,7 +26,8 @@ Eigen::Vector2f pass(const Gate& gate, const Eigen::Vector2f& a, const Eigen::Ve
   const float right = cross(b - a, gate.right - a);
   if (left <= 0) return gate.left;
   if (right >= 0) return gate.right;
-  return gate.left + left / (left - right) * (gate.right - gate.left);
+  // Rounds alike seen in a mirror, so that a symmetric scene stays symmetric.
+  return (left * gate.right - right * gate.left) / (left - right);
 }
 
 /// Twice the area of a triangle, positive when c is to the right of a -> b.

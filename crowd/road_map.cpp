@@ -80,11 +80,40 @@ void RoadMapRoutes::enter(const Crowd& crowd, std::size_t agent) {
 
 void RoadMapRoutes::prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) {
   Route& route = routes_[agent];
+  if (crowd.compat != Compat::none) return prefer_as_menge(crowd, agent, route, preferred);
   const Eigen::Vector2f target = goal_place(crowd, agent, crowd.agents.position[agent]);
   if (!route.known || is_elsewhere(crowd, agent, route) || !advance(crowd, agent, target, route)) {
     plan(crowd, agent, route);
     advance(crowd, agent, target, route);
   }
+  head_on(crowd, agent, target, route, preferred);
+}
+
+void RoadMapRoutes::prefer_as_menge(const Crowd& crowd, std::size_t agent, Route& route,
+                                    PreferredVelocity& preferred) {
+  const Eigen::Vector2f& p = crowd.agents.position[agent];
+  const Eigen::Vector2f target = goal_place(crowd, agent, p);
+  const int goal = crowd.agents.goal[agent];
+  const bool has_moved = goal >= 0 && route.known && route.noticed_end != route.end;
+  if (!route.known || has_moved) plan(crowd, agent, route);
+  if (goal >= 0) {
+    const Eigen::Vector2f edge = crowd.goals[goal].shape->nearest_point(p, 0);
+    if (edge != route.edge) route.noticed_end = nearest_visible(crowd, agent, edge);
+    route.edge = edge;
+  }
+  if (!advance(crowd, agent, target, route)) {
+    if (route.whole && sees(crowd, agent, route.seen_from)) {
+      return head_through(crowd, agent, route.seen_from, preferred);
+    }
+    plan(crowd, agent, route);
+    advance(crowd, agent, target, route);
+  }
+  route.seen_from = p;
+  head_on(crowd, agent, target, route, preferred);
+}
+
+void RoadMapRoutes::head_on(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
+                            const Route& route, PreferredVelocity& preferred) const {
   if (route.next == route.count) {
     head_for(crowd, agent, target, preferred);
   } else {
@@ -100,23 +129,24 @@ bool RoadMapRoutes::is_elsewhere(const Crowd& crowd, std::size_t agent, Route& r
   return nearest_visible(crowd, agent, now) != route.end;
 }
 
+bool RoadMapRoutes::sees(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place) {
+  const Agents& agents = crowd.agents;
+  return crowd.obstacles.visible(agents.position[agent], place, agents[Property::radius][agent],
+                                 agents.obstacle_mask[agent]);
+}
+
 /// Goes on from place to place as long as the agent sees the next; false if it is lost.
 bool RoadMapRoutes::advance(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
                             Route& route) const {
-  const Agents& agents = crowd.agents;
-  const auto place = [&](std::size_t i) {
-    return i == route.count ? target : map_.places[route.places[i]];
-  };
-  const auto sees = [&](std::size_t i) {
-    return crowd.obstacles.visible(agents.position[agent], place(i),
-                                   agents[Property::radius][agent], agents.obstacle_mask[agent]);
+  const auto sees_place = [&](std::size_t i) {
+    return sees(crowd, agent, i == route.count ? target : map_.places[route.places[i]]);
   };
   // After the last place comes the goal, unless that is not the end of the way.
   const std::size_t last = route.whole || route.count == 0 ? route.count : route.count - 1;
   const std::size_t before = route.next;
-  while (route.next < last && sees(route.next + 1)) ++route.next;
+  while (route.next < last && sees_place(route.next + 1)) ++route.next;
   if (!route.whole && route.next == last) return false;
-  return route.next > before || sees(route.next);
+  return route.next > before || sees_place(route.next);
 }
 
 void RoadMapRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
@@ -128,6 +158,7 @@ void RoadMapRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   route.target = goal_place(crowd, agent, p);
   RoadFinder& finder = finders_.local();
   route.end = nearest_visible(crowd, agent, route.target);
+  route.noticed_end = route.end;
   if (!finder.find(map_, nearest_visible(crowd, agent, p), route.end)) return;
   route.count = std::min(finder.places().size(), kMostPlaces);
   route.whole = route.count == finder.places().size();

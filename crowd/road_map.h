@@ -58,7 +58,9 @@ class RoadFinder {
 /// The ways of all agents that use one map, in whatever state. An agent begins at the nearest place
 /// that it sees, goes on to the next as soon as it sees that, and looks for a new way when it does
 /// not see the place it heads for or its goal has moved. Walls hide what an agent cannot get to
-/// straight.
+/// straight. In compatible runs who has lost sight of a place goes back to where it was last seen
+/// from, and looks for a new way only when it does not see that either; and a goal's moves are
+/// noticed a step later, at the goal's very edge.
 class RoadMapRoutes {
  public:
   explicit RoadMapRoutes(RoadMap map);
@@ -76,9 +78,17 @@ class RoadMapRoutes {
     std::size_t count = 0;
     int end = -1;  ///< the place nearest to the goal
     Eigen::Vector2f target = Eigen::Vector2f::Zero();
+    Eigen::Vector2f seen_from = Eigen::Vector2f::Zero();  ///< where the next place was last seen
+    int noticed_end = -1;  ///< compatible runs: the `end` that the last step would have chosen
+    Eigen::Vector2f edge = Eigen::Vector2f::Zero();  ///< the goal's nearest point then
     std::array<int, kMostPlaces> places{};
   };
 
+  void prefer_as_menge(const Crowd& crowd, std::size_t agent, Route& route,
+                       PreferredVelocity& preferred);
+  void head_on(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
+               const Route& route, PreferredVelocity& preferred) const;
+  static bool sees(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place);
   void plan(const Crowd& crowd, std::size_t agent, Route& route);
   bool is_elsewhere(const Crowd& crowd, std::size_t agent, Route& route) const;
   bool advance(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,

@@ -83,6 +83,8 @@ class MengeReference : public testing::TestWithParam<Agreement> {
     project.options.model = agreement.model;
     project.options.compat = Compat::menge;
     if (agreement.model != "orca") project.options.time_step_s = 0.1;
+    const bool by_forces = agreement.model != "orca" && agreement.model != "pedvo";
+    if (by_forces) project.options.sub_steps = 9;  // as recorded
     crowd =
         std::make_unique<Simulation>(project.scene_file, project.behavior_file, project.options);
   }
@@ -187,7 +189,14 @@ std::vector<Agreement> agreements() {
       {"events_state_population_event_drop_to", events + "drop_to", "orca", 25.5},
       {"events_state_population_event_rise_to", events + "rise_to", "orca", 25.5},
       {"globalNavSwap-vectorfield", "globalNavSwap-vectorfield", "orca", 25},
-      {"globalNavSwap-roadmap", "globalNavSwap-roadmap", "orca", 5, 11},
+      {"globalNavSwap-roadmap", "globalNavSwap-roadmap", "orca", 25},
+      {"globalNavSwap-navmesh", "globalNavSwap-navmesh", "orca", 6, 20},
+      {"path_goal", "path_goal", "orca", 10},
+      {"bottleneck", "bottleneck", "orca", 40},
+      {"bottleneck__pedvo", "bottleneck", "pedvo", 40},
+      {"bottleneck__helbing", "bottleneck", "helbing", 40},
+      {"cross__helbing", "cross", "helbing", 15},
+      {"cross__johannson", "cross", "johannson", 125, 125, kEndless},
       {"cross__pedvo", "cross", "pedvo", 130, 130, kEndless},
       {"4square__pedvo", "4square", "pedvo", 12.1, 20, kEndless, 20},
       {"pedModelSwap__pedvo", "pedModelSwap", "pedvo", 12.1, 20, kEndless, 20},

@@ -101,7 +101,9 @@ INSTANTIATE_TEST_SUITE_P(Core, ModelReference,
                                          Case{"pedModelSwap", "gcf", 9, 5, 0.002, 0.002},
                                          Case{"pedModelSwap", "zanlungo", 9, 6, 0.002, 0.002},
                                          Case{"pedModelSwap", "karamouzas", 9, 3, 0.05, 0.05},
-                                         Case{"bottleneck", "pedvo", 0, 15, 0.01, 0.01},
+                                         Case{"bottleneck", "pedvo", 0, 39, 0.002, 0.002},
+                                         Case{"bottleneck", "helbing", 9, 39, 0.002, 0.002},
+                                         Case{"cross", "helbing", 9, 9, 0.002, 0.002},
                                          Case{"bottleneck", "gcf", 9, 18, 0.02, 0.02}),
                          [](const testing::TestParamInfo<Case>& tested) {
                            return "In" + tested.param.scene + "With" + tested.param.model;

@@ -93,6 +93,8 @@ TEST(Obstacles, HidesWhatWallsAreBefore) {
   EXPECT_FALSE(obstacles.visible({-1, -0.1F}, {5, -0.1F}, 0.2F, 2)) << "too narrow for a disc";
   EXPECT_TRUE(obstacles.visible({1, -0.1F}, {3, -0.1F}, 0.2F, 2)) << "along the wall";
   EXPECT_TRUE(obstacles.visible({2, 2}, {9, 2}, 0, 2)) << "from inside";
+  EXPECT_TRUE(obstacles.visible({-1, -2}, {0, 5}, 0.2F, 2)) << "to a place in line with a wall";
+  EXPECT_FALSE(obstacles.visible({-1, -2}, {0.01F, 5}, 0.2F, 2)) << "and behind its line";
 }
 
 }  // namespace

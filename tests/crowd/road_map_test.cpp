@@ -69,6 +69,31 @@ TEST(RoadMap, AgentsHeadForTheLastPlaceTheySee) {
   EXPECT_TRUE(crowd.all_final());
 }
 
+/// Somebody on the way to a place that becomes hidden all of a sudden, as for a person who grows.
+Eigen::Vector2f heading_of_who_lost_sight(Compat compat) {
+  const test::TemporaryFolder folder;
+  folder.write("roads.txt", kRoads);
+  std::string behavior = walk_to(10, 0);
+  behavior.insert(behavior.find("<State"), R"(<EventSystem>
+    <Target name="them" type="named_state_member" state="Start" is_member="1"/>
+    <Effect name="grow" type="set_agent_property" property="r" dist="c" value="1.2"/>
+    <Event name="e"><Trigger type="external" name="now"/><Response effect="grow" target="them"/></Event>
+  </EventSystem>)");
+  Simulation crowd(folder.write("s.xml", test::scene_with(test::agent_at(0, -5), "", "Start",
+                                                          test::obstacles(kBox))),
+                   folder.write("b.xml", behavior), {.compat = compat});
+  while (crowd.positions()[0].x() < 1) crowd.step();
+  crowd.fire("now");
+  crowd.step();
+  return crowd.preferred_velocity(0).normalized();
+}
+
+TEST(RoadMap, WhoLosesSightOfAPlaceLooksForAnotherWayOrGoesBackAsInMenge) {
+  const Eigen::Vector2f to_next(1, 0);
+  EXPECT_GT(heading_of_who_lost_sight(Compat::none).dot(to_next), 0.99F) << "by way of (2, -5)";
+  EXPECT_LT(heading_of_who_lost_sight(Compat::menge).dot(to_next), -0.99F);
+}
+
 TEST(RoadMap, AgentsFollowGoalsThatMove) {
   Simulation crowd = load(test::agent_at(0, 0), 10, -3);
   for (int i = 0; i < 20; ++i) crowd.step();
