@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -108,37 +109,71 @@ class Reader {
 constexpr double kHighestSeed = std::numeric_limits<std::uint32_t>::max();
 
 /// Nothing when the group is optional and its `dist` is not given.
-std::optional<std::string> read_kind(const Element& element, Reader& reader,
-                                     const AttributeSpec& spec, const std::string& name,
-                                     std::string_view kinds, const std::string& expected) {
+std::optional<std::string_view> read_kind(const Element& element, Reader& reader,
+                                          const AttributeSpec& spec, const std::string& name,
+                                          std::span<const std::string_view> kinds) {
+  constexpr std::array<std::string_view, 3> kMeanings = {" (constant)", " (uniform)", " (normal)"};
   const auto given = reader.find(name);
   if (!given && spec.presence == Presence::optional) return std::nullopt;
-  if (!given) element.fail_attribute(name, "nothing", expected);
-  if (given->size() != 1 || kinds.find(given->front()) == std::string_view::npos) {
-    element.fail_attribute(name, in_quotes(*given), expected);
+  std::string expected;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    expected += fmt::format("{}{}{}", i == 0 ? "one of " : ", ", kinds[i],
+                            i < kMeanings.size() ? kMeanings[i] : "");
   }
-  return std::string(*given);
+  if (!given) element.fail_attribute(name, "nothing", expected);
+  if (std::find(kinds.begin(), kinds.end(), *given) == kinds.end()) {
+    element.fail_attribute(name, in_quotes(*given) + did_you_mean(*given, kinds), expected);
+  }
+  return *given;
+}
+
+/// What limits a distribution that has not the form `c` or `u`: those given, within those of what
+/// is drawn; a normal one, which Menge has too, goes on unlimited where none is given.
+void read_limits(const Element& element, Reader& reader, const AttributeSpec& spec,
+                 Distribution& made) {
+  const std::string prefix(spec.name);
+  const auto least = reader.find(prefix + "at_least");
+  const auto most = reader.find(prefix + "at_most");
+  if (made.kind == Distribution::Kind::normal && !least && !most) return;
+  made.at_least = spec.min;
+  made.at_most = spec.max;
+  if (least) made.at_least = reader.number(prefix + "at_least", *least, spec.min, spec.max);
+  if (most) made.at_most = reader.number(prefix + "at_most", *most, made.at_least, spec.max);
+  constexpr double kTooFew = 1e-6;
+  if (made.share_between_limits() > kTooFew) return;
+  element.fail_attribute(
+      prefix + (most && !least ? "at_most" : "at_least"),
+      fmt::format("limits of {:.6g} and {:.6g}, between which there is less than one in a million "
+                  "of the values",
+                  made.at_least, made.at_most),
+      "limits about the distribution's middle");
 }
 
 std::optional<Distribution> read_distribution(const Element& element, Reader& reader,
                                               const AttributeSpec& spec) {
   const std::string prefix(spec.name);
-  const auto kind = read_kind(element, reader, spec, prefix + "dist", "cun",
-                              "c (constant), u (uniform) or n (normal)");
+  const std::span<const DistributionForm> forms = distribution_forms();
+  std::vector<std::string_view> words;
+  for (const DistributionForm& form : forms) words.push_back(form.word);
+  const auto kind = read_kind(element, reader, spec, prefix + "dist", words);
   if (!kind) return std::nullopt;
-  const auto read = [&](const char* name, double min) {
-    return reader.require_number(prefix + name, min, spec.max);
+  const DistributionForm& form =
+      *std::find_if(forms.begin(), forms.end(), [&](const auto& f) { return f.word == *kind; });
+  const auto read = [&](std::size_t number) {
+    const DistributionForm::Parameter& parameter = form.parameters[number];
+    return reader.require_number(prefix + std::string(parameter.name),
+                                 parameter.is_a_value ? spec.min : parameter.min,
+                                 parameter.is_a_value ? spec.max : parameter.max);
   };
   Distribution made;
-  if (*kind == "c") {
-    made = Distribution::constant(read("value", spec.min));
-  } else if (*kind == "u") {
-    const double low = read("min", spec.min);
-    made = {Distribution::Kind::uniform, low, read("max", low), {}};
-  } else {
-    const double mean = read("mean", spec.min);
-    made = {Distribution::Kind::normal, mean, read("stddev", 0), {}};
+  made.kind = form.kind;
+  made.first = read(0);
+  if (form.parameters.size() > 1) made.second = read(1);
+  if (form.kind == Distribution::Kind::uniform && made.second < made.first) {
+    element.fail_attribute(prefix + "max", fmt::format("{:.6g}", made.second),
+                           Reader::expected_number("a number", made.first, spec.max));
   }
+  if (form.has_limits) read_limits(element, reader, spec, made);
   const std::string seed_name = prefix + "seed";
   if (const auto seed = reader.find(seed_name)) {
     made.seed = static_cast<std::uint64_t>(reader.integer(seed_name, *seed, 0, kHighestSeed));
@@ -148,7 +183,8 @@ std::optional<Distribution> read_distribution(const Element& element, Reader& re
 
 std::optional<Distribution2> read_distribution_2(const Element& element, Reader& reader,
                                                  const AttributeSpec& spec) {
-  const auto kind = read_kind(element, reader, spec, "dist", "cu", "c (constant) or u (uniform)");
+  constexpr std::array<std::string_view, 2> kKinds = {"c", "u"};
+  const auto kind = read_kind(element, reader, spec, "dist", kKinds);
   if (!kind) return std::nullopt;
   const auto read = [&](const char* name, double min) {
     return static_cast<float>(reader.require_number(name, min, spec.max));

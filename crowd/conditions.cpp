@@ -15,19 +15,34 @@ class Always : public Condition {
   bool is_always() const override { return true; }
 };
 
+/// Somebody else of an agent's social group who is in the same state, if there is anybody.
+std::optional<std::size_t> fellow_in_state(const Crowd& crowd, std::size_t agent) {
+  const Agents& agents = crowd.agents;
+  if (agents.social_group[agent] < 0) return std::nullopt;
+  for (const std::uint32_t fellow : crowd.social_groups[agents.social_group[agent]]) {
+    const bool has_entered = agents.present[fellow] != 0 && agents.entry[fellow] > 0;
+    const bool there = has_entered && agents.state[fellow] == agents.state[agent];
+    if (fellow != agent && there) return fellow;
+  }
+  return std::nullopt;
+}
+
 /// True some time after the state was entered.
 class Timer : public Condition {
  public:
   /// The same for all.
   explicit Timer(double delay_s, std::size_t agent_count)
       : due_s_(agent_count), delay_s_(delay_s) {}
-  /// Another one for each agent and entry.
-  Timer(const Sampler& delay_s, std::size_t agent_count)
-      : due_s_(agent_count), delays_s_(delay_s) {}
+  /// Another one for each agent and entry; `together`: who enters where others of the social group
+  /// wait goes on when they do.
+  Timer(const Sampler& delay_s, bool together, std::size_t agent_count)
+      : due_s_(agent_count), delays_s_(delay_s), together_(together) {}
 
   void enter(const Crowd& crowd, std::size_t agent) override {
     if (delays_s_) delay_s_ = (*delays_s_)(agent, crowd.agents.entry[agent]);
     due_s_[agent] = crowd.time_s() + delay_s_;
+    if (!together_) return;
+    if (const auto fellow = fellow_in_state(crowd, agent)) due_s_[agent] = due_s_[*fellow];
   }
 
   bool holds(const Crowd& crowd, std::size_t agent) const override {
@@ -39,6 +54,7 @@ class Timer : public Condition {
   std::vector<double> due_s_;
   double delay_s_ = 0;
   std::optional<Sampler> delays_s_;
+  bool together_ = false;
 };
 
 class GoalReached : public Condition {
@@ -143,7 +159,7 @@ std::unique_ptr<Condition> make_timer(const Element& element, const Attributes& 
   element.require_no_children();
   if (attributes.boolean("per_agent")) {
     return std::make_unique<Timer>(context.make_sampler(attributes.distribution("")),
-                                   context.agent_count);
+                                   attributes.boolean("together"), context.agent_count);
   }
   // The same for the copies too.
   const bool is_copy = std::exchange(context.is_copy, false);
@@ -166,6 +182,9 @@ std::vector<ConditionRegistry::Entry> general_conditions() {
       {"timer",
        "true that many seconds after the state was entered",
        {boolean("per_agent", "1: a new draw per agent and entry; 0: one draw for all"),
+        optional(
+            boolean("together", "1: a social group shares the draw of whoever of it enters first"),
+            "0"),
         distribution("", "delay in s", 0)},
        make_timer},
       {"goal_reached",

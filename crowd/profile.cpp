@@ -82,8 +82,9 @@ void load_common(const Element& element, Profile& profile, MengeSequences& seque
   load_variables(element, attributes, variables, sequences);
   const Distribution& neighbors =
       profile.properties[static_cast<std::size_t>(Property::max_neighbors)].distribution;
-  if (neighbors.first != std::round(neighbors.first) ||
-      neighbors.second != std::round(neighbors.second)) {
+  const bool is_whole = neighbors.first == std::round(neighbors.first) &&
+                        neighbors.second == std::round(neighbors.second);
+  if (!is_whole && neighbors.kind <= Distribution::Kind::normal) {
     element.fail_attribute("max_neighbors", fmt::format("{}", neighbors.first), "a whole number");
   }
 }

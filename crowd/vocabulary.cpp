@@ -136,6 +136,36 @@ VocabularyKind model_parameters() {
   return kind;
 }
 
+VocabularyKind distributions() {
+  VocabularyKind kind{
+      "Distributions",
+      "the value of an attribute `dist`, whose name may have something before it, as then have the "
+      "others: `displace_dist`, `displace_mean`; all but c, u and n are not Menge's",
+      {}};
+  for (const DistributionForm& form : distribution_forms()) {
+    VocabularyEntry entry{std::string(form.word), std::string(form.help), {}};
+    for (const DistributionForm::Parameter& parameter : form.parameters) {
+      entry.attributes.push_back(
+          {.name = std::string(parameter.name),
+           .type = "number",
+           .required = true,
+           .range = parameter.is_a_value ? std::string() : range_of(parameter.min, parameter.max),
+           .help = std::string(parameter.help)});
+    }
+    if (form.has_limits) {
+      entry.attributes.push_back(
+          {.name = "at_least", .type = "number", .help = "lower values are not drawn"});
+      entry.attributes.push_back(
+          {.name = "at_most", .type = "number", .help = "higher values are not drawn"});
+    }
+    entry.attributes.push_back({.name = "seed",
+                                .type = "integer",
+                                .help = "fixes what is drawn whatever the run's seed is"});
+    kind.entries.push_back(std::move(entry));
+  }
+  return kind;
+}
+
 VocabularyKind properties() {
   VocabularyEntry common{"Common", "what all models know of an agent", {}};
   for (const PropertySpec& spec : kProperties) {
@@ -183,6 +213,7 @@ std::vector<VocabularyKind> vocabulary() {
       of(event_trigger_registry(), "Triggers", "<Trigger> in <Event>"),
       of(event_target_registry(), "Targets of events", "<Target> in <EventSystem>"),
       of(event_effect_registry(), "Effects of events", "<Effect> in <EventSystem>"),
+      distributions(),
   };
   std::erase_if(all, [](const VocabularyKind& kind) { return kind.entries.empty(); });
   return all;

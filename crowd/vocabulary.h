@@ -11,8 +11,8 @@ struct VocabularyAttribute {
   std::string name;  ///< "dist ..." stands for the attributes of a distribution
   std::string type;  ///< "number", "one of linear, quadratic", ...
   bool required = false;
-  std::string default_text;  ///< "" when there is none
-  std::string range;         ///< "0 to 100", "" when there is none worth saying
+  std::string default_text = {};  ///< "" when there is none
+  std::string range = {};         ///< "0 to 100", "" when there is none worth saying
   std::string help;
 };
 

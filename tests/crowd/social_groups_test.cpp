@@ -128,6 +128,40 @@ TEST(SocialGroups, PairsWalkAbreast) {
   EXPECT_LT(std::abs(apart.y()), 1.2F);
 }
 
+/// By group: when each of its members has begun to walk.
+std::map<int, std::vector<double>> starts_of_groups(const std::string& timer) {
+  Simulation crowd =
+      test::load(street(R"(<SocialGroups share="0.5"/>)", 200),
+                 R"(<BFSM>
+  <State name="Walk" final="0"/><State name="Go" final="1"/>
+  <Transition from="Walk" to="Go"><Condition type="timer" per_agent="1" )" +
+                     timer + R"( dist="weibull" shape="2" scale="20"/></Transition></BFSM>)");
+  std::vector<double> times(crowd.agent_count(), -1);
+  while (!crowd.all_final()) {
+    crowd.step();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (times[i] < 0 && test::state_of(crowd, i) == "Go") times[i] = crowd.time_s();
+    }
+  }
+  std::map<int, std::vector<double>> starts;
+  for (const auto& [number, members] : groups_of(crowd)) {
+    for (const std::size_t member : members) starts[number].push_back(times[member]);
+  }
+  return starts;
+}
+
+TEST(SocialGroups, StartTogetherIfTheTimerSaysSo) {
+  int apart = 0;
+  for (const auto& [number, times] : starts_of_groups("")) apart += times[0] != times[1] ? 1 : 0;
+  EXPECT_GT(apart, 20);
+  std::vector<double> starts;
+  for (const auto& [number, times] : starts_of_groups(R"(together="1")")) {
+    for (const double time : times) EXPECT_EQ(time, times.front()) << "group " << number;
+    starts.push_back(times.front());
+  }
+  EXPECT_NE(starts.front(), starts.back()) << "every group in its own time";
+}
+
 TEST(SocialGroups, ShareTheirGoals) {
   std::string goals;
   for (int i = 0; i < 40; ++i) {

@@ -37,9 +37,9 @@ TEST(Vocabulary, HasEveryConditionWithItsAttributes) {
   EXPECT_FALSE(reached.attributes[0].required);
   EXPECT_FALSE(reached.attributes[0].help.empty());
   const VocabularyEntry& timer = entry_of(conditions, "timer");
-  ASSERT_EQ(timer.attributes.size(), 2U);
+  ASSERT_EQ(timer.attributes.size(), 3U);
   EXPECT_TRUE(timer.attributes[0].required);
-  EXPECT_EQ(timer.attributes[1].name, "dist ...");
+  EXPECT_EQ(timer.attributes[2].name, "dist ...");
 }
 
 TEST(Vocabulary, HasEveryModelWithItsParameters) {
