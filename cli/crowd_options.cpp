@@ -11,7 +11,8 @@ constexpr int kMostSubSteps = 1000;
 constexpr int kMostThreads = 1024;
 
 void add_run_options(CLI::App& command, CrowdArguments& arguments) {
-  command.add_option("project", arguments.project_file, "Menge project file (docs/crowd.md)");
+  command.add_option("project,-p,--project", arguments.project_file,
+                     "Menge project file (docs/crowd.md)");
   command.add_option("-s,--scene", arguments.scene_file, "Scene file instead of the project's");
   command.add_option("-b,--behavior", arguments.behavior_file,
                      "Behaviour file instead of the project's");
@@ -20,13 +21,14 @@ void add_run_options(CLI::App& command, CrowdArguments& arguments) {
       .add_option("-d,--duration", arguments.duration_s,
                   "Longest time to simulate, in s, instead of the project's")
       ->check(CLI::Range(0.0, kLongestRunS));
-  command.add_option("-r,--random", arguments.seed, "Seed instead of the project's");
+  command.add_option("-r,--random", arguments.seed,
+                     "Seed instead of the project's (0 is taken for 1)");
   command
       .add_option("-t,--time-step", arguments.time_step_s,
                   "Time step in s instead of the project's or scene's")
       ->check(CLI::Range(kShortestStepS, kLongestStepS));
   command
-      .add_option("--sub-steps", arguments.sub_steps,
+      .add_option("--sub-steps,--subSteps", arguments.sub_steps,
                   "Steps in between that are not recorded, per time step")
       ->check(CLI::Range(0, kMostSubSteps));
   command
@@ -63,10 +65,18 @@ void add_output_options(CLI::App& command, CrowdArguments& arguments) {
       ->check(CLI::NonNegativeNumber)
       ->needs(positions);
   command.add_flag("-q,--quiet", arguments.quiet, "Say nothing but errors");
-  auto* list = command.add_flag("-l,--list", arguments.list,
+  auto* list = command.add_flag("-l,-L,--list", arguments.list,
                                 "Print all that the files may say, and run nothing");
   command.add_flag("--json", arguments.json, "Print the list as JSON")->needs(list);
   command.add_flag("--markdown", arguments.markdown, "Print the list as docs/ has it")->needs(list);
+}
+
+/// What Menge's program takes and is of no use without its viewer.
+void add_ignored_options(CLI::App& command, CrowdArguments& arguments) {
+  command.add_option("--view", arguments.ignored_view, "As Menge's, for its viewer; ignored");
+  command.add_option("-u,--dumpPath", arguments.ignored_dump_path,
+                     "As Menge's, for its viewer; ignored");
+  command.add_flag("--verbose", arguments.ignored_verbose, "As Menge's; ignored");
 }
 
 }  // namespace
@@ -74,6 +84,7 @@ void add_output_options(CLI::App& command, CrowdArguments& arguments) {
 void add_crowd_options(CLI::App& command, CrowdArguments& arguments) {
   add_run_options(command, arguments);
   add_output_options(command, arguments);
+  add_ignored_options(command, arguments);
 }
 
 crowd::Project project_of(const CrowdArguments& arguments) {
@@ -91,7 +102,13 @@ crowd::Project project_of(const CrowdArguments& arguments) {
   if (arguments.duration_s) project.duration_s = *arguments.duration_s;
   if (arguments.time_step_s) project.options.time_step_s = arguments.time_step_s;
   if (arguments.sub_steps) project.options.sub_steps = *arguments.sub_steps;
-  if (arguments.seed) project.options.seed = *arguments.seed;
+  if (arguments.seed) {
+    project.options.seed = crowd::seed_or_default(*arguments.seed);
+    if (*arguments.seed == 0) {
+      project.warnings.push_back({"", "--random", "0, which makes every run of Menge another one",
+                                  "a seed above 0; here it is taken for 1"});
+    }
+  }
   return project;
 }
 

@@ -32,6 +32,9 @@ struct CrowdArguments {
   bool list = false;
   bool json = false;
   bool markdown = false;
+  std::string ignored_view;
+  std::string ignored_dump_path;
+  bool ignored_verbose = false;
 };
 
 void add_crowd_options(CLI::App& command, CrowdArguments& arguments);

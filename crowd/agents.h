@@ -39,12 +39,12 @@ constexpr float kRadiansPerDegree = 0.017453292519943295F;
 /// By Property. The limits hold at any time: what actions do is clamped to them.
 constexpr std::array<PropertySpec, kPropertyCount> kProperties = {{
     {"max_speed", 2.5F, 0, 100, 1, "highest speed in m/s"},
-    {"max_accel", 2, 0, 1e4F, 1, "highest change of velocity in m/s^2"},
+    {"max_accel", 2, 0, 1e9F, 1, "highest change of velocity in m/s^2"},
     {"pref_speed", 1.34F, 0, 100, 1, "speed when nothing is in the way, in m/s"},
-    {"max_angle_vel", 360, 0, 1e4F, kRadiansPerDegree, "fastest turn in degrees/s"},
+    {"max_angle_vel", 360, 0, 1e6F, kRadiansPerDegree, "fastest turn in degrees/s"},
     {"neighbor_dist", 5, 0, 1000, 1, "how far others and obstacles are noticed, in m"},
     {"r", 0.2F, 0.01F, 100, 1, "radius in m"},
-    {"priority", 0, 0, 1000, 1, "right of way"},
+    {"priority", 0, -1000, 1000, 1, "right of way"},
     {"max_neighbors", 10, 0, 1000, 1, "how many others are noticed"},
 }};
 

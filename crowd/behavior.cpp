@@ -280,7 +280,10 @@ std::vector<std::string> load_state_names(const Element& bfsm) {
   std::vector<std::string> names;
   for (const Element& child : bfsm.children()) {
     if (child.name() != "State") continue;
-    names.push_back(Attributes(child, state_attributes()).text("name"));
+    const std::string_view name = child.attribute("name").value_or("");
+    // What else there is to say of its attributes is said when the state is made.
+    names.push_back(name.empty() ? Attributes(child, state_attributes()).text("name")
+                                 : std::string(name));
     if (std::count(names.begin(), names.end(), names.back()) > 1) {
       child.fail_attribute("name", in_quotes(names.back()) + " again", "a name of its own");
     }

@@ -185,7 +185,7 @@ std::vector<ConditionRegistry::Entry> general_conditions() {
         optional(
             boolean("together", "1: a social group shares the draw of whoever of it enters first"),
             "0"),
-        distribution("", "delay in s", 0)},
+        distribution("", "delay in s")},
        make_timer},
       {"goal_reached",
        "the agent's centre is in its goal, or near it",

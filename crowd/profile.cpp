@@ -69,9 +69,7 @@ void load_common(const Element& element, Profile& profile, MengeSequences& seque
     variables.push_back({spec.name, spec.min, spec.max, spec.help, "", &profile.properties[i]});
   }
   AttributeTable table = variable_attributes(variables);
-  table.push_back(
-      optional(integer("obstacleSet", "bits of the obstacle classes in the way", 0, kHighestMask)));
-  table.push_back(optional(integer("class", "a number for reports", 0, kHighestId)));
+  for (const AttributeSpec& spec : fixed_common_attributes()) table.push_back(spec);
   const Attributes attributes(element, table);
   if (attributes.has("obstacleSet")) {
     profile.obstacle_mask = static_cast<std::uint32_t>(attributes.integer("obstacleSet"));
@@ -153,6 +151,14 @@ int sample_integer(const ProfileValue& value, Random random) {
 }
 
 }  // namespace
+
+AttributeTable fixed_common_attributes() {
+  return {
+      optional(
+          integer("obstacleSet", "bits of the obstacle classes in the way; all", 0, kHighestMask)),
+      optional(integer("class", "a number for reports and clear_AABB; 0", 0, kHighestId)),
+  };
+}
 
 bool is_model_tag(std::string_view name) {
   static constexpr std::array<std::string_view, 9> kTags = {"ORCA",      "PedVO",      "Helbing",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowd/agents.h"
+#include "crowd/attributes.h"
 #include "crowd/distribution.h"
 #include "crowd/menge_random.h"
 #include "crowd/model.h"
@@ -34,6 +35,9 @@ Profile load_profile(const Element& element, const std::vector<Profile>& earlier
 
 /// Gives agent `agent` what its profile says, drawn with the run's seed.
 void apply_profile(const Profile& profile, std::uint64_t seed, std::size_t agent, Agents& agents);
+
+/// Those of <Common> that a <Property> cannot give.
+AttributeTable fixed_common_attributes();
 
 /// The elements that carry other models' parameters, which a scene may always hold.
 bool is_model_tag(std::string_view name);

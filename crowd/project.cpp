@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kHighestSeed = std::numeric_limits<std::uint32_t>::max();
 constexpr double kLongestRunS = 1e7;
-constexpr std::uint64_t kSeedInsteadOfClock = 1;
 
 template <std::size_t N>
 std::size_t index_of(std::string_view word, const std::array<std::string_view, N>& words,
@@ -52,13 +51,12 @@ fs::path require_file(const Element& element, const Attributes& attributes, cons
 }
 
 std::uint64_t seed_of(const Element& element, const Attributes& attributes) {
-  const long long given = attributes.integer("random");
-  if (given != 0) return static_cast<std::uint64_t>(given);
-  if (element.attribute("random")) {
+  const auto given = static_cast<std::uint64_t>(attributes.integer("random"));
+  if (given == 0 && element.attribute("random")) {
     element.warn_attribute("random", "0, which makes every run of Menge another one; here it is 1",
                            "a seed above 0");
   }
-  return kSeedInsteadOfClock;
+  return seed_or_default(given);
 }
 
 std::string model_of(const Element& element, const Attributes& attributes) {

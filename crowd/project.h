@@ -32,6 +32,9 @@ struct Project {
   std::vector<Problem> warnings = {};  ///< what was ignored
 };
 
+/// Menge takes the clock for a seed of 0; here that is 1, so that every run can be repeated.
+constexpr std::uint64_t seed_or_default(std::uint64_t seed) { return seed != 0 ? seed : 1; }
+
 /// The attributes of <Project>.
 AttributeTable project_attributes();
 

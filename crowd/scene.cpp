@@ -16,10 +16,7 @@ namespace {
 
 void load_spatial_query(const Element& element, Crowd& crowd) {
   element.require_no_children();
-  const Attributes attributes(
-      element, {word("type", {"kd-tree", "nav_mesh"}, "how neighbours are found; a grid serves"),
-                optional(text("file_name", "a .nav file, which is not needed here")),
-                optional(boolean("test_visibility", "1: walls hide neighbours"), "0")});
+  const Attributes attributes(element, spatial_query_attributes());
   crowd.test_visibility = attributes.boolean("test_visibility");
 }
 
@@ -42,6 +39,13 @@ void mark(const Element& element, bool& seen) {
 }
 
 }  // namespace
+
+AttributeTable spatial_query_attributes() {
+  return {
+      word("type", {"kd-tree", "nav_mesh"}, "how neighbours are found; not used: a grid serves"),
+      optional(text("file_name", "a .nav file; not used")),
+      optional(boolean("test_visibility", "1: walls hide neighbours"), "0")};
+}
 
 Scene load_scene(const Element& experiment, const std::vector<std::string>& state_names,
                  const ModelEntry& model, MengeSequences& sequences, Crowd& crowd) {

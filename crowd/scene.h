@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "crowd/attributes.h"
 #include "crowd/behavior.h"
 #include "crowd/crowd.h"
 #include "crowd/menge_random.h"
@@ -18,6 +19,9 @@ struct Scene {
   std::vector<std::unique_ptr<Process>> processes;      ///< arrivals
   std::vector<std::unique_ptr<VelModifier>> modifiers;  ///< social groups; before the file's own
 };
+
+/// The attributes of <SpatialQuery>.
+AttributeTable spatial_query_attributes();
 
 /// Reads an <Experiment> into `crowd`, whose seed and compat are set: time step, obstacles and
 /// agents with their properties, positions and first states. Throws InputError.

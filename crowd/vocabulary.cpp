@@ -14,7 +14,9 @@
 #include "crowd/model.h"
 #include "crowd/obstacle_sets.h"
 #include "crowd/panic.h"
+#include "crowd/profile.h"
 #include "crowd/project.h"
+#include "crowd/scene.h"
 #include "crowd/social_groups.h"
 
 namespace throng::crowd {
@@ -175,8 +177,12 @@ VocabularyKind properties() {
                                  .range = range_of(spec.min, spec.max),
                                  .help = std::string(spec.help)});
   }
+  for (const VocabularyAttribute& attribute : described(fixed_common_attributes())) {
+    common.attributes.push_back(attribute);
+  }
   return {"Agents' properties",
-          "an element of <AgentProfile>; each attribute may be a <Property name dist ...> instead",
+          "an element of <AgentProfile>; each attribute but the last two may be a <Property name "
+          "dist ...> instead",
           {std::move(common)}};
 }
 
@@ -188,6 +194,8 @@ std::vector<VocabularyKind> vocabulary() {
           project_attributes()),
       pedestrian_models(),
       model_constants(),
+      one("SpatialQuery", "an element of <Experiment>", "who sees whom",
+          spatial_query_attributes()),
       of(elevation_registry(), "Elevations", "<Elevation> in <Experiment>"),
       of(obstacle_set_registry(), "Obstacle sets", "<ObstacleSet> in <Experiment>"),
       one("SocialGroups", "an element of <Experiment>", "pairs and small groups who walk together",

@@ -4,6 +4,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/files.h"
 #include "crowd/suggest.h"
@@ -90,12 +91,23 @@ void Element::fail_unknown(std::string expected) const {
 }
 
 void Element::warn(std::string found, std::string expected) const {
-  source_->warnings.push_back(problem(std::move(found), std::move(expected)));
+  add_warning(problem(std::move(found), std::move(expected)));
 }
 
 void Element::warn_attribute(std::string_view attribute, std::string found,
                              std::string expected) const {
-  source_->warnings.push_back(attribute_problem(attribute, std::move(found), std::move(expected)));
+  add_warning(attribute_problem(attribute, std::move(found), std::move(expected)));
+}
+
+/// Once, also of an element that is read several times in a row.
+void Element::add_warning(Problem warning) const {
+  constexpr std::ptrdiff_t kInARow = 64;
+  std::vector<Problem>& all = source_->warnings;
+  const auto last = all.end() - std::min(kInARow, std::ssize(all));
+  const bool is_known = std::any_of(last, all.end(), [&](const Problem& known) {
+    return known.where == warning.where && known.found == warning.found;
+  });
+  if (!is_known) all.push_back(std::move(warning));
 }
 
 std::filesystem::path Element::file_beside(std::string_view file_name) const {

@@ -60,6 +60,7 @@ class Element {
 
  private:
   Problem problem(std::string found, std::string expected) const;
+  void add_warning(Problem warning) const;
   Problem attribute_problem(std::string_view attribute, std::string found,
                             std::string expected) const;
 

@@ -168,6 +168,21 @@ class Crowd(unittest.TestCase):
         self.assertIn("cancelled", said)
         self.assertEqual(self.names(), before)
 
+    def test_takes_menge_s_command_lines(self):
+        done = crowd("-p", self.project, "--view", "view.xml", "-u", "images", "--verbose", "--subSteps", "1", "-d", "1",
+                     "--scbVersion", "2.2", "-o", self.base / "o")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.base / "o.scb").exists())
+
+    def test_a_seed_of_0_is_one_of_1(self):
+        self.write(n=20, project='duration="2"')
+        written = []
+        for seed in ("0", "1", "2"):
+            done = crowd(self.project, "-r", seed, "--series", self.base / "s.csv")
+            self.assertEqual("taken for 1" in done.stderr, seed == "0", done.stderr)
+            written.append((self.base / "s.csv").read_text())
+        self.assertEqual(written[0], written[1])
+
     def test_lists_what_the_files_may_say(self):
         kinds = {kind["kind"]: kind for kind in json.loads(crowd("--list", "--json").stdout)}
         conditions = {entry["name"]: entry for entry in kinds["Conditions"]["entries"]}

@@ -119,6 +119,20 @@ TEST(Suggestions, AreMadeForAttributesElementsTypesAndWords) {
   EXPECT_THAT(found_in(R"(<SpatialQuery type="kdtree"/>)", mirror_behavior()), HasSubstr("second"));
 }
 
+TEST(Xml, SaysWhatItIgnoresOnce) {
+  // States' names are read before the states, and a transition once for each state that it leaves.
+  const std::string behavior = R"(<BFSM>
+  <State name="Start" final="0" speedPolicy="min"/><State name="B" final="0"/>
+  <State name="End" final="1"/>
+  <Transition from="Start,B" to="End" order="0"><Condition type="auto" weight="1"/></Transition>
+</BFSM>)";
+  const Simulation crowd = test::load(scene_with(agent_at(0, 0)), behavior);
+  const auto ignored = std::count_if(
+      crowd.warnings().begin(), crowd.warnings().end(),
+      [](const Problem& p) { return p.found.find("unknown attribute") != std::string::npos; });
+  EXPECT_EQ(ignored, 3);
+}
+
 TEST(Attributes, TakeWholeNumbersAndTruthAsMengesFilesWriteThem) {
   const std::string behavior = R"(<BFSM>
   <State name="Start" final="2"/>
