@@ -1,5 +1,7 @@
 #include "render/people_pass.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "render/device_palettes.h"
 #include "render/shaders.h"
 
 namespace throng::render {
@@ -16,7 +19,7 @@ namespace {
 /// A vertex on the device: the population's, and what its part says.
 struct DeviceVertex {
   skinning::Vertex vertex;
-  std::uint32_t part;  ///< texture layer, tint << 16
+  std::uint32_t part;  ///< texture layer, a portrait's second one << 12, tint << 24
 };
 
 /// What differs between people.
@@ -30,7 +33,7 @@ struct Instance {
   std::array<std::int32_t, 2> shift;
   std::array<float, 2> facing;  ///< cosine and sine of the heading
 };
-static_assert(sizeof(Instance) <= 64);
+static_assert(sizeof(Instance) == 60, "less than 64 bytes for each person and frame");
 
 using embedded::shader_light;
 using embedded::shader_person_frag;
@@ -78,12 +81,11 @@ skinning::Vertex heaviest_first(const skinning::Vertex& vertex) {
 
 /// Appends a part's triangles with its own copies of their vertices, since a vertex on the device
 /// belongs to one part.
-void append_part(const skinning::Mesh& mesh, const skinning::Part& part, std::uint32_t layer,
+void append_part(const skinning::Mesh& mesh, const skinning::Part& part, std::uint32_t info,
                  std::uint32_t first_vertex, std::vector<DeviceVertex>& vertices,
                  std::vector<std::uint32_t>& indices) {
   constexpr std::uint32_t kUnseen = ~0U;
   std::vector<std::uint32_t> copy_of(mesh.vertices.size(), kUnseen);
-  const std::uint32_t info = layer | (static_cast<std::uint32_t>(part.tint) << 16U);
   for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
     std::uint32_t& copy = copy_of[mesh.indices[i]];
     if (copy == kUnseen) {
@@ -108,11 +110,27 @@ std::array<std::uint32_t, 4> packed(const std::array<skinning::Rgb, skinning::kT
   return words;
 }
 
+/// What a shader may read of one buffer, in bytes.
+std::uint64_t largest_storage() {
+  GLint64 bytes = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+  return static_cast<std::uint64_t>(bytes);
+}
+
+/// What the shader knows of a part; `white` is the layer of those without a texture.
+std::uint32_t info_of(const skinning::Part& part, std::uint32_t white) {
+  const auto layer = [](std::int32_t number) { return static_cast<std::uint32_t>(number); };
+  const std::uint32_t texture = part.texture < 0 ? white : layer(part.texture);
+  const std::uint32_t shades = part.shades < 0 ? 0 : layer(part.shades);
+  check(std::max(texture, shades) < 1U << 12U, "twelve bits number the people's textures");
+  return texture | (shades << 12U) | (static_cast<std::uint32_t>(part.tint) << 24U);
+}
+
 }  // namespace
 
 PeoplePass::PeoplePass(const skinning::Population& population)
     : palettes_per_character_(population.palettes_per_character),
-      palettes_(make_buffer(population.palettes)),
+      palettes_(make_buffer(device_palettes(population, largest_storage()))),
       instances_(make_buffer()) {
   load_meshes(population);
   load_textures(population);
@@ -144,9 +162,7 @@ void PeoplePass::load_meshes(const skinning::Population& population) {
         range.first = static_cast<std::uint32_t>(indices.size());
         for (const skinning::Part& part : mesh.parts) {
           if (part.alpha_tested != alpha_tested) continue;
-          append_part(mesh, part,
-                      part.texture < 0 ? white_layer : static_cast<std::uint32_t>(part.texture),
-                      first_vertex, vertices, indices);
+          append_part(mesh, part, info_of(part, white_layer), first_vertex, vertices, indices);
         }
         range.count = static_cast<std::uint32_t>(indices.size()) - range.first;
       }
@@ -160,6 +176,14 @@ void PeoplePass::load_meshes(const skinning::Population& population) {
 void PeoplePass::load_textures(const skinning::Population& population) {
   const int size = std::max(population.texture_size, 1);
   const auto layers = static_cast<GLsizei>(population.textures.size() + 1);
+  GLint most_layers = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
+  if (layers > most_layers) {
+    throw InputError({"", "people", fmt::format("{} textures", layers - 1),
+                      fmt::format("at most {} on this graphics device (run `throng people build` "
+                                  "with a lower --count)",
+                                  most_layers - 1)});
+  }
   textures_ = make_texture(GL_TEXTURE_2D_ARRAY);
   const GLuint name = textures_.name();
   const auto mip_levels = std::bit_width(static_cast<unsigned>(size));

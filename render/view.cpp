@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "skinning/levels.h"
+
 namespace throng::render {
 
 namespace {
@@ -86,8 +88,12 @@ Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedB
 }
 
 std::size_t level_of_detail(double height_px, std::size_t levels) {
-  const std::size_t wanted = height_px > 160 ? 0 : height_px > 80 ? 1 : height_px > 25 ? 2 : 3;
-  return std::min(wanted, levels - 1);
+  std::size_t level = 0;
+  while (level + 1 < levels && level + 1 < skinning::kDetailLevels.size() &&
+         !(height_px > skinning::kDetailLevels[level].above_px)) {
+    ++level;
+  }
+  return level;
 }
 
 }  // namespace throng::render

@@ -54,8 +54,8 @@ bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& centre, double 
 Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedBox2d& area,
                                  double z);
 
-/// Level of detail for somebody whose standing height covers `height_px` pixels: 0 above 160, 1
-/// above 80, 2 above 25, else 3; at most the last of `levels` levels.
+/// Level of detail (skinning/levels.h) for somebody whose standing height covers `height_px`
+/// pixels; at most the last of `levels` levels.
 std::size_t level_of_detail(double height_px, std::size_t levels);
 
 }  // namespace throng::render

@@ -16,6 +16,7 @@
 #include "skinning/glb.h"
 #include "skinning/hull.h"
 #include "skinning/item_shapes.h"
+#include "skinning/levels.h"
 #include "skinning/makehuman.h"
 #include "skinning/notice.h"
 #include "skinning/packed.h"
@@ -31,13 +32,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 11;
-
-struct HullLevel {
-  std::size_t triangles;  // before the cuts along the borders of clothes, which add up to a half
-  float swell_m;          // so that silhouettes keep their area
-};
-constexpr std::array<HullLevel, 3> kHullLevels = {{{2450, 0.002F}, {590, 0.006F}, {280, 0.009F}}};
+constexpr int kBuilderVersion = 12;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMost = 1000;
@@ -149,9 +144,6 @@ class Bakery {
         clips_(standard_clips()) {
     for (const auto& [key, image] : wardrobe_.textures()) pngs_[key] = encode_png(image);
     pngs_[std::string(kItemTexture)] = encode_png(item_picture(texture_size_));
-    for (const HullLevel& level : kHullLevels) {
-      hulls_.push_back(simplify_skin(makehuman_, level.triangles, level.swell_m));
-    }
   }
 
   const std::vector<Clip>& clips() const { return clips_; }
@@ -172,14 +164,10 @@ class Bakery {
       asset.pictures[static_cast<std::size_t>(number)] = pngs_.at(key);
     }
     asset.levels.push_back(assemble(dressed.surfaces, textures));
-    const Portrait portrait(dressed, wardrobe_.textures(), texture_size_);
-    const Clothing clothing(dressed, wardrobe_.textures());
+    const Hull hull(dressed, wardrobe_.textures(), texture_size_);
     const auto picture = static_cast<int>(asset.pictures.size());
-    for (const HullTopology& topology : hulls_) {
-      asset.levels.push_back(make_hull(makehuman_, dressed, topology, portrait, clothing, picture));
-    }
-    asset.pictures.push_back(encode_png(portrait.picture(false)));
-    asset.pictures.push_back(encode_png(portrait.picture(true)));
+    asset.pictures.push_back(encode_png(hull.portrait().colours()));
+    asset.pictures.push_back(encode_png(hull.portrait().shades()));
 
     BakedPerson baked;
     baked.character.name = person.name;
@@ -192,8 +180,12 @@ class Bakery {
     Walker walker = walker_of(dressed.joints, dressed.stature_m, asset.levels.front());
     walker.manner = manner_of(baked.character);
     for (const Clip& clip : clips_) baked.motion += pack(dressed.joints, bake_clip(walker, clip));
-    for (std::size_t level = 0; level < asset.levels.size(); ++level) {
+    for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
+      if (level > 0) {
+        const std::size_t carried = item ? item->indices.size() / 3 : 0;
+        asset.levels.push_back(hull.level(kDetailLevels[level].triangles - carried, picture));
+      }
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
     }
     baked.glb = encode_glb(asset);
@@ -205,7 +197,6 @@ class Bakery {
   Wardrobe wardrobe_;
   int texture_size_;
   std::vector<Clip> clips_;
-  std::vector<HullTopology> hulls_;
   std::map<std::string, std::string> pngs_;
 };
 

@@ -66,23 +66,36 @@ class Reader {
     const std::string name = material.GetName().C_Str();
     const auto tint = std::find(kTintNames.begin(), kTintNames.end(), name);
     if (tint == kTintNames.end()) {
-      fail("material \"" + name + "\"", "none, top, bottom, hair, shoes or item");
+      fail("material \"" + name + "\"", "none, top, bottom, hair, shoes, item or portrait");
     }
     part.tint = static_cast<Tint>(tint - kTintNames.begin());
     int two_sided = 0;
     material.Get(AI_MATKEY_TWOSIDED, two_sided);
     part.alpha_tested = two_sided != 0;
-    aiString picture;
-    if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &picture) == aiReturn_SUCCESS ||
-        material.GetTexture(aiTextureType_DIFFUSE, 0, &picture) == aiReturn_SUCCESS) {
+    part.texture =
+        picture_of(material, pictures, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+    part.shades = picture_of(material, pictures, {aiTextureType_EMISSIVE});
+    if (part.tint == Tint::portrait && (part.texture < 0 || part.shades < 0)) {
+      fail("a portrait with one picture", "a base colour texture and an emissive one");
+    }
+  }
+
+  // The number of the first picture that there is; -1 for none.
+  std::int32_t picture_of(const aiMaterial& material, std::size_t pictures,
+                          std::initializer_list<aiTextureType> types) const {
+    for (const aiTextureType type : types) {
+      aiString picture;
+      if (material.GetTexture(type, 0, &picture) != aiReturn_SUCCESS) continue;
       const std::string reference = picture.C_Str();  // "*3" is embedded picture 3
       const bool embedded = reference.size() > 1 && reference.front() == '*' &&
                             reference.find_first_not_of("0123456789", 1) == std::string::npos;
-      part.texture = embedded ? std::stoi(reference.substr(1)) : -1;
-      if (!embedded || static_cast<std::size_t>(part.texture) >= pictures) {
+      const std::int32_t number = embedded ? std::stoi(reference.substr(1)) : -1;
+      if (!embedded || static_cast<std::size_t>(number) >= pictures) {
         fail("texture \"" + reference + "\"", "an embedded picture");
       }
+      return number;
     }
+    return -1;
   }
 
   void read_part(const aiMesh& source, std::size_t pictures, Mesh& mesh) const {

@@ -105,13 +105,15 @@ class Writer {
   }
 
   std::size_t material_of(const Part& part) {
-    const auto key = std::make_tuple(part.texture, part.tint, part.alpha_tested);
+    const auto key = std::make_tuple(part.texture, part.shades, part.tint, part.alpha_tested);
     const auto found = materials_.find(key);
     if (found != materials_.end()) return found->second;
     json surface = {{"metallicFactor", 0}, {"roughnessFactor", 0.9}};
     if (part.texture >= 0) surface["baseColorTexture"] = {{"index", part.texture}};
     json material = {{"name", kTintNames[static_cast<std::size_t>(part.tint)]},
                      {"pbrMetallicRoughness", surface}};
+    // Without a factor it does not shine, in other programs either.
+    if (part.shades >= 0) material["emissiveTexture"] = {{"index", part.shades}};
     if (part.alpha_tested) {
       material["alphaMode"] = "MASK";
       material["alphaCutoff"] = 0.5;
@@ -211,7 +213,7 @@ class Writer {
   const CharacterAsset* asset_;
   json document_;
   std::string binary_;
-  std::map<std::tuple<int, Tint, bool>, std::size_t> materials_;
+  std::map<std::tuple<int, int, Tint, bool>, std::size_t> materials_;
 };
 
 }  // namespace

@@ -4,46 +4,67 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <map>
-#include <set>
+#include <array>
+#include <limits>
+#include <numbers>
+
+#include "skinning/skeleton.h"
 
 namespace throng::skinning {
 
 namespace {
 
-using Triangles = std::vector<std::uint32_t>;
-
-// Closes every hole of a triangle mesh with a fan about its first vertex.
-void close_holes(Triangles& triangles) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (std::size_t at = 0; at < triangles.size(); at += 3) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      edges.emplace(triangles[at + corner], triangles[at + (corner + 1) % 3]);
-    }
+// Legs that touch would grow together; the arms are apart in the A-pose.
+Palette legs_apart(const DressedPerson& person) {
+  constexpr double kApart_rad = 8 * std::numbers::pi / 180;
+  Joints a_pose;
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    const BoneMatrix& matrix = person.to_neutral[bone];
+    a_pose[bone] =
+        matrix.leftCols<3>().transpose() * (person.joints[bone] - matrix.col(3));  // it is rigid
   }
-  std::map<std::uint32_t, std::uint32_t> next;  // along the border, the way a closing face runs
-  for (const auto& [from, to] : edges) {
-    if (!edges.contains({to, from})) next[to] = from;
+  Pose pose;
+  for (std::size_t bone = index_of(Bone::left_thigh); bone <= index_of(Bone::left_toe); ++bone) {
+    pose.rotation[bone] = turn_x(kApart_rad);
   }
-  while (!next.empty()) {
-    std::vector<std::uint32_t> loop;
-    for (auto at = next.begin(); at != next.end(); at = next.find(loop.back())) {
-      loop.push_back(at->second);
-      next.erase(at);
-    }
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-      triangles.insert(triangles.end(), {loop[0], loop[i], loop[i + 1]});
-    }
+  for (std::size_t bone = index_of(Bone::right_thigh); bone <= index_of(Bone::right_toe); ++bone) {
+    pose.rotation[bone] = turn_x(-kApart_rad);
   }
+  return pose_palette(a_pose, pose);
 }
 
-std::vector<Eigen::Vector3f> vertex_normals(const std::vector<Eigen::Vector3f>& positions,
-                                            const Triangles& indices) {
-  std::vector<Eigen::Vector3f> normals(positions.size(), Eigen::Vector3f::Zero());
+std::vector<PosedSurface> posed_by(const Palette& palette, const DressedPerson& person,
+                                   const std::map<std::string, Image>& textures) {
+  std::vector<PosedSurface> posed;
+  for (const Surface& surface : person.surfaces) {
+    PosedSurface& one = posed.emplace_back();
+    one.surface = &surface;
+    one.image = &textures.at(surface.texture);
+    one.points.reserve(surface.fitted.size());
+    for (std::size_t i = 0; i < surface.fitted.size(); ++i) {
+      one.points.push_back(move_point(surface.fitted[i], surface.weights[i], palette));
+    }
+  }
+  return posed;
+}
+
+BoneMatrix mixed(const Palette& palette, const BoneWeights& weights) {
+  BoneMatrix matrix = BoneMatrix::Zero();
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) matrix += weights[bone] * palette[bone];
+  return matrix;
+}
+
+Eigen::Vector3f moved_back(const Eigen::Vector3f& point, const BoneMatrix& matrix) {
+  return matrix.leftCols<3>().inverse() * (point - matrix.col(3));
+}
+
+// Weighted by the triangles' areas.
+std::vector<Eigen::Vector3f> normals_of(const std::vector<Eigen::Vector3f>& points,
+                                        const std::vector<std::uint32_t>& indices) {
+  std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
   for (std::size_t at = 0; at < indices.size(); at += 3) {
-    const Eigen::Vector3f& a = positions[indices[at]];
-    const Eigen::Vector3f normal =
-        (positions[indices[at + 1]] - a).cross(positions[indices[at + 2]] - a);
+    const Eigen::Vector3f& a = points[indices[at]];
+    const Eigen::Vector3f normal = (points[indices[at + 1]] - a).cross(points[indices[at + 2]] - a);
     for (std::size_t corner = 0; corner < 3; ++corner) normals[indices[at + corner]] += normal;
   }
   for (Eigen::Vector3f& normal : normals) {
@@ -52,195 +73,138 @@ std::vector<Eigen::Vector3f> vertex_normals(const std::vector<Eigen::Vector3f>& 
   return normals;
 }
 
-BoneWeights mixed(const BoneWeights& a, const BoneWeights& b, float t) {
-  BoneWeights weights;
-  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-    weights[bone] = (1 - t) * a[bone] + t * b[bone];
-  }
-  return weights;
-}
-
-// A person's skin in the A-pose with what lies over it, refined until no triangle reaches across
-// the border of a garment.
-class HullBuilder {
- public:
-  HullBuilder(const MakeHuman& makehuman, const DressedPerson& person, const HullTopology& topology,
-              const Clothing& clothing)
-      : clothing_(&clothing), swell_m_(topology.swell_m) {
-    for (const std::uint32_t vertex : topology.vertices) {
-      points_.push_back(person.body[vertex]);
-      weights_.push_back(makehuman.weights()[vertex]);
-    }
-    normals_ = vertex_normals(points_, topology.indices);
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      covers_.push_back(clothing.over(points_[i], normals_[i], weights_[i]));
-    }
-    for (std::size_t at = 0; at < topology.indices.size(); at += 3) {
-      cut({topology.indices[at], topology.indices[at + 1], topology.indices[at + 2]});
-    }
-  }
-
-  Mesh mesh(const DressedPerson& person, const Portrait& portrait, int picture) const {
-    std::vector<Eigen::Vector3f> fitted(points_.size());
-    std::vector<Eigen::Vector3f> standing(points_.size());
-    Triangles all;
-    for (const auto& [unused, triangles] : by_tint_) {
-      all.insert(all.end(), triangles.begin(), triangles.end());
-    }
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      fitted[i] = points_[i] + (covers_[i].distance_m + swell_m_) * normals_[i];
-      standing[i] = move_point(fitted[i], weights_[i], person.to_neutral);
-      standing[i].z() = std::max(standing[i].z(), 0.0F);
-    }
-    const std::vector<Eigen::Vector3f> normals = vertex_normals(standing, all);
-    Mesh mesh;
-    for (const auto& [tint, triangles] : by_tint_) {
-      const auto first_index = static_cast<std::uint32_t>(mesh.indices.size());
-      std::map<std::pair<std::uint32_t, bool>, std::uint32_t> place;
-      for (std::size_t at = 0; at < triangles.size(); at += 3) {
-        const Eigen::Vector3f& a = fitted[triangles[at]];
-        const Eigen::Vector3f face =
-            (fitted[triangles[at + 1]] - a).cross(fitted[triangles[at + 2]] - a);
-        const bool front = face.x() >= 0;
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-          const std::uint32_t i = triangles[at + corner];
-          const auto [entry, is_new] =
-              place.try_emplace({i, front}, static_cast<std::uint32_t>(mesh.vertices.size()));
-          mesh.indices.push_back(entry->second);
-          if (!is_new) continue;
-          const Eigen::Vector2f uv = portrait.uv_of(fitted[i], front);
-          Vertex vertex{};
-          vertex.position = {standing[i].x(), standing[i].y(), standing[i].z()};
-          vertex.normal = {normals[i].x(), normals[i].y(), normals[i].z()};
-          vertex.uv = {uv.x(), uv.y()};
-          set_weights(vertex, weights_[i]);
-          mesh.vertices.push_back(vertex);
-        }
-      }
-      mesh.parts.push_back({first_index,
-                            static_cast<std::uint32_t>(mesh.indices.size()) - first_index,
-                            tint == Tint::none ? picture : picture + 1, tint, false});
-    }
-    return mesh;
-  }
-
- private:
-  using Corners = std::array<std::uint32_t, 3>;
-
-  void emit(Tint tint, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    by_tint_[tint].insert(by_tint_[tint].end(), {a, b, c});
-  }
-
-  // Splits a triangle where what lies over it changes, along a line between two of its edges.
-  void cut(const Corners& corner) {
-    const auto tint = [&](std::size_t i) { return covers_[corner[i]].tint; };
-    if (tint(0) == tint(1) && tint(1) == tint(2)) {
-      emit(tint(0), corner[0], corner[1], corner[2]);
-      return;
-    }
-    for (std::size_t apex = 0; apex < 3; ++apex) {
-      const std::size_t left = (apex + 1) % 3;
-      const std::size_t right = (apex + 2) % 3;
-      if (tint(left) != tint(right)) continue;
-      const std::uint32_t a = corner[apex];
-      const std::uint32_t b = corner[left];
-      const std::uint32_t c = corner[right];
-      const std::uint32_t ab = border_between(a, b);
-      const std::uint32_t ac = border_between(a, c);
-      emit(tint(apex), a, ab, ac);
-      emit(tint(left), ab, b, c);
-      emit(tint(left), ab, c, ac);
-      return;
-    }
-    // Three things meet: each gets the corner where it is, the rest goes to the first.
-    const std::uint32_t ab = border_between(corner[0], corner[1]);
-    const std::uint32_t bc = border_between(corner[1], corner[2]);
-    const std::uint32_t ca = border_between(corner[2], corner[0]);
-    emit(tint(0), corner[0], ab, ca);
-    emit(tint(1), ab, corner[1], bc);
-    emit(tint(2), ca, bc, corner[2]);
-    emit(tint(0), ab, bc, ca);
-  }
-
-  // The vertex on an edge where what lies over it changes; one for both triangles at the edge.
-  std::uint32_t border_between(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t from = std::min(a, b);
-    const std::uint32_t to = std::max(a, b);
+ClosedSurface simplified(const ClosedSurface& fine, std::size_t triangles) {
+  ClosedSurface coarse;
+  const std::size_t target = std::min(3 * triangles, fine.indices.size());
+  std::vector<std::uint32_t> indices(fine.indices.size());
+  indices.resize(meshopt_simplify(indices.data(), fine.indices.data(), fine.indices.size(),
+                                  fine.points.front().data(), fine.points.size(),
+                                  sizeof(Eigen::Vector3f), target, 1.0F, 0, nullptr));
+  std::map<std::uint32_t, std::uint32_t> place;
+  for (const std::uint32_t index : indices) {
     const auto [entry, is_new] =
-        borders_.try_emplace({from, to}, static_cast<std::uint32_t>(points_.size()));
-    if (!is_new) return entry->second;
-    float low = 0;
-    float high = 1;
-    Cover before = covers_[from];
-    Cover after = covers_[to];
-    constexpr int kSteps = 5;
-    for (int step = 0; step < kSteps; ++step) {
-      const float middle = 0.5F * (low + high);
-      const Cover cover = clothing_->over(point_on(from, to, middle), normal_on(from, to, middle),
-                                          mixed(weights_[from], weights_[to], middle));
-      if (cover.tint == covers_[from].tint) {
-        low = middle;
-        before = cover;
-      } else {
-        high = middle;
-        after = cover;
-      }
-    }
-    const float t = 0.5F * (low + high);
-    points_.push_back(point_on(from, to, t));
-    normals_.push_back(normal_on(from, to, t));
-    weights_.push_back(mixed(weights_[from], weights_[to], t));
-    covers_.push_back(before.distance_m > after.distance_m ? before : after);
-    return entry->second;
+        place.try_emplace(index, static_cast<std::uint32_t>(coarse.points.size()));
+    if (is_new) coarse.points.push_back(fine.points[index]);
+    coarse.indices.push_back(entry->second);
   }
-
-  Eigen::Vector3f point_on(std::uint32_t a, std::uint32_t b, float t) const {
-    return (1 - t) * points_[a] + t * points_[b];
-  }
-  Eigen::Vector3f normal_on(std::uint32_t a, std::uint32_t b, float t) const {
-    return ((1 - t) * normals_[a] + t * normals_[b]).normalized();
-  }
-
-  const Clothing* clothing_;
-  float swell_m_;
-  std::vector<Eigen::Vector3f> points_;  // on the skin
-  std::vector<Eigen::Vector3f> normals_;
-  std::vector<BoneWeights> weights_;
-  std::vector<Cover> covers_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> borders_;
-  std::map<Tint, Triangles> by_tint_;
-};
+  return coarse;
+}
 
 }  // namespace
 
-HullTopology simplify_skin(const MakeHuman& makehuman, std::size_t triangles, float swell_m) {
-  Triangles all;
-  for (const Quad& quad : makehuman.skin()) {
-    for (const std::size_t corner : {0, 1, 2, 0, 2, 3}) all.push_back(quad.vertex[corner]);
+Hull::Hull(const DressedPerson& person, const std::map<std::string, Image>& textures,
+           int picture_size)
+    : person_(&person),
+      apart_(legs_apart(person)),
+      posed_(posed_by(apart_, person, textures)),
+      portrait_(posed_, picture_size),
+      carving_(posed_),
+      fine_(carving_.surface()) {}
+
+BoneWeights Hull::weights_at(const Eigen::Vector3f& point) const {
+  constexpr std::size_t kNearest = 4;
+  struct Near {
+    float squared_m2 = std::numeric_limits<float>::max();
+    const BoneWeights* weights = nullptr;
+  };
+  std::array<Near, kNearest> nearest;
+  for (const PosedSurface& posed : posed_) {
+    if (posed.surface->painted) continue;
+    for (const std::uint32_t index : posed.surface->indices) {
+      const float squared_m2 = (posed.points[index] - point).squaredNorm();
+      if (squared_m2 >= nearest.back().squared_m2) continue;
+      const BoneWeights* weights = &posed.surface->weights[index];
+      const bool known = std::any_of(nearest.begin(), nearest.end(),
+                                     [&](const Near& near) { return near.weights == weights; });
+      if (known) continue;
+      nearest.back() = {squared_m2, weights};
+      std::sort(nearest.begin(), nearest.end(),
+                [](const Near& a, const Near& b) { return a.squared_m2 < b.squared_m2; });
+    }
   }
-  close_holes(all);
-  const std::vector<Eigen::Vector3f>& positions = makehuman.base_positions();
-  Triangles simple(all.size());
-  const std::size_t target = std::min(3 * triangles, all.size());
-  simple.resize(meshopt_simplify(simple.data(), all.data(), all.size(), positions.front().data(),
-                                 positions.size(), sizeof(Eigen::Vector3f), target, 1.0F, 0,
-                                 nullptr));
-  HullTopology topology;
-  topology.swell_m = swell_m;
-  std::map<std::uint32_t, std::uint32_t> place;
-  for (const std::uint32_t vertex : simple) {
-    const auto [entry, is_new] =
-        place.try_emplace(vertex, static_cast<std::uint32_t>(topology.vertices.size()));
-    if (is_new) topology.vertices.push_back(vertex);
-    topology.indices.push_back(entry->second);
+  constexpr float kBlur_m2 = 1e-4F;
+  BoneWeights mean{};
+  float sum = 0;
+  for (const Near& near : nearest) {
+    const float share = 1 / (near.squared_m2 + kBlur_m2);
+    sum += share;
+    for (std::size_t bone = 0; bone < kBoneCount; ++bone)
+      mean[bone] += share * (*near.weights)[bone];
   }
-  return topology;
+  for (float& weight : mean) weight /= sum;
+  return mean;
 }
 
-Mesh make_hull(const MakeHuman& makehuman, const DressedPerson& person,
-               const HullTopology& topology, const Portrait& portrait, const Clothing& clothing,
-               int picture) {
-  return HullBuilder(makehuman, person, topology, clothing).mesh(person, portrait, picture);
+// Moves the vertices along their normals until the triangles lie as much outside of the hull as
+// inside, so that silhouettes keep their area.
+void Hull::fit(ClosedSurface& coarse) const {
+  constexpr int kRounds = 6;
+  constexpr int kParts = 4;  // points per edge of a triangle, as many as tell inside from outside
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<Eigen::Vector3f> normals = normals_of(coarse.points, coarse.indices);
+    std::vector<float> outside(coarse.points.size(), 0);
+    std::vector<float> total(coarse.points.size(), 0);
+    for (std::size_t at = 0; at < coarse.indices.size(); at += 3) {
+      const std::uint32_t* corner = &coarse.indices[at];
+      const Eigen::Vector3f& a = coarse.points[corner[0]];
+      const Eigen::Vector3f ab = coarse.points[corner[1]] - a;
+      const Eigen::Vector3f ac = coarse.points[corner[2]] - a;
+      const float area = ab.cross(ac).norm();
+      for (int i = 0; i < kParts; ++i) {
+        for (int j = 0; i + j < kParts; ++j) {
+          const float u = (static_cast<float>(i) + 1 / 3.0F) / kParts;
+          const float v = (static_cast<float>(j) + 1 / 3.0F) / kParts;
+          const float distance = carving_.distance_m(a + u * ab + v * ac);
+          const std::array<float, 3> share = {area * (1 - u - v), area * u, area * v};
+          for (std::size_t k = 0; k < 3; ++k) {
+            outside[corner[k]] += share[k] * distance;
+            total[corner[k]] += share[k];
+          }
+        }
+      }
+    }
+    for (std::size_t i = 0; i < coarse.points.size(); ++i) {
+      if (total[i] > 0) coarse.points[i] -= outside[i] / total[i] * normals[i];
+    }
+  }
+}
+
+Mesh Hull::level(std::size_t triangles, int picture) const {
+  ClosedSurface coarse = simplified(fine_, triangles);
+  fit(coarse);
+  std::vector<Eigen::Vector3f> standing;
+  std::vector<BoneWeights> weights;
+  for (const Eigen::Vector3f& point : coarse.points) {
+    weights.push_back(weights_at(point));
+    const Eigen::Vector3f fitted = moved_back(point, mixed(apart_, weights.back()));
+    standing.push_back(move_point(fitted, weights.back(), person_->to_neutral));
+    standing.back().z() = std::max(standing.back().z(), 0.0F);
+  }
+  const std::vector<Eigen::Vector3f> normals = normals_of(standing, coarse.indices);
+  Mesh mesh;
+  std::map<std::pair<std::uint32_t, bool>, std::uint32_t> place;
+  for (std::size_t at = 0; at < coarse.indices.size(); at += 3) {
+    const std::uint32_t* corner = &coarse.indices[at];
+    const Eigen::Vector3f& a = coarse.points[corner[0]];
+    const bool front = (coarse.points[corner[1]] - a).cross(coarse.points[corner[2]] - a).x() >= 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t i = corner[k];
+      const auto [entry, is_new] =
+          place.try_emplace({i, front}, static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.indices.push_back(entry->second);
+      if (!is_new) continue;
+      const Eigen::Vector2f uv = portrait_.uv_of(coarse.points[i], front);
+      Vertex vertex{};
+      vertex.position = {standing[i].x(), standing[i].y(), standing[i].z()};
+      vertex.normal = {normals[i].x(), normals[i].y(), normals[i].z()};
+      vertex.uv = {uv.x(), uv.y()};
+      set_weights(vertex, weights[i]);
+      mesh.vertices.push_back(vertex);
+    }
+  }
+  mesh.parts.push_back(
+      {0, static_cast<std::uint32_t>(mesh.indices.size()), picture, Tint::portrait, false, picture + 1});
+  return mesh;
 }
 
 }  // namespace throng::skinning

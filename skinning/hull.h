@@ -1,36 +1,48 @@
-// Lower levels of detail: the body's own skin, simplified once for everybody, pushed out to the
-// clothes and hair of each person, cut along their borders and coloured by pictures of that person.
+// Lower levels of detail: everything that a person wears as one closed surface, simplified to any
+// number of triangles and coloured by pictures of that person.
 //
 // Simplifying the garments themselves breaks down below some thousand triangles (seams and open
-// borders cannot collapse); the skin is one closed surface, so any number of triangles is reached
-// without holes, and limbs cannot grow together.
+// borders cannot collapse), and hulls pushed out from the skin make leggings of skirts. One closed
+// surface around the outside has neither trouble, and all its triangles go into the outline: where
+// one colour ends and another begins is in the pictures.
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
-#include "skinning/cover.h"
+#include "skinning/carving.h"
 #include "skinning/dress.h"
-#include "skinning/makehuman.h"
+#include "skinning/image.h"
 #include "skinning/population.h"
 #include "skinning/portrait.h"
 
 namespace throng::skinning {
 
-/// Triangles over some of the body's vertices; the same for every person.
-struct HullTopology {
-  std::vector<std::uint32_t> vertices;  ///< body vertices
-  std::vector<std::uint32_t> indices;   ///< into vertices
-  float swell_m = 0;  ///< pushed out by this: flat facets lie inside the round body
+class Hull {
+ public:
+  /// `textures` holds those of the person's surfaces; the pictures will have `picture_size` pixels
+  /// a side.
+  Hull(const DressedPerson& person, const std::map<std::string, Image>& textures, int picture_size);
+
+  const Portrait& portrait() const { return portrait_; }
+
+  /// With about this many triangles, and never more; `picture` is the number of the first of the
+  /// portrait's two pictures.
+  Mesh level(std::size_t triangles, int picture) const;
+
+ private:
+  /// What moves a point of the surface: the mean of what moves the nearest points worn.
+  BoneWeights weights_at(const Eigen::Vector3f& point) const;
+  void fit(ClosedSurface& coarse) const;
+
+  const DressedPerson* person_;
+  Palette apart_;  ///< from the A-pose to the one the hull is made in
+  std::vector<PosedSurface> posed_;
+  Portrait portrait_;
+  Carving carving_;
+  ClosedSurface fine_;
 };
-
-/// The body's skin, its openings closed, with about `triangles` triangles.
-HullTopology simplify_skin(const MakeHuman& makehuman, std::size_t triangles, float swell_m);
-
-/// A person's hull. Its untinted parts have texture `picture`, the tinted ones `picture` + 1: the
-/// portrait's two pictures.
-Mesh make_hull(const MakeHuman& makehuman, const DressedPerson& person,
-               const HullTopology& topology, const Portrait& portrait, const Clothing& clothing,
-               int picture);
 
 }  // namespace throng::skinning

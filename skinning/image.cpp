@@ -79,7 +79,7 @@ Image resized(const Image& image, int size) {
   return small;
 }
 
-void fill_from_nearest(Image& image, Mask covered) {
+void fill_from_nearest(Image& image, Mask covered, int channels) {
   std::vector<int> front;
   for (int at = 0; at < static_cast<int>(covered.size()); ++at) {
     if (covered[at] != 0) front.push_back(at);
@@ -99,7 +99,7 @@ void fill_from_nearest(Image& image, Mask covered) {
         const int to = to_y * image.width + to_x;
         if (covered[to] != 0) continue;
         covered[to] = 1;
-        std::copy_n(from, 3, image.pixel(to_x, to_y));
+        std::copy_n(from, channels, image.pixel(to_x, to_y));
         next.push_back(to);
       }
     }

@@ -40,9 +40,9 @@ Image read_png(const std::filesystem::path& path);
 Image resized(const Image& image, int size);
 
 /// Gives every pixel outside `covered` the colour of a nearest covered one, so that filtering near
-/// a border does not pick up what lies behind it. Alpha is left alone. Does nothing when no pixel
-/// is covered.
-void fill_from_nearest(Image& image, Mask covered);
+/// a border does not pick up what lies behind it. Only the first `channels` are filled: alpha is
+/// left alone unless asked. Does nothing when no pixel is covered.
+void fill_from_nearest(Image& image, Mask covered, int channels = 3);
 
 /// Linear light of an sRGB byte, in [0, 1], and back.
 float linear_of(std::uint8_t srgb);

@@ -136,9 +136,10 @@ struct Site {
   int finer(int finest) const { return std::max(2, finest >> level); }
 };
 
-constexpr float kStrapLift = 0.009F;  // m
-// The hulls of lower levels are coarser than that: straps would sink into them in places.
+// Straps would sink into the hulls of lower levels in places, and further levels are too coarse for
+// them altogether.
 constexpr int kStrapsUpTo = 1;
+float strap_lift_m(int level) { return level == 0 ? 0.009F : 0.02F; }
 
 // Points of a strap over the trunk where rays from `origin` leave it.
 void add_outline(const TrunkOutline& trunk, const Vector3f& origin, const Vector3f& direction,
@@ -179,14 +180,15 @@ void add_backpack(Shape& shape, const Site& site) {
     for (int i = 0; i <= steps; ++i) {
       const float turn =
           (150 - 185 * static_cast<float>(i) / static_cast<float>(steps)) * kPi / 180;
-      add_outline(trunk, over, {std::cos(turn), 0, std::sin(turn)}, kStrapLift, path);
+      add_outline(trunk, over, {std::cos(turn), 0, std::sin(turn)}, strap_lift_m(site.level), path);
     }
     // ... then below the arm to the lower corner of the pack.
     for (int i = 1; i <= steps; ++i) {
       const float share = static_cast<float>(i) / static_cast<float>(steps);
       const float turn = side * (48 + 92 * share) * kPi / 180;
       const Vector3f under(chest.x(), 0, shoulder.z() - (0.17F + 0.17F * share) * s);
-      add_outline(trunk, under, {std::cos(turn), std::sin(turn), 0}, kStrapLift, path);
+      add_outline(trunk, under, {std::cos(turn), std::sin(turn), 0}, strap_lift_m(site.level),
+                  path);
     }
     if (path.size() > 2) add_strap(shape, path, 0.045F * s, false);
   }
@@ -205,8 +207,8 @@ void add_shoulder_bag(Shape& shape, const Site& site) {
   std::vector<StrapPoint> path;
   for (int i = 0; i < steps; ++i) {
     const float turn = 2 * kPi * static_cast<float>(i) / static_cast<float>(steps);
-    add_outline(trunk, origin, std::cos(turn) * up + std::sin(turn) * Vector3f::UnitX(), kStrapLift,
-                path);
+    add_outline(trunk, origin, std::cos(turn) * up + std::sin(turn) * Vector3f::UnitX(),
+                strap_lift_m(site.level), path);
   }
   if (site.level <= kStrapsUpTo && path.size() > 4) add_strap(shape, path, 0.035F * s, true);
   // The bag lies behind the hip, where the arm does not swing through it.

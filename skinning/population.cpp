@@ -63,9 +63,10 @@ Population load_population(const fs::path& folder) {
     CharacterAsset asset = read_glb(file);
     for (Mesh& mesh : asset.levels) {
       for (Part& part : mesh.parts) {
-        if (part.texture < 0) continue;
-        part.texture =
-            layers.layer_of(asset.pictures[static_cast<std::size_t>(part.texture)], file);
+        for (std::int32_t* picture : {&part.texture, &part.shades}) {
+          if (*picture < 0) continue;
+          *picture = layers.layer_of(asset.pictures[static_cast<std::size_t>(*picture)], file);
+        }
       }
     }
     Character& character = population.characters.emplace_back(entry);

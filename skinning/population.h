@@ -50,9 +50,13 @@ static_assert(sizeof(Vertex) == 40);
 
 /// What a part of a character is coloured with, per instance. The albedo of a tinted part is its
 /// texture times the instance's tint, both in linear light; such textures hold light and shade
-/// only. Tint::none is not tinted. Hats are coloured like shoes.
-enum class Tint : std::uint8_t { none, top, bottom, hair, shoes, item };
-inline constexpr std::size_t kTintCount = 6;
+/// only. Tint::none is not tinted. Hats are coloured like shoes. A portrait has all colours but the
+/// item's at once: its texture holds what is not tinted, black elsewhere, and its shades hold how
+/// bright the rest is: top, bottom, hair and shoes in red, green, blue (as sRGB) and alpha
+/// (linear). Its albedo is the first plus the sum of the latter times the instance's tints.
+enum class Tint : std::uint8_t { none, top, bottom, hair, shoes, item, portrait };
+inline constexpr std::size_t kTintCount =
+    6;  ///< colours of an instance; a portrait has none of its own
 
 using Rgb = std::array<std::uint8_t, 3>;  ///< sRGB
 
@@ -63,7 +67,8 @@ struct Part {
   std::int32_t texture = -1;  ///< layer of Population::textures
   Tint tint = Tint::none;
   bool alpha_tested =
-      false;  ///< discard where texture alpha < 0.5; drawn without back-face culling
+      false;                 ///< discard where texture alpha < 0.5; drawn without back-face culling
+  std::int32_t shades = -1;  ///< a portrait's second layer
 };
 
 /// One level of detail: an indexed triangle mesh (counter-clockwise seen from outside).

@@ -11,7 +11,7 @@
 namespace throng::skinning {
 
 /// Changes whenever the files mean something else, so that old ones are refused.
-inline constexpr int kPopulationFormat = 3;
+inline constexpr int kPopulationFormat = 4;
 inline constexpr const char* kIndexFile = "population.json";
 inline constexpr const char* kPalettesFile = "palettes.bin";
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kElevation = 20 * std::numbers::pi / 180;  // radians
 constexpr float kMargin = 2;                                // pixels
+constexpr float kNothing = -1e9F;                           // depth where nobody is seen
 
 // Right and up in the camera's picture, and towards the camera.
 Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
@@ -24,60 +25,48 @@ Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
 
 }  // namespace
 
-const std::uint8_t* texel_at(const Image& image, const Eigen::Vector2f& uv) {
-  const auto at = [](float value, int count) {
-    return std::clamp(static_cast<int>(std::floor(value * static_cast<float>(count))), 0,
-                      count - 1);
-  };
-  return image.pixel(at(uv.x(), image.width), at(uv.y(), image.height));
-}
-
-Eigen::Vector2f uv_within(const Surface& surface, std::size_t at,
-                          const Eigen::Vector3f& barycentric) {
-  return barycentric.x() * surface.uvs[surface.indices[at]] +
-         barycentric.y() * surface.uvs[surface.indices[at + 1]] +
-         barycentric.z() * surface.uvs[surface.indices[at + 2]];
-}
-
-Portrait::Portrait(const DressedPerson& person, const std::map<std::string, Image>& textures,
-                   int size)
-    : size_(size), colours_(size, size), texels_(static_cast<std::size_t>(size) * size) {
+Portrait::Portrait(std::span<const PosedSurface> surfaces, int size)
+    : size_(size), picture_(size, size), depth_(static_cast<std::size_t>(size) * size, kNothing) {
   Eigen::AlignedBox2f bounds;
-  for (const Surface& surface : person.surfaces) {
-    for (const std::uint32_t index : surface.indices) {
+  for (const PosedSurface& posed : surfaces) {
+    for (const std::uint32_t index : posed.surface->indices) {
       for (const bool front : {true, false}) {
-        bounds.extend(Eigen::Vector2f(view_of(surface.fitted[index], front).head<2>()));
+        bounds.extend(Eigen::Vector2f(view_of(posed.points[index], front).head<2>()));
       }
     }
   }
   low_ = bounds.min();
   extent_ = bounds.sizes();
-  for (const Surface& surface : person.surfaces) {
-    draw(surface, textures.at(surface.texture), true);
-    draw(surface, textures.at(surface.texture), false);
+  for (const PosedSurface& posed : surfaces) {
+    draw(posed, true);
+    draw(posed, false);
   }
+  Mask seen(depth_.size(), 0);
+  for (std::size_t at = 0; at < depth_.size(); ++at) seen[at] = depth_[at] > kNothing ? 1 : 0;
+  fill_from_nearest(picture_, std::move(seen), 4);
 }
 
-void Portrait::draw(const Surface& surface, const Image& image, bool front) {
+void Portrait::draw(const PosedSurface& posed, bool front) {
   const auto texels = static_cast<float>(size_);
+  const Surface& surface = *posed.surface;
   for (std::size_t at = 0; at < surface.indices.size(); at += 3) {
     std::array<Eigen::Vector2f, 3> corner;
     Eigen::Vector3f depth;
     for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3f& point = surface.fitted[surface.indices[at + i]];
+      const Eigen::Vector3f& point = posed.points[surface.indices[at + i]];
       corner[i] = texels * uv_of(point, front);
       depth[i] = view_of(point, front).z();
     }
     for_each_pixel(corner[0], corner[1], corner[2], size_, size_,
                    [&](int x, int y, const Eigen::Vector3f& barycentric) {
-                     Texel& texel = texels_[static_cast<std::size_t>(y) * size_ + x];
+                     float& nearest = depth_[static_cast<std::size_t>(y) * size_ + x];
                      const float here = depth.dot(barycentric);
-                     if (here <= texel.depth) return;
-                     const std::uint8_t* from =
-                         texel_at(image, uv_within(surface, at, barycentric));
-                     if (surface.alpha_tested && from[3] < 128) return;
-                     texel = {here, true, surface.tint != Tint::none};
-                     std::copy_n(from, 3, colours_.pixel(x, y));
+                     if (here <= nearest || !is_there(posed, at, barycentric)) return;
+                     nearest = here;
+                     std::uint8_t* pixel = picture_.pixel(x, y);
+                     std::copy_n(texel_at(*posed.image, uv_within(surface, at, barycentric)), 3,
+                                 pixel);
+                     pixel[3] = static_cast<std::uint8_t>(surface.tint);
                    });
   }
 }
@@ -91,15 +80,29 @@ Eigen::Vector2f Portrait::uv_of(const Eigen::Vector3f& point, bool front) const 
           margin + down * (1 - 2 * margin)};
 }
 
-Image Portrait::picture(bool tinted) const {
-  Image picture = colours_;
-  Mask seen(texels_.size(), 0);
-  for (std::size_t at = 0; at < texels_.size(); ++at) {
-    seen[at] = texels_[at].seen && texels_[at].tinted == tinted ? 1 : 0;
-    picture.rgba[4 * at + 3] = 255;
+Image Portrait::colours() const {
+  Image colours = picture_;
+  for (std::size_t at = 0; at < colours.rgba.size(); at += 4) {
+    std::uint8_t* pixel = &colours.rgba[at];
+    if (static_cast<Tint>(pixel[3]) != Tint::none) std::fill_n(pixel, 3, std::uint8_t{0});
+    pixel[3] = 255;
   }
-  fill_from_nearest(picture, std::move(seen));
-  return picture;
+  return colours;
+}
+
+Image Portrait::shades() const {
+  Image shades(size_, size_);
+  for (std::size_t at = 0; at < shades.rgba.size(); at += 4) {
+    const std::uint8_t* from = &picture_.rgba[at];
+    const auto tint = static_cast<Tint>(from[3]);
+    if (tint == Tint::none) continue;
+    const float shade = (linear_of(from[0]) + linear_of(from[1]) + linear_of(from[2])) / 3;
+    const std::size_t channel = static_cast<std::size_t>(tint) - 1;
+    const bool is_alpha = channel == 3;
+    shades.rgba[at + channel] =
+        is_alpha ? static_cast<std::uint8_t>(std::lround(255 * shade)) : srgb_of(shade);
+  }
+  return shades;
 }
 
 }  // namespace throng::skinning

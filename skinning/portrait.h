@@ -2,48 +2,38 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
-#include <string>
+#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "skinning/dress.h"
 #include "skinning/image.h"
+#include "skinning/posed.h"
+#include "skinning/surface.h"
 
 namespace throng::skinning {
 
-/// A person in the A-pose, seen from the front (left half of the picture) and from behind (right
-/// half), slightly from above so that crowns and shoulders show. Untinted and tinted parts go on
-/// pictures of their own, each filled to its borders: colours cannot bleed into light and shade.
+/// A person seen from the front (left half of the pictures) and from behind (right half), slightly
+/// from above so that crowns and shoulders show.
 class Portrait {
  public:
-  Portrait(const DressedPerson& person, const std::map<std::string, Image>& textures, int size);
+  Portrait(std::span<const PosedSurface> surfaces, int size);
 
-  /// The untinted parts in their colours, or the tinted ones as light and shade.
-  Image picture(bool tinted) const;
+  /// The parts that are not tinted in their colours, the others black; see Tint::portrait.
+  Image colours() const;
+  /// How bright the tinted parts are; see Tint::portrait.
+  Image shades() const;
 
-  /// Texture coordinates of a point of the A-pose, in [0, 1].
+  /// Texture coordinates of a point of the same pose, in [0, 1].
   Eigen::Vector2f uv_of(const Eigen::Vector3f& point, bool front) const;
 
  private:
-  struct Texel {
-    float depth = -1e9F;
-    bool seen = false;
-    bool tinted = false;
-  };
-  void draw(const Surface& surface, const Image& image, bool front);
+  void draw(const PosedSurface& posed, bool front);
 
   int size_;
   Eigen::Vector2f low_;  ///< corner of the view, the same for both sides
   Eigen::Vector2f extent_;
-  Image colours_;
-  std::vector<Texel> texels_;
+  Image picture_;  ///< filled to its borders; alpha is a Tint
+  std::vector<float> depth_;
 };
-
-/// The texel of an image at texture coordinates in [0, 1].
-const std::uint8_t* texel_at(const Image& image, const Eigen::Vector2f& uv);
-
-/// Texture coordinates within the triangle whose first index is at `at`.
-Eigen::Vector2f uv_within(const Surface& surface, std::size_t at,
-                          const Eigen::Vector3f& barycentric);
 
 }  // namespace throng::skinning

@@ -18,8 +18,8 @@ extern const std::array<Bone, kBoneCount> kParent;
 extern const std::array<std::string_view, kBoneCount> kBoneNames;
 
 /// Names of the tints in files, by Tint.
-inline constexpr std::array<std::string_view, kTintCount> kTintNames = {"none", "top",   "bottom",
-                                                                        "hair", "shoes", "item"};
+inline constexpr std::array<std::string_view, kTintCount + 1> kTintNames = {
+    "none", "top", "bottom", "hair", "shoes", "item", "portrait"};
 
 /// Where each bone starts, in model space (metres, Z up, facing +X).
 using Joints = std::array<Eigen::Vector3f, kBoneCount>;

@@ -1,7 +1,8 @@
 // Skin, hair and clothes. With COVERAGE only the silhouette is written.
 in vec4 world_sun;
 in vec3 uv_sky;
-flat in uvec3 surface;
+flat in uvec4 surface;
+flat in uvec4 shaded;
 
 layout(binding = 0) uniform sampler2DArray textures;
 
@@ -29,6 +30,12 @@ void main() {
   covered = 1.0;
 #else
   vec3 albedo = texel.rgb * linear_from_srgb(unpackUnorm4x8(surface.y).rgb);
+  if (surface.w != 0u) {
+    vec4 shades = texture(textures, vec3(uv_sky.xy, float(surface.w)));
+    for (int i = 0; i < 4; ++i) {
+      albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(shaded[i]).rgb);
+    }
+  }
   float sun = world_sun.w * sunlit_small(world_sun.xyz, 0.06);
   vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, uv_sky.z);
   vec3 radiance = albedo * (light.sun.rgb * sun + ambient);

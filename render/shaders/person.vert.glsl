@@ -5,7 +5,7 @@ layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec2 uv_in;
 layout(location = 3) in uvec4 bones;
 layout(location = 4) in vec4 weights;
-layout(location = 5) in uint part;             // texture layer, tint << 16
+layout(location = 5) in uint part;             // texture layer, a portrait's second one << 12, tint << 24
 layout(location = 6) in vec3 foot;             // per instance from here: position, m
 layout(location = 7) in uvec4 pose;            // palettes a and b, blend (a float's bits), id
 layout(location = 8) in uvec4 tints;           // top, bottom, hair, shoes: sRGB, red lowest; item: high bytes
@@ -13,11 +13,25 @@ layout(location = 9) in ivec2 shift;           // pixels
 layout(location = 10) in vec2 facing;          // cosine and sine of the heading
 
 layout(std430, binding = 0) readonly buffer Palettes {
-  vec4 bone_rows[];  // [character][palette][bone][3]
+  uvec4 posed_bones[];  // [character][palette][bone]; see render/device_palettes.h
 };
 
-const int kRowsPerPalette = 63;
+const int kBones = 21;
+const float kFarthestShift = 8.0;  // m; also in render/device_palettes.h
 const float kAboveGround = 0.002;  // m; also in render/person_geometry.cpp
+
+// The rows of a bone's matrix.
+mat3x4 rows_of(uvec4 bone) {
+  vec4 q = vec4(unpackSnorm2x16(bone.x), unpackSnorm2x16(bone.y));
+  vec3 shift = kFarthestShift * vec3(unpackSnorm2x16(bone.z), unpackSnorm2x16(bone.w).x);
+  vec3 d = q.xyz * (2.0 / dot(q, q));
+  vec3 squares = d * q.xyz;
+  vec3 products = d.xxy * q.yzz;  // xy, xz, yz
+  vec3 turns = d * q.w;
+  return mat3x4(vec4(1.0 - squares.y - squares.z, products.x - turns.z, products.y + turns.y, shift.x),
+                vec4(products.x + turns.z, 1.0 - squares.x - squares.z, products.z - turns.x, shift.y),
+                vec4(products.y - turns.y, products.z + turns.x, 1.0 - squares.x - squares.y, shift.z));
+}
 
 mat3x4 blended_rows() {
   mat3x4 rows = mat3x4(0.0);
@@ -27,11 +41,9 @@ mat3x4 blended_rows() {
   vec4 weight = weights;
   int count = int(dot(vec4(greaterThan(weights, vec4(0.0))), vec4(1.0)));
   for (int k = 0; k < count; ++k) {
-    int row_a = int(pose.x) * kRowsPerPalette + 3 * int(bone.x);
-    int row_b = int(pose.y) * kRowsPerPalette + 3 * int(bone.x);
-    for (int i = 0; i < 3; ++i) {
-      rows[i] += weight.x * mix(bone_rows[row_a + i], bone_rows[row_b + i], b);
-    }
+    mat3x4 rows_a = rows_of(posed_bones[int(pose.x) * kBones + int(bone.x)]);
+    mat3x4 rows_b = rows_of(posed_bones[int(pose.y) * kBones + int(bone.x)]);
+    rows += (weight.x * (1.0 - b)) * rows_a + (weight.x * b) * rows_b;
     bone = bone.yzwx;
     weight = weight.yzwx;
   }
@@ -57,7 +69,8 @@ void main() {
 #else
 out vec4 world_sun;     // position; sunlight received before shadows
 out vec3 uv_sky;        // texture coordinates; share of the sky's light
-flat out uvec3 surface;  // texture layer, tint as sRGB, id
+flat out uvec4 surface;  // texture layer, tint as sRGB, id, a portrait's second layer or 0
+flat out uvec4 shaded;   // a portrait's tints
 
 void main() {
   mat3x4 rows = blended_rows();
@@ -65,14 +78,15 @@ void main() {
   vec3 n = turned(normalize(vec4(normal_in, 0.0) * rows));
   world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
-  uint slot = part >> 16;
+  uint slot = part >> 24;
   uint tint = 0xFFFFFFu;
   if (slot == 5u) {
     tint = tints.x >> 24 | tints.y >> 24 << 8 | tints.z >> 24 << 16;
-  } else if (slot > 0u) {
+  } else if (slot > 0u && slot < 5u) {
     tint = tints[slot - 1u];
   }
-  surface = uvec3(part & 0xFFFFu, tint, pose.w);
+  surface = uvec4(part & 0xFFFu, tint, pose.w, part >> 12 & 0xFFFu);
+  shaded = tints;
   gl_Position = project_movable(world, shift);
 }
 #endif

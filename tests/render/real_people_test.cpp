@@ -1,6 +1,7 @@
 // The baked population, where it has been built.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "stage.h"
@@ -15,7 +16,9 @@ TEST(RealPeople, AreDrawnWithTightBoxesAndExactAreas) {
   const world::Scenario scenario = open_ground();
   Renderer renderer(scenario, people, {}, {"software"});
   Scene scene;
-  const auto count = static_cast<std::uint32_t>(people.characters.size());
+  // As many as the camera sees.
+  const auto count =
+      static_cast<std::uint32_t>(std::min<std::size_t>(people.characters.size(), 24));
   for (std::uint32_t i = 0; i < count; ++i) {
     PersonInstance person = standing(people, i, 1.5 * (i % 4), 1.5 * (i / 4));
     person.appearance = skinning::appearance_of(people, 1, i);

@@ -28,10 +28,12 @@ TEST(ClipPlanes, HoldExactlyWhatProjectsIntoTheImage) {
 }
 
 TEST(LevelOfDetail, FollowsTheProjectedHeight) {
-  EXPECT_EQ(level_of_detail(200, 4), 0U);
-  EXPECT_EQ(level_of_detail(100, 4), 1U);
-  EXPECT_EQ(level_of_detail(40, 4), 2U);
-  EXPECT_EQ(level_of_detail(10, 4), 3U);
+  EXPECT_EQ(level_of_detail(200, 5), 0U);
+  EXPECT_EQ(level_of_detail(100, 5), 1U);
+  EXPECT_EQ(level_of_detail(50, 5), 2U);
+  EXPECT_EQ(level_of_detail(30, 5), 3U);
+  EXPECT_EQ(level_of_detail(10, 5), 4U);
+  EXPECT_EQ(level_of_detail(10, 9), 4U);
   EXPECT_EQ(level_of_detail(10, 2), 1U);
   EXPECT_EQ(level_of_detail(10, 1), 0U);
 }

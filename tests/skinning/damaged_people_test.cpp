@@ -1,4 +1,5 @@
 // Files of baked people that are damaged or missing.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "skinning/population.h"
+#include "skinning/population_files.h"
 
 namespace throng::skinning {
 namespace {
@@ -50,7 +52,8 @@ TEST_F(DamagedPeopleTest, ErrorsNameTheFileAndTheRemedy) {
     return changed;
   };
   for (const std::string& changed :
-       {std::string(), std::string("[1, 2]"), replaced("\"format\": 3", "\"format\": 999"),
+       {std::string(), std::string("[1, 2]"),
+        replaced(fmt::format("\"format\": {}", kPopulationFormat), "\"format\": 999"),
         replaced("\"clips\"", "\"chips\""), replaced("\"name\"", "\"game\""),
         replaced("\"frames\": 24", "\"frames\": 0"), replaced("\"#", "\"?")}) {
     write_file_atomically(folder / "population.json", changed);

@@ -59,6 +59,24 @@ TEST_F(GlbTest, WhatIsWrittenIsReadBackThroughAssimp) {
   }
 }
 
+TEST_F(GlbTest, APortraitKeepsBothOfItsPictures) {
+  CharacterAsset asset = made_up_asset();
+  asset.levels[1].parts = {{0, 63, 1, Tint::portrait, false, 0}};
+  const CharacterAsset read = read_glb(write(encode_glb(asset)));
+  ASSERT_EQ(read.levels[1].parts.size(), 1U);
+  const Part& part = read.levels[1].parts.front();
+  EXPECT_EQ(part.tint, Tint::portrait);
+  EXPECT_EQ(read.pictures.at(static_cast<std::size_t>(part.texture)), asset.pictures[1]);
+  EXPECT_EQ(read.pictures.at(static_cast<std::size_t>(part.shades)), asset.pictures[0]);
+  EXPECT_EQ(read.levels[0].parts.front().shades, -1);
+}
+
+TEST_F(GlbTest, APortraitWithOnePictureIsRefused) {
+  CharacterAsset asset = made_up_asset();
+  asset.levels[1].parts = {{0, 63, 1, Tint::portrait, false, -1}};
+  EXPECT_THROW(read_glb(write(encode_glb(asset))), InputError);
+}
+
 TEST_F(GlbTest, SkinningIsTheSameAfterReading) {
   const CharacterAsset asset = made_up_asset();
   const CharacterAsset read = read_glb(write(encode_glb(asset)));
