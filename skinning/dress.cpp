@@ -112,25 +112,71 @@ float lowest_on_shins(std::span<const Surface> bottoms) {
   return hem;
 }
 
-// Height to which the top reaches down at least, all around the body.
-float reach_of(std::span<const Surface> tops, const Joints& joints) {
-  constexpr int kSectors = 16;
-  std::array<float, kSectors> lowest{};
-  lowest.fill(std::numeric_limits<float>::max());
-  const Eigen::Vector3f& hips = joints[0];
-  for (const Surface& surface : tops) {
-    for (const std::uint32_t index : surface.indices) {
-      const BoneWeights& weights = surface.weights[index];
-      const float trunk = weights[index_of(Bone::hips)] + weights[index_of(Bone::spine)] +
-                          weights[index_of(Bone::chest)];
-      if (trunk < 0.6F) continue;
-      const Eigen::Vector3f p = surface.positions[index] - hips;
-      const double turn = std::atan2(p.y(), p.x()) / (2 * std::numbers::pi) + 0.5;
-      const int sector = std::min(static_cast<int>(turn * kSectors), kSectors - 1);
-      lowest[sector] = std::min(lowest[sector], surface.positions[index].z());
+float trunk_of(const BoneWeights& weights) {
+  return weights[index_of(Bone::hips)] + weights[index_of(Bone::spine)] +
+         weights[index_of(Bone::chest)];
+}
+
+// Heights at which surfaces end on the trunk, in sectors all around it.
+class Rim {
+ public:
+  enum class End : std::uint8_t { lower, upper };
+  static constexpr std::size_t kSectors = 16;
+
+  Rim(std::span<const Surface> surfaces, const Joints& joints, End end) {
+    const float none = end == End::lower ? std::numeric_limits<float>::max()
+                                         : std::numeric_limits<float>::lowest();
+    height_m_.fill(none);
+    const Eigen::Vector3f& hips = joints[0];
+    for (const Surface& surface : surfaces) {
+      for (const std::uint32_t index : surface.indices) {
+        const BoneWeights& weights = surface.weights[index];
+        if (trunk_of(weights) < (end == End::lower ? 0.6F : 0.1F)) continue;
+        const Eigen::Vector3f& p = surface.positions[index];
+        float& here = height_m_[sector_of(p - hips)];
+        here = end == End::lower ? std::min(here, p.z()) : std::max(here, p.z());
+      }
     }
   }
-  return *std::max_element(lowest.begin(), lowest.end());
+
+  float operator[](std::size_t sector) const { return height_m_[sector]; }
+  float highest() const { return *std::max_element(height_m_.begin(), height_m_.end()); }
+  static std::size_t sector_of(const Eigen::Vector3f& from_hips) {
+    const double turn = std::atan2(from_hips.y(), from_hips.x()) / (2 * std::numbers::pi) + 0.5;
+    return std::min(static_cast<std::size_t>(turn * kSectors), kSectors - 1);
+  }
+
+ private:
+  std::array<float, kSectors> height_m_{};
+};
+
+// Where a short top leaves a low waistband, skin shows that both would have covered with what they
+// were made to be worn with.
+void bare_waist(const MakeHuman& makehuman, const DressedPerson& dressed,
+                std::span<const Surface> tops, std::span<const Surface> bottoms,
+                CoveredSkin& covered) {
+  constexpr float kInside_m = 0.04F;
+  constexpr float kNowhere_m = 10;
+  const Rim hem(tops, dressed.joints, Rim::End::lower);
+  const Rim waistband(bottoms, dressed.joints, Rim::End::upper);
+  std::array<bool, Rim::kSectors> bare{};
+  for (std::size_t sector = 0; sector < Rim::kSectors; ++sector) {
+    const bool both = hem[sector] < kNowhere_m && waistband[sector] > -kNowhere_m;
+    if (!both || waistband[sector] > hem[sector]) continue;
+    for (const std::size_t beside : {Rim::kSectors - 1, std::size_t{0}, std::size_t{1}}) {
+      bare[(sector + beside) % Rim::kSectors] = true;
+    }
+  }
+  for (std::size_t vertex = 0; vertex < covered.hidden.size(); ++vertex) {
+    const BoneWeights& weights = makehuman.weights()[vertex];
+    if (trunk_of(weights) < 0.5F) continue;
+    const Eigen::Vector3f point = move_point(dressed.body[vertex], weights, dressed.to_neutral);
+    const std::size_t sector = Rim::sector_of(point - dressed.joints[0]);
+    if (bare[sector] && point.z() > waistband[sector] - kInside_m &&
+        point.z() < hem[sector] + kInside_m) {
+      covered.hidden[vertex] = false;
+    }
+  }
 }
 
 Surface wear(const Garment& garment, const DressedPerson& dressed) {
@@ -300,7 +346,7 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   dressed.joints = stance.joints;
   dressed.to_neutral = stance.to_neutral;
   const float hem = hem_of(outfit, stance.a_pose, static_cast<float>(person.height_m));
-  const CoveredSkin covered = covered_skin(makehuman, wardrobe, person, dressed.body, hem);
+  CoveredSkin covered = covered_skin(makehuman, wardrobe, person, dressed.body, hem);
 
   std::vector<Surface> tops = wear_all(wardrobe.top(outfit), dressed);
   std::vector<Surface> bottoms = wear_all(wardrobe.bottom(outfit), dressed);
@@ -314,7 +360,8 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
     std::erase_if(tops, [](const Surface& surface) { return surface.tint == Tint::none; });
     cut_below(tops, highest_fitted(bottoms) - kWaistOverlap_m);
   } else if (!bottoms.empty()) {
-    tuck_under(bottoms, reach_of(tops, dressed.joints) + kWaistOverlap_m);
+    tuck_under(bottoms, Rim(tops, dressed.joints, Rim::End::lower).highest() + kWaistOverlap_m);
+    bare_waist(makehuman, dressed, tops, bottoms, covered);
   }
   hide_above(shoes, lowest_on_shins(bottoms.empty() ? tops : bottoms) + kHemOverlap_m);
   const float waist = stance.a_pose[index_of(Bone::spine)].z();

@@ -285,6 +285,36 @@ TEST_F(PeopleTest, NobodyHasGapsFromHeadToFoot) {
   }
 }
 
+// Skin is left out where clothes cover it: where a short top leaves a low waistband, one must not
+// look through somebody.
+TEST_F(PeopleTest, NobodyCanBeLookedThroughAtTheWaist) {
+  constexpr float kPixel_m = 0.002F;
+  constexpr int kWidth = 40;  // the middle of the trunk, which arms leave free
+  const Palette rest = rest_palette();
+  for (const Character& character : people_->characters) {
+    const Mesh& mesh = character.levels.front();
+    const float low_m = 0.52F * character.stature_m;
+    const auto height = static_cast<int>(0.2F * character.stature_m / kPixel_m);
+    std::vector<char> covered(static_cast<std::size_t>(kWidth) * height, 0);
+    const auto place = [&](std::uint32_t index) {
+      const Eigen::Vector3f p = skin(mesh.vertices[index], rest, rest, 0);
+      return Eigen::Vector2f(p.y() / kPixel_m + 0.5F * kWidth, (p.z() - low_m) / kPixel_m);
+    };
+    for (std::size_t at = 0; at < mesh.indices.size(); at += 3) {
+      const Eigen::Vector2f corner = place(mesh.indices[at]);
+      const Eigen::Vector2f b = place(mesh.indices[at + 1]);
+      const Eigen::Vector2f c = place(mesh.indices[at + 2]);
+      const Eigen::Vector2f ab = b - corner;
+      const Eigen::Vector2f ac = c - corner;
+      if (ab.x() * ac.y() < ab.y() * ac.x()) continue;  // seen from behind, so not drawn
+      for_each_pixel(corner, b, c, kWidth, height, [&](int x, int y, const Eigen::Vector3f&) {
+        covered[static_cast<std::size_t>(y) * kWidth + x] = 1;
+      });
+    }
+    EXPECT_EQ(std::count(covered.begin(), covered.end(), 0), 0) << character.name;
+  }
+}
+
 TEST_F(PeopleTest, RestPoseIsTheIdentity) {
   const Palette rest = rest_palette();
   const Vertex& vertex = people_->characters.front().levels.front().vertices.front();
