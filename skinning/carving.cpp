@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kCellM = 0.012F;
 constexpr float kJustM = 1e-4F;  // inside or outside
-constexpr int kMargin = 4;       // cells around everything
+constexpr int kMarginCells = 4;  // cells around everything
 
 // Silhouettes from opposite sides are the same, so half a turn is enough for level views.
 std::vector<Outline> outlines_of(std::span<const PosedSurface> surfaces) {
@@ -47,10 +47,10 @@ Carving::Carving(std::span<const PosedSurface> all) {
     surfaces.push_back(posed);
     for (const std::uint32_t index : posed.surface->indices) bounds.extend(posed.points[index]);
   }
-  low_ = bounds.min().array() - kMargin * kCellM;
+  low_ = bounds.min().array() - kMarginCells * kCellM;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float extent = bounds.sizes()[static_cast<Eigen::Index>(axis)];
-    size_[axis] = static_cast<int>(std::ceil(extent / kCellM)) + 2 * kMargin;
+    size_[axis] = static_cast<int>(std::ceil(extent / kCellM)) + 2 * kMarginCells;
   }
   const std::vector<Outline> outlines = outlines_of(surfaces);
   distance_m_.resize(static_cast<std::size_t>(size_[0]) * size_[1] * size_[2]);

@@ -12,7 +12,7 @@ namespace throng::skinning {
 namespace {
 
 constexpr float kPixelM = 0.006F;
-constexpr int kMargin = 4;  // pixels around everything
+constexpr int kMarginPixels = 4;  // pixels around everything
 
 }  // namespace
 
@@ -29,9 +29,9 @@ Outline::Outline(std::span<const PosedSurface> surfaces, double yaw_rad, double 
       bounds.extend(Eigen::Vector2f(to_picture_ * posed.points[index]));
     }
   }
-  low_ = bounds.min().array() - kMargin;
-  width_ = static_cast<int>(std::ceil(bounds.sizes().x())) + 2 * kMargin;
-  height_ = static_cast<int>(std::ceil(bounds.sizes().y())) + 2 * kMargin;
+  low_ = bounds.min().array() - kMarginPixels;
+  width_ = static_cast<int>(std::ceil(bounds.sizes().x())) + 2 * kMarginPixels;
+  height_ = static_cast<int>(std::ceil(bounds.sizes().y())) + 2 * kMarginPixels;
   Mask covered(static_cast<std::size_t>(width_) * height_, 0);
   for (const PosedSurface& posed : surfaces) draw(posed, covered);
   // Slits of a pixel or two, between a shirt and a waistband or strands of hair, are not to cut the

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kElevation = 20 * std::numbers::pi / 180;  // radians
 constexpr float kMargin = 2;                                // pixels
-constexpr float kNothing = -1e9F;                           // depth where nobody is seen
+constexpr float kUnseen = -1e9F;                            // depth where nobody is seen
 
 // Right and up in the camera's picture, and towards the camera.
 Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
@@ -26,7 +26,7 @@ Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
 }  // namespace
 
 Portrait::Portrait(std::span<const PosedSurface> surfaces, int size)
-    : size_(size), picture_(size, size), depth_(static_cast<std::size_t>(size) * size, kNothing) {
+    : size_(size), picture_(size, size), depth_(static_cast<std::size_t>(size) * size, kUnseen) {
   Eigen::AlignedBox2f bounds;
   for (const PosedSurface& posed : surfaces) {
     for (const std::uint32_t index : posed.surface->indices) {
@@ -42,7 +42,7 @@ Portrait::Portrait(std::span<const PosedSurface> surfaces, int size)
     draw(posed, false);
   }
   Mask seen(depth_.size(), 0);
-  for (std::size_t at = 0; at < depth_.size(); ++at) seen[at] = depth_[at] > kNothing ? 1 : 0;
+  for (std::size_t at = 0; at < depth_.size(); ++at) seen[at] = depth_[at] > kUnseen ? 1 : 0;
   fill_from_nearest(picture_, std::move(seen), 4);
 }
 

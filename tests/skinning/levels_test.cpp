@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
+#include "base/angle.h"
 #include "skinning/image.h"
 #include "skinning/levels.h"
 #include "skinning/motion.h"
@@ -19,17 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// Pixels that somebody covers.
 struct Picture {
   int size = 0;
   Mask covered;
-
-  bool at(int x, int y) const {
-    return covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
-                   static_cast<std::size_t>(x)] != 0;
-  }
 };
 
 /// Where a person is seen from: a drone far above, whose camera looks down by `pitch_rad`.
