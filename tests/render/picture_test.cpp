@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -231,6 +234,52 @@ TEST(Picture, TintColoursClothesAndNotSkin) {
   EXPECT_GT(pixel_at(in_red, 1.3).x(), 2 * pixel_at(in_red, 1.3).z());
   EXPECT_GT(pixel_at(in_blue, 1.3).z(), 2 * pixel_at(in_blue, 1.3).x());
   EXPECT_EQ(pixel_at(in_red, 1.56), pixel_at(in_blue, 1.56)) << "chin";
+}
+
+// Every colour at once, as the lower levels of detail have them: where a portrait says that all of
+// a texel is of one tint, it looks like a part of that tint.
+TEST(Picture, PortraitsAreTintedTexelByTexel) {
+  using skinning::Tint;
+  const skinning::Population people = synthetic_people(1);
+  skinning::Population portraits = people;
+  const std::size_t texels = people.textures.front().rgba.size() / 4;
+  const auto add = [&](const std::array<std::uint8_t, 4>& texel) {
+    skinning::Texture& texture = portraits.textures.emplace_back();
+    for (std::size_t i = 0; i < texels; ++i) {
+      texture.rgba.insert(texture.rgba.end(), texel.begin(), texel.end());
+    }
+    return static_cast<std::int32_t>(portraits.textures.size() - 1);
+  };
+  constexpr std::uint8_t kCloth = 235;        // as the synthetic people's cloth
+  constexpr std::uint8_t kLinearCloth = 212;  // alpha is linear
+  const std::int32_t black = add({0, 0, 0, 255});
+  const std::map<Tint, std::int32_t> shades = {{Tint::top, add({kCloth, 0, 0, 0})},
+                                               {Tint::bottom, add({0, kCloth, 0, 0})},
+                                               {Tint::shoes, add({0, 0, 0, kLinearCloth})}};
+  for (skinning::Mesh& mesh : portraits.characters.front().levels) {
+    for (skinning::Part& part : mesh.parts) {
+      const auto shade = shades.find(part.tint);
+      if (shade == shades.end()) continue;
+      part.texture = black;
+      part.shades = shade->second;
+      part.tint = Tint::portrait;
+    }
+  }
+  Scene scene;
+  scene.people = {standing(people, 0, 0, 0)};
+  for (std::size_t tint = 0; tint < skinning::kTintCount; ++tint) {
+    const auto step = static_cast<std::uint8_t>(30 * tint);
+    scene.people.front().appearance.tint[tint] = {static_cast<std::uint8_t>(200 - step), step, 90};
+  }
+  const camera::Camera camera = camera_at({4, 0, 1.2}, 180, 0);
+  const world::Scenario ground = open_ground();
+  const Frame parts = Renderer(ground, people, {}, {"software"}).draw(scene, camera);
+  const Frame whole = Renderer(ground, portraits, {}, {"software"}).draw(scene, camera);
+  int most = 0;
+  for (std::size_t i = 0; i < parts.rgb.size(); ++i) {
+    most = std::max(most, std::abs(parts.rgb[i] - whole.rgb[i]));
+  }
+  EXPECT_LE(most, 2);
 }
 
 TEST(Picture, EveryGroundMaterialDrawsAndUnknownOnesAreNamed) {
