@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 #include <sstream>
 
 #include "crowd_files.h"
@@ -21,6 +22,8 @@ struct Case {
   double position_m = 0;  ///< how far the mean place and the smallest distance may be off
   double speed_mps = 0;   ///< how far the mean speed may be off
 };
+
+void PrintTo(const Case& one, std::ostream* out) { *out << one.scene << " with " << one.model; }
 
 struct Row {
   double time_s = 0;

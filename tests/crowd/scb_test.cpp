@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <ostream>
 
 #include "base/error.h"
 #include "crowd_files.h"
@@ -54,6 +55,8 @@ struct Layout {
   std::size_t header;
   std::size_t floats;
 };
+
+void PrintTo(const Layout& layout, std::ostream* out) { *out << layout.version; }
 
 class Scb : public testing::TestWithParam<Layout> {};
 
