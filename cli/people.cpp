@@ -1,4 +1,4 @@
-// throng people: bakes the people that frames are drawn with, and lists them.
+// throng people: bakes the people that frames are drawn with, lists and draws them.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -70,6 +70,7 @@ void add_people(CLI::App& app) {
   command->add_option("-o,--output", arguments->output, "Folder to write")->capture_default_str();
   command->callback([arguments] { build(*arguments); });
   add_list(*people);
+  add_people_sheet(*people);
 }
 
 }  // namespace throng::cli

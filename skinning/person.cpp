@@ -57,8 +57,8 @@ double sample_height(bool male, double age_years, Random& random) {
     constexpr double kChildSpread = 0.045;  // of the median
     return child_height_m(male, age_years) * (1 + kChildSpread * deviation);
   }
-  const double height = male ? 1.76 + 0.07 * deviation : 1.63 + 0.065 * deviation;
-  return height - height_lost_m(male, age_years);
+  const AdultHeights adults = adult_heights(male);
+  return adults.mean_m + adults.sd_m * deviation - height_lost_m(male, age_years);
 }
 
 void sample_shape(PersonSpec& person, Random& random) {
@@ -105,6 +105,10 @@ void sample_face(PersonSpec& person, Ancestry ancestry, Random& random) {
 }
 
 }  // namespace
+
+AdultHeights adult_heights(bool male) {
+  return male ? AdultHeights{1.76, 0.07} : AdultHeights{1.63, 0.065};
+}
 
 double child_height_m(bool male, double age_years) {
   constexpr std::array<double, 13> kBoys_cm = {116.0, 121.7, 127.3, 132.6, 137.8, 143.1, 149.1,

@@ -33,6 +33,13 @@ struct PersonSpec {
 /// that small populations hold everybody too.
 PersonSpec sample_person(std::uint64_t seed, int index, bool with_attribution = false);
 
+/// Normal distribution of the barefoot heights of adults before age takes from them.
+struct AdultHeights {
+  double mean_m;
+  double sd_m;
+};
+AdultHeights adult_heights(bool male);
+
 /// Median height of children in metres, for ages from 6 to 18 (de Onis et al. 2007, the WHO growth
 /// reference for school-aged children).
 double child_height_m(bool male, double age_years);
