@@ -19,6 +19,7 @@ void add_people(CLI::App& app);
 void add_scenarios(CLI::App& app);
 
 // Subcommands of `throng people` with files of their own.
+void add_people_import(CLI::App& people);
 void add_people_sheet(CLI::App& people);
 
 /// Exit codes of the program, in one place: documented in `throng --help`.

@@ -70,6 +70,7 @@ void add_people(CLI::App& app) {
   command->add_option("-o,--output", arguments->output, "Folder to write")->capture_default_str();
   command->callback([arguments] { build(*arguments); });
   add_list(*people);
+  add_people_import(*people);
   add_people_sheet(*people);
 }
 

@@ -39,10 +39,7 @@ void check_options(const BuildOptions& options) {
   if (options.count < 1 || options.count > kMost) {
     throw InputError({"", "people: count", std::to_string(options.count), "1 to 1000"});
   }
-  if (options.texture_size < 32 || options.texture_size > 2048) {
-    throw InputError(
-        {"", "people: texture size", std::to_string(options.texture_size), "32 to 2048"});
-  }
+  check_texture_size(options.texture_size);
 }
 
 void check_package(const fs::path& folder) {
@@ -114,15 +111,6 @@ bool holds(const fs::path& folder, const std::string& hash) {
   } catch (const InputError&) {
     return false;
   }
-}
-
-// Only people make room for people.
-void check_replaceable(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
-  if (fs::is_directory(folder, error) && fs::exists(folder / kIndexFile, error)) return;
-  throw InputError({folder.string(), "", "something else than baked people",
-                    "a folder that is new, empty or holds baked people"});
 }
 
 // The textures that a person's surfaces use, numbered for its file.

@@ -74,6 +74,14 @@ Figure standing_figure(const Walker& walker, const Clip& clip, double share) {
   return held(walker, clip, share);
 }
 
+// What of its own a character shows in a clip that gets on; null for nothing.
+const OwnMotion::Cycle* own_cycle(const OwnMotion& own, const Clip& clip) {
+  const bool walks =
+      clip.name == "walk" || clip.name.rfind("start", 0) == 0 || clip.name.rfind("stop", 0) == 0;
+  if (walks && own.walk) return &*own.walk;
+  return clip.name == "run" && own.run ? &*own.run : nullptr;
+}
+
 bool starts_with(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
 
 }  // namespace
@@ -100,7 +108,7 @@ std::vector<Clip> standard_clips() {
   return std::move(catalogue).clips();
 }
 
-std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip) {
+std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const OwnMotion& own) {
   check(clip.frames > 0, "a clip has frames");
   std::vector<Palette> palettes;
   palettes.reserve(clip.frames);
@@ -115,12 +123,15 @@ std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip) {
   }
   if (clip.stride <= 0) {
     for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
-      const Figure figure = standing_figure(walker, clip, share_of(clip, frame));
+      const double share = share_of(clip, frame);
+      const bool stands_as = clip.name == "idle" && !own.idle.empty();
+      const Figure figure =
+          stands_as ? stand_as(walker, own.idle, share) : standing_figure(walker, clip, share);
       palettes.push_back(grounded(walker, solve(walker, figure), walker.soles));
     }
     return palettes;
   }
-  const Stride stride(walker, gait_of(clip.name, clip.stride));
+  const Stride stride(walker, gait_of(clip.name, clip.stride), own_cycle(own, clip));
   const Side side = clip.name.ends_with("right") ? Side::right : Side::left;
   for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
     const double share = share_of(clip, frame);

@@ -75,15 +75,18 @@ double middle(const Gait& gait) {
 
 // How far hips swing for a stride: measured on this rig with the tables' angles (a stride of 0.77
 // statures for walking as in the table, 0.91 for running).
-Stride::Stride(const Walker& walker, const Gait& gait)
+Stride::Stride(const Walker& walker, const Gait& gait, const OwnMotion::Cycle* own)
     : walker_(&walker),
       gait_(gait),
+      own_(own),
       swing_(gait.runs ? (gait.stride + 0.07) / 0.98 : gait.stride / 0.77),
       duty_(duty(gait)) {
   // Faster walking swings the hips further but bends knees and ankles hardly more (Schwartz et
   // al. 2008); slower walking reduces both.
   bend_ = swing_ < 1 ? std::max(swing_, 0.35) : 1 + 0.15 * (swing_ - 1);
-  if (gait.runs) {
+  if (own_ != nullptr) {
+    height_m_ = {own_->gait.mean_height_m(), 0, 0};
+  } else if (gait.runs) {
     settle_running_height();
   } else {
     settle_walking_height();
@@ -91,7 +94,16 @@ Stride::Stride(const Walker& walker, const Gait& gait)
   height_m_[0] -= std::max(excess_height_m(), 0.0);
 }
 
+// The clip's, as high as the legs allow.
+Pose Stride::own_trunk_at(double phase) const {
+  Pose pose = own_->gait.trunk(phase);
+  pose.shift.x() = 0;
+  pose.shift.z() += static_cast<float>(height_m_[0] - own_->gait.mean_height_m());
+  return pose;
+}
+
 Pose Stride::trunk_at(double phase) const {
+  if (own_ != nullptr) return own_trunk_at(phase);
   Pose pose;
   const double vigour = std::min(swing_, 1.2) * walker_->manner.liveliness;
   Trunk trunk;
@@ -116,10 +128,12 @@ Pose Stride::trunk_at(double phase) const {
 Figure Stride::at(double phase) const {
   Figure figure;
   figure.pose = trunk_at(phase);
-  pose_arms(
-      *walker_,
-      {arm_swing(gait_, walker_->manner, phase), arm_swing(gait_, walker_->manner, phase + 0.5)},
-      figure.pose);
+  if (own_ == nullptr) {
+    pose_arms(
+        *walker_,
+        {arm_swing(gait_, walker_->manner, phase), arm_swing(gait_, walker_->manner, phase + 0.5)},
+        figure.pose);
+  }
   for (const Side side : kSides) {
     figure.of(side) = foot_at(side, own_phase(side, phase), figure.pose);
   }
@@ -130,11 +144,16 @@ bool Stride::supported(double phase) const {
   return own_phase(Side::left, phase) <= duty_ || own_phase(Side::right, phase) <= duty_;
 }
 
-// Pitch of the foot while it stands: as measured, but flat in between.
-double Stride::pitch_rad(double own) const {
+double Stride::measured_pitch_deg(Side side, double own) const {
+  if (own_ != nullptr) return own_->gait.pitch_rad(side, own) / kDegree;
   const GaitTable& table = table_of(gait_);
-  const double measured = swing_ * (sample(table.hip, own) - table.pelvis_tilt_deg) +
-                          bend_ * (sample(table.ankle, own) - sample(table.knee, own));
+  return swing_ * (sample(table.hip, own) - table.pelvis_tilt_deg) +
+         bend_ * (sample(table.ankle, own) - sample(table.knee, own));
+}
+
+// Pitch of the foot while it stands: as measured, but flat in between.
+double Stride::pitch_rad(Side side, double own) const {
+  const double measured = measured_pitch_deg(side, own);
   const double at = wrapped(own);
   if (at > duty_) return measured * kDegree;
   const double down = gait_.runs ? 0.08 : 0.10;
@@ -147,11 +166,19 @@ double Stride::pitch_rad(double own) const {
 Foot Stride::stance_foot(Side side, double own) const {
   const double standing_x = walker_->joints[index_of(on(side, Bone::left_toe))].x();
   const double passed_m = (own - middle(gait_)) * length_m();
-  return standing_foot(*walker_, side, standing_x - passed_m, pitch_rad(own));
+  return standing_foot(*walker_, side, standing_x - passed_m, pitch_rad(side, own));
 }
 
 // Where the measured joint angles swing the foot.
 Foot Stride::swung_foot(Side side, double own, const Pose& pose) const {
+  if (own_ != nullptr) {
+    Eigen::Vector3f leg = own_->gait.leg(side, own);
+    leg.x() *= static_cast<float>(gait_.stride / own_->stride);
+    Foot foot;
+    foot.ankle = hip_of(*walker_, pose, side) + leg;
+    foot.pitch_rad = own_->gait.pitch_rad(side, own);
+    return foot;
+  }
   const GaitTable& table = table_of(gait_);
   const double hip = swing_ * (sample(table.hip, own) - table.pelvis_tilt_deg);
   const double knee = bend_ * sample(table.knee, own);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "skinning/figure.h"
+#include "skinning/own_motion.h"
 
 namespace throng::skinning {
 
@@ -23,10 +24,11 @@ double duty(const Gait& gait);
 double middle(const Gait& gait);
 inline constexpr double kWalkMiddle = 0.25;
 
-/// One stride of one character. Phases are in strides from the left foot's strike.
+/// One stride of one character. Phases are in strides from the left foot's strike. A character's
+/// own cycle, if it has one (it must outlive this), stands in for the measured gait.
 class Stride {
  public:
-  Stride(const Walker& walker, const Gait& gait);
+  Stride(const Walker& walker, const Gait& gait, const OwnMotion::Cycle* own = nullptr);
 
   Figure at(double phase) const;
   /// Whether any foot touches the ground.
@@ -38,7 +40,9 @@ class Stride {
   Foot foot_at(Side side, double own_phase, const Pose& pose) const;
   Foot stance_foot(Side side, double own_phase) const;
   Foot swung_foot(Side side, double own_phase, const Pose& pose) const;
-  double pitch_rad(double own_phase) const;
+  double pitch_rad(Side side, double own_phase) const;
+  double measured_pitch_deg(Side side, double own_phase) const;
+  Pose own_trunk_at(double phase) const;
   double hip_height_m(double phase, Side side, double own_phase, double knee_rad) const;
   void settle_walking_height();
   void settle_running_height();
@@ -46,6 +50,7 @@ class Stride {
 
   const Walker* walker_;
   Gait gait_;
+  const OwnMotion::Cycle* own_;
   double swing_;  ///< of the hips against the measured gait
   double bend_;   ///< of knees and ankles against the measured gait
   double duty_;

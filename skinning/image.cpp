@@ -1,10 +1,13 @@
 #include "skinning/image.h"
 
 #include <png.h>
+#include <turbojpeg.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -43,6 +46,36 @@ std::string encode_png(const Image& image) {
 
 Image read_png(const std::filesystem::path& path) {
   return decode_png(read_file(path), path.string());
+}
+
+Image decode_picture(std::string_view bytes, const std::string& what) {
+  const bool jpeg = bytes.substr(0, 3) == "\xFF\xD8\xFF";
+  if (!jpeg) {
+    if (bytes.substr(1, 3) == "PNG") return decode_png(bytes, what);
+    throw InputError({what, "", "another kind of picture", "PNG or JPEG: convert it"});
+  }
+  using Handle = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
+  const Handle handle(tjInitDecompress(), &tjDestroy);
+  if (!handle) throw EnvironmentError("cannot start the JPEG decompressor: out of memory");
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  int width = 0;
+  int height = 0;
+  int sampling = 0;
+  int colours = 0;
+  if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width, &height, &sampling, &colours) !=
+      0) {
+    throw InputError({what, "", tjGetErrorStr2(handle.get()), "a JPEG picture"});
+  }
+  Image image(width, height);
+  if (tjDecompress2(handle.get(), data, bytes.size(), image.rgba.data(), width, 0, height,
+                    TJPF_RGBA, TJFLAG_ACCURATEDCT) != 0) {
+    throw InputError({what, "", tjGetErrorStr2(handle.get()), "a complete JPEG picture"});
+  }
+  return image;
+}
+
+Image read_picture(const std::filesystem::path& path) {
+  return decode_picture(read_file(path), path.string());
 }
 
 Image resized(const Image& image, int size) {

@@ -36,6 +36,10 @@ std::string encode_png(const Image& image);
 /// Reads and decodes. Throws InputError naming the file.
 Image read_png(const std::filesystem::path& path);
 
+/// As decode_png and read_png, but JPEG is understood too.
+Image decode_picture(std::string_view bytes, const std::string& what);
+Image read_picture(const std::filesystem::path& path);
+
 /// Square copy by averaging the area under each new pixel; colours are weighted by alpha.
 Image resized(const Image& image, int size);
 

@@ -172,6 +172,20 @@ PopulationIndex read_index(const fs::path& folder) {
   return index;
 }
 
+void check_texture_size(int pixels) {
+  if (pixels < 32 || pixels > 2048) {
+    throw InputError({"", "people: texture size", std::to_string(pixels), "32 to 2048"});
+  }
+}
+
+void check_replaceable(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
+  if (fs::is_directory(folder, error) && fs::exists(folder / kIndexFile, error)) return;
+  throw InputError({folder.string(), "", "something else than baked people",
+                    "a folder that is new, empty or holds baked people"});
+}
+
 std::vector<Palette> read_palettes(const fs::path& folder, const std::vector<Joints>& characters,
                                    std::size_t per_character) {
   const fs::path path = folder / kPalettesFile;

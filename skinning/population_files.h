@@ -35,6 +35,13 @@ inline constexpr const char* kCharacterExtension = ".character.json";
 std::string encode_character(const Character& character);
 Character read_character(const std::filesystem::path& path);
 
+/// Throws InputError unless it is from 32 to 2048 pixels.
+void check_texture_size(int pixels);
+
+/// Throws InputError unless the folder is new, empty or holds baked people: only people make room
+/// for people.
+void check_replaceable(const std::filesystem::path& folder);
+
 /// The palettes of all characters, whose joints these are, one character after the other; see
 /// packed.h. Throws InputError when the file is missing or does not hold `per_character` poses of
 /// each.

@@ -1,0 +1,185 @@
+#include "skinning/description.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "skinning/rig_names.h"
+
+namespace throng::skinning {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+struct Range {
+  double low;
+  double high;
+};
+
+class DescriptionReader {
+ public:
+  explicit DescriptionReader(const fs::path& file) : file_(file) {}
+
+  CharacterDescription read() {
+    const json document = json::parse(read_file(file_), nullptr, false);
+    if (!document.is_object()) {
+      throw InputError({file_.string(), "", document.is_discarded() ? "no JSON" : "no object",
+                        R"(an object such as {"name": "guide", "model": "guide.glb", )"
+                        R"("height_m": 1.75, "licence": "CC0-1.0"})"});
+    }
+    CharacterDescription who;
+    who.file = file_;
+    known(document, "",
+          {"name", "model", "height_m", "licence", "author", "wears", "sex", "age_years", "bones",
+           "clips"});
+    who.name = text(document, "", "name", true);
+    check_name(who.name);
+    who.model = path(text(document, "", "model", true));
+    who.height_m = number(document, "", "height_m", {0.5, 2.5},
+                          "in metres, from the soles to the top of the head; the model may have "
+                          "any unit, it is scaled to this height")
+                       .value_or(who.height_m);
+    who.licence = text(document, "", "licence", true);
+    who.author = text(document, "", "author", false);
+    who.wears = text(document, "", "wears", false);
+    read_sex(document, who);
+    if (document.contains("age_years")) {
+      who.age_years = number(document, "", "age_years", {1, 110}, "years").value_or(who.age_years);
+    }
+    read_bones(document, who);
+    read_clips(document, who);
+    if (!problems_.empty()) throw InputError(problems_);
+    return who;
+  }
+
+ private:
+  void wrong(const std::string& where, const std::string& found, const std::string& expected) {
+    problems_.push_back({file_.string(), where, found, expected});
+  }
+
+  fs::path path(const std::string& said) const {
+    return said.empty() ? fs::path() : file_.parent_path() / said;
+  }
+
+  void known(const json& object, const std::string& where, const std::vector<std::string>& keys) {
+    for (const auto& [key, value] : object.items()) {
+      if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+      wrong(where + "/" + key, "an unknown field",
+            fmt::format("one of {} (\"{}\"?)", fmt::join(keys, ", "), most_similar(key, keys)));
+    }
+  }
+
+  std::string text(const json& object, const std::string& where, const char* key, bool needed) {
+    const std::string place = where + "/" + key;
+    if (!object.contains(key)) {
+      if (needed) wrong(place, "nothing", "a string");
+      return {};
+    }
+    if (!object[key].is_string() || (needed && object[key].get<std::string>().empty())) {
+      wrong(place, object[key].dump(), "a string that is not empty");
+      return {};
+    }
+    return object[key].get<std::string>();
+  }
+
+  std::optional<double> number(const json& object, const std::string& where, const char* key,
+                               Range range, const char* meaning) {
+    const std::string expected = fmt::format("{:g} to {:g} ({})", range.low, range.high, meaning);
+    if (!object.contains(key)) {
+      wrong(where + "/" + key, "nothing", expected);
+      return {};
+    }
+    const json& value = object[key];
+    if (value.is_number() && value >= range.low && value <= range.high) return value.get<double>();
+    wrong(where + "/" + key, value.dump(), expected);
+    return {};
+  }
+
+  void check_name(const std::string& name) {
+    constexpr std::size_t kLongest = 40;
+    const bool sound = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+      return std::isalnum(c) != 0 || c == '_' || c == '-';
+    });
+    if (!sound || name.size() > kLongest) {
+      wrong("/name", "\"" + name + "\"", "at most 40 letters, digits, - and _");
+    }
+  }
+
+  void read_sex(const json& document, CharacterDescription& who) {
+    if (!document.contains("sex")) return;
+    const json& sex = document["sex"];
+    if (sex != "male" && sex != "female") wrong("/sex", sex.dump(), "\"male\" or \"female\"");
+    who.male = sex == "male";
+  }
+
+  void read_bones(const json& document, CharacterDescription& who) {
+    if (!document.contains("bones")) return;
+    if (!document["bones"].is_object()) {
+      wrong("/bones", document["bones"].dump(), R"(an object such as {"left_thigh": "Leg1.L"})");
+      return;
+    }
+    for (const auto& [ours, theirs] : document["bones"].items()) {
+      if (theirs.is_string()) {
+        who.bones[ours] = theirs.get<std::string>();
+      } else {
+        wrong("/bones/" + ours, theirs.dump(), "the name of a bone of the model");
+      }
+    }
+  }
+
+  void read_clips(const json& document, CharacterDescription& who) {
+    if (!document.contains("clips")) return;
+    const json& clips = document["clips"];
+    if (!clips.is_object()) {
+      wrong("/clips", clips.dump(),
+            R"(an object such as {"walk": {"name": "Walk", "speed_mps": 1.4}})");
+      return;
+    }
+    known(clips, "/clips", {"idle", "walk", "run"});
+    who.idle = read_clip(clips, "idle", {});
+    who.walk = read_clip(clips, "walk", Range{0.2, 3});
+    who.run = read_clip(clips, "run", Range{1, 12});
+  }
+
+  std::optional<ClipDescription> read_clip(const json& clips, const char* key,
+                                           std::optional<Range> speed_mps) {
+    if (!clips.contains(key)) return {};
+    const json& clip = clips[key];
+    const std::string where = std::string("/clips/") + key;
+    if (!clip.is_object()) {
+      wrong(where, clip.dump(), R"(an object such as {"name": "Walk", "speed_mps": 1.4})");
+      return {};
+    }
+    known(clip, where, {"name", "file", "speed_mps"});
+    ClipDescription read;
+    read.name = text(clip, where, "name", false);
+    read.file = path(text(clip, where, "file", false));
+    if (speed_mps) {
+      read.speed_mps =
+          number(clip, where, "speed_mps", *speed_mps, "metres per second at the described height")
+              .value_or(1);
+    }
+    return read;
+  }
+
+  fs::path file_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+CharacterDescription read_description(const fs::path& file) {
+  if (!fs::is_regular_file(file)) {
+    throw InputError({file.string(), "", "no such file", "the description of a character"});
+  }
+  return DescriptionReader(file).read();
+}
+
+}  // namespace throng::skinning

@@ -1,0 +1,140 @@
+#include "skinning/import.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "skinning/clips.h"
+#include "skinning/import_character.h"
+#include "skinning/packed.h"
+#include "skinning/population_files.h"
+
+namespace throng::skinning {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kNoticeFile = "NOTICE.txt";
+
+// The people whom others are put among.
+struct Base {
+  PopulationIndex index;
+  std::string notice;
+};
+
+bool same_clips(const std::vector<Clip>& a, const std::vector<Clip>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Clip& x, const Clip& y) {
+    return x.name == y.name && x.frames == y.frames && x.cyclic == y.cyclic &&
+           std::abs(x.stride - y.stride) < 1e-4F && std::abs(x.middle - y.middle) < 1e-4F;
+  });
+}
+
+Base base_of(const ImportOptions& options) {
+  Base base;
+  if (options.with.empty()) {
+    base.index.texture_size = options.texture_size;
+    base.index.clips = standard_clips();
+    return base;
+  }
+  base.index = read_index(options.with);
+  if (!same_clips(base.index.clips, standard_clips())) {
+    throw InputError({options.with.string(), "/clips", "other clips than this program's",
+                      "people of this version (run `throng people build`)"});
+  }
+  const fs::path notice = options.with / kNoticeFile;
+  if (fs::is_regular_file(notice)) base.notice = read_file(notice);
+  return base;
+}
+
+std::vector<CharacterDescription> read_descriptions(const std::vector<fs::path>& files,
+                                                    const PopulationIndex& base) {
+  std::set<std::string> names;
+  for (const Character& who : base.characters) names.insert(who.name);
+  std::vector<CharacterDescription> described;
+  for (const fs::path& file : files) {
+    described.push_back(read_description(file));
+    if (!names.insert(described.back().name).second) {
+      throw InputError({file.string(), "/name", "\"" + described.back().name + "\"",
+                        "a name that nobody else in the folder has"});
+    }
+  }
+  return described;
+}
+
+std::string notice_of(const std::vector<CharacterDescription>& described) {
+  std::string text = "Characters that were imported into these people:\n";
+  for (const CharacterDescription& who : described) {
+    text += fmt::format("  - {}: {}, {}, from {}\n", who.name, who.licence,
+                        who.author.empty() ? "author not named" : who.author,
+                        who.model.filename().string());
+  }
+  return text;
+}
+
+std::string joined_licence(std::string licence,
+                           const std::vector<CharacterDescription>& described) {
+  std::set<std::string> named = {licence};
+  for (const CharacterDescription& who : described) {
+    if (!named.insert(who.licence).second) continue;
+    if (!licence.empty()) licence += " AND ";
+    const bool compound = who.licence.find(' ') != std::string::npos;
+    licence += compound ? "(" + who.licence + ")" : who.licence;
+  }
+  return licence;
+}
+
+void copy_over(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::copy_file(from, to, error);
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
+  }
+}
+
+}  // namespace
+
+void import_characters(const std::vector<fs::path>& descriptions, const fs::path& output_folder,
+                       const ImportOptions& options, const BuildProgress& progress) {
+  if (descriptions.empty()) {
+    throw InputError({"", "people import", "no description", "at least one"});
+  }
+  check_texture_size(options.texture_size);
+  check_replaceable(output_folder);
+  Base base = base_of(options);
+  const auto described = read_descriptions(descriptions, base.index);
+  StagingFolder staging(output_folder);
+  StagedFile palettes(staging.path() / kPalettesFile);
+  std::string content = base.index.content_hash;
+  if (!options.with.empty()) {
+    for (const Character& who : base.index.characters) {
+      copy_over(options.with / (who.name + ".glb"), staging.path() / (who.name + ".glb"));
+    }
+    palettes.write(read_file(options.with / kPalettesFile));
+  }
+  const auto count = static_cast<int>(described.size());
+  for (int i = 0; i < count; ++i) {
+    if (progress) progress(i, count);
+    const BakedPerson baked =
+        import_character(described[static_cast<std::size_t>(i)], base.index.texture_size);
+    write_file_atomically(staging.path() / (baked.character.name + ".glb"), baked.glb);
+    palettes.write(baked.motion);
+    content += sha256_hex(baked.glb + baked.motion + encode_character(baked.character));
+    base.index.characters.push_back(baked.character);
+  }
+  palettes.commit();
+  base.index.content_hash = sha256_hex(content);
+  base.index.licence = joined_licence(base.index.licence, described);
+  if (!base.notice.empty()) base.notice += "\n";
+  write_file_atomically(staging.path() / kNoticeFile, base.notice + notice_of(described));
+  write_file_atomically(staging.path() / kIndexFile, encode_index(base.index));
+  staging.commit_replacing();
+  if (progress) progress(count, count);
+}
+
+}  // namespace throng::skinning

@@ -1,0 +1,14 @@
+// One rigged model as a character of ours.
+#pragma once
+
+#include "skinning/description.h"
+#include "skinning/workbench.h"
+
+namespace throng::skinning {
+
+/// Scaled to its height, its rig mapped to ours, with all standard clips (its own where it has
+/// them), levels of detail, and pictures of this size. Throws InputError that says what in which
+/// file must change.
+BakedPerson import_character(const CharacterDescription& who, int texture_size);
+
+}  // namespace throng::skinning

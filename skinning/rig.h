@@ -1,0 +1,33 @@
+// Somebody else's rig as ours: which way it faces, where our joints are in it, how it comes to
+// stand, and what its animations do to our bones.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "skinning/rig_names.h"
+#include "skinning/rigged_model.h"
+#include "skinning/skeleton.h"
+
+namespace throng::skinning {
+
+/// A rig turned to our axes, in the file's unit.
+struct Rig {
+  BoneNodes nodes;
+  std::vector<Bone> bone_of_node;  ///< the nearest mapped node above, itself included, else hips
+  Eigen::Matrix3f to_ours = Eigen::Matrix3f::Identity();
+  Joints rest;   ///< as the file has it at rest
+  Pose neutral;  ///< from there to standing
+};
+
+/// Which way is up and ahead follows from where head, hips and feet are and which are left. Throws
+/// InputError when the pose at rest is not one of somebody who stands upright with toes ahead.
+Rig fit_rig(const RiggedModel& model, const BoneNodes& nodes);
+
+/// `count` poses of an animation, evenly spaced from its beginning to just before its end, against
+/// the neutral stance; hips are shifted as they are against rest, times `scale`.
+std::vector<Pose> poses_of(const RiggedModel& model, const Rig& rig,
+                           const ModelAnimation& animation, int count, float scale);
+
+}  // namespace throng::skinning

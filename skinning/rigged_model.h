@@ -1,0 +1,82 @@
+// Characters that others made, as assimp reads them (glTF, FBX, DAE, ...): nodes, skinned meshes
+// in the rest pose, pictures and animations, in the file's own axes and unit.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "skinning/image.h"
+
+namespace throng::skinning {
+
+struct ModelNode {
+  std::string name;
+  int parent = -1;  ///< before its children; -1 for the root
+  Eigen::Matrix4f local = Eigen::Matrix4f::Identity();
+  bool deforms = false;  ///< some vertex hangs on it
+};
+
+/// How strongly a node moves a vertex.
+struct NodeWeight {
+  int node;
+  float weight;
+};
+
+/// A mesh with one material, posed as the nodes are at rest.
+struct ModelPart {
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<Eigen::Vector3f> normals;
+  std::vector<Eigen::Vector2f> uvs;  ///< rows counted from the top
+  std::vector<std::vector<NodeWeight>> weights;
+  std::vector<std::uint32_t> indices;
+  std::size_t material = 0;
+};
+
+struct ModelMaterial {
+  Image picture;  ///< base colour
+  bool alpha_tested = false;
+};
+
+/// How one node moves; times in seconds. Empty rows leave the node as it is at rest.
+struct ModelChannel {
+  template <typename T>
+  struct Key {
+    double time_s;
+    T value;
+  };
+  int node;
+  std::vector<Key<Eigen::Vector3f>> shifts;
+  std::vector<Key<Eigen::Quaternionf>> turns;
+  std::vector<Key<Eigen::Vector3f>> scales;
+};
+
+struct ModelAnimation {
+  std::string name;
+  double duration_s = 0;
+  std::vector<ModelChannel> channels;
+};
+
+struct RiggedModel {
+  std::string file;
+  std::vector<ModelNode> nodes;
+  std::vector<ModelPart> parts;
+  std::vector<ModelMaterial> materials;
+  std::vector<ModelAnimation> animations;
+
+  /// Where the nodes are at rest, or at a time of an animation: to the file's axes.
+  std::vector<Eigen::Matrix4f> rest() const;
+  std::vector<Eigen::Matrix4f> at(const ModelAnimation& animation, double time_s) const;
+};
+
+enum class ModelUse : std::uint8_t { character, motion };
+
+/// Reads a model; for ModelUse::motion its nodes and animations only. Throws InputError naming the
+/// file when it is missing, when assimp cannot read it, or when a character has no mesh, no bones
+/// or pictures that are missing or neither PNG nor JPEG.
+RiggedModel read_rigged_model(const std::filesystem::path& path, ModelUse use);
+
+}  // namespace throng::skinning

@@ -1,0 +1,118 @@
+#include "skinning/rig_names.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+
+namespace throng::skinning {
+namespace {
+
+/// A rig by the names of its bones in palette order; "" leaves one out.
+struct NamedRig {
+  const char* program;
+  std::array<const char*, kBoneCount> names;
+};
+
+const std::array kRigs = {
+    NamedRig{"mixamo",
+             {"mixamorig:Hips",          "mixamorig:Spine",       "mixamorig:Spine2",
+              "mixamorig:Neck",          "mixamorig:Head",        "mixamorig:LeftShoulder",
+              "mixamorig:LeftArm",       "mixamorig:LeftForeArm", "mixamorig:LeftHand",
+              "mixamorig:RightShoulder", "mixamorig:RightArm",    "mixamorig:RightForeArm",
+              "mixamorig:RightHand",     "mixamorig:LeftUpLeg",   "mixamorig:LeftLeg",
+              "mixamorig:LeftFoot",      "mixamorig:LeftToeBase", "mixamorig:RightUpLeg",
+              "mixamorig:RightLeg",      "mixamorig:RightFoot",   "mixamorig:RightToeBase"}},
+    NamedRig{"vrm",
+             {"hips",          "spine",         "upperChest",    "neck",          "head",
+              "leftShoulder",  "leftUpperArm",  "leftLowerArm",  "leftHand",      "rightShoulder",
+              "rightUpperArm", "rightLowerArm", "rightHand",     "leftUpperLeg",  "leftLowerLeg",
+              "leftFoot",      "leftToes",      "rightUpperLeg", "rightLowerLeg", "rightFoot",
+              "rightToes"}},
+    NamedRig{"vroid",
+             {"J_Bip_C_Hips",    "J_Bip_C_Spine",    "J_Bip_C_UpperChest", "J_Bip_C_Neck",
+              "J_Bip_C_Head",    "J_Bip_L_Shoulder", "J_Bip_L_UpperArm",   "J_Bip_L_LowerArm",
+              "J_Bip_L_Hand",    "J_Bip_R_Shoulder", "J_Bip_R_UpperArm",   "J_Bip_R_LowerArm",
+              "J_Bip_R_Hand",    "J_Bip_L_UpperLeg", "J_Bip_L_LowerLeg",   "J_Bip_L_Foot",
+              "J_Bip_L_ToeBase", "J_Bip_R_UpperLeg", "J_Bip_R_LowerLeg",   "J_Bip_R_Foot",
+              "J_Bip_R_ToeBase"}},
+    NamedRig{"rigify", {"DEF-pelvis", "DEF-spine",      "DEF-spine.003",   "DEF-neck",
+                        "DEF-head",   "DEF-shoulder.L", "DEF-upper_arm.L", "DEF-forearm.L",
+                        "DEF-hand.L", "DEF-shoulder.R", "DEF-upper_arm.R", "DEF-forearm.R",
+                        "DEF-hand.R", "DEF-thigh.L",    "DEF-shin.L",      "DEF-foot.L",
+                        "DEF-toe.L",  "DEF-thigh.R",    "DEF-shin.R",      "DEF-foot.R",
+                        "DEF-toe.R"}},
+    NamedRig{"makehuman",
+             {"pelvis",       "spine05",      "spine01",      "neck01",       "head",
+              "clavicle.L",   "upperarm01.L", "lowerarm01.L", "wrist.L",      "clavicle.R",
+              "upperarm01.R", "lowerarm01.R", "wrist.R",      "upperleg01.L", "lowerleg01.L",
+              "foot.L",       "toe1-1.L",     "upperleg01.R", "lowerleg01.R", "foot.R",
+              "toe1-1.R"}},
+    NamedRig{"biped", {"Bip01 Pelvis", "Bip01 Spine",      "Bip01 Spine1",     "Bip01 Neck",
+                       "Bip01 Head",   "Bip01 L Clavicle", "Bip01 L UpperArm", "Bip01 L Forearm",
+                       "Bip01 L Hand", "Bip01 R Clavicle", "Bip01 R UpperArm", "Bip01 R Forearm",
+                       "Bip01 R Hand", "Bip01 L Thigh",    "Bip01 L Calf",     "Bip01 L Foot",
+                       "Bip01 L Toe0", "Bip01 R Thigh",    "Bip01 R Calf",     "Bip01 R Foot",
+                       "Bip01 R Toe0"}},
+    NamedRig{"unreal",
+             {"pelvis",     "spine_01",   "spine_03", "neck_01",    "head",       "clavicle_l",
+              "upperarm_l", "lowerarm_l", "hand_l",   "clavicle_r", "upperarm_r", "lowerarm_r",
+              "hand_r",     "thigh_l",    "calf_l",   "foot_l",     "ball_l",     "thigh_r",
+              "calf_r",     "foot_r",     "ball_r"}},
+    NamedRig{"daz", {"hip",      "abdomen", "chest",   "neck",   "head",     "lCollar", "lShldr",
+                     "lForeArm", "lHand",   "rCollar", "rShldr", "rForeArm", "rHand",   "lThigh",
+                     "lShin",    "lFoot",   "lToe",    "rThigh", "rShin",    "rFoot",   "rToe"}},
+    NamedRig{
+        "capture",
+        {"Hips",      "LowerBack",   "Spine1",      "Neck",          "Head",        "LeftShoulder",
+         "LeftArm",   "LeftForeArm", "LeftHand",    "RightShoulder", "RightArm",    "RightForeArm",
+         "RightHand", "LeftUpLeg",   "LeftLeg",     "LeftFoot",      "LeftToeBase", "RightUpLeg",
+         "RightLeg",  "RightFoot",   "RightToeBase"}}};
+
+class RigNamesTest : public testing::TestWithParam<NamedRig> {};
+
+RiggedModel model_of(const NamedRig& rig) {
+  RiggedModel model;
+  model.file = "model.glb";
+  model.nodes.push_back({"Root", -1, Eigen::Matrix4f::Identity(), false});
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    const int parent = bone == 0 ? 0 : static_cast<int>(index_of(kParent[bone])) + 1;
+    model.nodes.push_back({rig.names[bone], parent, Eigen::Matrix4f::Identity(), true});
+  }
+  return model;
+}
+
+TEST_P(RigNamesTest, AreKnown) {
+  const BoneNodes nodes = map_bones(model_of(GetParam()), {}, "x.json");
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    EXPECT_EQ(nodes[bone], static_cast<int>(bone) + 1) << kBoneNames[bone];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, RigNamesTest, testing::ValuesIn(kRigs),
+                         [](const auto& rig_info) { return std::string(rig_info.param.program); });
+
+TEST(RigNames, HandlesOfAnimatorsAreNoBones) {
+  RiggedModel model = model_of(kRigs[0]);
+  model.nodes.insert(model.nodes.begin() + 1,
+                     {"LeftFoot_IK", 0, Eigen::Matrix4f::Identity(), false});
+  for (std::size_t i = 3; i < model.nodes.size(); ++i) ++model.nodes[i].parent;
+  const BoneNodes nodes = map_bones(model, {}, "x.json");
+  EXPECT_EQ(model.nodes[static_cast<std::size_t>(nodes[index_of(Bone::left_foot)])].name,
+            "mixamorig:LeftFoot");
+}
+
+TEST(RigNames, WhatTheUserSaysComesFirst) {
+  RiggedModel model = model_of(kRigs[0]);
+  model.nodes.push_back({"Skull", 5, Eigen::Matrix4f::Identity(), true});
+  const BoneNodes nodes = map_bones(model, {{"head", "Skull"}}, "x.json");
+  EXPECT_EQ(nodes[index_of(Bone::head)], static_cast<int>(model.nodes.size()) - 1);
+}
+
+TEST(RigNames, SimilarNamesAreFound) {
+  EXPECT_EQ(most_similar("left_thigh", {"Head", "thigh_left", "Left-Tigh", "Tail"}), "Left-Tigh");
+  EXPECT_EQ(most_similar("left_thigh", {}), "");
+}
+
+}  // namespace
+}  // namespace throng::skinning
