@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/error.h"
@@ -18,8 +19,6 @@ namespace throng::skinning {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* kNoticeFile = "NOTICE.txt";
 
 // The people whom others are put among.
 struct Base {

@@ -18,7 +18,7 @@ struct Meaning {
   char side = 'm';   // 'l', 'r' or 'm' for the middle
 };
 
-enum class Part : std::uint8_t {
+enum class BodyPart : std::uint8_t {
   hips,
   spine,  // any of the bones between hips and neck
   neck,
@@ -96,39 +96,42 @@ std::optional<Meaning> meaning_of(const std::string& name) {
   return meaning;
 }
 
-std::optional<Part> sided_part(const std::string& part, bool thigh_is_named, bool collar_is_named) {
-  if (one_of(part, {"clavicle", "collar", "collarbone", "shouldergirdle"})) return Part::clavicle;
+std::optional<BodyPart> sided_part(const std::string& part, bool thigh_is_named,
+                                   bool collar_is_named) {
+  if (one_of(part, {"clavicle", "collar", "collarbone", "shouldergirdle"}))
+    return BodyPart::clavicle;
   if (one_of(part, {"shoulder", "shldr"})) {
-    return collar_is_named ? Part::upper_arm : Part::clavicle;
+    return collar_is_named ? BodyPart::upper_arm : BodyPart::clavicle;
   }
   if (one_of(part, {"arm", "upperarm", "uparm", "shoulderbend", "shldrbend", "humerus"})) {
-    return Part::upper_arm;
+    return BodyPart::upper_arm;
   }
   if (one_of(part, {"forearm", "lowerarm", "lowarm", "elbow", "forearmbend", "armlower"})) {
-    return Part::forearm;
+    return BodyPart::forearm;
   }
-  if (one_of(part, {"hand", "wrist", "palm"})) return Part::hand;
+  if (one_of(part, {"hand", "wrist", "palm"})) return BodyPart::hand;
   if (one_of(part, {"upleg", "thigh", "upperleg", "hip", "thighbend", "femur", "legupper"})) {
-    return Part::thigh;
+    return BodyPart::thigh;
   }
-  if (part == "leg") return thigh_is_named ? Part::shin : Part::thigh;
+  if (part == "leg") return thigh_is_named ? BodyPart::shin : BodyPart::thigh;
   if (one_of(part, {"shin", "calf", "lowerleg", "lowleg", "knee", "shank", "tibia", "leglower"})) {
-    return Part::shin;
+    return BodyPart::shin;
   }
-  if (one_of(part, {"foot", "ankle"})) return Part::foot;
-  if (one_of(part, {"toe", "toes", "toebase", "ball", "football", "metatarsals"})) return Part::toe;
+  if (one_of(part, {"foot", "ankle"})) return BodyPart::foot;
+  if (one_of(part, {"toe", "toes", "toebase", "ball", "football", "metatarsals"}))
+    return BodyPart::toe;
   return {};
 }
 
-std::optional<Part> middle_part(const std::string& part) {
-  if (one_of(part, {"hips", "hip", "pelvis"})) return Part::hips;
+std::optional<BodyPart> middle_part(const std::string& part) {
+  if (one_of(part, {"hips", "hip", "pelvis"})) return BodyPart::hips;
   if (part.rfind("spine", 0) == 0 ||
       one_of(part, {"chest", "upperchest", "torso", "abdomen", "waist", "ribcage", "lowerback",
                     "thorax", "back"})) {
-    return Part::spine;
+    return BodyPart::spine;
   }
-  if (part.rfind("neck", 0) == 0) return Part::neck;
-  if (part == "head") return Part::head;
+  if (part.rfind("neck", 0) == 0) return BodyPart::neck;
+  if (part == "head") return BodyPart::head;
   return {};
 }
 
@@ -230,19 +233,19 @@ class Mapper {
       const Meaning& meaning = *meanings[i];
       if (meaning.side == 'm') {
         const auto part = middle_part(meaning.part);
-        if (part == Part::spine) spine_.push_back(i);
-        if (!part || part == Part::spine) continue;
-        const Bone bone = part == Part::hips   ? Bone::hips
-                          : part == Part::neck ? Bone::neck
-                                               : Bone::head;
+        if (part == BodyPart::spine) spine_.push_back(i);
+        if (!part || part == BodyPart::spine) continue;
+        const Bone bone = part == BodyPart::hips   ? Bone::hips
+                          : part == BodyPart::neck ? Bone::neck
+                                                   : Bone::head;
         consider(bone, i, best);
       } else if (const auto part = sided_part(meaning.part, thigh, collar)) {
         const int first = static_cast<int>(Bone::left_clavicle) + static_cast<int>(*part) -
-                          static_cast<int>(Part::clavicle);
+                          static_cast<int>(BodyPart::clavicle);
         // Four bones of an arm on the left, four on the right, then the legs.
-        const bool leg = *part >= Part::thigh;
+        const bool leg = *part >= BodyPart::thigh;
         const int left = leg ? static_cast<int>(Bone::left_thigh) + static_cast<int>(*part) -
-                                   static_cast<int>(Part::thigh)
+                                   static_cast<int>(BodyPart::thigh)
                              : first;
         consider(static_cast<Bone>(left + (meaning.side == 'l' ? 0 : 4)), i, best);
       }

@@ -16,7 +16,6 @@ namespace {
 
 constexpr const char* kHashFile = "content_hash";
 constexpr const char* kMotionExtension = ".motion";
-constexpr const char* kNoticeFile = "NOTICE.txt";
 
 // Where a finished folder shares a file's bytes with the bench, nothing is written twice.
 void link_or_copy(const fs::path& from, const fs::path& to) {

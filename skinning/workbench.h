@@ -10,6 +10,8 @@
 
 namespace throng::skinning {
 
+inline constexpr const char* kNoticeFile = "NOTICE.txt";
+
 /// One finished person.
 struct BakedPerson {
   std::string glb;
