@@ -148,11 +148,10 @@ std::size_t shots_in(const std::vector<SheetRow>& rows) {
 Sheet draw_people_sheet(const skinning::Population& population, const SheetOptions& options,
                         const SheetProgress& progress) {
   check(!options.portraits.empty() && !options.crowd.empty(), "a sheet shows somebody");
-  constexpr std::size_t kPeopleWithLevels = 4;
   std::vector<SheetRow> rows = portrait_rows(population, options);
   rows.push_back(drone_row(population, options));
   for (SheetRow& row : motion_rows(population, options)) rows.push_back(std::move(row));
-  const LevelsApart apart = levels_apart(population, options, kPeopleWithLevels);
+  const LevelsApart apart = levels_apart(population, options);
   const std::vector<SheetRow> levels = level_rows(apart, options);
 
   Page page(options.width_px);

@@ -83,6 +83,8 @@ skinning::PoseBlend pose_of(const Population& population, std::uint32_t characte
   return skinning::frame_of(clip, moment.share * (clip.cyclic ? clip.frames : clip.frames - 1));
 }
 
+constexpr std::size_t kLevelColumns = 16;
+
 constexpr double kSide = 90 * kDegree;
 
 std::string caption_of(const skinning::Character& who) {
@@ -227,27 +229,26 @@ std::vector<SheetRow> motion_rows(const Population& population, const SheetOptio
   return rows;
 }
 
-LevelsApart levels_apart(const Population& population, const SheetOptions& options,
-                         std::size_t people) {
+LevelsApart levels_apart(const Population& population, const SheetOptions& options) {
   LevelsApart apart;
   Population& copy = apart.population;
   copy.texture_size = population.texture_size;
   copy.clips = population.clips;
   copy.palettes_per_character = population.palettes_per_character;
   std::map<std::int32_t, std::int32_t> layers;
-  for (std::size_t i = 0; i < std::min(people, options.portraits.size()); ++i) {
-    const std::uint32_t who = options.portraits[i];
+  for (const std::uint32_t who : options.portraits) {
     const skinning::Character& character = population.characters[who];
+    if (copy.characters.size() + character.levels.size() > kLevelColumns) break;
     for (std::size_t level = 0; level < character.levels.size(); ++level) {
       skinning::Mesh mesh = character.levels[level];
       for (skinning::Part& part : mesh.parts) {
-        if (part.texture < 0) continue;
-        const auto [layer, is_new] =
-            layers.try_emplace(part.texture, static_cast<std::int32_t>(copy.textures.size()));
-        if (is_new) {
-          copy.textures.push_back(population.textures[static_cast<std::size_t>(part.texture)]);
+        for (std::int32_t* used : {&part.texture, &part.shades}) {
+          if (*used < 0) continue;
+          const auto [layer, is_new] =
+              layers.try_emplace(*used, static_cast<std::int32_t>(copy.textures.size()));
+          if (is_new) copy.textures.push_back(population.textures[static_cast<std::size_t>(*used)]);
+          *used = layer->second;
         }
-        part.texture = layer->second;
       }
       apart.labels.push_back(fmt::format("level {}: {}", level, mesh.indices.size() / 3));
       skinning::Character& single = copy.characters.emplace_back();
@@ -264,13 +265,12 @@ LevelsApart levels_apart(const Population& population, const SheetOptions& optio
 }
 
 std::vector<SheetRow> level_rows(const LevelsApart& apart, const SheetOptions& options) {
-  constexpr std::size_t kColumns = 16;
   const Population& population = apart.population;
-  const int width = options.width_px / static_cast<int>(kColumns);
+  const int width = options.width_px / static_cast<int>(kLevelColumns);
   std::vector<SheetRow> rows;
   skinning::Appearance look;
   for (std::uint32_t i = 0; i < population.characters.size(); ++i) {
-    if (i % kColumns == 0) {
+    if (i % kLevelColumns == 0) {
       rows.push_back({i == 0 ? "Levels of detail and their triangles, all drawn large" : "", {}});
     }
     // All levels of a person wear one set of colours.

@@ -35,14 +35,13 @@ SheetRow drone_row(const skinning::Population& population, const SheetOptions& o
 std::vector<SheetRow> motion_rows(const skinning::Population& population,
                                   const SheetOptions& options);
 
-/// Some of the portraits' people, each level of detail as a character of its own, in order: level 0
-/// of the first person, level 1, ..., level 0 of the second, ...
+/// As many of the portraits' people as fill a row, each level of detail as a character of its own,
+/// in order: level 0 of the first person, level 1, ..., level 0 of the second, ...
 struct LevelsApart {
   skinning::Population population;
   std::vector<std::string> labels;
 };
-LevelsApart levels_apart(const skinning::Population& population, const SheetOptions& options,
-                         std::size_t people);
+LevelsApart levels_apart(const skinning::Population& population, const SheetOptions& options);
 
 /// All those levels, walking.
 std::vector<SheetRow> level_rows(const LevelsApart& apart, const SheetOptions& options);

@@ -79,19 +79,15 @@ CoveredSkin covered_skin(const MakeHuman& makehuman, const Wardrobe& wardrobe,
   return covered;
 }
 
-// Pushes skin inwards along its normals.
-void tuck_in(Surface& skin, const std::vector<bool>& tucked, const Palette& to_neutral) {
-  constexpr float kTuck_m = 0.007F;
-  for (std::size_t i = 0; i < skin.source.size(); ++i) {
-    if (!tucked[skin.source[i]]) continue;
-    skin.positions[i] -= kTuck_m * skin.normals[i];
-    // The A-pose differs by a rotation: that of the bones.
-    Eigen::Matrix3f turn = Eigen::Matrix3f::Zero();
-    for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-      turn += skin.weights[i][bone] * to_neutral[bone].leftCols<3>();
-    }
-    skin.fitted[i] -= kTuck_m * (turn.transpose() * skin.normals[i]).normalized();
+// Pushes a vertex inwards along its normal.
+void tuck_in(Surface& surface, std::size_t i, float tuck_m, const Palette& to_neutral) {
+  surface.positions[i] -= tuck_m * surface.normals[i];
+  // The A-pose differs by a rotation: that of the bones.
+  Eigen::Matrix3f turn = Eigen::Matrix3f::Zero();
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    turn += surface.weights[i][bone] * to_neutral[bone].leftCols<3>();
   }
+  surface.fitted[i] -= tuck_m * (turn.transpose() * surface.normals[i]).normalized();
 }
 
 bool all_corners(const Surface& surface, std::size_t at, const auto& holds) {
@@ -140,7 +136,12 @@ class Rim {
   }
 
   float operator[](std::size_t sector) const { return height_m_[sector]; }
-  float highest() const { return *std::max_element(height_m_.begin(), height_m_.end()); }
+  /// The highest around a direction.
+  float highest(const Eigen::Vector3f& from_hips) const {
+    const std::size_t here = sector_of(from_hips);
+    return std::max({height_m_[(here + kSectors - 1) % kSectors], height_m_[here],
+                     height_m_[(here + 1) % kSectors]});
+  }
   static std::size_t sector_of(const Eigen::Vector3f& from_hips) {
     const double turn = std::atan2(from_hips.y(), from_hips.x()) / (2 * std::numbers::pi) + 0.5;
     return std::min(static_cast<std::size_t>(turn * kSectors), kSectors - 1);
@@ -205,14 +206,26 @@ void cut_below(std::vector<Surface>& surfaces, float height_m) {
   }
 }
 
-// A waistband must not show through a shirt worn over it.
-void tuck_under(std::vector<Surface>& bottoms, float reach_m) {
+// A waistband must not show through a shirt worn over it: what the shirt covers is drawn further
+// in, and what it covers well not at all. Hems are uneven, so that depends on the direction.
+void tuck_under(std::vector<Surface>& bottoms, const Rim& hem, const DressedPerson& dressed) {
+  constexpr float kOverlap_m = 0.03F;
+  constexpr float kSoft_m = 0.01F;
+  constexpr float kTuck_m = 0.01F;
+  const Eigen::Vector3f& hips = dressed.joints[0];
+  const auto above_hem = [&](const Eigen::Vector3f& point) {
+    return point.z() - hem.highest(point - hips);
+  };
   for (Surface& surface : bottoms) {
     keep_triangles(surface, [&](std::size_t at) {
       return !all_corners(surface, at, [&](std::uint32_t vertex) {
-        return surface.positions[vertex].z() > reach_m;
+        return above_hem(surface.positions[vertex]) > kOverlap_m;
       });
     });
+    for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+      const float share = std::clamp(above_hem(surface.positions[i]) / kSoft_m, 0.0F, 1.0F);
+      if (share > 0) tuck_in(surface, i, share * kTuck_m, dressed.to_neutral);
+    }
   }
 }
 
@@ -260,7 +273,10 @@ Surface skin_of(const MakeHuman& makehuman, const PersonSpec& person, const Dres
                 const CoveredSkin& covered) {
   Surface skin = make_surface(makehuman.skin(), makehuman.uvs(), dressed.body, makehuman.weights(),
                               dressed.to_neutral);
-  tuck_in(skin, covered.tucked, dressed.to_neutral);
+  constexpr float kTuck_m = 0.007F;
+  for (std::size_t i = 0; i < skin.source.size(); ++i) {
+    if (covered.tucked[skin.source[i]]) tuck_in(skin, i, kTuck_m, dressed.to_neutral);
+  }
   keep_triangles(skin, [&](std::size_t at) {
     return !all_corners(skin, at, [&](std::uint32_t vertex) -> bool {
       return covered.hidden[skin.source[vertex]];
@@ -360,7 +376,7 @@ DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
     std::erase_if(tops, [](const Surface& surface) { return surface.tint == Tint::none; });
     cut_below(tops, highest_fitted(bottoms) - kWaistOverlap_m);
   } else if (!bottoms.empty()) {
-    tuck_under(bottoms, Rim(tops, dressed.joints, Rim::End::lower).highest() + kWaistOverlap_m);
+    tuck_under(bottoms, Rim(tops, dressed.joints, Rim::End::lower), dressed);
     bare_waist(makehuman, dressed, tops, bottoms, covered);
   }
   hide_above(shoes, lowest_on_shins(bottoms.empty() ? tops : bottoms) + kHemOverlap_m);

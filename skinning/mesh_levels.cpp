@@ -9,11 +9,11 @@
 #include <map>
 #include <numeric>
 
+#include "skinning/levels.h"
+
 namespace throng::skinning {
 
 namespace {
-
-constexpr std::array<std::size_t, 4> kTriangles = {8000, 3300, 920, 490};
 
 Eigen::Vector3f point_of(const Vertex& vertex) {
   return {vertex.position[0], vertex.position[1], vertex.position[2]};
@@ -175,18 +175,15 @@ class Simplifier {
 std::vector<Mesh> simplified_levels(const Mesh& mesh) {
   std::vector<Mesh> levels;
   const Simplifier simplifier(mesh);
-  for (const std::size_t triangles : kTriangles) {
-    if (levels.empty() && mesh.indices.size() <= 3 * triangles) {
-      levels.push_back(mesh);
+  for (const DetailLevel& detail : kDetailLevels) {
+    const std::size_t triangles = detail.triangles;
+    const Mesh& before = levels.empty() ? mesh : levels.back();
+    if (before.indices.size() <= 3 * triangles) {
+      levels.push_back(before);
       continue;
     }
-    // A level that saves little is none.
-    if (!levels.empty() && levels.back().indices.size() * 4 < 3 * triangles * 5) continue;
     Mesh level = simplifier.simplified(triangles);
-    if (level.indices.empty()) break;
-    if (levels.empty() || level.indices.size() < levels.back().indices.size()) {
-      levels.push_back(std::move(level));
-    }
+    levels.push_back(level.indices.empty() ? before : std::move(level));
   }
   return levels;
 }

@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "rigged_scene.h"
 #include "skinning/image.h"
+#include "skinning/levels.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"
 #include "walkers.h"
@@ -266,11 +267,11 @@ TEST_F(ImportTest, ManyTrianglesAreSimplifiedToLevels) {
   const Population people = import(describe());
   expect_sound(people, 1.62);
   const std::vector<Mesh>& levels = people.characters.front().levels;
-  ASSERT_EQ(levels.size(), 4U);
-  constexpr std::array<std::size_t, 4> kMost = {8000, 3300, 920, 620};
+  ASSERT_EQ(levels.size(), kDetailLevels.size());
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    EXPECT_LE(levels[i].indices.size() / 3, kMost[i]);
-    EXPECT_GE(levels[i].indices.size() / 3, kMost[i] / 4);
+    const std::size_t most = kDetailLevels[i].triangles;
+    EXPECT_LE(levels[i].indices.size() / 3, most + most / 4);
+    EXPECT_GE(levels[i].indices.size() / 3, most / 4);
     const Bounds bounds = bounds_of(levels[i]);
     EXPECT_NEAR(bounds.high.z(), 1.62, 0.02);
     EXPECT_NEAR(bounds.low.z(), 0, 0.02);
