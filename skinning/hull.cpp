@@ -202,8 +202,8 @@ Mesh Hull::level(std::size_t triangles, int picture) const {
       mesh.vertices.push_back(vertex);
     }
   }
-  mesh.parts.push_back(
-      {0, static_cast<std::uint32_t>(mesh.indices.size()), picture, Tint::portrait, false, picture + 1});
+  mesh.parts.push_back({0, static_cast<std::uint32_t>(mesh.indices.size()), picture, Tint::portrait,
+                        false, picture + 1});
   return mesh;
 }
 
