@@ -10,6 +10,7 @@
 #include "skinning/cloth.h"
 #include "skinning/reveal.h"
 #include "skinning/skeleton.h"
+#include "skinning/skin_tone.h"
 #include "skinning/skirt.h"
 
 namespace throng::skinning {
@@ -126,7 +127,7 @@ Wardrobe::Wardrobe(const MakeHuman& makehuman, const std::vector<PersonSpec>& pe
     if (!outfit.hat.empty()) add({outfit.hat, Slot::hat});
     if (!outfit.hair.empty()) add({outfit.hair, Slot::hair});
     add({person.eyebrows, Slot::hair});
-    add_picture(person.skin, skin_picture(makehuman.folder(), person.skin));
+    add_picture(person.skin, skin_picture(makehuman.folder(), person.skin), tone_skin);
     add_picture(person.eyes, proxy_folder(makehuman.folder(), "eyes", "Low-Poly") / "textures" /
                                  (person.eyes + ".png"));
   }
@@ -269,11 +270,14 @@ void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::pat
   worn.pieces.push_back(std::move(garment));
 }
 
-void Wardrobe::add_picture(const std::string& key, const fs::path& picture) {
+void Wardrobe::add_picture(const std::string& key, const fs::path& picture,
+                           const std::function<void(Image&)>& mend) {
   if (textures_.contains(key)) return;
   Image image = read_png(picture);
   for (std::size_t at = 3; at < image.rgba.size(); at += 4) image.rgba[at] = 255;
-  textures_.emplace(key, resized(image, texture_size_));
+  image = resized(image, texture_size_);
+  if (mend) mend(image);
+  textures_.emplace(key, std::move(image));
 }
 
 }  // namespace throng::skinning

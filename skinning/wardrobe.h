@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -71,7 +72,8 @@ class Wardrobe {
   void add_head(const Key& key, Worn& worn);
   const Proxy& load(const std::string& kind, const std::string& name);
   void add_piece(Worn& worn, Garment garment, Cloth cloth, const std::filesystem::path& folder);
-  void add_picture(const std::string& key, const std::filesystem::path& picture);
+  void add_picture(const std::string& key, const std::filesystem::path& picture,
+                   const std::function<void(Image&)>& mend = {});
 
   const MakeHuman* makehuman_;
   int texture_size_;
