@@ -91,6 +91,7 @@ void append_image_record(std::string& text, const CocoImage& image) {
   text += R"(,"centre":)";
   append_exact(text, image.camera.pose.centre());
   text.push_back('}');
+  if (!image.environment.empty()) text += R"(,"environment":)" + image.environment;
   if (!image.density_file.empty()) {
     append(text, R"(,"density_file":{},"density_count":{})", quoted(image.density_file),
            image.density_count);

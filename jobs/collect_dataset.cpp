@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/version.h"
+#include "jobs/environment.h"
 #include "jobs/manifest.h"
 #include "jobs/people.h"
 #include "jobs/pipeline.h"
@@ -46,6 +47,7 @@ class Collector {
       metrics.back().update(measured.at("metrics"));
       runs.push_back(take_frames(run.index));
       runs.back()["seed"] = measured.at("seed");
+      runs.back()["environment"] = to_json(environment_of_run(job_.environment, run.seed));
     }
     add("metrics.json", json{{"runs", metrics}}.dump(kJsonIndent) + "\n");
     if (wants(job_, "coco")) {

@@ -11,8 +11,8 @@
 #include "annotate/preview.h"
 #include "base/error.h"
 #include "camera/camera.h"
+#include "jobs/environment.h"
 #include "jobs/gimbal.h"
-#include "jobs/light.h"
 #include "jobs/people.h"
 #include "jobs/pipeline.h"
 #include "jobs/publication.h"
@@ -53,8 +53,9 @@ std::int64_t count_inside(const std::vector<Eigen::Vector2d>& heads, int width, 
 // One shard in the making: everything that its frames share.
 class ShardOutput {
  public:
-  ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard)
-      : job_(job), shard_(shard), publication_(output) {
+  ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
+              std::string environment)
+      : job_(job), shard_(shard), environment_(std::move(environment)), publication_(output) {
     if (wants(job, "coco")) {
       coco_.emplace(publication_.folder() / "coco");
     }
@@ -73,6 +74,7 @@ class ShardOutput {
     image.frame_index = frame.index;
     image.time_s = frame.time_s;
     image.camera = frame.camera;
+    image.environment = environment_;
     publication_.add(image.file_name, annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(),
                                                            job_.outputs.image_quality));
     if (wants(job_, "density")) {
@@ -110,6 +112,7 @@ class ShardOutput {
 
   const JobSpec& job_;
   const Shard& shard_;
+  std::string environment_;  ///< JSON
   Publication publication_;
   std::optional<annotate::CocoShardWriter> coco_;
   std::int64_t images_ = 0;
@@ -127,9 +130,12 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
   const skinning::Population population = skinning::load_population(skinning::population_folder());
   pin_people(folder, population.content_hash);
   const render::Animator animator(trace, population);
-  render::Renderer renderer(scenario, population, sun_at(job.time_of_day_h));
+  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
+  const RunEnvironment environment = environment_of_run(job.environment, seed);
+  render::Renderer renderer(scenario, population, environment.light);
 
-  ShardOutput output(folder.output_of({Task::Kind::render, shard.run, shard.index}), job, shard);
+  ShardOutput output(folder.output_of({Task::Kind::render, shard.run, shard.index}), job, shard,
+                     to_json(environment).dump());
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;

@@ -9,7 +9,6 @@
 #include "crowd/model.h"
 #include "crowd/project.h"
 #include "crowd/simulation.h"
-#include "jobs/light.h"
 #include "jobs/schema.h"
 #include "sim/participants.h"
 #include "sim/plan.h"
@@ -26,7 +25,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kMinutesPerHour = 60;
 // Keeps image and annotation ids, and a manifest in memory, within sane bounds.
 constexpr std::int64_t kMostImages = 2'000'000;
 
@@ -87,17 +85,8 @@ void read_crowd(const json& value, JobSpec& job) {
   }
 }
 
-double hours_of(const std::string& text) {
-  return std::stoi(text.substr(0, 2)) + std::stoi(text.substr(3)) / double{kMinutesPerHour};
-}
-
-std::string time_text(double hours) {
-  const long minutes = std::lround(hours * kMinutesPerHour);
-  return fmt::format("{:02}:{:02}", minutes / kMinutesPerHour, minutes % kMinutesPerHour);
-}
-
 // What the schema allows, as a job; absent fields keep the defaults of the structs.
-JobSpec read_job(const json& value) {
+JobSpec read_job(const json& value, std::vector<Problem>& problems) {
   JobSpec job;
   read(value, "scenario", job.scenario);
   job.name = job.scenario;
@@ -110,9 +99,7 @@ JobSpec read_job(const json& value) {
   read(capture, "rate_hz", job.capture.rate_hz);
   read(capture, "from_s", job.capture.from_s);
   read(capture, "to_s", job.capture.to_s);
-  std::string time_of_day = time_text(job.time_of_day_h);
-  read(part(value, "environment"), "time_of_day", time_of_day);
-  job.time_of_day_h = hours_of(time_of_day);
+  job.environment = read_environment(part(value, "environment"), problems);
   const json& outputs = part(value, "outputs");
   read(part(outputs, "image"), "format", job.outputs.image_format);
   read(part(outputs, "image"), "quality", job.outputs.image_quality);
@@ -150,11 +137,6 @@ void check_times(const JobSpec& job, std::vector<Problem>& problems) {
                           fmt::format("{} images over all runs and cameras", images),
                           fmt::format("at most {}", kMostImages)});
     }
-  }
-  if (!sun_is_up(job.time_of_day_h)) {
-    problems.push_back({"", "/environment/time_of_day",
-                        fmt::format("\"{}\"", time_text(job.time_of_day_h)),
-                        "a time when the sun is up, from 05:30 to 18:30"});
   }
 }
 
@@ -237,7 +219,7 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   const json value = world::parse_json(text, source);
   std::vector<Problem> problems = schema_problems(value, source);
   if (!problems.empty()) throw InputError(std::move(problems));
-  JobSpec job = read_job(value);
+  JobSpec job = read_job(value, problems);
   const world::Scenario scenario = scenario_of(job, source, scenarios);
   take_from_scenario(job, scenario);
   check_times(job, problems);
@@ -266,7 +248,7 @@ json to_json(const JobSpec& job) {
        {{"rate_hz", job.capture.rate_hz},
         {"from_s", job.capture.from_s},
         {"to_s", job.capture.to_s}}},
-      {"environment", {{"time_of_day", time_text(job.time_of_day_h)}}},
+      {"environment", to_json(job.environment)},
       {"outputs",
        {{"image", {{"format", job.outputs.image_format}, {"quality", job.outputs.image_quality}}},
         {"annotations", job.outputs.annotations},

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "jobs/environment.h"
 #include "sim/run.h"
 
 namespace throng::jobs {
@@ -50,7 +51,7 @@ struct JobSpec {
   sim::CrowdSpec crowd;
   std::vector<DroneSpec> drones;
   CaptureSpec capture;
-  double time_of_day_h = 15.5;
+  EnvironmentSpec environment;
   OutputSpec outputs;
 
   /// Frames of one camera in one run, at from_s, from_s + 1/rate_hz, ... up to to_s (included).

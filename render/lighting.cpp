@@ -7,15 +7,14 @@ namespace throng::render {
 
 namespace {
 
-std::array<float, 4> four(const Eigen::Vector3d& v, double w = 0) {
+std::array<float, 4> four(const Eigen::Array3d& v, double w = 0) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()),
           static_cast<float>(w)};
 }
 
-/// film() of shaders/light.glsl.
-float film(float radiance) {
-  const float x = std::max(radiance - 0.004F, 0.0F);
-  return (x * (6.2F * x + 0.5F)) / (x * (6.2F * x + 1.7F) + 0.06F);
+std::array<float, 4> area_of(const Eigen::AlignedBox2d& area) {
+  return {static_cast<float>(area.min().x()), static_cast<float>(area.min().y()),
+          static_cast<float>(1 / area.sizes().x()), static_cast<float>(1 / area.sizes().y())};
 }
 
 /// Places [low, high] on a grid: the length grows in steps of about a fifth, the start moves in
@@ -33,15 +32,18 @@ void snap(double& low, double& high) {
 
 }  // namespace
 
-Eigen::Vector3d sun_direction(const Lighting& lighting) {
-  const double elevation = std::max(lighting.sun_elevation_rad, 0.05);
-  return {std::cos(elevation) * std::cos(lighting.sun_azimuth_rad),
-          std::cos(elevation) * std::sin(lighting.sun_azimuth_rad), std::sin(elevation)};
+std::string light_words(const Environment& environment) {
+  const Daylight light = daylight(environment);
+  std::string words;
+  if (light.dark) words += "#define NO_SUN\n";
+  if (light.soft) words += "#define SOFT\n";
+  if (light.lamps_on) words += "#define LAMPS\n";
+  if (environment.weather == Weather::rain) words += "#define WET\n";
+  return words;
 }
 
-Eigen::Vector2d shadow_slope(const Lighting& lighting) {
-  const Eigen::Vector3d sun = sun_direction(lighting);
-  return sun.head<2>() / sun.z();
+Eigen::Vector2d shadow_slope(const Daylight& light) {
+  return light.direction.head<2>() / light.direction.z();
 }
 
 Eigen::AlignedBox2d shadow_area(const ClipPlanes& planes, const Eigen::AlignedBox2d& place,
@@ -58,37 +60,25 @@ Eigen::AlignedBox2d shadow_area(const ClipPlanes& planes, const Eigen::AlignedBo
   return area;
 }
 
-LightBlock light_block(const Lighting& lighting, const Eigen::AlignedBox2d& area,
-                       double tallest_m) {
-  const Eigen::Vector3d direction = sun_direction(lighting);
-  // A lower sun shines through more air: weaker and warmer (optical depths for clear air).
-  const double air_mass = 1 / (direction.z() + 0.05);
-  Eigen::Array3d sun = 1.85 * (-Eigen::Array3d(0.08, 0.14, 0.24) * air_mass).exp();
-  Eigen::Array3d sky = Eigen::Array3d(0.34, 0.395, 0.475) * (0.55 + 0.45 * direction.z());
-  // The camera opens up as it gets darker, as automatic exposure does, but not all the way.
-  constexpr double kNoonIlluminance = 1.55;
-  const double exposure = std::pow(kNoonIlluminance / (sun * direction.z() + sky).mean(), 0.7);
-  sun *= exposure;
-  sky *= exposure;
+LightBlock light_block(const Daylight& light, const LightFrame& frame) {
   const Eigen::Array3d ground_albedo(0.33, 0.31, 0.28);
-  const Eigen::Array3d bounce = 0.8 * ground_albedo * (sun * direction.z() + sky);
-  const Eigen::Vector2d slope = shadow_slope(lighting);
+  const Eigen::Array3d bounce = 0.8 * ground_albedo * (light.sun * light.direction.z() + light.sky);
+  const Eigen::Vector2d slope = shadow_slope(light);
+  constexpr double kLog2OfE = 1.4426950408889634;
   LightBlock block;
-  block.sun_direction = four(direction);
-  block.sun = four(sun);
-  block.sky = four(sky);
+  block.sun_direction = four(light.direction);
+  block.sun = four(light.sun);
+  block.sky = four(light.sky);
   block.bounce = four(bounce);
-  block.haze = four({0.62, 0.70, 0.80}, 1 / 900.0);
-  block.shadow_area = {static_cast<float>(area.min().x()), static_cast<float>(area.min().y()),
-                       static_cast<float>(1 / area.sizes().x()),
-                       static_cast<float>(1 / area.sizes().y())};
+  block.haze = four(light.haze, light.extinction_per_m * kLog2OfE);
+  block.shadow_area = area_of(frame.shadow_area);
   block.shadow_slope = {static_cast<float>(slope.x()), static_cast<float>(slope.y()),
-                        static_cast<float>(1 / tallest_m), 0};
+                        static_cast<float>(1 / frame.tallest_m), 0};
+  block.zenith = four(light.zenith);
+  block.lamps = four(light.lamps);
+  block.lamp_area = area_of(frame.lamp_area);
+  block.eye = four(frame.eye, frame.time_s);
   return block;
-}
-
-Eigen::Vector3f sky_colour(const LightBlock& light) {
-  return {film(light.haze[0]), film(light.haze[1]), film(light.haze[2])};
 }
 
 }  // namespace throng::render

@@ -1,4 +1,5 @@
-// Sun and sky as radiances, and where the shadow map lies: the Light block of shaders/light.glsl.
+// The Light block of shaders/light.glsl, the pieces of shader that an environment needs, and where
+// the shadow map lies.
 //
 // The shadow map is laid out on the ground: every texel is the line towards the sun through one
 // square of the plane z = 0, and holds the height of the highest thing on that line. A point is in
@@ -9,8 +10,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <string>
 
-#include "render/renderer.h"
+#include "render/daylight.h"
 #include "render/view.h"
 
 namespace throng::render {
@@ -27,22 +29,33 @@ struct LightBlock {
   std::array<float, 4> haze{};
   std::array<float, 4> shadow_area{};
   std::array<float, 4> shadow_slope{};
+  std::array<float, 4> zenith{};
+  std::array<float, 4> lamps{};
+  std::array<float, 4> lamp_area{};
+  std::array<float, 4> eye{};
 };
 
-/// Unit vector towards the sun; at least 3 degrees above the horizon, so that shadows end.
-Eigen::Vector3d sun_direction(const Lighting& lighting);
+/// What a frame adds to the environment's light.
+struct LightFrame {
+  Eigen::AlignedBox2d shadow_area;  ///< of shadow_area()
+  Eigen::AlignedBox2d lamp_area;    ///< of the lamp map
+  double tallest_m = 0;
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's centre
+  double time_s = 0;
+};
+
+/// Lines "#define WORD" that the shaders of this environment start with: NO_SUN, SOFT (shadows
+/// without edges), LAMPS, WET.
+std::string light_words(const Environment& environment);
 
 /// Displacement of the shadow on the ground per metre of height is minus this.
-Eigen::Vector2d shadow_slope(const Lighting& lighting);
+Eigen::Vector2d shadow_slope(const Daylight& light);
 
 /// The part of the ground whose lines to the sun matter for what the camera sees of `place`, up to
 /// height `tallest_m`. Grows in steps and moves in whole texels.
 Eigen::AlignedBox2d shadow_area(const ClipPlanes& planes, const Eigen::AlignedBox2d& place,
                                 double tallest_m, const Eigen::Vector2d& slope);
 
-LightBlock light_block(const Lighting& lighting, const Eigen::AlignedBox2d& area, double tallest_m);
-
-/// The colour of the sky at the horizon as the film shows it, in [0, 1].
-Eigen::Vector3f sky_colour(const LightBlock& light);
+LightBlock light_block(const Daylight& light, const LightFrame& frame);
 
 }  // namespace throng::render

@@ -128,16 +128,16 @@ std::uint32_t info_of(const skinning::Part& part, std::uint32_t white) {
 
 }  // namespace
 
-PeoplePass::PeoplePass(const skinning::Population& population)
+PeoplePass::PeoplePass(const skinning::Population& population, std::string_view words)
     : palettes_per_character_(population.palettes_per_character),
       palettes_(make_buffer(device_palettes(population, largest_storage()))),
       instances_(make_buffer()) {
   load_meshes(population);
   load_textures(population);
   array_ = make_person_array(vertices_, indices_, instances_);
-  const auto camera_program = [](std::string_view a, std::string_view b) {
-    return make_program({shader_view, shader_light, shader_person_vert},
-                        {a, b, shader_light, shader_person_frag});
+  const auto camera_program = [&](std::string_view a, std::string_view b) {
+    return make_program({words, shader_view, shader_light, shader_person_vert},
+                        {words, a, b, shader_light, shader_person_frag});
   };
   picture_ = camera_program("", "");
   picture_alpha_ = camera_program(kAlphaTest, "");

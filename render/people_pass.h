@@ -26,7 +26,8 @@ struct PersonDraw {
 /// blocks, the shadow map and the target to be bound.
 class PeoplePass {
  public:
-  explicit PeoplePass(const skinning::Population& population);
+  /// `words` are the environment's of render/lighting.h.
+  PeoplePass(const skinning::Population& population, std::string_view words);
 
   enum class Purpose { picture, shadow, coverage };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "render/lighting.h"
 #include "render/shaders.h"
 
 namespace throng::render {
@@ -31,25 +32,28 @@ std::string_view ground_material(const world::Scenario& scenario) {
                            R"("pavers", "asphalt", "grass" or "concrete")"});
 }
 
-Program make_place_program(std::initializer_list<std::string_view> fragment) {
-  return make_program({shader_view, shader_place_vert}, fragment);
+/// A surface's own shader on top of light and noise.
+Program make_place_program(const Environment& environment, std::string_view surface,
+                           std::string_view more = "") {
+  return make_program({shader_view, shader_place_vert},
+                      {light_words(environment), shader_light, shader_noise, surface, more});
 }
 
-Program make_ground_program(std::string_view material) {
-  return make_place_program({shader_light, shader_noise, material, embedded::shader_ground_frag});
+Program make_ground_program(const Environment& environment, std::string_view material) {
+  return make_place_program(environment, material, embedded::shader_ground_frag);
 }
 
 }  // namespace
 
-PlacePass::PlacePass(const world::Scenario& scenario)
+PlacePass::PlacePass(const world::Scenario& scenario, const Environment& environment)
     : mesh_(place_mesh(scenario)),
       vertices_(make_buffer(mesh_.vertices)),
       indices_(make_buffer(mesh_.indices)),
       array_(make_vertex_array()),
-      walls_(make_place_program({shader_light, shader_noise, embedded::shader_wall_frag})),
-      roofs_(make_place_program({shader_light, shader_noise, embedded::shader_roof_frag})),
-      ground_(make_ground_program(ground_material(scenario))),
-      surroundings_(make_ground_program(embedded::shader_ground_surroundings)),
+      walls_(make_place_program(environment, embedded::shader_wall_frag)),
+      roofs_(make_place_program(environment, embedded::shader_roof_frag)),
+      ground_(make_ground_program(environment, ground_material(scenario))),
+      surroundings_(make_ground_program(environment, embedded::shader_ground_surroundings)),
       shadow_(make_program({shader_light, embedded::shader_place_shadow_vert}, {})) {
   describe_vertices(array_, 0, vertices_, sizeof(PlaceVertex), 0,
                     {{0, 3, GL_FLOAT, false, offsetof(PlaceVertex, position)},

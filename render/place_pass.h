@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "render/environment.h"
 #include "render/gl_objects.h"
 #include "render/place.h"
 #include "world/scenario.h"
@@ -13,7 +14,7 @@ namespace throng::render {
 class PlacePass {
  public:
   /// Throws InputError when the scenario names a ground material that does not exist.
-  explicit PlacePass(const world::Scenario& scenario);
+  PlacePass(const world::Scenario& scenario, const Environment& environment);
 
   /// Expects the View and Light blocks, the shadow map and the target to be bound.
   void draw() const;

@@ -7,11 +7,13 @@
 #include "render/context.h"
 #include "render/coverage.h"
 #include "render/gl_objects.h"
+#include "render/lamps.h"
 #include "render/lighting.h"
 #include "render/people_pass.h"
 #include "render/person_geometry.h"
 #include "render/place_pass.h"
 #include "render/shadow_map.h"
+#include "render/sky_pass.h"
 #include "render/target.h"
 #include "render/view.h"
 
@@ -68,8 +70,8 @@ Visible visible_in(const Frame& frame, const Seen& seen, const Eigen::AlignedBox
 }  // namespace
 
 struct Renderer::State {
-  State(const world::Scenario& scenario, const skinning::Population& people, const Lighting& light,
-        const DeviceChoice& device);
+  State(const world::Scenario& scenario, const skinning::Population& people,
+        const Environment& environment, const DeviceChoice& device);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -83,11 +85,13 @@ struct Renderer::State {
 
   Context context;  // first: everything below needs it, also to be destroyed
   const skinning::Population* population;
-  Lighting lighting;
+  Daylight daylight;
   Eigen::AlignedBox2d ground;
   double tallest;
   PlacePass place;
   PeoplePass people_pass;
+  SkyPass sky;
+  std::optional<LampMap> lamp_map;  ///< after sunset
   ShadowMap shadow_map;
   CoverageCounter coverage;
   Buffer view_buffer;
@@ -96,14 +100,15 @@ struct Renderer::State {
 };
 
 Renderer::State::State(const world::Scenario& scenario, const skinning::Population& people,
-                       const Lighting& light, const DeviceChoice& device)
+                       const Environment& environment, const DeviceChoice& device)
     : context(device.name),
       population(&people),
-      lighting(light),
+      daylight(render::daylight(environment)),
       ground(scenario.ground.min, scenario.ground.max),
       tallest(tallest_m(scenario)),
-      place(scenario),
-      people_pass(people),
+      place(scenario, environment),
+      people_pass(people, light_words(environment)),
+      sky(environment),
       view_buffer(make_buffer()),
       light_buffer(make_buffer()) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -111,6 +116,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
   // counter-clockwise in the world is then clockwise in the window.
   glFrontFace(GL_CW);
   glDepthFunc(GL_GREATER);
+  if (daylight.lamps_on) lamp_map.emplace(scenario);
   check_gl("setting up");
 }
 
@@ -150,7 +156,7 @@ std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
 }
 
 void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area) {
-  const Eigen::Vector2d slope = shadow_slope(lighting);
+  const Eigen::Vector2d slope = shadow_slope(daylight);
   std::vector<PersonDraw> casters;
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
     const PersonInstance& person = scene.people[i];
@@ -176,23 +182,27 @@ void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& cam
     target.emplace(k.width, k.height);
   }
   const Eigen::AlignedBox2d area =
-      shadow_area(clip_planes(camera), ground, tallest, shadow_slope(lighting));
-  const LightBlock light = light_block(lighting, area, tallest);
+      shadow_area(clip_planes(camera), ground, tallest, shadow_slope(daylight));
+  const LightBlock light =
+      light_block(daylight, {area, ground, tallest, camera.pose.centre(), scene.time_s});
   const ViewBlock view = view_block(camera, guarded_viewport(k.width, k.height));
   glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
   glNamedBufferData(view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
   glEnable(GL_DEPTH_TEST);
-  draw_shadows(scene, area);
+  if (!daylight.dark) draw_shadows(scene, area);
   shadow_map.bind();
-  target->begin(sky_colour(light));
+  if (lamp_map) lamp_map->bind();
+  target->begin(Eigen::Vector3f::Zero());
   std::vector<PersonDraw> draws;
   draws.reserve(seen.size());
   for (const Seen& person : seen) draws.push_back(person.draw);
   // People first: they are many small triangles, and hide ground that then costs nothing.
   people_pass.draw(PeoplePass::Purpose::picture, scene.people, std::move(draws));
   place.draw();
+  sky.draw_sky(camera);
+  sky.draw_rain(camera, scene.index);
 }
 
 void Renderer::State::measure_coverage(const Scene& scene, const camera::Camera& camera,
@@ -219,8 +229,8 @@ void Renderer::State::measure_coverage(const Scene& scene, const camera::Camera&
 }
 
 Renderer::Renderer(const world::Scenario& scenario, const skinning::Population& population,
-                   const Lighting& lighting, const DeviceChoice& device)
-    : state_(std::make_unique<State>(scenario, population, lighting, device)) {}
+                   const Environment& environment, const DeviceChoice& device)
+    : state_(std::make_unique<State>(scenario, population, environment, device)) {}
 
 Renderer::~Renderer() = default;
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "render/environment.h"
 #include "render/frame.h"
 #include "skinning/motion.h"
 #include "skinning/population.h"
@@ -17,12 +18,6 @@ namespace throng::render {
 /// "software".
 struct DeviceChoice {
   std::string name = "auto";
-};
-
-/// Sun direction and strength, as later weather will set them.
-struct Lighting {
-  double sun_azimuth_rad = 0.9;  ///< counter-clockwise from +x, where the sun stands
-  double sun_elevation_rad = 0.8;
 };
 
 /// One person as drawn: where, which body, which pose.
@@ -48,7 +43,7 @@ class Renderer {
  public:
   /// Throws EnvironmentError naming the missing libraries or driver when no context can be made.
   Renderer(const world::Scenario& scenario, const skinning::Population& population,
-           const Lighting& lighting = {}, const DeviceChoice& device = {});
+           const Environment& environment = {}, const DeviceChoice& device = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

@@ -21,6 +21,10 @@ extern const std::string_view shader_ground_concrete;
 extern const std::string_view shader_ground_surroundings;
 extern const std::string_view shader_wall_frag;
 extern const std::string_view shader_roof_frag;
+extern const std::string_view shader_sky_vert;
+extern const std::string_view shader_sky_frag;
+extern const std::string_view shader_rain_vert;
+extern const std::string_view shader_rain_frag;
 
 }  // namespace throng::embedded
 // NOLINTEND(readability-identifier-naming)

@@ -6,10 +6,42 @@ flat in uint id;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint instance;
 
+#ifdef WET
+// A film of water: wet ground is darker (Lekner and Dorf 1988), and what it reflects shows the more
+// the flatter one looks (Fresnel's law in Schlick's form, 1994). Puddles are mirrors with rings of
+// drops in them.
+vec3 wet(vec3 radiance, float sky_share) {
+  vec2 p = world.xy;
+  vec3 to_eye = light.eye.xyz - world;
+  float distance_m = length(to_eye);
+  float lie = noise(p * 0.23 + 40.0) + 0.35 * noise(p * 1.1 + 3.0);
+  float puddle = smoothstep(0.80, 0.88, lie);
+  vec2 cell = floor(p * 4.0);
+  float ring = fract(light.eye.w * 1.7 + hash(ivec2(cell)));
+  float r = length(fract(p * 4.0) - 0.5);
+  float ripple = sin(40.0 * (r - 0.5 * ring)) * smoothstep(0.1, 0.0, abs(r - 0.5 * ring));
+  ripple *= clamp(1.0 - distance_m / 45.0, 0.0, 1.0);
+  float cosine = clamp(to_eye.z / distance_m + 0.25 * ripple * puddle, 0.0, 1.0);
+  float fresnel = 0.02 + 0.98 * pow(1.0 - cosine, 5.0);
+  vec3 mirrored = mix(light.haze.rgb, light.zenith.rgb, cosine) * (0.35 + 0.65 * sky_share);
+  vec3 dark = radiance * mix(0.52, 0.30, puddle);
+  return dark + mirrored * fresnel * mix(0.8, 1.8, puddle);
+}
+#endif
+
 void main() {
   vec3 albedo = ground_albedo(world.xy, fwidth(world.xy));
-  float sun = light.sun_direction.z * sunlit(world, 0.02);
-  vec3 radiance = albedo * (light.sun.rgb * sun + light.sky.rgb * openness);
+  vec3 received = light.sky.rgb * openness;
+#ifndef NO_SUN
+  received += light.sun.rgb * (light.sun_direction.z * sunlit(world, 0.02));
+#endif
+#ifdef LAMPS
+  received += light.lamps.rgb * lamp_light(world, vec3(0.0, 0.0, 1.0));
+#endif
+  vec3 radiance = albedo * received;
+#ifdef WET
+  radiance = wet(radiance, openness);
+#endif
   colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
   instance = id;
 }

@@ -36,9 +36,13 @@ void main() {
       albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(shaded[i]).rgb);
     }
   }
-  float sun = world_sun.w * sunlit_small(world_sun.xyz, 0.06);
   vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, uv_sky.z);
-  vec3 radiance = albedo * (light.sun.rgb * sun + ambient);
+#ifdef LAMPS
+  vec3 direct = light.lamps.rgb * world_sun.w;
+#else
+  vec3 direct = light.sun.rgb * (world_sun.w * sunlit_small(world_sun.xyz, 0.06));
+#endif
+  vec3 radiance = albedo * (direct + ambient);
   colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
   instance = surface.z;
 #endif

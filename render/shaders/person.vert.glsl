@@ -67,7 +67,7 @@ void main() {
   gl_Position = vec4(shadow_uv(world) * 2.0 - 1.0, world.z * light.shadow_slope.z, 1.0);
 }
 #else
-out vec4 world_sun;     // position; sunlight received before shadows
+out vec4 world_sun;     // position; sunlight received before shadows, or after sunset the lamps' light
 out vec3 uv_sky;        // texture coordinates; share of the sky's light
 flat out uvec4 surface;  // texture layer, tint as sRGB, id, a portrait's second layer or 0
 flat out uvec4 shaded;   // a portrait's tints
@@ -76,7 +76,11 @@ void main() {
   mat3x4 rows = blended_rows();
   vec3 world = placed(vec4(position_in, 1.0) * rows);
   vec3 n = turned(normalize(vec4(normal_in, 0.0) * rows));
+#ifdef LAMPS
+  world_sun = vec4(world, lamp_light(world, n));
+#else
   world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
+#endif
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
   uint slot = part >> 24;
   uint tint = 0xFFFFFFu;

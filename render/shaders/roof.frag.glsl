@@ -22,6 +22,9 @@ void main() {
   vec3 albedo = mix(vec3(0.27, 0.26, 0.25), vec3(0.36, 0.33, 0.29), tone);
   albedo *= (1.0 + 0.2 * gravel + 0.25 * stain) * (1.0 - 0.3 * seam) * (1.0 - 0.3 * gutter);
   albedo = mix(albedo, vec3(0.46, 0.44, 0.40), parapet);
+#ifdef WET
+  albedo *= 0.6;
+#endif
   float sun = light.sun_direction.z * sunlit(world, 0.1);
   vec3 radiance = albedo * (light.sun.rgb * sun + light.sky.rgb);
   colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);

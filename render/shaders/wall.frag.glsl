@@ -11,7 +11,12 @@ layout(location = 1) out uint instance;
 struct Surface {
   vec3 albedo;
   vec3 shine;  // mirrored sky
+  vec3 glow;   // own light, after sunset
 };
+
+#ifdef LAMPS
+const float kWindow = 3.0e-4;  // light of a window, in units of lamp light
+#endif
 
 vec3 render_colour(float pick) {
   const vec3 kPlaster[5] = vec3[](vec3(0.56, 0.50, 0.40), vec3(0.60, 0.57, 0.51),
@@ -48,6 +53,12 @@ void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width)
   float shade = 1.0 - 0.6 * band(p.y, 2.0 * half_size.y - kReveal, 9.0, width.y);
   s.albedo = mix(s.albedo, vec3(0.50, 0.49, 0.46) * shade, opening);
   s.albedo = mix(s.albedo, inside * shade, pane);
+#ifdef LAMPS
+  // Somebody is at home behind every third pane, behind more of them than not in warm light.
+  float home = hash(cell + 211);
+  vec3 warm = mix(vec3(1.0, 0.72, 0.42), vec3(0.85, 0.92, 1.0), step(0.8, fract(home * 17.0)));
+  s.glow += warm * (pane * shade * step(home, 0.36) * (0.35 + 1.6 * home) * (1.0 - 0.6 * curtain));
+#endif
   s.shine += pane * shade * (0.25 + 0.35 * hash(cell + 101)) * vec3(1.0);
   float sill = band(p.x, -half_size.x - 0.1, half_size.x + 0.1, width.x) *
                band(p.y, -0.12, 0.0, width.y);
@@ -69,6 +80,7 @@ Surface facade(vec2 p, vec2 size, uint building) {
 
   Surface s;
   s.shine = vec3(0.0);
+  s.glow = vec3(0.0);
   bool brick = hash(key) < 0.4;
   s.albedo = brick && !ground_floor ? brick_colour(p, width) : render_colour(hash(key + 31));
   s.albedo *= 1.0 + 0.12 * stain;
@@ -84,6 +96,13 @@ Surface facade(vec2 p, vec2 size, uint building) {
   s.albedo = mix(s.albedo, vec3(0.24, 0.235, 0.23), plinth);
   s.albedo *= 1.0 - 0.35 * under_cornice;
   s.shine *= (1.0 - plinth) * (1.0 - max(course, cornice));
+#ifdef LAMPS
+  // The lamps of wall_lamps() in render/lamps.cpp.
+  float apart = size.x / max(1.0, floor(size.x / 12.0));
+  vec2 from_lamp = vec2((fract(p.x / apart) - 0.5) * apart, p.y - min(4.2, 0.8 * size.y));
+  float bulb = size.x < 4.0 ? 0.0 : smoothstep(0.16 + width.y, 0.10, length(from_lamp));
+  s.glow += 6.0 * bulb * vec3(1.0, 0.85, 0.6);
+#endif
   return s;
 }
 
@@ -94,7 +113,13 @@ void main() {
   float sun = facing * sunlit(world + 0.12 * normal, 0.02);
   float low = clamp(local.y / 4.0, 0.0, 1.0);
   vec3 ambient = light.sky.rgb * (0.42 + 0.13 * low) + light.bounce.rgb * (0.5 - 0.2 * low);
-  vec3 radiance = s.albedo * (light.sun.rgb * sun + ambient) + s.shine * light.sky.rgb * 0.5;
+  vec3 received = light.sun.rgb * sun + ambient;
+  vec3 glow = vec3(0.0);
+#ifdef LAMPS
+  received += light.lamps.rgb * lamp_light(world + 0.6 * normal, normal);
+  glow = s.glow * light.lamps.rgb * kWindow;
+#endif
+  vec3 radiance = s.albedo * received + s.shine * light.sky.rgb * 0.5 + glow;
   colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
   instance = id;
 }

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "jobs/light.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -106,7 +105,7 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(job.drones[0].mission.waypoints[1], Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));
   EXPECT_EQ(job.drones[0].camera.pitch_deg, -90);
-  EXPECT_DOUBLE_EQ(job.time_of_day_h, 7.75);
+  EXPECT_DOUBLE_EQ(environment_of_run(job.environment, 1).time_of_day_h, 7.75);
   EXPECT_EQ(job.frames_per_camera(), 5);
   EXPECT_THAT(job.outputs.annotations, ElementsAre("density"));
   EXPECT_EQ(job.outputs.density_sigma_px, 6);
@@ -163,9 +162,21 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
        "/capture"},
       {R"({"scenario": "yard", "environment": {"time_of_day": "25:00"}})",
        "/environment/time_of_day"},
-      {R"({"scenario": "yard", "environment": {"time_of_day": "23:00"}})",
-       "/environment/time_of_day"},
-      {R"({"scenario": "yard", "environment": {"weather": "clear"}})", "/environment/weather"},
+      {R"({"scenario": "yard", "environment": {"weather": "snow"}})", "/environment/weather"},
+      {R"({"scenario": "yard", "environment": {"weather": {"choice": ["fog", "snow"]}}})",
+       "/environment/weather/choice/1"},
+      {R"({"scenario": "yard", "environment": {"weather": {"uniform": ["fog", "rain"]}}})",
+       "/environment/weather"},
+      {R"({"scenario": "yard", "environment": {"latitude_deg": 91}})",
+       "/environment/latitude_deg"},
+      {R"({"scenario": "yard", "environment": {"latitude_deg": {"uniform": [5, 4]}}})",
+       "/environment/latitude_deg/uniform/1"},
+      {R"({"scenario": "yard", "environment": {"latitude_deg": {"normal": [5, 4]}}})",
+       "/environment/latitude_deg"},
+      {R"({"scenario": "yard", "environment": {"day_of_year": 1.5}})", "/environment/day_of_year"},
+      {R"({"scenario": "yard", "environment": {"day_of_year": {"choice": []}}})",
+       "/environment/day_of_year/choice"},
+      {R"({"scenario": "yard", "environment": {"wind": 3}})", "/environment/wind"},
       {R"({"scenario": "yard", "randomize": {}})", "/randomize"},
       {R"({"scenario": "yard", "outputs": {"split": {}}})", "/outputs/split"},
       {R"({"scenario": "yard", "outputs": {"annotations": ["coco", "yolo"]}})",
@@ -215,21 +226,6 @@ TEST_F(Spec, HostileTextsAreRefusedAndNothingElse) {
         std::string("{\"scenario\": \"ya\0rd\"}", 21)}) {
     EXPECT_THROW(parse(text), InputError) << text.substr(0, 60);
   }
-}
-
-TEST(Light, TheSunRisesInTheEastAndStandsHighestInTheSouthAtNoon) {
-  const render::Lighting morning = sun_at(7);
-  const render::Lighting noon = sun_at(12);
-  const render::Lighting evening = sun_at(17);
-  EXPECT_GT(std::cos(morning.sun_azimuth_rad), 0.8);
-  EXPECT_LT(std::cos(evening.sun_azimuth_rad), -0.8);
-  EXPECT_NEAR(std::sin(noon.sun_azimuth_rad), -1, 1e-9);
-  EXPECT_NEAR(noon.sun_elevation_rad * 180 / 3.14159265358979, 60, 1e-6);
-  EXPECT_NEAR(morning.sun_elevation_rad, evening.sun_elevation_rad, 1e-9);
-  EXPECT_TRUE(sun_is_up(5.5));
-  EXPECT_TRUE(sun_is_up(18.5));
-  EXPECT_FALSE(sun_is_up(5));
-  EXPECT_FALSE(sun_is_up(23));
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ TEST(Picture, IdsTellEveryoneAndEveryBuildingApart) {
 }
 
 TEST(Picture, ShadowsFallAwayFromTheSun) {
-  Lighting lighting;
+  Environment lighting;
   lighting.sun_azimuth_rad = 30 * kDegree;
   lighting.sun_elevation_rad = 45 * kDegree;
   Stage stage(open_ground({block(-1, 1, -1, 1, 4)}), lighting);
@@ -168,7 +168,7 @@ TEST(Picture, ShadowsFallAwayFromTheSun) {
 }
 
 TEST(Picture, PeopleCastShadowsOnTheGround) {
-  Lighting lighting;
+  Environment lighting;
   lighting.sun_azimuth_rad = 0;
   lighting.sun_elevation_rad = 45 * kDegree;
   Stage stage(open_ground(), lighting);

@@ -77,7 +77,7 @@ inline int brightness(const Frame& frame, int x, int y) {
 /// A renderer of `scenario` on the CPU, with the population it draws.
 class Stage {
  public:
-  explicit Stage(world::Scenario scenario, Lighting lighting = {})
+  explicit Stage(world::Scenario scenario, Environment lighting = {})
       : scenario_(std::move(scenario)),
         people_(synthetic_people()),
         renderer_(scenario_, people_, lighting, {"software"}) {}

@@ -1,0 +1,6 @@
+// A drop shows the sky.
+in float share;
+
+layout(location = 0) out vec4 colour;
+
+void main() { colour = vec4(film(light.sky.rgb * 0.9 + light.haze.rgb * 0.25), share); }

@@ -1,0 +1,19 @@
+// The sky: from the haze of the horizon to the zenith, with a glow about the sun or clouds.
+in vec3 ray;
+
+layout(location = 0) out vec4 colour;
+
+void main() {
+  vec3 d = normalize(ray);
+  float up = max(d.z, 0.0);
+  vec3 radiance = mix(light.haze.rgb, light.zenith.rgb, pow(up, 0.45));
+#ifdef SOFT
+  vec2 p = d.xy / (up + 0.12);
+  float cloud = noise(p * 1.3) + 0.5 * noise(p * 3.1 + 7.0) + 0.25 * noise(p * 6.7) - 0.875;
+  radiance *= 1.0 + 0.25 * cloud * smoothstep(0.0, 0.15, up);
+#elif !defined(NO_SUN)
+  float near = max(dot(d, light.sun_direction.xyz), 0.0);
+  radiance += light.sun.rgb * (0.25 * pow(near, 12.0) + 3.0 * smoothstep(0.99985, 0.99995, near));
+#endif
+  colour = vec4(film(radiance), 1.0);
+}

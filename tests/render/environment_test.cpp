@@ -1,0 +1,160 @@
+// Light and weather on pixels.
+#include <gtest/gtest.h>
+
+#include "render/daylight.h"
+#include "render/lamps.h"
+#include "stage.h"
+
+namespace throng::render {
+namespace {
+
+Environment weather(Weather kind, double sun_elevation_deg = 45, double visibility_m = 5000) {
+  Environment environment;
+  environment.sun_azimuth_rad = 30 * kDegree;
+  environment.sun_elevation_rad = sun_elevation_deg * kDegree;
+  environment.weather = kind;
+  environment.visibility_m = visibility_m;
+  if (kind == Weather::rain) environment.rain_mm_per_h = 5;
+  return environment;
+}
+
+/// Mean brightness of what a camera sees within a pixel's radius of a ground point.
+double ground_brightness(const Frame& frame, double x, double y, int radius = 1) {
+  const Eigen::Vector2d pixel = frame.camera.project({x, y, 0}).pixel;
+  double sum = 0;
+  for (int dy = -radius; dy <= radius; ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
+      sum += brightness(frame, static_cast<int>(std::lround(pixel.x())) + dx,
+                        static_cast<int>(std::lround(pixel.y())) + dy);
+    }
+  }
+  return sum / ((2 * radius + 1) * (2 * radius + 1));
+}
+
+double mean_brightness(const Frame& frame) {
+  double sum = 0;
+  for (const std::uint8_t value : frame.rgb) sum += value;
+  return sum / static_cast<double>(frame.rgb.size());
+}
+
+TEST(Weathers, OvercastHasNoHardShadows) {
+  const camera::Camera camera = camera_at({0, 0, 30}, 0, -90);
+  const auto shade_over_light = [&](Weather kind, double visibility_m) {
+    Stage stage(open_ground({block(-1, 1, -1, 1, 4)}), weather(kind, 45, visibility_m));
+    const Frame frame = stage.draw(camera);
+    const Eigen::Vector2d sun(std::cos(30 * kDegree), std::sin(30 * kDegree));
+    return ground_brightness(frame, -3 * sun.x(), -3 * sun.y()) /
+           ground_brightness(frame, 3 * sun.x(), 3 * sun.y());
+  };
+  EXPECT_LT(shade_over_light(Weather::clear, 5000), 0.75);
+  EXPECT_NEAR(shade_over_light(Weather::overcast, 5000), 1, 0.08);
+  EXPECT_NEAR(shade_over_light(Weather::fog, 150), 1, 0.08);
+}
+
+TEST(Weathers, FogTakesContrastWithDistanceAsBeersLawSays) {
+  const camera::Camera camera = camera_at({0, 0, 6}, 0, -10, 640, 480);
+  const auto contrast = [&](Weather kind, double visibility_m, double x) {
+    Stage stage(open_ground(), weather(kind, 45, visibility_m));
+    const Frame empty = stage.draw(camera);
+    PersonInstance dark = stage.standing(0, x, 0);
+    dark.appearance.tint.fill({0, 0, 0});
+    const Frame frame = stage.draw(camera, {dark});
+    const Eigen::Vector2d chest = camera.project({x, 0, 1.1}).pixel;
+    const int column = static_cast<int>(std::lround(chest.x()));
+    const int row = static_cast<int>(std::lround(chest.y()));
+    EXPECT_EQ(frame.id[index_of(frame, column, row)], id_of_agent(0));
+    return std::abs(brightness(empty, column, row) - brightness(frame, column, row));
+  };
+  const int near_fog = contrast(Weather::fog, 60, 12);
+  const int far_fog = contrast(Weather::fog, 60, 36);
+  EXPECT_LT(far_fog, 0.6 * near_fog);
+  EXPECT_LT(far_fog, 0.4 * contrast(Weather::clear, 5000, 36));
+}
+
+TEST(Weathers, RainWetsTheGroundAndStreaksTheColourOnly) {
+  const camera::Camera camera = camera_at({0, 0, 12}, 0, -50);
+  Stage dry(open_ground(), weather(Weather::overcast));
+  Stage wet(open_ground(), weather(Weather::rain));
+  const Frame in_dry = dry.draw(camera, {dry.standing(0, 8, 0)});
+  const Frame in_rain = wet.draw(camera, {wet.standing(0, 8, 0)});
+  EXPECT_LT(mean_brightness(in_rain), 0.9 * mean_brightness(in_dry));
+  EXPECT_EQ(in_rain.id, in_dry.id);
+  EXPECT_EQ(in_rain.depth_m, in_dry.depth_m);
+  // Other drops in every frame, the same drops in the same frame.
+  Scene scene;
+  scene.people = {wet.standing(0, 8, 0)};
+  scene.index = 1;
+  const Frame next = wet.renderer().draw(scene, camera);
+  EXPECT_NE(next.rgb, in_rain.rgb);
+  EXPECT_EQ(next.rgb, wet.renderer().draw(scene, camera).rgb);
+}
+
+TEST(Hours, LampsMakePoolsOfLightAtNightAndShadowsAreGone) {
+  Stage stage(open_ground({block(0, 4, -3, 3, 8)}), weather(Weather::clear, -30));
+  const Frame frame = stage.draw(camera_at({0, 0, 45}, 0, -90));
+  EXPECT_GT(ground_brightness(frame, -1, 0), 2 * ground_brightness(frame, -25, 0))
+      << "below the lamp of the long wall";
+  EXPECT_GT(ground_brightness(frame, -1, 0), 100) << "bright enough to see people there";
+  EXPECT_NEAR(ground_brightness(frame, -14, 14), ground_brightness(frame, -14, -14), 10);
+}
+
+TEST(Hours, ExposureFollowsTheLight) {
+  const camera::Camera camera = camera_at({0, 0, 30}, 0, -60);
+  double previous = 1000;
+  for (const double elevation_deg : {60.0, 8.0, -3.0, -20.0}) {
+    Stage stage(open_ground({block(10, 14, -8, 8, 8)}), weather(Weather::clear, elevation_deg));
+    const double now = mean_brightness(stage.draw(camera));
+    EXPECT_LT(now, previous) << elevation_deg;
+    EXPECT_GT(now, 15) << elevation_deg;
+    previous = now;
+  }
+}
+
+TEST(Hours, WindowsGlowAtNight) {
+  const camera::Camera camera = camera_at({-14, 0, 5}, 0, 5);
+  Stage night(open_ground({block(0, 8, -10, 10, 13)}), weather(Weather::clear, -30));
+  const Frame frame = night.draw(camera);
+  int warm = 0;
+  int dark = 0;
+  for (std::size_t i = 0; i < frame.id.size(); ++i) {
+    if (frame.id[i] != kIdBuilding) continue;
+    warm += frame.rgb[3 * i] > 140 ? 1 : 0;
+    dark += frame.rgb[3 * i] < 70 ? 1 : 0;
+  }
+  EXPECT_GT(warm, 200);
+  EXPECT_GT(dark, 5000);
+}
+
+TEST(Hours, TheSkyIsWarmAtSunsetAndBlueAtNoon) {
+  const camera::Camera camera = camera_at({0, 0, 5}, 0, 20);
+  const auto red_over_blue = [&](double elevation_deg) {
+    Stage stage(open_ground(), weather(Weather::clear, elevation_deg));
+    const Frame frame = stage.draw(camera);
+    const std::size_t i = 3 * index_of(frame, 20, 150);  // just above the horizon
+    EXPECT_EQ(frame.id[i / 3], kIdNothing);
+    return static_cast<double>(frame.rgb[i]) / frame.rgb[i + 2];
+  };
+  EXPECT_LT(red_over_blue(50), 0.95);
+  EXPECT_GT(red_over_blue(2), 1.05);
+}
+
+TEST(Daylight, TwilightIsContinuous) {
+  for (double degrees = -20; degrees < 60; degrees += 0.25) {
+    const Daylight a = daylight(weather(Weather::clear, degrees));
+    const Daylight b = daylight(weather(Weather::clear, degrees + 0.01));
+    EXPECT_NEAR(a.sky.mean(), b.sky.mean(), 0.06 * a.sky.mean() + 1e-6) << degrees;
+    EXPECT_TRUE((a.sun >= 0).all() && (a.haze >= 0).all() && (a.zenith >= 0).all()) << degrees;
+  }
+}
+
+TEST(Lamps, DoNotShineThroughWalls) {
+  const world::Scenario scenario = open_ground({block(0, 6, -5, 5, 8), block(-8, -6, -5, 5, 8)});
+  const Lamp lamp{{-0.4, 0, 4.2}, {-1, 0}};
+  EXPECT_GT(lamp_light_at(scenario, {lamp}, {-3, 0}).w(), 0);
+  EXPECT_EQ(lamp_light_at(scenario, {lamp}, {-10, 0}).w(), 0) << "behind the other building";
+  EXPECT_EQ(lamp_light_at(scenario, {lamp}, {8, 0}).w(), 0) << "behind its own wall";
+  EXPECT_EQ(lamp_light_at(scenario, {lamp}, {-3, 39}).w(), 0) << "out of reach";
+}
+
+}  // namespace
+}  // namespace throng::render
