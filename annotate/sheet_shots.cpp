@@ -21,7 +21,7 @@ using skinning::ClipSet;
 using skinning::Population;
 
 // The sun stands behind the viewer's left shoulder.
-const double kHeading = render::Lighting{}.sun_azimuth_rad + std::numbers::pi - 0.7;
+const double kHeading = render::Environment{}.sun_azimuth_rad + std::numbers::pi - 0.7;
 
 // Looks at `target` from `distance_m` away; `px_per_m` there.
 camera::Camera camera_on(const Eigen::Vector3d& target, double distance_m, double pitch_rad,
