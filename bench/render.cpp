@@ -1,23 +1,49 @@
-// Frames per second of the renderer on the CPU: 1920 x 1080, a drone at 30 m looking down 45
-// degrees with 70 degrees across, everything read back. LP_NUM_THREADS=0 gives the figure of one
-// worker process per core.
-#include <benchmark/benchmark.h>
+// Frames per second of this machine's cores on the whole way to a dataset: 1920 x 1080, a drone at
+// 30 m looking down 45 degrees with 70 degrees across; drawn by Mesa's software driver, read back,
+// labelled, and picture, boxes, masks and depth written into a folder in memory. One process per
+// core, as jobs do it.
+//   bench_render [--stages] [--seconds S] [--pictures FOLDER]
+#include <fmt/core.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
-#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
 
 #include "../tests/render/synthetic_people.h"
+#include "annotate/coco.h"
+#include "annotate/labels.h"
+#include "annotate/png.h"
+#include "annotate/preview.h"
 #include "base/angle.h"
+#include "base/files.h"
 #include "base/random.h"
+#include "jobs/publication.h"
 #include "render/allocator.h"
 #include "render/renderer.h"
 
-namespace throng::render {
+namespace throng {
 namespace {
+
+struct Settings {
+  bool stages = false;
+  double seconds = 4;
+  std::string pictures;  ///< folder for one frame of each kind, or ""
+};
 
 skinning::Population people_to_draw() {
   const std::filesystem::path folder = skinning::population_folder();
-  return std::filesystem::exists(folder) ? skinning::load_population(folder) : synthetic_people(8);
+  return std::filesystem::exists(folder) ? skinning::load_population(folder)
+                                         : render::synthetic_people(8);
 }
 
 world::Scenario square() {
@@ -39,12 +65,12 @@ camera::Camera drone() {
 }
 
 /// Walkers spread over what the drone sees.
-Scene crowd(const skinning::Population& people, std::uint32_t count) {
+render::Scene crowd(const skinning::Population& people, std::uint32_t count) {
   const camera::Camera camera = drone();
-  Scene scene;
+  render::Scene scene;
   for (std::uint32_t i = 0; i < count; ++i) {
     Random random(1, Stream::crowd_generator, i);
-    PersonInstance person;
+    render::PersonInstance person;
     person.agent = i;
     Eigen::Vector2d pixel;
     do {
@@ -61,28 +87,154 @@ Scene crowd(const skinning::Population& people, std::uint32_t count) {
   return scene;
 }
 
-void draw(benchmark::State& state) {
-  tune_allocator();
-  const skinning::Population people = people_to_draw();
-  const world::Scenario scenario = square();
-  Renderer renderer(scenario, people, {}, {"software"});
-  const Scene scene = crowd(people, static_cast<std::uint32_t>(state.range(0)));
-  const camera::Camera camera = drone();
-  std::size_t in_view = renderer.draw(scene, camera).people.size();
-  for ([[maybe_unused]] auto _ : state) in_view = renderer.draw(scene, camera).people.size();
-  state.SetItemsProcessed(state.iterations());
-  state.counters["people_in_view"] = static_cast<double>(in_view);
+/// What one process found.
+struct Figures {
+  double frames = 0;
+  double wall_s = 0;
+  double cpu_s = 0;
+};
+
+double cpu_s() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-BENCHMARK(draw)
-    ->Name("BM_Draw/standard")
-    ->ArgName("people")
-    ->Arg(0)
-    ->Arg(100)
-    ->Arg(625)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+/// The work of a job's worker, frame by frame.
+class Worker {
+ public:
+  Worker(render::Quality quality, std::uint32_t count, StageClock* clock)
+      : clock_(clock),
+        people_(people_to_draw()),
+        scenario_(square()),
+        folder_(std::filesystem::path("/dev/shm") / fmt::format("throng_bench_{}", ::getpid())),
+        renderer_(scenario_, people_, {}, {"software"}, {.quality = quality, .clock = clock}),
+        scene_(crowd(people_, count)),
+        coco_(folder_ / "coco") {}
+  ~Worker() { std::filesystem::remove_all(folder_); }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  void frame() {
+    if (clock_ != nullptr) clock_->skip();
+    render::Frame frame = renderer_.draw(scene_, drone());
+    const annotate::FrameLabels labels = annotate::label_people(frame);
+    lap("labels");
+    jpeg_ = annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), 95);
+    lap("jpeg");
+    const std::string depth = annotate::depth_png(frame);
+    lap("png");
+    // The same names again and again: the disk is not what is measured.
+    jobs::write_new_file(folder_ / "image.jpg", jpeg_);
+    jobs::write_new_file(folder_ / "depth.png", depth);
+    annotate::CocoImage image;
+    image.id = next_++;
+    image.file_name = "image.jpg";
+    image.camera = frame.camera;
+    coco_.add(image, labels);
+    lap("write");
+    renderer_.recycle(std::move(frame));
+  }
+
+  const std::string& jpeg() const { return jpeg_; }
+
+ private:
+  void lap(std::string_view stage) {
+    if (clock_ != nullptr) clock_->lap(stage);
+  }
+
+  StageClock* clock_;
+  skinning::Population people_;
+  world::Scenario scenario_;
+  std::filesystem::path folder_;
+  render::Renderer renderer_;
+  render::Scene scene_;
+  annotate::CocoShardWriter coco_;
+  std::string jpeg_;
+  std::int64_t next_ = 0;
+};
+
+void print_stages(const StageClock& clock, double frames) {
+  for (const auto& [stage, time] : clock.times()) {
+    fmt::print(stderr, "    {:<12}{:8.2f} CPU ms\n", stage, 1000 * time.cpu_s / frames);
+  }
+}
+
+Figures measure(render::Quality quality, std::uint32_t count, bool first,
+                const Settings& settings) {
+  render::tune_allocator();
+  std::optional<StageClock> clock;
+  if (settings.stages) clock.emplace();
+  Worker worker(quality, count, clock ? &*clock : nullptr);
+  for (int i = 0; i < 2; ++i) worker.frame();
+  if (clock) *clock = StageClock();
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  const double cpu_begin_s = cpu_s();
+  Figures figures;
+  while (figures.wall_s < settings.seconds) {
+    worker.frame();
+    ++figures.frames;
+    figures.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  figures.cpu_s = cpu_s() - cpu_begin_s;
+  if (first && clock) print_stages(*clock, figures.frames);
+  if (first && !settings.pictures.empty()) {
+    write_file_atomically(std::filesystem::path(settings.pictures) /
+                              fmt::format("{}_{}.jpg", render::settings_of(quality).word, count),
+                          worker.jpeg());
+  }
+  return figures;
+}
+
+void run(render::Quality quality, std::uint32_t count, const Settings& settings) {
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  std::array<int, 2> pipe{};
+  if (::pipe(pipe.data()) != 0) std::abort();
+  for (unsigned i = 0; i < cores; ++i) {
+    if (::fork() != 0) continue;
+    const Figures figures = measure(quality, count, i == 0, settings);
+    const bool told = ::write(pipe[1], &figures, sizeof(figures)) == sizeof(figures);
+    std::_Exit(told ? EXIT_SUCCESS : EXIT_FAILURE);
+  }
+  ::close(pipe[1]);
+  double frames_per_s = 0;
+  Figures all;
+  for (Figures one; ::read(pipe[0], &one, sizeof(one)) == sizeof(one);) {
+    frames_per_s += one.frames / one.wall_s;
+    all.frames += one.frames;
+    all.cpu_s += one.cpu_s;
+  }
+  ::close(pipe[0]);
+  while (::wait(nullptr) > 0) {
+  }
+  const double cpu_ms = 1000 * all.cpu_s / all.frames;
+  fmt::print("{:<10}{:>8}{:>14.1f}{:>16.1f}{:>20.1f}\n", render::settings_of(quality).word, count,
+             frames_per_s, cpu_ms, 1000 * cores / cpu_ms);
+}
 
 }  // namespace
-}  // namespace throng::render
+}  // namespace throng
+
+int main(int count, char** arguments) {
+  throng::Settings settings;
+  for (int i = 1; i < count; ++i) {
+    const std::string_view word = arguments[i];
+    const char* value = i + 1 < count ? arguments[i + 1] : "";
+    if (word == "--stages") settings.stages = true;
+    if (word == "--seconds") settings.seconds = std::atof(value);
+    if (word == "--pictures") settings.pictures = value;
+  }
+  ::setenv("LP_NUM_THREADS", "0", 0);  // one core per process
+  fmt::print("{:<10}{:>8}{:>14}{:>16}{:>20}\n", "quality", "people", "frames/s", "CPU ms/frame",
+             "frames/s when idle");
+  for (const throng::render::QualitySettings& row : throng::render::kQualities) {
+    const auto quality =
+        static_cast<throng::render::Quality>(&row - throng::render::kQualities.data());
+    for (const std::uint32_t people : {625U, 5000U}) throng::run(quality, people, settings);
+    std::fflush(stdout);
+  }
+}

@@ -2,11 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <cstdlib>
+
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "jobs/local_processes.h"
+#include "jobs/profile.h"
 #include "jobs/supervisor.h"
 #include "world/scenario.h"
 
@@ -49,6 +52,8 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
   command.add_option("--workers", arguments.workers, "Processes at work at once (0: one per core)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command.add_flag("--profile", arguments.profile,
+                   "Print where the time of drawing, labelling and writing went, stage by stage");
 }
 
 jobs::JobSpec read_job_file(const std::string& path) {
@@ -61,16 +66,19 @@ jobs::JobSpec read_job_file(const std::string& path) {
   return jobs::parse_job(text, path, world::scenarios_folder());
 }
 
-void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job, int workers) {
+void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job,
+                const JobArguments& arguments) {
+  if (arguments.profile) ::setenv(jobs::kProfileVariable, "1", 1);
   {
     const Interrupt interrupt;
     ProgressBar bar(job.name.empty() ? "job" : job.name);
-    jobs::LocalProcesses executor({.workers = workers});
+    jobs::LocalProcesses executor({.workers = arguments.workers});
     jobs::run_job(
         folder, job, executor, [&](const jobs::JobProgress& progress) { show(bar, progress); },
         interrupt.token());
   }
   fmt::print("{}\n", folder.dataset().string());
+  if (arguments.profile) fmt::print("{}", jobs::profile_table(folder, job));
 }
 
 }  // namespace throng::cli

@@ -14,15 +14,18 @@ struct JobArguments {
   std::string job_file;
   std::string output;
   int workers = 0;
+  bool profile = false;
 };
 
-/// The options JOB, --output and --workers.
+/// The options JOB, --output, --workers and --profile.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 
 /// Reads and checks the job file. Throws InputError (also when there is no such file).
 jobs::JobSpec read_job_file(const std::string& path);
 
-/// Works the folder's job off, then prints where the dataset is. Throws like jobs::run_job.
-void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job, int workers);
+/// Works the folder's job off, then prints where the dataset is, and where the time went if asked
+/// for. Throws like jobs::run_job.
+void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job,
+                const JobArguments& arguments);
 
 }  // namespace throng::cli

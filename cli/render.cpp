@@ -48,7 +48,7 @@ void render(const RenderArguments& arguments) {
   const auto folder = jobs::JobFolder::create(arguments.output, job);
   const auto place = folder.output_of({jobs::Task::Kind::simulate, 0, 0});
   write_file_atomically(place, read_file(arguments.trace_file));
-  finish_job(folder, job, arguments.workers);
+  finish_job(folder, job, arguments);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ void add_run(CLI::App& app) {
   add_job_options(*command, *arguments);
   command->callback([arguments] {
     const jobs::JobSpec job = read_job_file(arguments->job_file);
-    finish_job(jobs::JobFolder::create(arguments->output, job), job, arguments->workers);
+    finish_job(jobs::JobFolder::create(arguments->output, job), job, *arguments);
   });
 }
 

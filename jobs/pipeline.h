@@ -18,7 +18,7 @@ namespace throng::jobs {
 
 using OnTaskProgress = std::function<void(const TaskProgress&)>;
 
-/// Whether the job asks for this kind of ground truth: "coco", "density" or "exits".
+/// Whether the job asks for this kind of ground truth, by its word in outputs.annotations.
 bool wants(const JobSpec& job, std::string_view annotation);
 
 /// What the simulation is asked to do in a run of the job.

@@ -8,6 +8,7 @@
 #include "annotate/coco.h"
 #include "annotate/density.h"
 #include "annotate/labels.h"
+#include "annotate/png.h"
 #include "annotate/preview.h"
 #include "base/error.h"
 #include "camera/camera.h"
@@ -15,6 +16,7 @@
 #include "jobs/gimbal.h"
 #include "jobs/people.h"
 #include "jobs/pipeline.h"
+#include "jobs/profile.h"
 #include "jobs/publication.h"
 #include "render/animator.h"
 #include "render/renderer.h"
@@ -54,8 +56,12 @@ std::int64_t count_inside(const std::vector<Eigen::Vector2d>& heads, int width, 
 class ShardOutput {
  public:
   ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
-              std::string environment)
-      : job_(job), shard_(shard), environment_(std::move(environment)), publication_(output) {
+              std::string environment, StageClock* clock)
+      : job_(job),
+        shard_(shard),
+        environment_(std::move(environment)),
+        clock_(clock),
+        publication_(output) {
     if (wants(job, "coco")) {
       coco_.emplace(publication_.folder() / "coco");
     }
@@ -63,6 +69,7 @@ class ShardOutput {
 
   void add(const render::Frame& frame, std::size_t camera) {
     const annotate::FrameLabels labels = annotate::label_people(frame);
+    lap("labels");
     const std::string& drone = job_.drones[camera].mission.id;
     const std::string place = fmt::format("{}/{}/{:06}", run_name(shard_.run), drone, frame.index);
     annotate::CocoImage image;
@@ -75,18 +82,25 @@ class ShardOutput {
     image.time_s = frame.time_s;
     image.camera = frame.camera;
     image.environment = environment_;
-    publication_.add(image.file_name, annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(),
-                                                           job_.outputs.image_quality));
+    const std::string jpeg =
+        annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
+    lap("jpeg");
+    publication_.add(image.file_name, jpeg);
+    lap("write");
     if (wants(job_, "density")) {
       image.density_file = "density/" + place + ".npy";
       image.density_count = add_density(image.density_file, frame, labels);
+      lap("density");
     }
     if (has_preview(job_, frame.index)) {
       publication_.add("previews/" + place + ".jpg",
                        annotate::jpeg_bytes(annotate::draw_preview(frame, labels), frame.width(),
                                             frame.height(), job_.outputs.image_quality));
+      lap("previews");
     }
+    add_rasters(place, frame);
     if (coco_) coco_->add(image, labels);
+    lap("write");
     annotations_ += static_cast<std::int64_t>(labels.people.size());
     for (const annotate::PersonLabel& label : labels.people) agents_.insert(label.agent);
     ++images_;
@@ -110,9 +124,32 @@ class ShardOutput {
     return count_inside(heads, frame.width(), frame.height());
   }
 
+  // Ground truth per pixel, as far as it is asked for.
+  void add_rasters(const std::string& place, const render::Frame& frame) {
+    struct Kind {
+      const char* name;
+      std::string (*bytes)(const render::Frame&);
+    };
+    for (const Kind& kind :
+         {Kind{"depth", annotate::depth_png}, Kind{"instances", annotate::instance_png},
+          Kind{"parts", annotate::part_png}, Kind{"normals", annotate::normal_png},
+          Kind{"flow", annotate::flow_png}}) {
+      if (!wants(job_, kind.name)) continue;
+      const std::string png = kind.bytes(frame);
+      lap("png");
+      publication_.add(fmt::format("{}/{}.png", kind.name, place), png);
+      lap("write");
+    }
+  }
+
+  void lap(const char* stage) {
+    if (clock_ != nullptr) clock_->lap(stage);
+  }
+
   const JobSpec& job_;
   const Shard& shard_;
   std::string environment_;  ///< JSON
+  StageClock* clock_;
   Publication publication_;
   std::optional<annotate::CocoShardWriter> coco_;
   std::int64_t images_ = 0;
@@ -132,25 +169,46 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
   const render::Animator animator(trace, population);
   const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
   const RunEnvironment environment = environment_of_run(job.environment, seed);
-  render::Renderer renderer(scenario, population, environment.light);
+  std::optional<StageClock> clock;
+  if (is_profiling()) clock.emplace();
+  render::RenderOptions options;
+  options.quality = job.quality;
+  options.normals = wants(job, "normals");
+  options.flow = wants(job, "flow");
+  options.parts = wants(job, "parts");
+  options.clock = clock ? &*clock : nullptr;
+  render::Renderer renderer(scenario, population, environment.light, {}, options);
+  const auto camera_at = [&](const DroneSpec& drone, double time_s) {
+    return camera_on(trace.drone_at(drone_index(trace, drone.mission.id), time_s), drone.camera);
+  };
 
-  ShardOutput output(folder.output_of({Task::Kind::render, shard.run, shard.index}), job, shard,
-                     to_json(environment).dump());
+  const Task task{Task::Kind::render, shard.run, shard.index};
+  ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(),
+                     options.clock);
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;
   for (std::int64_t frame = shard.first_frame; frame < shard.end_frame; ++frame) {
     const double time_s = job.frame_time_s(frame);
+    const bool has_next = options.flow && frame + 1 < job.frames_per_camera();
+    const double next_s = job.frame_time_s(frame + 1);
+    if (clock) clock->skip();
     const render::Scene scene = animator.scene_at(time_s, frame);
+    render::NextFrame next;
+    if (has_next) next.scene = animator.scene_at(next_s, frame + 1);
+    if (clock) clock->lap("scene");
     for (std::size_t i = 0; i < job.drones.size(); ++i) {
       if (stop.stop_requested()) throw Cancelled();
       const DroneSpec& drone = job.drones[i];
-      const world::DroneSample sample =
-          trace.drone_at(drone_index(trace, drone.mission.id), time_s);
-      output.add(renderer.draw(scene, camera_on(sample, drone.camera)), i);
+      if (has_next) next.camera = camera_at(drone, next_s);
+      render::Frame picture =
+          renderer.draw(scene, camera_at(drone, time_s), has_next ? &next : nullptr);
+      output.add(picture, i);
+      renderer.recycle(std::move(picture));
       if (on_progress) on_progress({++done, images});
     }
   }
+  if (clock) write_profile(folder, task, *clock, static_cast<std::int64_t>(done));
   output.publish(renderer.device_description());
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -85,6 +86,14 @@ void read_crowd(const json& value, JobSpec& job) {
   }
 }
 
+render::Quality quality_of(std::string_view word) {
+  const auto found =
+      std::find_if(render::kQualities.begin(), render::kQualities.end(),
+                   [&](const render::QualitySettings& row) { return row.word == word; });
+  check(found != render::kQualities.end(), "the schema and the table name the same qualities");
+  return static_cast<render::Quality>(found - render::kQualities.begin());
+}
+
 // What the schema allows, as a job; absent fields keep the defaults of the structs.
 JobSpec read_job(const json& value, std::vector<Problem>& problems) {
   JobSpec job;
@@ -100,6 +109,7 @@ JobSpec read_job(const json& value, std::vector<Problem>& problems) {
   read(capture, "from_s", job.capture.from_s);
   read(capture, "to_s", job.capture.to_s);
   job.environment = read_environment(part(value, "environment"), problems);
+  if (value.contains("quality")) job.quality = quality_of(value["quality"].get<std::string>());
   const json& outputs = part(value, "outputs");
   read(part(outputs, "image"), "format", job.outputs.image_format);
   read(part(outputs, "image"), "quality", job.outputs.image_quality);
@@ -249,6 +259,7 @@ json to_json(const JobSpec& job) {
         {"from_s", job.capture.from_s},
         {"to_s", job.capture.to_s}}},
       {"environment", to_json(job.environment)},
+      {"quality", render::settings_of(job.quality).word},
       {"outputs",
        {{"image", {{"format", job.outputs.image_format}, {"quality", job.outputs.image_quality}}},
         {"annotations", job.outputs.annotations},

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "jobs/environment.h"
+#include "render/quality.h"
 #include "sim/run.h"
 
 namespace throng::jobs {
@@ -52,6 +53,7 @@ struct JobSpec {
   std::vector<DroneSpec> drones;
   CaptureSpec capture;
   EnvironmentSpec environment;
+  render::Quality quality = render::Quality::standard;
   OutputSpec outputs;
 
   /// Frames of one camera in one run, at from_s, from_s + 1/rate_hz, ... up to to_s (included).

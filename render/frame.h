@@ -18,6 +18,20 @@ inline constexpr std::uint32_t id_of_agent(std::uint32_t agent) { return agent +
 inline constexpr bool is_agent(std::uint32_t id) { return id > 0 && id < kIdBuilding; }
 inline constexpr std::uint32_t agent_of_id(std::uint32_t id) { return id - 1; }
 
+/// Values of Frame::part.
+enum class BodyPart : std::uint8_t {
+  none,  ///< not a person
+  head,  ///< with neck and hair
+  torso,
+  left_arm,
+  right_arm,
+  left_leg,
+  right_leg,
+  left_foot,
+  right_foot,
+  item,  ///< what is carried
+};
+
 /// Ground truth of one person that touches the view, hidden or not.
 struct PersonInView {
   std::uint32_t agent = 0;
@@ -43,6 +57,14 @@ struct Frame {
   std::vector<std::uint32_t> id;     ///< width * height
   std::vector<float> depth_m;        ///< camera z; +infinity for sky
   std::vector<PersonInView> people;  ///< by agent id
+  // Only as asked for in RenderOptions, else empty.
+  /// width * height * 3: world x, y, z of the surface's normal n as round(128 + 127 n); 0 for sky.
+  std::vector<std::uint8_t> normal;
+  /// width * height * 2: how far what a pixel shows moves until the next frame, right and down
+  /// (px), also if it is hidden or outside there; NaN where that has no answer (it goes behind the
+  /// camera, the person leaves, or there is no next frame).
+  std::vector<float> flow;
+  std::vector<std::uint8_t> part;  ///< width * height: BodyPart
 
   int width() const { return camera.intrinsics.width; }
   int height() const { return camera.intrinsics.height; }

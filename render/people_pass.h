@@ -9,6 +9,7 @@
 
 #include "render/gl_objects.h"
 #include "render/place.h"
+#include "render/quality.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
 
@@ -17,7 +18,7 @@ namespace throng::render {
 /// One person in one draw.
 struct PersonDraw {
   std::uint32_t person = 0;             ///< index into the scene's people
-  std::uint32_t level = 0;              ///< of detail
+  std::uint32_t level = 0;              ///< of detail; one beyond the last is the proxy
   float depth_m = 0;                    ///< nearer ones are drawn first
   std::array<std::int32_t, 2> shift{};  ///< pixels to move it by, right and down
 };
@@ -27,13 +28,19 @@ struct PersonDraw {
 class PeoplePass {
  public:
   /// `words` are the environment's of render/lighting.h.
-  PeoplePass(const skinning::Population& population, std::string_view words);
+  PeoplePass(const skinning::Population& population, const QualitySettings& quality,
+             std::string_view words);
 
   enum class Purpose { picture, shadow, coverage };
 
   /// Draws level by level, near to far within a character. The order is a function of `draws`'
   /// values, so equal scenes give equal pixels.
   void draw(Purpose purpose, std::span<const PersonInstance> people, std::vector<PersonDraw> draws);
+
+  /// The same for a SurfaceTarget; `next` are the people of the next frame (none: no flow), whose
+  /// View block is expected at binding point 2.
+  void draw_surfaces(std::span<const PersonInstance> people, std::vector<PersonDraw> draws,
+                     std::span<const PersonInstance> next);
 
  private:
   struct Level {
@@ -49,24 +56,31 @@ class PeoplePass {
   };
 
   void load_meshes(const skinning::Population& population);
+  void sort(std::span<const PersonInstance> people, std::vector<PersonDraw>& draws) const;
+  void upload_next(std::span<const PersonInstance> people, const std::vector<PersonDraw>& draws,
+                   std::span<const PersonInstance> next);
   void load_textures(const skinning::Population& population);
   std::vector<Batch> upload(std::span<const PersonInstance> people,
                             const std::vector<PersonDraw>& draws);
   void draw_batches(const std::vector<Batch>& batches, Range Level::*range) const;
 
-  std::vector<std::vector<Level>> levels_;  ///< [character][level]
+  std::vector<std::vector<Level>> levels_;  ///< [character][level], then the character's proxy
   std::uint32_t palettes_per_character_;
   Buffer vertices_;
   Buffer indices_;
   Buffer palettes_;
   Buffer instances_;
+  Buffer next_instances_;
   VertexArray array_;
+  VertexArray surface_array_;
   Texture textures_;
   Program picture_;
   Program picture_alpha_;
   Program shadow_;
   Program coverage_;
   Program coverage_alpha_;
+  Program surface_;
+  Program surface_alpha_;
 };
 
 }  // namespace throng::render

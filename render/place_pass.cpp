@@ -43,18 +43,38 @@ Program make_ground_program(const Environment& environment, std::string_view mat
   return make_place_program(environment, material, embedded::shader_ground_frag);
 }
 
+/// Mean colours of facades and roofs, in the words of a ground.
+constexpr std::string_view kWallAlbedo =
+    "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.41, 0.36, 0.30); }\n";
+constexpr std::string_view kRoofAlbedo =
+    "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.31, 0.29, 0.27); }\n";
+
+Program make_corners_program(const Environment& environment, std::string_view material) {
+  return make_program({light_words(environment), shader_view, shader_light, shader_noise, material,
+                       embedded::shader_place_corners_vert},
+                      {embedded::shader_corners_frag});
+}
+
 }  // namespace
 
-PlacePass::PlacePass(const world::Scenario& scenario, const Environment& environment)
+PlacePass::PlacePass(const world::Scenario& scenario, const Environment& environment,
+                     const QualitySettings& quality)
     : mesh_(place_mesh(scenario)),
       vertices_(make_buffer(mesh_.vertices)),
       indices_(make_buffer(mesh_.indices)),
       array_(make_vertex_array()),
-      walls_(make_place_program(environment, embedded::shader_wall_frag)),
-      roofs_(make_place_program(environment, embedded::shader_roof_frag)),
-      ground_(make_ground_program(environment, ground_material(scenario))),
-      surroundings_(make_ground_program(environment, embedded::shader_ground_surroundings)),
       shadow_(make_program({shader_light, embedded::shader_place_shadow_vert}, {})) {
+  if (quality.textured) {
+    walls_ = make_place_program(environment, embedded::shader_wall_frag);
+    roofs_ = make_place_program(environment, embedded::shader_roof_frag);
+    ground_ = make_ground_program(environment, ground_material(scenario));
+    surroundings_ = make_ground_program(environment, embedded::shader_ground_surroundings);
+  } else {
+    walls_ = make_corners_program(environment, kWallAlbedo);
+    roofs_ = make_corners_program(environment, kRoofAlbedo);
+    ground_ = make_corners_program(environment, ground_material(scenario));
+    surroundings_ = make_corners_program(environment, embedded::shader_ground_surroundings);
+  }
   describe_vertices(array_, 0, vertices_, sizeof(PlaceVertex), 0,
                     {{0, 3, GL_FLOAT, false, offsetof(PlaceVertex, position)},
                      {1, 3, GL_FLOAT, false, offsetof(PlaceVertex, normal)},

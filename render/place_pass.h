@@ -7,6 +7,7 @@
 #include "render/environment.h"
 #include "render/gl_objects.h"
 #include "render/place.h"
+#include "render/quality.h"
 #include "world/scenario.h"
 
 namespace throng::render {
@@ -14,7 +15,8 @@ namespace throng::render {
 class PlacePass {
  public:
   /// Throws InputError when the scenario names a ground material that does not exist.
-  PlacePass(const world::Scenario& scenario, const Environment& environment);
+  PlacePass(const world::Scenario& scenario, const Environment& environment,
+            const QualitySettings& quality);
 
   /// Expects the View and Light blocks, the shadow map and the target to be bound.
   void draw() const;

@@ -14,6 +14,9 @@
 #include "render/place_pass.h"
 #include "render/shadow_map.h"
 #include "render/sky_pass.h"
+#include "render/smooth_edges.h"
+#include "render/still_surfaces.h"
+#include "render/surface_target.h"
 #include "render/target.h"
 #include "render/view.h"
 
@@ -67,23 +70,63 @@ Visible visible_in(const Frame& frame, const Seen& seen, const Eigen::AlignedBox
   return visible;
 }
 
+std::vector<PersonDraw> draws_of(const std::vector<Seen>& seen) {
+  std::vector<PersonDraw> draws;
+  draws.reserve(seen.size());
+  for (const Seen& person : seen) draws.push_back(person.draw);
+  return draws;
+}
+
+/// The same camera with `times` as many pixels along each side.
+camera::Camera scaled(const camera::Camera& camera, int times) {
+  camera::Camera fine = camera;
+  camera::Intrinsics& k = fine.intrinsics;
+  k.width *= times;
+  k.height *= times;
+  k.fx_px *= times;
+  k.fy_px *= times;
+  // Pixel centres are whole numbers: the image begins half a pixel before the first.
+  k.cx_px = (k.cx_px + 0.5) * times - 0.5;
+  k.cy_px = (k.cy_px + 0.5) * times - 0.5;
+  return fine;
+}
+
+void resize(std::optional<Target>& target, int width, int height) {
+  if (target && target->width() == width && target->height() == height) return;
+  target.reset();
+  target.emplace(width, height);
+}
+
 }  // namespace
 
 struct Renderer::State {
   State(const world::Scenario& scenario, const skinning::Population& people,
-        const Environment& environment, const DeviceChoice& device);
+        const Environment& environment, const DeviceChoice& device, const RenderOptions& wanted);
   ~State();
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
   std::vector<Seen> find_seen(const Scene& scene, const camera::Camera& camera) const;
   void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area);
-  void draw_picture(const Scene& scene, const camera::Camera& camera,
-                    const std::vector<Seen>& seen);
+  void draw_picture(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
+                    Frame& frame);
+  void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
+                 const Target& into);
+  void draw_surfaces(const Scene& scene, const NextFrame* next, const std::vector<Seen>& seen,
+                     Frame& frame);
   void measure_coverage(const Scene& scene, const camera::Camera& camera, const Frame& frame,
                         std::vector<Seen>& seen);
 
+  /// The stage has ended, for whoever wants to know how long it took.
+  void lap(std::string_view stage) const {
+    if (options.clock == nullptr) return;
+    glFinish();
+    options.clock->lap(stage);
+  }
+
   Context context;  // first: everything below needs it, also to be destroyed
+  RenderOptions options;
+  QualitySettings quality;
   const skinning::Population* population;
   Daylight daylight;
   Eigen::AlignedBox2d ground;
@@ -95,21 +138,30 @@ struct Renderer::State {
   ShadowMap shadow_map;
   CoverageCounter coverage;
   Buffer view_buffer;
+  Buffer next_view_buffer;
   Buffer light_buffer;
   std::optional<Target> target;
+  std::optional<Target> fine_target;  ///< for colour alone, when a pixel has several samples of it
+  std::optional<SurfaceTarget> surface_target;
+  Frame spare;  ///< its buffers serve the next frame
 };
 
 Renderer::State::State(const world::Scenario& scenario, const skinning::Population& people,
-                       const Environment& environment, const DeviceChoice& device)
+                       const Environment& environment, const DeviceChoice& device,
+                       const RenderOptions& wanted)
     : context(device.name),
+      options(wanted),
+      quality(settings_of(wanted.quality)),
       population(&people),
       daylight(render::daylight(environment)),
       ground(scenario.ground.min, scenario.ground.max),
       tallest(tallest_m(scenario)),
-      place(scenario, environment),
-      people_pass(people, light_words(environment)),
+      place(scenario, environment, quality),
+      people_pass(people, quality, light_words(environment)),
       sky(environment),
+      shadow_map(quality.shadow_texels),
       view_buffer(make_buffer()),
+      next_view_buffer(make_buffer()),
       light_buffer(make_buffer()) {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   // Image rows grow downwards and GL's window upwards, so that rows read back top-down; what is
@@ -137,13 +189,15 @@ std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
     const Eigen::Vector3d middle = position + Eigen::Vector3d(0, 0, 0.5 * character.stature_m);
     if (is_outside(planes, middle, kReach * character.stature_m)) continue;
     const double depth = std::max<double>(camera.project(middle).depth_m, kNear);
-    const std::size_t level = level_of_detail(camera.intrinsics.fy_px * character.stature_m / depth,
-                                              character.levels.size());
+    const double height_px = camera.intrinsics.fy_px * character.stature_m / depth;
+    const std::size_t level = level_of_detail(quality.detail * height_px, character.levels.size());
+    const bool proxy = height_px < quality.proxy_below_px;
     const skinning::Palette palette = blended_palette(*population, person);
     const Silhouette shape = silhouette(character.levels[level], palette, person, camera);
     if (shape.box.isEmpty() || !shape.box.intersects(image)) continue;
     const float stature_m = character.stature_m;
-    seen.push_back({{i, static_cast<std::uint32_t>(level), static_cast<float>(depth), {}},
+    const std::size_t drawn = proxy ? character.levels.size() : level;
+    seen.push_back({{i, static_cast<std::uint32_t>(drawn), static_cast<float>(depth), {}},
                     shape.farthest_m,
                     {person.agent, position,
                      posed_point(palette, person, skinning::Bone::hips, kHipsShare * stature_m),
@@ -166,8 +220,8 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
     shade.extend(Eigen::Vector2d(shade.min() - slope * reach));
     shade = {shade.min().array() - reach, shade.max().array() + reach};
     if (!shade.intersects(area)) continue;
-    // A shadow shows no more than the coarsest level.
-    casters.push_back({i, static_cast<std::uint32_t>(character.levels.size() - 1), 0, {}});
+    // A shadow shows no more than the proxy.
+    casters.push_back({i, static_cast<std::uint32_t>(character.levels.size()), 0, {}});
   }
   shadow_map.begin();
   place.draw_shadow();
@@ -175,34 +229,65 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
 }
 
 void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& camera,
-                                   const std::vector<Seen>& seen) {
+                                   const std::vector<Seen>& seen, Frame& frame) {
   const camera::Intrinsics& k = camera.intrinsics;
-  if (!target || target->width() != k.width || target->height() != k.height) {
-    target.reset();
-    target.emplace(k.width, k.height);
-  }
   const Eigen::AlignedBox2d area =
       shadow_area(clip_planes(camera), ground, tallest, shadow_slope(daylight));
   const LightBlock light =
       light_block(daylight, {area, ground, tallest, camera.pose.centre(), scene.time_s});
-  const ViewBlock view = view_block(camera, guarded_viewport(k.width, k.height));
   glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
-  glNamedBufferData(view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
   glEnable(GL_DEPTH_TEST);
-  if (!daylight.dark) draw_shadows(scene, area);
+  if (quality.shadow_texels > 0 && !daylight.dark) draw_shadows(scene, area);
   shadow_map.bind();
   if (lamp_map) lamp_map->bind();
-  target->begin(Eigen::Vector3f::Zero());
-  std::vector<PersonDraw> draws;
-  draws.reserve(seen.size());
-  for (const Seen& person : seen) draws.push_back(person.draw);
+  lap("shadows");
+  if (quality.supersampling > 1) {
+    const camera::Camera fine = scaled(camera, quality.supersampling);
+    resize(fine_target, fine.intrinsics.width, fine.intrinsics.height);
+    draw_view(scene, fine, seen, *fine_target);
+    lap("draw");
+    fine_target->read_light(quality.supersampling, frame);
+    lap("read back");
+  }
+  resize(target, k.width, k.height);
+  draw_view(scene, camera, seen, *target);
+  lap("draw");
+}
+
+void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera,
+                                const std::vector<Seen>& seen, const Target& into) {
+  const ViewBlock view = view_block(camera, guarded_viewport(into.width(), into.height()));
+  glNamedBufferData(view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
+  into.begin(Eigen::Vector3f::Zero());
   // People first: they are many small triangles, and hide ground that then costs nothing.
-  people_pass.draw(PeoplePass::Purpose::picture, scene.people, std::move(draws));
+  people_pass.draw(PeoplePass::Purpose::picture, scene.people, draws_of(seen));
   place.draw();
   sky.draw_sky(camera);
   sky.draw_rain(camera, scene.index);
+}
+
+void Renderer::State::draw_surfaces(const Scene& scene, const NextFrame* next,
+                                    const std::vector<Seen>& seen, Frame& frame) {
+  const int width = frame.width();
+  const int height = frame.height();
+  if (!surface_target || surface_target->width() != width || surface_target->height() != height) {
+    surface_target.reset();
+    surface_target.emplace(width, height, target->depth_texture());
+  }
+  const ViewBlock next_view =
+      view_block(next == nullptr ? frame.camera : next->camera, guarded_viewport(width, height));
+  glNamedBufferData(next_view_buffer.name(), sizeof(next_view), &next_view, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 2, next_view_buffer.name());
+  surface_target->begin();
+  people_pass.draw_surfaces(
+      scene.people, draws_of(seen),
+      next == nullptr ? std::span<const PersonInstance>() : std::span(next->scene.people));
+  surface_target->end();
+  surface_target->read(options.normals, options.flow, options.parts, frame);
+  if (options.normals) fill_still_normals(frame);
+  if (options.flow && next != nullptr) fill_still_flow(next->camera, frame);
 }
 
 void Renderer::State::measure_coverage(const Scene& scene, const camera::Camera& camera,
@@ -229,25 +314,41 @@ void Renderer::State::measure_coverage(const Scene& scene, const camera::Camera&
 }
 
 Renderer::Renderer(const world::Scenario& scenario, const skinning::Population& population,
-                   const Environment& environment, const DeviceChoice& device)
-    : state_(std::make_unique<State>(scenario, population, environment, device)) {}
+                   const Environment& environment, const DeviceChoice& device,
+                   const RenderOptions& options)
+    : state_(std::make_unique<State>(scenario, population, environment, device, options)) {}
 
 Renderer::~Renderer() = default;
 
-Frame Renderer::draw(const Scene& scene, const camera::Camera& camera) {
-  state_->context.make_current();
-  std::vector<Seen> seen = state_->find_seen(scene, camera);
-  state_->draw_picture(scene, camera, seen);
-  Frame frame;
+Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next) {
+  State& state = *state_;
+  state.context.make_current();
+  Frame frame = std::move(state.spare);
   frame.index = scene.index;
   frame.time_s = scene.time_s;
   frame.camera = camera;
-  state_->target->read(frame);
-  state_->measure_coverage(scene, camera, frame, seen);
+  frame.people.clear();
+  std::vector<Seen> seen = state.find_seen(scene, camera);
+  state.lap("cull");
+  state.draw_picture(scene, camera, seen, frame);
+  const bool wants_light = state.quality.supersampling == 1;
+  state.target->read(wants_light, frame);
+  state.lap("read back");
+  if (state.quality.smooth_edges) smooth_edges(frame);
+  state.lap("smooth");
+  const RenderOptions& options = state.options;
+  if (options.normals || options.flow || options.parts) {
+    state.draw_surfaces(scene, next, seen, frame);
+    state.lap("surfaces");
+  }
+  state.measure_coverage(scene, camera, frame, seen);
   check_gl("drawing a frame");
   for (Seen& person : seen) frame.people.push_back(std::move(person.truth));
+  state.lap("coverage");
   return frame;
 }
+
+void Renderer::recycle(Frame&& frame) { state_->spare = std::move(frame); }
 
 std::string Renderer::device_description() const { return state_->context.description(); }
 

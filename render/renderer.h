@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/stage_clock.h"
 #include "camera/camera.h"
 #include "render/environment.h"
 #include "render/frame.h"
+#include "render/quality.h"
 #include "skinning/motion.h"
 #include "skinning/population.h"
 #include "world/scenario.h"
@@ -18,6 +20,16 @@ namespace throng::render {
 /// "software".
 struct DeviceChoice {
   std::string name = "auto";
+};
+
+/// What is drawn beside the scene itself.
+struct RenderOptions {
+  Quality quality = Quality::standard;
+  bool normals = false;  ///< fill Frame::normal
+  bool flow = false;     ///< fill Frame::flow
+  bool parts = false;    ///< fill Frame::part
+  /// Told where the time goes, if given; drawing is then waited for at the end of every stage.
+  StageClock* clock = nullptr;
 };
 
 /// One person as drawn: where, which body, which pose.
@@ -37,19 +49,30 @@ struct Scene {
   std::vector<PersonInstance> people;
 };
 
+/// The next frame of the same camera: what flow leads to.
+struct NextFrame {
+  Scene scene;
+  camera::Camera camera;
+};
+
 /// Owns a GL context, and the scenario's and population's buffers in it. Use from one thread.
 /// The scenario and population must outlive it.
 class Renderer {
  public:
   /// Throws EnvironmentError naming the missing libraries or driver when no context can be made.
   Renderer(const world::Scenario& scenario, const skinning::Population& population,
-           const Environment& environment = {}, const DeviceChoice& device = {});
+           const Environment& environment = {}, const DeviceChoice& device = {},
+           const RenderOptions& options = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
   /// Colour, id, depth and the people's ground truth, all from one draw of one instant.
-  Frame draw(const Scene& scene, const camera::Camera& camera);
+  /// `next` serves the flow only.
+  Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr);
+
+  /// Takes the buffers of a frame that is not needed any more for one to come.
+  void recycle(Frame&& frame);
 
   /// GL vendor, renderer and version, for manifests.
   std::string device_description() const;

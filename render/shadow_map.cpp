@@ -1,13 +1,13 @@
 #include "render/shadow_map.h"
 
+#include <algorithm>
 #include <array>
-
-#include "render/lighting.h"
 
 namespace throng::render {
 
-ShadowMap::ShadowMap()
-    : depth_(make_texture_2d(GL_DEPTH_COMPONENT32F, kShadowSize, kShadowSize)),
+ShadowMap::ShadowMap(int texels)
+    : texels_(std::max(texels, 1)),
+      depth_(make_texture_2d(GL_DEPTH_COMPONENT32F, texels_, texels_)),
       framebuffer_(make_framebuffer({}, depth_.name())) {
   const GLuint name = depth_.name();
   // Outside the map nothing is higher than the ground: lit.
@@ -17,12 +17,13 @@ ShadowMap::ShadowMap()
   glTextureParameterfv(name, GL_TEXTURE_BORDER_COLOR, ground.data());
   glTextureParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTextureParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+  begin();
 }
 
 void ShadowMap::begin() const {
   const float ground = 0.0F;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glViewport(0, 0, kShadowSize, kShadowSize);
+  glViewport(0, 0, texels_, texels_);
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &ground);
 }
 

@@ -7,7 +7,8 @@ namespace throng::render {
 
 class ShadowMap {
  public:
-  ShadowMap();
+  /// `texels` along each side; 0 makes a map in which everything is lit, not to be drawn into.
+  explicit ShadowMap(int texels);
 
   /// Binds it for drawing, empty.
   void begin() const;
@@ -16,6 +17,7 @@ class ShadowMap {
   void bind() const;
 
  private:
+  int texels_;
   Texture depth_;
   Framebuffer framebuffer_;
 };

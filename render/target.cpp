@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "base/error.h"
@@ -46,6 +47,29 @@ void pack_rgb(const std::vector<std::uint32_t>& rgba, std::vector<std::uint8_t>&
   for (; i < rgba.size(); ++i) std::memcpy(&rgb[i * 3], &rgba[i], 3);
 }
 
+/// Between sRGB values and light: pictures are averaged in the latter, as a lens does.
+class LightTable {
+ public:
+  LightTable() {
+    for (std::size_t i = 0; i < light_.size(); ++i) {
+      light_[i] = static_cast<std::uint32_t>(
+          std::lround(kMost * std::pow(static_cast<double>(i) / 255, kGamma)));
+    }
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+      value_[i] = static_cast<std::uint8_t>(
+          std::lround(255 * std::pow(static_cast<double>(i) / kMost, 1 / kGamma)));
+    }
+  }
+  std::uint32_t light(std::uint32_t value) const { return light_[value]; }
+  std::uint8_t value(std::uint32_t light) const { return value_[light]; }
+
+ private:
+  static constexpr double kGamma = 2.2;
+  static constexpr std::uint32_t kMost = 4095;
+  std::array<std::uint32_t, 256> light_{};
+  std::array<std::uint8_t, kMost + 1> value_{};
+};
+
 }  // namespace
 
 Target::Target(int width, int height)
@@ -71,20 +95,49 @@ void Target::begin(const Eigen::Vector3f& sky) const {
   glClearNamedFramebufferfv(name, GL_DEPTH, 0, &infinitely_far);
 }
 
-void Target::read(Frame& frame) const {
+void Target::read(bool colour, Frame& frame) {
   const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  std::vector<std::uint32_t> rgba(pixels);
   frame.id.resize(pixels);
   frame.depth_m.resize(pixels);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  if (colour) {
+    rgba_.resize(pixels);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+    pack_rgb(rgba_, frame.rgb);
+  }
   glReadBuffer(GL_COLOR_ATTACHMENT1);
   glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, frame.id.data());
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, frame.depth_m.data());
-  pack_rgb(rgba, frame.rgb);
   // Depth is stored as kNear / z, 0 where nothing was drawn: that becomes infinity here.
   for (float& depth : frame.depth_m) depth = kNear / depth;
+}
+
+void Target::read_light(int samples, Frame& frame) {
+  rgba_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+  static const LightTable table;
+  const int width = width_ / samples;
+  const int height = height_ / samples;
+  frame.rgb.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+  std::uint8_t* out = frame.rgb.data();
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x, out += 3) {
+      std::array<std::uint32_t, 3> sum{};
+      for (int j = 0; j < samples; ++j) {
+        const std::uint32_t* row =
+            &rgba_[static_cast<std::size_t>(y * samples + j) * static_cast<std::size_t>(width_) +
+                   static_cast<std::size_t>(x * samples)];
+        for (int i = 0; i < samples; ++i) {
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += table.light((row[i] >> (8 * c)) & 0xFFU);
+        }
+      }
+      const auto count = static_cast<std::uint32_t>(samples * samples);
+      for (std::size_t c = 0; c < 3; ++c) out[c] = table.value(sum[c] / count);
+    }
+  }
 }
 
 }  // namespace throng::render

@@ -1,6 +1,9 @@
 // What the camera's draw writes: colour, instance id and depth, and how they come back.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "render/frame.h"
 #include "render/gl_objects.h"
 
@@ -17,8 +20,14 @@ class Target {
   /// Binds it for drawing, with colour = `sky`, ids kIdNothing and depth infinite.
   void begin(const Eigen::Vector3f& sky) const;
 
-  /// Fills the frame's rgb, id and depth_m.
-  void read(Frame& frame) const;
+  /// Fills the frame's id and depth_m, and its rgb if `colour` is wanted.
+  void read(bool colour, Frame& frame);
+
+  /// Fills the frame's rgb alone, which is smaller by `samples` along each side: each pixel is the
+  /// mean of its light.
+  void read_light(int samples, Frame& frame);
+
+  GLuint depth_texture() const { return depth_.name(); }
 
  private:
   int width_;
@@ -27,6 +36,7 @@ class Target {
   Texture id_;
   Texture depth_;
   Framebuffer framebuffer_;
+  std::vector<std::uint32_t> rgba_;  ///< as read, kept between frames
 };
 
 }  // namespace throng::render

@@ -1,5 +1,6 @@
 // A person: blends two palettes, skins, turns and places the body. With SHADOW it is flattened into
-// the shadow map instead of being seen by the camera.
+// the shadow map instead of being seen by the camera; with CORNERS it is lit corner by corner; with
+// SURFACE it carries what person_surface.frag.glsl writes.
 layout(location = 0) in vec3 position_in;
 layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec2 uv_in;
@@ -33,7 +34,8 @@ mat3x4 rows_of(uvec4 bone) {
                 vec4(products.y - turns.y, products.z + turns.x, 1.0 - squares.x - squares.y, shift.z));
 }
 
-mat3x4 blended_rows() {
+// Of palettes a and b, blend (a float's bits).
+mat3x4 blended_rows_of(uvec3 pose) {
   mat3x4 rows = mat3x4(0.0);
   float b = uintBitsToFloat(pose.z);
   // Most vertices follow one or two bones, and weights come largest first.
@@ -50,21 +52,93 @@ mat3x4 blended_rows() {
   return rows;
 }
 
-vec3 turned(vec3 v) {
+mat3x4 blended_rows() { return blended_rows_of(pose.xyz); }
+
+vec3 turned_by(vec2 facing, vec3 v) {
   return vec3(facing.x * v.x - facing.y * v.y, facing.y * v.x + facing.x * v.y, v.z);
 }
 
-vec3 placed(vec3 model) {
-  vec3 world = foot + turned(model);
+vec3 turned(vec3 v) { return turned_by(facing, v); }
+
+vec3 placed_at(vec3 foot, vec2 facing, vec3 model) {
+  vec3 world = foot + turned_by(facing, model);
   // Nobody sinks into the ground, so the ground never hides a part of a person.
   world.z = max(world.z, foot.z + kAboveGround);
   return world;
+}
+
+vec3 placed(vec3 model) { return placed_at(foot, facing, model); }
+
+// A tint's sRGB word: white where the part has none of its own.
+uint tint_of(uint slot) {
+  if (slot == 5u) return tints.x >> 24 | tints.y >> 24 << 8 | tints.z >> 24 << 16;
+  return slot > 0u && slot < 5u ? tints[slot - 1u] : 0xFFFFFFu;
 }
 
 #ifdef SHADOW
 void main() {
   vec3 world = placed(vec4(position_in, 1.0) * blended_rows());
   gl_Position = vec4(shadow_uv(world) * 2.0 - 1.0, world.z * light.shadow_slope.z, 1.0);
+}
+#elif defined(CORNERS)
+layout(location = 11) in vec4 base;    // the texture around this corner, sRGB
+layout(location = 12) in vec4 shades;  // of a portrait, linear
+
+out vec3 lit;
+flat out uint id;
+
+vec3 linear_from_srgb(vec3 c) {
+  return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878);
+}
+
+void main() {
+  mat3x4 rows = blended_rows();
+  vec3 world = placed(vec4(position_in, 1.0) * rows);
+  vec3 n = turned(normalize(vec4(normal_in, 0.0) * rows));
+  vec3 albedo = linear_from_srgb(base.rgb) * linear_from_srgb(unpackUnorm4x8(tint_of(part >> 24)).rgb);
+  for (int i = 0; i < 4; ++i) {
+    albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(tints[i]).rgb);
+  }
+  vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z);
+#ifdef LAMPS
+  vec3 direct = light.lamps.rgb * lamp_light(world, n);
+#else
+  vec3 direct = light.sun.rgb * max(dot(n, light.sun_direction.xyz), 0.0);
+#endif
+  gl_Position = project_movable(world, shift);
+  lit = film(through_air(albedo * (direct + ambient), max(gl_Position.w, 0.0)));
+  id = pose.w;
+}
+#elif defined(SURFACE)
+layout(location = 11) in vec3 next_foot;  // per instance: the same person in the next frame
+layout(location = 12) in uvec4 next_pose;  // palettes a and b, blend, 1 if they are there
+layout(location = 13) in vec2 next_facing;
+
+out vec3 normal;
+out vec3 next;  // window position times depth, then depth, in the next frame
+out vec2 uv;
+flat out uvec2 surface;  // texture layer, body part
+flat out uint is_next;
+
+// Body parts (render/frame.h) by bone.
+const uint kParts[kBones] = uint[](2u, 2u, 2u, 1u, 1u, 2u, 3u, 3u, 3u, 2u, 4u, 4u, 4u,
+                                   5u, 5u, 7u, 7u, 6u, 6u, 8u, 8u);
+const uint kItem = 9u;
+
+void main() {
+  mat3x4 rows = blended_rows();
+  vec3 world = placed(vec4(position_in, 1.0) * rows);
+  normal = turned(normalize(vec4(normal_in, 0.0) * rows));
+  uv = uv_in;
+  surface = uvec2(part & 0xFFFu, part >> 24 == 5u ? kItem : kParts[min(bones.x, uint(kBones - 1))]);
+  is_next = next_pose.w;
+  next = vec3(0.0);
+  if (is_next != 0u) {
+    vec3 model = vec4(position_in, 1.0) * blended_rows_of(next_pose.xyz);
+    vec3 p = next_seen(placed_at(next_foot, next_facing, model));
+    next = vec3(p.xy + next_view.focal.zw * p.z, p.z);
+  }
+  gl_Position = project_movable(world, shift);
 }
 #else
 out vec4 world_sun;     // position; sunlight received before shadows, or after sunset the lamps' light
@@ -82,14 +156,7 @@ void main() {
   world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
 #endif
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
-  uint slot = part >> 24;
-  uint tint = 0xFFFFFFu;
-  if (slot == 5u) {
-    tint = tints.x >> 24 | tints.y >> 24 << 8 | tints.z >> 24 << 16;
-  } else if (slot > 0u && slot < 5u) {
-    tint = tints[slot - 1u];
-  }
-  surface = uvec4(part & 0xFFFu, tint, pose.w, part >> 12 & 0xFFFu);
+  surface = uvec4(part & 0xFFFu, tint_of(part >> 24), pose.w, part >> 12 & 0xFFFu);
   shaded = tints;
   gl_Position = project_movable(world, shift);
 }

@@ -77,10 +77,11 @@ inline int brightness(const Frame& frame, int x, int y) {
 /// A renderer of `scenario` on the CPU, with the population it draws.
 class Stage {
  public:
-  explicit Stage(world::Scenario scenario, Environment lighting = {})
+  explicit Stage(world::Scenario scenario, Environment lighting = {},
+                 const RenderOptions& options = {})
       : scenario_(std::move(scenario)),
         people_(synthetic_people()),
-        renderer_(scenario_, people_, lighting, {"software"}) {}
+        renderer_(scenario_, people_, lighting, {"software"}, options) {}
 
   const skinning::Population& people() const { return people_; }
   Renderer& renderer() { return renderer_; }

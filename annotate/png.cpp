@@ -1,0 +1,169 @@
+#include "annotate/png.h"
+
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace throng::annotate {
+
+namespace {
+
+constexpr std::uint8_t kGrey = 0;
+constexpr std::uint8_t kRgb = 2;
+constexpr std::uint8_t kFilterUp = 2;
+
+void append_big_endian(std::string& text, std::uint32_t value) {
+  for (const int shift : {24, 16, 8, 0}) text.push_back(static_cast<char>(value >> shift));
+}
+
+void append_chunk(std::string& png, std::string_view type, std::string_view data) {
+  append_big_endian(png, static_cast<std::uint32_t>(data.size()));
+  const std::size_t first = png.size();
+  png += type;
+  png += data;
+  append_big_endian(png, crc32_gzip_refl(0, reinterpret_cast<const unsigned char*>(&png[first]),
+                                         png.size() - first));
+}
+
+std::string header(const Raster& raster, int bits) {
+  std::string data;
+  append_big_endian(data, static_cast<std::uint32_t>(raster.width));
+  append_big_endian(data, static_cast<std::uint32_t>(raster.height));
+  data.push_back(static_cast<char>(bits));
+  data.push_back(static_cast<char>(raster.channels == 3 ? kRgb : kGrey));
+  data.append(3, '\0');  // deflate, the usual filters, not interlaced
+  return data;
+}
+
+/// One zlib stream at ISA-L's level 1.
+std::string_view deflated(std::vector<std::uint8_t>& input, std::vector<std::uint8_t>& output) {
+  thread_local std::vector<std::uint8_t> work(ISAL_DEF_LVL1_DEFAULT);
+  output.resize(std::max(output.size(), input.size() + input.size() / 8 + 1024));
+  isal_zstream stream;
+  isal_deflate_stateless_init(&stream);
+  stream.level = 1;
+  stream.level_buf = work.data();
+  stream.level_buf_size = static_cast<std::uint32_t>(work.size());
+  stream.gzip_flag = IGZIP_ZLIB;
+  stream.end_of_stream = 1;
+  stream.flush = NO_FLUSH;
+  stream.next_in = input.data();
+  stream.avail_in = static_cast<std::uint32_t>(input.size());
+  stream.next_out = output.data();
+  stream.avail_out = static_cast<std::uint32_t>(output.size());
+  check(isal_deflate_stateless(&stream) == COMP_OK, "the room for a compressed picture suffices");
+  return {reinterpret_cast<const char*>(output.data()), stream.total_out};
+}
+
+/// Each row as its difference to the one above: neighbouring rows of ground truth are nearly alike.
+std::string encoded(const Raster& raster, int bits, const std::uint8_t* bytes) {
+  thread_local std::vector<std::uint8_t> filtered;
+  thread_local std::vector<std::uint8_t> compressed;
+  const std::size_t row_bytes =
+      static_cast<std::size_t>(raster.width) * raster.channels * (bits / 8);
+  filtered.resize((row_bytes + 1) * raster.height);
+  for (int y = 0; y < raster.height; ++y) {
+    std::uint8_t* out = &filtered[(row_bytes + 1) * y];
+    const std::uint8_t* row = bytes + row_bytes * y;
+    *out++ = kFilterUp;
+    if (y == 0) {
+      std::copy_n(row, row_bytes, out);
+      continue;
+    }
+    const std::uint8_t* above = row - row_bytes;
+    for (std::size_t i = 0; i < row_bytes; ++i) {
+      out[i] = static_cast<std::uint8_t>(row[i] - above[i]);
+    }
+  }
+  std::string png = "\x89PNG\r\n\x1a\n";
+  append_chunk(png, "IHDR", header(raster, bits));
+  append_chunk(png, "IDAT", deflated(filtered, compressed));
+  append_chunk(png, "IEND", "");
+  return png;
+}
+
+std::size_t samples_of(const Raster& raster) {
+  check(raster.width > 0 && raster.height > 0, "a picture has pixels");
+  check(raster.channels == 1 || raster.channels == 3, "a picture is grey or RGB");
+  return static_cast<std::size_t>(raster.width) * raster.height * raster.channels;
+}
+
+}  // namespace
+
+std::string png_bytes(const Raster& raster, std::span<const std::uint8_t> samples) {
+  check(samples.size() == samples_of(raster), "a picture has all its samples");
+  return encoded(raster, 8, samples.data());
+}
+
+std::string png_bytes(const Raster& raster, std::span<const std::uint16_t> samples) {
+  check(samples.size() == samples_of(raster), "a picture has all its samples");
+  static_assert(std::endian::native == std::endian::little);
+  thread_local std::vector<std::uint16_t> swapped;
+  swapped.resize(samples.size());
+  std::transform(samples.begin(), samples.end(), swapped.begin(), [](std::uint16_t value) {
+    return static_cast<std::uint16_t>((value << 8U) | (value >> 8U));
+  });
+  return encoded(raster, 16, reinterpret_cast<const std::uint8_t*>(swapped.data()));
+}
+
+std::string depth_png(const render::Frame& frame) {
+  thread_local std::vector<std::uint16_t> centimetres;
+  constexpr float kTooFar = 65536;
+  centimetres.resize(frame.depth_m.size());
+  std::transform(frame.depth_m.begin(), frame.depth_m.end(), centimetres.begin(), [](float depth) {
+    const float rounded = depth * kDepthPerMetre + 0.5F;
+    return static_cast<std::uint16_t>(rounded < kTooFar ? static_cast<int>(rounded) : 0);
+  });
+  return png_bytes({frame.width(), frame.height(), 1}, centimetres);
+}
+
+std::string instance_png(const render::Frame& frame) {
+  thread_local std::vector<std::uint8_t> rgb;
+  rgb.resize(frame.id.size() * 3);
+  std::uint8_t* out = rgb.data();
+  for (const std::uint32_t id : frame.id) {
+    const bool thing = !render::is_agent(id) && id != render::kIdNothing;
+    check(thing || id >> 23U == 0, "agents have less than 23 bits");
+    out[0] = static_cast<std::uint8_t>(id);
+    out[1] = static_cast<std::uint8_t>(id >> 8U);
+    out[2] = static_cast<std::uint8_t>(thing ? id >> 24U : id >> 16U);
+    out += 3;
+  }
+  return png_bytes({frame.width(), frame.height(), 3}, rgb);
+}
+
+std::string part_png(const render::Frame& frame) {
+  return png_bytes({frame.width(), frame.height(), 1}, frame.part);
+}
+
+std::string normal_png(const render::Frame& frame) {
+  return png_bytes({frame.width(), frame.height(), 3}, frame.normal);
+}
+
+std::string flow_png(const render::Frame& frame) {
+  constexpr float kZero = 32768;
+  constexpr float kPerPixel = 64;
+  constexpr float kMost = 65535;
+  std::vector<std::uint16_t> samples(frame.flow.size() / 2 * 3);
+  for (std::size_t i = 0; i * 2 < frame.flow.size(); ++i) {
+    const float x = std::round(frame.flow[i * 2] * kPerPixel + kZero);
+    const float y = std::round(frame.flow[i * 2 + 1] * kPerPixel + kZero);
+    // What is unknown is no number: every comparison with it is false.
+    if (!(x >= 0 && y >= 0 && x <= kMost && y <= kMost)) continue;
+    samples[i * 3] = static_cast<std::uint16_t>(x);
+    samples[i * 3 + 1] = static_cast<std::uint16_t>(y);
+    samples[i * 3 + 2] = 1;
+  }
+  return png_bytes({frame.width(), frame.height(), 3}, samples);
+}
+
+}  // namespace throng::annotate

@@ -1,0 +1,46 @@
+// Ground truth per pixel as lossless PNG files; what their values mean is in docs/formats.md. ISA-L
+// compresses several times faster than zlib, at nearly the same size.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "render/frame.h"
+
+namespace throng::annotate {
+
+/// Samples of a picture, row by row from the top, channels interleaved.
+struct Raster {
+  int width = 0;
+  int height = 0;
+  int channels = 1;  ///< 1 (grey) or 3 (RGB)
+};
+
+/// The bytes of a PNG file. Checks that there are width * height * channels samples.
+std::string png_bytes(const Raster& raster, std::span<const std::uint8_t> samples);
+std::string png_bytes(const Raster& raster, std::span<const std::uint16_t> samples);
+
+/// Depth in depth_png() of one metre.
+inline constexpr float kDepthPerMetre = 100;
+
+/// 16-bit grey: camera z in centimetres, rounded; 0 for the sky and whatever is farther than
+/// 655.35 m.
+std::string depth_png(const render::Frame& frame);
+
+/// 8-bit RGB: red + 256 * green + 65536 * blue is the instance: 0 sky, agent + 1 for a person, and
+/// for things the id buffer's highest byte << 16 with its lowest 16 bits.
+std::string instance_png(const render::Frame& frame);
+
+/// 8-bit grey: render::BodyPart. Checks that the frame has parts.
+std::string part_png(const render::Frame& frame);
+
+/// 8-bit RGB: Frame::normal as it is. Checks that the frame has normals.
+std::string normal_png(const render::Frame& frame);
+
+/// 16-bit RGB in KITTI's format: 32768 + 64 * motion, rounded, right and down; blue 1, or all 0
+/// where the flow is unknown or leaves the format's range of +-512 pixels. Checks that the frame
+/// has flow.
+std::string flow_png(const render::Frame& frame);
+
+}  // namespace throng::annotate

@@ -1,0 +1,100 @@
+// What may differ between the qualities of a picture, and what may not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/smooth_edges.h"
+#include "stage.h"
+
+namespace throng::render {
+namespace {
+
+Frame drawn(Quality quality) {
+  Stage stage(open_ground({block(2, 4, -4, -2, 3)}), {}, {.quality = quality});
+  return stage.draw(camera_at({-6, 0, 5}, 0, -35),
+                    {stage.standing(1, -2, 0), stage.standing(2, 0, 1)});
+}
+
+TEST(Quality, SamplesAndEdgesLeaveIdsAndDepthAlone) {
+  const Frame standard = drawn(Quality::standard);
+  const Frame high = drawn(Quality::high);
+  EXPECT_NE(standard.rgb, high.rgb);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < standard.id.size(); ++i) {
+    different += standard.id[i] != high.id[i] ? 1 : 0;
+  }
+  // People's levels of detail have slightly different outlines.
+  EXPECT_LT(different, standard.id.size() / 500);
+}
+
+TEST(Quality, DraftsShowTheSamePeopleInTheSamePlacesAndTheirColours) {
+  const Frame standard = drawn(Quality::standard);
+  const Frame draft = drawn(Quality::draft);
+  for (const std::uint32_t agent : {1U, 2U}) {
+    const Mask fine = mask_of(standard, id_of_agent(agent));
+    const Mask coarse = mask_of(draft, id_of_agent(agent));
+    EXPECT_NEAR(static_cast<double>(coarse.pixels), static_cast<double>(fine.pixels),
+                0.25 * static_cast<double>(fine.pixels));
+    EXPECT_LT((coarse.box.center() - fine.box.center()).norm(), 4);
+  }
+  const auto mean = [](const Frame& frame) {
+    double sum = 0;
+    for (const std::uint8_t value : frame.rgb) sum += value;
+    return sum / static_cast<double>(frame.rgb.size());
+  };
+  EXPECT_NEAR(mean(draft), mean(standard), 25);
+}
+
+/// White above and black below a line of this slope through the middle.
+Frame halves(double slope) {
+  Frame frame;
+  frame.camera.intrinsics = camera::intrinsics_from_hfov(64, 48, 1);
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const bool above = y + 0.5 < 24 + slope * (x + 0.5 - 32);
+      frame.id.push_back(above ? 1 : kIdGround);
+      frame.rgb.insert(frame.rgb.end(), 3, above ? 255 : 0);
+    }
+  }
+  return frame;
+}
+
+TEST(Quality, SmoothEdgesAreNearTheShareOfAPixelThatALineCovers) {
+  for (const double slope : {0.07, -0.2, 0.4, -0.9, 3.0, -8.0}) {
+    Frame frame = halves(slope);
+    const auto error = [&] {
+      double sum = 0;
+      for (int y = 4; y < 44; ++y) {
+        for (int x = 4; x < 60; ++x) {
+          int inside = 0;
+          for (int j = 0; j < 8; ++j) {
+            for (int i = 0; i < 8; ++i) {
+              inside += y + (j + 0.5) / 8 < 24 + slope * (x + (i + 0.5) / 8 - 32) ? 1 : 0;
+            }
+          }
+          sum += std::abs(frame.rgb[index_of(frame, x, y) * 3] / 255.0 - inside / 64.0);
+        }
+      }
+      return sum;
+    };
+    const double before = error();
+    smooth_edges(frame);
+    // Steps of a pixel or two say little about the line between them.
+    const double flatness = std::max(std::abs(slope), 1 / std::abs(slope));
+    EXPECT_LT(error(), (flatness > 4   ? 0.45
+                        : flatness > 2 ? 0.6
+                                       : 0.85) *
+                           before)
+        << "slope " << slope;
+  }
+}
+
+TEST(Quality, SmoothEdgesLeaveStraightBordersAlone) {
+  Frame frame = halves(0);
+  const std::vector<std::uint8_t> before = frame.rgb;
+  smooth_edges(frame);
+  EXPECT_EQ(frame.rgb, before);
+}
+
+}  // namespace
+}  // namespace throng::render
