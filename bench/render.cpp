@@ -2,7 +2,7 @@
 // 30 m looking down 45 degrees with 70 degrees across; drawn by Mesa's software driver, read back,
 // labelled, and picture, boxes, masks and depth written into a folder in memory. One process per
 // core, as jobs do it.
-//   bench_render [--stages] [--seconds S] [--pictures FOLDER]
+//   bench_render [--stages] [--seconds S] [--pictures FOLDER] [--quality WORD] [--people COUNT]
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -38,6 +38,8 @@ struct Settings {
   bool stages = false;
   double seconds = 4;
   std::string pictures;  ///< folder for one frame of each kind, or ""
+  std::string quality;   ///< only this one, or ""
+  std::vector<std::uint32_t> people = {625, 5000};
 };
 
 skinning::Population people_to_draw() {
@@ -227,6 +229,8 @@ int main(int count, char** arguments) {
     if (word == "--stages") settings.stages = true;
     if (word == "--seconds") settings.seconds = std::atof(value);
     if (word == "--pictures") settings.pictures = value;
+    if (word == "--quality") settings.quality = value;
+    if (word == "--people") settings.people = {static_cast<std::uint32_t>(std::atoi(value))};
   }
   ::setenv("LP_NUM_THREADS", "0", 0);  // one core per process
   fmt::print("{:<10}{:>8}{:>14}{:>16}{:>20}\n", "quality", "people", "frames/s", "CPU ms/frame",
@@ -234,7 +238,8 @@ int main(int count, char** arguments) {
   for (const throng::render::QualitySettings& row : throng::render::kQualities) {
     const auto quality =
         static_cast<throng::render::Quality>(&row - throng::render::kQualities.data());
-    for (const std::uint32_t people : {625U, 5000U}) throng::run(quality, people, settings);
+    if (!settings.quality.empty() && settings.quality != row.word) continue;
+    for (const std::uint32_t people : settings.people) throng::run(quality, people, settings);
     std::fflush(stdout);
   }
 }

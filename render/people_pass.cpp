@@ -58,6 +58,7 @@ constexpr std::string_view kShadow = "#define SHADOW\n";
 constexpr std::string_view kCoverage = "#define COVERAGE\n";
 constexpr std::string_view kAlphaTest = "#define ALPHA_TEST\n";
 constexpr std::string_view kCorners = "#define CORNERS\n";
+constexpr std::string_view kShadowed = "#define SHADOWED\n";
 constexpr std::string_view kSurface = "#define SURFACE\n";
 
 VertexArray make_person_array(const Buffer& vertices, const Buffer& indices,
@@ -216,6 +217,7 @@ std::uint32_t info_of(const skinning::Part& part, std::uint32_t white) {
 PeoplePass::PeoplePass(const skinning::Population& population, const QualitySettings& quality,
                        std::string_view words)
     : palettes_per_character_(population.palettes_per_character),
+      textured_levels_(static_cast<std::uint32_t>(quality.textured_levels)),
       palettes_(make_buffer(device_palettes(population, largest_storage()))),
       instances_(make_buffer()),
       next_instances_(make_buffer()) {
@@ -226,10 +228,10 @@ PeoplePass::PeoplePass(const skinning::Population& population, const QualitySett
     return make_program({words, shader_view, shader_light, shader_person_vert},
                         {words, a, b, shader_light, shader_person_frag});
   };
-  picture_ = quality.textured
-                 ? camera_program("", "")
-                 : make_program({words, kCorners, shader_view, shader_light, shader_person_vert},
-                                {embedded::shader_corners_frag});
+  picture_ = camera_program("", "");
+  corners_ = make_program({words, kCorners, quality.shadow_texels > 0 ? kShadowed : "", shader_view,
+                           shader_light, shader_person_vert},
+                          {embedded::shader_corners_frag});
   picture_alpha_ = camera_program(kAlphaTest, "");
   coverage_ = camera_program(kCoverage, "");
   coverage_alpha_ = camera_program(kCoverage, kAlphaTest);
@@ -320,7 +322,8 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
     const std::uint32_t first_palette = character * palettes_per_character_;
     const Level* level = &levels_[character][draw.level];
     if (batches.empty() || batches.back().level != level) {
-      batches.push_back({level, static_cast<std::uint32_t>(instances.size()), 0});
+      batches.push_back(
+          {level, draw.level < textured_levels_, static_cast<std::uint32_t>(instances.size()), 0});
     }
     ++batches.back().count;
     instances.push_back({{person.position.x(), person.position.y(), person.position.z()},
@@ -337,16 +340,31 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
   return batches;
 }
 
-void PeoplePass::draw_batches(const std::vector<Batch>& batches, Range Level::*range) const {
-  for (const Batch& batch : batches) {
-    const Range& triangles = batch.level->*range;
-    if (triangles.count == 0) continue;
-    const std::size_t offset = triangles.first * sizeof(std::uint32_t);
-    glDrawElementsInstancedBaseVertexBaseInstance(
-        GL_TRIANGLES, static_cast<GLsizei>(triangles.count), GL_UNSIGNED_INT,
-        reinterpret_cast<const void*>(offset),  // NOLINT(performance-no-int-to-ptr): GL's interface
-        static_cast<GLsizei>(batch.count), batch.level->first_vertex, batch.first);
+void PeoplePass::draw_batch(const Batch& batch, Range Level::*range) {
+  const Range& triangles = batch.level->*range;
+  if (triangles.count == 0) return;
+  const std::size_t offset = triangles.first * sizeof(std::uint32_t);
+  glDrawElementsInstancedBaseVertexBaseInstance(
+      GL_TRIANGLES, static_cast<GLsizei>(triangles.count), GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(offset),  // NOLINT(performance-no-int-to-ptr): GL's interface
+      static_cast<GLsizei>(batch.count), batch.level->first_vertex, batch.first);
+}
+
+void PeoplePass::draw_batches(const std::vector<Batch>& batches, Range Level::*range) {
+  for (const Batch& batch : batches) draw_batch(batch, range);
+}
+
+void PeoplePass::draw_picture(const std::vector<Batch>& batches) const {
+  glEnable(GL_CULL_FACE);
+  for (const bool textured : {true, false}) {
+    glUseProgram(textured ? picture_.name() : corners_.name());
+    for (const Batch& batch : batches) {
+      if (batch.textured == textured) draw_batch(batch, &Level::opaque);
+    }
   }
+  glDisable(GL_CULL_FACE);
+  glUseProgram(picture_alpha_.name());
+  draw_batches(batches, &Level::alpha_tested);
 }
 
 void PeoplePass::sort(std::span<const PersonInstance> people,
@@ -426,12 +444,12 @@ void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
     draw_batches(batches, &Level::alpha_tested);
     return;
   }
-  const bool picture = purpose == Purpose::picture;
+  if (purpose == Purpose::picture) return draw_picture(batches);
   glEnable(GL_CULL_FACE);
-  glUseProgram(picture ? picture_.name() : coverage_.name());
+  glUseProgram(coverage_.name());
   draw_batches(batches, &Level::opaque);
   glDisable(GL_CULL_FACE);
-  glUseProgram(picture ? picture_alpha_.name() : coverage_alpha_.name());
+  glUseProgram(coverage_alpha_.name());
   draw_batches(batches, &Level::alpha_tested);
 }
 

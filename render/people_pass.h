@@ -51,6 +51,7 @@ class PeoplePass {
   /// People drawn by one call.
   struct Batch {
     const Level* level;
+    bool textured;
     std::uint32_t first;
     std::uint32_t count;
   };
@@ -62,10 +63,13 @@ class PeoplePass {
   void load_textures(const skinning::Population& population);
   std::vector<Batch> upload(std::span<const PersonInstance> people,
                             const std::vector<PersonDraw>& draws);
-  void draw_batches(const std::vector<Batch>& batches, Range Level::*range) const;
+  static void draw_batch(const Batch& batch, Range Level::*range);
+  static void draw_batches(const std::vector<Batch>& batches, Range Level::*range);
+  void draw_picture(const std::vector<Batch>& batches) const;
 
   std::vector<std::vector<Level>> levels_;  ///< [character][level], then the character's proxy
   std::uint32_t palettes_per_character_;
+  std::uint32_t textured_levels_;  ///< coarser ones are coloured corner by corner
   Buffer vertices_;
   Buffer indices_;
   Buffer palettes_;
@@ -76,6 +80,7 @@ class PeoplePass {
   Texture textures_;
   Program picture_;
   Program picture_alpha_;
+  Program corners_;
   Program shadow_;
   Program coverage_;
   Program coverage_alpha_;

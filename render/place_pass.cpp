@@ -33,14 +33,14 @@ std::string_view ground_material(const world::Scenario& scenario) {
 }
 
 /// A surface's own shader on top of light and noise.
-Program make_place_program(const Environment& environment, std::string_view surface,
+Program make_place_program(std::string_view words, std::string_view surface,
                            std::string_view more = "") {
   return make_program({shader_view, shader_place_vert},
-                      {light_words(environment), shader_light, shader_noise, surface, more});
+                      {words, shader_light, shader_noise, surface, more});
 }
 
-Program make_ground_program(const Environment& environment, std::string_view material) {
-  return make_place_program(environment, material, embedded::shader_ground_frag);
+Program make_ground_program(std::string_view words, std::string_view material) {
+  return make_place_program(words, material, embedded::shader_ground_frag);
 }
 
 /// Mean colours of facades and roofs, in the words of a ground.
@@ -49,8 +49,8 @@ constexpr std::string_view kWallAlbedo =
 constexpr std::string_view kRoofAlbedo =
     "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.31, 0.29, 0.27); }\n";
 
-Program make_corners_program(const Environment& environment, std::string_view material) {
-  return make_program({light_words(environment), shader_view, shader_light, shader_noise, material,
+Program make_corners_program(std::string_view words, std::string_view material) {
+  return make_program({words, shader_view, shader_light, shader_noise, material,
                        embedded::shader_place_corners_vert},
                       {embedded::shader_corners_frag});
 }
@@ -64,16 +64,17 @@ PlacePass::PlacePass(const world::Scenario& scenario, const Environment& environ
       indices_(make_buffer(mesh_.indices)),
       array_(make_vertex_array()),
       shadow_(make_program({shader_light, embedded::shader_place_shadow_vert}, {})) {
+  const std::string words = light_words(environment).append(shadow_words(quality));
   if (quality.textured) {
-    walls_ = make_place_program(environment, embedded::shader_wall_frag);
-    roofs_ = make_place_program(environment, embedded::shader_roof_frag);
-    ground_ = make_ground_program(environment, ground_material(scenario));
-    surroundings_ = make_ground_program(environment, embedded::shader_ground_surroundings);
+    walls_ = make_place_program(words, embedded::shader_wall_frag);
+    roofs_ = make_place_program(words, embedded::shader_roof_frag);
+    ground_ = make_ground_program(words, ground_material(scenario));
+    surroundings_ = make_ground_program(words, embedded::shader_ground_surroundings);
   } else {
-    walls_ = make_corners_program(environment, kWallAlbedo);
-    roofs_ = make_corners_program(environment, kRoofAlbedo);
-    ground_ = make_corners_program(environment, ground_material(scenario));
-    surroundings_ = make_corners_program(environment, embedded::shader_ground_surroundings);
+    walls_ = make_corners_program(words, kWallAlbedo);
+    roofs_ = make_corners_program(words, kRoofAlbedo);
+    ground_ = make_corners_program(words, ground_material(scenario));
+    surroundings_ = make_corners_program(words, embedded::shader_ground_surroundings);
   }
   describe_vertices(array_, 0, vertices_, sizeof(PlaceVertex), 0,
                     {{0, 3, GL_FLOAT, false, offsetof(PlaceVertex, position)},

@@ -11,8 +11,10 @@ enum class Quality : std::uint8_t { draft, standard, high };
 
 struct QualitySettings {
   std::string_view word;  ///< in job files
-  bool textured;          ///< else ground, walls and people are coloured corner by corner
+  bool textured;          ///< else ground and walls are coloured corner by corner
+  int textured_levels;    ///< of people; coarser ones, whose triangles are pixels, by their corners
   int shadow_texels;      ///< along each side of the shadow map; 0: no shadows
+  bool fine_shadows;      ///< edges from 3 x 3 texels instead of 2 x 2
   bool smooth_edges;      ///< along the outlines of people and things
   int supersampling;      ///< samples of colour along each side of a pixel
   double detail;          ///< people's levels of detail are chosen as if they were so much larger
@@ -23,13 +25,18 @@ struct QualitySettings {
 inline constexpr int kProxyTriangles = 100;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{
-    {"draft", false, 0, false, 1, 0.5, 60},
-    {"standard", true, 2048, true, 1, 1, 0},
-    {"high", true, 4096, false, 2, 2, 0},
+    {"draft", false, 0, 0, false, false, 1, 0.5, 60},
+    {"standard", true, 2, 2048, false, true, 1, 1, 0},
+    {"high", true, 5, 4096, true, false, 2, 2, 0},
 }};
 
 constexpr const QualitySettings& settings_of(Quality quality) {
   return kQualities[static_cast<std::size_t>(quality)];
+}
+
+/// Lines "#define WORD" for shaders/light.glsl.
+constexpr std::string_view shadow_words(const QualitySettings& quality) {
+  return quality.fine_shadows ? "#define FINE_SHADOWS\n" : "";
 }
 
 }  // namespace throng::render

@@ -57,15 +57,24 @@ Visible visible_in(const Frame& frame, const Seen& seen, const Eigen::AlignedBox
   const std::uint32_t own = id_of_agent(seen.truth.agent);
   Visible visible;
   visible.whole = image.contains(bounds);
+  const auto width = static_cast<std::size_t>(box.sizes().x());
   for (int y = box.min().y(); y < box.max().y(); ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width());
-    for (int x = box.min().x(); x < box.max().x(); ++x) {
-      const std::size_t pixel = row + static_cast<std::size_t>(x);
-      const std::uint32_t id = frame.id[pixel];
-      visible.pixels += id == own ? 1 : 0;
-      // Ground never hides anybody, nor does what is behind their farthest point.
-      visible.whole &= id == own || id == kIdGround || frame.depth_m[pixel] > seen.farthest_m;
+    const std::size_t first =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
+        static_cast<std::size_t>(box.min().x());
+    const std::uint32_t* id = &frame.id[first];
+    const float* depth_m = &frame.depth_m[first];
+    std::uint32_t own_pixels = 0;
+    for (std::size_t x = 0; x < width; ++x) own_pixels += id[x] == own ? 1U : 0U;
+    visible.pixels += own_pixels;
+    if (!visible.whole) continue;
+    // Ground never hides anybody, nor does what is behind their farthest point.
+    std::uint32_t before_them = 0;
+    for (std::size_t x = 0; x < width; ++x) {
+      const bool behind = depth_m[x] > seen.farthest_m;
+      before_them |= id[x] != own && id[x] != kIdGround && !behind ? 1U : 0U;
     }
+    visible.whole = before_them == 0;
   }
   return visible;
 }

@@ -64,8 +64,10 @@ float sunlit(vec3 world, float bias_m) {
   }
   return sum * 0.125;
 }
-#else
+#elif defined(FINE_SHADOWS)
 float sunlit(vec3 world, float bias_m) { return sunlit_sharp(world, bias_m); }
+#else
+float sunlit(vec3 world, float bias_m) { return sunlit_small(world, bias_m); }
 #endif
 #endif
 

@@ -104,6 +104,9 @@ void main() {
   vec3 direct = light.lamps.rgb * lamp_light(world, n);
 #else
   vec3 direct = light.sun.rgb * max(dot(n, light.sun_direction.xyz), 0.0);
+#ifdef SHADOWED
+  direct *= sunlit_small(world, 0.06);
+#endif
 #endif
   gl_Position = project_movable(world, shift);
   lit = film(through_air(albedo * (direct + ambient), max(gl_Position.w, 0.0)));
