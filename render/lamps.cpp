@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/prop_shapes.h"
+
 namespace throng::render {
 
 namespace {
@@ -61,6 +63,15 @@ std::vector<Lamp> wall_lamps(const world::Scenario& scenario) {
   return lamps;
 }
 
+std::vector<Lamp> all_lamps(const world::Scenario& scenario) {
+  std::vector<Lamp> lamps = wall_lamps(scenario);
+  for (const world::Prop& prop : scenario.props) {
+    if (prop.kind != world::PropKind::lamp_post) continue;
+    lamps.push_back({{prop.position.x(), prop.position.y(), kLampPost_m * prop.scale}, {0, 0}});
+  }
+  return lamps;
+}
+
 Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector<Lamp>& lamps,
                               const Eigen::Vector2d& point) {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
@@ -83,7 +94,7 @@ Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector
 LampMap::LampMap(const world::Scenario& scenario)
     : area_(scenario.ground.min, scenario.ground.max),
       texture_(make_texture_2d(GL_RGBA16F, kTexels, kTexels)) {
-  const std::vector<Lamp> lamps = wall_lamps(scenario);
+  const std::vector<Lamp> lamps = all_lamps(scenario);
   std::vector<Eigen::Vector4f> texels;
   texels.reserve(static_cast<std::size_t>(kTexels) * kTexels);
   for (int row = 0; row < kTexels; ++row) {

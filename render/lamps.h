@@ -20,6 +20,9 @@ struct Lamp {
 /// One on every 12 m of every wall of at least 4 m (also in shaders/wall.frag.glsl), 4.2 m up.
 std::vector<Lamp> wall_lamps(const world::Scenario& scenario);
 
+/// The lamps on walls and on lamp posts.
+std::vector<Lamp> all_lamps(const world::Scenario& scenario);
+
 /// What the lamps give 1 m above a point of the ground, behind no building: the sum of the unit
 /// directions to them times their strengths, and the sum of their strengths. One unit of light is
 /// that of render/daylight.h.

@@ -37,23 +37,6 @@ double horizon_slope(const world::Building& building, const Eigen::Vector2d& fro
   return slope;
 }
 
-/// Share of a uniform sky's light that reaches a point on the ground between the buildings: along
-/// each direction everything above the horizon, weighted by the cosine to the vertical.
-float openness_at(const world::Scenario& scenario, const Eigen::Vector2d& point) {
-  constexpr int kDirections = 16;
-  double sum = 0;
-  for (int i = 0; i < kDirections; ++i) {
-    const double angle = 2 * std::numbers::pi * (i + 0.5) / kDirections;
-    double slope = 0;
-    for (const world::Building& building : scenario.buildings) {
-      slope = std::max(slope, horizon_slope(building, point, {std::cos(angle), std::sin(angle)}));
-    }
-    sum += 1 / (1 + slope * slope);
-  }
-  // A corner inside a building would darken the whole cell in front of the wall.
-  return static_cast<float>(std::max(sum / kDirections, 0.35));
-}
-
 /// Grid lines over [low, high], and one far away on each side.
 std::vector<double> grid_lines(double low, double high) {
   const int cells = std::clamp(static_cast<int>(std::ceil((high - low) / kGroundCell)), 1, 128);
@@ -71,7 +54,7 @@ void add_ground(const world::Scenario& scenario, PlaceMesh& mesh) {
   for (const double y : ys) {
     for (const double x : xs) {
       mesh.vertices.push_back(
-          {three(x, y, 0), {0, 0, 1}, {}, openness_at(scenario, {x, y}), kIdGround});
+          {three(x, y, 0), {0, 0, 1}, {}, openness_at(scenario, {x, y}), kIdGround, 0});
     }
   }
   const auto add_cells = [&](bool inside) {
@@ -109,7 +92,8 @@ void add_walls(const world::Building& building, std::uint32_t id, PlaceMesh& mes
                                  {static_cast<float>(s), static_cast<float>(z),
                                   static_cast<float>(length), static_cast<float>(height)},
                                  1,
-                                 id});
+                                 id,
+                                 static_cast<float>(building.facade)});
       }
     }
     mesh.indices.insert(mesh.indices.end(),
@@ -129,7 +113,8 @@ void add_roof(const world::Building& building, std::uint32_t id, PlaceMesh& mesh
                              {static_cast<float>(local.x()), static_cast<float>(local.y()),
                               static_cast<float>(size.x()), static_cast<float>(size.y())},
                              1,
-                             id});
+                             id,
+                             0});
   }
   for (const auto& triangle : triangulate(building.footprint)) {
     for (const std::uint32_t corner : triangle) mesh.indices.push_back(first + corner);
@@ -137,6 +122,22 @@ void add_roof(const world::Building& building, std::uint32_t id, PlaceMesh& mesh
 }
 
 }  // namespace
+
+// Along each direction everything above the horizon, weighted by the cosine to the vertical.
+float openness_at(const world::Scenario& scenario, const Eigen::Vector2d& point) {
+  constexpr int kDirections = 16;
+  double sum = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + 0.5) / kDirections;
+    double slope = 0;
+    for (const world::Building& building : scenario.buildings) {
+      slope = std::max(slope, horizon_slope(building, point, {std::cos(angle), std::sin(angle)}));
+    }
+    sum += 1 / (1 + slope * slope);
+  }
+  // A corner inside a building would darken the whole cell in front of the wall.
+  return static_cast<float>(std::max(sum / kDirections, 0.35));
+}
 
 PlaceMesh place_mesh(const world::Scenario& scenario) {
   PlaceMesh mesh;
@@ -155,6 +156,10 @@ PlaceMesh place_mesh(const world::Scenario& scenario) {
 
 double tallest_m(const world::Scenario& scenario) {
   double tallest = 2.5;
+  constexpr double kTree_m = 7.5;
+  constexpr double kMesh_m = 30;  // higher parts of meshes throw no shadow
+  if (!scenario.meshes.empty()) tallest = kMesh_m;
+  for (const world::Prop& prop : scenario.props) tallest = std::max(tallest, kTree_m * prop.scale);
   for (const world::Building& building : scenario.buildings) {
     tallest = std::max(tallest, building.height_m);
   }

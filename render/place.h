@@ -17,6 +17,7 @@ struct PlaceVertex {
   std::array<float, 4> local{};
   float openness = 1;    ///< share of the sky's light that reaches the ground here, 0 to 1
   std::uint32_t id = 0;  ///< what the id buffer gets
+  float facade = 0;      ///< walls: number of the world::Facade
 };
 
 /// A run of triangles that share a shader.
@@ -36,7 +37,10 @@ struct PlaceMesh {
 
 PlaceMesh place_mesh(const world::Scenario& scenario);
 
-/// Height of the tallest building, but at least of a person with raised arms (m).
+/// Share of a uniform sky's light that reaches a point on the ground between the buildings.
+float openness_at(const world::Scenario& scenario, const Eigen::Vector2d& point);
+
+/// Height of the tallest building or prop, but at least of a person with raised arms (m).
 double tallest_m(const world::Scenario& scenario);
 
 }  // namespace throng::render

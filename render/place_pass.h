@@ -3,9 +3,11 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "render/environment.h"
 #include "render/gl_objects.h"
+#include "render/ground_layers.h"
 #include "render/place.h"
 #include "render/quality.h"
 #include "world/scenario.h"
@@ -28,12 +30,14 @@ class PlacePass {
   void draw_range(const Program& program, const Range& range) const;
 
   PlaceMesh mesh_;
+  std::vector<GroundLayer> layers_;  ///< uppermost first
   Buffer vertices_;
   Buffer indices_;
   VertexArray array_;
   Program walls_;
   Program roofs_;
   Program ground_;
+  std::vector<Program> layer_programs_;  ///< one for each of layers_
   Program surroundings_;
   Program shadow_;
 };

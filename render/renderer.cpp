@@ -12,6 +12,7 @@
 #include "render/people_pass.h"
 #include "render/person_geometry.h"
 #include "render/place_pass.h"
+#include "render/prop_pass.h"
 #include "render/shadow_map.h"
 #include "render/sky_pass.h"
 #include "render/smooth_edges.h"
@@ -141,6 +142,7 @@ struct Renderer::State {
   Eigen::AlignedBox2d ground;
   double tallest;
   PlacePass place;
+  PropPass props;
   PeoplePass people_pass;
   SkyPass sky;
   std::optional<LampMap> lamp_map;  ///< after sunset
@@ -166,6 +168,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       ground(scenario.ground.min, scenario.ground.max),
       tallest(tallest_m(scenario)),
       place(scenario, environment, quality),
+      props(scenario, light_words(environment), quality),
       people_pass(people, quality, light_words(environment)),
       sky(environment),
       shadow_map(quality.shadow_texels),
@@ -234,6 +237,7 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
   }
   shadow_map.begin();
   place.draw_shadow();
+  props.draw_shadow(area, slope);
   people_pass.draw(PeoplePass::Purpose::shadow, scene.people, std::move(casters));
 }
 
@@ -272,6 +276,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   into.begin(Eigen::Vector3f::Zero());
   // People first: they are many small triangles, and hide ground that then costs nothing.
   people_pass.draw(PeoplePass::Purpose::picture, scene.people, draws_of(seen));
+  props.draw(clip_planes(camera));
   place.draw();
   sky.draw_sky(camera);
   sky.draw_rain(camera, scene.index);

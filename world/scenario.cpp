@@ -95,14 +95,24 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
   return exits;
 }
 
+Facade read_facade(const JsonValue& value) {
+  const std::string word = value.text();
+  if (word == "plaster") return Facade::plaster;
+  if (word == "brick") return Facade::brick;
+  if (word == "glass") return Facade::glass;
+  value.reject("one of: plaster, brick, glass");
+  return Facade::by_id;
+}
+
 std::vector<Building> read_buildings(const JsonValue& list) {
   std::vector<Building> buildings;
   UniqueNames ids;
   for (const JsonValue& item : list.items()) {
-    item.fields({"id", "footprint", "height_m"});
+    item.fields({"id", "footprint", "height_m"}, {"facade"});
     Building building;
     building.id = ids.read(item["id"]);
     building.height_m = item["height_m"].number(0.1, kHighestM);
+    if (item["facade"].exists()) building.facade = read_facade(item["facade"]);
     const auto corners = item["footprint"].items(3);
     for (const JsonValue& corner : corners) {
       building.footprint.push_back(corner.vector2(kFarthestM));
@@ -158,6 +168,29 @@ fs::path read_companion(const JsonValue& value, const fs::path& scenario_file) {
   return path.lexically_normal();
 }
 
+std::vector<PlacedMesh> read_meshes(const JsonValue& list, const fs::path& scenario_file) {
+  constexpr double kSmallestScale = 1e-4;
+  constexpr double kLargestScale = 1e4;
+  std::vector<PlacedMesh> meshes;
+  for (const JsonValue& item : list.items()) {
+    item.fields({"file", "position"}, {"yaw_deg", "scale"});
+    PlacedMesh mesh;
+    const fs::path name = item["file"].text();
+    if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end()) {
+      item["file"].reject("the name of a file in the scenario's folder");
+    } else {
+      mesh.file = read_companion(item["file"], scenario_file);
+    }
+    mesh.position = item["position"].vector3(kFarthestM);
+    if (item["yaw_deg"].exists()) {
+      mesh.yaw_rad = item["yaw_deg"].number(-360, 360) * std::numbers::pi / 180;
+    }
+    if (item["scale"].exists()) mesh.scale = item["scale"].number(kSmallestScale, kLargestScale);
+    meshes.push_back(std::move(mesh));
+  }
+  return meshes;
+}
+
 std::vector<int> read_disaster_agents(const JsonValue& list) {
   std::vector<int> agents;
   for (const JsonValue& item : list.items()) {
@@ -168,15 +201,6 @@ std::vector<int> read_disaster_agents(const JsonValue& list) {
     agents.push_back(agent);
   }
   return agents;
-}
-
-std::string read_material(const JsonValue& value) {
-  constexpr std::array kMaterials{"pavers", "asphalt", "grass", "concrete"};
-  std::string material = value.text();
-  if (std::find(kMaterials.begin(), kMaterials.end(), material) == kMaterials.end()) {
-    value.reject(fmt::format("one of: {}", fmt::join(kMaterials, ", ")));
-  }
-  return material;
 }
 
 bool is_scenario_id(std::string_view id) {
@@ -198,10 +222,11 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   const nlohmann::json document = parse_json(read_file(file), source);
   std::vector<Problem> problems;
   const JsonValue root(document, source, problems);
-  root.fields({"name", "crowd", "ground", "inside", "exits"},
-              {"description", "buildings", "drones", "disaster_agents"});
+  root.fields(
+      {"name", "crowd", "ground", "inside", "exits"},
+      {"description", "buildings", "drones", "disaster_agents", "meshes", "props", "scatter"});
   root["crowd"].fields({"scene", "behavior"});
-  root["ground"].fields({"min", "max", "material"});
+  root["ground"].fields({"min", "max", "material"}, {"areas", "markings"});
   root["inside"].fields({"min", "max"});
 
   Scenario scenario;
@@ -211,11 +236,15 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   scenario.scene_file = read_companion(root["crowd"]["scene"], file);
   scenario.behavior_file = read_companion(root["crowd"]["behavior"], file);
   scenario.ground = read_rectangle(root["ground"]);
-  scenario.ground_material = read_material(root["ground"]["material"]);
+  scenario.ground_material = read_ground_material(root["ground"]["material"]);
   scenario.inside = read_rectangle(root["inside"]);
   scenario.exits = read_exits(root["exits"], scenario.inside);
   scenario.buildings = read_buildings(root["buildings"]);
   scenario.drones = read_drones(root["drones"], scenario.buildings);
+  scenario.props = read_props(root["props"], root["scatter"], scenario);
+  scenario.meshes = read_meshes(root["meshes"], file);
+  scenario.areas = read_ground_areas(root["ground"]["areas"]);
+  scenario.markings = read_markings(root["ground"]["markings"]);
   scenario.disaster_agents = read_disaster_agents(root["disaster_agents"]);
   if (!problems.empty()) throw InputError(std::move(problems));
   return scenario;

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "world/ground.h"
+#include "world/props.h"
 
 namespace throng::world {
 
@@ -29,11 +33,23 @@ struct Exit {
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
 };
 
+/// What a building's walls look like. by_id: plaster or brick, by the building's number.
+enum class Facade : std::uint8_t { by_id, plaster, brick, glass };
+
 /// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.
 struct Building {
   std::string id;
   std::vector<Eigen::Vector2d> footprint;  ///< m
   double height_m = 10;
+  Facade facade = Facade::by_id;
+};
+
+/// A user's mesh file, y up, placed in the world: its origin at `position`.
+struct PlacedMesh {
+  std::filesystem::path file;                          ///< absolute
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
+  double yaw_rad = 0;
+  double scale = 1;  ///< metres per unit of the file
 };
 
 struct DroneStart {
@@ -65,6 +81,10 @@ struct Scenario {
   std::vector<DroneStart> drones;
   /// Agents that are not people (the paper's disaster is an agent); neither drawn nor counted.
   std::vector<int> disaster_agents;
+  std::vector<Prop> props;  ///< placed ones in the file's order, then scattered ones
+  std::vector<PlacedMesh> meshes;
+  std::vector<GroundArea> areas;  ///< later ones lie on top of earlier ones
+  std::vector<Marking> markings;
 };
 
 /// Reads and checks a scenario file. `id` becomes Scenario::id. Throws InputError (file, JSON

@@ -4,12 +4,14 @@ layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec4 local_in;
 layout(location = 3) in float openness_in;
 layout(location = 4) in uint id_in;
+layout(location = 5) in float facade_in;
 
 out vec3 world;
 out float openness;
 out vec4 local;
 flat out vec3 normal;
 flat out uint id;
+flat out float facade_kind;
 
 void main() {
   world = position;
@@ -17,5 +19,6 @@ void main() {
   local = local_in;
   normal = normal_in;
   id = id_in;
+  facade_kind = facade_in;
   gl_Position = project(position);
 }

@@ -4,6 +4,7 @@ in float openness;
 in vec4 local;  // along the wall, up, wall length, wall height; m
 flat in vec3 normal;
 flat in uint id;
+flat in float facade_kind;  // number of the world::Facade
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint instance;
@@ -67,9 +68,48 @@ void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width)
   s.albedo *= 1.0 - 0.25 * below;
 }
 
+// A curtain wall: panes 1.4 m wide between slim mullions, a spandrel at every floor.
+Surface glass_facade(vec2 p, vec2 size, ivec2 key) {
+  vec2 width = fwidth(p);
+  vec2 pane_size = vec2(size.x / max(1.0, round(size.x / 1.4)),
+                        size.y / max(1.0, round(size.y / 3.5)));
+  vec2 at = p / pane_size;
+  ivec2 cell = ivec2(floor(at)) + 13 * key;
+  vec2 frame = stripes_xy(at + 0.5 * vec2(0.05, 0.0), 0.05, width / pane_size);
+  float spandrel = stripes(at.y, 0.22, width.y / pane_size.y);
+  Surface s;
+  s.glow = vec3(0.0);
+  float tone = hash(cell);
+  s.albedo = mix(vec3(0.03, 0.04, 0.045) * (0.7 + 0.6 * tone), vec3(0.10, 0.12, 0.13), spandrel);
+  s.shine = vec3(0.85, 0.97, 1.0) * (0.55 + 0.35 * hash(cell + 101));
+  float metal = max(frame.x, band(p.y, size.y - 0.5, size.y, width.y));
+  s.albedo = mix(s.albedo, vec3(0.30, 0.31, 0.32), metal);
+  s.shine *= 1.0 - metal;
+#ifdef LAMPS
+  s.glow = vec3(0.95, 0.92, 0.8) * (step(tone, 0.4) * (0.3 + tone) * (1.0 - metal) * (1.0 - spandrel));
+#endif
+  return s;
+}
+
+// A door in the middle bay of the ground floor; `p` is relative to its middle bottom.
+void add_door(inout Surface s, ivec2 key, vec2 p, vec2 width) {
+  const vec3 kDoors[4] = vec3[](vec3(0.10, 0.055, 0.03), vec3(0.03, 0.06, 0.045),
+                                vec3(0.035, 0.045, 0.08), vec3(0.12, 0.12, 0.12));
+  float leaf = band(abs(p.x), 0.02, 0.62, width.x) * band(p.y, 0.0, 2.15, width.y);
+  float surround = band(abs(p.x), -1.0, 0.78, width.x) * band(p.y, -1.0, 2.35, width.y);
+  float panel = band(abs(p.x), 0.12, 0.5, width.x) * band(p.y, 1.1, 1.95, width.y);
+  vec3 door = kDoors[int(hash(key + 57) * 3.999)];
+  s.albedo = mix(s.albedo, vec3(0.50, 0.48, 0.44), surround);
+  s.albedo = mix(s.albedo, door, leaf);
+  s.shine = mix(s.shine, vec3(0.0), surround) + vec3(0.3 * panel);
+  s.glow *= 1.0 - surround;
+}
+
 Surface facade(vec2 p, vec2 size, uint building) {
   vec2 width = fwidth(p);
   ivec2 key = ivec2(int(building), 3);
+  int kind = int(facade_kind + 0.5);
+  if (kind == 3) return glass_facade(p, size, key);
   float floors = max(1.0, round(size.y / 3.3));
   float bays = max(1.0, round(size.x / 2.8));
   vec2 bay = vec2(size.x / bays, size.y / floors);
@@ -81,12 +121,13 @@ Surface facade(vec2 p, vec2 size, uint building) {
   Surface s;
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
-  bool brick = hash(key) < 0.4;
+  bool brick = kind == 0 ? hash(key) < 0.4 : kind == 2;
   s.albedo = brick && !ground_floor ? brick_colour(p, width) : render_colour(hash(key + 31));
   s.albedo *= 1.0 + 0.12 * stain;
   vec2 half_size = ground_floor ? vec2(0.36 * bay.x, 0.37 * bay.y) : vec2(0.6, 0.25 * bay.y);
   float sill_height = ground_floor ? 0.35 : 0.29 * bay.y;
   add_window(s, cell + 13 * key, within - vec2(0.0, sill_height), half_size, width);
+  if (ground_floor && bays >= 3.0 && cell.x == int(0.5 * bays)) add_door(s, key, within, width);
   // A string course above the ground floor, a plinth and a cornice.
   float course = band(p.y, bay.y - 0.22, bay.y, width.y);
   float cornice = band(p.y, size.y - 0.45, size.y, width.y);

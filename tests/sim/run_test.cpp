@@ -259,5 +259,22 @@ TEST(Run, ADisasterThatIsNoAgentIsTheScenariosFault) {
   EXPECT_THROW(simulate(scenario, short_run(), folder.path() / "run.h5"), InputError);
 }
 
+TEST(Run, NobodyWalksThroughTheThingsThatStandInTheSquare) {
+  RunSpec spec = short_run();
+  spec.duration_s = 60;
+  const world::Trace trace = trace_of(spec);
+  ASSERT_FALSE(city_square().props.empty());
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
+      if (trace.header.role[agent] != AgentRole::person || !trace.present(step, agent)) continue;
+      const Eigen::Vector2d at = trace.position[trace.at(step, agent)].cast<double>();
+      for (std::size_t i = 0; i < city_square().props.size(); ++i) {
+        ASSERT_GT(world::distance_to(city_square().props[i], at), 0.1)
+            << "prop " << i << ", agent " << agent << " at " << at.transpose();
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace throng::sim
