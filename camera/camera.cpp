@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 
@@ -34,16 +35,29 @@ Pose pose_looking(const Eigen::Vector3d& centre, double yaw_rad, double pitch_ra
   return pose;
 }
 
+std::optional<Eigen::Vector2d> Intrinsics::pixel_of(const Eigen::Vector2d& direction) const {
+  const std::optional<Eigen::Vector2d> shown =
+      distortion ? distortion->distort(direction) : direction;
+  if (!shown) return std::nullopt;
+  return Eigen::Vector2d(fx_px * shown->x() + cx_px, fy_px * shown->y() + cy_px);
+}
+
+std::optional<Eigen::Vector2d> Intrinsics::direction_of(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d shown((pixel.x() - cx_px) / fx_px, (pixel.y() - cy_px) / fy_px);
+  return distortion ? distortion->undistort(shown) : shown;
+}
+
 Camera::Projection Camera::project(const Eigen::Vector3d& world) const {
   const Eigen::Vector3d p = pose.R * world + pose.t;
-  return {{intrinsics.fx_px * p.x() / p.z() + intrinsics.cx_px,
-           intrinsics.fy_px * p.y() / p.z() + intrinsics.cy_px},
-          p.z()};
+  const std::optional<Eigen::Vector2d> pixel =
+      p.z() > 0 ? intrinsics.pixel_of(p.head<2>() / p.z()) : std::nullopt;
+  return {pixel.value_or(Eigen::Vector2d::Zero()), p.z(), pixel.has_value()};
 }
 
 Eigen::Vector3d Camera::unproject(const Eigen::Vector2d& pixel, double depth_m) const {
-  const Eigen::Vector3d p((pixel.x() - intrinsics.cx_px) / intrinsics.fx_px * depth_m,
-                          (pixel.y() - intrinsics.cy_px) / intrinsics.fy_px * depth_m, depth_m);
+  const std::optional<Eigen::Vector2d> direction = intrinsics.direction_of(pixel);
+  if (!direction) return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Vector3d p(direction->x() * depth_m, direction->y() * depth_m, depth_m);
   return pose.R.transpose() * (p - pose.t);
 }
 

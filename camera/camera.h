@@ -1,9 +1,13 @@
-// The pinhole camera. Camera frame: x right, y down, z forward. Pixels as OpenCV counts them: the
-// centre of the top-left pixel is (0, 0), so a projected point u lies at u + 0.5 in the coordinates
-// of boxes and masks, where pixel i covers [i, i + 1).
+// The camera: a pinhole, and what its lens makes of the pinhole's picture. Camera frame: x right, y
+// down, z forward. Pixels as OpenCV counts them: the centre of the top-left pixel is (0, 0), so a
+// projected point u lies at u + 0.5 in the coordinates of boxes and masks, where pixel i covers [i,
+// i + 1).
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+
+#include "camera/distortion.h"
 
 namespace throng::camera {
 
@@ -14,8 +18,13 @@ struct Intrinsics {
   double fy_px = 0;
   double cx_px = 0;  ///< OpenCV convention: (width - 1) / 2 for a centred camera
   double cy_px = 0;
+  std::optional<Distortion> distortion = std::nullopt;  ///< nothing: a pinhole
 
   Eigen::Matrix3d matrix() const;
+  /// The pixel that shows the direction (x / z, y / z); nothing outside the distortion's range.
+  std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& direction) const;
+  /// The inverse: (x / z, y / z) of what is seen at a pixel.
+  std::optional<Eigen::Vector2d> direction_of(const Eigen::Vector2d& pixel) const;
 };
 
 /// Square pixels, centred principal point, horizontal field of view in radians in (0, pi).
@@ -38,14 +47,17 @@ struct Camera {
   Intrinsics intrinsics;
   Pose pose;
 
-  /// Pixel (OpenCV convention) and depth z (m) of a world point; for z <= 0 the pixel is undefined.
+  /// Pixel (OpenCV convention) and depth z (m) of a world point. The pixel is undefined if the
+  /// point is not visible: behind the camera, or where the lens's model does not hold.
   struct Projection {
     Eigen::Vector2d pixel;
     double depth_m;
+    bool visible;
   };
   Projection project(const Eigen::Vector3d& world) const;
 
-  /// The world point seen at `pixel` with camera depth `depth_m`.
+  /// The world point seen at `pixel` with camera depth `depth_m`; all NaN if the lens shows nothing
+  /// at such a pixel.
   Eigen::Vector3d unproject(const Eigen::Vector2d& pixel, double depth_m) const;
 };
 

@@ -1,0 +1,62 @@
+// What a real lens does to the pinhole's picture, in OpenCV's conventions (calib3d and its fisheye
+// module), so that calibrations of real cameras can be used as they are.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+
+namespace throng::camera {
+
+/// Maps (x, y) = (X / Z, Y / Z) of a point in the camera's frame to where the lens shows it, in the
+/// same units (before the focal length is applied).
+///
+/// brown_conrady (Brown 1966; with the rational denominator of OpenCV), coefficients k1, k2, p1,
+/// p2, k3, k4, k5, k6, r^2 = x^2 + y^2:
+///   c = (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6)
+///   x' = c x + 2 p1 x y + p2 (r^2 + 2 x^2),  y' = c y + p1 (r^2 + 2 y^2) + 2 p2 x y
+/// fisheye (Kannala and Brandt 2006, eq. 6), coefficients k1, k2, k3, k4, theta = atan r:
+///   theta' = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8)
+///   (x', y') = (x, y) theta' / r
+///
+/// Beyond some distance from the axis such a polynomial turns back and shows points twice. The
+/// model is valid up to there, and nowhere farther than 80 degrees from the axis.
+class Distortion {
+ public:
+  enum class Model { brown_conrady, fisheye };
+  /// In the order above; a fisheye's last four are 0.
+  using Coefficients = std::array<double, 8>;
+
+  Distortion(Model model, const Coefficients& coefficients);
+
+  Model model() const { return model_; }
+  const Coefficients& coefficients() const { return coefficients_; }
+  /// Largest r for which the model is valid.
+  double limit() const { return limit_; }
+
+  /// Nothing beyond the valid range.
+  std::optional<Eigen::Vector2d> distort(const Eigen::Vector2d& pinhole) const;
+  /// The inverse, found by Newton's method to 1e-12; nothing if no valid point is shown there.
+  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted) const;
+  /// Derivatives of distort: column 0 by x, column 1 by y.
+  Eigen::Matrix2d derivatives(const Eigen::Vector2d& pinhole) const;
+
+ private:
+  /// Distance from the axis as shown, and its derivative by r.
+  struct Radial {
+    double shown;
+    double slope;
+  };
+  Radial radial(double r) const;
+  Eigen::Vector2d apply(const Eigen::Vector2d& pinhole) const;
+  double find_limit() const;
+  /// The r in [0, limit] that is shown at this distance, which is at most the farthest.
+  double inverse_radial(double shown) const;
+
+  Model model_;
+  Coefficients coefficients_;
+  double limit_;
+  double farthest_shown_;
+};
+
+}  // namespace throng::camera
