@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 
 #include "base/error.h"
 
@@ -54,16 +57,36 @@ void append_metres(std::string& text, const Vector& values) {
   text.push_back(']');
 }
 
-// The middle of the head in box coordinates; null when it is behind the camera.
-void append_head(std::string& text, const Eigen::Vector3d& head, const camera::Camera& camera) {
-  const camera::Camera::Projection seen = camera.project(head);
-  if (seen.depth_m > 0) {
-    append(text, R"("head":[{:.3f},{:.3f}]}})", finite(seen.pixel.x() + 0.5),
-           finite(seen.pixel.y() + 0.5));
+// The middle of the head in box coordinates; null when the camera cannot see it.
+void append_head(std::string& text, const render::PersonInView& person,
+                 const camera::Camera& camera) {
+  if (const std::optional<Eigen::Vector2d> head = render::head_in(person, camera)) {
+    append(text, R"("head":[{:.3f},{:.3f}]}})", finite(head->x()), finite(head->y()));
   } else {
     text += R"("head":null})";
   }
   text.push_back('\n');
+}
+
+// The lens's model and its coefficients, by their names in OpenCV.
+void append_lens(std::string& text, const std::optional<camera::Distortion>& distortion) {
+  using Model = camera::Distortion::Model;
+  constexpr std::array kBrown{"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
+  constexpr std::array kFisheye{"k1", "k2", "k3", "k4"};
+  if (!distortion) {
+    text += R"(,"model":"pinhole")";
+    return;
+  }
+  const bool fisheye = distortion->model() == Model::fisheye;
+  text += fisheye ? R"(,"model":"fisheye","distortion":{)"
+                  : R"(,"model":"brown_conrady","distortion":{)";
+  const std::span<const char* const> names =
+      fisheye ? std::span<const char* const>(kFisheye) : std::span<const char* const>(kBrown);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    append(text, R"({}"{}":{})", i > 0 ? "," : "", names[i],
+           finite(distortion->coefficients().at(i)));
+  }
+  text.push_back('}');
 }
 
 // The characters of RLE strings run from '0' to 'o'; the backslash is among them.
@@ -90,7 +113,9 @@ void append_image_record(std::string& text, const CocoImage& image) {
   append_exact(text, image.camera.pose.t);
   text += R"(,"centre":)";
   append_exact(text, image.camera.pose.centre());
+  append_lens(text, image.camera.intrinsics.distortion);
   text.push_back('}');
+  if (!image.sensor.empty()) text += R"(,"sensor":)" + image.sensor;
   if (!image.environment.empty()) text += R"(,"environment":)" + image.environment;
   if (!image.density_file.empty()) {
     append(text, R"(,"density_file":{},"density_count":{})", quoted(image.density_file),
@@ -122,7 +147,7 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
   text += R"(,"velocity":)";
   append_metres(text, label.person.velocity);
   text.push_back(',');
-  append_head(text, label.person.head, image.camera);
+  append_head(text, label.person, image.camera);
 }
 
 }  // namespace throng::annotate

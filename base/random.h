@@ -26,6 +26,7 @@ enum class Stream : std::uint32_t {
   crowd_panic = 15,
   crowd_exits = 16,  ///< which exits somebody knows
   crowd_model = 17,  ///< noise of pedestrian models
+  camera_noise = 18,
 };
 
 /// A generator keyed by (seed, stream, index): Philox 4x32-10 (Salmon et al. 2011) from Random123.

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "camera/camera.h"
-#include "jobs/spec.h"
+#include "jobs/camera_spec.h"
 #include "world/trace.h"
 
 namespace throng::jobs {
 
 /// A camera on a gimbal below a drone: it turns with the drone's heading but neither rolls nor
-/// pitches with it.
+/// pitches with it. Of `spec`, nothing is left to be drawn (camera_of_run).
 camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec);
 
 }  // namespace throng::jobs

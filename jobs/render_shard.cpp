@@ -13,12 +13,11 @@
 #include "base/error.h"
 #include "camera/camera.h"
 #include "jobs/environment.h"
-#include "jobs/gimbal.h"
 #include "jobs/people.h"
 #include "jobs/pipeline.h"
 #include "jobs/profile.h"
 #include "jobs/publication.h"
-#include "render/animator.h"
+#include "jobs/shoot.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
 #include "world/scenario.h"
@@ -28,20 +27,13 @@ namespace throng::jobs {
 
 namespace {
 
-std::size_t drone_index(const world::Trace& trace, const std::string& id) {
-  const auto& ids = trace.header.drone_ids;
-  const auto found = std::find(ids.begin(), ids.end(), id);
-  check(found != ids.end(), "a trace holds the drones of its job");
-  return static_cast<std::size_t>(found - ids.begin());
-}
-
 // The heads of the people in the labels, in box coordinates.
 std::vector<Eigen::Vector2d> heads_of(const annotate::FrameLabels& labels,
                                       const camera::Camera& camera) {
   std::vector<Eigen::Vector2d> heads;
   for (const annotate::PersonLabel& label : labels.people) {
-    const camera::Camera::Projection head = camera.project(label.person.head);
-    if (head.depth_m > 0) heads.push_back(head.pixel + Eigen::Vector2d(0.5, 0.5));
+    const std::optional<Eigen::Vector2d> head = render::head_in(label.person, camera);
+    if (head) heads.push_back(*head);
   }
   return heads;
 }
@@ -67,7 +59,8 @@ class ShardOutput {
     }
   }
 
-  void add(const render::Frame& frame, std::size_t camera) {
+  void add(const Picture& picture, std::size_t camera) {
+    const render::Frame& frame = picture.frame;
     const annotate::FrameLabels labels = annotate::label_people(frame);
     lap("labels");
     const std::string& drone = job_.drones[camera].mission.id;
@@ -82,6 +75,7 @@ class ShardOutput {
     image.time_s = frame.time_s;
     image.camera = frame.camera;
     image.environment = environment_;
+    image.sensor = picture.sensor;
     const std::string jpeg =
         annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
     lap("jpeg");
@@ -166,7 +160,6 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, shard.run}));
   const skinning::Population population = skinning::load_population(skinning::population_folder());
   pin_people(folder, population.content_hash);
-  const render::Animator animator(trace, population);
   const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
   const RunEnvironment environment = environment_of_run(job.environment, seed);
   std::optional<StageClock> clock;
@@ -178,9 +171,7 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
   options.parts = wants(job, "parts");
   options.clock = clock ? &*clock : nullptr;
   render::Renderer renderer(scenario, population, environment.light, {}, options);
-  const auto camera_at = [&](const DroneSpec& drone, double time_s) {
-    return camera_on(trace.drone_at(drone_index(trace, drone.mission.id), time_s), drone.camera);
-  };
+  Shoot shoot(job, seed, trace, population, renderer, options.clock);
 
   const Task task{Task::Kind::render, shard.run, shard.index};
   ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(),
@@ -189,22 +180,11 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;
   for (std::int64_t frame = shard.first_frame; frame < shard.end_frame; ++frame) {
-    const double time_s = job.frame_time_s(frame);
-    const bool has_next = options.flow && frame + 1 < job.frames_per_camera();
-    const double next_s = job.frame_time_s(frame + 1);
-    if (clock) clock->skip();
-    const render::Scene scene = animator.scene_at(time_s, frame);
-    render::NextFrame next;
-    if (has_next) next.scene = animator.scene_at(next_s, frame + 1);
-    if (clock) clock->lap("scene");
     for (std::size_t i = 0; i < job.drones.size(); ++i) {
       if (stop.stop_requested()) throw Cancelled();
-      const DroneSpec& drone = job.drones[i];
-      if (has_next) next.camera = camera_at(drone, next_s);
-      render::Frame picture =
-          renderer.draw(scene, camera_at(drone, time_s), has_next ? &next : nullptr);
+      Picture picture = shoot.take(i, frame);
       output.add(picture, i);
-      renderer.recycle(std::move(picture));
+      shoot.recycle(std::move(picture));
       if (on_progress) on_progress({++done, images});
     }
   }

@@ -10,6 +10,7 @@
 #include "crowd/model.h"
 #include "crowd/project.h"
 #include "crowd/simulation.h"
+#include "jobs/plan.h"
 #include "jobs/schema.h"
 #include "sim/participants.h"
 #include "sim/plan.h"
@@ -47,17 +48,7 @@ Eigen::Vector3d read_point(const json& value) {
 
 json point_json(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
 
-CameraSpec read_camera(const json& value) {
-  CameraSpec camera;
-  read(value, "width", camera.width);
-  read(value, "height", camera.height);
-  read(value, "hfov_deg", camera.hfov_deg);
-  read(value, "pitch_deg", camera.pitch_deg);
-  read(value, "yaw_deg", camera.yaw_deg);
-  return camera;
-}
-
-DroneSpec read_drone(const json& value) {
+DroneSpec read_drone(const json& value, std::size_t index, std::vector<Problem>& problems) {
   DroneSpec drone;
   read(value, "id", drone.mission.id);
   read(value, "airframe", drone.mission.airframe);
@@ -71,7 +62,7 @@ DroneSpec read_drone(const json& value) {
   for (const json& point : part(guidance, "waypoints")) {
     drone.mission.waypoints.push_back(read_point(point));
   }
-  drone.camera = read_camera(part(value, "camera"));
+  drone.camera = read_camera(part(value, "camera"), camera_pointer(index), problems);
   return drone;
 }
 
@@ -103,7 +94,9 @@ JobSpec read_job(const json& value, std::vector<Problem>& problems) {
   read(value, "seed", job.seed);
   read(value, "runs", job.runs);
   read_crowd(part(value, "crowd"), job);
-  for (const json& drone : part(value, "drones")) job.drones.push_back(read_drone(drone));
+  for (const json& drone : part(value, "drones")) {
+    job.drones.push_back(read_drone(drone, job.drones.size(), problems));
+  }
   const json& capture = part(value, "capture");
   read(capture, "rate_hz", job.capture.rate_hz);
   read(capture, "from_s", job.capture.from_s);
@@ -117,6 +110,19 @@ JobSpec read_job(const json& value, std::vector<Problem>& problems) {
   read(part(outputs, "density"), "sigma_px", job.outputs.density_sigma_px);
   read(outputs, "previews", job.outputs.previews);
   return job;
+}
+
+// Of every run, as each may have another lens.
+void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const CameraSpec& camera = job.drones[i].camera;
+    const std::string pointer = camera_pointer(i);
+    const std::size_t before = problems.size();
+    for (const RunPlan& run : plan_runs(job)) {
+      check_lens(camera_of_run(camera, run.seed, pointer), pointer, problems);
+      if (camera.drawn.empty() || problems.size() > before) break;
+    }
+  }
 }
 
 // Gives drones what the scenario knows of them. A job without drones flies the scenario's.
@@ -195,12 +201,7 @@ json drone_json(const DroneSpec& drone) {
   json value = {{"id", mission.id},
                 {"airframe", mission.airframe},
                 {"guidance", {{"policy", mission.policy}, {"speed_mps", mission.speed_mps}}},
-                {"camera",
-                 {{"width", drone.camera.width},
-                  {"height", drone.camera.height},
-                  {"hfov_deg", drone.camera.hfov_deg},
-                  {"pitch_deg", drone.camera.pitch_deg},
-                  {"yaw_deg", drone.camera.yaw_deg}}}};
+                {"camera", to_json(drone.camera)}};
   if (mission.start) value["start"] = point_json(*mission.start);
   if (mission.moves_goal) {
     value["moves_goal"] = {mission.moves_goal->set, mission.moves_goal->goal};
@@ -233,6 +234,7 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   const world::Scenario scenario = scenario_of(job, source, scenarios);
   take_from_scenario(job, scenario);
   check_times(job, problems);
+  if (problems.empty()) check_cameras(job, problems);
   check_with_simulation(job, scenario, problems);
   for (Problem& problem : problems) {
     if (problem.source.empty()) problem.source = source;

@@ -10,19 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "jobs/camera_spec.h"
 #include "jobs/environment.h"
 #include "render/quality.h"
 #include "sim/run.h"
 
 namespace throng::jobs {
-
-struct CameraSpec {
-  int width = 1280;
-  int height = 720;
-  double hfov_deg = 78;
-  double pitch_deg = -50;
-  double yaw_deg = 0;  ///< relative to the drone's heading
-};
 
 struct DroneSpec {
   sim::DroneMission mission;

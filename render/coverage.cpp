@@ -69,9 +69,28 @@ std::size_t CoverageCounter::place(std::vector<Tile>& tiles, std::size_t first, 
   return i;
 }
 
+std::uint64_t CoverageCounter::covered_in(const Tile& tile, const PixelWeights* weights) const {
+  constexpr std::uint8_t kCovered = 255;
+  std::uint64_t covered = 0;
+  for (int y = 0; y < tile.size.y(); ++y) {
+    const auto row = pixels_.begin() +
+                     (static_cast<std::ptrdiff_t>(tile.atlas.y()) + y) * kAtlasSize +
+                     tile.atlas.x();
+    if (weights == nullptr) {
+      covered += static_cast<std::uint64_t>(std::count(row, row + tile.size.x(), kCovered));
+      continue;
+    }
+    for (int x = 0; x < tile.size.x(); ++x) {
+      if (row[x] == kCovered) covered += weights->at(tile.image.x() + x, tile.image.y() + y);
+    }
+  }
+  return covered;
+}
+
 void CoverageCounter::draw_and_add(PeoplePass& pass, std::span<const PersonInstance> people,
                                    std::span<const CoverageRequest> requests,
                                    std::span<const Tile> tiles, int used_rows,
+                                   const PixelWeights* weights,
                                    std::vector<std::uint64_t>& counts) {
   const std::array<float, 4> nothing{};
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, nothing.data());
@@ -84,21 +103,14 @@ void CoverageCounter::draw_and_add(PeoplePass& pass, std::span<const PersonInsta
   pass.draw(PeoplePass::Purpose::coverage, people, std::move(draws));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, kAtlasSize, used_rows, GL_RED, GL_UNSIGNED_BYTE, pixels_.data());
-  for (const Tile& tile : tiles) {
-    for (int y = 0; y < tile.size.y(); ++y) {
-      const auto row = pixels_.begin() +
-                       (static_cast<std::ptrdiff_t>(tile.atlas.y()) + y) * kAtlasSize +
-                       tile.atlas.x();
-      counts[tile.request] += static_cast<std::uint64_t>(
-          std::count(row, row + tile.size.x(), static_cast<std::uint8_t>(255)));
-    }
-  }
+  for (const Tile& tile : tiles) counts[tile.request] += covered_in(tile, weights);
 }
 
 std::vector<std::uint64_t> CoverageCounter::count(PeoplePass& pass,
                                                   std::span<const PersonInstance> people,
                                                   std::span<const CoverageRequest> requests,
-                                                  const camera::Camera& camera) {
+                                                  const camera::Camera& camera,
+                                                  const PixelWeights* weights) {
   std::vector<std::uint64_t> counts(requests.size(), 0);
   if (requests.empty()) return counts;
   const Viewport viewport = guarded_viewport(kAtlasSize, kAtlasSize);
@@ -113,7 +125,7 @@ std::vector<std::uint64_t> CoverageCounter::count(PeoplePass& pass,
     int used_rows = 0;
     const std::size_t end = place(tiles, first, used_rows);
     draw_and_add(pass, people, requests, std::span(tiles).subspan(first, end - first), used_rows,
-                 counts);
+                 weights, counts);
     first = end;
   }
   return counts;

@@ -10,6 +10,7 @@
 #include "camera/camera.h"
 #include "render/gl_objects.h"
 #include "render/people_pass.h"
+#include "render/pixel_weights.h"
 
 namespace throng::render {
 
@@ -23,11 +24,12 @@ class CoverageCounter {
  public:
   CoverageCounter();
 
-  /// Covered pixels for each request, also those outside the image. Leaves its own target, viewport
-  /// and View block bound.
+  /// Covered pixels for each request, also those outside the image, counted as `weights` say or
+  /// once each. Leaves its own target, viewport and View block bound.
   std::vector<std::uint64_t> count(PeoplePass& pass, std::span<const PersonInstance> people,
                                    std::span<const CoverageRequest> requests,
-                                   const camera::Camera& camera);
+                                   const camera::Camera& camera,
+                                   const PixelWeights* weights = nullptr);
 
  private:
   /// A part of a request's bounds that fits the atlas, and where it lies there.
@@ -41,9 +43,10 @@ class CoverageCounter {
   static std::vector<Tile> tiles_of(std::span<const CoverageRequest> requests);
   /// Places tiles from `first` on in rows until the atlas is full; returns the end of the placed.
   static std::size_t place(std::vector<Tile>& tiles, std::size_t first, int& used_rows);
+  std::uint64_t covered_in(const Tile& tile, const PixelWeights* weights) const;
   void draw_and_add(PeoplePass& pass, std::span<const PersonInstance> people,
                     std::span<const CoverageRequest> requests, std::span<const Tile> tiles,
-                    int used_rows, std::vector<std::uint64_t>& counts);
+                    int used_rows, const PixelWeights* weights, std::vector<std::uint64_t>& counts);
 
   Texture atlas_;
   Framebuffer framebuffer_;

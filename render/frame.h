@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "camera/camera.h"
@@ -47,7 +48,21 @@ struct PersonInView {
   Eigen::AlignedBox2d amodal_box;
   /// Pixels that the person would cover were nothing in front of it, image borders included.
   std::uint64_t amodal_area_px = 0;
+  std::uint32_t level = 0;  ///< of detail, that it was drawn with
+  /// The middle of the head in box coordinates, where the frame's camera does not say it: rows of a
+  /// rolling shutter see it from elsewhere.
+  std::optional<Eigen::Vector2d> head_px = std::nullopt;
 };
+
+/// The middle of a person's head in a frame of this camera, in box coordinates, also if hidden;
+/// nothing if the camera cannot see there.
+inline std::optional<Eigen::Vector2d> head_in(const PersonInView& person,
+                                              const camera::Camera& camera) {
+  if (person.head_px) return person.head_px;
+  const camera::Camera::Projection seen = camera.project(person.head);
+  if (!seen.visible) return std::nullopt;
+  return Eigen::Vector2d(seen.pixel.array() + 0.5);
+}
 
 /// One rendered frame. Rows top-down, pixels row-major.
 struct Frame {

@@ -115,4 +115,38 @@ Silhouette silhouette(const skinning::Mesh& mesh, const skinning::Palette& palet
   return seen;
 }
 
+Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const skinning::Palette& palette,
+                              const PersonInstance& person, const camera::Camera& camera,
+                              const Rows& rows) {
+  const camera::Intrinsics& k = camera.intrinsics;
+  constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  const double top = rows.first == 0 ? -kEverywhere : rows.first;
+  const double bottom = rows.end == k.height ? kEverywhere : rows.end;
+  // A camera without lens, whose "pixels" are directions.
+  const camera::Camera directions{{1, 1, 1, 1, -0.5, -0.5}, camera.pose};
+  std::vector<std::optional<Eigen::Vector2d>> shown;
+  shown.reserve(mesh.vertices.size());
+  for (const Eigen::Vector4f& p :
+       projected_vertices(mesh, palette, image_from_model(person, directions))) {
+    shown.push_back(p.z() < kNear
+                        ? std::nullopt
+                        : k.pixel_of(p.head<2>().cast<double>() / static_cast<double>(p.z())));
+    if (shown.back()) shown.back()->array() += 0.5;
+  }
+  Eigen::AlignedBox2d box;
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    const auto& a = shown[mesh.indices[i]];
+    const auto& b = shown[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
+    if (!a) continue;
+    if (a->y() >= top && a->y() <= bottom) box.extend(*a);
+    for (const double border : {top, bottom}) {
+      if (!b || (a->y() < border) == (b->y() < border)) continue;
+      box.extend(Eigen::Vector2d(*a + (*b - *a) * ((border - a->y()) / (b->y() - a->y()))));
+    }
+  }
+  if (box.isEmpty()) return box;
+  const Eigen::Vector2d size(k.width, k.height);
+  return box.intersection(Eigen::AlignedBox2d(-size, 2 * size));
+}
+
 }  // namespace throng::render

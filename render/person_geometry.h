@@ -36,4 +36,16 @@ struct Silhouette {
 Silhouette silhouette(const skinning::Mesh& mesh, const skinning::Palette& palette,
                       const PersonInstance& person, const camera::Camera& camera);
 
+/// Rows [first, end) of an image. Those at its border go on beyond it.
+struct Rows {
+  int first = 0;
+  int end = 0;
+};
+
+/// Bounds in box coordinates of the part of a mesh that a camera with any lens shows in these rows
+/// of its image, from its vertices and edges; limited like Silhouette::box. Empty if there is none.
+Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const skinning::Palette& palette,
+                              const PersonInstance& person, const camera::Camera& camera,
+                              const Rows& rows);
+
 }  // namespace throng::render

@@ -51,7 +51,18 @@ struct Visible {
   bool whole = true;
 };
 
-Visible visible_in(const Frame& frame, const Seen& seen, const Eigen::AlignedBox2i& bounds) {
+/// What the pixels of a row with this id count for; the first is at `first`.
+std::uint64_t weighed(const std::uint32_t* id, std::size_t width, std::uint32_t own,
+                      const PixelWeights& weights, const Eigen::Vector2i& first) {
+  std::uint64_t sum = 0;
+  for (std::size_t x = 0; x < width; ++x) {
+    if (id[x] == own) sum += weights.at(first.x() + static_cast<int>(x), first.y());
+  }
+  return sum;
+}
+
+Visible visible_in(const Frame& frame, const Seen& seen, const Eigen::AlignedBox2i& bounds,
+                   const PixelWeights* weights) {
   const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
                                   Eigen::Vector2i(frame.width(), frame.height()));
   const Eigen::AlignedBox2i box = bounds.intersection(image);
@@ -65,9 +76,9 @@ Visible visible_in(const Frame& frame, const Seen& seen, const Eigen::AlignedBox
         static_cast<std::size_t>(box.min().x());
     const std::uint32_t* id = &frame.id[first];
     const float* depth_m = &frame.depth_m[first];
-    std::uint32_t own_pixels = 0;
-    for (std::size_t x = 0; x < width; ++x) own_pixels += id[x] == own ? 1U : 0U;
-    visible.pixels += own_pixels;
+    visible.pixels += weights == nullptr
+                          ? static_cast<std::uint64_t>(std::count(id, id + width, own))
+                          : weighed(id, width, own, *weights, {box.min().x(), y});
     if (!visible.whole) continue;
     // Ground never hides anybody, nor does what is behind their farthest point.
     std::uint32_t before_them = 0;
@@ -124,7 +135,7 @@ struct Renderer::State {
                  const Target& into);
   void draw_surfaces(const Scene& scene, const NextFrame* next, const std::vector<Seen>& seen,
                      Frame& frame);
-  void measure_coverage(const Scene& scene, const camera::Camera& camera, const Frame& frame,
+  void measure_coverage(const Scene& scene, const Frame& frame, const PixelWeights* weights,
                         std::vector<Seen>& seen);
 
   /// The stage has ended, for whoever wants to know how long it took.
@@ -214,7 +225,8 @@ std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
                     {person.agent, position,
                      posed_point(palette, person, skinning::Bone::hips, kHipsShare * stature_m),
                      posed_point(palette, person, skinning::Bone::head, kHeadShare * stature_m),
-                     person.velocity.cast<double>(), person.yaw_rad, stature_m, shape.box, 0}});
+                     person.velocity.cast<double>(), person.yaw_rad, stature_m, shape.box, 0,
+                     static_cast<std::uint32_t>(level)}});
   }
   std::sort(seen.begin(), seen.end(),
             [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });
@@ -304,21 +316,21 @@ void Renderer::State::draw_surfaces(const Scene& scene, const NextFrame* next,
   if (options.flow && next != nullptr) fill_still_flow(next->camera, frame);
 }
 
-void Renderer::State::measure_coverage(const Scene& scene, const camera::Camera& camera,
-                                       const Frame& frame, std::vector<Seen>& seen) {
+void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
+                                       const PixelWeights* weights, std::vector<Seen>& seen) {
   std::vector<std::size_t> measured;
   std::vector<CoverageRequest> requests;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     PersonInView& truth = seen[i].truth;
     const Eigen::AlignedBox2i bounds = pixels_of(truth.amodal_box);
-    const Visible visible = visible_in(frame, seen[i], bounds);
+    const Visible visible = visible_in(frame, seen[i], bounds, weights);
     truth.amodal_area_px = visible.pixels;
     if (visible.whole) continue;
     measured.push_back(i);
     requests.push_back({seen[i].draw, bounds});
   }
   const std::vector<std::uint64_t> counts =
-      coverage.count(people_pass, scene.people, requests, camera);
+      coverage.count(people_pass, scene.people, requests, frame.camera, weights);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     // A texel at the threshold of an alpha test may round differently in a tile; what is visible is
     // covered all the same.
@@ -334,10 +346,15 @@ Renderer::Renderer(const world::Scenario& scenario, const skinning::Population& 
 
 Renderer::~Renderer() = default;
 
-Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next) {
+Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next,
+                     const DrawChoice& choice) {
+  check(!camera.intrinsics.distortion, "a renderer draws pinhole cameras");
   State& state = *state_;
   state.context.make_current();
   Frame frame = std::move(state.spare);
+  frame.normal.clear();
+  frame.flow.clear();
+  frame.part.clear();
   frame.index = scene.index;
   frame.time_s = scene.time_s;
   frame.camera = camera;
@@ -351,11 +368,11 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   if (state.quality.smooth_edges) smooth_edges(frame);
   state.lap("smooth");
   const RenderOptions& options = state.options;
-  if (options.normals || options.flow || options.parts) {
+  if (choice.truth && (options.normals || options.flow || options.parts)) {
     state.draw_surfaces(scene, next, seen, frame);
     state.lap("surfaces");
   }
-  state.measure_coverage(scene, camera, frame, seen);
+  if (choice.truth) state.measure_coverage(scene, frame, choice.weights, seen);
   check_gl("drawing a frame");
   for (Seen& person : seen) frame.people.push_back(std::move(person.truth));
   state.lap("coverage");

@@ -9,6 +9,7 @@
 #include "camera/camera.h"
 #include "render/environment.h"
 #include "render/frame.h"
+#include "render/pixel_weights.h"
 #include "render/quality.h"
 #include "skinning/motion.h"
 #include "skinning/population.h"
@@ -55,6 +56,12 @@ struct NextFrame {
   camera::Camera camera;
 };
 
+/// What else a draw is to do, or not.
+struct DrawChoice {
+  const PixelWeights* weights = nullptr;  ///< what people's areas are counted in; nothing: pixels
+  bool truth = true;  ///< else people's areas are 0 and there are no normals, flow or parts
+};
+
 /// Owns a GL context, and the scenario's and population's buffers in it. Use from one thread.
 /// The scenario and population must outlive it.
 class Renderer {
@@ -67,9 +74,10 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Colour, id, depth and the people's ground truth, all from one draw of one instant.
-  /// `next` serves the flow only.
-  Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr);
+  /// Colour, id, depth and the people's ground truth, all from one draw of one instant. The camera
+  /// is a pinhole; Lens (render/lens.h) draws all cameras. `next` serves the flow only.
+  Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr,
+             const DrawChoice& choice = {});
 
   /// Takes the buffers of a frame that is not needed any more for one to come.
   void recycle(Frame&& frame);

@@ -1,0 +1,75 @@
+#include "jobs/shoot.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "jobs/gimbal.h"
+#include "jobs/pipeline.h"
+#include "render/sensor.h"
+
+namespace throng::jobs {
+
+namespace {
+
+std::size_t drone_index(const world::Trace& trace, const std::string& id) {
+  const auto& ids = trace.header.drone_ids;
+  const auto found = std::find(ids.begin(), ids.end(), id);
+  check(found != ids.end(), "a trace holds the drones of its job");
+  return static_cast<std::size_t>(found - ids.begin());
+}
+
+}  // namespace
+
+Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
+             const skinning::Population& population, render::Renderer& renderer, StageClock* clock)
+    : job_(&job),
+      run_seed_(run_seed),
+      trace_(&trace),
+      clock_(clock),
+      animator_(trace, population),
+      lens_(renderer, population) {
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    cameras_.push_back(camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i)));
+    drones_.push_back(drone_index(trace, job.drones[i].mission.id));
+  }
+}
+
+render::Moment Shoot::moment_at(std::size_t drone, std::int64_t frame, double time_s) {
+  if (clock_ != nullptr) clock_->lap("light and rows");
+  std::shared_ptr<const render::Scene> scene = scene_;
+  if (!scene || scene->index != frame || scene->time_s != time_s) {
+    scene = std::make_shared<const render::Scene>(animator_.scene_at(time_s, frame));
+    // The moments around a frame's own time are needed by one camera only.
+    if (time_s == job_->frame_time_s(frame)) scene_ = scene;
+  }
+  if (clock_ != nullptr) clock_->lap("scene");
+  return {std::move(scene), camera_on(trace_->drone_at(drones_[drone], time_s), cameras_[drone])};
+}
+
+Picture Shoot::take(std::size_t drone, std::int64_t frame) {
+  if (clock_ != nullptr) clock_->skip();
+  const CameraSpec& camera = cameras_.at(drone);
+  std::optional<double> next_s;
+  if (wants(*job_, "flow") && frame + 1 < job_->frames_per_camera()) {
+    next_s = job_->frame_time_s(frame + 1);
+  }
+  render::Exposed exposed = render::expose(
+      lens_, [&](double time_s) { return moment_at(drone, frame, time_s); },
+      job_->frame_time_s(frame), camera.exposure, next_s);
+  constexpr unsigned kFrameBits = 40;
+  const std::uint64_t index =
+      (static_cast<std::uint64_t>(drone) << kFrameBits) + static_cast<std::uint64_t>(frame);
+  render::apply_sensor(camera.sensor, derive_seed(run_seed_, Stream::camera_noise, index),
+                       exposed.frame);
+  if (clock_ != nullptr) clock_->lap("light and rows");
+  Picture picture;
+  picture.sensor = sensor_record(camera, exposed, job_->outputs.image_quality).dump();
+  picture.frame = std::move(exposed.frame);
+  return picture;
+}
+
+void Shoot::recycle(Picture&& picture) { lens_.recycle(std::move(picture.frame)); }
+
+}  // namespace throng::jobs

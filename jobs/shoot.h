@@ -1,0 +1,49 @@
+// Takes a run's pictures: each camera of the job at any of its frames.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/stage_clock.h"
+#include "jobs/spec.h"
+#include "render/animator.h"
+#include "render/exposure.h"
+#include "render/lens.h"
+#include "world/trace.h"
+
+namespace throng::jobs {
+
+struct Picture {
+  render::Frame frame;
+  std::string sensor;  ///< a JSON object: what sensor and shutter did
+};
+
+/// Everything given must outlive it. Pictures do not depend on which were taken before.
+class Shoot {
+ public:
+  Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
+        const skinning::Population& population, render::Renderer& renderer, StageClock* clock);
+
+  Picture take(std::size_t drone, std::int64_t frame);
+
+  /// Takes a picture that is not needed any more, for its memory.
+  void recycle(Picture&& picture);
+
+ private:
+  render::Moment moment_at(std::size_t drone, std::int64_t frame, double time_s);
+
+  const JobSpec* job_;
+  std::uint64_t run_seed_;
+  const world::Trace* trace_;
+  StageClock* clock_;  ///< of how long stages take; may be null
+  render::Animator animator_;
+  render::Lens lens_;
+  std::vector<CameraSpec> cameras_;             ///< this run's
+  std::vector<std::size_t> drones_;             ///< index in the trace
+  std::shared_ptr<const render::Scene> scene_;  ///< of the frame that was taken last
+};
+
+}  // namespace throng::jobs

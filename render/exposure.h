@@ -1,0 +1,53 @@
+// What time does to a picture: the world and the camera move while the shutter is open (motion
+// blur) and while the rows are read one after the other (rolling shutter).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "camera/camera.h"
+#include "render/frame.h"
+#include "render/lens.h"
+
+namespace throng::render {
+
+struct Exposure {
+  double exposure_s = 0;  ///< how long each row gathers light; 0: an instant
+  /// From the first row's reading to the last's; 0: all rows at once. The middle of the middle
+  /// row's exposure is the frame's time, other rows' are earlier (above) or later.
+  double readout_s = 0;
+};
+
+/// The world and the camera at one time.
+struct Moment {
+  std::shared_ptr<const Scene> scene;
+  camera::Camera camera;
+};
+using MomentAt = std::function<Moment(double time_s)>;
+
+/// How a frame was exposed.
+struct Exposed {
+  Frame frame;
+  int samples = 1;     ///< moments that each row's light is averaged over
+  int strips = 1;      ///< strips of rows that were each drawn at a time of their own
+  double blur_px = 0;  ///< how far things move at most during the exposure
+};
+
+/// How far (px) what is seen moves at most between two moments: the ground (z = 0), by the
+/// camera's motion, and people, by theirs as well.
+double image_motion_px(const Moment& from, const Moment& to);
+
+/// Draws as many moments as the motion needs: one when nothing moves by a quarter of a pixel, else
+/// one per pixel of blur up to 15, and strips in which the reading moves nothing by more than half
+/// a pixel, 32 at most. Colours are averaged in linear light. Ids, depth, boxes and areas are those
+/// of the middle of each strip's exposure; a person's box is the union over the strips of what
+/// shows in each, their position that of the strip where most of them is. The frame's camera is the
+/// one at `time_s`.
+///
+/// `next_s` is when the next frame is taken, if flow is wanted: flow goes from each row's time to
+/// as long after it.
+Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Exposure& exposure,
+               std::optional<double> next_s = std::nullopt);
+
+}  // namespace throng::render

@@ -1,0 +1,14 @@
+// sRGB (IEC 61966-2-1) bytes to linear light in [0, 1] and back.
+#pragma once
+
+#include <cstdint>
+
+namespace throng::render {
+
+/// Linear light of a byte.
+float linear_of_srgb(std::uint8_t byte);
+
+/// The nearest byte; light is clipped to [0, 1].
+std::uint8_t srgb_of_linear(float light);
+
+}  // namespace throng::render
