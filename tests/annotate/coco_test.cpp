@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "annotate/coco_records.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "tests/annotate/rle.h"
@@ -122,6 +123,31 @@ TEST_F(Coco, HoldsWhatALoaderNeeds) {
     EXPECT_EQ(annotation.at("category_id"), 1);
     EXPECT_EQ(annotation.at("iscrowd"), 0);
   }
+}
+
+TEST_F(Coco, ImagesNameTheirLensAndSensor) {
+  const auto record_of = [](const CocoImage& image) {
+    std::string text;
+    append_image_record(text, image);
+    return json::parse(text);
+  };
+  CocoImage image = image_of(0);
+  EXPECT_EQ(record_of(image)["camera"]["model"], "pinhole");
+  EXPECT_FALSE(record_of(image)["camera"].contains("distortion"));
+  EXPECT_FALSE(record_of(image).contains("sensor"));
+  image.sensor = R"({"iso":400})";
+  using camera::Distortion;
+  image.camera.intrinsics.distortion.emplace(
+      Distortion::Model::brown_conrady, Distortion::Coefficients{.1, .2, .3, .4, .5, .6, 0, 0});
+  EXPECT_EQ(record_of(image)["sensor"]["iso"], 400);
+  EXPECT_EQ(record_of(image)["camera"]["model"], "brown_conrady");
+  EXPECT_EQ(record_of(image)["camera"]["distortion"],
+            json::parse(R"({"k1": 0.1, "k2": 0.2, "p1": 0.3, "p2": 0.4, "k3": 0.5, "k4": 0.6,
+                            "k5": 0.0, "k6": 0.0})"));
+  image.camera.intrinsics.distortion.emplace(Distortion::Model::fisheye,
+                                             Distortion::Coefficients{.1, .2, .3, .4});
+  EXPECT_EQ(record_of(image)["camera"]["distortion"],
+            json::parse(R"({"k1": 0.1, "k2": 0.2, "k3": 0.3, "k4": 0.4})"));
 }
 
 TEST_F(Coco, EachAnnotationIsItsLabel) {

@@ -173,9 +173,9 @@ TEST(Lens, EdgesAreWhereTheModelShowsThem) {
   for (const Distortion& distortion : {barrel(), pincushion(), fisheye()}) {
     EdgeErrors errors;
     for (int i = 0; i < 12; ++i) {
-      add_errors(
-          set.draw(through(camera_at({-5, -2, 7}, 3 + 1.57 * i, -24 - 0.9 * i, 640, 480, 70), distortion)),
-          errors);
+      add_errors(set.draw(through(camera_at({-5, -2, 7}, 3 + 1.57 * i, -24 - 0.9 * i, 640, 480, 70),
+                                  distortion)),
+                 errors);
     }
     ASSERT_GT(errors.rows, 1000);
     EXPECT_NEAR(errors.ids / errors.rows, 0, 0.05);
