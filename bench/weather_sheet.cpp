@@ -29,7 +29,7 @@ using render::Weather;
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
 constexpr std::size_t kColumns = 2;
-constexpr double kTime_s = 26;
+constexpr double kTimeS = 26;
 
 std::vector<Environment> panels() {
   const auto panel = [](double azimuth_deg, double elevation_deg, Weather weather,
@@ -49,7 +49,7 @@ render::Frame draw(const Environment& environment, const world::Trace& trace,
   const render::Animator animator(trace, people);
   const camera::Camera camera{camera::intrinsics_from_hfov(kWidth, kHeight, 70 * kDegree),
                               camera::pose_looking({26, -4, 20}, 178 * kDegree, -36 * kDegree)};
-  return renderer.draw(animator.scene_at(kTime_s, 0), camera);
+  return renderer.draw(animator.scene_at(kTimeS, 0), camera);
 }
 
 /// Adds a frame at half its size.

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Array3d;
 
-constexpr double kLowestShadow_rad = 0.05;
+constexpr double kLowestShadowRad = 0.05;
 constexpr double kTownGlow = 1e-4;  // the darkest sky, as a share of a high sun's
 
 double smooth(double low, double high, double x) {
@@ -52,7 +52,7 @@ Array3d sky_hue(double elevation_rad) {
 
 /// A lower sun shines through more air: weaker and warmer (optical depths for clear air).
 Array3d clear_sun(double elevation_rad) {
-  const double sine = std::sin(std::max(elevation_rad, kLowestShadow_rad));
+  const double sine = std::sin(std::max(elevation_rad, kLowestShadowRad));
   const Array3d through_air = (-Array3d(0.08, 0.14, 0.24) / (sine + 0.05)).exp();
   return 1.85 * through_air * smooth(-0.8 * kDegree, 2 * kDegree, elevation_rad);
 }
@@ -86,7 +86,7 @@ double exposure_for(double mean) {
 /// Sun and clouds' light before exposure.
 void light_up(const Environment& environment, Daylight& light) {
   const double elevation = environment.sun_elevation_rad;
-  const double shown = std::max(elevation, kLowestShadow_rad);
+  const double shown = std::max(elevation, kLowestShadowRad);
   light.direction = {std::cos(shown) * std::cos(environment.sun_azimuth_rad),
                      std::cos(shown) * std::sin(environment.sun_azimuth_rad), std::sin(shown)};
   light.sun = clear_sun(elevation);
@@ -97,9 +97,9 @@ void light_up(const Environment& environment, Daylight& light) {
   }
   const double level = (light.sun * light.direction.z() + light.sky).mean();
   // Only a thin fog lets some of the sun through: Beer's law in a layer of 100 m.
-  constexpr double kFogDepth_m = 100;
+  constexpr double kFogDepthM = 100;
   const double direct = environment.weather == Weather::fog
-                            ? std::exp(-light.extinction_per_m * kFogDepth_m / light.direction.z())
+                            ? std::exp(-light.extinction_per_m * kFogDepthM / light.direction.z())
                             : 0.0;
   const Array3d grey(0.96, 1.0, 1.05);
   // Clouds give a town its own light back.

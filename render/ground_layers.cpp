@@ -13,11 +13,11 @@ namespace {
 using Eigen::Vector2d;
 using Polygon = std::vector<Vector2d>;
 
-constexpr double kAreaHeight_m = 0.0006;
-constexpr double kNextArea_m = 0.0001;
+constexpr double kAreaHeightM = 0.0006;
+constexpr double kNextAreaM = 0.0001;
 constexpr std::size_t kMostHeights = 6;
-constexpr double kKerbHeight_m = 0.0014;
-constexpr double kPaintHeight_m = 0.0017;
+constexpr double kKerbHeightM = 0.0014;
+constexpr double kPaintHeightM = 0.0017;
 
 /// The part of a convex polygon on the side of a line where normal . p <= limit.
 Polygon cut(const Polygon& polygon, const Vector2d& normal, double limit) {
@@ -59,11 +59,11 @@ class LayerBuilder {
 
   /// The same cut along a grid, so that openness is sampled within it.
   void add_in_cells(const Polygon& polygon, double height_m) {
-    constexpr double kSmallestCell_m = 3;
+    constexpr double kSmallestCellM = 3;
     constexpr double kMostCells = 48;
     Eigen::AlignedBox2d bounds;
     for (const Vector2d& p : polygon) bounds.extend(p);
-    const double cell = std::max(kSmallestCell_m, bounds.sizes().maxCoeff() / kMostCells);
+    const double cell = std::max(kSmallestCellM, bounds.sizes().maxCoeff() / kMostCells);
     for (double x = bounds.min().x(); x < bounds.max().x(); x += cell) {
       const Polygon column = cut(cut(polygon, {1, 0}, x + cell), {-1, 0}, -x);
       for (double y = bounds.min().y(); y < bounds.max().y(); y += cell) {
@@ -88,25 +88,25 @@ void paint(const world::Marking& marking, LayerBuilder& layers) {
   const double length = (marking.to - marking.from).norm();
   const Vector2d along = (marking.to - marking.from) / length;
   if (marking.kind == "line") {
-    layers.add_strip(marking.from, marking.to, marking.width_m, kPaintHeight_m);
+    layers.add_strip(marking.from, marking.to, marking.width_m, kPaintHeightM);
     return;
   }
   const double bar = marking.kind == "crossing" ? 0.5 : 2.0;
   for (double s = 0; s < length; s += 2 * bar) {
     const double end = std::min(s + bar, length);
     layers.add_strip(marking.from + s * along, marking.from + end * along, marking.width_m,
-                     kPaintHeight_m);
+                     kPaintHeightM);
   }
 }
 
 void edge_with_kerb(const Polygon& corners, LayerBuilder& layers) {
-  constexpr double kStone_m = 0.16;
+  constexpr double kStoneM = 0.16;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector2d& from = corners[i];
     const Vector2d& to = corners[(i + 1) % corners.size()];
     const Vector2d along = (to - from).normalized();
     const Vector2d inwards(-along.y(), along.x());
-    layers.add({from, to, to + kStone_m * inwards, from + kStone_m * inwards}, kKerbHeight_m);
+    layers.add({from, to, to + kStoneM * inwards, from + kStoneM * inwards}, kKerbHeightM);
   }
 }
 
@@ -132,7 +132,7 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
   for (std::size_t i = scenario.areas.size(); i-- > 0;) {
     const world::GroundArea& area = scenario.areas[i];
     const double height_m =
-        kAreaHeight_m + kNextArea_m * static_cast<double>(std::min(i, kMostHeights));
+        kAreaHeightM + kNextAreaM * static_cast<double>(std::min(i, kMostHeights));
     layer(area.material, [&] {
       for (const auto& triangle : triangulate(area.corners)) {
         builder.add_in_cells(

@@ -9,13 +9,13 @@ namespace throng::render {
 
 namespace {
 
-constexpr double kHeight_m = 4.2;
-constexpr double kSpacing_m = 12;
-constexpr double kShortestWall_m = 4;
-constexpr double kReach_m = 26;
-constexpr double kPlane_m = 1;  // height at which the light is taken
+constexpr double kHeightM = 4.2;
+constexpr double kSpacingM = 12;
+constexpr double kShortestWallM = 4;
+constexpr double kReachM = 26;
+constexpr double kPlaneM = 1;  // height at which the light is taken
 // About 1000 candela over 54 000 lux: 57 lux on the ground below a lamp 4.2 m up.
-constexpr double kStrength_m2 = 1000.0 / 54'000;
+constexpr double kStrengthM2 = 1000.0 / 54'000;
 constexpr int kTexels = 256;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -43,7 +43,7 @@ bool is_hidden(const world::Scenario& scenario, const Lamp& lamp, const Eigen::V
 }  // namespace
 
 std::vector<Lamp> wall_lamps(const world::Scenario& scenario) {
-  constexpr double kOffWall_m = 0.35;
+  constexpr double kOffWallM = 0.35;
   std::vector<Lamp> lamps;
   for (const world::Building& building : scenario.buildings) {
     const std::vector<Eigen::Vector2d>& corners = building.footprint;
@@ -51,12 +51,12 @@ std::vector<Lamp> wall_lamps(const world::Scenario& scenario) {
       const Eigen::Vector2d& from = corners[i];
       const Eigen::Vector2d edge = corners[(i + 1) % corners.size()] - from;
       const double length = edge.norm();
-      if (length < kShortestWall_m) continue;
+      if (length < kShortestWallM) continue;
       const Eigen::Vector2d out = Eigen::Vector2d(edge.y(), -edge.x()) / length;
-      const int count = std::max(1, static_cast<int>(length / kSpacing_m));
+      const int count = std::max(1, static_cast<int>(length / kSpacingM));
       for (int k = 0; k < count; ++k) {
-        const Eigen::Vector2d at = from + edge * ((k + 0.5) / count) + kOffWall_m * out;
-        lamps.push_back({{at.x(), at.y(), std::min(kHeight_m, 0.8 * building.height_m)}, out});
+        const Eigen::Vector2d at = from + edge * ((k + 0.5) / count) + kOffWallM * out;
+        lamps.push_back({{at.x(), at.y(), std::min(kHeightM, 0.8 * building.height_m)}, out});
       }
     }
   }
@@ -67,7 +67,7 @@ std::vector<Lamp> all_lamps(const world::Scenario& scenario) {
   std::vector<Lamp> lamps = wall_lamps(scenario);
   for (const world::Prop& prop : scenario.props) {
     if (prop.kind != world::PropKind::lamp_post) continue;
-    lamps.push_back({{prop.position.x(), prop.position.y(), kLampPost_m * prop.scale}, {0, 0}});
+    lamps.push_back({{prop.position.x(), prop.position.y(), kLampPostM * prop.scale}, {0, 0}});
   }
   return lamps;
 }
@@ -76,15 +76,15 @@ Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector
                               const Eigen::Vector2d& point) {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   for (const Lamp& lamp : lamps) {
-    const Eigen::Vector3d to_lamp = lamp.position - Eigen::Vector3d(point.x(), point.y(), kPlane_m);
+    const Eigen::Vector3d to_lamp = lamp.position - Eigen::Vector3d(point.x(), point.y(), kPlaneM);
     const double distance = to_lamp.norm();
-    if (distance > kReach_m || lamp.away.dot(to_lamp.head<2>()) > 0.05) continue;
+    if (distance > kReachM || lamp.away.dot(to_lamp.head<2>()) > 0.05) continue;
     if (is_hidden(scenario, lamp, point)) continue;
     const Eigen::Vector3d direction = to_lamp / distance;
     // Street lamps throw their light wide, and none above the horizontal.
     const double down = std::sqrt(std::max(direction.z(), 0.0));
-    const double rim = 1 - std::pow(distance / kReach_m, 4);
-    const double strength = kStrength_m2 * down * rim * rim / (distance * distance);
+    const double rim = 1 - std::pow(distance / kReachM, 4);
+    const double strength = kStrengthM2 * down * rim * rim / (distance * distance);
     sum.head<3>() += strength * direction;
     sum.w() += strength;
   }

@@ -156,10 +156,10 @@ PlaceMesh place_mesh(const world::Scenario& scenario) {
 
 double tallest_m(const world::Scenario& scenario) {
   double tallest = 2.5;
-  constexpr double kTree_m = 7.5;
-  constexpr double kMesh_m = 30;  // higher parts of meshes throw no shadow
-  if (!scenario.meshes.empty()) tallest = kMesh_m;
-  for (const world::Prop& prop : scenario.props) tallest = std::max(tallest, kTree_m * prop.scale);
+  constexpr double kTreeM = 7.5;
+  constexpr double kMeshM = 30;  // higher parts of meshes throw no shadow
+  if (!scenario.meshes.empty()) tallest = kMeshM;
+  for (const world::Prop& prop : scenario.props) tallest = std::max(tallest, kTreeM * prop.scale);
   for (const world::Building& building : scenario.buildings) {
     tallest = std::max(tallest, building.height_m);
   }

@@ -158,9 +158,9 @@ void make_bench(Builder& builder) {
 
 void make_lamp_post(Builder& builder) {
   builder.tube({0, 0, 0}, 0.1, {0, 0, 0.6}, 0.09, kMetal);
-  builder.tube({0, 0, 0.6}, 0.06, {0, 0, kLampPost_m}, 0.045, kMetal, Finish::matt, 6);
-  builder.box({-0.24, -0.24, kLampPost_m}, {0.24, 0.24, kLampPost_m + 0.1}, kMetal);
-  builder.box({-0.2, -0.2, kLampPost_m - 0.06}, {0.2, 0.2, kLampPost_m}, {0.75, 0.74, 0.70},
+  builder.tube({0, 0, 0.6}, 0.06, {0, 0, kLampPostM}, 0.045, kMetal, Finish::matt, 6);
+  builder.box({-0.24, -0.24, kLampPostM}, {0.24, 0.24, kLampPostM + 0.1}, kMetal);
+  builder.box({-0.2, -0.2, kLampPostM - 0.06}, {0.2, 0.2, kLampPostM}, {0.75, 0.74, 0.70},
               Finish::lamp);
 }
 

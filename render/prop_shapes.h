@@ -36,6 +36,6 @@ struct PropMesh {
 PropMesh prop_shape(const world::Prop& prop, std::uint32_t id);
 
 /// Height of the light of a lamp post at scale 1 (m).
-inline constexpr double kLampPost_m = 4.6;
+inline constexpr double kLampPostM = 4.6;
 
 }  // namespace throng::render

@@ -33,7 +33,7 @@ class ColourOnly {
 
 /// Whether the plain around the place ends in view.
 bool sees_sky(const camera::Camera& camera) {
-  constexpr double kPlain_m = 2000;
+  constexpr double kPlainM = 2000;
   const camera::Intrinsics& k = camera.intrinsics;
   const Eigen::Vector3d centre = camera.pose.centre();
   const std::array<Eigen::Vector2d, 4> corners = {
@@ -41,7 +41,7 @@ bool sees_sky(const camera::Camera& camera) {
       Eigen::Vector2d(-0.5, k.height - 0.5), Eigen::Vector2d(k.width - 0.5, k.height - 0.5)};
   return std::any_of(corners.begin(), corners.end(), [&](const Eigen::Vector2d& corner) {
     const Eigen::Vector3d ray = camera.unproject(corner, 1.0) - centre;
-    return ray.z() > -centre.z() / kPlain_m * ray.head<2>().norm();
+    return ray.z() > -centre.z() / kPlainM * ray.head<2>().norm();
   });
 }
 

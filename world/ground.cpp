@@ -58,7 +58,7 @@ std::vector<GroundArea> read_ground_areas(const JsonValue& list) {
 
 std::vector<Marking> read_markings(const JsonValue& list) {
   constexpr std::array<std::string_view, 3> kKinds = {"line", "dashes", "crossing"};
-  constexpr double kShortest_m = 0.05;
+  constexpr double kShortestM = 0.05;
   std::vector<Marking> markings;
   for (const JsonValue& item : list.items()) {
     item.fields({"kind", "from", "to"}, {"width_m"});
@@ -67,10 +67,10 @@ std::vector<Marking> read_markings(const JsonValue& list) {
     marking.from = item["from"].vector2(kFarthestM);
     marking.to = item["to"].vector2(kFarthestM);
     marking.width_m = marking.kind == "crossing" ? 4 : 0.12;
-    if (item["width_m"].exists()) marking.width_m = item["width_m"].number(kShortest_m, 20);
+    if (item["width_m"].exists()) marking.width_m = item["width_m"].number(kShortestM, 20);
     if (item["to"].exists() && item["from"].exists() &&
-        (marking.to - marking.from).norm() < kShortest_m) {
-      item["to"].reject(fmt::format("an end at least {} m from \"from\"", kShortest_m));
+        (marking.to - marking.from).norm() < kShortestM) {
+      item["to"].reject(fmt::format("an end at least {} m from \"from\"", kShortestM));
     }
     markings.push_back(std::move(marking));
   }

@@ -64,7 +64,7 @@ bool stands_in(const Building& building, const std::array<Eigen::Vector2d, 4>& c
 }
 
 bool blocks(const Exit& exit, const std::array<Eigen::Vector2d, 4>& corners) {
-  const Eigen::Vector2d depth = kClearOfExits_m * exit.outward;
+  const Eigen::Vector2d depth = kClearOfExitsM * exit.outward;
   std::array<Eigen::Vector2d, 4> clear = {exit.from - depth, exit.to - depth, exit.to + depth,
                                           exit.from + depth};
   if (signed_area(clear) < 0) std::reverse(clear.begin(), clear.end());
@@ -88,7 +88,7 @@ std::optional<Refusal> refusal_of(const Prop& prop, const Scenario& scenario) {
     if (exit.width_m() <= 0 || !blocks(exit, corners)) continue;
     return Refusal{
         fmt::format("a place in the way of exit \"{}\"", exit.id),
-        fmt::format("a place at least {} m in front of or behind every exit", kClearOfExits_m)};
+        fmt::format("a place at least {} m in front of or behind every exit", kClearOfExitsM)};
   }
   return std::nullopt;
 }
@@ -100,6 +100,7 @@ std::optional<PropKind> read_kind(const JsonValue& value) {
                                   [&](const PropType& type) { return type.name == name; });
   if (found != types.end()) return static_cast<PropKind>(found - types.begin());
   std::vector<std::string_view> names;
+  names.reserve(types.size());
   for (const PropType& type : types) names.push_back(type.name);
   value.reject(fmt::format("one of: {}", fmt::join(names, ", ")));
   return std::nullopt;

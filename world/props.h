@@ -35,11 +35,11 @@ double distance_to(const Prop& prop, const Eigen::Vector2d& point);
 
 /// Reads the lists "props" and "scatter" of a scenario whose exits and buildings are known.
 /// Scattered props keep off buildings, exits and each other; props that stand in a building or
-/// within kClearOfExits_m of an exit are refused.
+/// within kClearOfExitsM of an exit are refused.
 std::vector<Prop> read_props(const JsonValue& props, const JsonValue& scatter,
                              const Scenario& scenario);
 
 /// How far in front of and behind an exit, over its whole width, nothing may stand (m).
-inline constexpr double kClearOfExits_m = 3;
+inline constexpr double kClearOfExitsM = 3;
 
 }  // namespace throng::world
