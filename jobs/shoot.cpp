@@ -36,7 +36,7 @@ Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& tra
   }
 }
 
-render::Moment Shoot::moment_at(std::size_t drone, std::int64_t frame, double time_s) {
+render::ShutterMoment Shoot::moment_at(std::size_t drone, std::int64_t frame, double time_s) {
   if (clock_ != nullptr) clock_->lap("light and rows");
   std::shared_ptr<const render::Scene> scene = scene_;
   if (!scene || scene->index != frame || scene->time_s != time_s) {

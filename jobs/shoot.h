@@ -33,7 +33,7 @@ class Shoot {
   void recycle(Picture&& picture);
 
  private:
-  render::Moment moment_at(std::size_t drone, std::int64_t frame, double time_s);
+  render::ShutterMoment moment_at(std::size_t drone, std::int64_t frame, double time_s);
 
   const JobSpec* job_;
   std::uint64_t run_seed_;

@@ -18,9 +18,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kStill_px = 0.25;
+constexpr double kStillPx = 0.25;
 constexpr int kMostSamples = 15;
-constexpr double kStripMotion_px = 0.5;
+constexpr double kStripMotionPx = 0.5;
 constexpr int kMostStrips = 32;
 
 double moved_px(const camera::Camera& before, const Vector3d& point_before,
@@ -59,14 +59,14 @@ double camera_motion_px(const camera::Camera& before, const camera::Camera& afte
 
 /// An odd number, so that one sample is in the middle.
 int samples_for(double motion_px) {
-  if (motion_px < kStill_px) return 1;
+  if (motion_px < kStillPx) return 1;
   const int wanted = std::max(3, static_cast<int>(std::ceil(motion_px)));
   return std::min(wanted + 1 - wanted % 2, kMostSamples);
 }
 
 int strips_for(double motion_px, int rows) {
-  if (motion_px < kStill_px) return 1;
-  const int wanted = static_cast<int>(std::ceil(std::min(motion_px, 1e3) / kStripMotion_px));
+  if (motion_px < kStillPx) return 1;
+  const int wanted = static_cast<int>(std::ceil(std::min(motion_px, 1e3) / kStripMotionPx));
   return std::min({wanted, kMostStrips, rows});
 }
 
@@ -84,10 +84,10 @@ Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double
     const bool middle = 2 * i + 1 == samples;
     // The middles of equal parts of the exposure; the middle one's share is exactly 0.
     const double offset_s = exposure_s * (2 * i + 1 - samples) / (2.0 * samples);
-    const Moment moment = moment_at(time_s + offset_s);
+    const ShutterMoment moment = moment_at(time_s + offset_s);
     std::optional<NextFrame> next;
     if (middle && next_s) {
-      const Moment later = moment_at(*next_s);
+      const ShutterMoment later = moment_at(*next_s);
       next = NextFrame{*later.scene, later.camera};
     }
     Frame frame =
@@ -169,7 +169,7 @@ class PeopleInStrips {
 
 }  // namespace
 
-double image_motion_px(const Moment& from, const Moment& to) {
+double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
   double most = camera_motion_px(from.camera, to.camera);
   std::unordered_map<std::uint32_t, const PersonInstance*> later;
   for (const PersonInstance& person : to.scene->people) later[person.agent] = &person;

@@ -20,11 +20,11 @@ struct Exposure {
 };
 
 /// The world and the camera at one time.
-struct Moment {
+struct ShutterMoment {
   std::shared_ptr<const Scene> scene;
   camera::Camera camera;
 };
-using MomentAt = std::function<Moment(double time_s)>;
+using MomentAt = std::function<ShutterMoment(double time_s)>;
 
 /// How a frame was exposed.
 struct Exposed {
@@ -36,7 +36,7 @@ struct Exposed {
 
 /// How far (px) what is seen moves at most between two moments: the ground (z = 0), by the
 /// camera's motion, and people, by theirs as well.
-double image_motion_px(const Moment& from, const Moment& to);
+double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 
 /// Draws as many moments as the motion needs: one when nothing moves by a quarter of a pixel, else
 /// one per pixel of blur up to 15, and strips in which the reading moves nothing by more than half

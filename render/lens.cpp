@@ -145,7 +145,7 @@ std::uint8_t mixed(const std::uint8_t* above, const std::uint8_t* below, int rig
   const auto value = [](std::uint8_t byte) { return static_cast<float>(byte); };
   const float top = value(above[0]) + u * (value(above[right]) - value(above[0]));
   const float bottom = value(below[0]) + u * (value(below[right]) - value(below[0]));
-  return static_cast<std::uint8_t>(top + v * (bottom - top) + 0.5F);
+  return static_cast<std::uint8_t>(std::lrint(top + v * (bottom - top)));
 }
 
 /// How far the image moves where the wide picture moves by `flow` from one of its pixels; NaN

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kChannels = 3;
 constexpr std::size_t kGrain = 16;
-constexpr double kDaylight_k = 6500;
+constexpr double kDaylightK = 6500;
 constexpr double kBaseIso = 100;
 
 /// Standard normal values at the middles of equal shares of probability: a normal number is one of
@@ -115,7 +115,7 @@ void fall_off(const camera::Intrinsics& lens, double share, int row, std::vector
 
 Eigen::Vector3d white_balance_gains(double temperature_k) {
   check(temperature_k >= 1667 && temperature_k <= 25000, "white points are known for this");
-  const Eigen::Vector3d gains = white(kDaylight_k).cwiseQuotient(white(temperature_k));
+  const Eigen::Vector3d gains = white(kDaylightK).cwiseQuotient(white(temperature_k));
   return gains / gains.y();
 }
 

@@ -49,7 +49,7 @@ const std::array<std::uint8_t, kSteps + 1>& encoding() {
 float linear_of_srgb(std::uint8_t byte) { return decoding()[byte]; }
 
 std::uint8_t srgb_of_linear(float light) {
-  return encoding()[static_cast<std::size_t>(std::clamp(light, 0.0F, 1.0F) * kSteps + 0.5F)];
+  return encoding()[static_cast<std::size_t>(std::lrint(std::clamp(light, 0.0F, 1.0F) * kSteps))];
 }
 
 }  // namespace throng::render

@@ -22,9 +22,9 @@ void SurfaceTarget::begin() const {
   glBindFramebuffer(GL_FRAMEBUFFER, name);
   const Viewport viewport = guarded_viewport(width_, height_);
   glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kUnknownFlow = std::numeric_limits<float>::quiet_NaN();
   const std::array<float, 4> no_normal{};
-  const std::array<float, 4> no_flow = {kUnknown, kUnknown, 0, 0};
+  const std::array<float, 4> no_flow = {kUnknownFlow, kUnknownFlow, 0, 0};
   const std::array<GLuint, 4> no_part{};
   glClearNamedFramebufferfv(name, GL_COLOR, 0, no_normal.data());
   glClearNamedFramebufferfv(name, GL_COLOR, 1, no_flow.data());

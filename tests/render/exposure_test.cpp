@@ -19,7 +19,7 @@ class Street {
       scene->index = 4;
       scene->time_s = time_s;
       scene->people = {stage_.standing(3, 0, speed_mps * time_s)};
-      Moment moment;
+      ShutterMoment moment;
       moment.scene = scene;
       moment.camera = camera_at({-4, flight_mps * time_s, 3}, 0, -35, 320, 240, 60);
       return moment;
@@ -30,7 +30,7 @@ class Street {
     return render::expose(lens_, moment_at, time_s, exposure);
   }
   Frame still(const MomentAt& moment_at, double time_s) {
-    const Moment moment = moment_at(time_s);
+    const ShutterMoment moment = moment_at(time_s);
     return lens_.draw(*moment.scene, moment.camera);
   }
 
@@ -155,7 +155,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
 TEST(Exposure, BothAtOnceThroughALens) {
   Street street;
   const MomentAt flight = [inner = street.walking(2, 6)](double time_s) {
-    Moment moment = inner(time_s);
+    ShutterMoment moment = inner(time_s);
     moment.camera.intrinsics.distortion.emplace(camera::Distortion::Model::brown_conrady,
                                                 camera::Distortion::Coefficients{-0.2, 0.04});
     return moment;
