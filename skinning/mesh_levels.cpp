@@ -183,7 +183,8 @@ std::vector<Mesh> simplified_levels(const Mesh& mesh) {
       continue;
     }
     Mesh level = simplifier.simplified(triangles);
-    levels.push_back(level.indices.empty() ? before : std::move(level));
+    if (level.indices.empty()) level = before;
+    levels.push_back(std::move(level));
   }
   return levels;
 }
