@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "render/srgb.h"
+#include "base/srgb.h"
 
 namespace throng::render {
 

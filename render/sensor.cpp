@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "render/srgb.h"
+#include "base/srgb.h"
 
 namespace throng::render {
 

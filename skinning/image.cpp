@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/srgb.h"
 
 namespace throng::skinning {
 
@@ -95,7 +96,7 @@ Image resized(const Image& image, int size) {
           const std::uint8_t* from = image.pixel(from_x, from_y);
           const float weight = static_cast<float>(from[3]) + 1e-3F;
           for (int channel = 0; channel < 3; ++channel) {
-            colour[channel] += weight * linear_of(from[channel]);
+            colour[channel] += weight * linear_of_srgb(from[channel]);
           }
           weight_sum += weight;
           alpha_sum += from[3];
@@ -103,7 +104,7 @@ Image resized(const Image& image, int size) {
       }
       std::uint8_t* to = small.pixel(x, y);
       for (int channel = 0; channel < 3; ++channel) {
-        to[channel] = srgb_of(colour[channel] / weight_sum);
+        to[channel] = srgb_of_linear(colour[channel] / weight_sum);
       }
       const auto count = static_cast<float>((bottom - top) * (right - left));
       to[3] = static_cast<std::uint8_t>(std::lround(alpha_sum / count));
@@ -138,26 +139,6 @@ void fill_from_nearest(Image& image, Mask covered, int channels) {
     }
     front.swap(next);
   }
-}
-
-float linear_of(std::uint8_t srgb) {
-  static const auto kTable = [] {
-    std::array<float, 256> table{};
-    for (int i = 0; i < 256; ++i) {
-      const double value = i / 255.0;
-      table[i] = static_cast<float>(value <= 0.04045 ? value / 12.92
-                                                     : std::pow((value + 0.055) / 1.055, 2.4));
-    }
-    return table;
-  }();
-  return kTable[srgb];
-}
-
-std::uint8_t srgb_of(float linear) {
-  const double value = std::clamp(static_cast<double>(linear), 0.0, 1.0);
-  const double encoded =
-      value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(encoded * 255));
 }
 
 }  // namespace throng::skinning

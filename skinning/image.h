@@ -48,8 +48,4 @@ Image resized(const Image& image, int size);
 /// left alone unless asked. Does nothing when no pixel is covered.
 void fill_from_nearest(Image& image, Mask covered, int channels = 3);
 
-/// Linear light of an sRGB byte, in [0, 1], and back.
-float linear_of(std::uint8_t srgb);
-std::uint8_t srgb_of(float linear);
-
 }  // namespace throng::skinning

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/srgb.h"
 #include "skinning/raster.h"
 
 namespace throng::skinning {
@@ -96,11 +97,12 @@ Image Portrait::shades() const {
     const std::uint8_t* from = &picture_.rgba[at];
     const auto tint = static_cast<Tint>(from[3]);
     if (tint == Tint::none) continue;
-    const float shade = (linear_of(from[0]) + linear_of(from[1]) + linear_of(from[2])) / 3;
+    const float shade =
+        (linear_of_srgb(from[0]) + linear_of_srgb(from[1]) + linear_of_srgb(from[2])) / 3;
     const std::size_t channel = static_cast<std::size_t>(tint) - 1;
     const bool is_alpha = channel == 3;
     shades.rgba[at + channel] =
-        is_alpha ? static_cast<std::uint8_t>(std::lround(255 * shade)) : srgb_of(shade);
+        is_alpha ? static_cast<std::uint8_t>(std::lround(255 * shade)) : srgb_of_linear(shade);
   }
   return shades;
 }

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/srgb.h"
 
 namespace throng::skinning {
 
@@ -125,7 +126,8 @@ class ModelReader {
         source.GetTexture(aiTextureType_DIFFUSE, 0, &name) == aiReturn_SUCCESS) {
       material.picture = picture_of(name.C_Str());
     } else {
-      material.picture = coloured({srgb_of(colour.r), srgb_of(colour.g), srgb_of(colour.b)});
+      material.picture =
+          coloured({srgb_of_linear(colour.r), srgb_of_linear(colour.g), srgb_of_linear(colour.b)});
     }
     int two_sided = 0;
     source.Get(AI_MATKEY_TWOSIDED, two_sided);

@@ -53,11 +53,5 @@ TEST(Image, UncoveredPixelsTakeTheNearestColour) {
   EXPECT_EQ(image.pixel(5, 0)[0], 200);
 }
 
-TEST(Image, SrgbAndLinearLightAreInverse) {
-  for (int value = 0; value < 256; ++value) {
-    EXPECT_EQ(srgb_of(linear_of(static_cast<std::uint8_t>(value))), value);
-  }
-}
-
 }  // namespace
 }  // namespace throng::skinning

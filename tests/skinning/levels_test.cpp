@@ -5,19 +5,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
+#include "baked_people.h"
 #include "base/angle.h"
 #include "skinning/image.h"
 #include "skinning/levels.h"
 #include "skinning/motion.h"
-#include "skinning/population.h"
 #include "skinning/raster.h"
 
 namespace throng::skinning {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Pixels that somebody covers.
 struct Picture {
@@ -113,21 +110,8 @@ double share_of(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-class LevelsTest : public testing::Test {
+class LevelsTest : public BakedPeopleTest {
  protected:
-  static void SetUpTestSuite() {
-    if (fs::exists(population_folder() / "population.json")) {
-      people_ = std::make_unique<Population>(load_population(population_folder()));
-    }
-  }
-  static void TearDownTestSuite() { people_.reset(); }
-  void SetUp() override {
-    if (!people_) {
-      GTEST_SKIP() << "no baked people in " << population_folder()
-                   << ": run scripts/setup.sh or set THRONG_PEOPLE";
-    }
-  }
-
   /// Frames of any character that stands, walks and runs.
   std::vector<std::uint32_t> poses() const {
     std::vector<std::uint32_t> frames;
@@ -155,11 +139,7 @@ class LevelsTest : public testing::Test {
     }
     return found;
   }
-
-  static std::unique_ptr<Population> people_;
 };
-
-std::unique_ptr<Population> LevelsTest::people_;
 
 TEST_F(LevelsTest, HaveTheTrianglesTheyAreMeantToHave) {
   for (const Character& character : people_->characters) {

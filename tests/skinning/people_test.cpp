@@ -1,43 +1,21 @@
-// The people that set-up baked. Skipped where there are none, as on a machine where set-up has not
-// run.
+// The people that set-up baked.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <memory>
 #include <set>
 
+#include "baked_people.h"
 #include "skinning/gait.h"
 #include "skinning/levels.h"
 #include "skinning/motion.h"
-#include "skinning/population.h"
 #include "skinning/raster.h"
 #include "walkers.h"
 
 namespace throng::skinning {
 namespace {
 
-namespace fs = std::filesystem;
-
-class PeopleTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    if (fs::exists(population_folder() / "population.json")) {
-      people_ = std::make_unique<Population>(load_population(population_folder()));
-    }
-  }
-  static void TearDownTestSuite() { people_.reset(); }
-  void SetUp() override {
-    if (!people_) {
-      GTEST_SKIP() << "no baked people in " << population_folder()
-                   << ": run scripts/setup.sh or set THRONG_PEOPLE";
-    }
-  }
-
-  static std::unique_ptr<Population> people_;
-};
-
-std::unique_ptr<Population> PeopleTest::people_;
+using PeopleTest = BakedPeopleTest;
 
 Palette rest_palette() {
   Palette palette;

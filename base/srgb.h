@@ -3,12 +3,12 @@
 
 #include <cstdint>
 
-namespace throng::render {
+namespace throng {
 
 /// Linear light of a byte.
 float linear_of_srgb(std::uint8_t byte);
 
-/// The nearest byte; light is clipped to [0, 1].
+/// The nearest byte; light is clipped to [0, 1], and no number is none.
 std::uint8_t srgb_of_linear(float light);
 
-}  // namespace throng::render
+}  // namespace throng

@@ -1,10 +1,10 @@
-#include "render/srgb.h"
+#include "base/srgb.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace throng::render {
+namespace throng {
 
 namespace {
 
@@ -49,7 +49,8 @@ const std::array<std::uint8_t, kSteps + 1>& encoding() {
 float linear_of_srgb(std::uint8_t byte) { return decoding()[byte]; }
 
 std::uint8_t srgb_of_linear(float light) {
-  return encoding()[static_cast<std::size_t>(std::lrint(std::clamp(light, 0.0F, 1.0F) * kSteps))];
+  const float clipped = light > 0 ? std::min(light, 1.0F) : 0;  // in this order for NaN
+  return encoding()[static_cast<std::size_t>(std::lrint(clipped * kSteps))];
 }
 
-}  // namespace throng::render
+}  // namespace throng
