@@ -153,6 +153,13 @@ int JsonValue::integer(int low, int high) const {
   return low;
 }
 
+bool JsonValue::boolean() const {
+  if (value_ == nullptr) return false;
+  if (value_->is_boolean()) return value_->get<bool>();
+  reject("true or false");
+  return false;
+}
+
 std::string JsonValue::text() const {
   if (value_ == nullptr) return {};
   if (value_->is_string()) return value_->get<std::string>();

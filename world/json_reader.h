@@ -40,6 +40,7 @@ class JsonValue {
 
   double number(double low, double high) const;
   int integer(int low, int high) const;
+  bool boolean() const;
   std::string text() const;
   /// Text that is an identifier: letters, digits, '_' and '-', at least one.
   std::string identifier() const;

@@ -75,7 +75,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
   UniqueNames ids;
   std::set<std::pair<int, int>> claimed;
   for (const JsonValue& item : list.items()) {
-    item.fields({"id", "from", "to", "goals"}, {"outward"});
+    item.fields({"id", "from", "to", "goals"}, {"outward", "open"});
     Exit exit;
     exit.id = ids.read(item["id"]);
     exit.from = item["from"].vector2(kFarthestM);
@@ -85,6 +85,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
     } else {
       exit.outward = read_outward(item["outward"], exit, inside);
     }
+    if (item["open"].exists()) exit.open = item["open"].boolean();
     for (const JsonValue& goal : item["goals"].items(1)) {
       exit.goals.push_back(read_goal(goal));
       const GoalRef& ref = exit.goals.back();
@@ -215,11 +216,34 @@ bool is_scenario_id(std::string_view id) {
   return previous != '/';
 }
 
+// A file's content; where it extends another file, that one's with this one's changes.
+nlohmann::json read_document(const fs::path& file, const std::string& source) {
+  nlohmann::json document = parse_json(read_file(file), source);
+  if (!document.is_object() || !document.contains("extends")) return document;
+  std::vector<Problem> problems;
+  const JsonValue name = JsonValue(document, source, problems)["extends"];
+  const fs::path base_file = read_companion(name, file);
+  const fs::path file_folder = fs::absolute(file).lexically_normal().parent_path();
+  if (problems.empty() && (name.text().empty() || base_file.parent_path() != file_folder)) {
+    name.reject("the name of a file in the same folder");
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  nlohmann::json base = parse_json(read_file(base_file), base_file.string());
+  if (base.is_object() && base.contains("extends")) {
+    name.reject(fmt::format("\"{}\", which extends another file itself", name.text()),
+                "a file that stands for itself");
+    throw InputError(std::move(problems));
+  }
+  document.erase("extends");
+  base.merge_patch(document);
+  return base;
+}
+
 }  // namespace
 
 Scenario load_scenario(const fs::path& file, std::string id) {
   const std::string source = file.string();
-  const nlohmann::json document = parse_json(read_file(file), source);
+  const nlohmann::json document = read_document(file, source);
   std::vector<Problem> problems;
   const JsonValue root(document, source, problems);
   root.fields(
@@ -264,6 +288,7 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
   }
   for (const auto& entry : entries) {
     if (entry.path().extension() != ".json" || !entry.is_regular_file()) continue;
+    if (entry.path().filename() == "study.json") continue;
     // Jobs and the like ("demo.job.json") have a dot left here, which no id has.
     std::string id = entry.path().lexically_relative(folder).replace_extension().generic_string();
     if (is_scenario_id(id)) ids.push_back(std::move(id));

@@ -27,6 +27,7 @@ struct Exit {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();      ///< m
   Eigen::Vector2d to = Eigen::Vector2d::Zero();        ///< m
   Eigen::Vector2d outward = Eigen::Vector2d::UnitX();  ///< unit normal, pointing out of the place
+  bool open = true;                                    ///< otherwise nobody can get out here
   std::vector<GoalRef> goals;  ///< an agent heading for one of these intends this exit
 
   double width_m() const { return (to - from).norm(); }
@@ -87,7 +88,9 @@ struct Scenario {
   std::vector<Marking> markings;
 };
 
-/// Reads and checks a scenario file. `id` becomes Scenario::id. Throws InputError (file, JSON
+/// Reads and checks a scenario file. `id` becomes Scenario::id. One that `extends` another file of
+/// its folder says only what differs: fields of objects replace those of the same name, anything
+/// else replaces the whole (RFC 7396). Throws InputError (file, JSON
 /// pointer, found, expected) for bad content and EnvironmentError when the file cannot be read.
 Scenario load_scenario(const std::filesystem::path& file, std::string id);
 
@@ -99,7 +102,7 @@ std::filesystem::path scenarios_folder();
 /// can be named. Throws InputError when the id is malformed or unknown (listing what there is).
 Scenario find_scenario(const std::filesystem::path& folder, const std::string& id);
 
-/// Every scenario id in the folder, sorted.
+/// Every scenario id in the folder, sorted. Files named study.json are studies, not scenarios.
 std::vector<std::string> list_scenarios(const std::filesystem::path& folder);
 
 }  // namespace throng::world

@@ -91,6 +91,35 @@ TEST_F(ScenarioFile, OptionalPartsMayBeAbsent) {
   EXPECT_TRUE(s.exits.empty() && s.buildings.empty() && s.drones.empty());
 }
 
+TEST_F(ScenarioFile, AnExtendingFileSaysOnlyWhatDiffers) {
+  folder.write("base.json", valid_scenario().dump());
+  const auto load_extending = [&](const json& changes) {
+    json document = changes;
+    document["extends"] = "base.json";
+    return load(document);
+  };
+  json exits = valid_scenario()["exits"];
+  exits[1]["open"] = false;
+  const Scenario s =
+      load_extending({{"name", "Other"}, {"ground", {{"material", "grass"}}}, {"exits", exits}});
+  EXPECT_EQ(s.name, "Other");
+  EXPECT_EQ(s.ground_material, "grass");
+  EXPECT_EQ(s.ground.max, Eigen::Vector2d(20, 20));
+  EXPECT_TRUE(s.exits[0].open);
+  EXPECT_FALSE(s.exits[1].open);
+  EXPECT_EQ(s.buildings.size(), 1U);
+
+  json chain = valid_scenario();
+  chain["extends"] = "other.json";
+  folder.write("base.json", chain.dump());
+  EXPECT_THROW(load_extending({{"name", "Other"}}), InputError);
+  for (const char* name : {"nowhere.json", "", "."}) {
+    const auto problems = problems_of(json{{"extends", name}}.dump());
+    ASSERT_FALSE(problems.empty()) << name;
+    EXPECT_EQ(problems[0].where, "/extends");
+  }
+}
+
 // One change that makes the valid scenario wrong, and where that must be reported.
 struct BadCase {
   std::string name;
@@ -132,6 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"zero_width_exit", "/exits/0/to", {10, -1}, "/exits/0/to", "at least 0.1 m"},
         BadCase{"slanted_outward", "/exits/1/outward", {1, 1}, "/exits/1/outward", "right angles"},
         BadCase{"zero_outward", "/exits/1/outward", {0, 0}, "/exits/1/outward", "right angles"},
+        BadCase{"word_as_open", "/exits/0/open", "no", "/exits/0/open", "true or false"},
         BadCase{"no_goals", "/exits/0/goals", json::array(), "/exits/0/goals", "at least 1"},
         BadCase{"fractional_goal", "/exits/0/goals/0/1", 0.5, "/exits/0/goals/0/1", "an integer"},
         BadCase{"huge_goal", "/exits/0/goals/0/1", 18446744073709551615U, "/exits/0/goals/0/1",
