@@ -22,7 +22,7 @@ Airframe read_airframe(const std::string& name, const world::JsonValue& value) {
   value.fields({"source", "mass_kg", "arm_m", "height_m", "propeller_radius_m", "inertia_kg_m2",
                 "thrust_n_s2", "torque_per_thrust_m", "max_rotor_rad_s", "motor_up_s",
                 "motor_down_s", "rotor_drag_n_s2_m", "body_drag_n_s2_m2"},
-               {"attitude_gain_s2", "rate_gain_s"});
+               {"attitude_gain_s2", "rate_gain_s", "rotor_efficiency", "avionics_w", "battery_wh"});
   Airframe frame;
   frame.name = name;
   frame.mass_kg = value["mass_kg"].number(1e-3, 100);
@@ -40,11 +40,14 @@ Airframe read_airframe(const std::string& name, const world::JsonValue& value) {
   frame.motor_down_s = value["motor_down_s"].number(0, 1);
   frame.rotor_drag = value["rotor_drag_n_s2_m"].number(0, 1);
   frame.body_drag = value["body_drag_n_s2_m2"].number(0, 10);
-  if (const auto gain = value["attitude_gain_s2"]; gain.exists()) {
-    frame.attitude_gain_s2 = gain.number(1, 1e4);
-  }
-  if (const auto gain = value["rate_gain_s"]; gain.exists())
-    frame.rate_gain_s = gain.number(1, 1e3);
+  const auto read = [&](const char* field, double low, double high, double& into) {
+    if (const auto given = value[field]; given.exists()) into = given.number(low, high);
+  };
+  read("attitude_gain_s2", 1, 1e4, frame.attitude_gain_s2);
+  read("rate_gain_s", 1, 1e3, frame.rate_gain_s);
+  read("rotor_efficiency", 0.01, 1, frame.rotor_efficiency);
+  read("avionics_w", 0, 1e4, frame.avionics_w);
+  read("battery_wh", 1e-3, 1e5, frame.battery_wh);
   if (frame.max_thrust_n() < kLeastThrustToWeight * frame.weight_n()) {
     value.reject(fmt::format("rotors that lift {:.3g} N at most, for a weight of {:.3g} N",
                              frame.max_thrust_n(), frame.weight_n()),

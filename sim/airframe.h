@@ -21,12 +21,15 @@ struct Airframe {
   double thrust_n_s2 = 0;                             ///< a rotor's thrust / speed²
   double torque_per_thrust_m = 0;                     ///< a rotor's reaction torque / its thrust
   double max_rotor_rad_s = 0;
-  double motor_up_s = 0;         ///< time constant when speeding up; 0: at once
-  double motor_down_s = 0;       ///< time constant when slowing down
-  double rotor_drag = 0;         ///< N / (rad/s) / (m/s) per rotor, against motion across its axis
-  double body_drag = 0;          ///< N / (m/s)²
-  double attitude_gain_s2 = 70;  ///< angular acceleration per attitude error
-  double rate_gain_s = 14;       ///< angular acceleration per body rate
+  double motor_up_s = 0;          ///< time constant when speeding up; 0: at once
+  double motor_down_s = 0;        ///< time constant when slowing down
+  double rotor_drag = 0;          ///< N / (rad/s) / (m/s) per rotor, against motion across its axis
+  double body_drag = 0;           ///< N / (m/s)²
+  double rotor_efficiency = 0.5;  ///< ideal power / electric power, blades to motor controllers
+  double avionics_w = 0;          ///< power of everything but the rotors
+  double battery_wh = 0;          ///< what a full battery holds; 0: not known
+  double attitude_gain_s2 = 70;   ///< angular acceleration per attitude error
+  double rate_gain_s = 14;        ///< angular acceleration per body rate
 
   double weight_n() const { return mass_kg * kGravity; }
   double max_thrust_n() const { return 4 * thrust_n_s2 * max_rotor_rad_s * max_rotor_rad_s; }

@@ -1,14 +1,19 @@
-// All drones of a run in the air: policies, controllers and bodies on one clock.
+// All drones of a run in the air: pilots and bodies on one clock, the wind, and what drones do to
+// each other and to people.
 #pragma once
 
+#include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "sim/controller.h"
+#include "sim/downwash_exposure.h"
 #include "sim/flight_world.h"
+#include "sim/near_misses.h"
+#include "sim/people_nearby.h"
+#include "sim/pilot.h"
 #include "sim/plan.h"
+#include "sim/wind.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -19,29 +24,38 @@ struct FlightLog {
   std::function<void(const world::TraceEvent&)> event;
 };
 
+/// The air that a flight goes through.
+struct FlightWeather {
+  WindSpec wind;
+  std::uint64_t seed = 1;  ///< of the gusts
+};
+
 class Flight {
  public:
   /// The clock runs in equal ticks of at most `physics_dt_s`, a whole number of them in
-  /// `interval_s`. Records the drones' start as their first samples.
+  /// `interval_s`. Records the drones' start as their first samples. `buildings` must outlive it.
   Flight(const std::vector<world::Building>& buildings, const std::vector<PlannedDrone>& drones,
-         double interval_s, double physics_dt_s, FlightLog log);
+         double interval_s, double physics_dt_s, FlightLog log, const FlightWeather& weather = {});
+  Flight(const Flight&) = delete;
+  Flight& operator=(const Flight&) = delete;
 
   /// Flies on for one interval; samples are about 1/60 s apart, with one at the interval's end.
-  void advance();
+  /// `people_at_end` is the crowd as it is then; its size must not change during a flight.
+  void advance(const PeopleView& people_at_end = {});
+
+  /// Records events that are still going on. Call nothing afterwards.
+  void finish();
 
   FlightState state(std::size_t drone) const { return world_.state(drone); }
 
  private:
-  struct Pilot {
-    std::unique_ptr<Policy> policy;
-    Controller controller;
-    Setpoint setpoint;
-    double saturated_s = 0;  ///< how long the tilt has been at its limit without a break
-  };
-
+  void meet_people();
   void control();
+  void blow();
   void record_samples();
-  void record_impacts();
+  void record_impacts(std::span<const Impact> impacts);
+  void watch_surroundings();
+  void report(std::size_t drone, std::string_view type, double value);
 
   int ticks_per_interval_;
   int ticks_per_control_;
@@ -50,9 +64,20 @@ class Flight {
   long interval_ = 0;
   long tick_ = 0;
   double time_s_ = 0;
+  double sampled_s_ = 0;  ///< time of the last samples
   FlightWorld world_;
-  std::vector<Pilot> pilots_;
   FlightLog log_;
+  WindSpec wind_;
+  std::vector<Pilot> pilots_;
+  std::vector<Gusts> gusts_;
+  std::vector<Jet> jets_;
+  std::vector<Eigen::Vector3d> air_;  ///< wind at each drone, m/s
+  std::vector<CraftInAir> crafts_;    ///< as of the last samples
+  PeopleInMotion people_;
+  std::vector<NearPerson>
+      near_;  ///< who matters to some drone in this interval, as of last samples
+  NearMisses near_misses_;
+  DownwashExposure exposure_;
 };
 
 }  // namespace throng::sim

@@ -2,8 +2,6 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include <limits>
-
 #include "base/error.h"
 #include "world/polygon.h"
 
@@ -15,12 +13,20 @@ namespace {
 
 constexpr double kGroundHalfWidthM = 200'000;
 constexpr double kGroundHalfDepthM = 50;
-constexpr double kRestitution = 0.3;
+constexpr double kRestitution = 0.4;
 constexpr double kFriction = 0.5;
-constexpr double kSameContactS = 0.5;
 
 btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+// What a body is, for whoever meets it.
+void label(btCollisionObject& body, Obstacle obstacle, int index) {
+  body.setUserIndex(static_cast<int>(obstacle));
+  body.setUserIndex2(index);
+}
+Obstacle obstacle_of(const btCollisionObject& body) {
+  return static_cast<Obstacle>(body.getUserIndex());
+}
 
 // One craft: its rotors, and its body in Bullet. Stays where it is, since Bullet points to it.
 struct Craft {
@@ -53,13 +59,41 @@ struct Craft {
     return state;
   }
 
+  Vector3d specific_force(double dt_s) const {
+    const FlightState now = state();
+    Vector3d force = kGravity * Vector3d::UnitZ();
+    if (has_moved) force += (now.velocity - velocity_before) / dt_s;
+    return now.rotation.transpose() * force;
+  }
+
   Quadcopter quadcopter;
   PerRotor commands;
   Vector3d air_velocity = Vector3d::Zero();
+  PerRotor downwash_mps{};
   btBoxShape shape;
   btRigidBody body;
-  double speed_before_mps = 0;
-  double since_contact_s = std::numeric_limits<double>::infinity();
+  Vector3d velocity_before = Vector3d::Zero();  ///< at the beginning of the last step
+  bool has_moved = false;
+};
+
+// Somebody's body. Kinematic: Bullet moves it as told and lets crafts bounce off it.
+struct PersonBody {
+  explicit PersonBody(btCollisionShape& shape) : body(0, nullptr, &shape) {
+    body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    body.setActivationState(DISABLE_DEACTIVATION);
+    body.setRestitution(kRestitution);
+    body.setFriction(kFriction);
+    label(body, Obstacle::person, -1);
+  }
+
+  void place() {
+    const btTransform transform(btQuaternion::getIdentity(),
+                                {person.position.x(), person.position.y(), 0.5 * kPersonHeightM});
+    body.setWorldTransform(transform);
+  }
+
+  NearPerson person;
+  btRigidBody body;
 };
 
 }  // namespace
@@ -74,17 +108,20 @@ struct FlightWorld::Bodies {
     world.setForceUpdateAllAabbs(false);
     add_fixed(std::make_unique<btBoxShape>(
                   btVector3(kGroundHalfWidthM, kGroundHalfWidthM, kGroundHalfDepthM)),
-              {0, 0, -kGroundHalfDepthM});
-    for (const world::Building& building : buildings) add_building(building);
+              {0, 0, -kGroundHalfDepthM}, Obstacle::ground, -1);
+    for (std::size_t i = 0; i < buildings.size(); ++i) {
+      add_building(buildings[i], static_cast<int>(i));
+    }
   }
 
   ~Bodies() {
+    for (const auto& person : people) world.removeRigidBody(&person->body);
     for (const auto& craft : crafts) world.removeRigidBody(&craft->body);
     for (const auto& body : fixed) world.removeRigidBody(body.get());
   }
 
   // Solid prisms over triangles, since a footprint need not be convex.
-  void add_building(const world::Building& building) {
+  void add_building(const world::Building& building, int index) {
     for (const auto& triangle : world::triangulate(building.footprint)) {
       auto prism = std::make_unique<btConvexHullShape>();
       for (const std::size_t corner : triangle) {
@@ -93,43 +130,83 @@ struct FlightWorld::Bodies {
         prism->addPoint({p.x(), p.y(), building.height_m}, false);
       }
       prism->recalcLocalAabb();
-      add_fixed(std::move(prism), {0, 0, 0});
+      add_fixed(std::move(prism), {0, 0, 0}, Obstacle::building, index);
     }
   }
 
-  void add_fixed(std::unique_ptr<btCollisionShape> shape, const btVector3& position) {
+  void add_fixed(std::unique_ptr<btCollisionShape> shape, const btVector3& position,
+                 Obstacle obstacle, int index) {
     auto body = std::make_unique<btRigidBody>(0, nullptr, shape.get());
     body->setWorldTransform(btTransform(btQuaternion::getIdentity(), position));
     body->setRestitution(kRestitution);
     body->setFriction(kFriction);
-    body->setUserIndex(-1);
+    label(*body, obstacle, index);
     world.addRigidBody(body.get());
     shapes.push_back(std::move(shape));
     fixed.push_back(std::move(body));
   }
 
-  void note_contacts() {
-    impacts.clear();
-    for (const auto& craft : crafts) craft->since_contact_s += dt_s;
-    for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
-      const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
-      for (int point = 0; point < manifold.getNumContacts(); ++point) {
-        // Points that are near but do not push yet are no contact.
-        if (manifold.getContactPoint(point).getAppliedImpulse() <= 0) continue;
-        note_contact(manifold.getBody0()->getUserIndex());
-        note_contact(manifold.getBody1()->getUserIndex());
-        break;
-      }
+  void set_people(std::span<const NearPerson> list) {
+    while (people.size() > list.size()) {
+      world.removeRigidBody(&people.back()->body);
+      people.pop_back();
+    }
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const bool is_new = i == people.size();
+      if (is_new) people.push_back(std::make_unique<PersonBody>(person_shape));
+      PersonBody& person = *people[i];
+      const bool moved_in = is_new || person.person.agent != list[i].agent;
+      person.person = list[i];
+      person.place();
+      label(person.body, Obstacle::person, list[i].agent);
+      // Else Bullet would take the way here for motion.
+      if (moved_in) person.body.setInterpolationWorldTransform(person.body.getWorldTransform());
+      if (is_new) world.addRigidBody(&person.body);
     }
   }
 
-  void note_contact(int index) {
-    if (index < 0) return;
-    Craft& craft = *crafts[static_cast<std::size_t>(index)];
-    if (craft.since_contact_s > kSameContactS) {
-      impacts.push_back({static_cast<std::size_t>(index), craft.speed_before_mps});
+  void move_people() {
+    for (const auto& person : people) {
+      person->person.position += dt_s * person->person.velocity;
+      person->place();
     }
-    craft.since_contact_s = 0;
+  }
+
+  void note_contacts() {
+    for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+      const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+      double impulse_ns = 0;
+      for (int point = 0; point < manifold.getNumContacts(); ++point) {
+        impulse_ns += manifold.getContactPoint(point).getAppliedImpulse();
+      }
+      // Bodies that are near but do not push yet do not touch.
+      if (impulse_ns <= 0) continue;
+      note_contact(*manifold.getBody0(), *manifold.getBody1(), impulse_ns);
+      note_contact(*manifold.getBody1(), *manifold.getBody0(), impulse_ns);
+    }
+    contacts.advance(dt_s);
+  }
+
+  void note_contact(const btCollisionObject& who, const btCollisionObject& what,
+                    double impulse_ns) {
+    if (obstacle_of(who) != Obstacle::drone) return;
+    const double speed_mps = (velocity_before(who) - velocity_before(what)).norm();
+    contacts.note(static_cast<std::size_t>(who.getUserIndex2()), obstacle_of(what),
+                  what.getUserIndex2(), speed_mps, impulse_ns);
+  }
+
+  Vector3d velocity_before(const btCollisionObject& body) const {
+    const auto index = static_cast<std::size_t>(body.getUserIndex2());
+    switch (obstacle_of(body)) {
+      case Obstacle::drone:
+        return crafts[index]->velocity_before;
+      case Obstacle::person:
+        return to_eigen(btRigidBody::upcast(&body)->getLinearVelocity());
+      case Obstacle::ground:
+      case Obstacle::building:
+        break;
+    }
+    return Vector3d::Zero();
   }
 
   double dt_s;
@@ -140,7 +217,9 @@ struct FlightWorld::Bodies {
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> fixed;
   std::vector<std::unique_ptr<Craft>> crafts;
-  std::vector<Impact> impacts;
+  btCapsuleShapeZ person_shape{kPersonRadiusM, kPersonHeightM - 2 * kPersonRadiusM};
+  std::vector<std::unique_ptr<PersonBody>> people;
+  ContactLog contacts;
   btDiscreteDynamicsWorld world;
 };
 
@@ -154,7 +233,7 @@ FlightWorld& FlightWorld::operator=(FlightWorld&&) noexcept = default;
 
 std::size_t FlightWorld::add(const Airframe& airframe, const Vector3d& position, double yaw_rad) {
   auto craft = std::make_unique<Craft>(airframe, bodies_->dt_s, position, yaw_rad);
-  craft->body.setUserIndex(static_cast<int>(bodies_->crafts.size()));
+  label(craft->body, Obstacle::drone, static_cast<int>(bodies_->crafts.size()));
   bodies_->world.addRigidBody(&craft->body);
   bodies_->crafts.push_back(std::move(craft));
   return bodies_->crafts.size() - 1;
@@ -168,14 +247,23 @@ void FlightWorld::set_air_velocity(std::size_t craft, const Vector3d& velocity) 
   bodies_->crafts[craft]->air_velocity = velocity;
 }
 
+void FlightWorld::set_downwash(std::size_t craft, const PerRotor& downwash_mps) {
+  bodies_->crafts[craft]->downwash_mps = downwash_mps;
+}
+
+void FlightWorld::set_people(std::span<const NearPerson> people) { bodies_->set_people(people); }
+
 void FlightWorld::step() {
   for (const auto& craft : bodies_->crafts) {
     const FlightState state = craft->state();
-    const Wrench wrench = craft->quadcopter.step(state, craft->commands, craft->air_velocity);
+    const Wrench wrench =
+        craft->quadcopter.step(state, craft->commands, craft->air_velocity, craft->downwash_mps);
     craft->body.applyCentralForce(to_bullet(wrench.force));
     craft->body.applyTorque(to_bullet(wrench.torque));
-    craft->speed_before_mps = state.velocity.norm();
+    craft->velocity_before = state.velocity;
+    craft->has_moved = true;
   }
+  bodies_->move_people();
   bodies_->world.stepSimulation(bodies_->dt_s, 0);
   bodies_->note_contacts();
 }
@@ -189,6 +277,22 @@ Eigen::Quaterniond FlightWorld::orientation(std::size_t craft) const {
   return Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized();
 }
 
-std::span<const Impact> FlightWorld::impacts() const { return bodies_->impacts; }
+Vector3d FlightWorld::specific_force(std::size_t craft) const {
+  return bodies_->crafts[craft]->specific_force(bodies_->dt_s);
+}
+
+double FlightWorld::thrust_n(std::size_t craft) const {
+  return bodies_->crafts[craft]->quadcopter.thrust_n();
+}
+
+const Airframe& FlightWorld::airframe(std::size_t craft) const {
+  return bodies_->crafts[craft]->quadcopter.airframe();
+}
+
+std::span<const Impact> FlightWorld::impacts() const { return bodies_->contacts.impacts(); }
+
+std::vector<Impact> FlightWorld::unfinished_impacts() const {
+  return bodies_->contacts.unfinished();
+}
 
 }  // namespace throng::sim

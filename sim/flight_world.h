@@ -1,4 +1,5 @@
-// Bullet's world: solid ground and buildings, and the quadcopters that fly there.
+// Bullet's world: solid ground and buildings, people near the ground, and the quadcopters that fly
+// there.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,16 +8,21 @@
 #include <span>
 #include <vector>
 
+#include "sim/contact_log.h"
 #include "sim/quadcopter.h"
 #include "world/scenario.h"
 
 namespace throng::sim {
 
-/// A craft hit the ground, a building or another craft. One per approach: staying in touch, or
-/// touching again within half a second, is the same one.
-struct Impact {
-  std::size_t craft;
-  double speed_mps;  ///< just before
+/// People as crafts meet them: upright capsules that move as they please and cannot be pushed.
+inline constexpr double kPersonRadiusM = 0.25;
+inline constexpr double kPersonHeightM = 1.7;
+
+/// Somebody near a craft, where the next step begins.
+struct NearPerson {
+  int agent = 0;
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< m/s
 };
 
 /// Same calls give the same bits. Not to be shared between threads.
@@ -34,6 +40,11 @@ class FlightWorld {
   void command(std::size_t craft, const PerRotor& rotor_speeds);
   /// Wind at the craft (m/s); still air until told otherwise.
   void set_air_velocity(std::size_t craft, const Eigen::Vector3d& velocity);
+  /// Air that others blow down on each of the craft's rotors (m/s); none until told otherwise.
+  void set_downwash(std::size_t craft, const PerRotor& downwash_mps);
+  /// The people that crafts can touch from now on, moving on at their velocities. One that stays in
+  /// the list goes on from where it is told to be.
+  void set_people(std::span<const NearPerson> people);
 
   /// Advances by dt_s().
   void step();
@@ -42,8 +53,16 @@ class FlightWorld {
   std::size_t size() const;
   FlightState state(std::size_t craft) const;
   Eigen::Quaterniond orientation(std::size_t craft) const;
-  /// What was hit in the last step.
+  /// All forces but gravity over mass in the last step, contacts included: what an ideal
+  /// accelerometer reads. m/s², body.
+  Eigen::Vector3d specific_force(std::size_t craft) const;
+  /// Of all rotors in the last step.
+  double thrust_n(std::size_t craft) const;
+  const Airframe& airframe(std::size_t craft) const;
+  /// Collisions whose impulse became known in the last step.
   std::span<const Impact> impacts() const;
+  /// Collisions whose impulse is still being counted.
+  std::vector<Impact> unfinished_impacts() const;
 
  private:
   struct Bodies;

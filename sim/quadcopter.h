@@ -36,16 +36,22 @@ struct Wrench {
 
 /// The rotors and the air. Motors follow their commands as first-order lags (exactly integrated);
 /// thrust and reaction torque go with speed squared, ground effect after Cheeseman and Bennett
-/// 1955, drag of rotors linear (Martin and Salaün 2010) and of the body quadratic.
+/// 1955, drag of rotors linear (Martin and Salaün 2010) and of the body quadratic. Air that comes
+/// down on a rotor takes thrust from it, all of it at an advance ratio of 0.65, as propellers of
+/// this kind do (UIUC propeller data, slow flyers of 8 to 11 inches: 0.6 to 0.7).
 class Quadcopter {
  public:
   /// Rotors turn at hover speed from the start.
   Quadcopter(Airframe airframe, double dt_s);
 
   /// Moves the motors on by one step and gives what acts on the body then. `commands` are rotor
-  /// speeds in rad/s; `air_velocity` is the wind at the craft in m/s.
+  /// speeds in rad/s; `air_velocity` is the wind at the craft in m/s, `downwash_mps` the air that
+  /// others blow down on each rotor.
   Wrench step(const FlightState& state, const PerRotor& commands,
-              const Eigen::Vector3d& air_velocity);
+              const Eigen::Vector3d& air_velocity, const PerRotor& downwash_mps = {});
+
+  /// Of all rotors in the last step.
+  double thrust_n() const { return thrust_n_; }
 
   const Airframe& airframe() const { return airframe_; }
   const PerRotor& rotor_speeds() const { return speeds_; }
@@ -55,6 +61,7 @@ class Quadcopter {
   double keep_up_;  ///< share of the gap to a higher commanded speed that is left after a step
   double keep_down_;
   PerRotor speeds_;
+  double thrust_n_;
 };
 
 }  // namespace throng::sim

@@ -77,6 +77,18 @@ std::vector<world::GoalRef> goals_moved_by(const std::vector<PlannedDrone>& dron
   return goals;
 }
 
+// Who is a person and there; fills and returns `there`.
+std::span<const std::uint8_t> people_there(const crowd::Simulation& crowd,
+                                           const std::vector<world::AgentRole>& roles,
+                                           std::vector<std::uint8_t>& there) {
+  const auto present = crowd.present();
+  there.resize(roles.size());
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    there[i] = roles[i] == world::AgentRole::person ? present[i] : std::uint8_t{0};
+  }
+  return there;
+}
+
 world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spec,
                              const crowd::Simulation& crowd,
                              const std::vector<world::AgentRole>& roles) {
@@ -121,22 +133,25 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   Flight flight(
       scenario.buildings, drones, dt_s, spec.physics_dt_s,
       {[&](std::size_t drone, const world::DroneSample& sample) { trace.add_drone(drone, sample); },
-       [&](const world::TraceEvent& event) { trace.add_event(event); }});
+       [&](const world::TraceEvent& event) { trace.add_event(event); }},
+      {spec.wind, spec.seed});
   const std::vector<world::GoalRef> moving_goals = goals_moved_by(drones);
   CrowdRecorder recorder(scenario, roles, moving_goals);
   recorder.record(crowd, 0, trace);
 
+  std::vector<std::uint8_t> there;
   constexpr double kRounding = 1e-9;
   const auto steps = static_cast<long>(std::ceil(spec.duration_s / dt_s - kRounding));
   for (long step = 1; step <= steps; ++step) {
     if (stop.stop_requested()) throw Cancelled();
     move_goals(drones, flight, crowd);
     crowd.step();
-    flight.advance();
+    flight.advance({crowd.positions(), people_there(crowd, roles, there)});
     const double time_s = static_cast<double>(step) * dt_s;
     recorder.record(crowd, time_s, trace);
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
   }
+  flight.finish();
   trace.finish();
   return crowd.warnings();
 }

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "crowd/simulation.h"
+#include "sim/wind.h"
 #include "world/scenario.h"
 
 namespace throng::sim {
@@ -25,6 +26,7 @@ struct DroneMission {
   std::vector<Eigen::Vector3d> waypoints;    ///< m, in order; the drone hovers at the last one
   double speed_mps = 3;                      ///< along the path
   std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
+  std::optional<double> battery_charge;      ///< share of a full battery; without it, it lasts
 };
 
 /// How the crowd engine computes.
@@ -40,6 +42,7 @@ struct RunSpec {
   std::optional<int> people;  ///< how many of the scenario's people take part; default all
   CrowdSpec crowd;
   std::vector<DroneMission> drones;
+  WindSpec wind;
   double physics_dt_s = 1.0 / 480;  ///< at most 1/240 s
 };
 

@@ -17,8 +17,17 @@ DroneSample Trace::drone_at(std::size_t drone, double time) const {
   const DroneSample& a = *(after - 1);
   const DroneSample& b = *after;
   const double s = (time - a.time_s) / (b.time_s - a.time_s);
-  return {time, a.position + s * (b.position - a.position),
-          a.velocity + s * (b.velocity - a.velocity), a.orientation.slerp(s, b.orientation)};
+  const auto between = [s](const auto& from, const auto& to) { return from + s * (to - from); };
+  DroneSample sample;
+  sample.time_s = time;
+  sample.position = between(a.position, b.position);
+  sample.velocity = between(a.velocity, b.velocity);
+  sample.orientation = a.orientation.slerp(s, b.orientation);
+  sample.body_rates = between(a.body_rates, b.body_rates);
+  sample.specific_force = between(a.specific_force, b.specific_force);
+  sample.air_velocity = between(a.air_velocity, b.air_velocity);
+  sample.energy_j = between(a.energy_j, b.energy_j);
+  return sample;
 }
 
 }  // namespace throng::world

@@ -61,15 +61,23 @@ struct DroneSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to world
+  Eigen::Vector3d body_rates = Eigen::Vector3d::Zero();             ///< rad/s, body
+  /// All forces but gravity over mass: what an ideal accelerometer reads. m/s², body.
+  Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d air_velocity = Eigen::Vector3d::Zero();  ///< wind with gusts here, m/s, world
+  double energy_j = 0;                                     ///< taken from the battery so far
 };
 
-/// Something that happened, e.g. "tilt_saturated", "agent_escaped".
+/// Something that happened, e.g. "tilt_saturated", "agent_escaped" (docs/trace.md lists them all).
 struct TraceEvent {
   double time_s = 0;
-  std::string type;         ///< a word of at most 31 characters
-  std::int32_t agent = -1;  ///< -1: none
-  std::int32_t drone = -1;  ///< -1: none
-  double value = 0;         ///< meaning depends on the type
+  std::string type;          ///< a word of at most 31 characters
+  std::int32_t agent = -1;   ///< -1: none
+  std::int32_t drone = -1;   ///< -1: none
+  double value = 0;          ///< meaning depends on the type
+  std::string partner = {};  ///< what the drone met, a word of at most 31 characters; "": nothing
+  std::int32_t other = -1;   ///< number of the partner among its kind (drone, building); -1: none
+  double extra = 0;          ///< a second value, whose meaning depends on the type
 };
 
 /// A whole trace in memory. Arrays over [step][agent] are row-major.
@@ -94,12 +102,13 @@ struct Trace {
     return (flags[at(step, agent)] & kPresent) != 0;
   }
   double duration_s() const { return time_s.empty() ? 0.0 : time_s.back(); }
-  /// The drone between its samples: linear position and velocity, slerped orientation; clamped to
+  /// The drone between its samples: all linear but the orientation, which is slerped; clamped to
   /// the recorded span.
   DroneSample drone_at(std::size_t drone, double time) const;
 };
 
-/// Writes a trace step by step; memory does not grow with the run's length. The file appears at
+/// Writes a trace step by step; memory does not grow with the run's length,
+/// but for its events. The file appears at
 /// `path` only when finish() returns; a writer destroyed before that leaves nothing behind.
 class TraceWriter {
  public:
@@ -112,6 +121,7 @@ class TraceWriter {
   void add(const CrowdStep& step);
   /// Samples of one drone come in order of time.
   void add_drone(std::size_t drone, const DroneSample& sample);
+  /// Events may come in any order; the file has them by time.
   void add_event(const TraceEvent& event);
   /// Completes the file and gives it its name. Throws EnvironmentError, as all of these do, when
   /// the disk fails; call nothing afterwards.

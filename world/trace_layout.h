@@ -8,8 +8,8 @@ namespace throng::world {
 
 inline constexpr const char* kTraceFormat = "throng trace";
 /// Grows with every change that an older reader would misread.
-inline constexpr std::int32_t kTraceVersion = 2;
-/// Fixed width of an event's type, with a final zero.
-inline constexpr std::size_t kEventTypeWidth = 32;
+inline constexpr std::int32_t kTraceVersion = 3;
+/// Fixed width of an event's words, with a final zero.
+inline constexpr std::size_t kEventWordWidth = 32;
 
 }  // namespace throng::world

@@ -126,6 +126,10 @@ class Reader {
     const auto position = numbers<double>(group, "position", {count, 3});
     const auto velocity = numbers<double>(group, "velocity", {count, 3});
     const auto wxyz = numbers<double>(group, "orientation_wxyz", {count, 4});
+    const auto body_rates = numbers<float>(group, "body_rates", {count, 3});
+    const auto specific_force = numbers<float>(group, "specific_force", {count, 3});
+    const auto air_velocity = numbers<float>(group, "air_velocity", {count, 3});
+    const auto energy_j = numbers<double>(group, "energy_j", {count});
     std::vector<DroneSample> samples(count);
     for (std::size_t i = 0; i < count; ++i) {
       if (i > 0 && time_s[i] <= time_s[i - 1]) {
@@ -133,8 +137,17 @@ class Reader {
                fmt::format("more than {}", time_s[i - 1]));
       }
       const double* q = &wxyz[4 * i];
-      samples[i] = {time_s[i], Eigen::Vector3d(&position[3 * i]), Eigen::Vector3d(&velocity[3 * i]),
-                    Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
+      const auto vector = [i](const std::vector<float>& xyz) {
+        return Eigen::Vector3d(Eigen::Vector3f(&xyz[3 * i]).cast<double>());
+      };
+      samples[i] = {time_s[i],
+                    Eigen::Vector3d(&position[3 * i]),
+                    Eigen::Vector3d(&velocity[3 * i]),
+                    Eigen::Quaterniond(q[0], q[1], q[2], q[3]),
+                    vector(body_rates),
+                    vector(specific_force),
+                    vector(air_velocity),
+                    energy_j[i]};
       constexpr double kUnitTolerance = 1e-6;
       if (std::abs(samples[i].orientation.norm() - 1) > kUnitTolerance) {
         reject(source_, fmt::format("drones/{}/orientation_wxyz", name),
@@ -152,15 +165,20 @@ class Reader {
     const auto agent = numbers<std::int32_t>(group, "agent", {count});
     const auto drone = numbers<std::int32_t>(group, "drone", {count});
     const auto value = numbers<double>(group, "value", {count});
-    if (types.size() != count) {
-      reject(source_, "events/type", fmt::format("{} entries", types.size()),
+    const auto partners = hdf5::read_texts(group, "partner");
+    const auto other = numbers<std::int32_t>(group, "other", {count});
+    const auto extra = numbers<double>(group, "extra", {count});
+    for (const auto& [name, words] : {std::pair("type", &types), std::pair("partner", &partners)}) {
+      if (words->size() == count) continue;
+      reject(source_, fmt::format("events/{}", name), fmt::format("{} entries", words->size()),
              fmt::format("{}", count));
     }
     std::vector<TraceEvent> events;
     for (std::size_t i = 0; i < count; ++i) {
       require_index(agent[i], -1, header.agent_count(), "events/agent");
       require_index(drone[i], -1, header.drone_ids.size(), "events/drone");
-      events.push_back({time_s[i], types[i], agent[i], drone[i], value[i]});
+      events.push_back(
+          {time_s[i], types[i], agent[i], drone[i], value[i], partners[i], other[i], extra[i]});
     }
     return events;
   }

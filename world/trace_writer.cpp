@@ -108,7 +108,11 @@ struct DroneColumns {
       : time_s(group, "time_s", {}, kDroneRowsPerChunk, "s"),
         position(group, "position", {3}, kDroneRowsPerChunk, "m"),
         velocity(group, "velocity", {3}, kDroneRowsPerChunk, "m/s"),
-        orientation(group, "orientation_wxyz", {4}, kDroneRowsPerChunk, "") {}
+        orientation(group, "orientation_wxyz", {4}, kDroneRowsPerChunk, ""),
+        body_rates(group, "body_rates", {3}, kDroneRowsPerChunk, "rad/s"),
+        specific_force(group, "specific_force", {3}, kDroneRowsPerChunk, "m/s^2"),
+        air_velocity(group, "air_velocity", {3}, kDroneRowsPerChunk, "m/s"),
+        energy_j(group, "energy_j", {}, kDroneRowsPerChunk, "J") {}
 
   void add(const DroneSample& sample) {
     const Eigen::Quaterniond& q = sample.orientation;
@@ -117,6 +121,10 @@ struct DroneColumns {
     position.add(sample.position.data(), 3);
     velocity.add(sample.velocity.data(), 3);
     orientation.add(wxyz.data(), 4);
+    body_rates.add(Eigen::Vector3f(sample.body_rates.cast<float>()).data(), 3);
+    specific_force.add(Eigen::Vector3f(sample.specific_force.cast<float>()).data(), 3);
+    air_velocity.add(Eigen::Vector3f(sample.air_velocity.cast<float>()).data(), 3);
+    energy_j.add(sample.energy_j);
   }
 
   void flush() {
@@ -124,55 +132,88 @@ struct DroneColumns {
     position.flush();
     velocity.flush();
     orientation.flush();
+    body_rates.flush();
+    specific_force.flush();
+    air_velocity.flush();
+    energy_j.flush();
   }
 
   Column<double> time_s;
   Column<double> position;
   Column<double> velocity;
   Column<double> orientation;
+  Column<float> body_rates;
+  Column<float> specific_force;
+  Column<float> air_velocity;
+  Column<double> energy_j;
+};
+
+// A dataset of words, written together like a Column's rows.
+class WordColumn {
+ public:
+  WordColumn(const hdf5::Handle& group, const char* name)
+      : word_(hdf5::text_type(kEventWordWidth)),
+        data_(group, name, word_.id(), word_.id(), {}, kEventRowsPerChunk, "") {}
+
+  void add(const std::string& word) {
+    words_ += word;
+    words_.append(kEventWordWidth - word.size(), '\0');
+  }
+
+  void flush() {
+    data_.append(words_.data(), words_.size() / kEventWordWidth);
+    words_.clear();
+  }
+
+ private:
+  hdf5::Handle word_;
+  hdf5::RowDataset data_;
+  std::string words_;
 };
 
 class EventColumns {
  public:
   explicit EventColumns(const hdf5::Handle& group)
-      : word_(hdf5::text_type(kEventTypeWidth)),
-        time_s_(group, "time_s", {}, kEventRowsPerChunk, "s"),
-        type_(group, "type", word_.id(), word_.id(), {}, kEventRowsPerChunk, ""),
+      : time_s_(group, "time_s", {}, kEventRowsPerChunk, "s"),
+        type_(group, "type"),
         agent_(group, "agent", {}, kEventRowsPerChunk, ""),
         drone_(group, "drone", {}, kEventRowsPerChunk, ""),
-        value_(group, "value", {}, kEventRowsPerChunk, "") {}
+        value_(group, "value", {}, kEventRowsPerChunk, ""),
+        partner_(group, "partner"),
+        other_(group, "other", {}, kEventRowsPerChunk, ""),
+        extra_(group, "extra", {}, kEventRowsPerChunk, "") {}
 
   void add(const TraceEvent& event) {
     time_s_.add(event.time_s);
+    type_.add(event.type);
     agent_.add(event.agent);
     drone_.add(event.drone);
     value_.add(event.value);
-    words_ += event.type;
-    words_.resize((words_.size() / kEventTypeWidth + 1) * kEventTypeWidth, '\0');
-    if (words_.size() == kEventRowsPerChunk * kEventTypeWidth) flush_words();
+    partner_.add(event.partner);
+    other_.add(event.other);
+    extra_.add(event.extra);
   }
 
   void flush() {
     time_s_.flush();
+    type_.flush();
     agent_.flush();
     drone_.flush();
     value_.flush();
-    flush_words();
+    partner_.flush();
+    other_.flush();
+    extra_.flush();
   }
 
  private:
-  void flush_words() {
-    type_.append(words_.data(), words_.size() / kEventTypeWidth);
-    words_.clear();
-  }
-
-  hdf5::Handle word_;
   Column<double> time_s_;
-  hdf5::RowDataset type_;
-  std::string words_;
+  WordColumn type_;
   Column<std::int32_t> agent_;
   Column<std::int32_t> drone_;
   Column<double> value_;
+  WordColumn partner_;
+  Column<std::int32_t> other_;
+  Column<double> extra_;
 };
 
 void write_header(const hdf5::Handle& file, const TraceHeader& header) {
@@ -275,6 +316,9 @@ struct TraceWriter::File {
   void close() {
     crowd->flush();
     for (DroneColumns& drone : drones) drone.flush();
+    std::stable_sort(waiting_events.begin(), waiting_events.end(),
+                     [](const TraceEvent& a, const TraceEvent& b) { return a.time_s < b.time_s; });
+    for (const TraceEvent& event : waiting_events) events->add(event);
     events->flush();
     crowd.reset();
     drones.clear();
@@ -291,6 +335,7 @@ struct TraceWriter::File {
   std::optional<CrowdColumns> crowd;  // empty once closed, like events
   std::vector<DroneColumns> drones;
   std::optional<EventColumns> events;
+  std::vector<TraceEvent> waiting_events;  // few: a handful per person and drone
 };
 
 TraceWriter::TraceWriter(fs::path path, const TraceHeader& header) {
@@ -330,9 +375,10 @@ void TraceWriter::add_drone(std::size_t drone, const DroneSample& sample) {
 }
 
 void TraceWriter::add_event(const TraceEvent& event) {
-  check(!event.type.empty() && event.type.size() < kEventTypeWidth,
-        "an event's type is a short word");
-  writing(file_->temporary.final_path(), [&] { file_->events->add(event); });
+  check(!event.type.empty() && event.type.size() < kEventWordWidth &&
+            event.partner.size() < kEventWordWidth,
+        "an event's type and partner are short words");
+  file_->waiting_events.push_back(event);
 }
 
 void TraceWriter::finish() {

@@ -90,7 +90,7 @@ TEST_P(EveryQuadcopter, FeelsTheGroundOnlyNearIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryQuadcopter,
-                         ::testing::Values("f450", "iris", "hummingbird", "crazyflie"));
+                         ::testing::Values("f450", "iris", "hummingbird", "crazyflie", "x500"));
 
 TEST(Quadcopter, MotorsSpeedUpAndSlowDownWithTheirTimeConstants) {
   const Airframe frame = testing::airframe_named("iris");

@@ -9,6 +9,7 @@
 #include "sim/airframe.h"
 #include "sim/controller.h"
 #include "sim/flight_world.h"
+#include "sim/wind.h"
 #include "tests/sim/airframes.h"
 
 namespace throng::sim {
@@ -177,6 +178,81 @@ TEST(F450, FliesTheSameAtEveryPhysicsRate) {
   EXPECT_NEAR(slow.most_speed_mps, fast.most_speed_mps, 0.03 * fast.most_speed_mps);
 }
 
+TEST(F450, PeaksInWindDoNotDependOnThePhysicsRate) {
+  for (const double wind_mps : {4.0, 8.0, 10.0}) {
+    const Vector3d wind = wind_mps * Vector3d::UnitX();
+    const double slow_m =
+        fly(airframe_named("f450"), kStart, 8, wind, {240, 1}).furthest_from(kStart);
+    const double fast_m =
+        fly(airframe_named("f450"), kStart, 8, wind, {1000, 4}).furthest_from(kStart);
+    EXPECT_NEAR(slow_m, fast_m, 0.03 * fast_m) << wind_mps;
+  }
+}
+
+// Mean 5 m/s, gusts of 1.5 m/s and 3 s along each axis.
+Flown fly_in_gusts(std::uint64_t seed, Rates rates) {
+  WindSpec wind;
+  wind.speed_mps = 5;
+  wind.profile = WindProfile::uniform;
+  wind.gusts = GustModel::ou;
+  Gusts gusts(wind, seed, 0);
+  FlightWorld world({}, 1 / rates.physics_hz);
+  world.add(airframe_named("f450"), kStart, 0);
+  Controller controller(airframe_named("f450"));
+  Setpoint setpoint;
+  setpoint.position = kStart;
+  Flown flown;
+  constexpr double kSettledS = 15;
+  constexpr double kDurationS = 75;
+  for (int step = 0; step < kDurationS * rates.physics_hz; ++step) {
+    const double time_s = step / rates.physics_hz;
+    const FlightState state = world.state(0);
+    if (step % rates.physics_per_control == 0) {
+      const double control_dt_s = rates.physics_per_control / rates.physics_hz;
+      world.command(0, controller.update(state, setpoint, control_dt_s));
+      const Vector3d mean = wind.mean_at(state.position.z());
+      world.set_air_velocity(0, mean + gusts.at(time_s, state.position.z(), mean.norm()));
+    }
+    world.step();
+    if (time_s < kSettledS) continue;
+    flown.time_s.push_back(time_s);
+    flown.position.push_back(world.state(0).position);
+  }
+  return flown;
+}
+
+double rms_of(const Flown& flown) {
+  double squares = 0;
+  for (const Vector3d& p : flown.position) squares += (p - kStart).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(flown.position.size()));
+}
+
+TEST(F450, HoldsInGusts) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Flown slow = fly_in_gusts(seed, {240, 1});
+    const Flown fast = fly_in_gusts(seed, {1000, 4});
+    EXPECT_LT(rms_of(slow), 0.25) << seed;
+    EXPECT_GT(rms_of(slow), 0.05) << seed;
+    EXPECT_NEAR(rms_of(slow), rms_of(fast), 0.03 * rms_of(fast)) << seed;
+  }
+}
+
+TEST(OtherAirframes, HoldInAStepOfWind) {
+  const Vector3d wind(8, 0, 0);
+  EXPECT_LT(fly(airframe_named("hummingbird"), kStart, 10, wind).furthest_from(kStart), 1.1);
+  EXPECT_LT(fly(airframe_named("crazyflie"), kStart, 10, wind).furthest_from(kStart), 0.6);
+  EXPECT_LT(fly(airframe_named("x500"), kStart, 10, wind).furthest_from(kStart), 1.1);
+}
+
+TEST(HeavyDrag, HoldsInEightButNotInTwelveMetresPerSecond) {
+  Airframe frame = airframe_named("f450");
+  frame.body_drag = 0.12;
+  const Flown holds = fly(frame, kStart, 15, {8, 0, 0});
+  EXPECT_LT(holds.furthest_from(kStart), 1.8);
+  EXPECT_NEAR(holds.most_tilt_rad, 32 * kDegree, 3 * kDegree);
+  EXPECT_GT(fly(frame, kStart, 15, {10.5, 0, 0}).furthest_from(kStart), 5);
+}
+
 class EveryAirframe : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryAirframe, HoversAndFliesToATarget) {
@@ -188,7 +264,7 @@ TEST_P(EveryAirframe, HoversAndFliesToATarget) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryAirframe,
-                         ::testing::Values("f450", "iris", "hummingbird", "crazyflie"));
+                         ::testing::Values("f450", "iris", "hummingbird", "crazyflie", "x500"));
 
 }  // namespace
 }  // namespace throng::sim

@@ -60,7 +60,11 @@ DroneSample sample_of(double time_s) {
   return {time_s,
           {time_s, 2 * time_s, 10},
           {1, 2, 0},
-          Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * time_s, Eigen::Vector3d::UnitZ()))};
+          Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * time_s, Eigen::Vector3d::UnitZ())),
+          {0, 0, 0.125},
+          {0.5, 0, 9.75},
+          {-2, time_s, 0},
+          100 * time_s};
 }
 
 void write_trace(const fs::path& path, std::size_t agents = kAgents, std::size_t steps = kSteps) {
@@ -74,6 +78,7 @@ void write_trace(const fs::path& path, std::size_t agents = kAgents, std::size_t
       writer.add_event({0.1 * static_cast<double>(step), "agent_escaped", 5, -1, 0.5});
     }
   }
+  if (agents > 5) writer.add_event({0, "collision", 3, 0, 4.5, "person", 1, 0.25});  // earlier than the last one
   writer.add_event({99, "tilt_saturated", -1, 1, -2});
   writer.finish();
 }
@@ -130,9 +135,22 @@ TEST(Trace, ReadsBackWhatWasWritten) {
   EXPECT_EQ(sample.position, sample_of(sample.time_s).position);
   EXPECT_EQ(sample.orientation.coeffs(), sample_of(sample.time_s).orientation.coeffs());
 
-  ASSERT_EQ(trace.events.size(), kSteps / 10 + 1);
+  EXPECT_EQ(sample.body_rates.z(), 0.125);
+  EXPECT_EQ(sample.specific_force, sample_of(0).specific_force);
+  EXPECT_NEAR(sample.air_velocity.y(), sample.time_s, 1e-6);
+  EXPECT_EQ(sample.energy_j, 100 * sample.time_s);
+
+  ASSERT_EQ(trace.events.size(), kSteps / 10 + 2);
+  EXPECT_TRUE(
+      std::is_sorted(trace.events.begin(), trace.events.end(),
+                     [](const TraceEvent& a, const TraceEvent& b) { return a.time_s < b.time_s; }));
   EXPECT_EQ(trace.events[3].type, "agent_escaped");
   EXPECT_EQ(trace.events[3].agent, 5);
+  EXPECT_EQ(trace.events[3].partner, "");
+  EXPECT_EQ(trace.events[3].other, -1);
+  EXPECT_EQ(trace.events[1].partner, "person");
+  EXPECT_EQ(trace.events[1].other, 1);
+  EXPECT_EQ(trace.events[1].extra, 0.25);
   EXPECT_EQ(trace.events.back().type, "tilt_saturated");
   EXPECT_EQ(trace.events.back().drone, 1);
   EXPECT_EQ(trace.events.back().value, -2);
@@ -260,6 +278,8 @@ TEST(Trace, DroneMovesSmoothlyBetweenItsSamples) {
   EXPECT_DOUBLE_EQ(between.time_s, 2.5);
   EXPECT_TRUE(between.position.isApprox(sample_of(2.5).position));
   EXPECT_LT(between.orientation.angularDistance(sample_of(2.5).orientation), 1e-9);
+  EXPECT_TRUE(between.air_velocity.isApprox(sample_of(2.5).air_velocity));
+  EXPECT_DOUBLE_EQ(between.energy_j, 250);
   EXPECT_EQ(trace.drone_at(0, 2).position, sample_of(2).position);
   EXPECT_EQ(trace.drone_at(0, -5).position, sample_of(1).position);
   EXPECT_EQ(trace.drone_at(0, 50).position, sample_of(4).position);

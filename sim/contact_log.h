@@ -1,0 +1,51 @@
+// Which touches are one and the same collision, and how hard each was.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace throng::sim {
+
+enum class Obstacle : std::uint8_t { ground, building, drone, person };
+
+/// As traces say it: "ground", "building", "drone", "person".
+const char* word_of(Obstacle obstacle);
+
+/// A craft hit something. One per approach: staying in touch, or touching the same thing again
+/// within half a second, is the same one.
+struct Impact {
+  std::size_t craft = 0;
+  Obstacle obstacle = Obstacle::ground;
+  int index = -1;         ///< of the building, craft or person; -1: the ground
+  double speed_mps = 0;   ///< of one relative to the other just before
+  double impulse_ns = 0;  ///< given in the first 50 ms
+  double ago_s = 0;       ///< how long ago it began
+};
+
+class ContactLog {
+ public:
+  /// One step's contact: call once per step and pair that pushes each other.
+  void note(std::size_t craft, Obstacle obstacle, int index, double speed_mps, double impulse_ns);
+
+  /// Ends a step of `dt_s`.
+  void advance(double dt_s);
+
+  /// Collisions whose impulse became known in the last step.
+  std::span<const Impact> impacts() const { return impacts_; }
+  /// Those whose impulse is still being counted: for the end of a run.
+  std::vector<Impact> unfinished() const;
+
+ private:
+  struct Contact {
+    Impact impact;
+    double apart_s = 0;
+    bool counted = false;  ///< its impulse is known and it has been in impacts()
+  };
+
+  std::vector<Contact> contacts_;
+  std::vector<Impact> impacts_;
+};
+
+}  // namespace throng::sim

@@ -1,0 +1,53 @@
+// One drone's brain: the policy that says where to be, the autopilot that flies there, the battery
+// that sets an end to it, and the judgement that the drone cannot hold.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "sim/battery.h"
+#include "sim/controller.h"
+#include "sim/plan.h"
+
+namespace throng::sim {
+
+class Pilot {
+ public:
+  /// Takes an event's type and value (docs/trace.md).
+  using Report = std::function<void(std::string_view type, double value)>;
+
+  Pilot(const PlannedDrone& drone, const FlightLimits& limits);
+
+  /// Rotor speeds (rad/s) for the next `dt_s`. A drone whose battery is low lands where it is; one
+  /// whose battery is flat, and one that has landed, stop their rotors.
+  PerRotor control(const FlightState& state, double dt_s, const Report& report);
+
+  /// Counts the energy of `dt_s` of flight.
+  void spend(const FlightState& state, double thrust_n, const Eigen::Vector3d& air_velocity,
+             double dt_s);
+
+  const Battery& battery() const { return battery_; }
+  /// Whether its rotors turn.
+  bool is_running() const { return phase_ != Phase::stopped; }
+
+ private:
+  enum class Phase { flying, landing, stopped };
+
+  void watch_battery(const FlightState& state, const Report& report);
+  void descend(const FlightState& state, double dt_s, const Report& report);
+  void watch_hold(const FlightState& state, double dt_s, const Report& report);
+
+  Airframe airframe_;
+  std::unique_ptr<Policy> policy_;
+  Controller controller_;
+  Battery battery_;
+  Phase phase_ = Phase::flying;
+  Setpoint setpoint_;
+  double saturated_s_ = 0;  ///< how long the tilt has been at its limit without a break
+  double away_s_ = 0;       ///< how long it has moved away from its set-point
+  bool lost_ = false;       ///< has been reported as blown away and has not come back yet
+  double resting_s_ = 0;    ///< how long it has not sunk although it should
+};
+
+}  // namespace throng::sim
