@@ -47,7 +47,7 @@ class LayerBuilder {
       mesh_.vertices.push_back(
           {{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(height_m)},
            {0, 0, 1},
-           {},
+           {ground_tone_at(p)},
            openness_(p),
            kIdGround,
            0});

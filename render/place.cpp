@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/random.h"
 #include "render/frame.h"
 #include "render/triangulate.h"
 
@@ -53,8 +54,12 @@ void add_ground(const world::Scenario& scenario, PlaceMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const double y : ys) {
     for (const double x : xs) {
-      mesh.vertices.push_back(
-          {three(x, y, 0), {0, 0, 1}, {}, openness_at(scenario, {x, y}), kIdGround, 0});
+      mesh.vertices.push_back({three(x, y, 0),
+                               {0, 0, 1},
+                               {ground_tone_at({x, y})},
+                               openness_at(scenario, {x, y}),
+                               kIdGround,
+                               0});
     }
   }
   const auto add_cells = [&](bool inside) {
@@ -137,6 +142,30 @@ float openness_at(const world::Scenario& scenario, const Eigen::Vector2d& point)
   }
   // A corner inside a building would darken the whole cell in front of the wall.
   return static_cast<float>(std::max(sum / kDirections, 0.35));
+}
+
+// Three octaves of smooth noise over squares of 23, 9 and 4 m.
+float ground_tone_at(const Eigen::Vector2d& point) {
+  constexpr std::array<std::array<double, 2>, 3> kOctaves = {{{23, 0.14}, {9, 0.12}, {4, 0.10}}};
+  const auto corner = [](double x, double y, std::uint64_t octave) {
+    constexpr double kOffset = 1 << 24;  // indices are not negative
+    const auto column = static_cast<std::uint64_t>(x + kOffset);
+    const auto row = static_cast<std::uint64_t>(y + kOffset);
+    return Random(octave, Stream::environment, column << 32U | row).uniform(-1, 1);
+  };
+  double tone = 1;
+  for (std::uint64_t octave = 0; octave < kOctaves.size(); ++octave) {
+    const auto [size_m, strength] = kOctaves[octave];
+    const Eigen::Array2d at = point.array() / size_m;
+    const Eigen::Array2d cell = at.floor();
+    const Eigen::Array2d t = at - cell;
+    const Eigen::Array2d f = t * t * (3 - 2 * t);
+    const auto row = [&](double y) {
+      return (1 - f.x()) * corner(cell.x(), y, octave) + f.x() * corner(cell.x() + 1, y, octave);
+    };
+    tone += strength * ((1 - f.y()) * row(cell.y()) + f.y() * row(cell.y() + 1));
+  }
+  return static_cast<float>(tone);
 }
 
 PlaceMesh place_mesh(const world::Scenario& scenario) {

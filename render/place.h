@@ -13,7 +13,7 @@ struct PlaceVertex {
   std::array<float, 3> position{};  ///< m
   std::array<float, 3> normal{};
   /// Walls: along the wall, up, wall length, wall height. Roofs: from the corner of the roof's
-  /// bounds, then their size. In metres.
+  /// bounds, then their size. In metres. Ground: ground_tone_at().
   std::array<float, 4> local{};
   float openness = 1;    ///< share of the sky's light that reaches the ground here, 0 to 1
   std::uint32_t id = 0;  ///< what the id buffer gets
@@ -39,6 +39,10 @@ PlaceMesh place_mesh(const world::Scenario& scenario);
 
 /// Share of a uniform sky's light that reaches a point on the ground between the buildings.
 float openness_at(const world::Scenario& scenario, const Eigen::Vector2d& point);
+
+/// How bright the ground is at a point, compared with its material's mean: dirt and wear that no
+/// texture repeats.
+float ground_tone_at(const Eigen::Vector2d& point);
 
 /// Height of the tallest building or prop, but at least of a person with raised arms (m).
 double tallest_m(const world::Scenario& scenario);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "render/ground_texture.h"
 #include "render/lighting.h"
 #include "render/shaders.h"
 
@@ -17,6 +18,8 @@ using embedded::shader_light;
 using embedded::shader_noise;
 using embedded::shader_place_vert;
 using embedded::shader_view;
+
+constexpr GLuint kGroundUnit = 3;  // also in shaders/ground.frag.glsl
 
 std::string_view shader_of(const std::string& material, const world::Scenario& scenario) {
   const std::array<std::pair<std::string_view, std::string_view>, 7> materials = {{
@@ -42,8 +45,13 @@ Program make_place_program(std::string_view words, std::string_view surface,
                       {words, shader_light, shader_noise, surface, more});
 }
 
-Program make_ground_program(std::string_view words, std::string_view material) {
-  return make_place_program(words, material, embedded::shader_ground_frag);
+constexpr std::string_view kTextured = "#define TEXTURED\n";
+constexpr std::string_view kSurroundings = "surroundings";
+
+/// Whether a ground's pattern is looked up rather than worked out for each pixel: those that are
+/// small or follow no tile are not.
+bool is_baked(std::string_view material) {
+  return material != "kerb" && material != "paint" && material != kSurroundings;
 }
 
 /// Mean colours of facades and roofs, in the words of a ground.
@@ -53,8 +61,8 @@ constexpr std::string_view kRoofAlbedo =
     "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.31, 0.29, 0.27); }\n";
 
 Program make_corners_program(std::string_view words, std::string_view material) {
-  return make_program({words, shader_view, shader_light, shader_noise, material,
-                       embedded::shader_place_corners_vert},
+  return make_program({words, shader_view, shader_light, shader_noise, embedded::shader_ground_tile,
+                       material, embedded::shader_place_corners_vert},
                       {embedded::shader_corners_frag});
 }
 
@@ -68,19 +76,15 @@ PlacePass::PlacePass(const world::Scenario& scenario, const Environment& environ
       vertices_(make_buffer(mesh_.vertices)),
       indices_(make_buffer(mesh_.indices)),
       array_(make_vertex_array()),
+      material_(scenario.ground_material),
       shadow_(make_program({shader_light, embedded::shader_place_shadow_vert}, {})) {
   const std::string words = light_words(environment).append(shadow_words(quality));
-  const std::string_view main_material = shader_of(scenario.ground_material, scenario);
   if (quality.textured) {
     walls_ = make_place_program(words, embedded::shader_wall_frag);
     roofs_ = make_place_program(words, embedded::shader_roof_frag);
-    ground_ = make_ground_program(words, main_material);
-    surroundings_ = make_ground_program(words, embedded::shader_ground_surroundings);
   } else {
     walls_ = make_corners_program(words, kWallAlbedo);
     roofs_ = make_corners_program(words, kRoofAlbedo);
-    ground_ = make_corners_program(words, main_material);
-    surroundings_ = make_corners_program(words, embedded::shader_ground_surroundings);
   }
   describe_vertices(array_, 0, vertices_, sizeof(PlaceVertex), 0,
                     {{0, 3, GL_FLOAT, false, offsetof(PlaceVertex, position)},
@@ -90,12 +94,32 @@ PlacePass::PlacePass(const world::Scenario& scenario, const Environment& environ
                      {4, 1, GL_UNSIGNED_INT, false, offsetof(PlaceVertex, id)},
                      {5, 1, GL_FLOAT, false, offsetof(PlaceVertex, facade)}});
   glVertexArrayElementBuffer(array_.name(), indices_.name());
+  learn(material_, shader_of(material_, scenario), words, quality);
+  learn(std::string(kSurroundings), embedded::shader_ground_surroundings, words, quality);
   for (const GroundLayer& layer : layers_) {
-    const std::string_view material = shader_of(layer.material, scenario);
-    layer_programs_.push_back(quality.textured ? make_ground_program(words, material)
-                                               : make_corners_program(words, material));
+    learn(layer.material, shader_of(layer.material, scenario), words, quality);
   }
   check_gl("loading the place");
+}
+
+void PlacePass::learn(const std::string& material, std::string_view shader, std::string_view words,
+                      const QualitySettings& quality) {
+  if (looks_.contains(material)) return;
+  Look& look = looks_[material];
+  if (!quality.textured) {
+    look.program = make_corners_program(words, shader);
+  } else if (is_baked(material)) {
+    look.program = make_place_program(words, kTextured, embedded::shader_ground_frag);
+    look.texture = bake_ground(shader, quality.ground_texels);
+  } else {
+    look.program = make_place_program(words, shader, embedded::shader_ground_frag);
+  }
+}
+
+void PlacePass::draw_ground(const std::string& material, const Range& range) const {
+  const Look& look = looks_.at(material);
+  glBindTextureUnit(kGroundUnit, look.texture.name());
+  draw_range(look.program, range);
 }
 
 void PlacePass::draw_range(const Program& program, const Range& range) const {
@@ -111,9 +135,9 @@ void PlacePass::draw() const {
   glBindVertexArray(array_.name());
   draw_range(walls_, mesh_.walls);
   draw_range(roofs_, mesh_.roofs);
-  for (std::size_t i = 0; i < layers_.size(); ++i) draw_range(layer_programs_[i], layers_[i].range);
-  draw_range(ground_, mesh_.ground);
-  draw_range(surroundings_, mesh_.surroundings);
+  for (const GroundLayer& layer : layers_) draw_ground(layer.material, layer.range);
+  draw_ground(material_, mesh_.ground);
+  draw_ground(std::string(kSurroundings), mesh_.surroundings);
 }
 
 void PlacePass::draw_shadow() const {

@@ -1,8 +1,9 @@
 // Draws ground and buildings.
 #pragma once
 
-#include <array>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/environment.h"
@@ -27,6 +28,15 @@ class PlacePass {
   void draw_shadow() const;
 
  private:
+  /// What a material's triangles are drawn with; drafts, kerbs and paint need no texture.
+  struct Look {
+    Program program;
+    Texture texture;
+  };
+  /// Makes the look of a material that has none yet.
+  void learn(const std::string& material, std::string_view shader, std::string_view words,
+             const QualitySettings& quality);
+  void draw_ground(const std::string& material, const Range& range) const;
   void draw_range(const Program& program, const Range& range) const;
 
   PlaceMesh mesh_;
@@ -36,9 +46,8 @@ class PlacePass {
   VertexArray array_;
   Program walls_;
   Program roofs_;
-  Program ground_;
-  std::vector<Program> layer_programs_;  ///< one for each of layers_
-  Program surroundings_;
+  std::map<std::string, Look> looks_;  ///< by the ground's material
+  std::string material_;               ///< of the ground that no layer covers
   Program shadow_;
 };
 

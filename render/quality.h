@@ -12,6 +12,7 @@ enum class Quality : std::uint8_t { draft, standard, high };
 struct QualitySettings {
   std::string_view word;  ///< in job files
   bool textured;          ///< else ground and walls are coloured corner by corner
+  int ground_texels;      ///< along each side of a tile of the ground's textures
   int textured_levels;    ///< of people; coarser ones, whose triangles are pixels, by their corners
   int shadow_texels;      ///< along each side of the shadow map; 0: no shadows
   bool fine_shadows;      ///< edges from 3 x 3 texels instead of 2 x 2
@@ -25,9 +26,9 @@ struct QualitySettings {
 inline constexpr int kProxyTriangles = 100;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{
-    {"draft", false, 0, 0, false, false, 1, 0.5, 60},
-    {"standard", true, 2, 2048, false, true, 1, 1, 0},
-    {"high", true, 5, 4096, true, false, 2, 2, 0},
+    {"draft", false, 0, 0, 0, false, false, 1, 0.5, 60},
+    {"standard", true, 1024, 2, 2048, false, true, 1, 1, 0},
+    {"high", true, 2048, 5, 4096, true, false, 2, 2, 0},
 }};
 
 constexpr const QualitySettings& settings_of(Quality quality) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "render/contact_pass.h"
 #include "render/context.h"
 #include "render/coverage.h"
 #include "render/gl_objects.h"
@@ -154,6 +155,7 @@ struct Renderer::State {
   double tallest;
   PlacePass place;
   PropPass props;
+  ContactPass contacts;
   PeoplePass people_pass;
   SkyPass sky;
   std::optional<LampMap> lamp_map;  ///< after sunset
@@ -180,6 +182,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       tallest(tallest_m(scenario)),
       place(scenario, environment, quality),
       props(scenario, light_words(environment), quality),
+      contacts(scenario, daylight),
       people_pass(people, quality, light_words(environment)),
       sky(environment),
       shadow_map(quality.shadow_texels),
@@ -290,6 +293,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   people_pass.draw(PeoplePass::Purpose::picture, scene.people, draws_of(seen));
   props.draw(clip_planes(camera));
   place.draw();
+  if (quality.textured) contacts.draw(scene.people, camera);
   sky.draw_sky(camera);
   sky.draw_rain(camera, scene.index);
 }

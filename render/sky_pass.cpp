@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "render/colour_only.h"
 #include "render/lighting.h"
 #include "render/shaders.h"
 #include "render/view.h"
@@ -12,24 +13,6 @@
 namespace throng::render {
 
 namespace {
-
-constexpr GLuint kMostAttachments = 8;
-
-/// While it lives, drawing changes colours but neither depth nor the other buffers.
-class ColourOnly {
- public:
-  ColourOnly() { allow(false); }
-  ~ColourOnly() { allow(true); }
-  ColourOnly(const ColourOnly&) = delete;
-  ColourOnly& operator=(const ColourOnly&) = delete;
-
- private:
-  static void allow(bool others) {
-    const GLboolean on = others ? GL_TRUE : GL_FALSE;
-    glDepthMask(on);
-    for (GLuint i = 1; i < kMostAttachments; ++i) glColorMaski(i, on, on, on, on);
-  }
-};
 
 /// Whether the plain around the place ends in view.
 bool sees_sky(const camera::Camera& camera) {

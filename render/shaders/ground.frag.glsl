@@ -1,6 +1,8 @@
-// Ground of one material; ground_albedo comes from a ground_*.glsl.
+// Ground of one material: with TEXTURED from its texture (render/ground_texture.h), else
+// ground_albedo comes from a ground_*.glsl.
 in vec3 world;
 in float openness;
+in vec4 local;  // x: how bright the ground is here, compared with the material's mean
 flat in uint id;
 
 layout(location = 0) out vec4 colour;
@@ -29,8 +31,17 @@ vec3 wet(vec3 radiance, float sky_share) {
 }
 #endif
 
+#ifdef TEXTURED
+layout(binding = 3) uniform sampler2D material;
+
+vec3 ground_albedo(vec2 p, vec2 width) {
+  vec3 root = texture(material, p * (1.0 / 14.4)).rgb;  // kGroundTileM
+  return root * root;
+}
+#endif
+
 void main() {
-  vec3 albedo = ground_albedo(world.xy, fwidth(world.xy));
+  vec3 albedo = ground_albedo(world.xy, fwidth(world.xy)) * local.x;
   vec3 received = light.sky.rgb * openness;
 #ifndef NO_SUN
   received += light.sun.rgb * (light.sun_direction.z * sunlit(world, 0.02));

@@ -1,9 +1,14 @@
-// Cast panels of 3 m with sawn joints.
+// Cast panels of 2.4 m with sawn joints.
 vec3 ground_albedo(vec2 p, vec2 width) {
-  const float kPanel = 3.0;
+  const float kPanel = 2.4;
+  const ivec2 kPanels = ivec2(6);
+  float fade = clamp(1.5 - 12.0 * max(width.x, width.y), 0.0, 1.0);
   vec2 joints = stripes_xy(p / kPanel, 0.015 / kPanel, width / kPanel);
-  float tone = hash(ivec2(floor(p / kPanel))) - 0.5;
-  float stain = noise(p * 0.45) + 0.5 * noise(p * 2.1 + 11.0) - 0.75;
-  vec3 albedo = vec3(0.42, 0.41, 0.385) * (1.0 + 0.1 * tone + 0.14 * stain);
+  float tone = pick(ivec2(floor(p / kPanel)), kPanels, 1) - 0.5;
+  vec3 albedo = vec3(0.42, 0.41, 0.385) * (1.0 + 0.12 * tone);
+  albedo *= 1.0 + 0.26 * clouds(p, 0.28, 2) + 0.14 * clouds(p, 2.2, 6);
+  albedo *= 1.0 + 0.14 * (grain(p, 34.0, 10) - 0.5) * fade;
+  albedo *= 1.0 - 0.3 * cracks(p, 0.42, 0.68, 12) * fade;
+  albedo *= 1.0 - 0.17 * smoothstep(0.0, 0.9, spot(p, 0.4, 0.3, 1.0, 16) + 0.9 * clouds(p, 1.4, 20));
   return albedo * (1.0 - 0.5 * max(joints.x, joints.y));
 }

@@ -1,9 +1,11 @@
 // Trodden earth with stones.
 vec3 ground_albedo(vec2 p, vec2 width) {
   float fade = clamp(1.5 - 10.0 * max(width.x, width.y), 0.0, 1.0);
-  float stones = smoothstep(0.72, 0.8, noise(p * 14.0)) * fade;
-  float grain = (noise(p * 31.0) - 0.5) * fade;
-  float tread = noise(p * 0.6) + 0.5 * noise(p * 1.9 + 5.0) - 0.75;
-  vec3 albedo = vec3(0.27, 0.205, 0.14) * (1.0 + 0.3 * tread + 0.25 * grain);
-  return mix(albedo, vec3(0.36, 0.34, 0.31), 0.6 * stones);
+  vec3 albedo = vec3(0.27, 0.205, 0.14);
+  albedo *= 1.0 + 0.5 * clouds(p, 0.35, 1) + 0.3 * clouds(p, 2.0, 5);
+  albedo *= 1.0 + 0.4 * (grain(p, 32.0, 9) - 0.5) * fade;
+  float stones = step(0.2, spot(p, 5.0, 0.3, 0.06, 10)) * fade;
+  albedo = mix(albedo, vec3(0.36, 0.34, 0.31) * (0.7 + 0.6 * grain(p, 9.0, 14)), 0.7 * stones);
+  float weeds = smoothstep(0.62, 0.8, grain(p, 0.8, 15) + 0.3 * clouds(p, 5.0, 16));
+  return mix(albedo, vec3(0.11, 0.14, 0.05), 0.7 * weeds);
 }

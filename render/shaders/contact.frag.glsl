@@ -1,0 +1,12 @@
+// Less of the sky reaches the ground beside something that stands on it.
+in vec2 from_middle;
+flat in vec4 extent;
+
+layout(location = 0) out vec4 colour;
+
+void main() {
+  float away = length(max(abs(from_middle) - extent.xy, 0.0));
+  float near = max(1.0 - away / extent.z, 0.0);
+  float clear = exp2(-light.haze.w / gl_FragCoord.w);
+  colour = vec4(0.0, 0.0, 0.0, extent.w * clear * near * near);
+}
