@@ -17,6 +17,7 @@ void add_serve(CLI::App& app);
 void add_worker(CLI::App& app);
 void add_people(CLI::App& app);
 void add_scenarios(CLI::App& app);
+void add_airframes(CLI::App& app);
 
 // Subcommands of `throng people` with files of their own.
 void add_people_import(CLI::App& people);

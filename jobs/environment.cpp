@@ -114,6 +114,9 @@ EnvironmentSpec read_environment(const json& value, std::vector<Problem>& proble
     spec.visibility_m =
         Distribution::read(*found, visibility_quantity(), pointer_of("visibility_m"), problems);
   }
+  if (const auto found = value.find("wind"); found != value.end()) {
+    spec.wind = read_wind(*found, problems);
+  }
   return spec;
 }
 
@@ -122,6 +125,7 @@ json to_json(const EnvironmentSpec& spec) {
   for (const Field& field : fields()) {
     value[field.name] = (spec.*field.value).to_json(field.quantity);
   }
+  value["wind"] = to_json(spec.wind);
   if (spec.visibility_m) value["visibility_m"] = spec.visibility_m->to_json(visibility_quantity());
   return value;
 }
@@ -148,6 +152,7 @@ RunEnvironment environment_of_run(const EnvironmentSpec& spec, std::uint64_t run
     run.light.rain_mm_per_h = draw(spec.rain_mm_per_h, "rain_mm_per_h");
   }
   run.light.seed = run_seed;
+  run.wind = wind_of_run(spec.wind, run_seed);
   return run;
 }
 
@@ -160,7 +165,8 @@ json to_json(const RunEnvironment& environment) {
           {"sun_elevation_deg", light.sun_elevation_rad / kDegree},
           {"weather", kWeathers.at(static_cast<std::size_t>(light.weather))},
           {"visibility_m", light.visibility_m},
-          {"rain_mm_per_h", light.rain_mm_per_h}};
+          {"rain_mm_per_h", light.rain_mm_per_h},
+          {"wind", to_json(environment.wind)}};
 }
 
 Sun sun_at(double time_of_day_h, double latitude_deg, int day_of_year) {

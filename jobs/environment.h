@@ -1,4 +1,4 @@
-// Light and weather as a job asks for them and as each run has them.
+// Light, weather and wind as a job asks for them and as each run has them.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jobs/distribution.h"
+#include "jobs/wind_spec.h"
 #include "render/environment.h"
 
 namespace throng::jobs {
@@ -19,6 +20,7 @@ struct EnvironmentSpec {
   Distribution weather{0};
   std::optional<Distribution> visibility_m;  ///< without it, by the weather
   Distribution rain_mm_per_h{4};
+  WindFields wind;
 };
 
 /// Reads the object; what it leaves out keeps its default. Problems carry JSON pointers.
@@ -32,6 +34,7 @@ struct RunEnvironment {
   double latitude_deg = 0;
   int day_of_year = 1;
   render::Environment light;
+  sim::WindSpec wind;
 };
 
 RunEnvironment environment_of_run(const EnvironmentSpec& spec, std::uint64_t run_seed);

@@ -8,6 +8,7 @@
 
 #include "annotate/exits_csv.h"
 #include "base/error.h"
+#include "jobs/environment.h"
 #include "jobs/publication.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
@@ -30,6 +31,7 @@ sim::RunSpec run_spec(const JobSpec& job, int run) {
   spec.duration_s = job.capture.to_s;
   spec.people = job.agents;
   spec.crowd = job.crowd;
+  spec.wind = environment_of_run(job.environment, spec.seed).wind;
   for (const DroneSpec& drone : job.drones) spec.drones.push_back(drone.mission);
   return spec;
 }

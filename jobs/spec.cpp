@@ -48,10 +48,26 @@ Eigen::Vector3d read_point(const json& value) {
 
 json point_json(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
 
+// What flies: one that is shipped or one of the user's own, and how full its battery is.
+void read_frame_and_battery(const json& value, std::size_t index, sim::DroneMission& mission,
+                            std::vector<Problem>& problems) {
+  const json& airframe = part(value, "airframe");
+  if (airframe.is_string()) {
+    airframe.get_to(mission.airframe);
+  } else if (value.contains("airframe")) {
+    mission.airframe = mission.id;
+    mission.own_airframe = sim::read_airframe(mission.id, airframe,
+                                              fmt::format("/drones/{}/airframe", index), problems);
+  }
+  if (const json& battery = part(value, "battery"); battery.contains("charge")) {
+    mission.battery_charge = battery["charge"].get<double>();
+  }
+}
+
 DroneSpec read_drone(const json& value, std::size_t index, std::vector<Problem>& problems) {
   DroneSpec drone;
   read(value, "id", drone.mission.id);
-  read(value, "airframe", drone.mission.airframe);
+  read_frame_and_battery(value, index, drone.mission, problems);
   if (value.contains("start")) drone.mission.start = read_point(value["start"]);
   if (const auto goal = value.find("moves_goal"); goal != value.end()) {
     drone.mission.moves_goal = world::GoalRef{(*goal)[0].get<int>(), (*goal)[1].get<int>()};
@@ -179,6 +195,12 @@ void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
   }
 }
 
+// What is wrong with an airframe would only be found again.
+bool has_own_airframe(const JobSpec& job) {
+  return std::any_of(job.drones.begin(), job.drones.end(),
+                     [](const DroneSpec& drone) { return drone.mission.own_airframe.has_value(); });
+}
+
 // Points at the job when the job names no scenario that exists; a broken scenario file names
 // itself.
 world::Scenario scenario_of(const JobSpec& job, const std::string& source,
@@ -199,9 +221,11 @@ world::Scenario scenario_of(const JobSpec& job, const std::string& source,
 json drone_json(const DroneSpec& drone) {
   const sim::DroneMission& mission = drone.mission;
   json value = {{"id", mission.id},
-                {"airframe", mission.airframe},
+                {"airframe", mission.own_airframe ? sim::to_json(*mission.own_airframe)
+                                                  : json(mission.airframe)},
                 {"guidance", {{"policy", mission.policy}, {"speed_mps", mission.speed_mps}}},
                 {"camera", to_json(drone.camera)}};
+  if (mission.battery_charge) value["battery"]["charge"] = *mission.battery_charge;
   if (mission.start) value["start"] = point_json(*mission.start);
   if (mission.moves_goal) {
     value["moves_goal"] = {mission.moves_goal->set, mission.moves_goal->goal};
@@ -235,7 +259,7 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   take_from_scenario(job, scenario);
   check_times(job, problems);
   if (problems.empty()) check_cameras(job, problems);
-  check_with_simulation(job, scenario, problems);
+  if (problems.empty() || !has_own_airframe(job)) check_with_simulation(job, scenario, problems);
   for (Problem& problem : problems) {
     if (problem.source.empty()) problem.source = source;
   }

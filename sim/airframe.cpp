@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sim/battery.h"
 #include "world/json_reader.h"
 
 namespace throng::embedded {
@@ -18,11 +19,12 @@ namespace {
 // Less than this leaves nothing to steer with: 35 degrees of tilt alone take 1.22.
 constexpr double kLeastThrustToWeight = 1.4;
 
-Airframe read_airframe(const std::string& name, const world::JsonValue& value) {
-  value.fields({"source", "mass_kg", "arm_m", "height_m", "propeller_radius_m", "inertia_kg_m2",
+Airframe read_fields(const std::string& name, const world::JsonValue& value) {
+  value.fields({"mass_kg", "arm_m", "height_m", "propeller_radius_m", "inertia_kg_m2",
                 "thrust_n_s2", "torque_per_thrust_m", "max_rotor_rad_s", "motor_up_s",
                 "motor_down_s", "rotor_drag_n_s2_m", "body_drag_n_s2_m2"},
-               {"attitude_gain_s2", "rate_gain_s", "rotor_efficiency", "avionics_w", "battery_wh"});
+               {"source", "attitude_gain_s2", "rate_gain_s", "rotor_efficiency", "avionics_w",
+                "battery_wh"});
   Airframe frame;
   frame.name = name;
   frame.mass_kg = value["mass_kg"].number(1e-3, 100);
@@ -48,6 +50,12 @@ Airframe read_airframe(const std::string& name, const world::JsonValue& value) {
   read("rotor_efficiency", 0.01, 1, frame.rotor_efficiency);
   read("avionics_w", 0, 1e4, frame.avionics_w);
   read("battery_wh", 1e-3, 1e5, frame.battery_wh);
+  if (value["arm_m"].exists() && frame.propeller_radius_m > frame.arm_m / std::sqrt(2.0)) {
+    value["propeller_radius_m"].reject(
+        fmt::format("{:g}", frame.propeller_radius_m),
+        fmt::format("at most {:.3g}, where the discs of rotors side by side touch",
+                    frame.arm_m / std::sqrt(2.0)));
+  }
   if (frame.max_thrust_n() < kLeastThrustToWeight * frame.weight_n()) {
     value.reject(fmt::format("rotors that lift {:.3g} N at most, for a weight of {:.3g} N",
                              frame.max_thrust_n(), frame.weight_n()),
@@ -66,6 +74,46 @@ double Airframe::top_speed_mps() const {
   return 2 * force_n / (linear + std::sqrt(linear * linear + 4 * body_drag * force_n));
 }
 
+double Airframe::endurance_s() const {
+  constexpr double kJoulesPerWh = 3600;
+  return battery_wh * kJoulesPerWh / hover_power_w(*this);
+}
+
+Airframe read_airframe(const std::string& name, const nlohmann::json& value,
+                       const std::string& pointer, std::vector<Problem>& problems) {
+  std::vector<Problem> own;
+  const std::string source;
+  Airframe frame = read_fields(name, world::JsonValue(value, source, own));
+  for (Problem& problem : own) {
+    if (problem.where == "/") problem.where.clear();
+    problem.where = pointer + problem.where;
+    problems.push_back(std::move(problem));
+  }
+  return frame;
+}
+
+nlohmann::json to_json(const Airframe& airframe) {
+  const Eigen::Vector3d& inertia = airframe.inertia;
+  nlohmann::json value = {{"mass_kg", airframe.mass_kg},
+                          {"arm_m", airframe.arm_m},
+                          {"height_m", airframe.height_m},
+                          {"propeller_radius_m", airframe.propeller_radius_m},
+                          {"inertia_kg_m2", {inertia.x(), inertia.y(), inertia.z()}},
+                          {"thrust_n_s2", airframe.thrust_n_s2},
+                          {"torque_per_thrust_m", airframe.torque_per_thrust_m},
+                          {"max_rotor_rad_s", airframe.max_rotor_rad_s},
+                          {"motor_up_s", airframe.motor_up_s},
+                          {"motor_down_s", airframe.motor_down_s},
+                          {"rotor_drag_n_s2_m", airframe.rotor_drag},
+                          {"body_drag_n_s2_m2", airframe.body_drag},
+                          {"attitude_gain_s2", airframe.attitude_gain_s2},
+                          {"rate_gain_s", airframe.rate_gain_s},
+                          {"rotor_efficiency", airframe.rotor_efficiency},
+                          {"avionics_w", airframe.avionics_w}};
+  if (airframe.battery_wh > 0) value["battery_wh"] = airframe.battery_wh;
+  return value;
+}
+
 std::vector<Airframe> parse_airframes(std::string_view json, const std::string& source) {
   const nlohmann::json document = world::parse_json(json, source);
   std::vector<Problem> problems;
@@ -74,7 +122,7 @@ std::vector<Airframe> parse_airframes(std::string_view json, const std::string& 
   if (document.is_object()) {
     for (const auto& [name, value] : document.items()) {
       const std::size_t before = problems.size();
-      Airframe frame = read_airframe(name, root[name]);
+      Airframe frame = read_fields(name, root[name]);
       if (problems.size() == before) frames.push_back(std::move(frame));
     }
   } else {

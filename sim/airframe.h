@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/error.h"
 
 namespace throng::sim {
 
@@ -37,11 +40,21 @@ struct Airframe {
   double radius_m() const { return arm_m + propeller_radius_m; }
   /// Speed through still air that a tilt of 30 degrees sustains (the controller may use 35).
   double top_speed_mps() const;
+  /// How long it can hover with a full battery; 0: its battery is not known.
+  double endurance_s() const;
 };
 
 /// Reads airframes: an object with one entry per name; fields as in airframes.json. Throws
 /// InputError, also for a craft whose rotors cannot lift it with a reserve for steering.
 std::vector<Airframe> parse_airframes(std::string_view json, const std::string& source);
+
+/// One airframe: an object with the fields of airframes.json, of which "source" may be left out.
+/// Adds what is wrong to `problems`, with pointers that begin with `pointer`.
+Airframe read_airframe(const std::string& name, const nlohmann::json& value,
+                       const std::string& pointer, std::vector<Problem>& problems);
+
+/// The object that read_airframe() reads back.
+nlohmann::json to_json(const Airframe& airframe);
 
 /// The airframes that come with the program (sim/airframes.json, with their sources).
 std::vector<Airframe> shipped_airframes();

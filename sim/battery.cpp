@@ -40,6 +40,11 @@ double electric_power_w(const Airframe& airframe, double thrust_n,
   return airframe.avionics_w + thrust_n * through_mps / airframe.rotor_efficiency;
 }
 
+double hover_power_w(const Airframe& airframe) {
+  return electric_power_w(airframe, airframe.weight_n(), Eigen::Vector3d::Zero(),
+                          Eigen::Vector3d::UnitZ());
+}
+
 Battery::Battery(double capacity_wh, std::optional<double> charge)
     : capacity_j_(capacity_wh * kJoulesPerWh), start_(charge) {
   check(!charge || capacity_wh > 0, "a battery that may run out has a capacity");

@@ -16,6 +16,9 @@ namespace throng::sim {
 double electric_power_w(const Airframe& airframe, double thrust_n,
                         const Eigen::Vector3d& velocity_through_air, const Eigen::Vector3d& up);
 
+/// The same for a hover in still air.
+double hover_power_w(const Airframe& airframe);
+
 /// Counts the energy used. A battery without a charge never runs out.
 class Battery {
  public:

@@ -48,6 +48,7 @@ class MissionCheck {
     if (!drone.moves_goal && known_ != nullptr) drone.moves_goal = known_->moves_goal;
     if (drone.airframe.mass_kg > 0) {
       check_speed(drone.airframe);
+      check_battery(drone.airframe);
       if (point_is_free("/start", drone.start, drone.airframe)) check_path(drone);
     }
     return drone;
@@ -59,6 +60,7 @@ class MissionCheck {
   }
 
   Airframe airframe_from(const std::vector<Airframe>& airframes) {
+    if (mission_.own_airframe) return *mission_.own_airframe;
     std::vector<std::string> names;
     for (const Airframe& frame : airframes) {
       if (frame.name == mission_.airframe) return frame;
@@ -100,6 +102,17 @@ class MissionCheck {
     add("/guidance/speed_mps", fmt::format("{:g}", mission_.speed_mps),
         fmt::format("more than 0 and at most {:g}, the top speed of the airframe \"{}\"", top_mps,
                     frame.name));
+  }
+
+  void check_battery(const Airframe& frame) {
+    if (!mission_.battery_charge) return;
+    if (!(*mission_.battery_charge > 0 && *mission_.battery_charge <= 1)) {
+      add("/battery/charge", fmt::format("{:g}", *mission_.battery_charge),
+          "more than 0 and at most 1");
+    } else if (frame.battery_wh <= 0) {
+      add("/battery/charge", "a charge",
+          fmt::format("none, or a battery_wh in the airframe \"{}\"", frame.name));
+    }
   }
 
   // Whether a craft can be at `point`. Says nothing about one that is not known.

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "crowd/simulation.h"
+#include "sim/airframe.h"
 #include "sim/wind.h"
 #include "world/scenario.h"
 
@@ -21,6 +22,7 @@ namespace throng::sim {
 struct DroneMission {
   std::string id;                            ///< as in the job; unique
   std::string airframe = "f450";             ///< a name in sim/airframes.json
+  std::optional<Airframe> own_airframe;      ///< flies instead of the named one
   std::string policy = "hover";              ///< "hover" or "waypoints"
   std::optional<Eigen::Vector3d> start;      ///< m; default: the scenario's start for this id
   std::vector<Eigen::Vector3d> waypoints;    ///< m, in order; the drone hovers at the last one

@@ -87,13 +87,17 @@ TEST_F(Spec, ReadsEveryField) {
   const JobSpec job = parse(R"({
     "name": "n", "scenario": "yard", "seed": 9007199254740991, "runs": 5,
     "crowd": {"agents": 2, "model": "orca", "compat": "huang2016", "separation": "hard"},
-    "drones": [{"id": "a", "airframe": "f450", "start": [1, 2, 3], "moves_goal": [4, 5],
+    "drones": [{"id": "a", "airframe": "f450", "battery": {"charge": 0.75}, "start": [1, 2, 3], "moves_goal": [4, 5],
                 "guidance": {"policy": "waypoints", "waypoints": [[1, 2, 3], [4, 5, 6]],
                              "speed_mps": 2},
                 "camera": {"width": 640, "height": 480, "hfov_deg": 60, "pitch_deg": -90,
                            "yaw_deg": 10}}],
     "capture": {"rate_hz": 2, "from_s": 1, "to_s": 3},
-    "environment": {"time_of_day": "07:45"},
+    "environment": {"time_of_day": "07:45",
+                    "wind": {"speed_mps": {"uniform": [3, 6]}, "direction_deg": 90,
+                             "profile": {"choice": ["power", "uniform"]}, "roughness_m": 1,
+                             "exponent": 0.3, "gusts": "ou", "intensity": 2, "gust_mps": 1,
+                             "gust_time_s": 2}},
     "outputs": {"image": {"format": "jpeg", "quality": 80}, "annotations": ["density"],
                 "density": {"sigma_px": 6}, "previews": 0}})");
   EXPECT_EQ(job.seed, 9007199254740991U);
@@ -106,6 +110,15 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));
   EXPECT_EQ(job.drones[0].camera.pitch_deg, -90);
   EXPECT_DOUBLE_EQ(environment_of_run(job.environment, 1).time_of_day_h, 7.75);
+  EXPECT_EQ(job.drones[0].mission.battery_charge, 0.75);
+  const sim::WindSpec wind = environment_of_run(job.environment, 1).wind;
+  EXPECT_GE(wind.speed_mps, 3);
+  EXPECT_LE(wind.speed_mps, 6);
+  EXPECT_NE(wind.speed_mps, environment_of_run(job.environment, 2).wind.speed_mps);
+  EXPECT_NEAR(wind.mean_at(10).x(), 0, 1e-9);
+  EXPECT_NEAR(wind.mean_at(10).y(), wind.speed_mps, 1e-9);
+  EXPECT_EQ(wind.gusts, sim::GustModel::ou);
+  EXPECT_EQ(wind.gust_time_s, 2);
   EXPECT_EQ(job.frames_per_camera(), 5);
   EXPECT_THAT(job.outputs.annotations, ElementsAre("density"));
   EXPECT_EQ(job.outputs.density_sigma_px, 6);
@@ -176,6 +189,15 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
       {R"({"scenario": "yard", "environment": {"day_of_year": {"choice": []}}})",
        "/environment/day_of_year/choice"},
       {R"({"scenario": "yard", "environment": {"wind": 3}})", "/environment/wind"},
+      {R"({"scenario": "yard", "environment": {"wind": {"speed_mps": -1}}})",
+       "/environment/wind/speed_mps"},
+      {R"({"scenario": "yard", "environment": {"wind": {"gusts": "hurricane"}}})",
+       "/environment/wind/gusts"},
+      {R"({"scenario": "yard", "environment": {"wind": {"profile": {"uniform": ["log", "power"]}}}})",
+       "/environment/wind/profile"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "airframe": 3}]})", "/drones/0/airframe"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "battery": {"charge": 1.5}}]})",
+       "/drones/0/battery/charge"},
       {R"({"scenario": "yard", "randomize": {}})", "/randomize"},
       {R"({"scenario": "yard", "outputs": {"split": {}}})", "/outputs/split"},
       {R"({"scenario": "yard", "outputs": {"annotations": ["coco", "yolo"]}})",
@@ -187,6 +209,34 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
   for (const auto& [text, pointer] : cases) {
     EXPECT_THAT(pointers_of(text), ElementsAre(pointer)) << text;
   }
+}
+
+TEST_F(Spec, AUsersOwnAirframeIsReadAndChecked) {
+  json job = json::parse(R"({"scenario": "yard", "drones": [{"id": "d1"}]})");
+  json& airframe = job["drones"][0]["airframe"];
+  airframe = sim::to_json(sim::shipped_airframes().front());
+  airframe["mass_kg"] = 0.02;
+  const JobSpec parsed = parse(job.dump());
+  ASSERT_TRUE(parsed.drones[0].mission.own_airframe.has_value());
+  EXPECT_EQ(parsed.drones[0].mission.own_airframe->mass_kg, 0.02);
+  EXPECT_EQ(to_json(parse(to_json(parsed).dump())), to_json(parsed));
+
+  airframe["mass_kg"] = 90;
+  EXPECT_THAT(pointers_of(job.dump().c_str()), ElementsAre("/drones/0/airframe"));
+  EXPECT_THAT(problems_of(job.dump().c_str())[0].text(), testing::HasSubstr("to hover and steer"));
+  airframe["mass_kg"] = "heavy";
+  airframe.erase("arm_m");
+  EXPECT_THAT(pointers_of(job.dump().c_str()),
+              testing::IsSupersetOf({"/drones/0/airframe/mass_kg", "/drones/0/airframe"}));
+}
+
+TEST_F(Spec, ABatteryOfUnknownSizeCannotRunOut) {
+  json job =
+      json::parse(R"({"scenario": "yard", "drones": [{"id": "d1", "battery": {"charge": 1}}]})");
+  job["drones"][0]["airframe"] = sim::to_json(sim::shipped_airframes().front());
+  EXPECT_THAT(pointers_of(job.dump().c_str()), ElementsAre());
+  job["drones"][0]["airframe"].erase("battery_wh");
+  EXPECT_THAT(pointers_of(job.dump().c_str()), ElementsAre("/drones/0/battery/charge"));
 }
 
 TEST_F(Spec, AllProblemsOfTheSchemaComeAtOnce) {

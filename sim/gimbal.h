@@ -1,0 +1,67 @@
+// A camera's gimbal: it follows the drone's heading, keeps the camera level, and never quite does.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "world/trace.h"
+
+namespace throng::sim {
+
+struct GimbalSpec {
+  bool ideal = true;          ///< exactly as commanded, at once
+  double natural_rad_s = 25;  ///< of each axis's second-order response
+  double damping = 0.7;
+  double jitter_rad = 0.015 * EIGEN_PI / 180;  ///< standard deviation of what shakes on
+  double bias_rad = 0.1 * EIGEN_PI / 180;      ///< constant error of mounting is up to so much
+  double reading_rad = 0.02 * EIGEN_PI / 180;  ///< noise of what it says of itself
+};
+
+/// Where a camera looks, in radians: heading counter-clockwise from +x, angle above the horizon,
+/// turn clockwise about the view's direction.
+struct ViewAngles {
+  double yaw = 0;
+  double pitch = 0;
+  double roll = 0;
+};
+
+/// What a gimbal is told: angles from the drone's heading and the horizon.
+struct GimbalCommand {
+  double yaw_rad = 0;
+  double pitch_rad = 0;
+};
+
+/// Heading of a drone: where its nose points, whatever it leans.
+double heading_of(const Eigen::Quaterniond& orientation);
+
+/// One camera's view over a run. Made from a trace alone, like SensorLog.
+class GimbalLog {
+ public:
+  /// `camera` numbers the cameras of the run. The trace has samples of its drone.
+  GimbalLog(const std::vector<world::DroneSample>& truth, const GimbalCommand& command,
+            const GimbalSpec& spec, std::uint64_t seed, std::uint64_t camera);
+
+  /// Where the camera really looks.
+  ViewAngles view_at(double time_s) const;
+  /// Where the gimbal says that it looks: without its bias, which it does not know, and with the
+  /// noise of its encoders.
+  ViewAngles reading_at(double time_s) const;
+
+ private:
+  struct Point {
+    double time_s;
+    ViewAngles view;
+    ViewAngles reading;
+  };
+  /// The points around a time, and how far it is between them.
+  struct Place {
+    const Point& before;
+    const Point& after;
+    double share;
+  };
+  Place place_of(double time_s) const;
+
+  std::vector<Point> points_;
+};
+
+}  // namespace throng::sim

@@ -1,0 +1,104 @@
+#include "sim/gimbal.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+
+#include "base/angle.h"
+
+namespace throng::sim {
+namespace {
+
+constexpr double kSampleS = 1.0 / 60;
+
+std::vector<world::DroneSample> turning(double duration_s,
+                                        const std::function<double(double)>& yaw_rad) {
+  std::vector<world::DroneSample> samples;
+  for (int i = 0; i * kSampleS <= duration_s; ++i) {
+    world::DroneSample sample;
+    sample.time_s = i * kSampleS;
+    sample.orientation = Eigen::AngleAxisd(yaw_rad(sample.time_s), Eigen::Vector3d::UnitZ());
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+GimbalSpec still() {
+  GimbalSpec spec;
+  spec.ideal = false;
+  spec.jitter_rad = spec.bias_rad = spec.reading_rad = 0;
+  return spec;
+}
+
+TEST(GimbalLog, AnswersAStepAsASecondOrderSystem) {
+  // w = 25 rad/s, z = 0.7: overshoot exp(-pi z / sqrt(1 - z²)) = 4.6 % after pi / (w sqrt(1 - z²)).
+  const double size = 40 * kDegree;
+  const GimbalLog log(turning(3, [&](double t) { return t > 1 - 1e-9 ? size : 0; }), {0, -0.5},
+                      still(), 1, 0);
+  double most = 0;
+  double most_s = 0;
+  for (double t = 1; t < 3; t += 0.001) {
+    if (log.view_at(t).yaw <= most) continue;
+    most = log.view_at(t).yaw;
+    most_s = t;
+  }
+  EXPECT_NEAR(most / size, 1.046, 0.01);
+  EXPECT_NEAR(most_s - 1, EIGEN_PI / (25 * std::sqrt(1 - 0.49)), 0.02);
+  EXPECT_NEAR(log.view_at(3).yaw, size, 1e-6);
+  EXPECT_NEAR(log.view_at(2.5).pitch, -0.5, 1e-9);
+  EXPECT_NEAR(log.view_at(2.5).roll, 0, 1e-9);
+}
+
+TEST(GimbalLog, ADroneThatTurnsRoundAndRoundIsFollowedWithoutJumps) {
+  const GimbalLog log(turning(20, [](double t) { return t; }), {0.3, 0}, still(), 1, 0);
+  // A ramp is followed 2 z / w behind.
+  const double behind = 2 * 0.7 / 25;
+  for (double t = 1; t < 20; t += 0.37) {
+    EXPECT_NEAR(log.view_at(t).yaw, t + 0.3 - behind, 1e-2) << t;
+  }
+}
+
+TEST(GimbalLog, ShakesAndIsMisalignedAsMuchAsItSays) {
+  GimbalSpec spec;
+  spec.ideal = false;
+  const auto truth = turning(300, [](double) { return 0.0; });
+  double biases = 0;
+  constexpr int kCameras = 60;
+  for (int camera = 0; camera < kCameras; ++camera) {
+    const auto number = static_cast<std::uint64_t>(camera);
+    const GimbalLog log(camera == 0 ? truth : turning(2, [](double) { return 0.0; }), {0, -1}, spec,
+                        7, number);
+    double sum = 0;
+    double squares = 0;
+    double errors = 0;
+    int n = 0;
+    const double end_s = camera == 0 ? 300 : 2;
+    for (double t = 0; t < end_s; t += kSampleS, ++n) {
+      const double off = log.view_at(t).pitch + 1;
+      sum += off;
+      squares += off * off;
+      const double error = log.reading_at(t).pitch - log.view_at(t).pitch;
+      errors += error;
+    }
+    const double bias = sum / n;
+    EXPECT_LT(std::abs(bias), spec.bias_rad + spec.jitter_rad);
+    EXPECT_NEAR(errors / n, -bias, 0.25 * spec.bias_rad) << "it does not know its bias";
+    biases += bias * bias;
+    if (camera > 0) continue;
+    EXPECT_NEAR(std::sqrt(squares / n - bias * bias), spec.jitter_rad, 0.1 * spec.jitter_rad);
+  }
+  // Uniform: the standard deviation is a root of a third of the limit.
+  EXPECT_NEAR(std::sqrt(biases / kCameras), spec.bias_rad / std::sqrt(3), 0.25 * spec.bias_rad);
+}
+
+TEST(GimbalLog, AnIdealOneLooksWhereItIsTold) {
+  const GimbalLog log(turning(2, [](double t) { return 0.2 * t; }), {0.1, -0.4}, {}, 3, 0);
+  EXPECT_NEAR(log.view_at(1.234).yaw, 0.2 * 1.234 + 0.1, 1e-9);
+  EXPECT_EQ(log.view_at(1.234).pitch, -0.4);
+  EXPECT_EQ(log.reading_at(1).pitch, -0.4);
+}
+
+}  // namespace
+}  // namespace throng::sim
