@@ -113,6 +113,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   for (const double time : times) sum_s += time;
   if (metrics.people > 0) metrics.mean_escape_time_s = sum_s / metrics.people;
   metrics.exits = totals_of(exits, trace.header.dt_s);
+  metrics.drones = drone_figures(trace);
   return metrics;
 }
 
@@ -133,6 +134,8 @@ json to_json(const RunMetrics& metrics) {
                      {"congested_s", exit.congested_s},
                      {"clogged_s", exit.clogged_s}});
   }
+  json drones = json::array();
+  for (const DroneFigures& drone : metrics.drones) drones.push_back(to_json(drone));
   return {{"definitions_version", kDefinitionsVersion},
           {"people", metrics.people},
           {"duration_s", metrics.duration_s},
@@ -140,7 +143,8 @@ json to_json(const RunMetrics& metrics) {
           {"mean_escape_time_censored_s", metrics.mean_escape_time_s},
           {"escape_time_percentiles", percentiles},
           {"escape_curve", {{"rate_hz", 1}, {"escaped_share", metrics.escape_curve}}},
-          {"exits", exits}};
+          {"exits", exits},
+          {"drones", drones}};
 }
 
 }  // namespace throng::metrics

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "metrics/drones.h"
 #include "metrics/exits.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -37,6 +38,7 @@ struct RunMetrics {
   double mean_escape_time_s = 0;  ///< censored at the end of the run
   int not_escaped = 0;
   std::vector<ExitTotals> exits;
+  std::vector<DroneFigures> drones;
 };
 
 /// `exits` is exit_series() of the same trace and scenario. Disasters are not people; everything is

@@ -11,6 +11,7 @@
 #include "sim/crowd_recorder.h"
 #include "sim/crowd_trace.h"
 #include "sim/flight.h"
+#include "sim/hold_warnings.h"
 #include "sim/participants.h"
 #include "sim/plan.h"
 #include "world/trace.h"
@@ -130,10 +131,14 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
 
   world::TraceWriter trace(trace_file, header_of(scenario, spec, crowd, roles));
   const double dt_s = crowd.dt_s();
+  HoldWarnings hold;
   Flight flight(
       scenario.buildings, drones, dt_s, spec.physics_dt_s,
       {[&](std::size_t drone, const world::DroneSample& sample) { trace.add_drone(drone, sample); },
-       [&](const world::TraceEvent& event) { trace.add_event(event); }},
+       [&](const world::TraceEvent& event) {
+         trace.add_event(event);
+         hold.note(event);
+       }},
       {spec.wind, spec.seed});
   const std::vector<world::GoalRef> moving_goals = goals_moved_by(drones);
   CrowdRecorder recorder(scenario, roles, moving_goals);
@@ -153,7 +158,9 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   }
   flight.finish();
   trace.finish();
-  return crowd.warnings();
+  std::vector<Problem> warnings = crowd.warnings();
+  warnings.insert(warnings.end(), hold.warnings().begin(), hold.warnings().end());
+  return warnings;
 }
 
 }  // namespace throng::sim

@@ -56,9 +56,9 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
 using RunProgress = std::function<void(double done_s, double total_s)>;
 
 /// Simulates one run and writes the trace at `trace_file` (complete or absent). Same scenario and
-/// spec give the same bytes. Returns what was ignored in the scenario's files. Throws InputError
-/// for a spec the scenario cannot serve (too many people, unknown airframe or policy, waypoint
-/// below ground or inside a building), Cancelled when `stop` asks.
+/// spec give the same bytes. Returns what was ignored in the scenario's files and which drones
+/// could not hold. Throws InputError for a spec the scenario cannot serve (too many people, unknown
+/// airframe or policy, waypoint below ground or inside a building), Cancelled when `stop` asks.
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
                               const std::filesystem::path& trace_file,
                               const RunProgress& progress = {}, const std::stop_token& stop = {});

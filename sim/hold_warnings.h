@@ -1,0 +1,27 @@
+// What a user should hear of a run whose drones could not do what they were asked to.
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "world/trace.h"
+
+namespace throng::sim {
+
+/// Collects the first event of each kind that says that a drone cannot hold or has hit something.
+class HoldWarnings {
+ public:
+  void note(const world::TraceEvent& event);
+
+  /// One per kind and drone, with the drone's place in the job.
+  const std::vector<Problem>& warnings() const { return warnings_; }
+
+ private:
+  std::set<std::pair<std::int32_t, std::string>> noted_;
+  std::vector<Problem> warnings_;
+};
+
+}  // namespace throng::sim
