@@ -24,6 +24,7 @@ struct CocoImage {
   int run_index = 0;               ///< number of the run in the dataset: keeps track ids apart
   std::string environment;         ///< a JSON object: light and weather; "" when not known
   std::string sensor;              ///< a JSON object: sensor and exposure; "" when not known
+  std::string flight;              ///< a JSON object: the drone and its sensors; "" when not known
   std::string density_file;        ///< like file_name; "" when the frame has no density map
   std::int64_t density_count = 0;  ///< heads that the density map sums to
 };

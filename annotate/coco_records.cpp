@@ -116,6 +116,7 @@ void append_image_record(std::string& text, const CocoImage& image) {
   append_lens(text, image.camera.intrinsics.distortion);
   text.push_back('}');
   if (!image.sensor.empty()) text += R"(,"sensor":)" + image.sensor;
+  if (!image.flight.empty()) text += R"(,"flight":)" + image.flight;
   if (!image.environment.empty()) text += R"(,"environment":)" + image.environment;
   if (!image.density_file.empty()) {
     append(text, R"(,"density_file":{},"density_count":{})", quoted(image.density_file),

@@ -24,6 +24,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::array kModels{"pinhole", "brown_conrady", "fisheye"};
+constexpr std::array kGimbals{"ideal", "second_order"};
 constexpr double kMostPixels = 20000;
 constexpr double kMostCoefficient = 100;
 
@@ -41,6 +42,29 @@ Field field(const char* name, double low, double high, Member member) {
   return {name, low, high,
           [member](const CameraSpec& spec) { return std::optional<double>(member(spec)); },
           [member](CameraSpec& spec, double value) { member(spec) = value; }};
+}
+
+/// A field in degrees of an angle that is kept in radians.
+Field angle_field(const char* name, double most_deg, double sim::GimbalSpec::*member) {
+  // Digits that degrees need beyond these are those of the conversion.
+  constexpr double kDigits = 1e12;
+  return {
+      name, 0, most_deg,
+      [member](const CameraSpec& spec) {
+        return std::optional<double>(std::round(spec.gimbal.*member / kDegree * kDigits) / kDigits);
+      },
+      [member](CameraSpec& spec, double value) { spec.gimbal.*member = value * kDegree; }};
+}
+
+std::vector<Field> gimbal_fields() {
+  return {
+      field(
+          "gimbal/natural_rad_s", 1, 100, [](auto& s) -> auto& { return s.gimbal.natural_rad_s; }),
+      field(
+          "gimbal/damping", 0.1, 2, [](auto& s) -> auto& { return s.gimbal.damping; }),
+      angle_field("gimbal/jitter_deg", 5, &sim::GimbalSpec::jitter_rad),
+      angle_field("gimbal/bias_deg", 5, &sim::GimbalSpec::bias_rad),
+      angle_field("gimbal/reading_deg", 5, &sim::GimbalSpec::reading_rad)};
 }
 
 std::vector<Field> make_fields() {
@@ -76,6 +100,7 @@ std::vector<Field> make_fields() {
           "sensor/exposure_s", 0, 0.5, [](auto& s) -> auto& { return s.exposure.exposure_s; }),
       field(
           "sensor/readout_s", 0, 0.5, [](auto& s) -> auto& { return s.exposure.readout_s; })};
+  for (Field& gimbal : gimbal_fields()) fields.push_back(std::move(gimbal));
   const std::array<std::pair<const char*, double LensCoefficients::*>, 8> coefficients = {
       {{"distortion/k1", &LensCoefficients::k1},
        {"distortion/k2", &LensCoefficients::k2},
@@ -176,6 +201,8 @@ CameraSpec read_camera(const json& value, const std::string& pointer,
   const std::string model = given.value("model", kModels.front());
   spec.model =
       static_cast<LensModel>(std::find(kModels.begin(), kModels.end(), model) - kModels.begin());
+  const auto gimbal = below("gimbal/model");
+  spec.gimbal.ideal = !given.contains(gimbal) || given.at(gimbal) == kGimbals.front();
   for (const Field& field : fields()) {
     const auto at = below(field.name);
     if (!given.contains(at)) continue;
@@ -193,6 +220,7 @@ json to_json(const CameraSpec& spec) {
   json value = {{"width", spec.width},
                 {"height", spec.height},
                 {"model", kModels.at(static_cast<std::size_t>(spec.model))}};
+  value["gimbal"]["model"] = kGimbals.at(spec.gimbal.ideal ? 0 : 1);
   if (!spec.preset.empty()) value["preset"] = spec.preset;
   for (const Field& field : fields()) {
     if (field.name == "hfov_deg" && spec.fx_px) continue;

@@ -13,6 +13,7 @@
 #include "jobs/distribution.h"
 #include "render/exposure.h"
 #include "render/sensor.h"
+#include "sim/gimbal.h"
 
 namespace throng::jobs {
 
@@ -45,6 +46,7 @@ struct CameraSpec {
   LensCoefficients distortion;
   render::Sensor sensor;
   render::Exposure exposure;
+  sim::GimbalSpec gimbal;
   /// Fields that are drawn for each run, by their pointer below the camera ("sensor/iso"); what the
   /// other members say of these does not count.
   std::map<std::string, Distribution> drawn;

@@ -8,7 +8,9 @@
 
 #include "annotate/exits_csv.h"
 #include "base/error.h"
+#include "jobs/camera_files.h"
 #include "jobs/environment.h"
+#include "jobs/flight_record.h"
 #include "jobs/publication.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
@@ -49,6 +51,30 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   for (const Problem& warning : warnings) fmt::print(stderr, "warning: {}\n", warning.text());
 }
 
+namespace {
+
+// The calibration of every camera, and the tables of sensors if they are asked for.
+void add_flights(const JobSpec& job, int run, const world::Trace& trace, Publication& output) {
+  const std::uint64_t seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const std::string& id = job.drones[i].mission.id;
+    const auto lens = intrinsics_of(camera_of_run(job.drones[i].camera, seed, camera_pointer(i)));
+    check(lens.has_value(), "a job's lenses are checked when it is read");
+    const std::string place = fmt::format("{}/{}", run_name(run), id);
+    output.add("cameras/" + place + ".opencv.yaml", opencv_yaml(*lens));
+    output.add("cameras/" + place + ".ros.yaml", ros_yaml(*lens, id));
+    if (!wants(job, "sensors")) continue;
+    const auto& ids = trace.header.drone_ids;
+    const auto drone =
+        static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+    check(drone < ids.size(), "a trace holds the drones of its job");
+    const std::vector<world::DroneSample>& truth = trace.drones[drone];
+    output.add("sensors/" + place + ".csv", sensors_csv(truth, sensors_of(job, seed, truth, i)));
+  }
+}
+
+}  // namespace
+
 void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run) {
   const world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, run}));
@@ -64,6 +90,7 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
     }
     output.add("exits/" + run_name(run) + ".csv", annotate::exits_csv(exits, trace.time_s, frames));
   }
+  add_flights(job, run, trace, output);
   // The trace may come from elsewhere (`throng render`): its seed is the one that counts.
   output.publish({{"seed", trace.header.seed}, {"metrics", figures}});
 }

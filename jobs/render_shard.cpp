@@ -76,6 +76,7 @@ class ShardOutput {
     image.camera = frame.camera;
     image.environment = environment_;
     image.sensor = picture.sensor;
+    image.flight = picture.flight;
     const std::string jpeg =
         annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
     lap("jpeg");

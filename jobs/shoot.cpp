@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "jobs/flight_record.h"
 #include "jobs/gimbal.h"
 #include "jobs/pipeline.h"
 #include "render/sensor.h"
@@ -33,6 +34,9 @@ Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& tra
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     cameras_.push_back(camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i)));
     drones_.push_back(drone_index(trace, job.drones[i].mission.id));
+    const std::vector<world::DroneSample>& samples = trace.drones[drones_[i]];
+    gimbals_.emplace_back(samples, command_of(cameras_[i]), cameras_[i].gimbal, run_seed, i);
+    sensors_.push_back(sensors_of(job, run_seed, samples, i));
   }
 }
 
@@ -45,7 +49,20 @@ render::ShutterMoment Shoot::moment_at(std::size_t drone, std::int64_t frame, do
     if (time_s == job_->frame_time_s(frame)) scene_ = scene;
   }
   if (clock_ != nullptr) clock_->lap("scene");
-  return {std::move(scene), camera_on(trace_->drone_at(drones_[drone], time_s), cameras_[drone])};
+  const world::DroneSample sample = trace_->drone_at(drones_[drone], time_s);
+  return {std::move(scene), camera_on(sample, cameras_[drone], view_at(drone, sample))};
+}
+
+sim::ViewAngles Shoot::view_at(std::size_t drone, const world::DroneSample& sample) const {
+  return cameras_[drone].gimbal.ideal ? ideal_view(sample, cameras_[drone])
+                                      : gimbals_[drone].view_at(sample.time_s);
+}
+
+std::string Shoot::flight_at(std::size_t drone, double time_s) const {
+  const world::DroneSample sample = trace_->drone_at(drones_[drone], time_s);
+  return flight_record(sample, sensors_[drone].at(time_s), view_at(drone, sample),
+                       gimbals_[drone].reading_at(time_s), sim::SensorNoise{})
+      .dump();
 }
 
 Picture Shoot::take(std::size_t drone, std::int64_t frame) {
@@ -66,6 +83,7 @@ Picture Shoot::take(std::size_t drone, std::int64_t frame) {
   if (clock_ != nullptr) clock_->lap("light and rows");
   Picture picture;
   picture.sensor = sensor_record(camera, exposed, job_->outputs.image_quality).dump();
+  picture.flight = flight_at(drone, job_->frame_time_s(frame));
   picture.frame = std::move(exposed.frame);
   return picture;
 }

@@ -12,6 +12,8 @@
 #include "render/animator.h"
 #include "render/exposure.h"
 #include "render/lens.h"
+#include "sim/gimbal.h"
+#include "sim/sensors.h"
 #include "world/trace.h"
 
 namespace throng::jobs {
@@ -19,6 +21,7 @@ namespace throng::jobs {
 struct Picture {
   render::Frame frame;
   std::string sensor;  ///< a JSON object: what sensor and shutter did
+  std::string flight;  ///< a JSON object: the drone then, and what its sensors say
 };
 
 /// Everything given must outlive it. Pictures do not depend on which were taken before.
@@ -34,6 +37,8 @@ class Shoot {
 
  private:
   render::ShutterMoment moment_at(std::size_t drone, std::int64_t frame, double time_s);
+  sim::ViewAngles view_at(std::size_t drone, const world::DroneSample& sample) const;
+  std::string flight_at(std::size_t drone, double time_s) const;
 
   const JobSpec* job_;
   std::uint64_t run_seed_;
@@ -42,6 +47,8 @@ class Shoot {
   render::Animator animator_;
   render::Lens lens_;
   std::vector<CameraSpec> cameras_;             ///< this run's
+  std::vector<sim::GimbalLog> gimbals_;         ///< one per camera
+  std::vector<sim::SensorLog> sensors_;         ///< one per camera: its drone's
   std::vector<std::size_t> drones_;             ///< index in the trace
   std::shared_ptr<const render::Scene> scene_;  ///< of the frame that was taken last
 };

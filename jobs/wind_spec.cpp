@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
@@ -93,8 +94,9 @@ sim::WindSpec wind_of_run(const WindFields& fields, std::uint64_t run_seed) {
 }
 
 json to_json(const sim::WindSpec& wind) {
+  constexpr double kDigits = 1e9;  // more are those of the conversion
   json record = {{"speed_mps", wind.speed_mps},
-                 {"direction_deg", wind.direction_rad / kDegree},
+                 {"direction_deg", std::round(wind.direction_rad / kDegree * kDigits) / kDigits},
                  {"profile", kProfiles.at(static_cast<std::size_t>(wind.profile))},
                  {"gusts", kGusts.at(static_cast<std::size_t>(wind.gusts))}};
   if (wind.profile == sim::WindProfile::log_law) record["roughness_m"] = wind.roughness_m;

@@ -42,5 +42,29 @@ TEST(Gimbal, TheDronesTiltDoesNotReachTheCamera) {
   EXPECT_TRUE(tilted.pose.R.isApprox(level.pose.R, 1e-12));
 }
 
+TEST(Gimbal, RollTurnsTheCameraClockwise) {
+  // Then the picture turns the other way: what lies below the middle moves to the right of it.
+  CameraSpec spec;
+  spec.pitch_deg = -45;
+  const world::DroneSample drone = drone_heading(0, 0);
+  const sim::ViewAngles level = ideal_view(drone, spec);
+  const camera::Camera camera = camera_on(drone, spec, {level.yaw, level.pitch, 90 * kDegree});
+  EXPECT_TRUE(camera.pose.centre().isApprox(drone.position, 1e-12));
+  EXPECT_NEAR(camera.pose.R.determinant(), 1, 1e-12);
+  const auto nearer = camera.project({3 + 15, 4, 0});
+  EXPECT_GT(nearer.pixel.x(), camera.intrinsics.cx_px + 50);
+  EXPECT_NEAR(nearer.pixel.y(), camera.intrinsics.cy_px, 1e-6);
+}
+
+TEST(Gimbal, AnIdealOneLooksAsWithoutAny) {
+  const world::DroneSample drone = drone_heading(0.7, 0.2);
+  CameraSpec spec;
+  spec.yaw_deg = 20;
+  const camera::Camera one = camera_on(drone, spec);
+  const camera::Camera two = camera_on(drone, spec, ideal_view(drone, spec));
+  EXPECT_EQ(one.pose.R, two.pose.R);
+  EXPECT_EQ(one.pose.t, two.pose.t);
+}
+
 }  // namespace
 }  // namespace throng::jobs

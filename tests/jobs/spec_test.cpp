@@ -91,7 +91,10 @@ TEST_F(Spec, ReadsEveryField) {
                 "guidance": {"policy": "waypoints", "waypoints": [[1, 2, 3], [4, 5, 6]],
                              "speed_mps": 2},
                 "camera": {"width": 640, "height": 480, "hfov_deg": 60, "pitch_deg": -90,
-                           "yaw_deg": 10}}],
+                           "yaw_deg": 10,
+                           "gimbal": {"model": "second_order", "natural_rad_s": 30, "damping": 0.9,
+                                      "jitter_deg": {"uniform": [0.01, 0.02]}, "bias_deg": 0.2,
+                                      "reading_deg": 0.05}}}],
     "capture": {"rate_hz": 2, "from_s": 1, "to_s": 3},
     "environment": {"time_of_day": "07:45",
                     "wind": {"speed_mps": {"uniform": [3, 6]}, "direction_deg": 90,
@@ -109,6 +112,12 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(job.drones[0].mission.waypoints[1], Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));
   EXPECT_EQ(job.drones[0].camera.pitch_deg, -90);
+  const sim::GimbalSpec gimbal = camera_of_run(job.drones[0].camera, 5, camera_pointer(0)).gimbal;
+  EXPECT_FALSE(gimbal.ideal);
+  EXPECT_EQ(gimbal.natural_rad_s, 30);
+  EXPECT_NEAR(gimbal.bias_rad, 0.2 * EIGEN_PI / 180, 1e-12);
+  EXPECT_GE(gimbal.jitter_rad, 0.01 * EIGEN_PI / 180);
+  EXPECT_LE(gimbal.jitter_rad, 0.02 * EIGEN_PI / 180);
   EXPECT_DOUBLE_EQ(environment_of_run(job.environment, 1).time_of_day_h, 7.75);
   EXPECT_EQ(job.drones[0].mission.battery_charge, 0.75);
   const sim::WindSpec wind = environment_of_run(job.environment, 1).wind;
