@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 
+#include "render/shelves.h"
+#include "render/silhouettes.h"
 #include "render/view.h"
 
 namespace throng::render {
@@ -49,42 +50,27 @@ std::vector<CoverageCounter::Tile> CoverageCounter::tiles_of(
 }
 
 std::size_t CoverageCounter::place(std::vector<Tile>& tiles, std::size_t first, int& used_rows) {
-  int x = 0;
-  int y = 0;
-  int row_height = 0;
+  Shelves shelves({kAtlasSize, kAtlasSize});
   std::size_t i = first;
   for (; i < tiles.size(); ++i) {
     const Eigen::Vector2i room = (tiles[i].size.array() + (kBlock - 1)) / kBlock * kBlock;
-    if (x + room.x() > kAtlasSize) {
-      x = 0;
-      y += row_height;
-      row_height = 0;
-    }
-    if (y + room.y() > kAtlasSize) break;
-    tiles[i].atlas = {x, y};
-    x += room.x();
-    row_height = std::max(row_height, room.y());
+    const auto at = shelves.place(room);
+    if (!at) break;
+    tiles[i].atlas = *at;
   }
-  used_rows = std::min(y + row_height, kAtlasSize);
+  used_rows = shelves.used_rows();
   return i;
 }
 
 std::uint64_t CoverageCounter::covered_in(const Tile& tile, const PixelWeights* weights) const {
-  constexpr std::uint8_t kCovered = 255;
-  std::uint64_t covered = 0;
+  std::uint64_t sum = 0;
   for (int y = 0; y < tile.size.y(); ++y) {
-    const auto row = pixels_.begin() +
-                     (static_cast<std::ptrdiff_t>(tile.atlas.y()) + y) * kAtlasSize +
-                     tile.atlas.x();
-    if (weights == nullptr) {
-      covered += static_cast<std::uint64_t>(std::count(row, row + tile.size.x(), kCovered));
-      continue;
-    }
-    for (int x = 0; x < tile.size.x(); ++x) {
-      if (row[x] == kCovered) covered += weights->at(tile.image.x() + x, tile.image.y() + y);
-    }
+    const std::size_t first = static_cast<std::size_t>(tile.atlas.y() + y) * kAtlasSize +
+                              static_cast<std::size_t>(tile.atlas.x());
+    sum += covered(std::span(pixels_).subspan(first, static_cast<std::size_t>(tile.size.x())),
+                   tile.image + Eigen::Vector2i(0, y), weights);
   }
-  return covered;
+  return sum;
 }
 
 void CoverageCounter::draw_and_add(PeoplePass& pass, std::span<const PersonInstance> people,

@@ -1,7 +1,6 @@
 #include "render/people_pass.h"
 
 #include <fmt/format.h>
-#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <bit>
@@ -18,14 +17,6 @@ namespace throng::render {
 
 namespace {
 
-/// A vertex on the device: the population's, and what its part says.
-struct DeviceVertex {
-  skinning::Vertex vertex;
-  std::uint32_t part;                  ///< texture layer, a portrait's second one << 12, tint << 24
-  std::array<std::uint8_t, 4> base;    ///< the texture around it, sRGB
-  std::array<std::uint8_t, 4> shades;  ///< of a portrait, linear
-};
-
 /// What differs between people.
 struct Instance {
   std::array<float, 3> position;
@@ -35,7 +26,7 @@ struct Instance {
   std::uint32_t id;
   std::array<std::uint32_t, 4> tints;
   std::array<std::int32_t, 2> shift;
-  std::array<float, 2> facing;  ///< cosine and sine of the heading
+  std::array<std::uint32_t, 2> facing_bits;  ///< cosine and sine of the heading
 };
 static_assert(sizeof(Instance) == 60, "less than 64 bytes for each person and frame");
 
@@ -60,113 +51,33 @@ constexpr std::string_view kAlphaTest = "#define ALPHA_TEST\n";
 constexpr std::string_view kCorners = "#define CORNERS\n";
 constexpr std::string_view kShadowed = "#define SHADOWED\n";
 constexpr std::string_view kSurface = "#define SURFACE\n";
+constexpr std::string_view kSilhouettes = "#define SILHOUETTES\n";
 
-VertexArray make_person_array(const Buffer& vertices, const Buffer& indices,
-                              const Buffer& instances) {
-  using skinning::Vertex;
+VertexArray make_person_array(const PeopleMeshes& meshes, const Buffer& instances) {
   VertexArray array = make_vertex_array();
-  describe_vertices(array, 0, vertices, sizeof(DeviceVertex), 0,
-                    {{0, 3, GL_FLOAT, false, offsetof(Vertex, position)},
-                     {1, 3, GL_FLOAT, false, offsetof(Vertex, normal)},
-                     {2, 2, GL_FLOAT, false, offsetof(Vertex, uv)},
-                     {3, 4, GL_UNSIGNED_BYTE, false, offsetof(Vertex, bones)},
-                     {4, 4, GL_UNSIGNED_BYTE, true, offsetof(Vertex, weights)},
-                     {5, 1, GL_UNSIGNED_INT, false, offsetof(DeviceVertex, part)},
-                     {11, 4, GL_UNSIGNED_BYTE, true, offsetof(DeviceVertex, base)},
-                     {12, 4, GL_UNSIGNED_BYTE, true, offsetof(DeviceVertex, shades)}});
+  describe_vertices(array, 0, meshes.vertices, sizeof(DeviceVertex), 0,
+                    {{0, 3, GL_FLOAT, false, offsetof(DeviceVertex, position)},
+                     {1, 4, GL_UNSIGNED_INT, false, offsetof(DeviceVertex, bones)},
+                     {2, 2, GL_FLOAT, false, offsetof(DeviceVertex, uv)},
+                     {3, 2, GL_UNSIGNED_INT, false, offsetof(DeviceVertex, base)}});
   describe_vertices(array, 1, instances, sizeof(Instance), 1,
-                    {{6, 3, GL_FLOAT, false, offsetof(Instance, position)},
-                     {7, 4, GL_UNSIGNED_INT, false, offsetof(Instance, palette_a)},
-                     {8, 4, GL_UNSIGNED_INT, false, offsetof(Instance, tints)},
-                     {9, 2, GL_INT, false, offsetof(Instance, shift)},
-                     {10, 2, GL_FLOAT, false, offsetof(Instance, facing)}});
-  glVertexArrayElementBuffer(array.name(), indices.name());
+                    {{4, 3, GL_FLOAT, false, offsetof(Instance, position)},
+                     {5, 4, GL_UNSIGNED_INT, false, offsetof(Instance, palette_a)},
+                     {6, 4, GL_UNSIGNED_INT, false, offsetof(Instance, tints)},
+                     {7, 4, GL_UNSIGNED_INT, false, offsetof(Instance, shift)}});
+  glVertexArrayElementBuffer(array.name(), meshes.indices.name());
   return array;
 }
 
-/// The same, with where people are in the next frame in place of what CORNERS reads.
-VertexArray make_surface_array(const Buffer& vertices, const Buffer& indices,
-                               const Buffer& instances, const Buffer& next_instances) {
-  VertexArray array = make_person_array(vertices, indices, instances);
+/// The same, with where people are in the next frame.
+VertexArray make_surface_array(const PeopleMeshes& meshes, const Buffer& instances,
+                               const Buffer& next_instances) {
+  VertexArray array = make_person_array(meshes, instances);
   describe_vertices(array, 2, next_instances, sizeof(NextInstance), 1,
-                    {{11, 3, GL_FLOAT, false, offsetof(NextInstance, position)},
-                     {12, 4, GL_UNSIGNED_INT, false, offsetof(NextInstance, palette_a)},
-                     {13, 2, GL_FLOAT, false, offsetof(NextInstance, facing)}});
+                    {{8, 3, GL_FLOAT, false, offsetof(NextInstance, position)},
+                     {9, 4, GL_UNSIGNED_INT, false, offsetof(NextInstance, palette_a)},
+                     {10, 2, GL_FLOAT, false, offsetof(NextInstance, facing)}});
   return array;
-}
-
-/// The vertex with its bones in order of falling weight: the shader stops at the first zero.
-skinning::Vertex heaviest_first(const skinning::Vertex& vertex) {
-  std::array<std::size_t, 4> order = {0, 1, 2, 3};
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return vertex.weights[a] > vertex.weights[b];
-  });
-  skinning::Vertex sorted = vertex;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    sorted.bones[k] = vertex.bones[order[k]];
-    sorted.weights[k] = vertex.weights[order[k]];
-  }
-  return sorted;
-}
-
-using Rgba = std::array<std::uint8_t, 4>;
-
-constexpr Rgba kWhite = {255, 255, 255, 255};
-
-/// Mean of 3 x 3 texels around a vertex, value by value.
-Rgba around(const skinning::Population& population, std::int32_t layer,
-            const std::array<float, 2>& uv) {
-  if (layer < 0) return kWhite;
-  const std::vector<std::uint8_t>& texels =
-      population.textures[static_cast<std::size_t>(layer)].rgba;
-  const int size = population.texture_size;
-  const auto texel_of = [&](float share) {
-    return static_cast<int>(std::floor(share * static_cast<float>(size)));
-  };
-  std::array<int, 4> sum{};
-  for (int j = -1; j <= 1; ++j) {
-    for (int i = -1; i <= 1; ++i) {
-      const int x = std::clamp(texel_of(uv[0]) + i, 0, size - 1);
-      const int y = std::clamp(texel_of(uv[1]) + j, 0, size - 1);
-      const auto at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
-                           static_cast<std::size_t>(x));
-      for (std::size_t c = 0; c < 4; ++c) sum[c] += texels[at + c];
-    }
-  }
-  Rgba mean{};
-  for (std::size_t c = 0; c < 4; ++c) mean[c] = static_cast<std::uint8_t>(sum[c] / 9);
-  return mean;
-}
-
-/// A portrait's shades as they are in light.
-Rgba linear_shades(const Rgba& shades) {
-  Rgba light = shades;
-  for (std::size_t c = 0; c < 3; ++c) {
-    light[c] = static_cast<std::uint8_t>(
-        std::lround(255 * std::pow(static_cast<float>(shades[c]) / 255.0F, 2.2F)));
-  }
-  return light;
-}
-
-/// Appends a part's triangles with its own copies of their vertices, since a vertex on the device
-/// belongs to one part.
-void append_part(const skinning::Population& population, const skinning::Mesh& mesh,
-                 const skinning::Part& part, std::uint32_t info, std::uint32_t first_vertex,
-                 std::vector<DeviceVertex>& vertices, std::vector<std::uint32_t>& indices) {
-  constexpr std::uint32_t kUnseen = ~0U;
-  std::vector<std::uint32_t> copy_of(mesh.vertices.size(), kUnseen);
-  for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
-    std::uint32_t& copy = copy_of[mesh.indices[i]];
-    if (copy == kUnseen) {
-      copy = static_cast<std::uint32_t>(vertices.size()) - first_vertex;
-      const skinning::Vertex& vertex = mesh.vertices[mesh.indices[i]];
-      const Rgba shades =
-          part.shades < 0 ? Rgba{} : linear_shades(around(population, part.shades, vertex.uv));
-      vertices.push_back(
-          {heaviest_first(vertex), info, around(population, part.texture, vertex.uv), shades});
-    }
-    indices.push_back(copy);
-  }
 }
 
 /// The five tints in four words: three bytes each of top, bottom, hair and shoes, red lowest, with
@@ -183,33 +94,19 @@ std::array<std::uint32_t, 4> packed(const std::array<skinning::Rgb, skinning::kT
   return words;
 }
 
-/// Fewer triangles of the same vertices, in place of those from `first` on.
-void append_proxy(const std::vector<DeviceVertex>& vertices, std::uint32_t first_vertex,
-                  std::uint32_t first, std::vector<std::uint32_t>& indices) {
-  constexpr float kAnyError = 1;
-  const std::vector<std::uint32_t> fine(indices.begin() + first, indices.end());
-  std::vector<std::uint32_t> coarse(fine.size());
-  coarse.resize(meshopt_simplify(coarse.data(), fine.data(), fine.size(),
-                                 vertices[first_vertex].vertex.position.data(),
-                                 vertices.size() - first_vertex, sizeof(DeviceVertex),
-                                 static_cast<std::size_t>(kProxyTriangles) * 3, kAnyError));
-  indices.insert(indices.end(), coarse.begin(), coarse.end());
+/// How many bytes of palettes shaders can read: four words to a texel.
+std::uint64_t largest_palettes() {
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  return static_cast<std::uint64_t>(texels) * sizeof(DeviceBone);
 }
 
-/// What a shader may read of one buffer, in bytes.
-std::uint64_t largest_storage() {
-  GLint64 bytes = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-  return static_cast<std::uint64_t>(bytes);
-}
-
-/// What the shader knows of a part; `white` is the layer of those without a texture.
-std::uint32_t info_of(const skinning::Part& part, std::uint32_t white) {
-  const auto layer = [](std::int32_t number) { return static_cast<std::uint32_t>(number); };
-  const std::uint32_t texture = part.texture < 0 ? white : layer(part.texture);
-  const std::uint32_t shades = part.shades < 0 ? 0 : layer(part.shades);
-  check(std::max(texture, shades) < 1U << 12U, "twelve bits number the people's textures");
-  return texture | (shades << 12U) | (static_cast<std::uint32_t>(part.tint) << 24U);
+/// A texture's look-ups read whole texels, which a software driver does four times as fast as it
+/// reads a storage buffer.
+Texture make_buffer_texture(GLenum format, const Buffer& buffer) {
+  Texture texture = make_texture(GL_TEXTURE_BUFFER);
+  glTextureBuffer(texture.name(), format, buffer.name());
+  return texture;
 }
 
 }  // namespace
@@ -218,25 +115,24 @@ PeoplePass::PeoplePass(const skinning::Population& population, const QualitySett
                        std::string_view words)
     : palettes_per_character_(population.palettes_per_character),
       textured_levels_(static_cast<std::uint32_t>(quality.textured_levels)),
-      palettes_(make_buffer(device_palettes(population, largest_storage()))),
+      meshes_(people_meshes(population, textured_levels_)),
+      palettes_(make_buffer(device_palettes(population, largest_palettes()))),
+      palette_texels_(make_buffer_texture(GL_RGBA32UI, palettes_)),
       instances_(make_buffer()),
       next_instances_(make_buffer()) {
-  load_meshes(population);
   load_textures(population);
-  array_ = make_person_array(vertices_, indices_, instances_);
-  const auto camera_program = [&](std::string_view a, std::string_view b) {
-    return make_program({words, shader_view, shader_light, shader_person_vert},
-                        {words, a, b, shader_light, shader_person_frag});
+  array_ = make_person_array(meshes_, instances_);
+  const bool shadowed = quality.shadow_texels > 0;
+  picture_ = make_picture_programs(words, shadowed, "");
+  picture_and_silhouettes_ = make_picture_programs(words, shadowed, kSilhouettes);
+  const auto coverage_program = [&](std::string_view alpha) {
+    return make_program({kCoverage, shader_view, shader_person_vert},
+                        {alpha, embedded::shader_coverage_frag});
   };
-  picture_ = camera_program("", "");
-  corners_ = make_program({words, kCorners, quality.shadow_texels > 0 ? kShadowed : "", shader_view,
-                           shader_light, shader_person_vert},
-                          {embedded::shader_corners_frag});
-  picture_alpha_ = camera_program(kAlphaTest, "");
-  coverage_ = camera_program(kCoverage, "");
-  coverage_alpha_ = camera_program(kCoverage, kAlphaTest);
+  coverage_ = coverage_program("");
+  coverage_alpha_ = coverage_program(kAlphaTest);
   shadow_ = make_program({kShadow, shader_light, shader_person_vert}, {});
-  surface_array_ = make_surface_array(vertices_, indices_, instances_, next_instances_);
+  surface_array_ = make_surface_array(meshes_, instances_, next_instances_);
   const auto surface_program = [](std::string_view alpha) {
     return make_program({kSurface, shader_view, embedded::shader_next_view, shader_person_vert},
                         {alpha, embedded::shader_person_surface_frag});
@@ -246,38 +142,17 @@ PeoplePass::PeoplePass(const skinning::Population& population, const QualitySett
   check_gl("loading people");
 }
 
-void PeoplePass::load_meshes(const skinning::Population& population) {
-  std::vector<DeviceVertex> vertices;
-  std::vector<std::uint32_t> indices;
-  const auto white_layer = static_cast<std::uint32_t>(population.textures.size());
-  for (const skinning::Character& character : population.characters) {
-    std::vector<Level>& levels = levels_.emplace_back();
-    for (const skinning::Mesh& mesh : character.levels) {
-      Level level;
-      const auto first_vertex = static_cast<std::uint32_t>(vertices.size());
-      level.first_vertex = static_cast<std::int32_t>(first_vertex);
-      for (const bool alpha_tested : {false, true}) {
-        Range& range = alpha_tested ? level.alpha_tested : level.opaque;
-        range.first = static_cast<std::uint32_t>(indices.size());
-        for (const skinning::Part& part : mesh.parts) {
-          if (part.alpha_tested != alpha_tested) continue;
-          append_part(population, mesh, part, info_of(part, white_layer), first_vertex, vertices,
-                      indices);
-        }
-        range.count = static_cast<std::uint32_t>(indices.size()) - range.first;
-      }
-      levels.push_back(level);
-    }
-    if (levels.empty()) continue;
-    Level proxy = levels.back();
-    const auto first = static_cast<std::uint32_t>(indices.size());
-    append_proxy(vertices, static_cast<std::uint32_t>(proxy.first_vertex), proxy.opaque.first,
-                 indices);
-    proxy.opaque = {first, static_cast<std::uint32_t>(indices.size()) - first};
-    levels.push_back(proxy);
-  }
-  vertices_ = make_buffer(vertices);
-  indices_ = make_buffer(indices);
+PeoplePass::PicturePrograms PeoplePass::make_picture_programs(std::string_view words, bool shadowed,
+                                                              std::string_view silhouettes) {
+  const auto textured = [&](std::string_view alpha) {
+    return make_program(
+        {words, silhouettes, shader_view, shader_light, shader_person_vert},
+        {words, silhouettes, alpha, shader_light, embedded::shader_silhouette, shader_person_frag});
+  };
+  return {textured(""), textured(kAlphaTest),
+          make_program({words, silhouettes, kCorners, shadowed ? kShadowed : "", shader_view,
+                        shader_light, shader_person_vert},
+                       {silhouettes, embedded::shader_silhouette, embedded::shader_corners_frag})};
 }
 
 void PeoplePass::load_textures(const skinning::Population& population) {
@@ -316,11 +191,11 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
   for (const PersonDraw& draw : draws) {
     const PersonInstance& person = people[draw.person];
     const std::uint32_t character = person.appearance.character;
-    check(character < levels_.size() && draw.level < levels_[character].size() &&
+    check(character < meshes_.levels.size() && draw.level < meshes_.levels[character].size() &&
               std::max(person.pose.a, person.pose.b) < palettes_per_character_,
           "people use characters and palettes that the population has");
     const std::uint32_t first_palette = character * palettes_per_character_;
-    const Level* level = &levels_[character][draw.level];
+    const PeopleLevel* level = &meshes_.levels[character][draw.level];
     if (batches.empty() || batches.back().level != level) {
       batches.push_back(
           {level, draw.level < textured_levels_, static_cast<std::uint32_t>(instances.size()), 0});
@@ -333,14 +208,15 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
                          id_of_agent(person.agent),
                          packed(person.appearance.tint),
                          draw.shift,
-                         {std::cos(person.yaw_rad), std::sin(person.yaw_rad)}});
+                         {std::bit_cast<std::uint32_t>(std::cos(person.yaw_rad)),
+                          std::bit_cast<std::uint32_t>(std::sin(person.yaw_rad))}});
   }
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
                     instances.data(), GL_STREAM_DRAW);
   return batches;
 }
 
-void PeoplePass::draw_batch(const Batch& batch, Range Level::*range) {
+void PeoplePass::draw_batch(const Batch& batch, Range PeopleLevel::*range) {
   const Range& triangles = batch.level->*range;
   if (triangles.count == 0) return;
   const std::size_t offset = triangles.first * sizeof(std::uint32_t);
@@ -350,21 +226,27 @@ void PeoplePass::draw_batch(const Batch& batch, Range Level::*range) {
       static_cast<GLsizei>(batch.count), batch.level->first_vertex, batch.first);
 }
 
-void PeoplePass::draw_batches(const std::vector<Batch>& batches, Range Level::*range) {
+void PeoplePass::draw_batches(const std::vector<Batch>& batches, Range PeopleLevel::*range) {
   for (const Batch& batch : batches) draw_batch(batch, range);
 }
 
-void PeoplePass::draw_picture(const std::vector<Batch>& batches) const {
+void PeoplePass::draw_picture(const std::vector<Batch>& batches, const PicturePrograms& programs) {
   glEnable(GL_CULL_FACE);
   for (const bool textured : {true, false}) {
-    glUseProgram(textured ? picture_.name() : corners_.name());
+    glUseProgram(textured ? programs.textured.name() : programs.corners.name());
     for (const Batch& batch : batches) {
-      if (batch.textured == textured) draw_batch(batch, &Level::opaque);
+      if (batch.textured == textured) draw_batch(batch, &PeopleLevel::opaque);
     }
   }
   glDisable(GL_CULL_FACE);
-  glUseProgram(picture_alpha_.name());
-  draw_batches(batches, &Level::alpha_tested);
+  glUseProgram(programs.alpha_tested.name());
+  draw_batches(batches, &PeopleLevel::alpha_tested);
+}
+
+void PeoplePass::bind(const VertexArray& array) const {
+  glBindVertexArray(array.name());
+  glBindTextureUnit(0, textures_.name());
+  glBindTextureUnit(3, palette_texels_.name());
 }
 
 void PeoplePass::sort(std::span<const PersonInstance> people,
@@ -413,15 +295,13 @@ void PeoplePass::draw_surfaces(std::span<const PersonInstance> people,
   sort(people, draws);
   const std::vector<Batch> batches = upload(people, draws);
   upload_next(people, draws, next);
-  glBindVertexArray(surface_array_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, palettes_.name());
-  glBindTextureUnit(0, textures_.name());
+  bind(surface_array_);
   glEnable(GL_CULL_FACE);
   glUseProgram(surface_.name());
-  draw_batches(batches, &Level::opaque);
+  draw_batches(batches, &PeopleLevel::opaque);
   glDisable(GL_CULL_FACE);
   glUseProgram(surface_alpha_.name());
-  draw_batches(batches, &Level::alpha_tested);
+  draw_batches(batches, &PeopleLevel::alpha_tested);
 }
 
 void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
@@ -429,28 +309,29 @@ void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
   if (draws.empty()) return;
   sort(people, draws);
   const std::vector<Batch> batches = upload(people, draws);
-  glBindVertexArray(array_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, palettes_.name());
-  glBindTextureUnit(0, textures_.name());
+  bind(array_);
   if (purpose == Purpose::shadow) {
     // What faces the sun is counter-clockwise in the map, which is not upside down like the
     // picture.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     glUseProgram(shadow_.name());
-    draw_batches(batches, &Level::opaque);
+    draw_batches(batches, &PeopleLevel::opaque);
     glDisable(GL_CULL_FACE);
     glCullFace(GL_BACK);
-    draw_batches(batches, &Level::alpha_tested);
+    draw_batches(batches, &PeopleLevel::alpha_tested);
     return;
   }
-  if (purpose == Purpose::picture) return draw_picture(batches);
+  if (purpose == Purpose::picture) return draw_picture(batches, picture_);
+  if (purpose == Purpose::picture_and_silhouettes) {
+    return draw_picture(batches, picture_and_silhouettes_);
+  }
   glEnable(GL_CULL_FACE);
   glUseProgram(coverage_.name());
-  draw_batches(batches, &Level::opaque);
+  draw_batches(batches, &PeopleLevel::opaque);
   glDisable(GL_CULL_FACE);
   glUseProgram(coverage_alpha_.name());
-  draw_batches(batches, &Level::alpha_tested);
+  draw_batches(batches, &PeopleLevel::alpha_tested);
 }
 
 }  // namespace throng::render

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/gl_objects.h"
-#include "render/place.h"
+#include "render/people_meshes.h"
 #include "render/quality.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
@@ -17,10 +17,15 @@ namespace throng::render {
 
 /// One person in one draw.
 struct PersonDraw {
-  std::uint32_t person = 0;             ///< index into the scene's people
-  std::uint32_t level = 0;              ///< of detail; one beyond the last is the proxy
-  float depth_m = 0;                    ///< nearer ones are drawn first
-  std::array<std::int32_t, 2> shift{};  ///< pixels to move it by, right and down
+  std::uint32_t person = 0;  ///< index into the scene's people
+  std::uint32_t level = 0;   ///< of detail
+  float depth_m = 0;         ///< nearer ones are drawn first
+  /// Pixels right and down: from the picture to the person's silhouette (Purpose::coverage, and
+  /// Purpose::picture with silhouettes).
+  std::array<std::int32_t, 2> shift = kNowhere;
+
+  /// Leads out of every atlas.
+  static constexpr std::array<std::int32_t, 2> kNowhere = {1 << 24, 1 << 24};
 };
 
 /// Holds every character's meshes, palettes and textures on the device. Expects the View and Light
@@ -31,7 +36,9 @@ class PeoplePass {
   PeoplePass(const skinning::Population& population, const QualitySettings& quality,
              std::string_view words);
 
-  enum class Purpose { picture, shadow, coverage };
+  /// With silhouettes a picture's people also leave their whole outlines, hidden or not, in the
+  /// image that is bound at unit 0 (render/silhouettes.h).
+  enum class Purpose { picture, picture_and_silhouettes, shadow, coverage };
 
   /// Draws level by level, near to far within a character. The order is a function of `draws`'
   /// values, so equal scenes give equal pixels.
@@ -43,44 +50,44 @@ class PeoplePass {
                      std::span<const PersonInstance> next);
 
  private:
-  struct Level {
-    std::int32_t first_vertex = 0;
-    Range opaque;
-    Range alpha_tested;
-  };
   /// People drawn by one call.
   struct Batch {
-    const Level* level;
+    const PeopleLevel* level;
     bool textured;
     std::uint32_t first;
     std::uint32_t count;
   };
 
-  void load_meshes(const skinning::Population& population);
   void sort(std::span<const PersonInstance> people, std::vector<PersonDraw>& draws) const;
   void upload_next(std::span<const PersonInstance> people, const std::vector<PersonDraw>& draws,
                    std::span<const PersonInstance> next);
   void load_textures(const skinning::Population& population);
   std::vector<Batch> upload(std::span<const PersonInstance> people,
                             const std::vector<PersonDraw>& draws);
-  static void draw_batch(const Batch& batch, Range Level::*range);
-  static void draw_batches(const std::vector<Batch>& batches, Range Level::*range);
-  void draw_picture(const std::vector<Batch>& batches) const;
+  static void draw_batch(const Batch& batch, Range PeopleLevel::*range);
+  static void draw_batches(const std::vector<Batch>& batches, Range PeopleLevel::*range);
+  struct PicturePrograms {
+    Program textured;
+    Program alpha_tested;
+    Program corners;
+  };
+  static PicturePrograms make_picture_programs(std::string_view words, bool shadowed,
+                                               std::string_view silhouettes);
+  static void draw_picture(const std::vector<Batch>& batches, const PicturePrograms& programs);
+  void bind(const VertexArray& array) const;
 
-  std::vector<std::vector<Level>> levels_;  ///< [character][level], then the character's proxy
   std::uint32_t palettes_per_character_;
   std::uint32_t textured_levels_;  ///< coarser ones are coloured corner by corner
-  Buffer vertices_;
-  Buffer indices_;
+  PeopleMeshes meshes_;
   Buffer palettes_;
+  Texture palette_texels_;  ///< the same, as shaders read it
   Buffer instances_;
   Buffer next_instances_;
   VertexArray array_;
   VertexArray surface_array_;
   Texture textures_;
-  Program picture_;
-  Program picture_alpha_;
-  Program corners_;
+  PicturePrograms picture_;
+  PicturePrograms picture_and_silhouettes_;
   Program shadow_;
   Program coverage_;
   Program coverage_alpha_;

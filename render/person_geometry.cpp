@@ -47,11 +47,12 @@ std::vector<Eigen::Vector4f> projected_vertices(const skinning::Mesh& mesh,
   projected.reserve(mesh.vertices.size());
   for (const skinning::Vertex& vertex : mesh.vertices) {
     const Eigen::Vector4f rest(vertex.position[0], vertex.position[1], vertex.position[2], 1.0F);
+    constexpr float kShare = 1.0F / 255.0F;
     Eigen::Vector4f p = Eigen::Vector4f::Zero();
     for (std::size_t k = 0; k < 4; ++k) {
       if (vertex.weights[k] == 0) continue;
-      const float weight = static_cast<float>(vertex.weights[k]) / 255.0F;
-      p += image_from_rest[vertex.bones[k]] * (weight * rest);
+      const float weight = kShare * static_cast<float>(vertex.weights[k]);
+      p += weight * (image_from_rest[vertex.bones[k]] * rest);
     }
     projected.emplace_back(p + std::max(kAboveGround - p.w(), 0.0F) * up);
   }
@@ -98,15 +99,20 @@ Silhouette silhouette(const skinning::Mesh& mesh, const skinning::Palette& palet
                       const PersonInstance& person, const camera::Camera& camera) {
   const std::vector<Eigen::Vector4f> projected =
       projected_vertices(mesh, palette, image_from_model(person, camera));
-  float nearest_m = std::numeric_limits<float>::infinity();
-  Silhouette seen;
-  Eigen::AlignedBox2f box;
+  // Of u, v and z at once; the fourth value is nothing.
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Eigen::Array4f low = Eigen::Array4f::Constant(kInfinity);
+  Eigen::Array4f high = Eigen::Array4f::Constant(-kInfinity);
   for (const Eigen::Vector4f& p : projected) {
-    nearest_m = std::min(nearest_m, p.z());
-    seen.farthest_m = std::max(seen.farthest_m, p.z());
-    box.extend(p.head<2>() / p.z());
+    const float per_z = 1 / p.z();
+    const Eigen::Array4f at = p.array() * Eigen::Array4f(per_z, per_z, 1, 1);
+    low = low.min(at);
+    high = high.max(at);
   }
-  if (nearest_m < kNear) box = cut_box(mesh, projected);
+  Silhouette seen;
+  if (projected.empty()) return seen;
+  Eigen::AlignedBox2f box(low.head<2>().matrix(), high.head<2>().matrix());
+  if (low.z() < kNear) box = cut_box(mesh, projected);
   if (box.isEmpty()) return seen;
   const Eigen::Vector2d size(camera.intrinsics.width, camera.intrinsics.height);
   const Eigen::AlignedBox2d limit(-size, 2 * size);

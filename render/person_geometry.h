@@ -30,7 +30,6 @@ struct Silhouette {
   /// three times the image around its middle, where somebody right at the camera would otherwise
   /// reach thousands of pixels out. Empty if everything is behind.
   Eigen::AlignedBox2d box;
-  float farthest_m = 0;  ///< largest camera depth
 };
 
 Silhouette silhouette(const skinning::Mesh& mesh, const skinning::Palette& palette,

@@ -63,7 +63,7 @@ constexpr std::string_view kRoofAlbedo =
 Program make_corners_program(std::string_view words, std::string_view material) {
   return make_program({words, shader_view, shader_light, shader_noise, embedded::shader_ground_tile,
                        material, embedded::shader_place_corners_vert},
-                      {embedded::shader_corners_frag});
+                      {embedded::shader_silhouette, embedded::shader_corners_frag});
 }
 
 }  // namespace

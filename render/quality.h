@@ -19,11 +19,8 @@ struct QualitySettings {
   bool smooth_edges;      ///< along the outlines of people and things
   int supersampling;      ///< samples of colour along each side of a pixel
   double detail;          ///< people's levels of detail are chosen as if they were so much larger
-  double proxy_below_px;  ///< smaller people are drawn with kProxyTriangles
+  double proxy_below_px;  ///< smaller people are drawn at their last level
 };
-
-/// Triangles of the coarsest people: also what casts people's shadows.
-inline constexpr int kProxyTriangles = 100;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{
     {"draft", false, 0, 0, 0, false, false, 1, 0.5, 60},

@@ -15,6 +15,7 @@
 #include "render/place_pass.h"
 #include "render/prop_pass.h"
 #include "render/shadow_map.h"
+#include "render/silhouettes.h"
 #include "render/sky_pass.h"
 #include "render/smooth_edges.h"
 #include "render/still_surfaces.h"
@@ -32,8 +33,8 @@ constexpr double kReach = 1.2;
 /// A person who may be in view, and what was measured so far.
 struct Seen {
   PersonDraw draw;
-  float farthest_m = 0;  ///< largest camera depth
   PersonInView truth;
+  std::optional<std::size_t> tile;  ///< of their silhouette
 };
 
 Eigen::AlignedBox2d image_box(const camera::Camera& camera) {
@@ -46,50 +47,22 @@ Eigen::AlignedBox2i pixels_of(const Eigen::AlignedBox2d& box) {
   return {box.min().array().floor().cast<int>() - 1, box.max().array().ceil().cast<int>() + 1};
 }
 
-/// What the id buffer says of one person: pixels that are theirs, and whether that is all of them.
-struct Visible {
-  std::uint64_t pixels = 0;
-  bool whole = true;
-};
-
-/// What the pixels of a row with this id count for; the first is at `first`.
-std::uint64_t weighed(const std::uint32_t* id, std::size_t width, std::uint32_t own,
-                      const PixelWeights& weights, const Eigen::Vector2i& first) {
-  std::uint64_t sum = 0;
-  for (std::size_t x = 0; x < width; ++x) {
-    if (id[x] == own) sum += weights.at(first.x() + static_cast<int>(x), first.y());
-  }
-  return sum;
-}
-
-Visible visible_in(const Frame& frame, const Seen& seen, const Eigen::AlignedBox2i& bounds,
-                   const PixelWeights* weights) {
+/// What the pixels [min, max) that show a person count for.
+std::uint64_t visible_in(const Frame& frame, std::uint32_t agent, const Eigen::AlignedBox2i& pixels,
+                         const PixelWeights* weights) {
   const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
                                   Eigen::Vector2i(frame.width(), frame.height()));
-  const Eigen::AlignedBox2i box = bounds.intersection(image);
-  const std::uint32_t own = id_of_agent(seen.truth.agent);
-  Visible visible;
-  visible.whole = image.contains(bounds);
-  const auto width = static_cast<std::size_t>(box.sizes().x());
+  const Eigen::AlignedBox2i box = pixels.intersection(image);
+  const std::uint32_t own = id_of_agent(agent);
+  std::uint64_t sum = 0;
   for (int y = box.min().y(); y < box.max().y(); ++y) {
-    const std::size_t first =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
-        static_cast<std::size_t>(box.min().x());
-    const std::uint32_t* id = &frame.id[first];
-    const float* depth_m = &frame.depth_m[first];
-    visible.pixels += weights == nullptr
-                          ? static_cast<std::uint64_t>(std::count(id, id + width, own))
-                          : weighed(id, width, own, *weights, {box.min().x(), y});
-    if (!visible.whole) continue;
-    // Ground never hides anybody, nor does what is behind their farthest point.
-    std::uint32_t before_them = 0;
-    for (std::size_t x = 0; x < width; ++x) {
-      const bool behind = depth_m[x] > seen.farthest_m;
-      before_them |= id[x] != own && id[x] != kIdGround && !behind ? 1U : 0U;
+    const std::uint32_t* row =
+        &frame.id[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width())];
+    for (int x = box.min().x(); x < box.max().x(); ++x) {
+      if (row[x] == own) sum += weights == nullptr ? 1 : weights->at(x, y);
     }
-    visible.whole = before_them == 0;
   }
-  return visible;
+  return sum;
 }
 
 std::vector<PersonDraw> draws_of(const std::vector<Seen>& seen) {
@@ -130,10 +103,11 @@ struct Renderer::State {
 
   std::vector<Seen> find_seen(const Scene& scene, const camera::Camera& camera) const;
   void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area);
-  void draw_picture(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
-                    Frame& frame);
+  void draw_picture(const Scene& scene, const camera::Camera& camera, bool truth,
+                    std::vector<Seen>& seen, Frame& frame);
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
-                 const Target& into);
+                 const Target& into, PeoplePass::Purpose purpose);
+  void place_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen);
   void draw_surfaces(const Scene& scene, const NextFrame* next, const std::vector<Seen>& seen,
                      Frame& frame);
   void measure_coverage(const Scene& scene, const Frame& frame, const PixelWeights* weights,
@@ -160,6 +134,7 @@ struct Renderer::State {
   SkyPass sky;
   std::optional<LampMap> lamp_map;  ///< after sunset
   ShadowMap shadow_map;
+  Silhouettes silhouettes;
   CoverageCounter coverage;
   Buffer view_buffer;
   Buffer next_view_buffer;
@@ -216,20 +191,21 @@ std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
     if (is_outside(planes, middle, kReach * character.stature_m)) continue;
     const double depth = std::max<double>(camera.project(middle).depth_m, kNear);
     const double height_px = camera.intrinsics.fy_px * character.stature_m / depth;
-    const std::size_t level = level_of_detail(quality.detail * height_px, character.levels.size());
-    const bool proxy = height_px < quality.proxy_below_px;
+    const std::size_t levels = character.levels.size();
+    const std::size_t level = height_px < quality.proxy_below_px
+                                  ? levels - 1
+                                  : level_of_detail(quality.detail * height_px, levels);
     const skinning::Palette palette = blended_palette(*population, person);
     const Silhouette shape = silhouette(character.levels[level], palette, person, camera);
     if (shape.box.isEmpty() || !shape.box.intersects(image)) continue;
     const float stature_m = character.stature_m;
-    const std::size_t drawn = proxy ? character.levels.size() : level;
-    seen.push_back({{i, static_cast<std::uint32_t>(drawn), static_cast<float>(depth), {}},
-                    shape.farthest_m,
+    seen.push_back({{i, static_cast<std::uint32_t>(level), static_cast<float>(depth)},
                     {person.agent, position,
                      posed_point(palette, person, skinning::Bone::hips, kHipsShare * stature_m),
                      posed_point(palette, person, skinning::Bone::head, kHeadShare * stature_m),
                      person.velocity.cast<double>(), person.yaw_rad, stature_m, shape.box, 0,
-                     static_cast<std::uint32_t>(level)}});
+                     static_cast<std::uint32_t>(level)},
+                    {}});
   }
   std::sort(seen.begin(), seen.end(),
             [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });
@@ -247,8 +223,8 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
     shade.extend(Eigen::Vector2d(shade.min() - slope * reach));
     shade = {shade.min().array() - reach, shade.max().array() + reach};
     if (!shade.intersects(area)) continue;
-    // A shadow shows no more than the proxy.
-    casters.push_back({i, static_cast<std::uint32_t>(character.levels.size()), 0, {}});
+    // A shadow shows no more than the coarsest level.
+    casters.push_back({i, static_cast<std::uint32_t>(character.levels.size() - 1), 0});
   }
   shadow_map.begin();
   place.draw_shadow();
@@ -256,8 +232,34 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
   people_pass.draw(PeoplePass::Purpose::shadow, scene.people, std::move(casters));
 }
 
-void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& camera,
-                                   const std::vector<Seen>& seen, Frame& frame) {
+void Renderer::State::place_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen) {
+  const Eigen::AlignedBox2i image(
+      Eigen::Vector2i::Zero(), Eigen::Vector2i(camera.intrinsics.width, camera.intrinsics.height));
+  struct Room {
+    std::size_t person;
+    Eigen::AlignedBox2i pixels;
+  };
+  std::vector<Room> rooms;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Eigen::AlignedBox2i pixels = pixels_of(seen[i].truth.amodal_box);
+    if (image.contains(pixels)) rooms.push_back({i, pixels});
+  }
+  std::stable_sort(rooms.begin(), rooms.end(), [](const Room& a, const Room& b) {
+    return a.pixels.sizes().y() > b.pixels.sizes().y();
+  });
+  silhouettes.begin();
+  std::size_t tile = 0;
+  for (const Room& room : rooms) {
+    const auto shift = silhouettes.add(room.pixels);
+    if (!shift) continue;
+    seen[room.person].draw.shift = {shift->x(), shift->y()};
+    seen[room.person].tile = tile++;
+  }
+  silhouettes.bind();
+}
+
+void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& camera, bool truth,
+                                   std::vector<Seen>& seen, Frame& frame) {
   const camera::Intrinsics& k = camera.intrinsics;
   const Eigen::AlignedBox2d area =
       shadow_area(clip_planes(camera), ground, tallest, shadow_slope(daylight));
@@ -273,24 +275,28 @@ void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& cam
   if (quality.supersampling > 1) {
     const camera::Camera fine = scaled(camera, quality.supersampling);
     resize(fine_target, fine.intrinsics.width, fine.intrinsics.height);
-    draw_view(scene, fine, seen, *fine_target);
+    draw_view(scene, fine, seen, *fine_target, PeoplePass::Purpose::picture);
     lap("draw");
     fine_target->read_light(quality.supersampling, frame);
     lap("read back");
   }
   resize(target, k.width, k.height);
-  draw_view(scene, camera, seen, *target);
+  using Purpose = PeoplePass::Purpose;
+  if (truth) place_silhouettes(camera, seen);
+  draw_view(scene, camera, seen, *target,
+            truth ? Purpose::picture_and_silhouettes : Purpose::picture);
   lap("draw");
 }
 
 void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera,
-                                const std::vector<Seen>& seen, const Target& into) {
+                                const std::vector<Seen>& seen, const Target& into,
+                                PeoplePass::Purpose purpose) {
   const ViewBlock view = view_block(camera, guarded_viewport(into.width(), into.height()));
   glNamedBufferData(view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
   into.begin(Eigen::Vector3f::Zero());
   // People first: they are many small triangles, and hide ground that then costs nothing.
-  people_pass.draw(PeoplePass::Purpose::picture, scene.people, draws_of(seen));
+  people_pass.draw(purpose, scene.people, draws_of(seen));
   props.draw(clip_planes(camera));
   place.draw();
   if (quality.textured) contacts.draw(scene.people, camera);
@@ -322,24 +328,26 @@ void Renderer::State::draw_surfaces(const Scene& scene, const NextFrame* next,
 
 void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
                                        const PixelWeights* weights, std::vector<Seen>& seen) {
+  silhouettes.read();
   std::vector<std::size_t> measured;
   std::vector<CoverageRequest> requests;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     PersonInView& truth = seen[i].truth;
-    const Eigen::AlignedBox2i bounds = pixels_of(truth.amodal_box);
-    const Visible visible = visible_in(frame, seen[i], bounds, weights);
-    truth.amodal_area_px = visible.pixels;
-    if (visible.whole) continue;
+    if (seen[i].tile) {
+      truth.amodal_area_px = silhouettes.count(*seen[i].tile, weights);
+      continue;
+    }
     measured.push_back(i);
-    requests.push_back({seen[i].draw, bounds});
+    requests.push_back({seen[i].draw, pixels_of(truth.amodal_box)});
   }
   const std::vector<std::uint64_t> counts =
       coverage.count(people_pass, scene.people, requests, frame.camera, weights);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     // A texel at the threshold of an alpha test may round differently in a tile; what is visible is
     // covered all the same.
-    std::uint64_t& area = seen[measured[i]].truth.amodal_area_px;
-    area = std::max(area, counts[i]);
+    PersonInView& truth = seen[measured[i]].truth;
+    truth.amodal_area_px =
+        std::max(counts[i], visible_in(frame, truth.agent, requests[i].bounds, weights));
   }
 }
 
@@ -365,7 +373,7 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   frame.people.clear();
   std::vector<Seen> seen = state.find_seen(scene, camera);
   state.lap("cull");
-  state.draw_picture(scene, camera, seen, frame);
+  state.draw_picture(scene, camera, choice.truth, seen, frame);
   const bool wants_light = state.quality.supersampling == 1;
   state.target->read(wants_light, frame);
   state.lap("read back");

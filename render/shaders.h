@@ -12,6 +12,8 @@ extern const std::string_view shader_noise;
 extern const std::string_view shader_person_vert;
 extern const std::string_view shader_person_frag;
 extern const std::string_view shader_person_surface_frag;
+extern const std::string_view shader_coverage_frag;
+extern const std::string_view shader_silhouette;
 extern const std::string_view shader_next_view;
 extern const std::string_view shader_place_corners_vert;
 extern const std::string_view shader_corners_frag;

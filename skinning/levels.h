@@ -11,17 +11,19 @@ struct DetailLevel {
   double above_px;        ///< for who would cover more than this many pixels standing upright
 };
 
-/// At each switch the triangles have become smaller than a pixel (somebody covers about a sixth of
-/// the square of their height in pixels, and half of the triangles face the camera), so that more
-/// of them cost time and show nothing. That nobody sees the switch tests/skinning/levels_test.cpp
-/// measures: over 96 people and all around them, half of the masks overlap by 0.977, 0.975, 0.962
-/// and 0.952 or more, and nine of ten by 0.966, 0.964, 0.940 and 0.906.
-inline constexpr std::array<DetailLevel, 5> kDetailLevels = {{
+/// At each switch the triangles have become about as small as a pixel (somebody covers about a
+/// sixth of the square of their height in pixels, and half of the triangles face the camera), so
+/// that more of them cost time and show little. That nobody sees the switch
+/// tests/skinning/levels_test.cpp measures, over all people and all around them. The last level is
+/// chosen by nobody's size: it casts shadows and fills drafts.
+inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
     {8000, 160},
-    {3000, 80},
-    {800, 40},
-    {400, 20},
-    {250, 0},
+    {3000, 110},
+    {800, 80},
+    {400, 56},
+    {250, 40},
+    {170, 0},
+    {100, 0},
 }};
 
 }  // namespace throng::skinning

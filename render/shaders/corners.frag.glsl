@@ -8,4 +8,5 @@ layout(location = 1) out uint instance;
 void main() {
   colour = vec4(lit, 1.0);
   instance = id;
+  leave_silhouette();
 }

@@ -1,4 +1,4 @@
-// Skin, hair and clothes. With COVERAGE only the silhouette is written.
+// Skin, hair and clothes.
 in vec4 world_sun;
 in vec3 uv_sky;
 flat in uvec4 surface;
@@ -6,29 +6,18 @@ flat in uvec4 shaded;
 
 layout(binding = 0) uniform sampler2DArray textures;
 
-#ifdef COVERAGE
-layout(location = 0) out float covered;
-#else
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint instance;
-#endif
 
-#ifndef COVERAGE
 vec3 linear_from_srgb(vec3 c) {
   return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878);
 }
-#endif
 
 void main() {
-#if !defined(COVERAGE) || defined(ALPHA_TEST)
   vec4 texel = texture(textures, vec3(uv_sky.xy, float(surface.x)));
-#endif
 #ifdef ALPHA_TEST
   if (texel.a < 0.5) discard;
 #endif
-#ifdef COVERAGE
-  covered = 1.0;
-#else
   vec3 albedo = texel.rgb * linear_from_srgb(unpackUnorm4x8(surface.y).rgb);
   if (surface.w != 0u) {
     vec4 shades = texture(textures, vec3(uv_sky.xy, float(surface.w)));
@@ -45,5 +34,5 @@ void main() {
   vec3 radiance = albedo * (direct + ambient);
   colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
   instance = surface.z;
-#endif
+  leave_silhouette();
 }

@@ -2,24 +2,21 @@
 // the shadow map instead of being seen by the camera; with CORNERS it is lit corner by corner; with
 // SURFACE it carries what person_surface.frag.glsl writes.
 layout(location = 0) in vec3 position_in;
-layout(location = 1) in vec3 normal_in;
+layout(location = 1) in uvec4 skin;     // bones, weights, part, normal: see render/people_meshes.h
 layout(location = 2) in vec2 uv_in;
-layout(location = 3) in uvec4 bones;
-layout(location = 4) in vec4 weights;
-layout(location = 5) in uint part;             // texture layer, a portrait's second one << 12, tint << 24
-layout(location = 6) in vec3 foot;             // per instance from here: position, m
-layout(location = 7) in uvec4 pose;            // palettes a and b, blend (a float's bits), id
-layout(location = 8) in uvec4 tints;           // top, bottom, hair, shoes: sRGB, red lowest; item: high bytes
-layout(location = 9) in ivec2 shift;           // pixels
-layout(location = 10) in vec2 facing;          // cosine and sine of the heading
+layout(location = 3) in uvec2 colours;  // the texture around this corner, sRGB; of a portrait, linear
+layout(location = 4) in vec3 foot;      // per instance from here: position, m
+layout(location = 5) in uvec4 pose;     // palettes a and b, blend (a float's bits), id
+layout(location = 6) in uvec4 tints;    // top, bottom, hair, shoes: sRGB, red lowest; item: high bytes
+layout(location = 7) in uvec4 placing;  // shift in pixels; cosine and sine of the heading (bits)
 
-layout(std430, binding = 0) readonly buffer Palettes {
-  uvec4 posed_bones[];  // [character][palette][bone]; see render/device_palettes.h
-};
+layout(binding = 3) uniform usamplerBuffer posed_bones;  // [character][palette][bone]; device_palettes.h
 
 const int kBones = 21;
 const float kFarthestShift = 8.0;  // m; also in render/device_palettes.h
 const float kAboveGround = 0.002;  // m; also in render/person_geometry.cpp
+
+uint first_byte(uint word) { return word & 0xFFu; }
 
 // The rows of a bone's matrix.
 mat3x4 rows_of(uvec4 bone) {
@@ -39,14 +36,15 @@ mat3x4 blended_rows_of(uvec3 pose) {
   mat3x4 rows = mat3x4(0.0);
   float b = uintBitsToFloat(pose.z);
   // Most vertices follow one or two bones, and weights come largest first.
-  uvec4 bone = bones;
-  vec4 weight = weights;
-  int count = int(dot(vec4(greaterThan(weights, vec4(0.0))), vec4(1.0)));
+  uint bones = skin.x;
+  vec4 weight = unpackUnorm4x8(skin.y);
+  int count = int(dot(vec4(greaterThan(weight, vec4(0.0))), vec4(1.0)));
   for (int k = 0; k < count; ++k) {
-    mat3x4 rows_a = rows_of(posed_bones[int(pose.x) * kBones + int(bone.x)]);
-    mat3x4 rows_b = rows_of(posed_bones[int(pose.y) * kBones + int(bone.x)]);
+    int bone = int(first_byte(bones));
+    mat3x4 rows_a = rows_of(texelFetch(posed_bones, int(pose.x) * kBones + bone));
+    mat3x4 rows_b = rows_of(texelFetch(posed_bones, int(pose.y) * kBones + bone));
     rows += (weight.x * (1.0 - b)) * rows_a + (weight.x * b) * rows_b;
-    bone = bone.yzwx;
+    bones >>= 8;
     weight = weight.yzwx;
   }
   return rows;
@@ -54,11 +52,24 @@ mat3x4 blended_rows_of(uvec3 pose) {
 
 mat3x4 blended_rows() { return blended_rows_of(pose.xyz); }
 
+// The vertex's normal, from two 16-bit numbers on an octahedron.
+vec3 normal_in() {
+  vec2 p = unpackSnorm2x16(skin.w);
+  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  float fold = max(-n.z, 0.0);
+  n.xy -= mix(-vec2(fold), vec2(fold), greaterThanEqual(n.xy, vec2(0.0)));
+  return n;
+}
+
+ivec2 shift() { return ivec2(placing.xy); }
+
+vec2 facing() { return uintBitsToFloat(placing.zw); }
+
 vec3 turned_by(vec2 facing, vec3 v) {
   return vec3(facing.x * v.x - facing.y * v.y, facing.y * v.x + facing.x * v.y, v.z);
 }
 
-vec3 turned(vec3 v) { return turned_by(facing, v); }
+vec3 turned(vec3 v) { return turned_by(facing(), v); }
 
 vec3 placed_at(vec3 foot, vec2 facing, vec3 model) {
   vec3 world = foot + turned_by(facing, model);
@@ -67,7 +78,9 @@ vec3 placed_at(vec3 foot, vec2 facing, vec3 model) {
   return world;
 }
 
-vec3 placed(vec3 model) { return placed_at(foot, facing, model); }
+vec3 placed(vec3 model) { return placed_at(foot, facing(), model); }
+
+uint part() { return skin.z; }
 
 // A tint's sRGB word: white where the part has none of its own.
 uint tint_of(uint slot) {
@@ -75,15 +88,16 @@ uint tint_of(uint slot) {
   return slot > 0u && slot < 5u ? tints[slot - 1u] : 0xFFFFFFu;
 }
 
+#ifdef SILHOUETTES
+flat out ivec2 to_tile;  // from the picture, pixels
+#endif
+
 #ifdef SHADOW
 void main() {
   vec3 world = placed(vec4(position_in, 1.0) * blended_rows());
   gl_Position = vec4(shadow_uv(world) * 2.0 - 1.0, world.z * light.shadow_slope.z, 1.0);
 }
 #elif defined(CORNERS)
-layout(location = 11) in vec4 base;    // the texture around this corner, sRGB
-layout(location = 12) in vec4 shades;  // of a portrait, linear
-
 out vec3 lit;
 flat out uint id;
 
@@ -94,8 +108,10 @@ vec3 linear_from_srgb(vec3 c) {
 void main() {
   mat3x4 rows = blended_rows();
   vec3 world = placed(vec4(position_in, 1.0) * rows);
-  vec3 n = turned(normalize(vec4(normal_in, 0.0) * rows));
-  vec3 albedo = linear_from_srgb(base.rgb) * linear_from_srgb(unpackUnorm4x8(tint_of(part >> 24)).rgb);
+  vec3 n = turned(normalize(vec4(normal_in(), 0.0) * rows));
+  vec3 base = unpackUnorm4x8(colours.x).rgb;
+  vec4 shades = unpackUnorm4x8(colours.y);
+  vec3 albedo = linear_from_srgb(base) * linear_from_srgb(unpackUnorm4x8(tint_of(part() >> 24)).rgb);
   for (int i = 0; i < 4; ++i) {
     albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(tints[i]).rgb);
   }
@@ -108,14 +124,17 @@ void main() {
   direct *= sunlit_small(world, 0.06);
 #endif
 #endif
-  gl_Position = project_movable(world, shift);
+  gl_Position = project_movable(world, ivec2(0));
+#ifdef SILHOUETTES
+  to_tile = shift();
+#endif
   lit = film(through_air(albedo * (direct + ambient), max(gl_Position.w, 0.0)));
   id = pose.w;
 }
 #elif defined(SURFACE)
-layout(location = 11) in vec3 next_foot;  // per instance: the same person in the next frame
-layout(location = 12) in uvec4 next_pose;  // palettes a and b, blend, 1 if they are there
-layout(location = 13) in vec2 next_facing;
+layout(location = 8) in vec3 next_foot;  // per instance: the same person in the next frame
+layout(location = 9) in uvec4 next_pose;  // palettes a and b, blend, 1 if they are there
+layout(location = 10) in vec2 next_facing;
 
 out vec3 normal;
 out vec3 next;  // window position times depth, then depth, in the next frame
@@ -131,9 +150,10 @@ const uint kItem = 9u;
 void main() {
   mat3x4 rows = blended_rows();
   vec3 world = placed(vec4(position_in, 1.0) * rows);
-  normal = turned(normalize(vec4(normal_in, 0.0) * rows));
+  normal = turned(normalize(vec4(normal_in(), 0.0) * rows));
   uv = uv_in;
-  surface = uvec2(part & 0xFFFu, part >> 24 == 5u ? kItem : kParts[min(bones.x, uint(kBones - 1))]);
+  surface = uvec2(part() & 0xFFFu,
+                  part() >> 24 == 5u ? kItem : kParts[min(first_byte(skin.x), uint(kBones - 1))]);
   is_next = next_pose.w;
   next = vec3(0.0);
   if (is_next != 0u) {
@@ -141,7 +161,16 @@ void main() {
     vec3 p = next_seen(placed_at(next_foot, next_facing, model));
     next = vec3(p.xy + next_view.focal.zw * p.z, p.z);
   }
-  gl_Position = project_movable(world, shift);
+  gl_Position = project_movable(world, ivec2(0));
+}
+#elif defined(COVERAGE)
+out vec2 uv;
+flat out uint layer;
+
+void main() {
+  uv = uv_in;
+  layer = part() & 0xFFFu;
+  gl_Position = project_movable(placed(vec4(position_in, 1.0) * blended_rows()), shift());
 }
 #else
 out vec4 world_sun;     // position; sunlight received before shadows, or after sunset the lamps' light
@@ -152,15 +181,18 @@ flat out uvec4 shaded;   // a portrait's tints
 void main() {
   mat3x4 rows = blended_rows();
   vec3 world = placed(vec4(position_in, 1.0) * rows);
-  vec3 n = turned(normalize(vec4(normal_in, 0.0) * rows));
+  vec3 n = turned(normalize(vec4(normal_in(), 0.0) * rows));
 #ifdef LAMPS
   world_sun = vec4(world, lamp_light(world, n));
 #else
   world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
 #endif
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
-  surface = uvec4(part & 0xFFFu, tint_of(part >> 24), pose.w, part >> 12 & 0xFFFu);
+  surface = uvec4(part() & 0xFFFu, tint_of(part() >> 24), pose.w, part() >> 12 & 0xFFFu);
   shaded = tints;
-  gl_Position = project_movable(world, shift);
+  gl_Position = project_movable(world, ivec2(0));
+#ifdef SILHOUETTES
+  to_tile = shift();
+#endif
 }
 #endif

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "render/lighting.h"
+#include "skinning/levels.h"
 #include "stage.h"
 
 namespace throng::render {
@@ -28,12 +29,14 @@ TEST(ClipPlanes, HoldExactlyWhatProjectsIntoTheImage) {
 }
 
 TEST(LevelOfDetail, FollowsTheProjectedHeight) {
-  EXPECT_EQ(level_of_detail(200, 5), 0U);
-  EXPECT_EQ(level_of_detail(100, 5), 1U);
-  EXPECT_EQ(level_of_detail(50, 5), 2U);
-  EXPECT_EQ(level_of_detail(30, 5), 3U);
-  EXPECT_EQ(level_of_detail(10, 5), 4U);
-  EXPECT_EQ(level_of_detail(10, 9), 4U);
+  const std::size_t levels = skinning::kDetailLevels.size();
+  for (std::size_t i = 0; i + 1 < levels; ++i) {
+    const double above_px = skinning::kDetailLevels[i].above_px;
+    EXPECT_EQ(level_of_detail(above_px + 0.1, levels), i);
+    EXPECT_EQ(level_of_detail(above_px + 0.1, levels + 3), i);
+    if (above_px == 0) break;
+    EXPECT_EQ(level_of_detail(above_px, levels), i + 1);
+  }
   EXPECT_EQ(level_of_detail(10, 2), 1U);
   EXPECT_EQ(level_of_detail(10, 1), 0U);
 }

@@ -1,0 +1,188 @@
+#include "render/people_meshes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "base/error.h"
+
+namespace throng::render {
+
+namespace {
+
+using Rgba = std::array<std::uint8_t, 4>;
+
+constexpr Rgba kWhite = {255, 255, 255, 255};
+
+/// Mean of 3 x 3 texels around a vertex, value by value.
+Rgba around(const skinning::Population& population, std::int32_t layer,
+            const std::array<float, 2>& uv) {
+  if (layer < 0) return kWhite;
+  const std::vector<std::uint8_t>& texels =
+      population.textures[static_cast<std::size_t>(layer)].rgba;
+  const int size = population.texture_size;
+  const auto texel_of = [&](float share) {
+    return static_cast<int>(std::floor(share * static_cast<float>(size)));
+  };
+  std::array<int, 4> sum{};
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      const int x = std::clamp(texel_of(uv[0]) + i, 0, size - 1);
+      const int y = std::clamp(texel_of(uv[1]) + j, 0, size - 1);
+      const auto at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
+                           static_cast<std::size_t>(x));
+      for (std::size_t c = 0; c < 4; ++c) sum[c] += texels[at + c];
+    }
+  }
+  Rgba mean{};
+  for (std::size_t c = 0; c < 4; ++c) mean[c] = static_cast<std::uint8_t>(sum[c] / 9);
+  return mean;
+}
+
+/// A portrait's shades as they are in light.
+Rgba linear_shades(const Rgba& shades) {
+  Rgba light = shades;
+  for (std::size_t c = 0; c < 3; ++c) {
+    light[c] = static_cast<std::uint8_t>(
+        std::lround(255 * std::pow(static_cast<float>(shades[c]) / 255.0F, 2.2F)));
+  }
+  return light;
+}
+
+std::uint32_t word_of(const std::array<std::uint8_t, 4>& bytes) {
+  return bytes[0] | (static_cast<std::uint32_t>(bytes[1]) << 8U) |
+         (static_cast<std::uint32_t>(bytes[2]) << 16U) |
+         (static_cast<std::uint32_t>(bytes[3]) << 24U);
+}
+
+/// A unit vector on the octahedron |x| + |y| + |z| = 1, whose lower half is folded out (Meyer et
+/// al. 2010): two 16-bit integers of 32767.
+std::uint32_t octahedral(const std::array<float, 3>& normal) {
+  const float length = std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]);
+  if (!(length > 0)) return 0;
+  float x = normal[0] / length;
+  float y = normal[1] / length;
+  if (normal[2] < 0) {
+    const float folded = std::copysign(1 - std::abs(y), x);
+    y = std::copysign(1 - std::abs(x), y);
+    x = folded;
+  }
+  const auto bits = [](float share) {
+    return static_cast<std::uint32_t>(
+        static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(32767 * share))));
+  };
+  return bits(x) | (bits(y) << 16U);
+}
+
+/// Bones and weights in order of falling weight.
+void pack_skin(const skinning::Vertex& vertex, DeviceVertex& packed) {
+  std::array<std::size_t, 4> order = {0, 1, 2, 3};
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return vertex.weights[a] > vertex.weights[b];
+  });
+  std::array<std::uint8_t, 4> bones{};
+  std::array<std::uint8_t, 4> weights{};
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    weights[k] = vertex.weights[order[k]];
+    if (weights[k] > 0) bones[k] = vertex.bones[order[k]];
+  }
+  packed.bones = word_of(bones);
+  packed.weights = word_of(weights);
+}
+
+/// What the shader knows of a part; `white` is the layer of those without a texture.
+std::uint32_t info_of(const skinning::Part& part, std::uint32_t white) {
+  const auto layer = [](std::int32_t number) { return static_cast<std::uint32_t>(number); };
+  const std::uint32_t texture = part.texture < 0 ? white : layer(part.texture);
+  const std::uint32_t shades = part.shades < 0 ? 0 : layer(part.shades);
+  check(std::max(texture, shades) < 1U << 12U, "twelve bits number the people's textures");
+  return texture | (shades << 12U) | (static_cast<std::uint32_t>(part.tint) << 24U);
+}
+
+/// Packs meshes one after the other.
+class Packer {
+ public:
+  explicit Packer(const skinning::Population& population) : population_(population) {}
+
+  PeopleLevel add(const skinning::Mesh& mesh, bool weld) {
+    PeopleLevel level;
+    first_vertex_ = static_cast<std::uint32_t>(vertices_.size());
+    level.first_vertex = static_cast<std::int32_t>(first_vertex_);
+    for (const bool alpha_tested : {false, true}) {
+      Range& range = alpha_tested ? level.alpha_tested : level.opaque;
+      range.first = static_cast<std::uint32_t>(indices_.size());
+      for (const skinning::Part& part : mesh.parts) {
+        if (part.alpha_tested == alpha_tested) add_part(mesh, part, weld && !alpha_tested);
+      }
+      range.count = static_cast<std::uint32_t>(indices_.size()) - range.first;
+    }
+    return level;
+  }
+
+  Buffer vertices() const { return make_buffer(vertices_); }
+  Buffer indices() const { return make_buffer(indices_); }
+
+ private:
+  /// Where a vertex is and faces; which of a mesh's it is, where that matters too.
+  using Place = std::array<std::uint32_t, 7>;
+
+  static Place place_of(const skinning::Vertex& vertex, std::uint32_t own) {
+    DeviceVertex skin{};
+    pack_skin(vertex, skin);
+    Place place{0, 0, 0, skin.bones, skin.weights, octahedral(vertex.normal), own};
+    std::memcpy(place.data(), vertex.position.data(), sizeof(vertex.position));
+    return place;
+  }
+
+  DeviceVertex packed(const skinning::Vertex& vertex, const skinning::Part& part) const {
+    DeviceVertex packed{};
+    packed.position = vertex.position;
+    pack_skin(vertex, packed);
+    packed.part = info_of(part, static_cast<std::uint32_t>(population_.textures.size()));
+    packed.normal = octahedral(vertex.normal);
+    packed.uv = vertex.uv;
+    packed.base = word_of(around(population_, part.texture, vertex.uv));
+    if (part.shades >= 0) {
+      packed.shades = word_of(linear_shades(around(population_, part.shades, vertex.uv)));
+    }
+    return packed;
+  }
+
+  /// A part has its own copies of its vertices, since a vertex on the device belongs to one part.
+  void add_part(const skinning::Mesh& mesh, const skinning::Part& part, bool weld) {
+    std::map<Place, std::uint32_t> copy_of;
+    for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
+      const std::uint32_t index = mesh.indices[i];
+      const skinning::Vertex& vertex = mesh.vertices[index];
+      const auto [copy, is_new] =
+          copy_of.emplace(place_of(vertex, weld ? 0 : index),
+                          static_cast<std::uint32_t>(vertices_.size()) - first_vertex_);
+      if (is_new) vertices_.push_back(packed(vertex, part));
+      indices_.push_back(copy->second);
+    }
+  }
+
+  const skinning::Population& population_;
+  std::vector<DeviceVertex> vertices_;
+  std::vector<std::uint32_t> indices_;
+  std::uint32_t first_vertex_ = 0;  ///< of the level that is being added
+};
+
+}  // namespace
+
+PeopleMeshes people_meshes(const skinning::Population& population, std::size_t textured_levels) {
+  PeopleMeshes meshes;
+  Packer packer(population);
+  for (const skinning::Character& character : population.characters) {
+    std::vector<PeopleLevel>& levels = meshes.levels.emplace_back();
+    for (const skinning::Mesh& mesh : character.levels) {
+      levels.push_back(packer.add(mesh, levels.size() >= textured_levels));
+    }
+  }
+  meshes.vertices = packer.vertices();
+  meshes.indices = packer.indices();
+  return meshes;
+}
+
+}  // namespace throng::render

@@ -1,0 +1,44 @@
+// People's meshes as they lie on the device: every character's levels of detail, packed
+// into as few attributes as a software driver fetches quickly.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/gl_objects.h"
+#include "render/place.h"
+#include "skinning/population.h"
+
+namespace throng::render {
+
+/// A vertex on the device. The words are four bytes each, the first one lowest.
+struct DeviceVertex {
+  std::array<float, 3> position;
+  std::uint32_t bones;
+  std::uint32_t weights;  ///< of 255, falling: the shader stops at the first zero
+  std::uint32_t part;     ///< texture layer, a portrait's second one << 12, tint << 24
+  std::uint32_t normal;   ///< signed bytes of 127
+  std::array<float, 2> uv;
+  std::uint32_t base;    ///< the texture around it, sRGB
+  std::uint32_t shades;  ///< of a portrait, linear
+};
+
+/// One level of detail of one character.
+struct PeopleLevel {
+  std::int32_t first_vertex = 0;
+  Range opaque;
+  Range alpha_tested;
+};
+
+struct PeopleMeshes {
+  Buffer vertices;
+  Buffer indices;
+  std::vector<std::vector<PeopleLevel>> levels;  ///< [character][level]
+};
+
+/// Packs a population's meshes. Levels from `textured_levels` on are coloured corner by corner:
+/// their opaque vertices that differ in texture coordinates alone become one.
+PeopleMeshes people_meshes(const skinning::Population& population, std::size_t textured_levels);
+
+}  // namespace throng::render
