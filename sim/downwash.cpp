@@ -7,8 +7,7 @@ namespace throng::sim {
 
 namespace {
 
-constexpr double kDecay = 6.2;        // speed in the middle / start, times distance / diameter
-constexpr double kHalfWidth = 0.094;  // where half the speed is left, per distance
+constexpr double kDecay = 6.2;  // speed in the middle / start, times distance / diameter
 
 }  // namespace
 

@@ -23,10 +23,18 @@ class Jet {
   /// middle; 0 above them.
   double speed_mps(double below_m, double aside_m) const;
 
+  /// Whether anything of it could be felt there; cheap, and never wrong where it says no.
+  bool may_reach(double below_m, double aside_m) const {
+    return below_m > 0 && aside_m < kEdge * (kHalfWidth * below_m + narrowest_m_);
+  }
+
   /// How far below the rotors the middle is still as fast as `speed_mps` (> 0).
   double reach_m(double speed_mps) const;
 
  private:
+  static constexpr double kHalfWidth = 0.094;  ///< where half the speed is left, per distance
+  static constexpr double kEdge = 4;           ///< half widths beyond which 2^-16 of it is left
+
   double start_mps_;
   double diameter_m_;
   double narrowest_m_;  ///< half width where the jet has not spread yet

@@ -13,8 +13,6 @@ constexpr double kControlHz = 240;
 constexpr double kSampleHz = 60;
 // Slower contact is a landing.
 constexpr double kCollisionMps = 0.3;
-// What falls short of this, in m/s, no rotor feels.
-constexpr double kLeastDownwashMps = 0.1;
 
 int whole_ticks(double interval_s, double longest_tick_s) {
   constexpr double kRounding = 1e-9;
@@ -49,6 +47,7 @@ Flight::Flight(const std::vector<world::Building>& buildings,
       world_(buildings, interval_s / ticks_per_interval_),
       log_(std::move(log)),
       wind_(weather.wind),
+      states_(drones.size()),
       air_(drones.size(), Vector3d::Zero()),
       crafts_(drones.size()),
       near_misses_(buildings, [this](const world::TraceEvent& event) { log_.event(event); }),
@@ -122,29 +121,28 @@ void Flight::control() {
   const double dt_s = ticks_per_control_ * world_.dt_s();
   blow();
   for (std::size_t i = 0; i < pilots_.size(); ++i) {
-    world_.command(
-        i, pilots_[i].control(world_.state(i), dt_s, [&](std::string_view type, double value) {
-          report(i, type, value);
-        }));
+    world_.command(i,
+                   pilots_[i].control(states_[i], dt_s, [&](std::string_view type, double value) {
+                     report(i, type, value);
+                   }));
   }
 }
 
 // Lets the wind blow, and each craft on those below it.
 void Flight::blow() {
+  for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = world_.state(i);
   for (std::size_t i = 0; i < pilots_.size(); ++i) {
-    const FlightState state = world_.state(i);
+    const FlightState& state = states_[i];
     const Vector3d mean = wind_.mean_at(state.position.z());
     air_[i] = mean + gusts_[i].at(time_s_, state.position.z(), (state.velocity - mean).norm());
     world_.set_air_velocity(i, air_[i]);
     PerRotor downwash_mps{};
     for (std::size_t j = 0; j < pilots_.size(); ++j) {
       if (j == i || !pilots_[j].is_running()) continue;
-      const FlightState above = world_.state(j);
-      const Vector3d d = above.position - state.position;
-      const double reach_m = world_.airframe(i).arm_m;
-      const double aside_m = std::max(0.0, d.head<2>().norm() - reach_m);
-      if (d.z() <= 0 || jets_[j].speed_mps(d.z() + reach_m, aside_m) < kLeastDownwashMps) continue;
-      add_downwash(jets_[j], above, state, world_.airframe(i), downwash_mps);
+      const Vector3d d = states_[j].position - state.position;
+      const double arm_m = world_.airframe(i).arm_m;
+      if (!jets_[j].may_reach(d.z() + arm_m, d.head<2>().norm() - arm_m)) continue;
+      add_downwash(jets_[j], states_[j], state, world_.airframe(i), downwash_mps);
     }
     world_.set_downwash(i, downwash_mps);
   }

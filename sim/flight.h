@@ -71,6 +71,7 @@ class Flight {
   std::vector<Pilot> pilots_;
   std::vector<Gusts> gusts_;
   std::vector<Jet> jets_;
+  std::vector<FlightState> states_;   ///< when the pilots last decided
   std::vector<Eigen::Vector3d> air_;  ///< wind at each drone, m/s
   std::vector<CraftInAir> crafts_;    ///< as of the last samples
   PeopleInMotion people_;

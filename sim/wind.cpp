@@ -43,6 +43,7 @@ Vector3d turned(const Vector3d& v, double yaw_rad) {
 }  // namespace
 
 Vector3d WindSpec::mean_at(double height_m) const {
+  if (speed_mps == 0) return Vector3d::Zero();
   double factor = 1;
   if (profile == WindProfile::log_law) {
     const double from_z0 = std::max(height_m, roughness_m) / roughness_m;

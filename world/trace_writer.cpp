@@ -103,6 +103,16 @@ struct CrowdColumns {
   Column<std::uint8_t> flags;
 };
 
+// Digits that nobody needs cost most of the time and the space that compression takes.
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
+template <typename Vector>
+Vector rounded(const Vector& values, double steps) {
+  return values.unaryExpr([steps](double value) { return rounded(value, steps); });
+}
+constexpr double kCoarse = 1 << 14;  // rates, forces, winds
+constexpr double kFine = 1 << 20;    // metres, joules
+constexpr double kFinest = 1 << 30;  // quaternions
+
 struct DroneColumns {
   explicit DroneColumns(const hdf5::Handle& group)
       : time_s(group, "time_s", {}, kDroneRowsPerChunk, "s"),
@@ -115,16 +125,18 @@ struct DroneColumns {
         energy_j(group, "energy_j", {}, kDroneRowsPerChunk, "J") {}
 
   void add(const DroneSample& sample) {
+    const auto coarse = [](const Eigen::Vector3d& v) {
+      return Eigen::Vector3f(rounded(v, kCoarse).cast<float>());
+    };
     const Eigen::Quaterniond& q = sample.orientation;
-    const std::array wxyz{q.w(), q.x(), q.y(), q.z()};
     time_s.add(sample.time_s);
-    position.add(sample.position.data(), 3);
-    velocity.add(sample.velocity.data(), 3);
-    orientation.add(wxyz.data(), 4);
-    body_rates.add(Eigen::Vector3f(sample.body_rates.cast<float>()).data(), 3);
-    specific_force.add(Eigen::Vector3f(sample.specific_force.cast<float>()).data(), 3);
-    air_velocity.add(Eigen::Vector3f(sample.air_velocity.cast<float>()).data(), 3);
-    energy_j.add(sample.energy_j);
+    position.add(rounded(sample.position, kFine).data(), 3);
+    velocity.add(rounded(sample.velocity, kFine).data(), 3);
+    orientation.add(rounded(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()), kFinest).data(), 4);
+    body_rates.add(coarse(sample.body_rates).data(), 3);
+    specific_force.add(coarse(sample.specific_force).data(), 3);
+    air_velocity.add(coarse(sample.air_velocity).data(), 3);
+    energy_j.add(rounded(sample.energy_j, kFine));
   }
 
   void flush() {
