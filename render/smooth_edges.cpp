@@ -84,7 +84,8 @@ class Smoother {
     Change change{to, {}};
     for (std::size_t c = 0; c < 3; ++c) {
       const int difference = frame_.rgb[from * 3 + c] - frame_.rgb[to * 3 + c];
-      change.by[c] = static_cast<std::int16_t>(std::lround(std::abs(area) * difference));
+      const double by = std::abs(area) * difference;
+      change.by[c] = static_cast<std::int16_t>(by < 0 ? by - 0.5 : by + 0.5);  // rounded
     }
     changes_.push_back(change);
   }
