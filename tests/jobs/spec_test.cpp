@@ -95,7 +95,7 @@ TEST_F(Spec, ReadsEveryField) {
                            "gimbal": {"model": "second_order", "natural_rad_s": 30, "damping": 0.9,
                                       "jitter_deg": {"uniform": [0.01, 0.02]}, "bias_deg": 0.2,
                                       "reading_deg": 0.05}}}],
-    "capture": {"rate_hz": 2, "from_s": 1, "to_s": 3},
+    "capture": {"rate_hz": 2, "from_s": 1, "to_s": 3}, "quality": "high",
     "environment": {"time_of_day": "07:45",
                     "wind": {"speed_mps": {"uniform": [3, 6]}, "direction_deg": 90,
                              "profile": {"choice": ["power", "uniform"]}, "roughness_m": 1,
@@ -129,6 +129,7 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(wind.gusts, sim::GustModel::ou);
   EXPECT_EQ(wind.gust_time_s, 2);
   EXPECT_EQ(job.frames_per_camera(), 5);
+  EXPECT_EQ(job.quality, render::Quality::high);
   EXPECT_THAT(job.outputs.annotations, ElementsAre("density"));
   EXPECT_EQ(job.outputs.density_sigma_px, 6);
   EXPECT_EQ(to_json(parse(to_json(job).dump())), to_json(job));
