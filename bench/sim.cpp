@@ -58,6 +58,39 @@ void BM_Quad(benchmark::State& state) {
 }
 BENCHMARK(BM_Quad)->Name("BM_Quad/f450")->ArgName("drones")->Arg(1)->Arg(3)->Arg(10);
 
+// One drone that hovers above a crowd of 10 000, 1.3 m apart: what they cost while it is high up,
+// and while it is low enough to meet them. Items: as above.
+void BM_QuadAbovePeople(benchmark::State& state) {
+  constexpr int kPeople = 10'000;
+  constexpr int kAbreast = 100;
+  constexpr float kApartM = 1.3F;
+  constexpr double kIntervalS = 0.1;
+  std::vector<Eigen::Vector2f> positions;
+  for (int i = 0; i < kPeople; ++i) {
+    positions.emplace_back(kApartM * static_cast<float>(i % kAbreast - kAbreast / 2),
+                           kApartM * static_cast<float>(i / kAbreast - kAbreast / 2));
+  }
+  const std::vector<std::uint8_t> present(kPeople, 1);
+  sim::DroneMission mission;
+  mission.id = "d";
+  mission.start = Eigen::Vector3d(0.5, 0.5, static_cast<double>(state.range(0)));
+  std::vector<Problem> problems;
+  const world::Scenario meadow;
+  const auto plan = sim::plan_drones(meadow, {mission}, problems);
+  sim::Flight flight(
+      meadow.buildings, plan, kIntervalS, 1 / kPhysicsHz,
+      {[](std::size_t, const world::DroneSample&) {}, [](const world::TraceEvent&) {}});
+  for (auto _ : state) flight.advance({positions, present});
+  state.SetItemsProcessed(state.iterations() *
+                          static_cast<std::int64_t>(std::lround(kIntervalS * kPhysicsHz)));
+}
+BENCHMARK(BM_QuadAbovePeople)
+    ->Name("BM_Quad/above_10000_people")
+    ->ArgName("height_m")
+    ->Arg(20)
+    ->Arg(5)
+    ->Arg(2);
+
 // A whole run with its trace. Items: simulated seconds, so items per second is how many times
 // faster than real time it is.
 void BM_Run(benchmark::State& state) {

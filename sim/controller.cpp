@@ -88,6 +88,14 @@ Vector3d Controller::wanted_torque(const FlightState& state, const Vector3d& for
   return airframe_.inertia.cwiseProduct(acceleration);
 }
 
+void Controller::trim(const Vector3d& wind) {
+  const double hover_rad_s = std::sqrt(airframe_.weight_n() / (4 * airframe_.thrust_n_s2));
+  const double drag_per_mps =
+      4 * airframe_.rotor_drag * hover_rad_s + airframe_.body_drag * wind.norm();
+  const Eigen::Vector2d against = -drag_per_mps / airframe_.mass_kg * wind.head<2>();
+  integral_.head<2>() = shortened(against, kGravity * std::tan(limits_.tilt_rad));
+}
+
 PerRotor Controller::update(const FlightState& state, const Setpoint& setpoint, double dt_s) {
   const Vector3d force = wanted_force(state, setpoint, dt_s);
   const Vector3d torque = wanted_torque(state, force, setpoint.yaw_rad);

@@ -31,6 +31,9 @@ class Controller {
   /// Rotor speeds (rad/s) to command for the next `dt_s`.
   PerRotor update(const FlightState& state, const Setpoint& setpoint, double dt_s);
 
+  /// Begins as if it had hovered in this wind (m/s) for a while: its integral holds against it.
+  void trim(const Eigen::Vector3d& wind);
+
   /// Whether the last update wanted more tilt than the limit allows.
   bool tilt_saturated() const { return tilt_saturated_; }
 

@@ -13,6 +13,8 @@ constexpr double kControlHz = 240;
 constexpr double kSampleHz = 60;
 // Slower contact is a landing.
 constexpr double kCollisionMps = 0.3;
+// Rotors stopped and slower than this, a craft lies where it has come down.
+constexpr double kRestMps = 0.1;
 
 int whole_ticks(double interval_s, double longest_tick_s) {
   constexpr double kRounding = 1e-9;
@@ -58,6 +60,7 @@ Flight::Flight(const std::vector<world::Building>& buildings,
     pilots_.emplace_back(drone, FlightLimits{});
     gusts_.emplace_back(wind_, weather.seed, i);
     jets_.emplace_back(drone.airframe);
+    pilots_.back().trim(wind_.mean_at(drone.start.z()));
   }
   blow();
   record_samples();
@@ -157,7 +160,8 @@ void Flight::record_samples() {
                 {time_s_, state.position, state.velocity, world_.orientation(i), state.body_rates,
                  world_.specific_force(i), air_[i], pilots_[i].battery().used_j()});
     const Airframe& frame = world_.airframe(i);
-    crafts_[i] = {state.position, state.velocity, frame.radius_m(), frame.height_m};
+    const bool moves = pilots_[i].is_running() || state.velocity.norm() > kRestMps;
+    crafts_[i] = {state.position, state.velocity, frame.radius_m(), frame.height_m, moves};
   }
   for (NearPerson& person : near_) person.position += since_s * person.velocity;
   sampled_s_ = time_s_;

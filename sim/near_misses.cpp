@@ -116,8 +116,10 @@ void NearMisses::update(double time_s, std::span<const CraftInAir> crafts,
   for (std::size_t i = 0; i < crafts.size(); ++i) {
     const CraftInAir& craft = crafts[i];
     for (std::size_t j = i + 1; j < crafts.size(); ++j) {
+      if (!craft.moves && !crafts[j].moves) continue;
       look(time_s, {i, Obstacle::drone, static_cast<int>(j)}, approach_of(craft, crafts[j]));
     }
+    if (!craft.moves) continue;
     if (reach_m(craft) > 0) {
       for (const NearPerson& person : people) {
         look(time_s, {i, Obstacle::person, person.agent}, approach_of(craft, body_of(person)));

@@ -20,6 +20,7 @@ struct CraftInAir {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
   double radius_m = 0;
   double height_m = 0;
+  bool moves = true;  ///< one that has landed and rests comes near to nobody
 };
 
 /// Distance between two surfaces, and the time until they touch if nobody changes course; infinite

@@ -19,6 +19,9 @@ class Pilot {
 
   Pilot(const PlannedDrone& drone, const FlightLimits& limits);
 
+  /// Has got used to a steady wind (m/s).
+  void trim(const Eigen::Vector3d& wind) { controller_.trim(wind); }
+
   /// Rotor speeds (rad/s) for the next `dt_s`. A drone whose battery is low lands where it is; one
   /// whose battery is flat, and one that has landed, stop their rotors.
   PerRotor control(const FlightState& state, double dt_s, const Report& report);

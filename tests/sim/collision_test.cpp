@@ -207,6 +207,48 @@ TEST(Storm, WindOfTheWeatherReachesTheTrace) {
   EXPECT_GT((record.samples[0].back().air_velocity - mean).norm(), 0.01);
 }
 
+TEST(Storm, ADroneThatHoversWhenTheRunBeginsHasGotUsedToTheWind) {
+  FlightWeather weather;
+  weather.wind.speed_mps = 8;
+  weather.wind.profile = WindProfile::uniform;
+  weather.wind.gusts = GustModel::none;
+  const PlannedDrone drone = planned_drone({0, 0, 30}, {}, 1);
+  const FlightRecord record = fly_with({drone}, 10, {}, {}, weather);
+  for (const auto& sample : record.samples[0]) {
+    EXPECT_LT((sample.position - drone.start).norm(), 0.15) << sample.time_s;
+  }
+}
+
+TEST(Storm, SameSeedSameBits) {
+  FlightWeather weather;
+  weather.wind.speed_mps = 7;
+  weather.seed = 9;
+  const std::vector<PlannedDrone> drones{planned_drone({0, 0, 3}, {{10, 0, 1.5}}, 3),
+                                         planned_drone({0, 1, 9}, {{10, 1, 8}}, 3)};
+  const std::vector<Walker> walkers{{{4, 0}, {0.5, 0}}, {{12, 1}, {-1, 0}}};
+  const FlightRecord one = fly_with(drones, 8, walkers, {}, weather);
+  const FlightRecord two = fly_with(drones, 8, walkers, {}, weather);
+  weather.seed = 10;
+  const FlightRecord other = fly_with(drones, 8, walkers, {}, weather);
+  ASSERT_EQ(one.events.size(), two.events.size());
+  for (std::size_t i = 0; i < one.events.size(); ++i) {
+    EXPECT_EQ(one.events[i].type, two.events[i].type);
+    EXPECT_EQ(one.events[i].value, two.events[i].value);
+  }
+  EXPECT_EQ(one.samples[1].back().position, two.samples[1].back().position);
+  EXPECT_EQ(one.samples[1].back().energy_j, two.samples[1].back().energy_j);
+  EXPECT_NE(one.samples[1].back().position, other.samples[1].back().position);
+}
+
+TEST(NearMissOfALandedDrone, IsNone) {
+  PlannedDrone drone = planned_drone({0, 0, 1.0}, {}, 1);
+  drone.mission.battery_charge = 0.151;
+  const FlightRecord record = fly_with({drone}, 40, {{{-25, 0.9F}, {1, 0}}});
+  ASSERT_EQ(record.of_type("landed").size(), 1U);
+  ASSERT_LT(record.of_type("landed")[0].time_s, 20);
+  EXPECT_TRUE(record.of_type("near_miss").empty());
+}
+
 TEST(Samples, HoldWhatAnIdealImuReads) {
   const FlightRecord record = fly_with({planned_drone({0, 0, 10}, {{20, 0, 10}}, 4)}, 8);
   const auto& samples = record.samples[0];

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStepS = 1.0 / 60;
+constexpr double kGridS = 1.0 / 60;
 
 WindSpec breeze(double speed_mps) {
   WindSpec wind;
@@ -22,8 +22,8 @@ std::vector<Vector3d> gusts_of(const WindSpec& spec, double height_m, double air
                                double duration_s, std::uint64_t seed = 3) {
   Gusts gusts(spec, seed, 0);
   std::vector<Vector3d> list;
-  for (int i = 0; i * kStepS < duration_s; ++i) {
-    list.push_back(gusts.at(i * kStepS, height_m, airspeed_mps));
+  for (int i = 0; i * kGridS < duration_s; ++i) {
+    list.push_back(gusts.at(i * kGridS, height_m, airspeed_mps));
   }
   return list;
 }
@@ -87,9 +87,9 @@ TEST(Gusts, OfDrydenHaveTheStandardsStrengthAndSize) {
   // Along the wind the correlation falls as exp(-lag V / L).
   const double length_m = height_m / std::pow(0.2593, 1.2);
   const int lag = 120;
-  EXPECT_NEAR(correlation(gusts, 0, lag), std::exp(-lag * kStepS * airspeed_mps / length_m), 0.03);
+  EXPECT_NEAR(correlation(gusts, 0, lag), std::exp(-lag * kGridS * airspeed_mps / length_m), 0.03);
   // Across it as exp(-x) (1 - x / 2).
-  const double x = lag * kStepS * airspeed_mps / length_m;
+  const double x = lag * kGridS * airspeed_mps / length_m;
   EXPECT_NEAR(correlation(gusts, 1, lag), std::exp(-x) * (1 - 0.5 * x), 0.04);
 }
 
