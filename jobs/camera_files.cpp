@@ -22,6 +22,7 @@ std::string real(double value) {
 
 std::string list_of(const std::vector<double>& values) {
   std::vector<std::string> words;
+  words.reserve(values.size());
   for (const double value : values) words.push_back(real(value));
   return fmt::format("{}", fmt::join(words, ", "));
 }

@@ -33,7 +33,7 @@ struct FlightWeather {
 class Flight {
  public:
   /// The clock runs in equal ticks of at most `physics_dt_s`, a whole number of them in
-  /// `interval_s`. Records the drones' start as their first samples. `buildings` must outlive it.
+  /// `interval_s`. Records the drones' start as their first samples.
   Flight(const std::vector<world::Building>& buildings, const std::vector<PlannedDrone>& drones,
          double interval_s, double physics_dt_s, FlightLog log, const FlightWeather& weather = {});
   Flight(const Flight&) = delete;

@@ -90,9 +90,9 @@ Approach approach_of(const CraftInAir& craft, const world::Building& building) {
   return approach;
 }
 
-NearMisses::NearMisses(const std::vector<world::Building>& buildings, Log log)
-    : buildings_(buildings), log_(std::move(log)) {
-  for (const world::Building& building : buildings) {
+NearMisses::NearMisses(std::vector<world::Building> buildings, Log log)
+    : buildings_(std::move(buildings)), log_(std::move(log)) {
+  for (const world::Building& building : buildings_) {
     Bounds bounds{Vector2d::Constant(kNever), Vector2d::Constant(-kNever)};
     for (const Vector2d& corner : building.footprint) {
       bounds.min = bounds.min.cwiseMin(corner);

@@ -38,7 +38,7 @@ class NearMisses {
  public:
   using Log = std::function<void(const world::TraceEvent&)>;
 
-  NearMisses(const std::vector<world::Building>& buildings, Log log);
+  NearMisses(std::vector<world::Building> buildings, Log log);
 
   /// How far away somebody on foot may be and matter, for a drone of this speed.
   static double reach_m(const CraftInAir& craft);
@@ -71,7 +71,7 @@ class NearMisses {
   void look(double time_s, const Key& key, const Approach& approach);
   void write(const Key& key, const Case& entry);
 
-  const std::vector<world::Building>& buildings_;
+  std::vector<world::Building> buildings_;
   std::vector<Bounds> bounds_;  ///< of the buildings' footprints
   Log log_;
   std::map<Key, Case> cases_;

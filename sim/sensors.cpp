@@ -17,10 +17,10 @@ constexpr double kLapse = 2.25577e-5;  // 1/m
 constexpr double kPressureExponent = 5.25588;
 constexpr std::uint64_t kSensorsPerDrone = 8;
 
-enum SensorNumber : std::uint64_t { kGyro, kAccelerometer, kMagnetometer, kBarometer, kGps };
+enum class Sensor : std::uint64_t { gyro, accelerometer, magnetometer, barometer, gps };
 
-Random random_of(std::uint64_t seed, std::uint64_t drone, SensorNumber sensor) {
-  return {seed, Stream::sensors, drone * kSensorsPerDrone + sensor};
+Random random_of(std::uint64_t seed, std::uint64_t drone, Sensor sensor) {
+  return {seed, Stream::sensors, drone * kSensorsPerDrone + static_cast<std::uint64_t>(sensor)};
 }
 
 Vector3d normals(Random& random) {
@@ -150,11 +150,11 @@ SensorLog::SensorLog(const std::vector<world::DroneSample>& truth, std::uint64_t
                      std::uint64_t drone, double latitude_rad, const SensorNoise& noise) {
   check(!truth.empty(), "a drone with sensors has flown");
   const Vector3d field = magnetic_field(latitude_rad);
-  InertialTriad gyro(noise.gyro, random_of(seed, drone, kGyro));
-  InertialTriad accelerometer(noise.accelerometer, random_of(seed, drone, kAccelerometer));
-  Random magnetic = random_of(seed, drone, kMagnetometer);
-  Barometer barometer(noise, random_of(seed, drone, kBarometer));
-  Gps gps(noise, random_of(seed, drone, kGps));
+  InertialTriad gyro(noise.gyro, random_of(seed, drone, Sensor::gyro));
+  InertialTriad accelerometer(noise.accelerometer, random_of(seed, drone, Sensor::accelerometer));
+  Random magnetic = random_of(seed, drone, Sensor::magnetometer);
+  Barometer barometer(noise, random_of(seed, drone, Sensor::barometer));
+  Gps gps(noise, random_of(seed, drone, Sensor::gps));
   constexpr double kUsualStepS = 1.0 / 60;
   double last_s = truth.front().time_s - kUsualStepS;
   for (const world::DroneSample& sample : truth) {
