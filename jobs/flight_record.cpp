@@ -34,10 +34,22 @@ sim::SensorLog sensors_of(const JobSpec& job, std::uint64_t run_seed,
   return {truth, run_seed, drone, latitude_deg * kDegree};
 }
 
-json flight_record(const world::DroneSample& truth, const sim::SensorReading& reading,
-                   const sim::ViewAngles& view, const sim::ViewAngles& gimbal_reading,
-                   const sim::SensorNoise& noise) {
+json horizon_rows(const camera::Camera& camera) {
+  constexpr double kLeastSlope = 1e-6;
+  const camera::Intrinsics& k = camera.intrinsics;
+  const Eigen::Vector3d up = camera.pose.R.col(2);
+  if (std::abs(up.y()) < kLeastSlope) return nullptr;
+  const auto row_at = [&](double column) {
+    return k.cy_px - k.fy_px * (up.z() + up.x() * (column - k.cx_px) / k.fx_px) / up.y();
+  };
+  return {row_at(0), row_at(k.width - 1)};
+}
+
+json flight_record(const FlightMoment& moment, const sim::SensorNoise& noise) {
+  const world::DroneSample& truth = moment.truth;
+  const sim::SensorReading& reading = moment.reading;
   const Eigen::Quaterniond& q = truth.orientation;
+  const Eigen::Quaterniond c(Eigen::Matrix3d(moment.camera.pose.R.transpose()));
   return {
       {"true",
        {{"time_s", truth.time_s},
@@ -49,7 +61,9 @@ json flight_record(const world::DroneSample& truth, const sim::SensorReading& re
         {"specific_force", vector_json(truth.specific_force)},
         {"air_velocity", vector_json(truth.air_velocity)},
         {"energy_wh", truth.energy_j / kJoulesPerWh},
-        {"gimbal", angles_json(view)}}},
+        {"gimbal", angles_json(moment.view)},
+        {"camera_orientation_wxyz", {c.w(), c.x(), c.y(), c.z()}},
+        {"horizon_rows", horizon_rows(moment.camera)}}},
       {"measured",
        {{"time_s", reading.time_s},
         {"gyro", vector_json(reading.gyro)},
@@ -64,7 +78,7 @@ json flight_record(const world::DroneSample& truth, const sim::SensorReading& re
           {"position_sd_m", {noise.gps_horizontal_m, noise.gps_horizontal_m, noise.gps_vertical_m}},
           {"velocity_sd_mps",
            {noise.gps_horizontal_mps, noise.gps_horizontal_mps, noise.gps_vertical_mps}}}},
-        {"gimbal", angles_json(gimbal_reading)}}}};
+        {"gimbal", angles_json(moment.gimbal_reading)}}}};
 }
 
 std::string sensors_csv(const std::vector<world::DroneSample>& truth, const sim::SensorLog& log) {

@@ -60,8 +60,9 @@ sim::ViewAngles Shoot::view_at(std::size_t drone, const world::DroneSample& samp
 
 std::string Shoot::flight_at(std::size_t drone, double time_s) const {
   const world::DroneSample sample = trace_->drone_at(drones_[drone], time_s);
-  return flight_record(sample, sensors_[drone].at(time_s), view_at(drone, sample),
-                       gimbals_[drone].reading_at(time_s), sim::SensorNoise{})
+  const sim::ViewAngles view = view_at(drone, sample);
+  return flight_record({sample, view, camera_on(sample, cameras_[drone], view),
+                        sensors_[drone].at(time_s), gimbals_[drone].reading_at(time_s)})
       .dump();
 }
 

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/angle.h"
+#include "jobs/gimbal.h"
 
 namespace throng::jobs {
 namespace {
@@ -30,9 +32,11 @@ TEST(FlightRecord, HoldsTruthAndReadingsApart) {
   const auto truth = passage();
   const JobSpec job;
   const sim::SensorLog log = sensors_of(job, 3, truth, 0);
+  CameraSpec spec;
+  const sim::ViewAngles view{90 * kDegree, -40 * kDegree, 0.5 * kDegree};
+  const camera::Camera camera = camera_on(truth[60], spec, view);
   const nlohmann::json record =
-      flight_record(truth[60], log.at(1), {90 * kDegree, -40 * kDegree, 0.5 * kDegree},
-                    {91 * kDegree, -40 * kDegree, 0}, {});
+      flight_record({truth[60], view, camera, log.at(1), {91 * kDegree, -40 * kDegree, 0}});
   const nlohmann::json& real = record["true"];
   EXPECT_EQ(real["position"], nlohmann::json({6, 4, 20}));
   EXPECT_EQ(real["height_m"], 20);
@@ -41,6 +45,9 @@ TEST(FlightRecord, HoldsTruthAndReadingsApart) {
   EXPECT_EQ(real["orientation_wxyz"], nlohmann::json({1, 0, 0, 0}));
   EXPECT_NEAR(real["gimbal"]["yaw_deg"], 90, 1e-9);
   EXPECT_NEAR(real["gimbal"]["roll_deg"], 0.5, 1e-9);
+  const nlohmann::json& q = real["camera_orientation_wxyz"];
+  const Eigen::Quaterniond turned(q[0], q[1], q[2], q[3]);
+  EXPECT_TRUE(turned.conjugate().toRotationMatrix().isApprox(camera.pose.R, 1e-12));
   const nlohmann::json& measured = record["measured"];
   EXPECT_NEAR(measured["accelerometer"][2], 9.81, 1.5);
   EXPECT_NE(measured["accelerometer"][2], 9.81);
@@ -50,6 +57,24 @@ TEST(FlightRecord, HoldsTruthAndReadingsApart) {
   EXPECT_EQ(measured["gps"]["position_sd_m"], nlohmann::json({1, 1, 2}));
   EXPECT_NEAR(measured["height_m"], 20, 3);
   EXPECT_NEAR(measured["gimbal"]["yaw_deg"], 91, 1e-9);
+}
+
+TEST(HorizonRows, AreWhereFarGroundIsSeen) {
+  CameraSpec spec;
+  spec.pitch_deg = -20;
+  const world::DroneSample drone = passage()[0];
+  const sim::ViewAngles view{0.3, -20 * kDegree, 5 * kDegree};
+  const camera::Camera camera = camera_on(drone, spec, view);
+  const nlohmann::json rows = horizon_rows(camera);
+  // A point at the drone's height, far away, lies on the line between both.
+  for (const double yaw : {0.0, 0.3, 0.6}) {
+    const auto seen =
+        camera.project(drone.position + 1e4 * Eigen::Vector3d(std::cos(yaw), std::sin(yaw), 0));
+    const double share = seen.pixel.x() / (camera.intrinsics.width - 1);
+    const double row = (1 - share) * rows[0].get<double>() + share * rows[1].get<double>();
+    EXPECT_NEAR(seen.pixel.y(), row, 1e-6);
+  }
+  EXPECT_TRUE(horizon_rows(camera_on(drone, spec, {0, -90 * kDegree, 0})).is_null());
 }
 
 TEST(SensorsCsv, HasALinePerSampleAndAColumnPerName) {
