@@ -1,8 +1,10 @@
 // Frames per second of this machine's cores on the whole way to a dataset: 1920 x 1080, a drone at
-// 30 m looking down 45 degrees with 70 degrees across; drawn by Mesa's software driver, read back,
-// labelled, and picture, boxes, masks and depth written into a folder in memory. One process per
-// core, as jobs do it.
+// 30 m looking down 45 degrees with 70 degrees across; drawn by Mesa's software driver or a GPU
+// (--device gpu, with 4 samples a pixel), read back, labelled, and picture, boxes, masks and depth
+// written into a folder in memory. One process per core, as jobs do it. With --draw-only frames are
+// drawn and read back.
 //   bench_render [--stages] [--seconds S] [--pictures FOLDER] [--quality WORD] [--people COUNT]
+//                [--device WORD] [--processes COUNT] [--draw-only]
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -40,6 +42,9 @@ struct Settings {
   std::string pictures;  ///< folder for one frame of each kind, or ""
   std::string quality;   ///< only this one, or ""
   std::vector<std::uint32_t> people = {625, 5000};
+  std::string device = "software";
+  unsigned processes = std::max(1U, std::thread::hardware_concurrency());
+  bool draw_only = false;
 };
 
 skinning::Population people_to_draw() {
@@ -108,12 +113,13 @@ double cpu_s() {
 /// The work of a job's worker, frame by frame.
 class Worker {
  public:
-  Worker(render::Quality quality, std::uint32_t count, StageClock* clock)
+  Worker(render::Quality quality, std::uint32_t count, const Settings& settings, StageClock* clock)
       : clock_(clock),
+        draw_only_(settings.draw_only),
         people_(people_to_draw()),
         scenario_(square()),
         folder_(std::filesystem::path("/dev/shm") / fmt::format("throng_bench_{}", ::getpid())),
-        renderer_(scenario_, people_, {}, {"software"}, {.quality = quality, .clock = clock}),
+        renderer_(scenario_, people_, {}, {settings.device}, {.quality = quality, .clock = clock}),
         scene_(crowd(people_, count)),
         coco_(folder_ / "coco") {}
   ~Worker() { std::filesystem::remove_all(folder_); }
@@ -123,6 +129,7 @@ class Worker {
   void frame() {
     if (clock_ != nullptr) clock_->skip();
     render::Frame frame = renderer_.draw(scene_, drone());
+    if (draw_only_) return renderer_.recycle(std::move(frame));
     const annotate::FrameLabels labels = annotate::label_people(frame);
     lap("labels");
     jpeg_ = annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), 95);
@@ -149,6 +156,7 @@ class Worker {
   }
 
   StageClock* clock_;
+  bool draw_only_;
   skinning::Population people_;
   world::Scenario scenario_;
   std::filesystem::path folder_;
@@ -170,7 +178,7 @@ Figures measure(render::Quality quality, std::uint32_t count, bool first,
   render::tune_allocator();
   std::optional<StageClock> clock;
   if (settings.stages) clock.emplace();
-  Worker worker(quality, count, clock ? &*clock : nullptr);
+  Worker worker(quality, count, settings, clock ? &*clock : nullptr);
   for (int i = 0; i < 2; ++i) worker.frame();
   if (clock) *clock = StageClock();
   using Clock = std::chrono::steady_clock;
@@ -193,10 +201,9 @@ Figures measure(render::Quality quality, std::uint32_t count, bool first,
 }
 
 void run(render::Quality quality, std::uint32_t count, const Settings& settings) {
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
   std::array<int, 2> pipe{};
   if (::pipe(pipe.data()) != 0) std::abort();
-  for (unsigned i = 0; i < cores; ++i) {
+  for (unsigned i = 0; i < settings.processes; ++i) {
     if (::fork() != 0) continue;
     const Figures figures = measure(quality, count, i == 0, settings);
     const bool told = ::write(pipe[1], &figures, sizeof(figures)) == sizeof(figures);
@@ -215,7 +222,7 @@ void run(render::Quality quality, std::uint32_t count, const Settings& settings)
   }
   const double cpu_ms = 1000 * all.cpu_s / all.frames;
   fmt::print("{:<10}{:>8}{:>14.1f}{:>16.1f}{:>20.1f}\n", render::settings_of(quality).word, count,
-             frames_per_s, cpu_ms, 1000 * cores / cpu_ms);
+             frames_per_s, cpu_ms, 1000 * settings.processes / cpu_ms);
 }
 
 }  // namespace
@@ -230,6 +237,10 @@ int main(int count, char** arguments) {
     if (word == "--seconds") settings.seconds = std::atof(value);
     if (word == "--pictures") settings.pictures = value;
     if (word == "--quality") settings.quality = value;
+    if (word == "--device") settings.device = value;
+    if (word == "--processes")
+      settings.processes = static_cast<unsigned>(std::max(1, std::atoi(value)));
+    if (word == "--draw-only") settings.draw_only = true;
     if (word == "--people") settings.people = {static_cast<std::uint32_t>(std::atoi(value))};
   }
   ::setenv("LP_NUM_THREADS", "0", 0);  // one core per process

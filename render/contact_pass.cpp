@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kSmallestPx = 48;  // standing height of people who still get a rim: it costs as
-                                  // much as they do, and shows as a few pixels
+                                    // much as they do, and shows as a few pixels
 constexpr double kPersonReachM = 0.5;
 constexpr double kTypicalStatureM = 1.7;
 

@@ -195,6 +195,7 @@ Context::Context(const std::string& device) {
   display_ = opened.display;
   context_ = opened.context;
   description_ = opened.description;
+  is_software_ = is_software_renderer(description_);
 }
 
 Context::~Context() {

@@ -21,11 +21,14 @@ class Context {
 
   /// "vendor, renderer, version" as the driver reports them.
   const std::string& description() const { return description_; }
+  /// Whether the CPU draws.
+  bool is_software() const { return is_software_; }
 
  private:
   void* display_ = nullptr;  ///< EGLDisplay
   void* context_ = nullptr;  ///< EGLContext
   std::string description_;
+  bool is_software_ = true;
 };
 
 }  // namespace throng::render

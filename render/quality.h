@@ -16,11 +16,16 @@ struct QualitySettings {
   int textured_levels;    ///< of people; coarser ones, whose triangles are pixels, by their corners
   int shadow_texels;      ///< along each side of the shadow map; 0: no shadows
   bool fine_shadows;      ///< edges from 3 x 3 texels instead of 2 x 2
-  bool smooth_edges;      ///< along the outlines of people and things
+  /// Along the outlines of people and things: on the CPU by what the ids say, on a GPU with
+  /// kSamples a pixel.
+  bool smooth_edges;
   int supersampling;      ///< samples of colour along each side of a pixel
   double detail;          ///< people's levels of detail are chosen as if they were so much larger
   double proxy_below_px;  ///< smaller people are drawn at their last level
 };
+
+/// Samples of colour per pixel on a GPU.
+inline constexpr int kSamples = 4;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{
     {"draft", false, 0, 0, 0, false, false, 1, 0.5, 60},

@@ -10,6 +10,7 @@
 #include "render/gl_objects.h"
 #include "render/lamps.h"
 #include "render/lighting.h"
+#include "render/multisample_target.h"
 #include "render/people_pass.h"
 #include "render/person_geometry.h"
 #include "render/place_pass.h"
@@ -86,10 +87,12 @@ camera::Camera scaled(const camera::Camera& camera, int times) {
   return fine;
 }
 
-void resize(std::optional<Target>& target, int width, int height) {
+/// Makes a target of this size if there is none.
+template <typename T, typename... Others>
+void resize(std::optional<T>& target, int width, int height, Others... others) {
   if (target && target->width() == width && target->height() == height) return;
   target.reset();
-  target.emplace(width, height);
+  target.emplace(width, height, others...);
 }
 
 }  // namespace
@@ -105,8 +108,10 @@ struct Renderer::State {
   void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area);
   void draw_picture(const Scene& scene, const camera::Camera& camera, bool truth,
                     std::vector<Seen>& seen, Frame& frame);
+  void draw_smooth(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
+                   Frame& frame);
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
-                 const Target& into, PeoplePass::Purpose purpose);
+                 PeoplePass::Purpose purpose);
   void place_silhouettes(const camera::Camera& camera, std::vector<Seen>& seen);
   void draw_surfaces(const Scene& scene, const NextFrame* next, const std::vector<Seen>& seen,
                      Frame& frame);
@@ -123,6 +128,7 @@ struct Renderer::State {
   Context context;  // first: everything below needs it, also to be destroyed
   RenderOptions options;
   QualitySettings quality;
+  bool multisample;
   const skinning::Population* population;
   Daylight daylight;
   Eigen::AlignedBox2d ground;
@@ -140,7 +146,9 @@ struct Renderer::State {
   Buffer next_view_buffer;
   Buffer light_buffer;
   std::optional<Target> target;
-  std::optional<Target> fine_target;  ///< for colour alone, when a pixel has several samples of it
+  /// For colour alone, when a pixel has several samples of it.
+  std::optional<Target> fine_target;
+  std::optional<MultisampleTarget> multisample_target;
   std::optional<SurfaceTarget> surface_target;
   Frame spare;  ///< its buffers serve the next frame
 };
@@ -151,6 +159,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
     : context(device.name),
       options(wanted),
       quality(settings_of(wanted.quality)),
+      multisample(quality.smooth_edges && wanted.multisample.value_or(!context.is_software())),
       population(&people),
       daylight(render::daylight(environment)),
       ground(scenario.ground.min, scenario.ground.max),
@@ -272,29 +281,43 @@ void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& cam
   shadow_map.bind();
   if (lamp_map) lamp_map->bind();
   lap("shadows");
+  draw_smooth(scene, camera, seen, frame);
+  resize(target, k.width, k.height);
+  using Purpose = PeoplePass::Purpose;
+  if (truth) place_silhouettes(camera, seen);
+  target->begin(Eigen::Vector3f::Zero());
+  draw_view(scene, camera, seen, truth ? Purpose::picture_and_silhouettes : Purpose::picture);
+  lap("draw");
+}
+
+/// Colours that have several samples a pixel, drawn for their own sake.
+void Renderer::State::draw_smooth(const Scene& scene, const camera::Camera& camera,
+                                  const std::vector<Seen>& seen, Frame& frame) {
   if (quality.supersampling > 1) {
     const camera::Camera fine = scaled(camera, quality.supersampling);
     resize(fine_target, fine.intrinsics.width, fine.intrinsics.height);
-    draw_view(scene, fine, seen, *fine_target, PeoplePass::Purpose::picture);
+    fine_target->begin(Eigen::Vector3f::Zero());
+    draw_view(scene, fine, seen, PeoplePass::Purpose::picture);
     lap("draw");
     fine_target->read_light(quality.supersampling, frame);
     lap("read back");
   }
-  resize(target, k.width, k.height);
-  using Purpose = PeoplePass::Purpose;
-  if (truth) place_silhouettes(camera, seen);
-  draw_view(scene, camera, seen, *target,
-            truth ? Purpose::picture_and_silhouettes : Purpose::picture);
-  lap("draw");
+  if (multisample) {
+    resize(multisample_target, camera.intrinsics.width, camera.intrinsics.height, kSamples);
+    multisample_target->begin();
+    draw_view(scene, camera, seen, PeoplePass::Purpose::picture);
+    lap("draw");
+    multisample_target->read(frame);
+    lap("read back");
+  }
 }
 
 void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera,
-                                const std::vector<Seen>& seen, const Target& into,
-                                PeoplePass::Purpose purpose) {
-  const ViewBlock view = view_block(camera, guarded_viewport(into.width(), into.height()));
+                                const std::vector<Seen>& seen, PeoplePass::Purpose purpose) {
+  const camera::Intrinsics& k = camera.intrinsics;
+  const ViewBlock view = view_block(camera, guarded_viewport(k.width, k.height));
   glNamedBufferData(view_buffer.name(), sizeof(view), &view, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
-  into.begin(Eigen::Vector3f::Zero());
   // People first: they are many small triangles, and hide ground that then costs nothing.
   people_pass.draw(purpose, scene.people, draws_of(seen));
   props.draw(clip_planes(camera));
@@ -374,10 +397,10 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   std::vector<Seen> seen = state.find_seen(scene, camera);
   state.lap("cull");
   state.draw_picture(scene, camera, choice.truth, seen, frame);
-  const bool wants_light = state.quality.supersampling == 1;
+  const bool wants_light = state.quality.supersampling == 1 && !state.multisample;
   state.target->read(wants_light, frame);
   state.lap("read back");
-  if (state.quality.smooth_edges) smooth_edges(frame);
+  if (state.quality.smooth_edges && !state.multisample) smooth_edges(frame);
   state.lap("smooth");
   const RenderOptions& options = state.options;
   if (choice.truth && (options.normals || options.flow || options.parts)) {

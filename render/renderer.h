@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct RenderOptions {
   bool normals = false;  ///< fill Frame::normal
   bool flow = false;     ///< fill Frame::flow
   bool parts = false;    ///< fill Frame::part
+  /// How edges are smoothed: by several samples a pixel, or afterwards. Nothing: as QualitySettings
+  /// says, so this is for tests and comparisons.
+  std::optional<bool> multisample = std::nullopt;
   /// Told where the time goes, if given; drawing is then waited for at the end of every stage.
   StageClock* clock = nullptr;
 };

@@ -29,24 +29,6 @@ int size_within_limits(int width, int height) {
   return width;
 }
 
-/// Drops the fourth byte of each pixel; four pixels at a time are three words.
-void pack_rgb(const std::vector<std::uint32_t>& rgba, std::vector<std::uint8_t>& rgb) {
-  static_assert(std::endian::native == std::endian::little);
-  constexpr std::uint32_t kColour = 0xFFFFFFU;
-  rgb.resize(rgba.size() * 3);
-  std::size_t i = 0;
-  for (; i + 4 <= rgba.size(); i += 4) {
-    const std::uint32_t a = rgba[i] & kColour;
-    const std::uint32_t b = rgba[i + 1] & kColour;
-    const std::uint32_t c = rgba[i + 2] & kColour;
-    const std::uint32_t d = rgba[i + 3];
-    const std::array<std::uint32_t, 3> words = {a | (b << 24U), (b >> 8U) | (c << 16U),
-                                                (c >> 16U) | (d << 8U)};
-    std::memcpy(&rgb[i * 3], words.data(), sizeof(words));
-  }
-  for (; i < rgba.size(); ++i) std::memcpy(&rgb[i * 3], &rgba[i], 3);
-}
-
 /// Between sRGB values and light: pictures are averaged in the latter, as a lens does.
 class LightTable {
  public:
@@ -138,6 +120,24 @@ void Target::read_light(int samples, Frame& frame) {
       for (std::size_t c = 0; c < 3; ++c) out[c] = table.value(sum[c] / count);
     }
   }
+}
+
+void pack_rgb(const std::vector<std::uint32_t>& rgba, std::vector<std::uint8_t>& rgb) {
+  // Four pixels at a time are three words.
+  static_assert(std::endian::native == std::endian::little);
+  constexpr std::uint32_t kColour = 0xFFFFFFU;
+  rgb.resize(rgba.size() * 3);
+  std::size_t i = 0;
+  for (; i + 4 <= rgba.size(); i += 4) {
+    const std::uint32_t a = rgba[i] & kColour;
+    const std::uint32_t b = rgba[i + 1] & kColour;
+    const std::uint32_t c = rgba[i + 2] & kColour;
+    const std::uint32_t d = rgba[i + 3];
+    const std::array<std::uint32_t, 3> words = {a | (b << 24U), (b >> 8U) | (c << 16U),
+                                                (c >> 16U) | (d << 8U)};
+    std::memcpy(&rgb[i * 3], words.data(), sizeof(words));
+  }
+  for (; i < rgba.size(); ++i) std::memcpy(&rgb[i * 3], &rgba[i], 3);
 }
 
 }  // namespace throng::render

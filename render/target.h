@@ -39,4 +39,7 @@ class Target {
   std::vector<std::uint32_t> rgba_;  ///< as read, kept between frames
 };
 
+/// Drops the fourth byte of each pixel.
+void pack_rgb(const std::vector<std::uint32_t>& rgba, std::vector<std::uint8_t>& rgb);
+
 }  // namespace throng::render

@@ -45,6 +45,38 @@ TEST(Quality, DraftsShowTheSamePeopleInTheSamePlacesAndTheirColours) {
   EXPECT_NEAR(mean(draft), mean(standard), 25);
 }
 
+TEST(Quality, SeveralSamplesChangeEdgesAlone) {
+  const auto picture = [](bool multisample) {
+    Stage stage(open_ground({block(3, 5, -2, 2, 4)}), {}, {.multisample = multisample});
+    return stage.draw(camera_at({-6, 0, 3}, 0, -12), {stage.standing(1, 0, 0)});
+  };
+  const Frame sampled = picture(true);
+  const Frame smoothed = picture(false);
+  EXPECT_EQ(sampled.id, smoothed.id);
+  EXPECT_EQ(sampled.depth_m, smoothed.depth_m);
+  int inner = 0;
+  int inner_changed = 0;
+  int edge = 0;
+  int mixed = 0;
+  for (int y = 2; y < sampled.height() - 2; ++y) {
+    for (int x = 2; x < sampled.width() - 2; ++x) {
+      const std::uint32_t id = sampled.id[index_of(sampled, x, y)];
+      bool is_inner = true;
+      for (const auto& [i, j] :
+           {std::pair(-2, 0), {2, 0}, {0, -2}, {0, 2}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}}) {
+        is_inner = is_inner && sampled.id[index_of(sampled, x + i, y + j)] == id;
+      }
+      const int change = std::abs(brightness(sampled, x, y) - brightness(smoothed, x, y));
+      // The ground's own pattern has no edges of ids, but is the same in both.
+      (is_inner ? inner : edge) += 1;
+      if (is_inner && change > 24) ++inner_changed;
+      if (!is_inner && change > 24) ++mixed;
+    }
+  }
+  EXPECT_LT(inner_changed, inner / 50);
+  EXPECT_GT(mixed, edge / 50);
+}
+
 /// White above and black below a line of this slope through the middle.
 Frame halves(double slope) {
   Frame frame;
