@@ -27,6 +27,8 @@ enum class Stream : std::uint32_t {
   crowd_exits = 16,  ///< which exits somebody knows
   crowd_model = 17,  ///< noise of pedestrian models
   camera_noise = 18,
+  perception = 24,  ///< what guides count wrongly
+  bootstrap = 25,   ///< resampling of statistics
 };
 
 /// A generator keyed by (seed, stream, index): Philox 4x32-10 (Salmon et al. 2011) from Random123.

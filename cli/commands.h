@@ -11,6 +11,7 @@ namespace throng::cli {
 // EnvironmentError or Cancelled; main() turns these into messages and exit codes.
 void add_run(CLI::App& app);
 void add_simulate(CLI::App& app);
+void add_study(CLI::App& app);
 void add_render(CLI::App& app);
 void add_crowd(CLI::App& app);
 void add_serve(CLI::App& app);

@@ -21,6 +21,7 @@ struct SimulateArguments {
   std::string job_file;
   std::string trace_file;
   int run = 0;
+  std::string pilot_logs;
 };
 
 void simulate(const SimulateArguments& arguments) {
@@ -39,7 +40,7 @@ void simulate(const SimulateArguments& arguments) {
         [&](double done_s, double total_s) {
           bar.show(done_s / total_s, fmt::format("{:.0f} of {:.0f} s", done_s, total_s));
         },
-        interrupt.token());
+        interrupt.token(), arguments.pilot_logs);
   }
   for (const Problem& warning : warnings) {
     fmt::print(stderr, "throng: warning: {}\n", warning.text());
@@ -55,6 +56,8 @@ void add_simulate(CLI::App& app) {
   command->add_option("job", arguments->job_file, "Job file (JSON)")->required();
   command->add_option("-o,--output", arguments->trace_file, "Trace to write (HDF5)")->required();
   command->add_option("--run", arguments->run, "Which of the job's runs")->capture_default_str();
+  command->add_option("--pilot-logs", arguments->pilot_logs,
+                      "Folder for DRONE.csv: where each drone was sent, for the policy pilot_log");
   command->callback([arguments] { simulate(*arguments); });
 }
 

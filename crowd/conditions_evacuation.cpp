@@ -124,12 +124,15 @@ std::unique_ptr<Condition> make_follow(const Element& element, const Attributes&
   const int set = context.goals.require_set(element, attributes, "goalSetToFollow");
   const float distance = attributes.real("distance");
   const double weight = attributes.number("weight");
-  if (context.crowd.compat == Compat::huang2016) return std::make_unique<Near>(set, distance);
-  if (weight > 1) {
+  const double compliance = context.crowd.compliance;
+  const bool weighted = context.crowd.compat != Compat::huang2016;
+  if (!weighted && compliance >= 1) return std::make_unique<Near>(set, distance);
+  if (weighted && weight > 1) {
     element.warn_attribute("weight", fmt::format("{}; everybody follows", weight),
                            "a probability from 0 to 1");
   }
-  return std::make_unique<FollowNear>(set, distance, weight, context.make_unit_sampler(),
+  const double inclined = compliance * (weighted ? std::min(weight, 1.0) : 1.0);
+  return std::make_unique<FollowNear>(set, distance, inclined, context.make_unit_sampler(),
                                       context.agent_count);
 }
 

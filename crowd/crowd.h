@@ -25,6 +25,7 @@ struct Crowd {
   std::vector<float> model_constants;          ///< of the scene, in the order of the model's table
   std::vector<std::string_view> model_parameter_names;  ///< of Agents::model_parameters
   Compat compat = Compat::none;
+  double compliance = 1;                                    ///< of people with those who lead them
   bool test_visibility = false;                             ///< walls hide neighbours
   InstructionSet instruction_set = best_instruction_set();  ///< for the loops that have a choice
   std::uint64_t seed = 1;                                   ///< of the run

@@ -47,6 +47,7 @@ Simulation::State::State(const std::filesystem::path& scene_file,
   const ModelEntry& entry = find_model(options.model);
   state_names = load_state_names(behavior.root());
   crowd.compat = options.compat;
+  crowd.compliance = options.compliance;
   crowd.seed = options.seed;
   MengeSequences sequences(options.compat, options.seed);
   Scene parts = load_scene(scene.root(), state_names, entry, sequences, crowd);

@@ -29,6 +29,7 @@ struct LoadOptions {
   std::optional<double> time_step_s = {};  ///< instead of the scene's
   int sub_steps = 0;                       ///< steps in between that nobody sees, per time step
   bool hard_separation = false;            ///< bodies never overlap by more than 1 cm
+  double compliance = 1;                   ///< times the probability that somebody follows a guide
 };
 
 /// A goal chosen by an agent: set and goal id of the behaviour file; -1 for one made on the fly

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "annotate/exits_csv.h"
 #include "base/error.h"
@@ -27,6 +29,17 @@ bool wants(const JobSpec& job, std::string_view annotation) {
   return std::find(wanted.begin(), wanted.end(), annotation) != wanted.end();
 }
 
+namespace {
+
+constexpr double kCameraDegree = std::numbers::pi / 180;
+
+double hfov_rad_of(const CameraSpec& camera) {
+  if (camera.fx_px) return 2 * std::atan(0.5 * camera.width / *camera.fx_px);
+  return camera.hfov_deg * kCameraDegree;
+}
+
+}  // namespace
+
 sim::RunSpec run_spec(const JobSpec& job, int run) {
   sim::RunSpec spec;
   spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
@@ -34,7 +47,12 @@ sim::RunSpec run_spec(const JobSpec& job, int run) {
   spec.people = job.agents;
   spec.crowd = job.crowd;
   spec.wind = environment_of_run(job.environment, spec.seed).wind;
-  for (const DroneSpec& drone : job.drones) spec.drones.push_back(drone.mission);
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    sim::DroneMission& mission = spec.drones.emplace_back(job.drones[i].mission);
+    const CameraSpec camera = camera_of_run(job.drones[i].camera, spec.seed, camera_pointer(i));
+    mission.camera = {hfov_rad_of(camera), camera.pitch_deg * kCameraDegree,
+                      camera.yaw_deg * kCameraDegree};
+  }
   return spec;
 }
 

@@ -10,6 +10,7 @@
 #include "crowd/model.h"
 #include "crowd/project.h"
 #include "crowd/simulation.h"
+#include "jobs/guidance_spec.h"
 #include "jobs/plan.h"
 #include "jobs/schema.h"
 #include "sim/participants.h"
@@ -64,7 +65,8 @@ void read_frame_and_battery(const json& value, std::size_t index, sim::DroneMiss
   }
 }
 
-DroneSpec read_drone(const json& value, std::size_t index, std::vector<Problem>& problems) {
+DroneSpec read_drone(const json& value, std::size_t index, const std::string& source,
+                     std::vector<Problem>& problems) {
   DroneSpec drone;
   read(value, "id", drone.mission.id);
   read_frame_and_battery(value, index, drone.mission, problems);
@@ -72,12 +74,8 @@ DroneSpec read_drone(const json& value, std::size_t index, std::vector<Problem>&
   if (const auto goal = value.find("moves_goal"); goal != value.end()) {
     drone.mission.moves_goal = world::GoalRef{(*goal)[0].get<int>(), (*goal)[1].get<int>()};
   }
-  const json& guidance = part(value, "guidance");
-  read(guidance, "policy", drone.mission.policy);
-  read(guidance, "speed_mps", drone.mission.speed_mps);
-  for (const json& point : part(guidance, "waypoints")) {
-    drone.mission.waypoints.push_back(read_point(point));
-  }
+  read_guidance(part(value, "guidance"), source, fmt::format("/drones/{}/guidance", index),
+                drone.mission, problems);
   drone.camera = read_camera(part(value, "camera"), camera_pointer(index), problems);
   return drone;
 }
@@ -85,6 +83,7 @@ DroneSpec read_drone(const json& value, std::size_t index, std::vector<Problem>&
 void read_crowd(const json& value, JobSpec& job) {
   if (value.contains("agents")) job.agents = value["agents"].get<int>();
   read(value, "model", job.crowd.model);
+  read(value, "compliance", job.crowd.compliance);
   if (value.contains("compat")) {
     job.crowd.compat = crowd::compat_of(value["compat"].get<std::string>());
   }
@@ -102,7 +101,7 @@ render::Quality quality_of(std::string_view word) {
 }
 
 // What the schema allows, as a job; absent fields keep the defaults of the structs.
-JobSpec read_job(const json& value, std::vector<Problem>& problems) {
+JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {
   JobSpec job;
   read(value, "scenario", job.scenario);
   job.name = job.scenario;
@@ -111,7 +110,7 @@ JobSpec read_job(const json& value, std::vector<Problem>& problems) {
   read(value, "runs", job.runs);
   read_crowd(part(value, "crowd"), job);
   for (const json& drone : part(value, "drones")) {
-    job.drones.push_back(read_drone(drone, job.drones.size(), problems));
+    job.drones.push_back(read_drone(drone, job.drones.size(), source, problems));
   }
   const json& capture = part(value, "capture");
   read(capture, "rate_hz", job.capture.rate_hz);
@@ -223,15 +222,12 @@ json drone_json(const DroneSpec& drone) {
   json value = {{"id", mission.id},
                 {"airframe", mission.own_airframe ? sim::to_json(*mission.own_airframe)
                                                   : json(mission.airframe)},
-                {"guidance", {{"policy", mission.policy}, {"speed_mps", mission.speed_mps}}},
+                {"guidance", guidance_json(mission)},
                 {"camera", to_json(drone.camera)}};
   if (mission.battery_charge) value["battery"]["charge"] = *mission.battery_charge;
   if (mission.start) value["start"] = point_json(*mission.start);
   if (mission.moves_goal) {
     value["moves_goal"] = {mission.moves_goal->set, mission.moves_goal->goal};
-  }
-  for (const Eigen::Vector3d& point : mission.waypoints) {
-    value["guidance"]["waypoints"].push_back(point_json(point));
   }
   return value;
 }
@@ -254,7 +250,7 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   const json value = world::parse_json(text, source);
   std::vector<Problem> problems = schema_problems(value, source);
   if (!problems.empty()) throw InputError(std::move(problems));
-  JobSpec job = read_job(value, problems);
+  JobSpec job = read_job(value, source, problems);
   const world::Scenario scenario = scenario_of(job, source, scenarios);
   take_from_scenario(job, scenario);
   check_times(job, problems);
@@ -278,7 +274,8 @@ json to_json(const JobSpec& job) {
       {"crowd",
        {{"model", job.crowd.model},
         {"compat", crowd::kCompatWords[static_cast<std::size_t>(job.crowd.compat)]},
-        {"separation", crowd::kSeparationWords[job.crowd.hard_separation ? 1 : 0]}}},
+        {"separation", crowd::kSeparationWords[job.crowd.hard_separation ? 1 : 0]},
+        {"compliance", job.crowd.compliance}}},
       {"drones", std::move(drones)},
       {"capture",
        {{"rate_hz", job.capture.rate_hz},

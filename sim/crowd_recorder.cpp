@@ -47,8 +47,7 @@ std::int8_t CrowdRecorder::nearest_exit(const Eigen::Vector2d& place) const {
                                 : static_cast<std::int8_t>(nearest - exits.begin());
 }
 
-void CrowdRecorder::record(const crowd::Simulation& crowd, double time_s,
-                           world::TraceWriter& trace) {
+void CrowdRecorder::record(const crowd::Simulation& crowd, double time_s, RunObserver& observer) {
   const auto positions = crowd.positions();
   const auto present = crowd.present();
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -58,13 +57,13 @@ void CrowdRecorder::record(const crowd::Simulation& crowd, double time_s,
   world::CrowdStep step = crowd_step(crowd);
   step.time_s = time_s;
   step.exit_intent = intents_;
-  trace.add(step);
+  observer.step(step);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (roles_[i] != AgentRole::person || escaped_[i] || !arrived_[i]) continue;
     if (present[i] != 0 && scenario_.inside.contains(positions[i].cast<double>())) continue;
     escaped_[i] = true;
-    trace.add_event({time_s, "agent_escaped", static_cast<std::int32_t>(i), -1,
-                     static_cast<double>(intents_[i])});
+    observer.event({time_s, "agent_escaped", static_cast<std::int32_t>(i), -1,
+                    static_cast<double>(intents_[i])});
   }
 }
 

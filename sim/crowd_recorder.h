@@ -1,4 +1,4 @@
-// Turns the crowd's state into the trace's steps, and notices what happens to people.
+// Turns the crowd's state into a run's steps, and notices what happens to people.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "crowd/simulation.h"
+#include "sim/run.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
@@ -17,8 +18,13 @@ class CrowdRecorder {
   CrowdRecorder(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
                 const std::vector<world::GoalRef>& moving_goals);
 
-  /// Writes the crowd as it is now, and an event for everybody who has got away just now.
-  void record(const crowd::Simulation& crowd, double time_s, world::TraceWriter& trace);
+  /// Reports the crowd as it is now, and an event for everybody who has got away just now.
+  void record(const crowd::Simulation& crowd, double time_s, RunObserver& observer);
+
+  /// Per agent: index of the exit that it heads for; -1: none.
+  const std::vector<std::int8_t>& intents() const { return intents_; }
+  /// Per agent: whether it has got away.
+  const std::vector<bool>& escaped() const { return escaped_; }
 
  private:
   void update_intent(std::size_t agent, const crowd::GoalId& goal, const Eigen::Vector2d& place);

@@ -47,6 +47,8 @@ class Flight {
   void finish();
 
   FlightState state(std::size_t drone) const { return world_.state(drone); }
+  Pilot& pilot(std::size_t drone) { return pilots_[drone]; }
+  const Pilot& pilot(std::size_t drone) const { return pilots_[drone]; }
 
  private:
   void meet_people();

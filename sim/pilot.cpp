@@ -24,9 +24,13 @@ constexpr double kRestingS = 0.5;
 
 Pilot::Pilot(const PlannedDrone& drone, const FlightLimits& limits)
     : airframe_(drone.airframe),
-      policy_(drone.policy->make({drone.mission, drone.start, drone.yaw_rad, limits})),
+      policy_(drone.policy->make(
+          {drone.mission, drone.start, drone.yaw_rad, limits, drone.place, drone.index})),
       controller_(drone.airframe, limits),
-      battery_(drone.airframe.battery_wh, drone.mission.battery_charge) {}
+      battery_(drone.airframe.battery_wh, drone.mission.battery_charge) {
+  setpoint_.position = drone.start;
+  setpoint_.yaw_rad = drone.yaw_rad;
+}
 
 PerRotor Pilot::control(const FlightState& state, double dt_s, const Report& report) {
   watch_battery(state, report);

@@ -31,6 +31,12 @@ class Pilot {
              double dt_s);
 
   const Battery& battery() const { return battery_; }
+  Policy& policy() { return *policy_; }
+  const Policy& policy() const { return *policy_; }
+  /// What it last flew for.
+  const Setpoint& setpoint() const { return setpoint_; }
+  /// Whether it can lead anybody: not when it must land.
+  bool is_on_mission() const { return phase_ == Phase::flying; }
   /// Whether its rotors turn.
   bool is_running() const { return phase_ != Phase::stopped; }
 

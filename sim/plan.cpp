@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/guidance_check.h"
 #include "world/polygon.h"
 
 namespace throng::sim {
@@ -49,7 +50,10 @@ class MissionCheck {
     if (drone.airframe.mass_kg > 0) {
       check_speed(drone.airframe);
       check_battery(drone.airframe);
-      if (point_is_free("/start", drone.start, drone.airframe)) check_path(drone);
+      if (point_is_free("/start", drone.start, drone.airframe)) {
+        check_path(drone);
+        if (drone.policy != nullptr && drone.policy->flies_free) check_height(drone);
+      }
     }
     return drone;
   }
@@ -78,12 +82,8 @@ class MissionCheck {
       for (const PolicyEntry& known : policies()) names.push_back(known.name);
       add("/guidance/policy", fmt::format("\"{}\"", mission_.policy),
           fmt::format("one of: {}", fmt::join(names, ", ")));
-    } else if (entry->flies_waypoints && mission_.waypoints.empty()) {
-      add("/guidance/waypoints", "none",
-          fmt::format("at least one point for the policy \"{}\"", entry->name));
-    } else if (!entry->flies_waypoints && !mission_.waypoints.empty()) {
-      add("/guidance/waypoints", fmt::format("{} points", mission_.waypoints.size()),
-          fmt::format("none, since the policy \"{}\" flies to none", entry->name));
+    } else {
+      check_guidance(*entry, mission_, scenario_, pointer_ + "/guidance", problems_);
     }
     return entry;
   }
@@ -161,6 +161,17 @@ class MissionCheck {
     }
   }
 
+  void check_height(const PlannedDrone& drone) {
+    for (const world::Building& building : scenario_.buildings) {
+      if (drone.start.z() >= building.height_m + kClearanceM) continue;
+      add("/start", text_of(drone.start),
+          fmt::format("a height of at least {:g} m, above building \"{}\", since the policy "
+                      "\"{}\" keeps the height and flies everywhere",
+                      building.height_m + kClearanceM, building.id, drone.policy->name));
+      return;
+    }
+  }
+
   // Where no building stands nothing needs probing, however long the leg.
   void check_leg(const std::string& where, const Vector3d& from, const Vector3d& to,
                  const Airframe& frame) {
@@ -193,6 +204,8 @@ std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
   std::vector<PlannedDrone> drones;
   for (std::size_t i = 0; i < missions.size(); ++i) {
     drones.push_back(MissionCheck(scenario, missions[i], i, problems).plan(airframes));
+    drones[i].place = &scenario;
+    drones[i].index = static_cast<int>(i);
     for (std::size_t j = 0; j < i; ++j) {
       if (missions[j].id == missions[i].id) {
         problems.push_back({"", fmt::format("/drones/{}/id", i),

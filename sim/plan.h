@@ -21,6 +21,8 @@ struct PlannedDrone {
   Eigen::Vector3d start;
   double yaw_rad;
   std::optional<world::GoalRef> moves_goal;
+  const world::Scenario* place = nullptr;  ///< where it flies; outlives the drone
+  int index = 0;                           ///< among the run's drones
 };
 
 /// Checks every mission and adds what is wrong to `problems`, with JSON pointers as in a job

@@ -3,16 +3,31 @@
 #include <algorithm>
 #include <array>
 
+#include "sim/balance_policy.h"
+#include "sim/follow_density_policy.h"
 #include "sim/hover_policy.h"
+#include "sim/orbit_policy.h"
+#include "sim/pilot_log_policy.h"
+#include "sim/signage_policy.h"
+#include "sim/survey_policy.h"
 #include "sim/waypoints_policy.h"
+#include "sim/zigzag_policy.h"
 
 namespace throng::sim {
 
 namespace {
 
 constexpr std::array kPolicies{
-    PolicyEntry{"hover", false, &make_hover_policy},
-    PolicyEntry{"waypoints", true, &make_waypoints_policy},
+    PolicyEntry{"hover", 0, 0, false, &make_hover_policy},
+    PolicyEntry{"waypoints", kFieldWaypoints, 0, false, &make_waypoints_policy},
+    PolicyEntry{"orbit", kFieldCentre | kFieldRadius, 0, true, &make_orbit_policy},
+    PolicyEntry{"survey", 0, kFieldArea | kFieldOverlap, true, &make_survey_policy},
+    PolicyEntry{"follow_density", 0, kFieldPerception, true, &make_follow_density_policy},
+    PolicyEntry{"pilot_log", kFieldSetpoints, 0, false, &make_pilot_log_policy},
+    PolicyEntry{"signage", 0, kFieldExits | kFieldPerception, true, &make_signage_policy},
+    PolicyEntry{"zigzag", 0, kFieldExits | kFieldPerception, true, &make_zigzag_policy},
+    PolicyEntry{"balance", 0, kFieldExits | kFieldLeadSpeed | kFieldBatch | kFieldPerception, true,
+                &make_balance_policy},
 };
 
 }  // namespace

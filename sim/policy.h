@@ -1,23 +1,27 @@
-// Guidance: what decides where a drone should be. One file per policy, and one line in the table
-// of policy.cpp that makes it known.
+// Guidance: what decides where a drone should be, where its camera should look and whether people
+// can follow it. One file per policy, and one line in the table of policy.cpp that makes it known.
 #pragma once
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "sim/controller.h"
 #include "sim/run.h"
+#include "sim/world_view.h"
 
 namespace throng::sim {
 
-/// What a policy knows when it is made.
+/// What a policy knows when it is made. All that it refers to outlives the policy.
 struct PolicyContext {
   const DroneMission& mission;
   Eigen::Vector3d start;
   double yaw_rad;
   FlightLimits limits;
+  const world::Scenario* place = nullptr;  ///< null only for policies that need none
+  int drone = 0;                           ///< index among the run's drones
 };
 
 class Policy {
@@ -27,13 +31,35 @@ class Policy {
   Policy(const Policy&) = delete;
   Policy& operator=(const Policy&) = delete;
 
+  /// Shows it the world, once per step of the crowd.
+  virtual void see(const WorldView&) {}
   /// Where the drone should be `dt_s` after the last call, seeing where it is.
   virtual Setpoint next(const FlightState& state, double dt_s) = 0;
+  /// Whether people may follow the drone now. Off, the goal that it moves is out of sight.
+  virtual bool beacon() const { return true; }
+  /// What the other drones should know.
+  virtual LeadPlan plan() const { return {}; }
+};
+
+/// Whether a parameter of GuidanceSpec may or must be given to a policy; bits.
+enum GuidanceField : unsigned {
+  kFieldWaypoints = 1U << 0U,
+  kFieldCentre = 1U << 1U,
+  kFieldRadius = 1U << 2U,
+  kFieldArea = 1U << 3U,
+  kFieldOverlap = 1U << 4U,
+  kFieldExits = 1U << 5U,
+  kFieldSetpoints = 1U << 6U,
+  kFieldLeadSpeed = 1U << 7U,
+  kFieldBatch = 1U << 8U,
+  kFieldPerception = 1U << 9U,
 };
 
 struct PolicyEntry {
   std::string_view name;
-  bool flies_waypoints;  ///< needs waypoints; otherwise takes none
+  unsigned needs;   ///< GuidanceFields that must be given
+  unsigned takes;   ///< those that may be given besides
+  bool flies_free;  ///< goes where it likes, so its height must clear every building
   std::unique_ptr<Policy> (*make)(const PolicyContext&);
 };
 

@@ -11,9 +11,11 @@
 #include "sim/crowd_recorder.h"
 #include "sim/crowd_trace.h"
 #include "sim/flight.h"
+#include "sim/guidance_loop.h"
 #include "sim/hold_warnings.h"
 #include "sim/participants.h"
 #include "sim/plan.h"
+#include "sim/trace_recorder.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -41,16 +43,6 @@ void check_exits(const world::Scenario& scenario, std::vector<Problem>& problems
   if (scenario.exits.size() > kMostExits) {
     problems.push_back({scenario.id, "/exits", fmt::format("{} exits", scenario.exits.size()),
                         fmt::format("at most {}", kMostExits)});
-  }
-}
-
-// Moves the goals that drones move to where the drones are.
-void move_goals(const std::vector<PlannedDrone>& drones, const Flight& flight,
-                crowd::Simulation& crowd) {
-  for (std::size_t i = 0; i < drones.size(); ++i) {
-    if (!drones[i].moves_goal) continue;
-    const Eigen::Vector2f place = flight.state(i).position.head<2>().cast<float>();
-    crowd.move_goal(drones[i].moves_goal->set, drones[i].moves_goal->goal, place);
   }
 }
 
@@ -110,11 +102,12 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
   options.model = spec.model;
   options.compat = spec.compat;
   options.hard_separation = spec.hard_separation;
+  options.compliance = spec.compliance;
   return {scenario.scene_file, scenario.behavior_file, options};
 }
 
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
-                              const fs::path& trace_file, const RunProgress& progress,
+                              RunObserver& observer, const RunProgress& progress,
                               const std::stop_token& stop) {
   std::vector<Problem> problems;
   check_times(spec, problems);
@@ -129,37 +122,48 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
     crowd.set_present(i, roles[i] != world::AgentRole::absent);
   }
 
-  world::TraceWriter trace(trace_file, header_of(scenario, spec, crowd, roles));
+  observer.begin(header_of(scenario, spec, crowd, roles));
   const double dt_s = crowd.dt_s();
   HoldWarnings hold;
   Flight flight(
       scenario.buildings, drones, dt_s, spec.physics_dt_s,
-      {[&](std::size_t drone, const world::DroneSample& sample) { trace.add_drone(drone, sample); },
+      {[&](std::size_t drone, const world::DroneSample& sample) { observer.drone(drone, sample); },
        [&](const world::TraceEvent& event) {
-         trace.add_event(event);
+         observer.event(event);
          hold.note(event);
        }},
       {spec.wind, spec.seed});
   const std::vector<world::GoalRef> moving_goals = goals_moved_by(drones);
   CrowdRecorder recorder(scenario, roles, moving_goals);
-  recorder.record(crowd, 0, trace);
+  GuidanceLoop guidance(scenario, roles, drones, spec.seed, dt_s);
+  recorder.record(crowd, 0, observer);
 
   std::vector<std::uint8_t> there;
   constexpr double kRounding = 1e-9;
   const auto steps = static_cast<long>(std::ceil(spec.duration_s / dt_s - kRounding));
-  for (long step = 1; step <= steps; ++step) {
+  for (long step = 1; step <= steps && !observer.done(); ++step) {
     if (stop.stop_requested()) throw Cancelled();
-    move_goals(drones, flight, crowd);
+    guidance.look(crowd, recorder, flight, static_cast<double>(step - 1) * dt_s);
+    guidance.report(flight, observer);
+    guidance.move_goals(flight, crowd);
     crowd.step();
     flight.advance({crowd.positions(), people_there(crowd, roles, there)});
     const double time_s = static_cast<double>(step) * dt_s;
-    recorder.record(crowd, time_s, trace);
+    recorder.record(crowd, time_s, observer);
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
   }
   flight.finish();
-  trace.finish();
   std::vector<Problem> warnings = crowd.warnings();
   warnings.insert(warnings.end(), hold.warnings().begin(), hold.warnings().end());
+  return warnings;
+}
+
+std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
+                              const fs::path& trace_file, const RunProgress& progress,
+                              const std::stop_token& stop, const fs::path& pilot_log_folder) {
+  TraceRecorder recorder(trace_file, pilot_log_folder);
+  std::vector<Problem> warnings = simulate(scenario, spec, recorder, progress, stop);
+  recorder.finish();
   return warnings;
 }
 

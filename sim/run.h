@@ -15,20 +15,60 @@
 #include "sim/airframe.h"
 #include "sim/wind.h"
 #include "world/scenario.h"
+#include "world/trace.h"
 
 namespace throng::sim {
+
+/// Where a drone of the policy "pilot_log" should be at a time.
+struct PilotSample {
+  double time_s = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
+  double yaw_rad = 0;
+  bool beacon = true;  ///< whether people can follow it
+};
+
+/// What a policy knows of people (sim/perception.h).
+enum class PerceptionKind { truth, camera };
+struct PerceptionSpec {
+  PerceptionKind kind = PerceptionKind::truth;
+  double fov_rad = 90 * EIGEN_PI / 180;  ///< of the camera that counts, which looks straight down
+  double delay_s = 1;                    ///< from the picture to the estimate
+  double count_noise = 0.1;              ///< share of the people missed, and of those seen twice
+};
+
+/// Parameters that only some policies have; which ones is in the table of policy.cpp.
+struct GuidanceSpec {
+  std::optional<Eigen::Vector2d> centre;  ///< orbit: what it circles, m
+  std::optional<double> radius_m;         ///< orbit
+  std::optional<world::Rectangle> area;   ///< survey
+  std::optional<double> overlap;          ///< survey: share that neighbouring lanes have in common
+  std::optional<double> lead_speed_mps;   ///< with people behind
+  std::optional<int> batch;               ///< most people that are led at once
+  std::vector<std::string> exits;      ///< ids of exits to lead to; none given: all that are open
+  std::vector<PilotSample> setpoints;  ///< pilot_log, by time
+  std::optional<PerceptionSpec> perception;  ///< default: the truth
+};
+
+/// The drone's camera as far as policies need it.
+struct CameraGeometry {
+  double hfov_rad = 78 * EIGEN_PI / 180;
+  double pitch_rad = -50 * EIGEN_PI / 180;  ///< above the horizon
+  double yaw_rad = 0;                       ///< from the drone's heading
+};
 
 /// What one drone is asked to do.
 struct DroneMission {
   std::string id;                            ///< as in the job; unique
   std::string airframe = "f450";             ///< a name in sim/airframes.json
   std::optional<Airframe> own_airframe;      ///< flies instead of the named one
-  std::string policy = "hover";              ///< "hover" or "waypoints"
+  std::string policy = "hover";              ///< a name in the table of policy.cpp
   std::optional<Eigen::Vector3d> start;      ///< m; default: the scenario's start for this id
   std::vector<Eigen::Vector3d> waypoints;    ///< m, in order; the drone hovers at the last one
   double speed_mps = 3;                      ///< along the path
   std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
   std::optional<double> battery_charge;      ///< share of a full battery; without it, it lasts
+  GuidanceSpec guidance;
+  CameraGeometry camera;
 };
 
 /// How the crowd engine computes.
@@ -36,6 +76,7 @@ struct CrowdSpec {
   std::string model = "orca";  ///< a name in crowd::models()
   crowd::Compat compat = crowd::Compat::none;
   bool hard_separation = false;
+  double compliance = 1;  ///< probability that somebody near a guide follows it
 };
 
 struct RunSpec {
@@ -55,12 +96,38 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
 /// Called with simulated seconds done and the total.
 using RunProgress = std::function<void(double done_s, double total_s)>;
 
+/// Who is told of a run as it goes. All of it is called from the thread that simulates.
+class RunObserver {
+ public:
+  RunObserver() = default;
+  virtual ~RunObserver() = default;
+  RunObserver(const RunObserver&) = delete;
+  RunObserver& operator=(const RunObserver&) = delete;
+
+  virtual void begin(const world::TraceHeader&) {}
+  virtual void step(const world::CrowdStep&) {}
+  virtual void drone(std::size_t /*drone*/, const world::DroneSample&) {}
+  virtual void event(const world::TraceEvent&) {}
+  /// Where the drone should be and whether it leads, once per step of the crowd.
+  virtual void pilot(std::size_t /*drone*/, const PilotSample&) {}
+  /// Whether the rest of the run is of no interest.
+  virtual bool done() const { return false; }
+};
+
+/// Simulates one run. Throws and returns like the other.
+std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
+                              RunObserver& observer, const RunProgress& progress = {},
+                              const std::stop_token& stop = {});
+
 /// Simulates one run and writes the trace at `trace_file` (complete or absent). Same scenario and
 /// spec give the same bytes. Returns what was ignored in the scenario's files and which drones
 /// could not hold. Throws InputError for a spec the scenario cannot serve (too many people, unknown
 /// airframe or policy, waypoint below ground or inside a building), Cancelled when `stop` asks.
+/// With a `pilot_log_folder` a file DRONE.csv there holds what each drone was asked to do, as the
+/// policy "pilot_log" reads it.
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,
                               const std::filesystem::path& trace_file,
-                              const RunProgress& progress = {}, const std::stop_token& stop = {});
+                              const RunProgress& progress = {}, const std::stop_token& stop = {},
+                              const std::filesystem::path& pilot_log_folder = {});
 
 }  // namespace throng::sim

@@ -246,9 +246,9 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   const nlohmann::json document = read_document(file, source);
   std::vector<Problem> problems;
   const JsonValue root(document, source, problems);
-  root.fields(
-      {"name", "crowd", "ground", "inside", "exits"},
-      {"description", "buildings", "drones", "disaster_agents", "meshes", "props", "scatter"});
+  root.fields({"name", "crowd", "ground", "inside", "exits"},
+              {"description", "buildings", "drones", "disaster_agents", "guides_alert", "meshes",
+               "props", "scatter"});
   root["crowd"].fields({"scene", "behavior"});
   root["ground"].fields({"min", "max", "material"}, {"areas", "markings"});
   root["inside"].fields({"min", "max"});
@@ -270,6 +270,7 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   scenario.areas = read_ground_areas(root["ground"]["areas"]);
   scenario.markings = read_markings(root["ground"]["markings"]);
   scenario.disaster_agents = read_disaster_agents(root["disaster_agents"]);
+  if (root["guides_alert"].exists()) scenario.guides_alert = root["guides_alert"].boolean();
   if (!problems.empty()) throw InputError(std::move(problems));
   return scenario;
 }

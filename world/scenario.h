@@ -82,6 +82,8 @@ struct Scenario {
   std::vector<DroneStart> drones;
   /// Agents that are not people (the paper's disaster is an agent); neither drawn nor counted.
   std::vector<int> disaster_agents;
+  /// Whether the behaviour file lets people who have noticed nothing follow a drone.
+  bool guides_alert = false;
   std::vector<Prop> props;  ///< placed ones in the file's order, then scattered ones
   std::vector<PlacedMesh> meshes;
   std::vector<GroundArea> areas;  ///< later ones lie on top of earlier ones

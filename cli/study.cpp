@@ -1,0 +1,66 @@
+// throng study: many paired runs of cases and policies, compared.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/progress_bar.h"
+#include "study/report.h"
+#include "study/study.h"
+#include "study/work.h"
+#include "world/scenario.h"
+
+namespace throng::cli {
+
+namespace {
+
+struct StudyArguments {
+  std::string file;
+  std::string output;
+  int threads = 0;
+  int runs = 0;
+};
+
+void run_study(const StudyArguments& arguments) {
+  study::Study study = study::load_study(arguments.file, world::scenarios_folder());
+  if (arguments.runs > 0) study.runs = std::min(arguments.runs, study.runs);
+  study::Outcomes outcomes;
+  {
+    const Interrupt interrupt;
+    ProgressBar bar(study.name);
+    outcomes = study::do_runs(
+        study, arguments.output, arguments.threads,
+        [&](std::size_t done, std::size_t total) {
+          bar.show(static_cast<double>(done) / static_cast<double>(total),
+                   fmt::format("{} of {} runs", done, total));
+        },
+        interrupt.token());
+  }
+  study::write_report(study, outcomes, arguments.output);
+  fmt::print("{}/summary.md\n", arguments.output);
+}
+
+}  // namespace
+
+void add_study(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "study", "Compare ways to guide people over many simulations, without drawing anything");
+  const auto arguments = std::make_shared<StudyArguments>();
+  command->add_option("study", arguments->file, "Study file (JSON; see docs/guidance.md)")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Folder for results and report; an interrupted study goes on where it stopped")
+      ->required();
+  command->add_option("-j,--threads", arguments->threads, "Runs at once (0: one per core)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--runs", arguments->runs, "Only the first so many seeds of each (0: all)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->callback([arguments] { run_study(*arguments); });
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,14 @@
+// "balance": takes people from where they would wait longest and leads them to the exit at which
+// they get out soonest, in batches that leave both queues equally long. Several drones share the
+// work by telling each other their plans; who stands about or has not noticed comes last.
+#pragma once
+
+#include <memory>
+
+#include "sim/policy.h"
+
+namespace throng::sim {
+
+std::unique_ptr<Policy> make_balance_policy(const PolicyContext& context);
+
+}  // namespace throng::sim

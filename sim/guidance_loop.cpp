@@ -1,0 +1,67 @@
+#include "sim/guidance_loop.h"
+
+namespace throng::sim {
+
+namespace {
+
+std::vector<std::optional<world::GoalRef>> goals_of(const std::vector<PlannedDrone>& drones) {
+  std::vector<std::optional<world::GoalRef>> goals;
+  for (const PlannedDrone& drone : drones) goals.push_back(drone.moves_goal);
+  return goals;
+}
+
+bool leads(const Pilot& pilot) { return pilot.is_on_mission() && pilot.policy().beacon(); }
+
+}  // namespace
+
+GuidanceLoop::GuidanceLoop(const world::Scenario& scenario,
+                           const std::vector<world::AgentRole>& roles,
+                           const std::vector<PlannedDrone>& drones, std::uint64_t seed,
+                           double step_s)
+    : drones_(drones), goals_(goals_of(drones)), lookout_(scenario, roles, goals_, step_s) {
+  for (std::size_t i = 0; i < drones.size(); ++i) {
+    const auto& perception = drones[i].mission.guidance.perception;
+    cameras_.emplace_back();
+    if (perception && perception->kind == PerceptionKind::camera) {
+      cameras_.back().emplace(scenario, *perception, seed, i);
+    }
+  }
+}
+
+DroneSeen GuidanceLoop::seen(const Flight& flight, std::size_t drone) {
+  const FlightState state = flight.state(drone);
+  const Pilot& pilot = flight.pilot(drone);
+  return {state.position, state.velocity, leads(pilot), pilot.policy().plan()};
+}
+
+void GuidanceLoop::look(const crowd::Simulation& crowd, const CrowdRecorder& recorder,
+                        Flight& flight, double time_s) {
+  if (drones_.empty()) return;
+  lookout_.look(crowd, recorder, time_s);
+  WorldView& view = lookout_.view();
+  view.drones.clear();
+  for (std::size_t i = 0; i < drones_.size(); ++i) view.drones.push_back(seen(flight, i));
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    flight.pilot(i).policy().see(cameras_[i] ? cameras_[i]->estimate(view) : view);
+    view.drones[i] = seen(flight, i);
+  }
+}
+
+void GuidanceLoop::report(const Flight& flight, RunObserver& observer) const {
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    const Setpoint& setpoint = flight.pilot(i).setpoint();
+    observer.pilot(
+        i, {lookout_.view().time_s, setpoint.position, setpoint.yaw_rad, leads(flight.pilot(i))});
+  }
+}
+
+void GuidanceLoop::move_goals(const Flight& flight, crowd::Simulation& crowd) const {
+  const Eigen::Vector2f out_of_sight(0, 5000);
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    if (!goals_[i]) continue;
+    const Eigen::Vector2f below = flight.state(i).position.head<2>().cast<float>();
+    crowd.move_goal(goals_[i]->set, goals_[i]->goal, leads(flight.pilot(i)) ? below : out_of_sight);
+  }
+}
+
+}  // namespace throng::sim

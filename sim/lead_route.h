@@ -1,0 +1,24 @@
+// The way on which a drone leads people out by an exit.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "world/scenario.h"
+
+namespace throng::sim {
+
+/// Before the door, so that those behind line up; in it; and beyond it, clear of the walls. Metres.
+struct LeadRoute {
+  std::array<Eigen::Vector2d, 3> points;
+  const Eigen::Vector2d& mouth() const { return points[1]; }
+};
+
+LeadRoute route_through(const world::Exit& exit, const std::vector<world::Building>& buildings);
+
+/// The exits that a drone may lead to: those of these ids, or all, as far as they are open.
+std::vector<int> exits_to_lead_to(const world::Scenario& place,
+                                  const std::vector<std::string>& ids);
+
+}  // namespace throng::sim

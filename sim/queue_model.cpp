@@ -1,0 +1,85 @@
+#include "sim/queue_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace throng::sim {
+
+namespace {
+
+constexpr double kNeverS = 600;               // to wait for a shut door
+constexpr double kPriorPerMeterSecond = 1.1;  // discs of 0.4 m through clean doors
+constexpr double kPressM = 4;                 // from the door: who is nearer presses on it
+constexpr int kPressPeople = 4;
+constexpr double kExpected = 0.8;   // of those who have not noticed yet
+constexpr double kLearning = 0.02;  // per look, of the rate
+constexpr double kSlowestPart = 0.5;
+constexpr double kFastestPart = 1.5;
+
+}  // namespace
+
+QueueModel::QueueModel(const world::Scenario& place) : place_(place), people_(place.exits.size()) {
+  for (const world::Exit& exit : place.exits) {
+    capacity_per_s_.push_back(kPriorPerMeterSecond * exit.width_m());
+  }
+}
+
+void QueueModel::update(const WorldView& view, int self) {
+  std::fill(people_.begin(), people_.end(), 0);
+  std::vector<int> pressing(people_.size());
+  for (const PersonSeen& person : view.people) {
+    if (person.guide >= 0) continue;
+    if (person.exit < 0) {  // will run to the nearest once the news is there
+      people_[nearest_exit(person.position)] += kExpected;
+      continue;
+    }
+    const std::size_t e = index(person.exit);
+    people_[e] += 1;
+    if ((person.position - place_.exits[e].middle()).norm() < kPressM) ++pressing[e];
+  }
+  for (std::size_t d = 0; d < view.drones.size(); ++d) {
+    const LeadPlan& plan = view.drones[d].plan;
+    if (static_cast<int>(d) == self || plan.to < 0) continue;
+    people_[index(plan.to)] += plan.people;
+    if (!plan.leads && plan.from >= 0) {
+      double& left = people_[index(plan.from)];
+      left = std::max(0.0, left - plan.people);
+    }
+  }
+  for (std::size_t e = 0; e < people_.size(); ++e) {
+    if (pressing[e] < kPressPeople) continue;
+    const double prior = kPriorPerMeterSecond * place_.exits[e].width_m();
+    const double learnt =
+        capacity_per_s_[e] + kLearning * (view.exit_flow_per_s[e] - capacity_per_s_[e]);
+    capacity_per_s_[e] = std::clamp(learnt, kSlowestPart * prior, kFastestPart * prior);
+  }
+}
+
+std::size_t QueueModel::nearest_exit(const Eigen::Vector2d& place) const {
+  const auto nearer = [&](const world::Exit& a, const world::Exit& b) {
+    return (a.middle() - place).squaredNorm() < (b.middle() - place).squaredNorm();
+  };
+  return static_cast<std::size_t>(
+      std::min_element(place_.exits.begin(), place_.exits.end(), nearer) - place_.exits.begin());
+}
+
+double QueueModel::wait_s(int exit) const {
+  const std::size_t e = index(exit);
+  return place_.exits[e].open ? people_[e] / capacity_per_s_[e] : kNeverS;
+}
+
+// Who leaves a queue shortens it for those behind, who joins one lengthens it for whoever comes
+// after: m people led save m (wait_from - wait_to) - m²/2 (1/C_from + 1/C_to).
+double QueueModel::saving_s(int from, int to, double arrive_s, double people) const {
+  const double difference_s = wait_s(from) - std::max(wait_s(to), arrive_s);
+  const double shorter_s = place_.exits[index(from)].open ? 1 / capacity_per_s_[index(from)] : 0;
+  const double longer_s = 1 / capacity_per_s_[index(to)];
+  return people * difference_s - 0.5 * people * people * (shorter_s + longer_s);
+}
+
+double QueueModel::saving_of_idle_s(double idle_s, int to, double arrive_s, double people) const {
+  const double difference_s = idle_s - std::max(wait_s(to), arrive_s);
+  return people * difference_s - 0.5 * people * people / capacity_per_s_[index(to)];
+}
+
+}  // namespace throng::sim

@@ -1,0 +1,41 @@
+// How long people will wait at each exit, and what it would save to lead some of them elsewhere.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "sim/world_view.h"
+#include "world/scenario.h"
+
+namespace throng::sim {
+
+/// Exits as queues that are served at a steady rate. What is planned counts as if it had happened.
+class QueueModel {
+ public:
+  explicit QueueModel(const world::Scenario& place);
+
+  /// Learns the rates from what flows out while people press, and counts who wants which exit;
+  /// the plans of all drones but `self` are taken for done.
+  void update(const WorldView& view, int self);
+
+  double capacity_per_s(int exit) const { return capacity_per_s_[index(exit)]; }
+  /// Time until everybody who wants this exit is out; far more than any run for a shut one.
+  double wait_s(int exit) const;
+
+  /// What it would save in all (people times seconds) to lead `people` from one queue to another,
+  /// which they reach in `arrive_s`; negative when it costs.
+  double saving_s(int from, int to, double arrive_s, double people) const;
+  /// The same for people who have not noticed or stand about, and would lose `idle_s` each.
+  double saving_of_idle_s(double idle_s, int to, double arrive_s, double people) const;
+
+ private:
+  std::size_t nearest_exit(const Eigen::Vector2d& place) const;
+  static std::size_t index(int exit) { return static_cast<std::size_t>(exit); }
+
+  const world::Scenario& place_;
+  std::vector<double> capacity_per_s_;
+  std::vector<double> people_;  // who want each exit, with what is planned
+};
+
+}  // namespace throng::sim

@@ -1,0 +1,117 @@
+#include "sim/zigzag_policy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/glide.h"
+#include "sim/lead_route.h"
+
+namespace throng::sim {
+
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr double kSwingM = 4;  // to either side of the way
+constexpr int kSwings = 3;
+constexpr double kPatienceS = 20;  // how long it waits for followers to run on
+constexpr std::size_t kWorthATripPeople = 4;
+
+class ZigzagPolicy : public Policy {
+ public:
+  explicit ZigzagPolicy(const PolicyContext& context)
+      : place_(*context.place),
+        drone_(context.drone),
+        speed_mps_(context.mission.speed_mps),
+        choice_(exits_to_lead_to(place_, context.mission.guidance.exits)),
+        glide_(context.start, context.yaw_rad) {}
+
+  void see(const WorldView& view) override {
+    followers_ = static_cast<int>(
+        std::count_if(view.people.begin(), view.people.end(),
+                      [&](const PersonSeen& person) { return person.guide == drone_; }));
+    time_s_ = view.time_s;
+    if (path_.empty()) {
+      plan_trip(view);
+    } else if (glide_.arrived()) {
+      go_on();
+    }
+  }
+
+  Setpoint next(const FlightState& state, double dt_s) override {
+    return glide_.advance(state, dt_s);
+  }
+
+  // Once on the first point of its sweep until it flies back.
+  bool beacon() const override { return !path_.empty() && point_ > 0; }
+
+  LeadPlan plan() const override {
+    return {from_, path_.empty() ? -1 : to_, static_cast<double>(followers_), beacon()};
+  }
+
+ private:
+  void go_on() {
+    if (point_ + 1 < path_.size()) {
+      glide_.go(path_[++point_], speed_mps_);
+      arrived_s_ = -1;
+      return;
+    }
+    if (arrived_s_ < 0) arrived_s_ = time_s_;
+    if (followers_ == 0 || time_s_ - arrived_s_ > kPatienceS) path_.clear();
+  }
+
+  // Those before the exit that most people want, and the way from there to the next exit in turn.
+  void plan_trip(const WorldView& view) {
+    std::vector<std::size_t> heading(place_.exits.size());
+    for (const PersonSeen& person : view.people) {
+      if (person.exit >= 0) ++heading[static_cast<std::size_t>(person.exit)];
+    }
+    const auto most = std::max_element(heading.begin(), heading.end());
+    if (most == heading.end() || *most < kWorthATripPeople || choice_.empty()) return;
+    from_ = static_cast<int>(most - heading.begin());
+    if (choice_.size() == 1 && choice_[0] == from_) return;
+    do {
+      to_ = choice_[turn_++ % choice_.size()];
+    } while (to_ == from_);
+    Vector2d middle = Vector2d::Zero();
+    for (const PersonSeen& person : view.people) {
+      if (person.exit == from_) middle += person.position / static_cast<double>(*most);
+    }
+    const LeadRoute route =
+        route_through(place_.exits[static_cast<std::size_t>(to_)], place_.buildings);
+    const Vector2d way = route.points[0] - middle;
+    const Vector2d aside = Vector2d(-way.y(), way.x()).normalized();
+    path_ = {middle};
+    for (int i = 1; i <= kSwings; ++i) {
+      const double side = i % 2 == 1 ? kSwingM : -kSwingM;
+      path_.emplace_back(middle + way * i / (kSwings + 1.0) + side * aside);
+    }
+    path_.insert(path_.end(), route.points.begin(), route.points.end());
+    point_ = 0;
+    arrived_s_ = -1;
+    glide_.go(path_[0], speed_mps_);
+  }
+
+  const world::Scenario& place_;
+  int drone_;
+  double speed_mps_;
+  std::vector<int> choice_;
+  Glide glide_;
+  std::vector<Vector2d> path_;  // of the trip; empty between trips
+  std::size_t point_ = 0;       // of the path, to which it flies
+  std::size_t turn_ = 0;
+  int from_ = -1;
+  int to_ = -1;
+  int followers_ = 0;
+  double time_s_ = 0;
+  double arrived_s_ = -1;  // at the end of the path; negative: not yet
+};
+
+}  // namespace
+
+std::unique_ptr<Policy> make_zigzag_policy(const PolicyContext& context) {
+  return std::make_unique<ZigzagPolicy>(context);
+}
+
+}  // namespace throng::sim

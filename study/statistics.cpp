@@ -1,0 +1,120 @@
+#include "study/statistics.h"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/random.h"
+
+namespace throng::study {
+
+namespace {
+
+constexpr int kResamples = 10'000;
+constexpr int kMostExact = 60;
+
+// Mean ranks of |difference|, doubled so that they are whole numbers.
+std::vector<int> doubled_ranks(const std::vector<double>& differences) {
+  std::vector<std::size_t> order(differences.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(differences[a]) < std::abs(differences[b]);
+  });
+  std::vector<int> ranks(differences.size());
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t end = i + 1;
+    while (end < order.size() &&
+           std::abs(differences[order[end]]) == std::abs(differences[order[i]])) {
+      ++end;
+    }
+    for (std::size_t k = i; k < end; ++k) ranks[order[k]] = static_cast<int>(i + 1 + end);
+    i = end;
+  }
+  return ranks;
+}
+
+// Share of all assignments of signs whose sum of positive ranks is at most `sum`.
+double share_up_to(const std::vector<int>& ranks, int sum) {
+  const int total = std::accumulate(ranks.begin(), ranks.end(), 0);
+  std::vector<double> share(static_cast<std::size_t>(total) + 1);
+  share[0] = 1;
+  int reached = 0;
+  for (const int rank : ranks) {
+    reached += rank;
+    for (int s = reached; s >= 0; --s) {
+      const double with = s >= rank ? share[static_cast<std::size_t>(s - rank)] : 0;
+      share[static_cast<std::size_t>(s)] = 0.5 * (share[static_cast<std::size_t>(s)] + with);
+    }
+  }
+  return std::accumulate(share.begin(), share.begin() + sum + 1, 0.0);
+}
+
+double normal_p(const std::vector<int>& ranks, double w_plus) {
+  double expected = 0;
+  double variance = 0;
+  for (const int rank : ranks) {
+    expected += 0.25 * rank;
+    variance += 0.0625 * rank * rank;
+  }
+  const double off = std::max(0.0, std::abs(w_plus - expected) - 0.5);
+  return std::min(
+      1.0, 2 * boost::math::cdf(complement(boost::math::normal(0, std::sqrt(variance)), off)));
+}
+
+}  // namespace
+
+double mean(const std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double quantile(std::vector<double> values, double p) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double place = p * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const double part = place - static_cast<double>(below);
+  // Not a sum with weight 0, which would be NaN beside an infinite value.
+  if (part == 0) return values[below];
+  return values[below] + part * (values[below + 1] - values[below]);
+}
+
+Interval bootstrap_mean(const std::vector<double>& values, double confidence, std::uint64_t seed) {
+  if (values.empty()) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    return {nan, nan};
+  }
+  std::vector<double> means;
+  for (int i = 0; i < kResamples; ++i) {
+    Random random(seed, Stream::bootstrap, static_cast<std::uint64_t>(i));
+    double sum = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      sum += values[random.below(static_cast<std::uint32_t>(values.size()))];
+    }
+    means.push_back(sum / static_cast<double>(values.size()));
+  }
+  const double tail = 0.5 * (1 - confidence);
+  return {quantile(means, tail), quantile(means, 1 - tail)};
+}
+
+SignedRank wilcoxon_signed_rank(const std::vector<double>& differences) {
+  std::vector<double> nonzero;
+  std::copy_if(differences.begin(), differences.end(), std::back_inserter(nonzero),
+               [](double d) { return d != 0; });
+  const std::vector<int> ranks = doubled_ranks(nonzero);
+  int plus = 0;
+  for (std::size_t i = 0; i < nonzero.size(); ++i) {
+    if (nonzero[i] > 0) plus += ranks[i];
+  }
+  SignedRank result{static_cast<int>(nonzero.size()), 0.5 * plus, 1};
+  if (nonzero.empty()) return result;
+  const int total = std::accumulate(ranks.begin(), ranks.end(), 0);
+  result.p_value = result.n <= kMostExact
+                       ? std::min(1.0, 2 * share_up_to(ranks, std::min(plus, total - plus)))
+                       : normal_p(ranks, result.w_plus);
+  return result;
+}
+
+}  // namespace throng::study

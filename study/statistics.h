@@ -1,0 +1,34 @@
+// Statistics of paired samples: what a study's table says. NaN marks what a sample does not have.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace throng::study {
+
+double mean(const std::vector<double>& values);
+
+/// The value below which a share `p` of the values lies, linear between the order statistics
+/// (Hyndman and Fan 1996, type 7). Infinite values sort last. NaN for an empty sample.
+double quantile(std::vector<double> values, double p);
+inline double median(const std::vector<double>& values) { return quantile(values, 0.5); }
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+/// Percentile bootstrap interval (Efron 1979) of the mean, with 10 000 resamples drawn by the seed.
+Interval bootstrap_mean(const std::vector<double>& values, double confidence, std::uint64_t seed);
+
+/// Wilcoxon's signed-rank test (1945) of whether paired differences are symmetric about 0:
+/// two-sided. Zeros are left out, ties have mean ranks. Exact, by counting all signs, for up to 60
+/// differences; normal beyond, with a continuity correction.
+struct SignedRank {
+  int n = 0;          ///< differences that are not 0
+  double w_plus = 0;  ///< sum of the ranks of the positive ones
+  double p_value = 1;
+};
+SignedRank wilcoxon_signed_rank(const std::vector<double>& differences);
+
+}  // namespace throng::study

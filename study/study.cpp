@@ -1,0 +1,202 @@
+#include "study/study.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "base/version.h"
+#include "world/json_reader.h"
+
+namespace throng::study {
+
+using nlohmann::json;
+using world::JsonValue;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kMostRuns = 1000;
+constexpr double kLongestRunS = 7200;  // of a job
+
+// The part of a document that a job takes over as it is.
+json part(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found == object.end() ? json() : *found;
+}
+
+void check_unique(const JsonValue& id, const std::string& text, std::set<std::string>& seen) {
+  if (!text.empty() && !seen.insert(text).second) id.reject("an id that nothing else here has");
+}
+
+// Reads the document's own fields; what belongs to jobs is checked with them.
+class StudyReader {
+ public:
+  StudyReader(const json& document, const std::string& source, const fs::path& scenarios)
+      : document_(document),
+        source_(source),
+        scenarios_(scenarios),
+        root_(document, source, problems_) {}
+
+  Study read() {
+    root_.fields({"cases", "policies"}, {"name", "seed", "runs", "baseline"});
+    study_.name = root_["name"].exists() ? root_["name"].text() : "study";
+    if (root_["seed"].exists()) {
+      study_.seed = static_cast<std::uint64_t>(root_["seed"].integer(0, 1'000'000'000));
+    }
+    if (root_["runs"].exists()) study_.runs = root_["runs"].integer(1, kMostRuns);
+    read_policies();
+    read_cases();
+    stop_if_wrong();
+    make_jobs();
+    stop_if_wrong();
+    return std::move(study_);
+  }
+
+ private:
+  void stop_if_wrong() {
+    if (!problems_.empty()) throw InputError(std::move(problems_));
+  }
+
+  void read_policies() {
+    std::set<std::string> ids;
+    for (const JsonValue& item : root_["policies"].items(1)) {
+      item.fields({"id"}, {"title", "drones"});
+      PolicyRow row;
+      row.id = item["id"].identifier();
+      check_unique(item["id"], row.id, ids);
+      row.title = item["title"].exists() ? item["title"].text() : row.id;
+      study_.policies.push_back(std::move(row));
+    }
+    if (!root_["baseline"].exists()) return;
+    const std::string id = root_["baseline"].identifier();
+    const auto found = std::find_if(study_.policies.begin(), study_.policies.end(),
+                                    [&](const PolicyRow& row) { return row.id == id; });
+    if (found == study_.policies.end()) {
+      root_["baseline"].reject("the id of a policy");
+    } else {
+      study_.baseline = static_cast<std::size_t>(found - study_.policies.begin());
+    }
+  }
+
+  void read_cases() {
+    std::set<std::string> ids;
+    for (const JsonValue& item : root_["cases"].items(1)) {
+      item.fields({"id", "scenario"}, {"title", "crowd", "alarm_s", "duration_s", "bound"});
+      Case one;
+      one.id = item["id"].identifier();
+      check_unique(item["id"], one.id, ids);
+      one.title = item["title"].exists() ? item["title"].text() : one.id;
+      if (item["duration_s"].exists()) one.duration_s = item["duration_s"].number(1, kLongestRunS);
+      if (item["alarm_s"].exists()) one.alarm_s = item["alarm_s"].number(0, one.duration_s);
+      one.scenario = read_scenario(item["scenario"]);
+      read_bound(item["bound"], one);
+      study_.cases.push_back(std::move(one));
+    }
+  }
+
+  world::Scenario read_scenario(const JsonValue& value) {
+    const std::string id = value.text();
+    if (id.empty()) return {};
+    try {
+      return world::find_scenario(scenarios_, id);
+    } catch (const InputError& error) {
+      const Problem& problem = error.problems().front();
+      if (!problem.source.empty()) throw;  // the scenario's own file is wrong
+      value.reject(problem.found, problem.expected);
+      return {};
+    }
+  }
+
+  void read_bound(const JsonValue& value, Case& one) {
+    constexpr double kFastestMps = 20;
+    constexpr double kMostPerSecond = 1000;
+    constexpr double kPerMeterSecond = 1.3;  // people; as in docs/metrics.md
+    for (const world::Exit& exit : one.scenario.exits) {
+      one.bound.capacity_per_s.push_back(kPerMeterSecond * exit.width_m());
+    }
+    if (!value.exists()) return;
+    value.fields({}, {"speed_mps", "capacity_per_s"});
+    if (value["speed_mps"].exists()) {
+      one.bound.speed_mps = value["speed_mps"].number(0.1, kFastestMps);
+    }
+    if (!value["capacity_per_s"].exists()) return;
+    const auto rates = value["capacity_per_s"].tuple(
+        one.scenario.exits.size(),
+        fmt::format("one number for each of the {} exits", one.scenario.exits.size()));
+    for (std::size_t e = 0; e < rates.size(); ++e) {
+      one.bound.capacity_per_s[e] = rates[e].number(0, kMostPerSecond);
+    }
+  }
+
+  void make_jobs() {
+    for (std::size_t c = 0; c < study_.cases.size(); ++c) {
+      const Case& one = study_.cases[c];
+      std::string inputs = fmt::format("{} {} {}", kGenerator, one.alarm_s, one.bound.speed_mps);
+      for (const double rate : one.bound.capacity_per_s) inputs += fmt::format(" {}", rate);
+      inputs += read_file(one.scenario.scene_file) + read_file(one.scenario.behavior_file);
+      inputs += read_file(scenarios_ / (one.scenario.id + ".json"));
+      auto& jobs = study_.jobs.emplace_back();
+      auto& fingerprints = study_.fingerprints.emplace_back();
+      for (std::size_t p = 0; p < study_.policies.size(); ++p) {
+        jobs.push_back(make_job(c, p));
+        json job = jobs::to_json(jobs.back());
+        job.erase("runs");  // more of them leave those that there are as they are
+        fingerprints.push_back(sha256_hex(inputs + job.dump()));
+      }
+    }
+  }
+
+  jobs::JobSpec make_job(std::size_t c, std::size_t p) {
+    const json& given = document_["cases"][c];
+    json job = {
+        {"scenario", study_.cases[c].scenario.id},
+        {"seed", study_.seed},
+        {"runs", study_.runs},
+        {"capture", {{"from_s", 0}, {"to_s", study_.cases[c].duration_s}, {"rate_hz", 0.01}}}};
+    const json crowd = part(given, "crowd");
+    const json drones = part(document_["policies"][p], "drones");
+    if (!crowd.is_null()) job["crowd"] = crowd;
+    if (!drones.is_null()) job["drones"] = drones;
+    try {
+      jobs::JobSpec spec = jobs::parse_job(job.dump(), source_, scenarios_);
+      if (drones.is_null()) spec.drones.clear();  // not the scenario's own
+      return spec;
+    } catch (const InputError& error) {
+      for (Problem problem : error.problems()) {
+        const bool of_policy = problem.where.rfind("/drones", 0) == 0;
+        problem.where = (of_policy ? fmt::format("/policies/{}", p) : fmt::format("/cases/{}", c)) +
+                        problem.where;
+        problems_.push_back(std::move(problem));
+      }
+      return {};
+    }
+  }
+
+  const json& document_;
+  const std::string& source_;
+  const fs::path& scenarios_;
+  std::vector<Problem> problems_;
+  JsonValue root_;
+  Study study_;
+};
+
+}  // namespace
+
+Study load_study(const fs::path& file, const fs::path& scenarios) {
+  const std::string source = file.string();
+  std::string text;
+  try {
+    text = read_file(file);
+  } catch (const EnvironmentError&) {
+    throw InputError({source, "", "no readable file", "a study's file"});
+  }
+  const json document = world::parse_json(text, source);
+  return StudyReader(document, source, scenarios).read();
+}
+
+}  // namespace throng::study

@@ -1,0 +1,47 @@
+// A study: cases times policies times seeds, compared pair by pair. The file that describes it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "jobs/spec.h"
+#include "study/flow_bound.h"
+#include "world/scenario.h"
+
+namespace throng::study {
+
+/// A place and what happens there.
+struct Case {
+  std::string id;
+  std::string title;
+  double alarm_s = 0;  ///< from when evacuation counts
+  double duration_s = 900;
+  world::Scenario scenario;
+  BoundSpec bound;
+};
+
+/// One way to guide people; or none.
+struct PolicyRow {
+  std::string id;
+  std::string title;
+};
+
+struct Study {
+  std::string name;
+  std::uint64_t seed = 1;
+  int runs = 24;             ///< paired: run i of every policy has the same seed
+  std::size_t baseline = 0;  ///< index of the policy that the others are compared with
+  std::vector<Case> cases;
+  std::vector<PolicyRow> policies;
+  std::vector<std::vector<jobs::JobSpec>> jobs;  ///< per case and policy; without drones: none fly
+  /// Per case and policy: of everything that results depend on beside the run's number.
+  std::vector<std::vector<std::string>> fingerprints;
+};
+
+/// Reads and checks a study's file (docs/guidance.md). Throws InputError, naming file and JSON
+/// pointer, also for anything that the jobs it makes would be refused for.
+Study load_study(const std::filesystem::path& file, const std::filesystem::path& scenarios);
+
+}  // namespace throng::study

@@ -1,0 +1,79 @@
+// Statistics against values from tables and from definition.
+#include "study/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace throng::study {
+namespace {
+
+TEST(Statistics, QuantilesAreLinearBetweenOrderStatistics) {
+  EXPECT_DOUBLE_EQ(median({3, 1, 2}), 2);
+  EXPECT_DOUBLE_EQ(median({4, 1, 2, 3}), 2.5);
+  EXPECT_DOUBLE_EQ(quantile({1, 2, 3, 4, 5}, 0.25), 2);
+  EXPECT_DOUBLE_EQ(quantile({1, 2, 3, 4}, 0.25), 1.75);
+  EXPECT_TRUE(std::isnan(median({})));
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_DOUBLE_EQ(median({1, 2, infinity}), 2);
+  EXPECT_TRUE(std::isinf(quantile({1, 2, infinity}, 0.9)));
+}
+
+// Ranks 1..n with the given ones negative.
+std::vector<double> signed_ranks(int n, const std::vector<int>& negative) {
+  std::vector<double> values;
+  for (int rank = 1; rank <= n; ++rank) values.push_back(rank);
+  for (const int rank : negative) values[static_cast<std::size_t>(rank - 1)] *= -1;
+  return values;
+}
+
+TEST(Statistics, WilcoxonAgreesWithPublishedTables) {
+  // Critical values at 5 %, two-sided: 0 for n = 6, 8 for n = 10, 52 for n = 20 (Wilcoxon and
+  // Wilcox 1964): at them p is at most 0.05, one above it is more.
+  EXPECT_DOUBLE_EQ(wilcoxon_signed_rank(signed_ranks(6, {})).p_value, 2.0 / 64);
+  EXPECT_NEAR(wilcoxon_signed_rank(signed_ranks(10, {8})).p_value, 0.048828125, 1e-12);
+  EXPECT_GT(wilcoxon_signed_rank(signed_ranks(10, {9})).p_value, 0.05);
+  EXPECT_LE(wilcoxon_signed_rank(signed_ranks(20, {20, 19, 13})).p_value, 0.05);
+  EXPECT_GT(wilcoxon_signed_rank(signed_ranks(20, {20, 19, 14})).p_value, 0.05);
+}
+
+TEST(Statistics, WilcoxonCountsAllSignsWhereRanksTie) {
+  // 1, 1, -1: ranks 2 each. Of eight signs W is at most 2 or at least 4 in all: p = 1.
+  EXPECT_DOUBLE_EQ(wilcoxon_signed_rank({1, 1, -1}).p_value, 1);
+  // 1, 1, 2, 2, all positive: one of 16 on each side.
+  const SignedRank test = wilcoxon_signed_rank({1, 1, 2, 2});
+  EXPECT_DOUBLE_EQ(test.p_value, 2.0 / 16);
+  EXPECT_DOUBLE_EQ(test.w_plus, 10);
+}
+
+TEST(Statistics, WilcoxonLeavesZerosOutAndSeesNothingInNothing) {
+  EXPECT_EQ(wilcoxon_signed_rank({0, 0, 3}).n, 1);
+  EXPECT_DOUBLE_EQ(wilcoxon_signed_rank({0, 0}).p_value, 1);
+  EXPECT_DOUBLE_EQ(wilcoxon_signed_rank({}).p_value, 1);
+}
+
+TEST(Statistics, ManyDifferencesAreTestedAsNormal) {
+  std::vector<double> values = signed_ranks(61, {});
+  for (std::size_t i = 0; i < values.size(); i += 2) values[i] *= -1;
+  const double balanced = wilcoxon_signed_rank(values).p_value;
+  EXPECT_GT(balanced, 0.8);
+  EXPECT_LT(wilcoxon_signed_rank(signed_ranks(61, {1, 2, 3})).p_value, 1e-9);
+  // Where both are possible they agree: 60 exactly, 61 as normal.
+  const std::vector<int> some{60, 59, 58, 57, 56, 55, 54, 53, 52, 51, 50};
+  EXPECT_NEAR(wilcoxon_signed_rank(signed_ranks(60, some)).p_value,
+              wilcoxon_signed_rank(signed_ranks(61, some)).p_value, 0.02);
+}
+
+TEST(Statistics, TheBootstrapCoversTheMean) {
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i) values.push_back(i % 10);
+  const Interval interval = bootstrap_mean(values, 0.95, 1);
+  // Of a mean of 4.5 and a deviation of 2.87 / 10, the normal interval is 4.5 +- 0.56.
+  EXPECT_NEAR(interval.low, 3.94, 0.06);
+  EXPECT_NEAR(interval.high, 5.06, 0.06);
+  EXPECT_EQ(interval.low, bootstrap_mean(values, 0.95, 1).low) << "the same for the same seed";
+}
+
+}  // namespace
+}  // namespace throng::study
