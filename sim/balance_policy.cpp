@@ -32,7 +32,7 @@ constexpr double kAtTheDoorM = 5;
 constexpr double kInVainM = 3;  // who did not come with the drone is left alone for a while
 constexpr double kInVainS = 40;
 constexpr int kLargestBatch = 50;
-constexpr double kSoonS = 20;  // a trip that takes so long is worth half
+constexpr double kHalfWorthS = 20;  // a trip that takes so long is worth half
 
 class BalancePolicy : public Policy {
  public:
@@ -292,7 +292,7 @@ class BalancePolicy : public Policy {
       }
       trip.seconds += queues_.saving_of_idle_s(kIdleS, to, arrive_s, here.idle);
       // Of two that save as much the shorter one leaves time for more.
-      trip.seconds /= 1 + arrive_s / kSoonS;
+      trip.seconds /= 1 + arrive_s / kHalfWorthS;
       if (trip.seconds > best.seconds) best = trip;
     }
   }

@@ -10,7 +10,7 @@ using Eigen::Vector2d;
 namespace {
 constexpr double kGlideMps2 = 2;
 constexpr double kFarthestAheadM = 3;  // how far the set-point may run ahead of the drone
-constexpr double kNearM = 0.3;
+constexpr double kThereM = 0.3;
 }  // namespace
 
 Glide::Glide(const Eigen::Vector3d& start, double yaw_rad) : goal_(start.head<2>()) {
@@ -28,7 +28,7 @@ void Glide::stop() {
   goal_ = place() + braking_m * velocity_.normalized();
 }
 
-bool Glide::arrived() const { return (goal_ - place()).norm() < kNearM; }
+bool Glide::arrived() const { return (goal_ - place()).norm() < kThereM; }
 
 const Setpoint& Glide::advance(const FlightState& state, double dt_s) {
   const Vector2d way = goal_ - place();

@@ -52,6 +52,7 @@ class MissionCheck {
       check_battery(drone.airframe);
       if (point_is_free("/start", drone.start, drone.airframe)) {
         check_path(drone);
+        check_setpoints(drone);
         if (drone.policy != nullptr && drone.policy->flies_free) check_height(drone);
       }
     }
@@ -158,6 +159,14 @@ class MissionCheck {
       if (!point_is_free(where, to, drone.airframe)) return;
       check_leg(where, from, to, drone.airframe);
       from = to;
+    }
+  }
+
+  void check_setpoints(const PlannedDrone& drone) {
+    const std::vector<PilotSample>& samples = mission_.guidance.setpoints;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const std::string where = fmt::format("/guidance/setpoints/{}", i);
+      if (!point_is_free(where, samples[i].position, drone.airframe)) return;
     }
   }
 

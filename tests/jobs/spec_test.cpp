@@ -166,7 +166,7 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
       {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2, "3"]}]})",
        "/drones/0/start/2"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2, 0]}]})", "/drones/0/start"},
-      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "balance"}}]})",
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "dance"}}]})",
        "/drones/0/guidance/policy"},
       {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "waypoints"}}]})",
        "/drones/0/guidance/waypoints"},

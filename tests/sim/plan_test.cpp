@@ -17,6 +17,8 @@ world::Scenario scenario() {
   scenario.buildings = {{"hut", {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, 6}};
   scenario.drones = {{"d1", {-10, 0, 12}, 1.5, world::GoalRef{99, 0}},
                      {"d2", {-10, 5, 12}, 0, world::GoalRef{99, 0}}};
+  scenario.exits = {{"gate", {9, -1}, {9, 1}, {1, 0}, true, {}},
+                    {"back_door", {-9, -1}, {-9, 1}, {-1, 0}, false, {}}};
   return scenario;
 }
 
@@ -77,6 +79,46 @@ INSTANTIATE_TEST_SUITE_P(
                 "/drones/0/guidance/waypoints", "at least one"},
         BadCase{"idle_waypoints", [](Missions& m) { m[0].policy = "hover"; },
                 "/drones/0/guidance/waypoints", "none"},
+        BadCase{"parameter_of_others", [](Missions& m) { m[1].guidance.batch = 3; },
+                "/drones/1/guidance/batch", "no use for it"},
+        BadCase{"orbit_about_nothing",
+                [](Missions& m) {
+                  m[1].policy = "orbit";
+                  m[1].guidance.radius_m = 5;
+                },
+                "/drones/1/guidance/centre", "a point [x, y] for the policy \"orbit\""},
+        BadCase{"no_setpoints", [](Missions& m) { m[1].policy = "pilot_log"; },
+                "/drones/1/guidance/setpoints", "at least one set-point"},
+        BadCase{"time_going_backwards",
+                [](Missions& m) {
+                  m[1].policy = "pilot_log";
+                  m[1].guidance.setpoints = {{2, {0, 0, 9}, 0, true}, {1, {0, 0, 9}, 0, true}};
+                },
+                "/drones/1/guidance/setpoints/1/0", "a later time"},
+        BadCase{"setpoint_in_building",
+                [](Missions& m) {
+                  m[1].policy = "pilot_log";
+                  m[1].guidance.setpoints = {{1, {2, 2, 9}, 0, true}, {9, {2, 2, 3}, 0, true}};
+                },
+                "/drones/1/guidance/setpoints/1", "building \"hut\""},
+        BadCase{"unknown_exit",
+                [](Missions& m) {
+                  m[1].policy = "zigzag";
+                  m[1].guidance.exits = {"gate", "moon"};
+                },
+                "/drones/1/guidance/exits/1", "one of: gate, back_door"},
+        BadCase{"shut_exit",
+                [](Missions& m) {
+                  m[1].policy = "balance";
+                  m[1].guidance.exits = {"back_door"};
+                },
+                "/drones/1/guidance/exits/0", "an open exit"},
+        BadCase{"flying_everywhere_too_low",
+                [](Missions& m) {
+                  m[1].policy = "survey";
+                  m[1].start = Eigen::Vector3d(-8, 8, 4);
+                },
+                "/drones/1/start", "above building \"hut\""},
         BadCase{"no_start", [](Missions& m) { m[1].start.reset(); }, "/drones/1/start", "a start"},
         BadCase{"start_in_building", [](Missions& m) { m[1].start->z() = 5; }, "/drones/1/start",
                 "building \"hut\""},
