@@ -220,6 +220,10 @@ void run(render::Quality quality, std::uint32_t count, const Settings& settings)
   ::close(pipe[0]);
   while (::wait(nullptr) > 0) {
   }
+  if (all.frames == 0) {
+    fmt::print("{:<10}{:>8}  no process drew a frame\n", render::settings_of(quality).word, count);
+    return;
+  }
   const double cpu_ms = 1000 * all.cpu_s / all.frames;
   fmt::print("{:<10}{:>8}{:>14.1f}{:>16.1f}{:>20.1f}\n", render::settings_of(quality).word, count,
              frames_per_s, cpu_ms, 1000 * settings.processes / cpu_ms);
