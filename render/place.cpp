@@ -13,8 +13,8 @@ namespace throng::render {
 
 namespace {
 
-constexpr double kGroundCell = 2.0;     // m; openness is sampled at its corners
-constexpr double kSurroundings = 3000;  // m; how far the plain goes
+constexpr double kGroundCell = 2.0;      // m; openness is sampled at its corners
+constexpr double kSurroundingsM = 3000;  // how far the plain goes
 
 std::array<float, 3> three(double x, double y, double z) {
   return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
@@ -41,9 +41,9 @@ double horizon_slope(const world::Building& building, const Eigen::Vector2d& fro
 /// Grid lines over [low, high], and one far away on each side.
 std::vector<double> grid_lines(double low, double high) {
   const int cells = std::clamp(static_cast<int>(std::ceil((high - low) / kGroundCell)), 1, 128);
-  std::vector<double> lines = {low - kSurroundings};
+  std::vector<double> lines = {low - kSurroundingsM};
   for (int i = 0; i <= cells; ++i) lines.push_back(low + (high - low) * i / cells);
-  lines.push_back(high + kSurroundings);
+  lines.push_back(high + kSurroundingsM);
   return lines;
 }
 
