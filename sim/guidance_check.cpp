@@ -11,7 +11,7 @@ namespace throng::sim {
 namespace {
 
 struct Field {
-  GuidanceField bit;
+  GuidanceFields bit;
   std::string_view name;      // in the job
   std::string_view expected;  // of a policy that needs it
   bool (*given)(const DroneMission&);

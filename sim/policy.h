@@ -41,25 +41,24 @@ class Policy {
   virtual LeadPlan plan() const { return {}; }
 };
 
-/// Whether a parameter of GuidanceSpec may or must be given to a policy; bits.
-enum GuidanceField : unsigned {
-  kFieldWaypoints = 1U << 0U,
-  kFieldCentre = 1U << 1U,
-  kFieldRadius = 1U << 2U,
-  kFieldArea = 1U << 3U,
-  kFieldOverlap = 1U << 4U,
-  kFieldExits = 1U << 5U,
-  kFieldSetpoints = 1U << 6U,
-  kFieldLeadSpeed = 1U << 7U,
-  kFieldBatch = 1U << 8U,
-  kFieldPerception = 1U << 9U,
-};
+/// Parameters of GuidanceSpec (and the waypoints), as bits of a mask.
+using GuidanceFields = unsigned;
+inline constexpr GuidanceFields kFieldWaypoints = 1U << 0U;
+inline constexpr GuidanceFields kFieldCentre = 1U << 1U;
+inline constexpr GuidanceFields kFieldRadius = 1U << 2U;
+inline constexpr GuidanceFields kFieldArea = 1U << 3U;
+inline constexpr GuidanceFields kFieldOverlap = 1U << 4U;
+inline constexpr GuidanceFields kFieldExits = 1U << 5U;
+inline constexpr GuidanceFields kFieldSetpoints = 1U << 6U;
+inline constexpr GuidanceFields kFieldLeadSpeed = 1U << 7U;
+inline constexpr GuidanceFields kFieldBatch = 1U << 8U;
+inline constexpr GuidanceFields kFieldPerception = 1U << 9U;
 
 struct PolicyEntry {
   std::string_view name;
-  unsigned needs;   ///< GuidanceFields that must be given
-  unsigned takes;   ///< those that may be given besides
-  bool flies_free;  ///< goes where it likes, so its height must clear every building
+  GuidanceFields needs;  ///< that must be given
+  GuidanceFields takes;  ///< that may be given besides
+  bool flies_free;       ///< goes where it likes, so its height must clear every building
   std::unique_ptr<Policy> (*make)(const PolicyContext&);
 };
 

@@ -76,8 +76,8 @@ double quantile(std::vector<double> values, double p) {
   const double place = p * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const double part = place - static_cast<double>(below);
-  // Not a sum with weight 0, which would be NaN beside an infinite value.
-  if (part == 0) return values[below];
+  // No sums of infinite values, which would be NaN.
+  if (part == 0 || values[below] == values[below + 1]) return values[below];
   return values[below] + part * (values[below + 1] - values[below]);
 }
 

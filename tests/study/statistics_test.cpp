@@ -18,6 +18,7 @@ TEST(Statistics, QuantilesAreLinearBetweenOrderStatistics) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_DOUBLE_EQ(median({1, 2, infinity}), 2);
   EXPECT_TRUE(std::isinf(quantile({1, 2, infinity}, 0.9)));
+  EXPECT_TRUE(std::isinf(quantile({1, infinity, infinity, infinity}, 0.5)));
 }
 
 // Ranks 1..n with the given ones negative.
