@@ -47,6 +47,7 @@ class Work {
   Outcomes run(int threads, const std::stop_token& stop) {
     std::stop_source failed;
     std::vector<std::jthread> pool;
+    pool.reserve(static_cast<std::size_t>(threads));
     for (int t = 0; t < threads; ++t) {
       pool.emplace_back([&] {
         // Runs are the unit of parallel work: within one there is a single thread.
