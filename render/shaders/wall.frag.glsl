@@ -60,7 +60,8 @@ void add_window(inout Surface s, ivec2 cell, vec2 p, vec2 half_size, vec2 width)
   vec3 warm = mix(vec3(1.0, 0.72, 0.42), vec3(0.85, 0.92, 1.0), step(0.8, fract(home * 17.0)));
   s.glow += warm * (pane * shade * step(home, 0.36) * (0.35 + 1.6 * home) * (1.0 - 0.6 * curtain));
 #endif
-  s.shine += pane * shade * (0.25 + 0.35 * hash(cell + 101)) * vec3(1.0);
+  // Double glazing; no two panes stand quite alike.
+  s.shine += pane * shade * (0.75 + 0.5 * hash(cell + 101)) * vec3(1.0);
   float sill = band(p.x, -half_size.x - 0.1, half_size.x + 0.1, width.x) *
                band(p.y, -0.12, 0.0, width.y);
   float below = band(p.x, -half_size.x, half_size.x, width.x) * band(p.y, -0.25, -0.12, width.y);
@@ -81,7 +82,7 @@ Surface glass_facade(vec2 p, vec2 size, ivec2 key) {
   s.glow = vec3(0.0);
   float tone = hash(cell);
   s.albedo = mix(vec3(0.03, 0.04, 0.045) * (0.7 + 0.6 * tone), vec3(0.10, 0.12, 0.13), spandrel);
-  s.shine = vec3(0.85, 0.97, 1.0) * (0.55 + 0.35 * hash(cell + 101));
+  s.shine = vec3(0.85, 0.97, 1.0) * (1.6 + 0.8 * hash(cell + 101));
   float metal = max(frame.x, band(p.y, size.y - 0.5, size.y, width.y));
   s.albedo = mix(s.albedo, vec3(0.30, 0.31, 0.32), metal);
   s.shine *= 1.0 - metal;
@@ -89,6 +90,37 @@ Surface glass_facade(vec2 p, vec2 size, ivec2 key) {
   s.glow = vec3(0.95, 0.92, 0.8) * (step(tone, 0.4) * (0.3 + tone) * (1.0 - metal) * (1.0 - spandrel));
 #endif
   return s;
+}
+
+// A shop's sign above its windows: one shop for every two bays, some without.
+void add_sign(inout Surface s, ivec2 key, int bay_number, vec2 p, vec2 bay, vec2 width) {
+  ivec2 shop = key + ivec2(bay_number / 2, 71);
+  float which = hash(shop);
+  if (which > 0.72) return;
+  const vec3 kSigns[6] = vec3[](vec3(0.30, 0.035, 0.03), vec3(0.025, 0.07, 0.16), vec3(0.03, 0.10, 0.06),
+                                vec3(0.03, 0.03, 0.03), vec3(0.42, 0.27, 0.03), vec3(0.34, 0.32, 0.28));
+  float from = 2.0 * bay.x * float(bay_number / 2);
+  vec2 at = vec2(p.x - from, p.y);
+  float board = band(at.x, 0.15, 2.0 * bay.x - 0.15, width.x) *
+                band(at.y, 0.83 * bay.y, 0.83 * bay.y + 0.36, width.y);
+  float letters = band(at.x, 0.5, 1.0 + bay.x * (0.4 + hash(shop + 5)), width.x) *
+                  band(at.y, 0.83 * bay.y + 0.1, 0.83 * bay.y + 0.26, width.y) *
+                  step(0.35, noise(vec2(at.x * 7.0, float(shop.x))));
+  vec3 paint = kSigns[int(which / 0.72 * 5.999)];
+  s.albedo = mix(s.albedo, paint, board);
+  s.albedo = mix(s.albedo, paint.r > 0.3 ? vec3(0.05) : vec3(0.55, 0.53, 0.46), board * letters);
+}
+
+// What a pane mirrors: the sky above, the street and the houses across it below; the more of it the
+// flatter one looks (Fresnel's law in Schlick's form, 1994, for two panes of glass).
+vec3 mirrored_in_glass() {
+  vec3 to_eye = normalize(light.eye.xyz - world);
+  vec3 d = reflect(-to_eye, normal);
+  float skyline = 0.25 * noise(vec2(atan(d.y, d.x) * 5.0, 3.0));
+  vec3 street = light.bounce.rgb * (0.35 + 0.5 * noise(world.xy * 0.7 + 9.0 * d.xy));
+  vec3 seen = mix(street, mix(light.haze.rgb, light.zenith.rgb, sqrt(max(d.z, 0.0))),
+                  smoothstep(skyline - 0.02, skyline + 0.02, d.z));
+  return seen * (0.10 + 0.9 * pow(1.0 - max(dot(to_eye, normal), 0.0), 5.0));
 }
 
 // A door in the middle bay of the ground floor; `p` is relative to its middle bottom.
@@ -101,7 +133,7 @@ void add_door(inout Surface s, ivec2 key, vec2 p, vec2 width) {
   vec3 door = kDoors[int(hash(key + 57) * 3.999)];
   s.albedo = mix(s.albedo, vec3(0.50, 0.48, 0.44), surround);
   s.albedo = mix(s.albedo, door, leaf);
-  s.shine = mix(s.shine, vec3(0.0), surround) + vec3(0.3 * panel);
+  s.shine = mix(s.shine, vec3(0.0), surround) + vec3(0.8 * panel);
   s.glow *= 1.0 - surround;
 }
 
@@ -116,17 +148,23 @@ Surface facade(vec2 p, vec2 size, uint building) {
   ivec2 cell = ivec2(min(floor(p / bay), vec2(bays, floors) - 1.0));
   vec2 within = p - (vec2(cell) + vec2(0.5, 0.0)) * bay;
   bool ground_floor = cell.y == 0;
+  float fine = clamp(1.5 - 8.0 * max(width.x, width.y), 0.0, 1.0);
   float stain = noise(p * vec2(0.7, 0.25)) - 0.5;
+  // Water runs down below sills and ledges and leaves streaks; the street splashes the foot.
+  float streak = noise(vec2(p.x * 5.0, p.y * 0.35 + 17.0)) * noise(vec2(p.x * 1.1 + 5.0, 3.0));
+  float splash = exp(-1.6 * p.y) * (0.5 + 0.5 * noise(p * 3.0));
+  float rough = (noise(p * 16.0) - 0.5) * fine;
 
   Surface s;
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
   bool brick = kind == 0 ? hash(key) < 0.4 : kind == 2;
   s.albedo = brick && !ground_floor ? brick_colour(p, width) : render_colour(hash(key + 31));
-  s.albedo *= 1.0 + 0.12 * stain;
+  s.albedo *= (1.0 + 0.2 * stain + 0.1 * rough) * (1.0 - 0.45 * streak) * (1.0 - 0.4 * splash);
   vec2 half_size = ground_floor ? vec2(0.36 * bay.x, 0.37 * bay.y) : vec2(0.6, 0.25 * bay.y);
   float sill_height = ground_floor ? 0.35 : 0.29 * bay.y;
   add_window(s, cell + 13 * key, within - vec2(0.0, sill_height), half_size, width);
+  if (ground_floor) add_sign(s, key, cell.x, p, bay, width);
   if (ground_floor && bays >= 3.0 && cell.x == int(0.5 * bays)) add_door(s, key, within, width);
   // A string course above the ground floor, a plinth and a cornice.
   float course = band(p.y, bay.y - 0.22, bay.y, width.y);
@@ -160,7 +198,7 @@ void main() {
   received += light.lamps.rgb * lamp_light(world + 0.6 * normal, normal);
   glow = s.glow * light.lamps.rgb * kWindow;
 #endif
-  vec3 radiance = s.albedo * received + s.shine * light.sky.rgb * 0.5 + glow;
+  vec3 radiance = s.albedo * received + s.shine * mirrored_in_glass() + glow;
   colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
   instance = id;
 }
