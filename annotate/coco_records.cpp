@@ -118,6 +118,7 @@ void append_image_record(std::string& text, const CocoImage& image) {
   if (!image.sensor.empty()) text += R"(,"sensor":)" + image.sensor;
   if (!image.flight.empty()) text += R"(,"flight":)" + image.flight;
   if (!image.environment.empty()) text += R"(,"environment":)" + image.environment;
+  if (!image.drawn.empty()) text += R"(,"drawn":)" + image.drawn;
   if (!image.density_file.empty()) {
     append(text, R"(,"density_file":{},"density_count":{})", quoted(image.density_file),
            image.density_count);

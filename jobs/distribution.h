@@ -1,5 +1,7 @@
 // Values of a job that may be drawn anew for every run: a field holds one value, or
-// {"choice": [a, b, ...]}, or {"uniform": [low, high]}.
+// {"choice": [a, b, ...]}, {"uniform": [low, high]}, {"log_uniform": [low, high]} (equally many in
+// every octave) or {"normal": [mean, standard deviation]}, whose values outside the field's range
+// are drawn again.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +23,9 @@ struct Quantity {
   std::function<std::optional<double>(const nlohmann::json&)> number;
   /// The reverse.
   std::function<nlohmann::json(double)> json;
-  bool continuous = true;  ///< whether "uniform" makes sense
+  double low = 0;  ///< of all values
+  double high = 0;
+  bool continuous = true;  ///< else only "choice" makes sense
 };
 
 /// Numbers from `low` to `high`.
@@ -29,6 +33,8 @@ Quantity number_quantity(double low, double high);
 
 class Distribution {
  public:
+  enum class Kind : std::uint8_t { choice, uniform, log_uniform, normal };
+
   /// Always this value.
   explicit Distribution(double value) : values_{value} {}
 
@@ -40,13 +46,21 @@ class Distribution {
   /// As it is written in a job; read() reads it back.
   nlohmann::json to_json(const Quantity& quantity) const;
 
+  /// Whether runs may differ.
+  bool is_drawn() const { return kind_ != Kind::choice || values_.size() > 1; }
+
   /// The value that this field has in a run. `pointer` names the field, so that fields do not
   /// depend on each other.
   double draw(std::uint64_t run_seed, std::string_view pointer) const;
 
  private:
-  std::vector<double> values_;  ///< to choose from, or low and high
-  bool uniform_ = false;
+  void read_values(const nlohmann::json& list, const Quantity& quantity, const std::string& place,
+                   std::vector<Problem>& problems);
+
+  Kind kind_ = Kind::choice;
+  std::vector<double> values_;  ///< to choose from; low and high; mean and standard deviation
+  double low_ = 0;              ///< of the field's range: a normal distribution ends there
+  double high_ = 0;
 };
 
 }  // namespace throng::jobs

@@ -38,8 +38,12 @@ std::string time_text(double hours) {
 }
 
 Quantity time_quantity() {
-  return {"a time HH:MM, for example \"15:30\"", hours_of,
-          [](double hours) { return json(time_text(hours)); }, true};
+  return {"a time HH:MM, for example \"15:30\"",
+          hours_of,
+          [](double hours) { return json(time_text(hours)); },
+          0,
+          24 - 1.0 / kMinutesPerHour,
+          true};
 }
 
 Quantity day_quantity() {
@@ -59,7 +63,10 @@ Quantity weather_quantity() {
             if (found == kWeathers.end()) return std::nullopt;
             return static_cast<double>(found - kWeathers.begin());
           },
-          [](double index) { return json(kWeathers.at(static_cast<std::size_t>(index))); }, false};
+          [](double index) { return json(kWeathers.at(static_cast<std::size_t>(index))); },
+          0,
+          kWeathers.size() - 1.0,
+          false};
 }
 
 /// A field of the job: its name, how it writes values, and where it is kept.

@@ -40,7 +40,8 @@ double hfov_rad_of(const CameraSpec& camera) {
 
 }  // namespace
 
-sim::RunSpec run_spec(const JobSpec& job, int run) {
+sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
+  const JobSpec job = job_of_run(whole_job, run);
   sim::RunSpec spec;
   spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
   spec.duration_s = job.capture.to_s;

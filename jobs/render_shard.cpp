@@ -48,10 +48,11 @@ std::int64_t count_inside(const std::vector<Eigen::Vector2d>& heads, int width, 
 class ShardOutput {
  public:
   ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
-              std::string environment, StageClock* clock)
+              std::string environment, std::string drawn, StageClock* clock)
       : job_(job),
         shard_(shard),
         environment_(std::move(environment)),
+        drawn_(std::move(drawn)),
         clock_(clock),
         publication_(output) {
     if (wants(job, "coco")) {
@@ -75,6 +76,7 @@ class ShardOutput {
     image.time_s = frame.time_s;
     image.camera = frame.camera;
     image.environment = environment_;
+    image.drawn = drawn_;
     image.sensor = picture.sensor;
     image.flight = picture.flight;
     const std::string jpeg =
@@ -144,6 +146,7 @@ class ShardOutput {
   const JobSpec& job_;
   const Shard& shard_;
   std::string environment_;  ///< JSON
+  std::string drawn_;        ///< JSON
   StageClock* clock_;
   Publication publication_;
   std::optional<annotate::CocoShardWriter> coco_;
@@ -154,14 +157,16 @@ class ShardOutput {
 
 }  // namespace
 
-void render_shard(const JobFolder& folder, const JobSpec& job,
+void render_shard(const JobFolder& folder, const JobSpec& whole_job,
                   const std::filesystem::path& scenarios, const Shard& shard,
                   const OnTaskProgress& on_progress, const std::stop_token& stop) {
-  const world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
+  const JobSpec job = job_of_run(whole_job, shard.run);
+  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
+  world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
+  world::thin_out(scenario, job.props_density, seed);
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, shard.run}));
   const skinning::Population population = skinning::load_population(skinning::population_folder());
   pin_people(folder, population.content_hash);
-  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
   const RunEnvironment environment = environment_of_run(job.environment, seed);
   std::optional<StageClock> clock;
   if (is_profiling()) clock.emplace();
@@ -175,8 +180,9 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
   Shoot shoot(job, seed, trace, population, renderer, options.clock);
 
   const Task task{Task::Kind::render, shard.run, shard.index};
+  const nlohmann::json drawn = drawn_of_run(whole_job, shard.run);
   ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(),
-                     options.clock);
+                     drawn.empty() ? "" : drawn.dump(), options.clock);
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;

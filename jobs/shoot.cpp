@@ -29,7 +29,7 @@ Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& tra
       run_seed_(run_seed),
       trace_(&trace),
       clock_(clock),
-      animator_(trace, population),
+      animator_(trace, population, job.dye),
       lens_(renderer, population) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     cameras_.push_back(camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i)));

@@ -118,6 +118,9 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
   read(capture, "to_s", job.capture.to_s);
   job.environment = read_environment(part(value, "environment"), problems);
   if (value.contains("quality")) job.quality = quality_of(value["quality"].get<std::string>());
+  read(part(value, "appearance"), "brightness", job.dye.brightness);
+  read(part(value, "appearance"), "saturation", job.dye.saturation);
+  read(part(value, "props"), "density", job.props_density);
   const json& outputs = part(value, "outputs");
   read(part(outputs, "image"), "format", job.outputs.image_format);
   read(part(outputs, "image"), "quality", job.outputs.image_quality);
@@ -200,6 +203,29 @@ bool has_own_airframe(const JobSpec& job) {
                      [](const DroneSpec& drone) { return drone.mission.own_airframe.has_value(); });
 }
 
+// What may differ between runs, in each of them; of their crowds the largest. Problems are named
+// where the job says what is drawn.
+void check_runs(const JobSpec& job, const world::Scenario& scenario,
+                std::vector<Problem>& problems) {
+  JobSpec largest = job;
+  const std::size_t before = problems.size();
+  for (int run = 0; run < job.runs && problems.size() == before; ++run) {
+    const JobSpec run_job = job_of_run(job, run);
+    if (run_job.agents.value_or(0) > largest.agents.value_or(0)) largest.agents = run_job.agents;
+    std::vector<sim::DroneMission> missions;
+    for (const DroneSpec& drone : run_job.drones) missions.push_back(drone.mission);
+    sim::plan_drones(scenario, missions, problems);
+  }
+  if (problems.size() == before) check_with_simulation(largest, scenario, problems);
+  for (std::size_t i = before; i < problems.size(); ++i) {
+    for (const RandomField& field : job.randomize) {
+      if (field.pointer.starts_with(problems[i].where)) {
+        problems[i].where = "/randomize/" + field.path;
+      }
+    }
+  }
+}
+
 // Points at the job when the job names no scenario that exists; a broken scenario file names
 // itself.
 world::Scenario scenario_of(const JobSpec& job, const std::string& source,
@@ -247,15 +273,21 @@ double JobSpec::frame_time_s(std::int64_t frame) const {
 
 JobSpec parse_job(std::string_view text, const std::string& source,
                   const std::filesystem::path& scenarios) {
-  const json value = world::parse_json(text, source);
+  json value = world::parse_json(text, source);
   std::vector<Problem> problems = schema_problems(value, source);
   if (!problems.empty()) throw InputError(std::move(problems));
+  std::vector<RandomField> randomize = take_randomize(value, problems);
   JobSpec job = read_job(value, source, problems);
+  job.randomize = std::move(randomize);
   const world::Scenario scenario = scenario_of(job, source, scenarios);
   take_from_scenario(job, scenario);
   check_times(job, problems);
   if (problems.empty()) check_cameras(job, problems);
-  if (problems.empty() || !has_own_airframe(job)) check_with_simulation(job, scenario, problems);
+  if (problems.empty() && !job.randomize.empty()) {
+    check_runs(job, scenario, problems);
+  } else if (problems.empty() || !has_own_airframe(job)) {
+    check_with_simulation(job, scenario, problems);
+  }
   for (Problem& problem : problems) {
     if (problem.source.empty()) problem.source = source;
   }
@@ -283,13 +315,62 @@ json to_json(const JobSpec& job) {
         {"to_s", job.capture.to_s}}},
       {"environment", to_json(job.environment)},
       {"quality", render::settings_of(job.quality).word},
+      {"appearance", {{"brightness", job.dye.brightness}, {"saturation", job.dye.saturation}}},
+      {"props", {{"density", job.props_density}}},
       {"outputs",
        {{"image", {{"format", job.outputs.image_format}, {"quality", job.outputs.image_quality}}},
         {"annotations", job.outputs.annotations},
         {"density", {{"sigma_px", job.outputs.density_sigma_px}}},
         {"previews", job.outputs.previews}}}};
   if (job.agents) value["crowd"]["agents"] = *job.agents;
+  if (!job.randomize.empty()) value["randomize"] = to_json(job.randomize);
   return value;
+}
+
+JobSpec job_of_run(const JobSpec& job, int run) {
+  if (job.randomize.empty()) return job;
+  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
+  json value = to_json(job);
+  for (const RandomField& field : job.randomize) {
+    value[json::json_pointer(field.pointer)] = field.draw(seed);
+  }
+  std::vector<Problem> problems;
+  JobSpec run_job = read_job(value, "", problems);
+  check(problems.empty(), "what is drawn for a job is what the job may say");
+  return run_job;
+}
+
+namespace {
+
+/// Adds what a run had where a distribution was asked for. What its models do not use was not had.
+void add_drawn(const json& asked, const json& had, const std::string& path, json& drawn) {
+  for (const auto& [name, value] : asked.items()) {
+    if (!value.is_object() || !had.contains(name)) continue;
+    if (had[name].is_object()) {
+      add_drawn(value, had[name], path + name + ".", drawn);
+    } else {
+      drawn[path + name] = had[name];
+    }
+  }
+}
+
+}  // namespace
+
+json drawn_of_run(const JobSpec& job, int run) {
+  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
+  json drawn = json::object();
+  for (const RandomField& field : job.randomize) drawn[field.path] = field.draw(seed);
+  const json asked = to_json(job.environment);
+  const json had = to_json(environment_of_run(job.environment, seed));
+  add_drawn(asked, had, "environment.", drawn);
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const std::string pointer = camera_pointer(i);
+    const json camera = to_json(camera_of_run(job.drones[i].camera, seed, pointer));
+    for (const auto& [name, distribution] : job.drones[i].camera.drawn) {
+      drawn[dotted(pointer + "/" + name)] = camera.at(json::json_pointer("/" + name));
+    }
+  }
+  return drawn;
 }
 
 std::string_view job_schema() { return embedded::kJobSchema; }

@@ -12,8 +12,10 @@
 
 #include "jobs/camera_spec.h"
 #include "jobs/environment.h"
+#include "jobs/randomize.h"
 #include "render/quality.h"
 #include "sim/run.h"
+#include "skinning/appearance.h"
 
 namespace throng::jobs {
 
@@ -47,7 +49,10 @@ struct JobSpec {
   CaptureSpec capture;
   EnvironmentSpec environment;
   render::Quality quality = render::Quality::standard;
+  skinning::Dye dye;         ///< of what people wear
+  double props_density = 1;  ///< share of the scenario's scattered props that are there
   OutputSpec outputs;
+  std::vector<RandomField> randomize;  ///< drawn for each run by job_of_run()
 
   /// Frames of one camera in one run, at from_s, from_s + 1/rate_hz, ... up to to_s (included).
   std::int64_t frames_per_camera() const;
@@ -62,6 +67,13 @@ JobSpec parse_job(std::string_view json, const std::string& source,
 
 /// The job as JSON with every default filled in; parse_job reads it back to the same job.
 nlohmann::json to_json(const JobSpec& job);
+
+/// The job as one of its runs has it: the fields of `randomize` have their drawn values there.
+JobSpec job_of_run(const JobSpec& job, int run);
+
+/// Everything that was drawn for a run, by dotted path: fields of `randomize`, of the environment
+/// and of the cameras.
+nlohmann::json drawn_of_run(const JobSpec& job, int run);
 
 /// The JSON Schema text, embedded at build time.
 std::string_view job_schema();

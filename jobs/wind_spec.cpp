@@ -26,7 +26,10 @@ Quantity word_quantity(const Words& words) {
             if (found == words.end()) return std::nullopt;
             return static_cast<double>(found - words.begin());
           },
-          [words](double index) { return json(words.at(static_cast<std::size_t>(index))); }, false};
+          [words](double index) { return json(words.at(static_cast<std::size_t>(index))); },
+          0,
+          words.size() - 1.0,
+          false};
 }
 
 /// A field of the job: its name, how it writes values, and where it is kept.

@@ -121,7 +121,8 @@ bool is_down(std::string_view state_name) {
                      [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
 
-Animator::Animator(const world::Trace& trace, const skinning::Population& population)
+Animator::Animator(const world::Trace& trace, const skinning::Population& population,
+                   const skinning::Dye& dye)
     : trace_(&trace), stays_(trace.agents()) {
   std::vector<char> down_states;
   for (const std::string& name : trace.header.state_names) {
@@ -130,8 +131,8 @@ Animator::Animator(const world::Trace& trace, const skinning::Population& popula
   const Watcher watcher(trace, down_states);
   std::vector<Moment> moments;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
-    appearance_.push_back(
-        skinning::appearance_of(population, trace.header.seed, static_cast<std::uint32_t>(agent)));
+    appearance_.push_back(skinning::appearance_of(population, trace.header.seed,
+                                                  static_cast<std::uint32_t>(agent), dye));
     if (trace.header.role[agent] != world::AgentRole::person) continue;
     const std::uint64_t key = derive_seed(trace.header.seed, Stream::motion, agent);
     const Curiosity curiosity(Random(key, Stream::motion, 1));

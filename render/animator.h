@@ -19,7 +19,8 @@ bool is_down(std::string_view state_name);
 /// Plans each agent's motion along the trace. The trace and population must outlive it.
 class Animator {
  public:
-  Animator(const world::Trace& trace, const skinning::Population& population);
+  Animator(const world::Trace& trace, const skinning::Population& population,
+           const skinning::Dye& dye = {});
 
   /// The people at `time_s` (interpolated between crowd steps); agents that are not people,
   /// have not arrived yet or have left are left out.

@@ -83,6 +83,14 @@ double exposure_for(double mean) {
   return seen * std::pow(std::min(mean / kDusk, 1.0), 0.06) / mean;
 }
 
+/// The camera meters the light of a fog too, and closes: pictures of fog are grey, not white.
+double closed_for_fog(const Environment& environment, double extinction_per_m) {
+  constexpr double kMeteredM = 40;  // what a drone looks at is about that far away
+  constexpr double kAirShare = 1.3;
+  if (environment.weather != Weather::fog) return 1;
+  return 1 / (1 + kAirShare * (1 - std::exp(-extinction_per_m * kMeteredM)));
+}
+
 /// Sun and clouds' light before exposure.
 void light_up(const Environment& environment, Daylight& light) {
   const double elevation = environment.sun_elevation_rad;
@@ -149,7 +157,8 @@ Daylight daylight(const Environment& environment) {
   light_up(environment, light);
   const double lamp_mean = light.lamps_on ? kLampMean : 0;
   const double exposure =
-      exposure_for((light.sun * light.direction.z() + light.sky).mean() + lamp_mean);
+      exposure_for((light.sun * light.direction.z() + light.sky).mean() + lamp_mean) *
+      closed_for_fog(environment, light.extinction_per_m);
   light.sun *= exposure;
   light.sky *= exposure;
   // Warm white, half of which the white balance takes back.

@@ -24,6 +24,7 @@ constexpr double kFarthestM = 100'000;
 constexpr double kSmallestScale = 0.2;
 constexpr double kLargestScale = 5;
 constexpr int kMostScattered = 2000;
+constexpr std::uint64_t kThinning = std::uint64_t{1} << 42;  // apart from other uses of the stream
 
 std::array<Eigen::Vector2d, 4> corners_of(const Prop& prop) {
   const Eigen::Vector2d half =
@@ -201,6 +202,16 @@ std::vector<Prop> read_props(const JsonValue& props, const JsonValue& scatter,
   }
   for (const JsonValue& item : scatter.items()) scatter_over(item, scenario, read);
   return read;
+}
+
+void thin_out(Scenario& scenario, double share, std::uint64_t seed) {
+  std::vector<Prop> kept;
+  for (std::size_t i = 0; i < scenario.props.size(); ++i) {
+    const bool stays = i < scenario.placed_props ||
+                       Random(seed, Stream::environment, kThinning + i).uniform() < share;
+    if (stays) kept.push_back(scenario.props[i]);
+  }
+  scenario.props = std::move(kept);
 }
 
 }  // namespace throng::world

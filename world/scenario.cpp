@@ -266,6 +266,7 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   scenario.buildings = read_buildings(root["buildings"]);
   scenario.drones = read_drones(root["drones"], scenario.buildings);
   scenario.props = read_props(root["props"], root["scatter"], scenario);
+  scenario.placed_props = root["props"].items().size();
   scenario.meshes = read_meshes(root["meshes"], file);
   scenario.areas = read_ground_areas(root["ground"]["areas"]);
   scenario.markings = read_markings(root["ground"]["markings"]);

@@ -84,7 +84,8 @@ struct Scenario {
   std::vector<int> disaster_agents;
   /// Whether the behaviour file lets people who have noticed nothing follow a drone.
   bool guides_alert = false;
-  std::vector<Prop> props;  ///< placed ones in the file's order, then scattered ones
+  std::vector<Prop> props;       ///< placed ones in the file's order, then scattered ones
+  std::size_t placed_props = 0;  ///< how many of them are placed
   std::vector<PlacedMesh> meshes;
   std::vector<GroundArea> areas;  ///< later ones lie on top of earlier ones
   std::vector<Marking> markings;
@@ -95,6 +96,10 @@ struct Scenario {
 /// else replaces the whole (RFC 7396). Throws InputError (file, JSON
 /// pointer, found, expected) for bad content and EnvironmentError when the file cannot be read.
 Scenario load_scenario(const std::filesystem::path& file, std::string id);
+
+/// Leaves this share (0 to 1) of the scattered props where they are, chosen by the seed, and takes
+/// the others away. A smaller share leaves some of those that a larger one leaves.
+void thin_out(Scenario& scenario, double share, std::uint64_t seed);
 
 /// The folder of shipped scenarios: $THRONG_SCENARIOS if set, else the installed one, else the
 /// source tree's.

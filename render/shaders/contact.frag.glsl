@@ -7,6 +7,6 @@ layout(location = 0) out vec4 colour;
 void main() {
   float away = length(max(abs(from_middle) - extent.xy, 0.0));
   float near = max(1.0 - away / extent.z, 0.0);
-  float clear = exp2(-light.haze.w / gl_FragCoord.w);
-  colour = vec4(0.0, 0.0, 0.0, extent.w * clear * near * near);
+  // The air before it shines all the same.
+  colour = vec4(film(through_air(vec3(0.0), 1.0 / gl_FragCoord.w)), extent.w * near * near);
 }
