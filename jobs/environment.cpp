@@ -76,13 +76,14 @@ struct Field {
   Distribution EnvironmentSpec::*value;
 };
 
-const std::array<Field, 5>& fields() {
-  static const std::array<Field, 5> list = {
+const std::array<Field, 6>& fields() {
+  static const std::array<Field, 6> list = {
       {{"time_of_day", time_quantity(), &EnvironmentSpec::time_of_day_h},
        {"latitude_deg", number_quantity(-90, 90), &EnvironmentSpec::latitude_deg},
        {"day_of_year", day_quantity(), &EnvironmentSpec::day_of_year},
        {"weather", weather_quantity(), &EnvironmentSpec::weather},
-       {"rain_mm_per_h", number_quantity(0, 200), &EnvironmentSpec::rain_mm_per_h}}};
+       {"rain_mm_per_h", number_quantity(0, 200), &EnvironmentSpec::rain_mm_per_h},
+       {"smoke", number_quantity(0, 1), &EnvironmentSpec::smoke}}};
   return list;
 }
 
@@ -158,6 +159,7 @@ RunEnvironment environment_of_run(const EnvironmentSpec& spec, std::uint64_t run
   if (run.light.weather == render::Weather::rain) {
     run.light.rain_mm_per_h = draw(spec.rain_mm_per_h, "rain_mm_per_h");
   }
+  run.light.smoke = draw(spec.smoke, "smoke");
   run.light.seed = run_seed;
   run.wind = wind_of_run(spec.wind, run_seed);
   return run;
@@ -173,6 +175,7 @@ json to_json(const RunEnvironment& environment) {
           {"weather", kWeathers.at(static_cast<std::size_t>(light.weather))},
           {"visibility_m", light.visibility_m},
           {"rain_mm_per_h", light.rain_mm_per_h},
+          {"smoke", light.smoke},
           {"wind", to_json(environment.wind)}};
 }
 

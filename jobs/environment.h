@@ -20,6 +20,7 @@ struct EnvironmentSpec {
   Distribution weather{0};
   std::optional<Distribution> visibility_m;  ///< without it, by the weather
   Distribution rain_mm_per_h{4};
+  Distribution smoke{0};
   WindFields wind;
 };
 

@@ -158,8 +158,11 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
   if (trace.steps() == 0) return scene;
   const Between at = find(trace.time_s, time_s);
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
-    if (trace.header.role[agent] != world::AgentRole::person) continue;
     if (!trace.present(at.before, agent)) continue;
+    if (trace.header.role[agent] != world::AgentRole::person) {
+      scene.dangers.push_back(trace.position[trace.at(at.before, agent)]);
+      continue;
+    }
     const bool leaves = !trace.present(at.after, agent);
     const std::size_t a = trace.at(at.before, agent);
     const std::size_t b = leaves ? a : trace.at(at.after, agent);

@@ -15,6 +15,7 @@ struct Environment {
   double visibility_m = 3500;
   double rain_mm_per_h = 0;  ///< only in rain
   std::uint64_t seed = 1;    ///< which windows are lit, where puddles lie and drops fall
+  double smoke = 0;          ///< 0 to 1: how much of it rises from every danger
 };
 
 }  // namespace throng::render

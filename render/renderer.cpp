@@ -18,6 +18,7 @@
 #include "render/shadow_map.h"
 #include "render/silhouettes.h"
 #include "render/sky_pass.h"
+#include "render/smoke_pass.h"
 #include "render/smooth_edges.h"
 #include "render/still_surfaces.h"
 #include "render/surface_target.h"
@@ -138,6 +139,7 @@ struct Renderer::State {
   ContactPass contacts;
   PeoplePass people_pass;
   SkyPass sky;
+  SmokePass smoke;
   std::optional<LampMap> lamp_map;  ///< after sunset
   ShadowMap shadow_map;
   Silhouettes silhouettes;
@@ -169,6 +171,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       contacts(scenario, daylight),
       people_pass(people, quality, light_words(environment)),
       sky(environment),
+      smoke(environment),
       shadow_map(quality.shadow_texels),
       view_buffer(make_buffer()),
       next_view_buffer(make_buffer()),
@@ -324,6 +327,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   place.draw();
   if (quality.textured) contacts.draw(scene.people, camera);
   sky.draw_sky(camera);
+  smoke.draw(scene, camera);
   sky.draw_rain(camera, scene.index);
 }
 

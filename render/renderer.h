@@ -52,6 +52,7 @@ struct Scene {
   std::int64_t index = 0;  ///< becomes Frame::index
   double time_s = 0;
   std::vector<PersonInstance> people;
+  std::vector<Eigen::Vector2f> dangers;  ///< where what people run from is (m)
 };
 
 /// The next frame of the same camera: what flow leads to.

@@ -39,6 +39,8 @@ extern const std::string_view shader_wall_frag;
 extern const std::string_view shader_roof_frag;
 extern const std::string_view shader_sky_vert;
 extern const std::string_view shader_sky_frag;
+extern const std::string_view shader_smoke_vert;
+extern const std::string_view shader_smoke_frag;
 extern const std::string_view shader_rain_vert;
 extern const std::string_view shader_rain_frag;
 

@@ -156,5 +156,34 @@ TEST(Lamps, DoNotShineThroughWalls) {
   EXPECT_EQ(lamp_light_at(scenario, {lamp}, {-3, 39}).w(), 0) << "out of reach";
 }
 
+TEST(Smoke, HidesFromTheEyeAndNotFromTheGroundTruth) {
+  const auto drawn = [](double smoke, double time_s) {
+    Environment lighting;
+    lighting.smoke = smoke;
+    Stage stage(open_ground(), lighting);
+    Scene scene;
+    scene.time_s = time_s;
+    scene.dangers = {{0, 0}};
+    scene.people = {stage.standing(3, -1, 0), stage.standing(4, -1, 9)};
+    return stage.renderer().draw(scene, camera_at({-14, 0, 6}, 0, -18));
+  };
+  const Frame clear = drawn(0, 20);
+  const Frame thick = drawn(0.8, 20);
+  EXPECT_EQ(clear.id, thick.id);
+  EXPECT_EQ(clear.depth_m, thick.depth_m);
+  EXPECT_EQ(person_of(clear, 3).amodal_area_px, person_of(thick, 3).amodal_area_px);
+  const auto difference = [&](int x, int y) {
+    return std::abs(brightness(clear, x, y) - brightness(thick, x, y));
+  };
+  int changed = 0;
+  for (int y = 0; y < clear.height(); ++y) {
+    EXPECT_LT(difference(3, y), 6) << "far from the danger";
+    for (int x = 120; x < 200; ++x) changed += difference(x, y) > 30 ? 1 : 0;
+  }
+  EXPECT_GT(changed, 1500);
+  EXPECT_EQ(drawn(0.8, 20).rgb, thick.rgb);
+  EXPECT_NE(drawn(0.8, 21).rgb, thick.rgb) << "it drifts";
+}
+
 }  // namespace
 }  // namespace throng::render

@@ -167,6 +167,42 @@ TEST(Picture, ShadowsFallAwayFromTheSun) {
   EXPECT_GT(ground_brightness(7), 0.9 * lit) << "the shadow of 4 m at 45 degrees ends before 7 m";
 }
 
+TEST(Picture, ShadowsTurnAndShortenWithTheHours) {
+  // From a low sun in the east over a high one in the south to a low one in the west.
+  const camera::Camera camera = camera_at({0, 0, 30}, 0, -90, 480, 480);
+  for (const auto& [azimuth_deg, elevation_deg] :
+       {std::pair(10, 25), {-40, 45}, {-90, 60}, {-140, 45}, {-190, 25}}) {
+    Environment lighting;
+    lighting.sun_azimuth_rad = azimuth_deg * kDegree;
+    lighting.sun_elevation_rad = elevation_deg * kDegree;
+    Stage stage(open_ground({block(-1, 1, -1, 1, 3)}), lighting);
+    const Frame frame = stage.draw(camera);
+    const Frame bare = Stage(open_ground(), lighting).draw(camera);
+    // The dark ground, and where it lies from the block.
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    double farthest = 0;
+    int dark = 0;
+    for (int y = 0; y < 480; ++y) {
+      for (int x = 0; x < 480; ++x) {
+        const std::size_t i = index_of(frame, x, y);
+        const bool is_dark = brightness(frame, x, y) < 0.8 * brightness(bare, x, y);
+        if (frame.id[i] != kIdGround || !is_dark) continue;
+        const Eigen::Vector2d at = camera.unproject({x, y}, frame.depth_m[i]).head<2>();
+        if (at.cwiseAbs().maxCoeff() < 1.5) continue;  // beside the walls it is dark anyway
+        middle += at;
+        farthest = std::max(farthest, at.norm());
+        ++dark;
+      }
+    }
+    ASSERT_GT(dark, 100) << azimuth_deg;
+    const Eigen::Vector2d away(-std::cos(azimuth_deg * kDegree), -std::sin(azimuth_deg * kDegree));
+    EXPECT_GT(middle.normalized().dot(away), 0.99) << azimuth_deg;
+    // From the corner of the block whose shadow reaches farthest.
+    const double corner = std::abs(away.x()) + std::abs(away.y());
+    EXPECT_NEAR(farthest, 3 / std::tan(elevation_deg * kDegree) + corner, 0.45) << azimuth_deg;
+  }
+}
+
 TEST(Picture, PeopleCastShadowsOnTheGround) {
   Environment lighting;
   lighting.sun_azimuth_rad = 0;

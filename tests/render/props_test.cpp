@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -84,6 +85,57 @@ TEST_P(PropOutline, IdsCoverWhatTheProjectedMeshCovers) {
   EXPECT_GT(drawn, 100U);
   // Where an edge passes within 1/256 pixel of a pixel's middle either answer is right.
   EXPECT_LE(wrong, drawn / 100);
+}
+
+/// Distance along a ray to a triangle (Moeller and Trumbore 1997), or infinity.
+double distance_along(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+                      const std::array<Eigen::Vector3d, 3>& triangle) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d a = triangle[1] - triangle[0];
+  const Eigen::Vector3d b = triangle[2] - triangle[0];
+  const Eigen::Vector3d p = direction.cross(b);
+  const double determinant = a.dot(p);
+  if (std::abs(determinant) < 1e-12) return kNever;
+  const Eigen::Vector3d to = from - triangle[0];
+  const double u = to.dot(p) / determinant;
+  const Eigen::Vector3d q = to.cross(a);
+  const double v = direction.dot(q) / determinant;
+  if (u < 0 || v < 0 || u + v > 1) return kNever;
+  const double distance = b.dot(q) / determinant;
+  return distance > 0 ? distance : kNever;
+}
+
+TEST_P(PropOutline, DepthIsThatOfCastRays) {
+  const Prop prop = prop_at(GetParam(), 9, 0.4, 25);
+  Stage stage(ground_with({prop}));
+  const camera::Camera camera = camera_at({0, 0, 6}, 0, -25, 320, 240);
+  const Frame frame = stage.draw(camera);
+  const PropMesh mesh = prop_shape(prop, kIdProp);
+  const Eigen::Vector3d eye = camera.pose.centre();
+  int compared = 0;
+  int wrong = 0;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const std::size_t i = index_of(frame, x, y);
+      if (frame.id[i] != kIdProp && frame.id[i] != kIdGround) continue;
+      // At depth 1 along the pixel's ray, so that distances are depths.
+      const Eigen::Vector3d ray = camera.unproject({x, y}, 1.0) - eye;
+      double nearest = -eye.z() / ray.z();
+      for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
+        std::array<Eigen::Vector3d, 3> triangle;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+          const auto& p = mesh.vertices[mesh.indices[k + corner]].position;
+          triangle[corner] = {p[0], p[1], p[2]};
+        }
+        nearest = std::min(nearest, distance_along(eye, ray, triangle));
+      }
+      ++compared;
+      wrong += std::abs(frame.depth_m[i] - nearest) > 0.003 + 1e-4 * nearest ? 1 : 0;
+    }
+  }
+  EXPECT_GT(compared, 20'000);
+  // Rays that pass an edge within the rasteriser's rounding may meet either side of it.
+  EXPECT_LT(wrong, 60);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, PropOutline,

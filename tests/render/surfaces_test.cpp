@@ -117,7 +117,7 @@ TEST(Surfaces, WhatStandsStillMovesWithTheCamera) {
 TEST(Surfaces, NobodyFollowsWhoLeaves) {
   Stage stage(open_ground(), {}, kEverything);
   const camera::Camera camera = camera_at({-6, 0, 3}, 0, -15);
-  const Scene now{0, 0, {stage.standing(3, 0, 0)}};
+  const Scene now{0, 0, {stage.standing(3, 0, 0)}, {}};
   const NextFrame next{{}, camera};
   for (const NextFrame* given : {&next, static_cast<const NextFrame*>(nullptr)}) {
     const Frame frame = stage.renderer().draw(now, camera, given);
@@ -154,7 +154,7 @@ TEST(Surfaces, NormalsOfPlanesAreTheirs) {
 
 TEST(Surfaces, PeopleHaveNormalsAndPartsOnEveryPixelOfTheirs) {
   Stage stage(open_ground(), {}, kEverything);
-  const Frame frame = stage.renderer().draw({0, 0, {stage.standing(1, 0, 0, std::numbers::pi)}},
+  const Frame frame = stage.renderer().draw({0, 0, {stage.standing(1, 0, 0, std::numbers::pi)}, {}},
                                             camera_at({-4, 0, 1.2}, 0, -3, 640, 480), nullptr);
   std::array<int, 10> count{};
   std::array<double, 10> row_sum{};
