@@ -86,7 +86,7 @@ double exposure_for(double mean) {
 /// The camera meters the light of a fog too, and closes: pictures of fog are grey, not white.
 double closed_for_fog(const Environment& environment, double extinction_per_m) {
   constexpr double kMeteredM = 40;  // what a drone looks at is about that far away
-  constexpr double kAirShare = 1.3;
+  constexpr double kAirShare = 0.7;
   if (environment.weather != Weather::fog) return 1;
   return 1 / (1 + kAirShare * (1 - std::exp(-extinction_per_m * kMeteredM)));
 }
@@ -137,6 +137,8 @@ void colour_the_air(const Environment& environment, Daylight& light) {
     light.haze = Array3d(0.60, 0.62, 0.64) * level;
     light.zenith = Array3d(0.56, 0.58, 0.61) * level;
     if (environment.weather == Weather::rain) light.zenith *= 0.8;
+    // Inside a fog the air is as bright as a white surface in it.
+    if (environment.weather == Weather::fog) light.haze *= kAfternoon / 0.60;
     return;
   }
   const double setting = smooth(-5, 0.5, degrees) * (1 - smooth(3, 14, degrees));

@@ -46,12 +46,12 @@ Program make_place_program(std::string_view words, std::string_view surface,
 }
 
 constexpr std::string_view kTextured = "#define TEXTURED\n";
-constexpr std::string_view kSurroundings = "surroundings";
+constexpr std::string_view kPlain = "surroundings";
 
 /// Whether a ground's pattern is looked up rather than worked out for each pixel: those that are
 /// small or follow no tile are not.
 bool is_baked(std::string_view material) {
-  return material != "kerb" && material != "paint" && material != kSurroundings;
+  return material != "kerb" && material != "paint" && material != kPlain;
 }
 
 /// Mean colours of facades and roofs, in the words of a ground.
@@ -95,7 +95,7 @@ PlacePass::PlacePass(const world::Scenario& scenario, const Environment& environ
                      {5, 1, GL_FLOAT, false, offsetof(PlaceVertex, facade)}});
   glVertexArrayElementBuffer(array_.name(), indices_.name());
   learn(material_, shader_of(material_, scenario), words, quality);
-  learn(std::string(kSurroundings), embedded::shader_ground_surroundings, words, quality);
+  learn(std::string(kPlain), embedded::shader_ground_surroundings, words, quality);
   for (const GroundLayer& layer : layers_) {
     learn(layer.material, shader_of(layer.material, scenario), words, quality);
   }
@@ -137,7 +137,7 @@ void PlacePass::draw() const {
   draw_range(roofs_, mesh_.roofs);
   for (const GroundLayer& layer : layers_) draw_ground(layer.material, layer.range);
   draw_ground(material_, mesh_.ground);
-  draw_ground(std::string(kSurroundings), mesh_.surroundings);
+  draw_ground(std::string(kPlain), mesh_.surroundings);
 }
 
 void PlacePass::draw_shadow() const {

@@ -17,7 +17,7 @@ void main() {
   float cloud = noise(p * 0.8 + 4.0) + 0.5 * noise(p * 1.9 + 7.0) + 0.25 * noise(p * 4.3) +
                 0.12 * noise(p * 9.0) - 1.05;
   vec3 white = 0.62 * light.haze.rgb + 0.2 * dot(light.sun.rgb, vec3(0.333));
-  radiance = mix(radiance, white, 0.7 * smoothstep(0.0, 0.35, cloud) * smoothstep(0.05, 0.2, up));
+  radiance = mix(radiance, white, 0.5 * smoothstep(0.0, 0.35, cloud) * smoothstep(0.05, 0.2, up));
   float near = max(dot(d, light.sun_direction.xyz), 0.0);
   radiance += light.sun.rgb * (0.25 * pow(near, 12.0) + 3.0 * smoothstep(0.99985, 0.99995, near));
 #endif
