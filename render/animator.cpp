@@ -122,7 +122,7 @@ bool is_down(std::string_view state_name) {
 }
 
 Animator::Animator(const world::Trace& trace, const skinning::Population& population,
-                   const skinning::Dye& dye)
+                   const skinning::Tone& dye)
     : trace_(&trace), stays_(trace.agents()) {
   std::vector<char> down_states;
   for (const std::string& name : trace.header.state_names) {

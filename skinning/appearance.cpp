@@ -57,12 +57,12 @@ Rgb varied(const Rgb& colour, Random& random) {
   return result;
 }
 
-Rgb dyed(const Rgb& colour, const Dye& dye) {
+Rgb dyed(const Rgb& colour, const Tone& tone) {
   // Grey of the same luma (ITU-R BT.601).
   const double grey = 0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2];
   Rgb result{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double value = dye.brightness * (grey + dye.saturation * (colour[channel] - grey));
+    const double value = tone.brightness * (grey + tone.saturation * (colour[channel] - grey));
     result[channel] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
   }
   return result;
@@ -71,7 +71,7 @@ Rgb dyed(const Rgb& colour, const Dye& dye) {
 }  // namespace
 
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
-                         const Dye& dye) {
+                         const Tone& tone) {
   check(!population.characters.empty(), "a population has characters");
   Appearance appearance;
   appearance.character =
@@ -90,7 +90,7 @@ Appearance appearance_of(const Population& population, std::uint64_t run_seed, s
         colour_number(run_seed, appearance.character, tint, block, colours.size());
     appearance.tint[tint] = varied(colours[number], random);
     if (tint != static_cast<std::size_t>(Tint::hair)) {
-      appearance.tint[tint] = dyed(appearance.tint[tint], dye);
+      appearance.tint[tint] = dyed(appearance.tint[tint], tone);
     }
   }
   return appearance;

@@ -21,7 +21,7 @@ struct Appearance {
 
 /// What is done to the colours of clothes, shoes and things carried, as far as they are dyed at
 /// all.
-struct Dye {
+struct Tone {
   double brightness = 1;  ///< factor of lightness
   double saturation = 1;  ///< 0: grey; 2: twice as colourful
 };
@@ -29,6 +29,6 @@ struct Dye {
 /// Agents near each other in id get different characters: with n of them, equal ones are more than
 /// n / 2 - 1 ids apart, and when a character comes again it wears other colours.
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
-                         const Dye& dye = {});
+                         const Tone& tone = {});
 
 }  // namespace throng::skinning

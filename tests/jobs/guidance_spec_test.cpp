@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/schema.h"
-#include "tests/world/temporary_folder.h"
+#include "yard.h"
 
 namespace throng::jobs {
 namespace {
@@ -46,8 +46,9 @@ TEST(GuidanceSpec, EveryFieldSurvivesTheRoundTrip) {
 }
 
 TEST(GuidanceSpec, APilotLogLiesBesideTheJobAndBecomesPartOfIt) {
-  const throng::testing::TemporaryFolder folder;
-  folder.write("d1.csv", "time_s,x_m,y_m,z_m,yaw_deg,beacon\n0,1,2,3,0,1\n2,1,5,3,90,0\n");
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path() / "d1.csv",
+                        "time_s,x_m,y_m,z_m,yaw_deg,beacon\n0,1,2,3,0,1\n2,1,5,3,90,0\n");
   const json given = {{"policy", "pilot_log"}, {"log", "d1.csv"}};
   std::vector<Problem> problems;
   const std::string job_file = (folder.path() / "job.json").string();
@@ -65,8 +66,9 @@ TEST(GuidanceSpec, APilotLogLiesBesideTheJobAndBecomesPartOfIt) {
 }
 
 TEST(GuidanceSpec, ALogThatGoesBackInTimeIsRefusedByLine) {
-  const throng::testing::TemporaryFolder folder;
-  folder.write("d1.csv", "time_s,x_m,y_m,z_m,yaw_deg,beacon\n2,1,2,3,0,1\n1,1,5,3,90,0\n");
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path() / "d1.csv",
+                        "time_s,x_m,y_m,z_m,yaw_deg,beacon\n2,1,2,3,0,1\n1,1,5,3,90,0\n");
   std::vector<Problem> problems;
   read_given({{"policy", "pilot_log"}, {"log", "d1.csv"}}, (folder.path() / "job.json").string(),
              problems);
