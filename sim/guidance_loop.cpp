@@ -6,6 +6,7 @@ namespace {
 
 std::vector<std::optional<world::GoalRef>> goals_of(const std::vector<PlannedDrone>& drones) {
   std::vector<std::optional<world::GoalRef>> goals;
+  goals.reserve(drones.size());
   for (const PlannedDrone& drone : drones) goals.push_back(drone.moves_goal);
   return goals;
 }
