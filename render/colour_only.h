@@ -5,11 +5,20 @@
 
 namespace throng::render {
 
-/// While it lives, drawing changes colours but neither depth nor the other buffers.
+/// While it lives, drawing blends into the colours by its alpha, from both sides of triangles, and
+/// changes neither depth nor the other buffers.
 class ColourOnly {
  public:
-  ColourOnly() { allow(false); }
-  ~ColourOnly() { allow(true); }
+  ColourOnly() {
+    allow(false);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  }
+  ~ColourOnly() {
+    glDisable(GL_BLEND);
+    allow(true);
+  }
   ColourOnly(const ColourOnly&) = delete;
   ColourOnly& operator=(const ColourOnly&) = delete;
 

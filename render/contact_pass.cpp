@@ -80,13 +80,9 @@ void ContactPass::draw(std::span<const PersonInstance> people, const camera::Cam
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(rims_.size() * sizeof(Rim)),
                     rims_.data(), GL_STREAM_DRAW);
   const ColourOnly guard;
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(array_.name());
   glUseProgram(program_.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rims_.size()));
-  glDisable(GL_BLEND);
 }
 
 }  // namespace throng::render

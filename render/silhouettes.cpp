@@ -7,7 +7,7 @@ namespace throng::render {
 
 namespace {
 
-/// The standing crowd of issue-sized pictures (10 000 people of 75 pixels) fits in.
+/// Along each side. Whoever finds no room is measured by CoverageCounter.
 constexpr int kSilhouetteAtlas = 4096;
 
 }  // namespace

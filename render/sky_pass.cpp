@@ -48,7 +48,6 @@ SkyPass::SkyPass(const Environment& environment)
 void SkyPass::draw_sky(const camera::Camera& camera) const {
   if (!sees_sky(camera)) return;
   const ColourOnly guard;
-  glDisable(GL_CULL_FACE);
   glDepthFunc(GL_GEQUAL);
   glBindVertexArray(nothing_.name());
   glUseProgram(sky_.name());
@@ -59,9 +58,6 @@ void SkyPass::draw_sky(const camera::Camera& camera) const {
 void SkyPass::draw_rain(const camera::Camera& camera, std::int64_t frame) const {
   if (environment_.weather != Weather::rain || environment_.rain_mm_per_h <= 0) return;
   const ColourOnly guard;
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(nothing_.name());
   glUseProgram(rain_.name());
   Random random(environment_.seed, Stream::environment, static_cast<std::uint64_t>(frame));
@@ -70,7 +66,6 @@ void SkyPass::draw_rain(const camera::Camera& camera, std::int64_t frame) const 
               static_cast<float>(camera.intrinsics.width),
               static_cast<float>(camera.intrinsics.height));
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, drop_count(environment_.rain_mm_per_h));
-  glDisable(GL_BLEND);
 }
 
 }  // namespace throng::render

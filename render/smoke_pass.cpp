@@ -81,13 +81,9 @@ void SmokePass::draw(const Scene& scene, const camera::Camera& camera) {
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(puffs_.size() * sizeof(Puff)),
                     puffs_.data(), GL_STREAM_DRAW);
   const ColourOnly guard;
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glBindVertexArray(array_.name());
   glUseProgram(program_.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(puffs_.size()));
-  glDisable(GL_BLEND);
 }
 
 }  // namespace throng::render

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/sim/airframes.h"
+#include "tests/sim/missions.h"
 #include "world/polygon.h"
 
 namespace throng::sim {
@@ -26,15 +27,7 @@ struct Record {
 };
 
 PlannedDrone planned(const Vector3d& start, std::vector<Vector3d> waypoints, double speed_mps) {
-  PlannedDrone drone;
-  drone.mission.speed_mps = speed_mps;
-  drone.mission.policy = waypoints.empty() ? "hover" : "waypoints";
-  drone.mission.waypoints = std::move(waypoints);
-  drone.airframe = airframe_named("f450");
-  drone.policy = find_policy(drone.mission.policy);
-  drone.start = start;
-  drone.yaw_rad = 0.5;
-  return drone;
+  return testing::planned_drone(start, std::move(waypoints), speed_mps, 0.5);
 }
 
 Record fly(const std::vector<world::Building>& buildings, const std::vector<PlannedDrone>& drones,

@@ -26,7 +26,8 @@ struct FlightRecord {
 };
 
 inline PlannedDrone planned_drone(const Eigen::Vector3d& start,
-                                  std::vector<Eigen::Vector3d> waypoints, double speed_mps) {
+                                  std::vector<Eigen::Vector3d> waypoints, double speed_mps,
+                                  double yaw_rad = 0) {
   PlannedDrone drone;
   drone.mission.speed_mps = speed_mps;
   drone.mission.policy = waypoints.empty() ? "hover" : "waypoints";
@@ -34,7 +35,7 @@ inline PlannedDrone planned_drone(const Eigen::Vector3d& start,
   drone.airframe = airframe_named("f450");
   drone.policy = find_policy(drone.mission.policy);
   drone.start = start;
-  drone.yaw_rad = 0;
+  drone.yaw_rad = yaw_rad;
   return drone;
 }
 
