@@ -47,12 +47,33 @@ void append_exact(std::string& text, const Eigen::Matrix3d& matrix) {
   text.push_back(']');
 }
 
-// 0.01 mm of ground are below 0.01 pixels for any camera more than a few metres away.
-template <typename Vector>
-void append_metres(std::string& text, const Vector& values) {
+constexpr double kLargestFixed = 1e9;
+
+constexpr std::int64_t power_of_ten(int exponent) {
+  return exponent == 0 ? 1 : 10 * power_of_ten(exponent - 1);
+}
+
+// With so many digits after the point, several times as fast as fmt's general way. Five of a metre
+// are below 0.01 pixels for any camera more than a few metres away.
+template <int kDecimals>
+void append_fixed(std::string& text, double value) {
+  constexpr auto kUnit = power_of_ten(kDecimals);
+  check(std::abs(value) < kLargestFixed, "every number in a dataset is finite");
+  const std::int64_t scaled = std::llround(std::abs(value) * static_cast<double>(kUnit));
+  if (value < 0 && scaled != 0) text.push_back('-');
+  const fmt::format_int whole(scaled / kUnit);
+  text.append(whole.data(), whole.size());
+  text.push_back('.');
+  const fmt::format_int digits(kUnit + scaled % kUnit);  // leads with a 1 that is not wanted
+  text.append(digits.data() + 1, digits.size() - 1);
+}
+
+template <int kDecimals, int kSize>
+void append_fixed(std::string& text, const Eigen::Matrix<double, kSize, 1>& values) {
   text.push_back('[');
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    append(text, "{}{:.5f}", i > 0 ? "," : "", finite(values[i]));
+    if (i > 0) text.push_back(',');
+    append_fixed<kDecimals>(text, values[i]);
   }
   text.push_back(']');
 }
@@ -61,7 +82,11 @@ void append_metres(std::string& text, const Vector& values) {
 void append_head(std::string& text, const render::PersonInView& person,
                  const camera::Camera& camera) {
   if (const std::optional<Eigen::Vector2d> head = render::head_in(person, camera)) {
-    append(text, R"("head":[{:.3f},{:.3f}]}})", finite(head->x()), finite(head->y()));
+    text += R"("head":[)";
+    append_fixed<3>(text, head->x());
+    text.push_back(',');
+    append_fixed<3>(text, head->y());
+    text += "]}";
   } else {
     text += R"("head":null})";
   }
@@ -138,16 +163,17 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
   append_counts(text, label.mask);
   const Eigen::AlignedBox2d& amodal = label.person.amodal_box;
   const Eigen::Vector2d size = amodal.sizes();
-  append(text, R"("}},"track_id":{},"bbox_amodal":[{:.3f},{:.3f},{:.3f},{:.3f}],)",
-         label.agent + 1 + image.run_index * kTrackIdsPerRun, finite(amodal.min().x()),
-         finite(amodal.min().y()), finite(size.x()), finite(size.y()));
+  append(text, R"("}},"track_id":{},"bbox_amodal":)",
+         label.agent + 1 + image.run_index * kTrackIdsPerRun);
+  append_fixed<3>(text, Eigen::Vector4d(amodal.min().x(), amodal.min().y(), size.x(), size.y()));
+  text.push_back(',');
   append(text, R"("area_amodal":{},"visibility":{:.6g},"position":)", label.person.amodal_area_px,
          finite(label.visibility));
-  append_metres(text, label.person.hips);
+  append_fixed<5>(text, label.person.hips);
   text += R"(,"ground_position":)";
-  append_metres(text, label.person.position);
+  append_fixed<5>(text, label.person.position);
   text += R"(,"velocity":)";
-  append_metres(text, label.person.velocity);
+  append_fixed<5>(text, label.person.velocity);
   text.push_back(',');
   append_head(text, label.person, image.camera);
 }

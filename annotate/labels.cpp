@@ -133,13 +133,26 @@ class ColumnRuns {
         here_.push_back(run->begin);
         here_.push_back(run->end);
       }
-      changes_.clear();
-      std::set_symmetric_difference(above_.begin(), above_.end(), here_.begin(), here_.end(),
-                                    std::back_inserter(changes_));
-      for (std::size_t i = 0; i < changes_.size(); i += 2) {
-        toggles_.push_back({y, changes_[i], changes_[i + 1]});
-      }
+      add_difference(y);
       std::swap(above_, here_);
+    }
+  }
+
+  // Where this row's runs and those above differ.
+  void add_difference(int y) {
+    if (above_.size() == 2 && here_.size() == 2 && above_[0] < here_[1] && here_[0] < above_[1]) {
+      // Most often one run lies below one other.
+      for (const std::size_t border : {0U, 1U}) {
+        const auto [begin, end] = std::minmax(above_[border], here_[border]);
+        if (begin != end) toggles_.push_back({y, begin, end});
+      }
+      return;
+    }
+    changes_.clear();
+    std::set_symmetric_difference(above_.begin(), above_.end(), here_.begin(), here_.end(),
+                                  std::back_inserter(changes_));
+    for (std::size_t i = 0; i < changes_.size(); i += 2) {
+      toggles_.push_back({y, changes_[i], changes_[i + 1]});
     }
   }
 

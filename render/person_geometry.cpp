@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
+#include <tuple>
 #include <vector>
 
 #include "render/view.h"
@@ -31,30 +33,49 @@ Eigen::Matrix4f image_from_model(const PersonInstance& person, const camera::Cam
   return m.cast<float>();
 }
 
-/// Every vertex of the mesh as image_from_model gives it. Skinning is linear, so each bone takes
-/// its vertices straight into the image.
-std::vector<Eigen::Vector4f> projected_vertices(const skinning::Mesh& mesh,
-                                                const skinning::Palette& palette,
-                                                const Eigen::Matrix4f& image_from_model) {
-  std::array<Eigen::Matrix4f, skinning::kBoneCount> image_from_rest;
-  for (std::size_t bone = 0; bone < palette.size(); ++bone) {
-    Eigen::Matrix4f posed = Eigen::Matrix4f::Identity();
-    posed.topRows<3>() = palette[bone];
-    image_from_rest[bone] = image_from_model * posed;
+SkinPoint skin_point(const skinning::Vertex& vertex) {
+  SkinPoint point{{vertex.position[0], vertex.position[1], vertex.position[2], 1}, {}, {}, 0};
+  for (std::size_t k = 0; k < vertex.weights.size(); ++k) {
+    if (vertex.weights[k] == 0) continue;
+    point.bones[point.bone_count] = vertex.bones[k];
+    point.weights[point.bone_count] = static_cast<float>(vertex.weights[k]) / 255.0F;
+    ++point.bone_count;
   }
-  const Eigen::Vector4f up = image_from_model.col(2);
+  return point;
+}
+
+/// Takes points into the image as image_from_model does. Skinning is linear, so each bone takes its
+/// share straight there.
+class Projector {
+ public:
+  Projector(const skinning::Palette& palette, const Eigen::Matrix4f& image_from_model)
+      : up_(image_from_model.col(2)) {
+    for (std::size_t bone = 0; bone < palette.size(); ++bone) {
+      Eigen::Matrix4f posed = Eigen::Matrix4f::Identity();
+      posed.topRows<3>() = palette[bone];
+      image_from_rest_[bone] = image_from_model * posed;
+    }
+  }
+
+  Eigen::Vector4f operator()(const SkinPoint& point) const {
+    Eigen::Vector4f p = point.weights[0] * (image_from_rest_[point.bones[0]] * point.rest);
+    for (std::uint32_t k = 1; k < point.bone_count; ++k) {
+      p += point.weights[k] * (image_from_rest_[point.bones[k]] * point.rest);
+    }
+    return p + std::max(kAboveGround - p.w(), 0.0F) * up_;
+  }
+
+ private:
+  std::array<Eigen::Matrix4f, skinning::kBoneCount> image_from_rest_;
+  Eigen::Vector4f up_;
+};
+
+std::vector<Eigen::Vector4f> projected_vertices(const skinning::Mesh& mesh,
+                                                const Projector& project) {
   std::vector<Eigen::Vector4f> projected;
   projected.reserve(mesh.vertices.size());
   for (const skinning::Vertex& vertex : mesh.vertices) {
-    const Eigen::Vector4f rest(vertex.position[0], vertex.position[1], vertex.position[2], 1.0F);
-    constexpr float kShare = 1.0F / 255.0F;
-    Eigen::Vector4f p = Eigen::Vector4f::Zero();
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (vertex.weights[k] == 0) continue;
-      const float weight = kShare * static_cast<float>(vertex.weights[k]);
-      p += weight * (image_from_rest[vertex.bones[k]] * rest);
-    }
-    projected.emplace_back(p + std::max(kAboveGround - p.w(), 0.0F) * up);
+    projected.push_back(project(skin_point(vertex)));
   }
   return projected;
 }
@@ -95,24 +116,41 @@ Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstan
   return person.position.cast<double>() + turn(person.yaw_rad) * posed.cast<double>();
 }
 
-Silhouette silhouette(const skinning::Mesh& mesh, const skinning::Palette& palette,
+BodyShape::BodyShape(const skinning::Mesh& of_mesh) : mesh(&of_mesh) {
+  using Place =
+      std::tuple<std::array<float, 3>, std::array<std::uint8_t, 4>, std::array<std::uint8_t, 4>>;
+  std::set<Place> known;
+  for (const skinning::Vertex& vertex : of_mesh.vertices) {
+    if (known.emplace(vertex.position, vertex.bones, vertex.weights).second) {
+      points.push_back(skin_point(vertex));
+    }
+  }
+  // Loops over equal numbers of bones are the fastest.
+  std::stable_sort(points.begin(), points.end(), [](const SkinPoint& a, const SkinPoint& b) {
+    return a.bone_count < b.bone_count;
+  });
+}
+
+Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
                       const PersonInstance& person, const camera::Camera& camera) {
-  const std::vector<Eigen::Vector4f> projected =
-      projected_vertices(mesh, palette, image_from_model(person, camera));
+  const Projector project(palette, image_from_model(person, camera));
   // Of u, v and z at once; the fourth value is nothing.
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Eigen::Array4f low = Eigen::Array4f::Constant(kInfinity);
   Eigen::Array4f high = Eigen::Array4f::Constant(-kInfinity);
-  for (const Eigen::Vector4f& p : projected) {
+  for (const SkinPoint& point : shape.points) {
+    const Eigen::Vector4f p = project(point);
     const float per_z = 1 / p.z();
     const Eigen::Array4f at = p.array() * Eigen::Array4f(per_z, per_z, 1, 1);
     low = low.min(at);
     high = high.max(at);
   }
   Silhouette seen;
-  if (projected.empty()) return seen;
+  if (shape.points.empty()) return seen;
   Eigen::AlignedBox2f box(low.head<2>().matrix(), high.head<2>().matrix());
-  if (low.z() < kNear) box = cut_box(mesh, projected);
+  if (low.z() < kNear) {
+    box = cut_box(*shape.mesh, projected_vertices(*shape.mesh, project));
+  }
   if (box.isEmpty()) return seen;
   const Eigen::Vector2d size(camera.intrinsics.width, camera.intrinsics.height);
   const Eigen::AlignedBox2d limit(-size, 2 * size);
@@ -133,7 +171,7 @@ Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const skinning::Palett
   std::vector<std::optional<Eigen::Vector2d>> shown;
   shown.reserve(mesh.vertices.size());
   for (const Eigen::Vector4f& p :
-       projected_vertices(mesh, palette, image_from_model(person, directions))) {
+       projected_vertices(mesh, Projector(palette, image_from_model(person, directions)))) {
     shown.push_back(p.z() < kNear
                         ? std::nullopt
                         : k.pixel_of(p.head<2>().cast<double>() / static_cast<double>(p.z())));

@@ -4,6 +4,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 #include "camera/camera.h"
 #include "render/renderer.h"
@@ -24,6 +27,23 @@ skinning::Palette blended_palette(const skinning::Population& population,
 Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstance& person,
                             skinning::Bone bone, float height_m);
 
+/// A place on a mesh that moves with its bones.
+struct SkinPoint {
+  Eigen::Vector4f rest;          ///< m, model axes; 1
+  std::array<float, 4> weights;  ///< the first `bone_count` are greater than 0 and sum to 1
+  std::array<std::uint8_t, 4> bones;
+  std::uint32_t bone_count;
+};
+
+/// A mesh and where its vertices are, each place once however many normals or texture coordinates
+/// it has. The mesh must outlive it.
+struct BodyShape {
+  explicit BodyShape(const skinning::Mesh& of_mesh);
+
+  const skinning::Mesh* mesh;
+  std::vector<SkinPoint> points;
+};
+
 /// Where a mesh appears in the image.
 struct Silhouette {
   /// Bounds in box coordinates. Parts behind the near plane are cut off; what remains is limited to
@@ -32,7 +52,7 @@ struct Silhouette {
   Eigen::AlignedBox2d box;
 };
 
-Silhouette silhouette(const skinning::Mesh& mesh, const skinning::Palette& palette,
+Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
                       const PersonInstance& person, const camera::Camera& camera);
 
 /// Rows [first, end) of an image. Those at its border go on beyond it.

@@ -74,6 +74,14 @@ std::vector<PersonDraw> draws_of(const std::vector<Seen>& seen) {
   return draws;
 }
 
+std::vector<std::vector<BodyShape>> shapes_of(const skinning::Population& people) {
+  std::vector<std::vector<BodyShape>> shapes;
+  for (const skinning::Character& character : people.characters) {
+    shapes.emplace_back(character.levels.begin(), character.levels.end());
+  }
+  return shapes;
+}
+
 /// The same camera with `times` as many pixels along each side.
 camera::Camera scaled(const camera::Camera& camera, int times) {
   camera::Camera fine = camera;
@@ -131,6 +139,7 @@ struct Renderer::State {
   QualitySettings quality;
   bool multisample;
   const skinning::Population* population;
+  std::vector<std::vector<BodyShape>> shapes;  ///< [character][level]
   Daylight daylight;
   Eigen::AlignedBox2d ground;
   double tallest;
@@ -163,6 +172,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       quality(settings_of(wanted.quality)),
       multisample(quality.smooth_edges && wanted.multisample.value_or(!context.is_software())),
       population(&people),
+      shapes(shapes_of(people)),
       daylight(render::daylight(environment)),
       ground(scenario.ground.min, scenario.ground.max),
       tallest(tallest_m(scenario)),
@@ -208,7 +218,8 @@ std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
                                   ? levels - 1
                                   : level_of_detail(quality.detail * height_px, levels);
     const skinning::Palette palette = blended_palette(*population, person);
-    const Silhouette shape = silhouette(character.levels[level], palette, person, camera);
+    const Silhouette shape =
+        silhouette(shapes[person.appearance.character][level], palette, person, camera);
     if (shape.box.isEmpty() || !shape.box.intersects(image)) continue;
     const float stature_m = character.stature_m;
     seen.push_back({{i, static_cast<std::uint32_t>(level), static_cast<float>(depth)},

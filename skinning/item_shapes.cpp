@@ -126,20 +126,27 @@ void add_strap(Shape& shape, const std::vector<StrapPoint>& path, float width_m,
   }
 }
 
+// The first three levels of detail have shapes of their own, then several share one.
+constexpr int kItemShapes = 5;
+int shape_of_level(int level) { return level < 3 ? level : level < 6 ? 3 : 4; }
+
 // What an item is built around.
 struct Site {
   const DressedPerson* person;
   float scale;  // 1 for a person of 1.7 m
-  int level;
+  int shape;    // 0 is the finest
 
   const Vector3f& joint(Bone bone) const { return person->joints[index_of(bone)]; }
-  int finer(int finest) const { return std::max(2, finest >> level); }
+  int of_shape(const std::array<int, kItemShapes>& numbers) const {
+    return numbers[static_cast<std::size_t>(shape)];
+  }
+  int finer(int finest) const { return std::max(2, finest >> shape); }
 };
 
 // Straps would sink into the hulls of lower levels in places, and further levels are too coarse for
 // them altogether.
 constexpr int kStrapsUpTo = 1;
-float strap_lift_m(int level) { return level == 0 ? 0.009F : 0.02F; }
+float strap_lift_m(int shape) { return shape == 0 ? 0.009F : 0.02F; }
 
 // Points of a strap over the trunk where rays from `origin` leave it.
 void add_outline(const TrunkOutline& trunk, const Vector3f& origin, const Vector3f& direction,
@@ -163,14 +170,14 @@ void add_backpack(Shape& shape, const Site& site) {
     if (hit) back = std::min(back, hit->position.x());
   }
   const Vector3f centre(back - 0.8F * half.x(), 0, middle);
-  const int columns = std::array{12, 8, 8, 4}[static_cast<std::size_t>(site.level)];
-  const int rings = std::array{8, 6, 4, 4}[static_cast<std::size_t>(site.level)];
+  const int columns = site.of_shape({12, 8, 8, 4, 4});
+  const int rings = site.of_shape({8, 6, 4, 4, 3});
   add_box(shape, centre, half, Bone::chest, rings, columns);
-  if (site.level == 0) {  // a pocket
+  if (site.shape == 0) {  // a pocket
     add_box(shape, centre - Vector3f(0.8F * half.x(), 0, 0.35F * half.z()),
             Vector3f(0.5F * half.x(), 0.72F * half.y(), 0.45F * half.z()), Bone::chest, 6, 8);
   }
-  if (site.level > kStrapsUpTo) return;
+  if (site.shape > kStrapsUpTo) return;
   const int steps = site.finer(9);
   for (const float side : {1.0F, -1.0F}) {
     const float y = side * 0.52F * shoulder.y();
@@ -180,14 +187,14 @@ void add_backpack(Shape& shape, const Site& site) {
     for (int i = 0; i <= steps; ++i) {
       const float turn =
           (150 - 185 * static_cast<float>(i) / static_cast<float>(steps)) * kPi / 180;
-      add_outline(trunk, over, {std::cos(turn), 0, std::sin(turn)}, strap_lift_m(site.level), path);
+      add_outline(trunk, over, {std::cos(turn), 0, std::sin(turn)}, strap_lift_m(site.shape), path);
     }
     // ... then below the arm to the lower corner of the pack.
     for (int i = 1; i <= steps; ++i) {
       const float share = static_cast<float>(i) / static_cast<float>(steps);
       const float turn = side * (48 + 92 * share) * kPi / 180;
       const Vector3f under(chest.x(), 0, shoulder.z() - (0.17F + 0.17F * share) * s);
-      add_outline(trunk, under, {std::cos(turn), std::sin(turn), 0}, strap_lift_m(site.level),
+      add_outline(trunk, under, {std::cos(turn), std::sin(turn), 0}, strap_lift_m(site.shape),
                   path);
     }
     if (path.size() > 2) add_strap(shape, path, 0.045F * s, false);
@@ -208,18 +215,18 @@ void add_shoulder_bag(Shape& shape, const Site& site) {
   for (int i = 0; i < steps; ++i) {
     const float turn = 2 * kPi * static_cast<float>(i) / static_cast<float>(steps);
     add_outline(trunk, origin, std::cos(turn) * up + std::sin(turn) * Vector3f::UnitX(),
-                strap_lift_m(site.level), path);
+                strap_lift_m(site.shape), path);
   }
-  if (site.level <= kStrapsUpTo && path.size() > 4) add_strap(shape, path, 0.035F * s, true);
+  if (site.shape <= kStrapsUpTo && path.size() > 4) add_strap(shape, path, 0.035F * s, true);
   // The bag lies behind the hip, where the arm does not swing through it.
   const Vector3f half(0.13F * s, 0.05F * s, 0.11F * s);
   const float turn = -125 * kPi / 180;
   const Vector3f out(std::cos(turn), std::sin(turn), 0);
   const auto hit = trunk.outermost({low.x(), 0, low.z()}, out);
   const Vector3f at = hit ? hit->position : low;
-  const int columns = std::array{12, 8, 4, 4}[static_cast<std::size_t>(site.level)];
+  const int columns = site.of_shape({12, 8, 4, 4, 4});
   add_box(shape, at + 0.03F * out - Vector3f(0, 0, 0.5F * half.z()), half, Bone::hips,
-          site.level > 1 ? 4 : 6, columns);
+          site.of_shape({6, 6, 4, 4, 3}), columns);
 }
 
 void add_handbag(Shape& shape, const Site& site) {
@@ -230,9 +237,9 @@ void add_handbag(Shape& shape, const Site& site) {
   const Vector3f half(0.15F * s, 0.055F * s, 0.105F * s);
   const float handle = 0.13F * s;
   const Vector3f centre = palm - Vector3f(0, 0.015F * s, handle + half.z());
-  const int columns = std::array{12, 8, 4, 4}[static_cast<std::size_t>(site.level)];
-  add_box(shape, centre, half, Bone::right_hand, site.level > 1 ? 4 : 6, columns);
-  if (site.level > 2) return;
+  const int columns = site.of_shape({12, 8, 4, 4, 4});
+  add_box(shape, centre, half, Bone::right_hand, site.of_shape({6, 6, 4, 4, 3}), columns);
+  if (site.shape > 2) return;
   const int steps = site.finer(10);
   const BoneWeights weights = all_on(Bone::right_hand);
   std::vector<StrapPoint> path;
@@ -272,14 +279,14 @@ void add_umbrella(Shape& shape, const Site& site) {
   const float crown = site.person->stature_m;
   const Vector3f apex(0.3F * grip.x(), 0.55F * grip.y(), crown + 0.24F * s);
   const Vector3f axis = (apex - grip).normalized();
-  if (site.level < 3) {
+  if (site.shape < 3) {
     add_stick(shape, grip - 0.12F * s * axis, apex, 0.009F, Bone::chest);
     add_stick(shape, grip - 0.16F * s * axis, grip + 0.01F * axis, 0.016F, Bone::chest);
   }
   const Vector3f u = axis.cross(Vector3f::UnitY()).normalized();
   const Vector3f v = axis.cross(u);
   const int panels = 8;
-  const int rings = std::array{4, 3, 2, 1}[static_cast<std::size_t>(site.level)];
+  const int rings = site.of_shape({4, 3, 2, 1, 1});
   constexpr float kSpan = 62 * kPi / 180;  // of the dome, from its axis
   const float radius = 0.52F * s / std::sin(kSpan);
   constexpr float kFlatness = 0.72F;
@@ -359,7 +366,7 @@ Image item_picture(int size) {
 
 std::optional<Surface> make_item(Carry carry, const DressedPerson& person, int level) {
   constexpr float kUsualStature_m = 1.7F;
-  const Site site{&person, person.stature_m / kUsualStature_m, std::clamp(level, 0, 3)};
+  const Site site{&person, person.stature_m / kUsualStature_m, shape_of_level(level)};
   Shape shape;
   switch (carry) {
     case Carry::nothing:

@@ -23,7 +23,7 @@ inline constexpr std::array<DetailLevel, 7> kDetailLevels = {{
     {400, 56},
     {250, 40},
     {170, 0},
-    {100, 0},
+    {64, 0},
 }};
 
 }  // namespace throng::skinning

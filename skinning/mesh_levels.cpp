@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -170,6 +171,22 @@ class Simplifier {
   std::vector<std::size_t> part_of_;
 };
 
+Eigen::AlignedBox3f bounds_of(const Mesh& mesh) {
+  Eigen::AlignedBox3f bounds;
+  for (const Vertex& vertex : mesh.vertices) bounds.extend(point_of(vertex));
+  return bounds;
+}
+
+/// Whether something that stood out, a leg perhaps, has been simplified away.
+bool has_lost_limbs(const Mesh& simple, const Mesh& mesh) {
+  constexpr float kMost = 0.05F;  // of the largest extent
+  const Eigen::AlignedBox3f now = bounds_of(simple);
+  const Eigen::AlignedBox3f then = bounds_of(mesh);
+  const float most = kMost * then.sizes().maxCoeff();
+  return (now.min() - then.min()).cwiseAbs().maxCoeff() > most ||
+         (now.max() - then.max()).cwiseAbs().maxCoeff() > most;
+}
+
 }  // namespace
 
 std::vector<Mesh> simplified_levels(const Mesh& mesh) {
@@ -183,7 +200,7 @@ std::vector<Mesh> simplified_levels(const Mesh& mesh) {
       continue;
     }
     Mesh level = simplifier.simplified(triangles);
-    if (level.indices.empty()) level = before;
+    if (level.indices.empty() || has_lost_limbs(level, mesh)) level = before;
     levels.push_back(std::move(level));
   }
   return levels;

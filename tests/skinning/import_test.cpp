@@ -270,7 +270,10 @@ TEST_F(ImportTest, ManyTrianglesAreSimplifiedToLevels) {
   ASSERT_EQ(levels.size(), kDetailLevels.size());
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const std::size_t most = kDetailLevels[i].triangles;
-    EXPECT_LE(levels[i].indices.size() / 3, most + most / 4);
+    // The figure's 22 boxes cannot be few triangles without losing one: then nothing is taken away.
+    const bool kept = i > 0 && levels[i].indices.size() == levels[i - 1].indices.size();
+    EXPECT_TRUE(!kept || most < 100) << "level " << i;
+    EXPECT_TRUE(kept || levels[i].indices.size() / 3 <= most + most / 4) << "level " << i;
     EXPECT_GE(levels[i].indices.size() / 3, most / 4);
     const Bounds bounds = bounds_of(levels[i]);
     EXPECT_NEAR(bounds.high.z(), 1.62, 0.02);

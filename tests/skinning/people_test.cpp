@@ -147,8 +147,9 @@ TEST_F(PeopleTest, TrianglesFaceOutwards) {
         }
         volume_m3 += corner[0].dot(corner[1].cross(corner[2])) / 6;
       }
-      EXPECT_GT(volume_m3, 0.02) << character.name << " level " << level;
-      EXPECT_LT(volume_m3, 0.25) << character.name << " level " << level;
+      const double cubes = volume_m3 / std::pow(character.stature_m, 3);
+      EXPECT_GT(cubes, 0.003) << character.name << " level " << level;
+      EXPECT_LT(cubes, 0.05) << character.name << " level " << level;
     }
   }
 }
