@@ -39,7 +39,7 @@ std::vector<Environment> panels() {
   };
   return {panel(230, 45, Weather::clear, 3500),    panel(160, 5, Weather::clear, 3500),
           panel(155, -4, Weather::clear, 3500),    panel(130, -30, Weather::clear, 3500),
-          panel(230, 45, Weather::overcast, 8000), panel(230, 30, Weather::fog, 250),
+          panel(230, 45, Weather::overcast, 8000), panel(230, 30, Weather::fog, 500),
           panel(230, 30, Weather::rain, 3000, 8),  panel(230, -20, Weather::rain, 3000, 4)};
 }
 

@@ -1,44 +1,19 @@
 #include "render/people_meshes.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
 
 #include "base/error.h"
+#include "render/corner_colours.h"
 
 namespace throng::render {
 
 namespace {
 
-using Rgba = std::array<std::uint8_t, 4>;
-
 constexpr Rgba kWhite = {255, 255, 255, 255};
-
-/// Mean of 3 x 3 texels around a vertex, value by value.
-Rgba around(const skinning::Population& population, std::int32_t layer,
-            const std::array<float, 2>& uv) {
-  if (layer < 0) return kWhite;
-  const std::vector<std::uint8_t>& texels =
-      population.textures[static_cast<std::size_t>(layer)].rgba;
-  const int size = population.texture_size;
-  const auto texel_of = [&](float share) {
-    return static_cast<int>(std::floor(share * static_cast<float>(size)));
-  };
-  std::array<int, 4> sum{};
-  for (int j = -1; j <= 1; ++j) {
-    for (int i = -1; i <= 1; ++i) {
-      const int x = std::clamp(texel_of(uv[0]) + i, 0, size - 1);
-      const int y = std::clamp(texel_of(uv[1]) + j, 0, size - 1);
-      const auto at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
-                           static_cast<std::size_t>(x));
-      for (std::size_t c = 0; c < 4; ++c) sum[c] += texels[at + c];
-    }
-  }
-  Rgba mean{};
-  for (std::size_t c = 0; c < 4; ++c) mean[c] = static_cast<std::uint8_t>(sum[c] / 9);
-  return mean;
-}
 
 /// A portrait's shades as they are in light.
 Rgba linear_shades(const Rgba& shades) {
@@ -142,15 +117,13 @@ class Packer {
     packed.part = info_of(part, static_cast<std::uint32_t>(population_.textures.size()));
     packed.normal = octahedral(vertex.normal);
     packed.uv = vertex.uv;
-    packed.base = word_of(around(population_, part.texture, vertex.uv));
-    if (part.shades >= 0) {
-      packed.shades = word_of(linear_shades(around(population_, part.shades, vertex.uv)));
-    }
+    packed.base = word_of(kWhite);
     return packed;
   }
 
   /// A part has its own copies of its vertices, since a vertex on the device belongs to one part.
   void add_part(const skinning::Mesh& mesh, const skinning::Part& part, bool weld) {
+    const std::size_t first = vertices_.size();
     std::map<Place, std::uint32_t> copy_of;
     for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
       const std::uint32_t index = mesh.indices[i];
@@ -160,6 +133,39 @@ class Packer {
                           static_cast<std::uint32_t>(vertices_.size()) - first_vertex_);
       if (is_new) vertices_.push_back(packed(vertex, part));
       indices_.push_back(copy->second);
+    }
+    if (weld) colour_corners(mesh, part, first);
+  }
+
+  /// Colours the vertices from number `first` on, which are those of the part that came last.
+  void colour_corners(const skinning::Mesh& mesh, const skinning::Part& part, std::size_t first) {
+    const std::size_t count = vertices_.size() - first;
+    const std::size_t first_index = indices_.size() - part.index_count;
+    std::vector<PicturedTriangle> triangles(part.index_count / 3);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      std::array<Eigen::Vector3f, 3> at;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const skinning::Vertex& vertex = mesh.vertices[mesh.indices[part.first_index + 3 * t + k]];
+        at[k] = Eigen::Map<const Eigen::Vector3f>(vertex.position.data());
+        triangles[t].uv[k] = vertex.uv;
+        triangles[t].corners[k] =
+            static_cast<std::uint32_t>(indices_[first_index + 3 * t + k] + first_vertex_ - first);
+      }
+      triangles[t].weight = 0.5F * (at[1] - at[0]).cross(at[2] - at[0]).norm();
+    }
+    const auto fit = [&](std::int32_t layer) {
+      return corner_colours(population_.textures[static_cast<std::size_t>(layer)],
+                            population_.texture_size, triangles, count);
+    };
+    if (part.texture >= 0) {
+      const std::vector<Rgba> base = fit(part.texture);
+      for (std::size_t i = 0; i < count; ++i) vertices_[first + i].base = word_of(base[i]);
+    }
+    if (part.shades >= 0) {
+      const std::vector<Rgba> shades = fit(part.shades);
+      for (std::size_t i = 0; i < count; ++i) {
+        vertices_[first + i].shades = word_of(linear_shades(shades[i]));
+      }
     }
   }
 

@@ -1,0 +1,101 @@
+#include "render/corner_colours.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace throng::render {
+namespace {
+
+constexpr int kPictureSize = 64;
+
+/// Values by column and row, the same in all channels.
+template <typename Value>
+skinning::Texture picture_of(Value value) {
+  skinning::Texture picture;
+  for (int y = 0; y < kPictureSize; ++y) {
+    for (int x = 0; x < kPictureSize; ++x) {
+      for (int c = 0; c < 4; ++c) picture.rgba.push_back(static_cast<std::uint8_t>(value(x, y)));
+    }
+  }
+  return picture;
+}
+
+/// The picture as `cells` x `cells` squares of two triangles each.
+struct Grid {
+  std::vector<PicturedTriangle> triangles;
+  std::size_t corners;
+};
+
+Grid grid_of(std::uint32_t cells) {
+  Grid grid{{}, (cells + 1) * (cells + 1)};
+  const auto add = [&](std::array<std::array<std::uint32_t, 2>, 3> at) {
+    PicturedTriangle& triangle = grid.triangles.emplace_back();
+    triangle.weight = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle.corners[k] = at[k][1] * (cells + 1) + at[k][0];
+      triangle.uv[k] = {static_cast<float>(at[k][0]) / static_cast<float>(cells),
+                        static_cast<float>(at[k][1]) / static_cast<float>(cells)};
+    }
+  };
+  for (std::uint32_t y = 0; y < cells; ++y) {
+    for (std::uint32_t x = 0; x < cells; ++x) {
+      add({{{x, y}, {x + 1, y}, {x + 1, y + 1}}});
+      add({{{x, y}, {x + 1, y + 1}, {x, y + 1}}});
+    }
+  }
+  return grid;
+}
+
+TEST(CornerColours, ShowASlopeAsItIs) {
+  const skinning::Texture slope = picture_of([](int x, int y) { return 20 + 2 * x + y; });
+  const Grid grid = grid_of(4);
+  const std::vector<Rgba> colours =
+      corner_colours(slope, kPictureSize, grid.triangles, grid.corners);
+  ASSERT_EQ(colours.size(), 25U);
+  for (int y = 0; y <= 4; ++y) {
+    for (int x = 0; x <= 4; ++x) {
+      // Texels' middles are half a texel off.
+      const double wanted = 20 + 2 * (16 * x - 0.5) + (16 * y - 0.5);
+      EXPECT_NEAR(colours[static_cast<std::size_t>(5 * y + x)][0], wanted, 3) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(CornerColours, KeepTheTwoSidesOfAnEdgeApart) {
+  // The edge lies in the middle of a cell: corners to its left stay dark, those to its right
+  // bright.
+  const skinning::Texture edge = picture_of([](int x, int) { return x < 24 ? 60 : 180; });
+  const Grid grid = grid_of(4);
+  const std::vector<Rgba> colours =
+      corner_colours(edge, kPictureSize, grid.triangles, grid.corners);
+  double error = 0;
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const std::size_t column = i % 5;
+    error = std::max(error, std::abs(colours[i][0] - (column < 2 ? 60.0 : 180.0)));
+  }
+  EXPECT_LT(error, 40);
+}
+
+TEST(CornerColours, ASmallSpotDoesNotColourAllAround) {
+  // A corner that happens to lie on a spot of one texel has its surroundings' colour.
+  const skinning::Texture spot =
+      picture_of([](int x, int y) { return x == 32 && y == 32 ? 255 : 90; });
+  const Grid grid = grid_of(2);
+  const std::vector<Rgba> colours =
+      corner_colours(spot, kPictureSize, grid.triangles, grid.corners);
+  EXPECT_NEAR(colours[4][0], 90, 12);
+}
+
+TEST(CornerColours, CornersOfNothingAreBlack) {
+  const skinning::Texture white = picture_of([](int, int) { return 255; });
+  const Grid grid = grid_of(1);
+  const std::vector<Rgba> colours =
+      corner_colours(white, kPictureSize, grid.triangles, grid.corners + 1);
+  EXPECT_GT(colours[0][1], 245);
+  EXPECT_EQ(colours[4], (Rgba{0, 0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace throng::render
