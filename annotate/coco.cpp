@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "annotate/coco_records.h"
+#include "annotate/keypoints.h"
 #include "base/error.h"
 #include "base/files.h"
 
@@ -181,7 +182,7 @@ void CocoShardWriter::finish() {
 }
 
 void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& output,
-                const std::string& description) {
+                const std::string& description, bool keypoints) {
   std::vector<ShardCounts> counts;
   counts.reserve(shard_folders.size());
   for (const fs::path& folder : shard_folders) counts.push_back(read_counts(folder));
@@ -189,8 +190,12 @@ void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& outp
   const fs::path file = staging.path() / "merged.json";
   Output merged(file);
   const nlohmann::json info = {{"description", description}, {"version", "1"}};
-  const nlohmann::json category = {
+  nlohmann::json category = {
       {"id", kPersonCategory}, {"name", "person"}, {"supercategory", "person"}};
+  if (keypoints) {
+    category["keypoints"] = skinning::kKeypointNames;
+    category["skeleton"] = kSkeleton;
+  }
   merged.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":[{}],\n\"images\":[",
                            info.dump(), category.dump()));
   merge_array(merged, shard_folders, counts, kImagesFile, &ShardCounts::images);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "annotate/labels.h"
+#include "annotate/person_facts.h"
 #include "camera/camera.h"
 
 namespace throng::annotate {
@@ -27,7 +28,8 @@ struct CocoImage {
   std::string sensor;        ///< a JSON object: sensor and exposure; "" when not known
   std::string flight;        ///< a JSON object: the drone and its sensors; "" when not known
   std::string density_file;  ///< like file_name; "" when the frame has no density map
-  std::int64_t density_count = 0;  ///< heads that the density map sums to
+  std::int64_t density_count = 0;      ///< heads that the density map sums to
+  const PersonFacts* facts = nullptr;  ///< of the run's people; null when not known
 };
 
 /// Agents that one run may have, so that ids stay unique: annotation id = image id *
@@ -61,9 +63,11 @@ class CocoShardWriter {
 };
 
 /// One linear pass over shard folders, in the given order, into one COCO file (written beside and
-/// renamed). `description` becomes info.description. Throws EnvironmentError naming file and line
+/// renamed). `description` becomes info.description; with `keypoints`, the category names them.
+/// Throws EnvironmentError naming file and line
 /// when a shard is unfinished, truncated or damaged, or when the disk refuses.
 void merge_coco(const std::vector<std::filesystem::path>& shard_folders,
-                const std::filesystem::path& output, const std::string& description);
+                const std::filesystem::path& output, const std::string& description,
+                bool keypoints = false);
 
 }  // namespace throng::annotate

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 
+#include "annotate/person_record.h"
 #include "base/error.h"
 
 namespace throng::annotate {
@@ -86,11 +87,10 @@ void append_head(std::string& text, const render::PersonInView& person,
     append_fixed<3>(text, head->x());
     text.push_back(',');
     append_fixed<3>(text, head->y());
-    text += "]}";
+    text.push_back(']');
   } else {
-    text += R"("head":null})";
+    text += R"("head":null)";
   }
-  text.push_back('\n');
 }
 
 // The lens's model and its coefficients, by their names in OpenCV.
@@ -176,6 +176,8 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
   append_fixed<5>(text, label.person.velocity);
   text.push_back(',');
   append_head(text, label.person, image.camera);
+  append_person_members(text, image, label);
+  text += "}\n";
 }
 
 }  // namespace throng::annotate

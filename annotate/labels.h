@@ -21,6 +21,14 @@ struct PixelBox {
 /// Runs of a mask in COCO's order: down the columns, first run counts zeros.
 using RunLengths = std::vector<std::uint32_t>;
 
+/// One of COCO's keypoints in the picture.
+struct Keypoint {
+  float x = 0;  ///< box coordinates; 0 when not labelled
+  float y = 0;
+  /// COCO's: 0 not labelled (outside the image), 1 hidden, by others or by the own body, 2 visible.
+  int visibility = 0;
+};
+
 struct PersonLabel {
   std::uint32_t agent = 0;
   PixelBox box;               ///< tight bounds of the visible mask
@@ -29,6 +37,7 @@ struct PersonLabel {
   double visibility = 0;      ///< area_px / amodal area, in (0, 1]
   /// Amodal box, 3-D position, ...; its amodal area is raised to area_px if below.
   render::PersonInView person;
+  std::vector<Keypoint> keypoints;  ///< as skinning::kKeypointNames; empty unless asked for
 };
 
 struct FrameLabels {

@@ -54,7 +54,8 @@ class Collector {
     if (wants(job_, "coco")) {
       const std::string path = "annotations/instances.json";
       fs::create_directories((staging_.path() / path).parent_path());
-      annotate::merge_coco(coco_shards_, staging_.path() / path, job_.name);
+      annotate::merge_coco(coco_shards_, staging_.path() / path, job_.name,
+                           wants(job_, "keypoints"));
       list(path);
     }
     write_manifest(std::move(runs));

@@ -7,7 +7,9 @@
 
 #include "annotate/coco.h"
 #include "annotate/density.h"
+#include "annotate/keypoints.h"
 #include "annotate/labels.h"
+#include "annotate/person_facts.h"
 #include "annotate/png.h"
 #include "annotate/preview.h"
 #include "base/error.h"
@@ -48,9 +50,11 @@ std::int64_t count_inside(const std::vector<Eigen::Vector2d>& heads, int width, 
 class ShardOutput {
  public:
   ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
-              std::string environment, std::string drawn, StageClock* clock)
+              std::string environment, std::string drawn, const annotate::PersonFacts& facts,
+              StageClock* clock)
       : job_(job),
         shard_(shard),
+        facts_(facts),
         environment_(std::move(environment)),
         drawn_(std::move(drawn)),
         clock_(clock),
@@ -62,7 +66,8 @@ class ShardOutput {
 
   void add(const Picture& picture, std::size_t camera) {
     const render::Frame& frame = picture.frame;
-    const annotate::FrameLabels labels = annotate::label_people(frame);
+    annotate::FrameLabels labels = annotate::label_people(frame);
+    if (wants(job_, "keypoints")) annotate::add_keypoints(frame, labels);
     lap("labels");
     const std::string& drone = job_.drones[camera].mission.id;
     const std::string place = fmt::format("{}/{}/{:06}", run_name(shard_.run), drone, frame.index);
@@ -79,6 +84,7 @@ class ShardOutput {
     image.drawn = drawn_;
     image.sensor = picture.sensor;
     image.flight = picture.flight;
+    image.facts = &facts_;
     const std::string jpeg =
         annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
     lap("jpeg");
@@ -145,6 +151,7 @@ class ShardOutput {
 
   const JobSpec& job_;
   const Shard& shard_;
+  const annotate::PersonFacts& facts_;
   std::string environment_;  ///< JSON
   std::string drawn_;        ///< JSON
   StageClock* clock_;
@@ -181,8 +188,9 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
 
   const Task task{Task::Kind::render, shard.run, shard.index};
   const nlohmann::json drawn = drawn_of_run(whole_job, shard.run);
+  const annotate::PersonFacts facts(trace, population, job.dye);
   ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(),
-                     drawn.empty() ? "" : drawn.dump(), options.clock);
+                     drawn.empty() ? "" : drawn.dump(), facts, options.clock);
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;

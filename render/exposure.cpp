@@ -1,6 +1,7 @@
 #include "render/exposure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -127,6 +128,7 @@ class PeopleInStrips {
       known.area_px += area_px;
       known.box.extend(person.amodal_box);
       see_head(strip.camera, person.head, rows, known);
+      see_keypoints(strip.camera, person, rows, known);
     }
   }
 
@@ -137,6 +139,7 @@ class PeopleInStrips {
       people.back().amodal_box = known.box;
       people.back().amodal_area_px = known.area_px;
       people.back().head_px = known.head_px;
+      people.back().keypoints_px = known.keypoints_px;
     }
     return people;
   }
@@ -150,6 +153,10 @@ class PeopleInStrips {
     Eigen::AlignedBox2d box;
     std::optional<Vector2d> head_px;
     double head_off_rows = std::numeric_limits<double>::infinity();
+    skinning::Keypoints keypoints_px =
+        skinning::keypoints_at(Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+    std::array<float, skinning::kKeypointCount> keypoints_off_rows{};
+    Known() { keypoints_off_rows.fill(std::numeric_limits<float>::infinity()); }
   };
 
   /// Keeps the sight of the head from the strip whose rows it is in, or nearest to.
@@ -162,6 +169,21 @@ class PeopleInStrips {
     if (off >= known.head_off_rows) return;
     known.head_off_rows = off;
     known.head_px = at;
+  }
+
+  /// The same for each keypoint.
+  static void see_keypoints(const camera::Camera& camera, const PersonInView& person,
+                            const Rows& rows, Known& known) {
+    const skinning::Keypoints seen = keypoints_in(person, camera);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (!seen[i].allFinite()) continue;
+      const float y = seen[i].y();
+      const float off =
+          std::max({static_cast<float>(rows.first) - y, y - static_cast<float>(rows.end), 0.0F});
+      if (off >= known.keypoints_off_rows[i]) continue;
+      known.keypoints_off_rows[i] = off;
+      known.keypoints_px[i] = seen[i];
+    }
   }
 
   std::map<std::uint32_t, Known> people_;

@@ -3,11 +3,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "camera/camera.h"
+#include "skinning/landmarks.h"
 
 namespace throng::render {
 
@@ -52,6 +55,15 @@ struct PersonInView {
   /// The middle of the head in box coordinates, where the frame's camera does not say it: rows of a
   /// rolling shutter see it from elsewhere.
   std::optional<Eigen::Vector2d> head_px = std::nullopt;
+  /// As posed, m, world.
+  skinning::Keypoints keypoints = skinning::keypoints_at(Eigen::Vector3f::Zero());
+  /// Upright box around the body with all it carries, turned by yaw_rad: its middle (m, world) and
+  /// its size ahead, to the side and up (m).
+  Eigen::Vector3f box_middle = Eigen::Vector3f::Zero();
+  Eigen::Vector3f box_size = Eigen::Vector3f::Zero();
+  /// Like head_px, of the keypoints: x and y in box coordinates and the camera's z (m); NaN where
+  /// the camera sees nothing.
+  std::optional<skinning::Keypoints> keypoints_px = std::nullopt;
 };
 
 /// The middle of a person's head in a frame of this camera, in box coordinates, also if hidden;
@@ -62,6 +74,19 @@ inline std::optional<Eigen::Vector2d> head_in(const PersonInView& person,
   const camera::Camera::Projection seen = camera.project(person.head);
   if (!seen.visible) return std::nullopt;
   return Eigen::Vector2d(seen.pixel.array() + 0.5);
+}
+
+/// Where a person's keypoints are in a frame of this camera, hidden or not, as keypoints_px has
+/// them.
+inline skinning::Keypoints keypoints_in(const PersonInView& person, const camera::Camera& camera) {
+  if (person.keypoints_px) return *person.keypoints_px;
+  skinning::Keypoints seen;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const camera::Camera::Projection at = camera.project(person.keypoints[i].cast<double>());
+    seen[i] << (at.pixel.array() + 0.5).cast<float>(), static_cast<float>(at.depth_m);
+    if (!at.visible) seen[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  return seen;
 }
 
 /// One rendered frame. Rows top-down, pixels row-major.

@@ -131,6 +131,21 @@ BodyShape::BodyShape(const skinning::Mesh& of_mesh) : mesh(&of_mesh) {
   });
 }
 
+void measure_body(const BodyShape& shape, const skinning::Landmarks& landmarks,
+                  const skinning::Palette& palette, const PersonInstance& person,
+                  PersonInView& truth) {
+  const Eigen::Matrix3f to_world = turn(person.yaw_rad).cast<float>();
+  truth.keypoints = skinning::posed_keypoints(landmarks, palette);
+  for (Eigen::Vector3f& point : truth.keypoints) point = person.position + to_world * point;
+  Eigen::AlignedBox3f box;
+  Eigen::Matrix4f as_it_is = Eigen::Matrix4f::Identity();
+  as_it_is.row(3) << 0, 0, 1, 0;  // height above the feet
+  const Projector posed(palette, as_it_is);
+  for (const SkinPoint& point : shape.points) box.extend(posed(point).head<3>().eval());
+  truth.box_middle = person.position + to_world * box.center();
+  truth.box_size = box.sizes();
+}
+
 Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
                       const PersonInstance& person, const camera::Camera& camera) {
   const Projector project(palette, image_from_model(person, camera));

@@ -44,6 +44,11 @@ struct BodyShape {
   std::vector<SkinPoint> points;
 };
 
+/// Sets the person's keypoints, and the upright box around this shape of theirs.
+void measure_body(const BodyShape& shape, const skinning::Landmarks& landmarks,
+                  const skinning::Palette& palette, const PersonInstance& person,
+                  PersonInView& truth);
+
 /// Where a mesh appears in the image.
 struct Silhouette {
   /// Bounds in box coordinates. Parts behind the near plane are cut off; what remains is limited to

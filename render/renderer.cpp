@@ -32,6 +32,10 @@ namespace {
 /// A sphere about a person's middle, as a share of stature, that holds any pose.
 constexpr double kReach = 1.2;
 
+/// The level of detail whose bounds are people's boxes in the world: a coarse one, as the outlines
+/// of all levels are nearly equal.
+constexpr std::size_t kBoxLevel = 4;
+
 /// A person who may be in view, and what was measured so far.
 struct Seen {
   PersonDraw draw;
@@ -140,6 +144,7 @@ struct Renderer::State {
   bool multisample;
   const skinning::Population* population;
   std::vector<std::vector<BodyShape>> shapes;  ///< [character][level]
+  std::vector<skinning::Landmarks> landmarks;  ///< per character
   Daylight daylight;
   Eigen::AlignedBox2d ground;
   double tallest;
@@ -186,6 +191,10 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       view_buffer(make_buffer()),
       next_view_buffer(make_buffer()),
       light_buffer(make_buffer()) {
+  landmarks.reserve(people.characters.size());
+  for (const skinning::Character& character : people.characters) {
+    landmarks.push_back(skinning::landmarks_of(character));
+  }
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   // Image rows grow downwards and GL's window upwards, so that rows read back top-down; what is
   // counter-clockwise in the world is then clockwise in the window.
@@ -229,6 +238,9 @@ std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
                      person.velocity.cast<double>(), person.yaw_rad, stature_m, shape.box, 0,
                      static_cast<std::uint32_t>(level)},
                     {}});
+    const std::vector<BodyShape>& all = shapes[person.appearance.character];
+    measure_body(all[std::min(kBoxLevel, all.size() - 1)], landmarks[person.appearance.character],
+                 palette, person, seen.back().truth);
   }
   std::sort(seen.begin(), seen.end(),
             [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });

@@ -71,6 +71,7 @@ Population load_population(const fs::path& folder) {
     }
     Character& character = population.characters.emplace_back(entry);
     character.levels = std::move(asset.levels);
+    character.joints = asset.joints;
     joints.push_back(asset.joints);
   }
   population.palettes = read_palettes(folder, joints, population.palettes_per_character);

@@ -90,6 +90,8 @@ struct Character {
   Carry carries = Carry::nothing;
   std::string wears;         ///< in words, e.g. "t-shirt, jeans, trainers"
   std::vector<Mesh> levels;  ///< from most to least detailed; at least one
+  /// Where each bone starts in the rest pose, in model space.
+  std::array<Eigen::Vector3f, kBoneCount> joints{};
   /// Colours that suit this character, by Tint: what appearance_of picks from.
   std::array<std::vector<Rgb>, kTintCount> tints;
 };

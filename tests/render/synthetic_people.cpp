@@ -1,5 +1,6 @@
 #include "synthetic_people.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -125,6 +126,31 @@ skinning::Texture strands() {
   return texture;
 }
 
+/// Where the boxes hang together.
+std::array<Eigen::Vector3f, skinning::kBoneCount> joints() {
+  std::array<Eigen::Vector3f, skinning::kBoneCount> joints;
+  joints.fill({0.0F, 0.0F, 0.95F});
+  const auto set = [&](Bone bone, float y, float z) {
+    joints[static_cast<std::size_t>(bone)] = {0.0F, y, z};
+  };
+  set(Bone::chest, 0, 1.2F);
+  set(Bone::neck, 0, 1.5F);
+  set(Bone::head, 0, 1.55F);
+  set(Bone::left_upper_arm, 0.28F, 1.45F);
+  set(Bone::right_upper_arm, -0.28F, 1.45F);
+  set(Bone::left_forearm, 0.28F, 1.15F);
+  set(Bone::right_forearm, -0.28F, 1.15F);
+  set(Bone::left_hand, 0.28F, 0.85F);
+  set(Bone::right_hand, -0.28F, 0.85F);
+  set(Bone::left_thigh, 0.095F, 0.86F);
+  set(Bone::right_thigh, -0.095F, 0.86F);
+  set(Bone::left_shin, 0.095F, 0.46F);
+  set(Bone::right_shin, -0.095F, 0.46F);
+  set(Bone::left_foot, 0.095F, 0.07F);
+  set(Bone::right_foot, -0.095F, 0.07F);
+  return joints;
+}
+
 /// Swings everything below a joint forwards (positive) or backwards.
 skinning::BoneMatrix swung(float angle_rad, float joint_height) {
   const Eigen::Vector3f joint(0, 0, joint_height);
@@ -173,6 +199,7 @@ skinning::Population synthetic_people(std::size_t characters) {
     character.name = "box man " + std::to_string(i);
     character.stature_m = kSyntheticStature_m;
     character.levels = {fine, coarse};
+    character.joints = joints();
     people.palettes.push_back(pose(0));
     for (const float swing_rad : {0.4F, 0.7F}) {
       for (std::uint32_t frame = 0; frame < kFramesPerStride; ++frame) {

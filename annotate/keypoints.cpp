@@ -1,0 +1,55 @@
+#include "annotate/keypoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "base/error.h"
+
+namespace throng::annotate {
+
+namespace {
+
+/// How far (m) a keypoint may lie behind the surface that shows it: joints are inside of limbs, and
+/// hips deepest.
+constexpr std::array<float, skinning::kKeypointCount> kDepthInBody_m = {
+    0.04F, 0.05F, 0.05F, 0.06F, 0.06F, 0.13F, 0.13F, 0.10F, 0.10F,
+    0.08F, 0.08F, 0.20F, 0.20F, 0.13F, 0.13F, 0.13F, 0.13F};
+/// Surfaces behind the keypoint by more are another part of the body, seen past it.
+constexpr float kBehind_m = 0.10F;
+
+bool shows(const render::Frame& frame, std::uint32_t agent, const Eigen::Vector3f& at,
+           float depth_in_body_m) {
+  const int column = static_cast<int>(at.x());
+  const int row = static_cast<int>(at.y());
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, frame.height() - 1); ++y) {
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, frame.width() - 1); ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * frame.width() + x;
+      if (frame.id[pixel] != render::id_of_agent(agent)) continue;
+      const float behind_surface = at.z() - frame.depth_m[pixel];
+      if (behind_surface <= depth_in_body_m && behind_surface >= -kBehind_m) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void add_keypoints(const render::Frame& frame, FrameLabels& labels) {
+  check(frame.depth_m.size() == frame.id.size(), "keypoints are tested against the frame's depth");
+  for (PersonLabel& label : labels.people) {
+    const skinning::Keypoints seen = render::keypoints_in(label.person, frame.camera);
+    label.keypoints.assign(seen.size(), {});
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const Eigen::Vector3f& at = seen[i];
+      const bool is_inside = at.allFinite() && at.x() >= 0 && at.y() >= 0 &&
+                             at.x() < static_cast<float>(frame.width()) &&
+                             at.y() < static_cast<float>(frame.height());
+      if (!is_inside) continue;
+      const bool is_visible = shows(frame, label.agent, at, kDepthInBody_m[i]);
+      label.keypoints[i] = {at.x(), at.y(), is_visible ? 2 : 1};
+    }
+  }
+}
+
+}  // namespace throng::annotate

@@ -1,0 +1,38 @@
+// COCO's 17 keypoints of the people in a frame, with what the picture shows of them.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "annotate/labels.h"
+#include "render/frame.h"
+
+namespace throng::annotate {
+
+/// COCO's bones between the keypoints, as numbers from 1.
+inline constexpr std::array<std::pair<int, int>, 19> kSkeleton = {{{16, 14},
+                                                                   {14, 12},
+                                                                   {17, 15},
+                                                                   {15, 13},
+                                                                   {12, 13},
+                                                                   {6, 12},
+                                                                   {7, 13},
+                                                                   {6, 7},
+                                                                   {6, 8},
+                                                                   {7, 9},
+                                                                   {8, 10},
+                                                                   {9, 11},
+                                                                   {2, 3},
+                                                                   {1, 2},
+                                                                   {1, 3},
+                                                                   {2, 4},
+                                                                   {3, 5},
+                                                                   {4, 6},
+                                                                   {5, 7}}};
+
+/// Sets the keypoints of everybody in `labels`, which are the frame's. A keypoint is visible if,
+/// within a pixel of its place, the picture shows the person at its depth: as deep inside the body
+/// as the joint lies, and no deeper.
+void add_keypoints(const render::Frame& frame, FrameLabels& labels);
+
+}  // namespace throng::annotate

@@ -1,0 +1,117 @@
+#include "annotate/person_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "render/animator.h"
+#include "skinning/items.h"
+#include "skinning/skeleton.h"
+
+namespace throng::annotate {
+
+namespace {
+
+constexpr double kStandingMps = 0.2;
+constexpr double kRunningMps = 2.07;
+
+std::string_view age_band(double age_years) {
+  constexpr double kTeenager = 13;
+  constexpr double kAdult = 18;
+  constexpr double kSenior = 65;
+  if (age_years < kTeenager) return "child";
+  if (age_years < kAdult) return "teenager";
+  return age_years < kSenior ? "adult" : "senior";
+}
+
+bool says_follow(std::string_view state) {
+  constexpr std::string_view kWord = "follow";
+  const auto found =
+      std::search(state.begin(), state.end(), kWord.begin(), kWord.end(),
+                  [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
+  return found != state.end();
+}
+
+nlohmann::json attributes_of(const skinning::Character& character,
+                             const skinning::Appearance& appearance) {
+  nlohmann::json attributes = {
+      {"sex", character.male ? "male" : "female"},
+      {"age_years", static_cast<int>(character.age_years)},
+      {"age_band", age_band(character.age_years)},
+      {"stature_m", std::round(1000.0 * static_cast<double>(character.stature_m)) / 1000.0},
+      {"wears", character.wears},
+      {"carries", skinning::kCarryNames[static_cast<std::size_t>(character.carries)]}};
+  for (const skinning::Tint tint :
+       {skinning::Tint::top, skinning::Tint::bottom, skinning::Tint::hair, skinning::Tint::shoes}) {
+    const auto index = static_cast<std::size_t>(tint);
+    if (character.tints[index].empty()) continue;
+    const skinning::Rgb& colour = appearance.tint[index];
+    attributes[std::string(skinning::kTintNames[index]) + "_colour"] =
+        fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+  }
+  return attributes;
+}
+
+}  // namespace
+
+std::string_view name_of(Activity activity) {
+  constexpr std::array<std::string_view, 6> kNames = {"waiting",   "walking",   "running",
+                                                      "following", "panicking", "lying"};
+  return kNames.at(static_cast<std::size_t>(activity));
+}
+
+Activity activity_of(std::string_view state, bool is_panicked, double speed_mps) {
+  if (render::is_down(state)) return Activity::lying;
+  if (is_panicked) return Activity::panicking;
+  if (speed_mps < kStandingMps) return Activity::waiting;
+  if (says_follow(state)) return Activity::following;
+  return speed_mps > kRunningMps ? Activity::running : Activity::walking;
+}
+
+PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& population,
+                         const skinning::Tone& dye)
+    : trace_(&trace) {
+  for (const std::string& name : trace.header.state_names) {
+    behaviour_.push_back(nlohmann::json(name).dump());
+  }
+  for (const std::string& id : trace.header.exit_ids) exit_.push_back(nlohmann::json(id).dump());
+  for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
+    const skinning::Appearance appearance = skinning::appearance_of(
+        population, trace.header.seed, static_cast<std::uint32_t>(agent), dye);
+    const std::int32_t group = agent < trace.header.group.size() ? trace.header.group[agent] : -1;
+    fixed_.push_back(
+        fmt::format(R"(,"group":{},"attributes":{})", group < 0 ? "null" : std::to_string(group),
+                    attributes_of(population.characters[appearance.character], appearance).dump()));
+  }
+}
+
+std::size_t PersonFacts::step_at(double time_s) const {
+  const std::vector<double>& times = trace_->time_s;
+  check(!times.empty(), "a trace that was drawn has steps");
+  const auto next = std::upper_bound(times.begin(), times.end(), time_s + world::kTimeSlackS);
+  return next == times.begin() ? 0 : static_cast<std::size_t>(next - times.begin()) - 1;
+}
+
+void PersonFacts::append(std::string& text, std::uint32_t agent, double time_s,
+                         double speed_mps) const {
+  check(agent < fixed_.size(), "facts are those of the run that is drawn");
+  const std::size_t at = trace_->at(step_at(time_s), agent);
+  const std::size_t state = trace_->state.empty() ? 0 : trace_->state[at];
+  const bool is_named = state < behaviour_.size();
+  const bool is_panicked = (trace_->flags[at] & world::kPanicked) != 0;
+  const Activity activity =
+      activity_of(is_named ? trace_->header.state_names[state] : "", is_panicked, speed_mps);
+  const int exit = trace_->exit_intent.empty() ? -1 : trace_->exit_intent[at];
+  const bool has_exit = exit >= 0 && static_cast<std::size_t>(exit) < exit_.size();
+  fmt::format_to(std::back_inserter(text), R"(,"state":"{}","behaviour":{},"exit":{})",
+                 name_of(activity), is_named ? behaviour_[state] : "null",
+                 has_exit ? exit_[static_cast<std::size_t>(exit)] : "null");
+  text += fixed_[agent];
+}
+
+}  // namespace throng::annotate

@@ -1,0 +1,45 @@
+// What is known of a run's people beside what the picture shows: what they do, where they want to
+// go, with whom, and what they look like.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "skinning/appearance.h"
+#include "skinning/population.h"
+#include "world/trace.h"
+
+namespace throng::annotate {
+
+/// What somebody does, whatever the behaviour file calls it.
+enum class Activity : std::uint8_t { waiting, walking, running, following, panicking, lying };
+std::string_view name_of(Activity activity);
+
+/// Lying if they are in a state of those in docs/trace.md, else panicking if in panic, else
+/// following if the state's name says that they follow somebody; else as fast as they are: below
+/// 0.2 m/s they wait, and above 2.07 m/s they run (Hreljac, 1993: where people change from walking
+/// to running).
+Activity activity_of(std::string_view state, bool is_panicked, double speed_mps);
+
+class PersonFacts {
+ public:
+  /// The trace must outlive it; the population and the dye are those that the run is drawn with.
+  PersonFacts(const world::Trace& trace, const skinning::Population& population,
+              const skinning::Tone& dye);
+
+  /// Appends `,"state":..,"behaviour":..,"exit":..,"group":..,"attributes":{..}` of an agent at a
+  /// time (docs/formats.md).
+  void append(std::string& text, std::uint32_t agent, double time_s, double speed_mps) const;
+
+ private:
+  std::size_t step_at(double time_s) const;
+
+  const world::Trace* trace_;
+  std::vector<std::string> behaviour_;  ///< JSON, by state
+  std::vector<std::string> exit_;       ///< JSON, by exit
+  std::vector<std::string> fixed_;      ///< members that do not change, by agent
+};
+
+}  // namespace throng::annotate
