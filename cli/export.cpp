@@ -1,0 +1,155 @@
+// throng export: a finished dataset in other formats.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/commands.h"
+#include "formats/exporter.h"
+
+namespace throng::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ExportArguments {
+  std::string dataset;
+  std::string output;
+  std::vector<std::string> formats;
+  std::vector<std::string> splits;
+  double min_visibility = 0;
+  double min_height_px = 0;
+  std::string classes = "none";
+  std::vector<std::string> class_names;
+};
+
+/// "left=right" as its two sides.
+std::pair<std::string, std::string> sides_of(const std::string& text, const std::string& option) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError({"", option, text, "NAME=VALUE"});
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// train=0.8, val=0.2 or val=run003: shares or runs.
+formats::SplitOptions splits_of(const std::vector<std::string>& words) {
+  formats::SplitOptions splits;
+  bool has_shares = false;
+  for (const std::string& word : words) {
+    const auto [name, value] = sides_of(word, "--split");
+    const auto found = std::find(formats::kSplitNames.begin(), formats::kSplitNames.end(), name);
+    if (found == formats::kSplitNames.end()) {
+      throw InputError({"", "--split", name, "train, val or test"});
+    }
+    const auto index = static_cast<std::size_t>(found - formats::kSplitNames.begin());
+    if (value.starts_with("run")) {
+      splits.runs[value] = static_cast<formats::Split>(index);
+      continue;
+    }
+    if (!has_shares) splits.share = {0, 0, 0};
+    has_shares = true;
+    char* end = nullptr;
+    splits.share[index] = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end != '\0' ||
+        !(splits.share[index] >= 0 && splits.share[index] <= 1e6)) {
+      throw InputError({"", "--split " + name, value, "a share, or a run such as run003"});
+    }
+  }
+  if (splits.share[0] + splits.share[1] + splits.share[2] <= 0) {
+    throw InputError({"", "--split", "shares that are all 0", "one above 0"});
+  }
+  return splits;
+}
+
+formats::ExportOptions options_of(const ExportArguments& arguments) {
+  formats::ExportOptions options;
+  options.splits = splits_of(arguments.splits);
+  options.filters = {arguments.min_visibility, arguments.min_height_px};
+  options.classes.by = arguments.classes;
+  const std::vector<std::string> values = formats::class_values(arguments.classes);
+  for (const std::string& word : arguments.class_names) {
+    const auto [value, name] = sides_of(word, "--class-name");
+    if (std::find(values.begin(), values.end(), value) == values.end()) {
+      throw InputError({"", "--class-name", value, "a value of " + arguments.classes});
+    }
+    options.classes.names[value] = name;
+  }
+  return options;
+}
+
+void export_formats(const ExportArguments& arguments) {
+  const fs::path root = arguments.dataset;
+  const formats::DatasetInfo info =
+      formats::describe_dataset(root, formats::read_manifest(root), options_of(arguments));
+  const auto chosen = formats::choose_formats(arguments.formats, info.annotations, "--formats");
+  if (fs::exists(arguments.output)) {
+    throw InputError({"", "--output", arguments.output + ", which exists", "a new folder"});
+  }
+  StagingFolder staging(arguments.output);
+  formats::export_dataset(info, chosen, staging.path());
+  staging.commit();
+  for (const formats::Format* format : chosen) {
+    fmt::print("{}\n", (fs::path(arguments.output) / format->name).string());
+  }
+}
+
+}  // namespace
+
+void add_export(CLI::App& app) {
+  auto* command = app.add_subcommand("export", "Write a finished dataset in other formats");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("dataset", arguments->dataset, "Folder of the dataset");
+  command->add_option("-o,--output", arguments->output, "Folder to make");
+  command
+      ->add_option("--formats", arguments->formats,
+                   "Which, separated by commas (--list names them)")
+      ->delimiter(',');
+  command
+      ->add_option("--split", arguments->splits,
+                   "Shares of the runs or runs: train=0.8,val=0.2 or test=run003")
+      ->delimiter(',');
+  command
+      ->add_option("--min-visibility", arguments->min_visibility,
+                   "Who is less visible becomes an ignore region")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--min-height", arguments->min_height_px,
+                   "Who is fewer pixels high becomes an ignore region")
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_option("--classes", arguments->classes, "What classes tell apart")
+      ->check(CLI::IsMember([] {
+        std::vector<std::string> names;
+        for (const std::string_view name : formats::class_properties()) names.emplace_back(name);
+        return names;
+      }()));
+  command
+      ->add_option("--class-name", arguments->class_names,
+                   "Another name for a value: female=woman,male=man")
+      ->delimiter(',');
+  const auto list = std::make_shared<bool>(false);
+  command->add_flag("--list", *list, "List the formats and do nothing");
+  command->callback([arguments, list] {
+    if (*list) {
+      for (const formats::Format& format : formats::all_formats()) {
+        fmt::print("{:<16}{}\n", format.name, format.summary);
+      }
+      return;
+    }
+    for (const auto& [name, is_missing] : {std::pair{"DATASET", arguments->dataset.empty()},
+                                           {"--output", arguments->output.empty()},
+                                           {"--formats", arguments->formats.empty()}}) {
+      if (is_missing) throw InputError({"", name, "nothing", "a value (throng export --help)"});
+    }
+    export_formats(*arguments);
+  });
+}
+
+}  // namespace throng::cli

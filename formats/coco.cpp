@@ -1,0 +1,136 @@
+// COCO instances and keypoints: the dataset's own records, one file for each split, with the
+// filters' ignore regions as iscrowd.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "annotate/keypoints.h"
+#include "formats/makers.h"
+#include "formats/mask.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// One JSON file whose annotations are written aside until the images are complete.
+class CocoFile {
+ public:
+  CocoFile(const Output& output, const std::string& path)
+      : final_(output.open(path)),
+        aside_path_(output.folder() / (path + ".annotations")),
+        aside_(aside_path_) {}
+
+  void begin(const DatasetInfo& info, const json& categories) {
+    const json head = {
+        {"description", info.name}, {"version", "1"}, {"contributor", info.generator}};
+    final_.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":{},\n\"images\":[",
+                             head.dump(), categories.dump()));
+  }
+  void add_image(const json& record) { add(final_, images_++, record); }
+  void add_annotation(const json& record) { add(aside_, annotations_++, record); }
+
+  void finish() {
+    aside_.close();
+    final_.write("\n],\n\"annotations\":[");
+    std::ifstream aside(aside_path_, std::ios::binary);
+    std::string block(1 << 20, '\0');
+    while (aside.read(block.data(), static_cast<std::streamsize>(block.size())) ||
+           aside.gcount() > 0) {
+      final_.write(std::string_view(block).substr(0, static_cast<std::size_t>(aside.gcount())));
+    }
+    final_.write("\n]}\n");
+    final_.close();
+    aside.close();
+    fs::remove(aside_path_);
+  }
+
+ private:
+  static void add(OutputStream& stream, std::size_t count, const json& record) {
+    stream.write(count == 0 ? "\n" : ",\n");
+    stream.write(record.dump());
+  }
+
+  OutputStream final_;
+  fs::path aside_path_;
+  OutputStream aside_;
+  std::size_t images_ = 0;
+  std::size_t annotations_ = 0;
+};
+
+json categories_of(const DatasetInfo& info, bool keypoints) {
+  json categories = json::array();
+  for (std::size_t i = 0; i < info.categories.size(); ++i) {
+    json& category = categories.emplace_back(
+        json{{"id", i + 1}, {"name", info.categories[i]}, {"supercategory", "person"}});
+    if (!keypoints) continue;
+    category["keypoints"] = skinning::kKeypointNames;
+    category["skeleton"] = annotate::kSkeleton;
+  }
+  return categories;
+}
+
+class CocoExporter : public Exporter {
+ public:
+  CocoExporter(const DatasetInfo& info, Output output, bool keypoints)
+      : root_(info.root), output_(std::move(output)), keypoints_(keypoints) {
+    const std::string kind = keypoints ? "person_keypoints" : "instances";
+    for (const Split split : info.splits()) {
+      CocoFile& file = files_
+                           .try_emplace(split, output_,
+                                        fmt::format("annotations/{}_{}.json", kind, name_of(split)))
+                           .first->second;
+      file.begin(info, categories_of(info, keypoints));
+    }
+  }
+
+  void add(const Image& image) override {
+    CocoFile& file = files_.at(image.split);
+    const std::string name = image.stem() + ".jpg";
+    output_.link(fs::path(name_of(image.split)) / name, root_ / image.file);
+    json record = image.record;
+    record["file_name"] = name;
+    file.add_image(record);
+    for (const Person& person : image.people) {
+      record = person.record;
+      record["category_id"] = person.category + 1;
+      if (person.is_ignored) {
+        record["iscrowd"] = 1;
+        // COCO has run lengths of regions as plain numbers.
+        record["segmentation"]["counts"] =
+            runs_of(person.mask, static_cast<std::uint64_t>(image.width) *
+                                     static_cast<std::uint64_t>(image.height));
+      }
+      if (!keypoints_) {
+        for (const char* key : {"keypoints", "num_keypoints", "keypoints_3d"}) record.erase(key);
+      }
+      file.add_annotation(record);
+    }
+  }
+
+  void finish() override {
+    for (auto& [split, file] : files_) file.finish();
+  }
+
+ private:
+  fs::path root_;
+  Output output_;
+  bool keypoints_;
+  std::map<Split, CocoFile> files_;
+};
+
+}  // namespace
+
+ExporterPointer make_coco(const DatasetInfo& info, Output output) {
+  return std::make_unique<CocoExporter>(info, std::move(output), false);
+}
+
+ExporterPointer make_coco_keypoints(const DatasetInfo& info, Output output) {
+  return std::make_unique<CocoExporter>(info, std::move(output), true);
+}
+
+}  // namespace throng::formats

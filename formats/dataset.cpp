@@ -1,0 +1,264 @@
+#include "formats/dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kImagesStart = "\"images\":[";
+constexpr const char* kAnnotationsStart = "\"annotations\":[";
+
+template <typename Vector>
+Vector vector_of(const json& value) {
+  Vector vector;
+  for (Eigen::Index i = 0; i < vector.size(); ++i) {
+    vector[i] = value.at(static_cast<std::size_t>(i)).get<double>();
+  }
+  return vector;
+}
+
+Eigen::Matrix3d matrix_of(const json& value) {
+  Eigen::Matrix3d matrix;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    matrix.row(row) = vector_of<Eigen::Vector3d>(value.at(static_cast<std::size_t>(row)));
+  }
+  return matrix;
+}
+
+Box box_of(const json& value) { return {value.at(0), value.at(1), value.at(2), value.at(3)}; }
+
+void read_pose(const json& record, Person& person) {
+  person.heading_rad = record.value("heading", 0.0);
+  if (const auto box = record.find("box_3d"); box != record.end()) {
+    person.box_middle = vector_of<Eigen::Vector3d>(box->at("middle"));
+    person.box_size = vector_of<Eigen::Vector3d>(box->at("size"));
+  }
+  person.keypoints.clear();
+  if (const auto keypoints = record.find("keypoints"); keypoints != record.end()) {
+    for (std::size_t i = 0; i + 2 < keypoints->size(); i += 3) {
+      person.keypoints.push_back({(*keypoints)[i], (*keypoints)[i + 1], (*keypoints)[i + 2]});
+    }
+  }
+}
+
+std::size_t category_of(const json& record, const ClassOptions& classes) {
+  if (classes.by == "none") return 0;
+  const json& value =
+      classes.by == "state" ? record.at("state") : record.at("attributes").at(classes.by);
+  const std::vector<std::string> values = class_values(classes.by);
+  const auto found = std::find(values.begin(), values.end(), value.get<std::string>());
+  check(found != values.end(), "class_values() lists every value that people have");
+  return static_cast<std::size_t>(found - values.begin());
+}
+
+Person person_of(json record, const ExportOptions& options) {
+  Person person;
+  record.at("id").get_to(person.id);
+  record.at("track_id").get_to(person.track_id);
+  person.box = box_of(record.at("bbox"));
+  person.amodal = box_of(record.at("bbox_amodal"));
+  record.at("segmentation").at("counts").get_to(person.mask);
+  record.at("area").get_to(person.area);
+  record.at("visibility").get_to(person.visibility);
+  person.height_px = record.value("height_px", person.amodal.height);
+  person.truncation = record.value("truncation", 0.0);
+  if (const json& head = record.at("head"); !head.is_null()) {
+    person.head = vector_of<Eigen::Vector2d>(head);
+  }
+  person.position = vector_of<Eigen::Vector3d>(record.at("position"));
+  person.ground_position = vector_of<Eigen::Vector3d>(record.at("ground_position"));
+  person.velocity = vector_of<Eigen::Vector2d>(record.at("velocity"));
+  person.state = record.value("state", "");
+  read_pose(record, person);
+  person.category = category_of(record, options.classes);
+  person.is_ignored = person.visibility < options.filters.min_visibility ||
+                      person.height_px < options.filters.min_height_px;
+  person.record = std::move(record);
+  return person;
+}
+
+void read_image(json record, const DatasetInfo& info, Image& image) {
+  record.at("id").get_to(image.id);
+  record.at("file_name").get_to(image.file);
+  record.at("width").get_to(image.width);
+  record.at("height").get_to(image.height);
+  record.at("run").get_to(image.run);
+  record.at("camera_id").get_to(image.camera);
+  record.at("frame").get_to(image.frame);
+  record.at("time_s").get_to(image.time_s);
+  const json& camera = record.at("camera");
+  image.K = matrix_of(camera.at("K"));
+  image.R = matrix_of(camera.at("R"));
+  image.t = vector_of<Eigen::Vector3d>(camera.at("t"));
+  image.split = info.split_of(image.run);
+  image.people.clear();
+  image.record = std::move(record);
+}
+
+}  // namespace
+
+std::string Image::stem() const { return fmt::format("{}-{}-{:06}", run, camera, frame); }
+
+bool DatasetInfo::has(std::string_view annotation) const {
+  return std::find(annotations.begin(), annotations.end(), annotation) != annotations.end();
+}
+
+Split DatasetInfo::split_of(const std::string& run) const {
+  const SplitOptions& splits = options.splits;
+  if (const auto named = splits.runs.find(run); named != splits.runs.end()) return named->second;
+  std::size_t index = 0;
+  std::size_t count = 0;
+  for (const std::string& other : runs) {
+    if (splits.runs.contains(other)) continue;
+    if (other == run) index = count;
+    ++count;
+  }
+  const double all = std::accumulate(splits.share.begin(), splits.share.end(), 0.0);
+  double end = 0;
+  for (std::size_t i = 0; i < splits.share.size(); ++i) {
+    end += splits.share[i] / all * static_cast<double>(count);
+    if (static_cast<double>(index) < std::round(end)) return static_cast<Split>(i);
+  }
+  return Split::train;
+}
+
+std::vector<Split> DatasetInfo::splits() const {
+  std::vector<Split> used;
+  for (const Split split : {Split::train, Split::val, Split::test}) {
+    if (std::any_of(runs.begin(), runs.end(),
+                    [&](const std::string& run) { return split_of(run) == split; })) {
+      used.push_back(split);
+    }
+  }
+  return used;
+}
+
+json read_manifest(const fs::path& root) {
+  const fs::path file = root / "manifest.json";
+  if (!fs::is_regular_file(file)) {
+    throw InputError({root.string(), "", "no manifest.json", "a finished dataset"});
+  }
+  try {
+    return json::parse(read_file(file));
+  } catch (const json::exception& error) {
+    throw InputError({file.string(), "", error.what(), "the JSON that throng wrote"});
+  }
+}
+
+DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
+                             const ExportOptions& options) {
+  DatasetInfo info;
+  info.root = root;
+  info.options = options;
+  try {
+    const json& job = manifest.at("job");
+    job.at("name").get_to(info.name);
+    manifest.at("generator").get_to(info.generator);
+    const json& capture = job.at("capture");
+    capture.at("rate_hz").get_to(info.rate_hz);
+    constexpr double kSlack = 1e-9;
+    info.frames_per_camera =
+        1 +
+        static_cast<std::int64_t>(std::floor(
+            (capture.at("to_s").get<double>() - capture.at("from_s").get<double>()) * info.rate_hz +
+            kSlack));
+    for (const json& run : manifest.at("runs")) info.runs.push_back(run.at("run"));
+    job.at("outputs").at("annotations").get_to(info.annotations);
+  } catch (const json::exception& error) {
+    throw InputError(
+        {(root / "manifest.json").string(), "", error.what(), "the manifest that throng wrote"});
+  }
+  if (!info.has("coco")) {
+    throw InputError({root.string(), "", "no COCO annotations",
+                      "a dataset whose job has coco among outputs.annotations"});
+  }
+  for (const auto& [run, split] : options.splits.runs) {
+    if (std::find(info.runs.begin(), info.runs.end(), run) == info.runs.end()) {
+      throw InputError({"", fmt::format("split {}", name_of(split)), run,
+                        fmt::format("a run of the dataset, run000 to {}", info.runs.back())});
+    }
+  }
+  for (const std::string& value : class_values(options.classes.by)) {
+    const auto renamed = options.classes.names.find(value);
+    info.categories.push_back(renamed == options.classes.names.end() ? value : renamed->second);
+  }
+  return info;
+}
+
+/// The records of one array of the COCO file: one per line.
+class DatasetReader::Lines {
+ public:
+  Lines(fs::path path, const std::string& start) : path_(std::move(path)), file_(path_) {
+    if (!file_) throw EnvironmentError(fmt::format("cannot read {}", path_.string()));
+    while (std::getline(file_, line_)) {
+      ++number_;
+      if (line_ == start) return;
+    }
+    throw InputError({path_.string(), "", "no line " + start, "a COCO file that throng wrote"});
+  }
+
+  /// The next record; null at the array's end.
+  json next() {
+    if (!std::getline(file_, line_)) fail("the end of the file", "a record or the array's end");
+    ++number_;
+    if (line_.starts_with(']')) return nullptr;
+    if (line_.ends_with(',')) line_.pop_back();
+    json record = json::parse(line_, nullptr, false);
+    if (!record.is_object()) fail("no JSON object", "a record");
+    return record;
+  }
+
+  [[noreturn]] void fail(std::string found, std::string expected) const {
+    throw InputError(
+        {path_.string(), fmt::format("line {}", number_), std::move(found), std::move(expected)});
+  }
+
+ private:
+  fs::path path_;
+  std::ifstream file_;
+  std::string line_;
+  std::size_t number_ = 0;
+};
+
+DatasetReader::DatasetReader(const DatasetInfo& info)
+    : info_(&info),
+      images_(std::make_unique<Lines>(info.root / kCocoFile, kImagesStart)),
+      annotations_(std::make_unique<Lines>(info.root / kCocoFile, kAnnotationsStart)) {
+  waiting_ = annotations_->next();
+}
+
+DatasetReader::~DatasetReader() = default;
+
+bool DatasetReader::next(Image& image) {
+  json record = images_->next();
+  if (record.is_null()) {
+    if (!waiting_.is_null()) annotations_->fail("an annotation", "no more after the last image's");
+    return false;
+  }
+  const Lines* at = images_.get();
+  try {
+    read_image(std::move(record), *info_, image);
+    at = annotations_.get();
+    while (!waiting_.is_null() && waiting_.at("image_id") == image.id) {
+      image.people.push_back(person_of(std::move(waiting_), info_->options));
+      waiting_ = annotations_->next();
+    }
+  } catch (const json::exception& error) {
+    at->fail(error.what(), "a record that throng wrote");
+  }
+  return true;
+}
+
+}  // namespace throng::formats

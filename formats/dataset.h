@@ -1,0 +1,129 @@
+// A finished dataset, read picture by picture with its annotations: what every exporter is fed.
+// Memory does not grow with the number of pictures.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/options.h"
+
+namespace throng::formats {
+
+/// x, y, width and height in box coordinates: pixel i covers [i, i + 1).
+struct Box {
+  double x = 0;
+  double y = 0;
+  double width = 0;
+  double height = 0;
+};
+
+/// One of COCO's keypoints: box coordinates and COCO's visibility (0, 1, 2).
+struct Keypoint {
+  double x = 0;
+  double y = 0;
+  int visibility = 0;
+};
+
+/// Somebody in a picture; docs/formats.md says what the values mean.
+struct Person {
+  nlohmann::json record;  ///< the annotation as it stands in the COCO file
+  std::int64_t id = 0;
+  std::int64_t track_id = 0;
+  Box box;           ///< of the visible mask
+  Box amodal;        ///< of the whole body
+  std::string mask;  ///< COCO's compressed run lengths
+  double area = 0;   ///< visible pixels
+  double visibility = 0;
+  double height_px = 0;
+  double truncation = 0;
+  std::optional<Eigen::Vector2d> head;  ///< box coordinates
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d ground_position = Eigen::Vector3d::Zero();
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  double heading_rad = 0;
+  Eigen::Vector3d box_middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d box_size = Eigen::Vector3d::Zero();
+  std::string state;
+  std::vector<Keypoint> keypoints;  ///< 17, or none if the dataset has none
+  std::size_t category = 0;         ///< index into DatasetInfo::categories
+  bool is_ignored = false;          ///< fails the filters: to be written as an ignore region
+};
+
+struct Image {
+  nlohmann::json record;
+  std::int64_t id = 0;
+  std::string file;  ///< below the dataset's root
+  int width = 0;
+  int height = 0;
+  std::string run;
+  std::string camera;
+  std::int64_t frame = 0;  ///< from 0 in each run
+  double time_s = 0;
+  Split split = Split::train;
+  std::vector<Person> people;
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< OpenCV's pixels
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< world to camera
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();
+
+  /// "run000-d1": one camera's pictures of one run, in order.
+  std::string sequence() const { return run + "-" + camera; }
+  /// "run000-d1-000012": unique over the dataset, fit for a file's name.
+  std::string stem() const;
+};
+
+struct DatasetInfo {
+  std::filesystem::path root;
+  std::string name;
+  std::string generator;
+  double rate_hz = 1;
+  std::int64_t frames_per_camera = 0;
+  std::vector<std::string> runs;
+  std::vector<std::string> annotations;  ///< kinds of ground truth that the dataset has
+  std::vector<std::string> categories;   ///< names of the classes to write
+  ExportOptions options;
+
+  bool has(std::string_view annotation) const;
+  /// The splits that have runs.
+  std::vector<Split> splits() const;
+  Split split_of(const std::string& run) const;
+};
+
+/// What a dataset's manifest says. Throws InputError when it has no COCO annotations, or when the
+/// options name runs that it does not have.
+DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::json& manifest,
+                             const ExportOptions& options);
+
+/// Reads manifest.json. Throws InputError when `root` is not a finished dataset.
+nlohmann::json read_manifest(const std::filesystem::path& root);
+
+/// Where a dataset's COCO file is, below its root.
+inline constexpr const char* kCocoFile = "annotations/instances.json";
+
+class DatasetReader {
+ public:
+  /// Throws InputError when the COCO file is not one that throng wrote.
+  explicit DatasetReader(const DatasetInfo& info);
+  ~DatasetReader();
+  DatasetReader(const DatasetReader&) = delete;
+  DatasetReader& operator=(const DatasetReader&) = delete;
+
+  /// The next picture, in the file's order: by run, frame, camera. False after the last. Throws
+  /// InputError naming file and line of a damaged record, or one whose picture is not there.
+  bool next(Image& image);
+
+ private:
+  class Lines;
+  const DatasetInfo* info_;
+  std::unique_ptr<Lines> images_;
+  std::unique_ptr<Lines> annotations_;
+  nlohmann::json waiting_;  ///< the annotation after those of the last picture; null: none
+};
+
+}  // namespace throng::formats

@@ -1,0 +1,86 @@
+#include "formats/exporter.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "formats/makers.h"
+
+namespace throng::formats {
+
+namespace {
+
+constexpr std::array kFormats = {
+    Format{"coco", "COCO instances: boxes and RLE masks", "", make_coco},
+    Format{"coco-keypoints", "COCO person keypoints", "keypoints", make_coco_keypoints},
+    Format{"coco-panoptic", "COCO panoptic: PNG and segments", "instances", make_coco_panoptic},
+    Format{"yolo-detect", "YOLO boxes with data.yaml", "", make_yolo_detect},
+    Format{"yolo-segment", "YOLO polygons with data.yaml", "", make_yolo_segment},
+    Format{"yolo-pose", "YOLO boxes and keypoints with data.yaml", "keypoints", make_yolo_pose},
+    Format{"mot", "MOT Challenge: tracks of whole bodies", "", make_mot},
+    Format{"mots", "MOTS: tracks of masks", "", make_mots},
+    Format{"visdrone-det", "VisDrone DET: a text for each picture", "", make_visdrone_det},
+    Format{"visdrone-mot", "VisDrone MOT: a text for each sequence", "", make_visdrone_mot},
+};
+
+}  // namespace
+
+std::span<const Format> all_formats() { return kFormats; }
+
+const Format* find_format(std::string_view name) {
+  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
+                                  [&](const Format& format) { return format.name == name; });
+  return found == kFormats.end() ? nullptr : &*found;
+}
+
+std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
+                                          const std::vector<std::string>& annotations,
+                                          const std::string& where) {
+  std::vector<const Format*> chosen;
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string place = fmt::format("{}/{}", where, i);
+    const Format* format = find_format(names[i]);
+    if (format == nullptr) {
+      std::vector<std::string_view> known;
+      for (const Format& other : kFormats) known.push_back(other.name);
+      problems.push_back({"", place, names[i], fmt::format("one of: {}", fmt::join(known, ", "))});
+      continue;
+    }
+    if (std::find(chosen.begin(), chosen.end(), format) != chosen.end()) {
+      problems.push_back({"", place, names[i] + " once more", "each format once"});
+    }
+    for (const std::string_view need : {std::string_view("coco"), format->needs}) {
+      if (need.empty() ||
+          std::find(annotations.begin(), annotations.end(), need) != annotations.end()) {
+        continue;
+      }
+      problems.push_back(
+          {"", place, names[i],
+           fmt::format("\"{}\" among outputs.annotations, which {} is made of", need, names[i])});
+    }
+    chosen.push_back(format);
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return chosen;
+}
+
+void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& formats,
+                    const std::filesystem::path& output) {
+  std::vector<std::unique_ptr<Exporter>> exporters;
+  exporters.reserve(formats.size());
+  for (const Format* format : formats) {
+    exporters.push_back(format->make(info, Output(output / format->name)));
+  }
+  DatasetReader reader(info);
+  Image image;
+  while (reader.next(image)) {
+    for (const auto& exporter : exporters) exporter->add(image);
+  }
+  for (const auto& exporter : exporters) exporter->finish();
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,51 @@
+// What a format is: a name, what it needs, and an exporter that is fed picture by picture.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/dataset.h"
+#include "formats/output.h"
+
+namespace throng::formats {
+
+/// Writes one format. Pictures come in the dataset's order; memory must not grow with their number.
+class Exporter {
+ public:
+  Exporter() = default;
+  virtual ~Exporter() = default;
+  Exporter(const Exporter&) = delete;
+  Exporter& operator=(const Exporter&) = delete;
+  virtual void add(const Image& image) = 0;
+  virtual void finish() = 0;
+};
+
+struct Format {
+  std::string_view name;     ///< what jobs and the command line call it; also its folder
+  std::string_view summary;  ///< for lists
+  std::string_view needs;    ///< kind of ground truth beside coco that it is made of, or ""
+  /// The info outlives the exporter.
+  std::unique_ptr<Exporter> (*make)(const DatasetInfo& info, Output output);
+};
+
+/// All formats there are: the one table.
+std::span<const Format> all_formats();
+
+/// The format of this name; null if there is none.
+const Format* find_format(std::string_view name);
+
+/// Throws InputError for a name that is none, twice the same, or one whose needs the dataset lacks.
+/// `where` says where the names stand, for the message.
+std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
+                                          const std::vector<std::string>& annotations,
+                                          const std::string& where);
+
+/// One pass over the dataset: each format below `output`, in a folder of its name.
+void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& formats,
+                    const std::filesystem::path& output);
+
+}  // namespace throng::formats

@@ -1,0 +1,65 @@
+// Where checks of a dataset put what they find.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "formats/dataset.h"
+#include "formats/validate.h"
+
+namespace throng::formats {
+
+class Findings {
+ public:
+  explicit Findings(Validation& validation) : validation_(&validation) {}
+
+  void add(std::string rule, std::string file, std::string record, std::string what) {
+    if (validation_->found++ >= kMostFindings) return;
+    validation_->findings.push_back(
+        {std::move(rule), std::move(file), std::move(record), std::move(what)});
+  }
+  /// About an annotation of the COCO file.
+  void add(std::string rule, const Person& person, std::string what) {
+    add(std::move(rule), kCocoFile, "annotation " + std::to_string(person.id), std::move(what));
+  }
+
+ private:
+  Validation* validation_;
+};
+
+/// One picture's annotations by themselves: boxes, masks, visibility, keypoints, projections.
+void check_people(const Image& image, Findings& findings);
+
+/// One picture's files: its size, its density map and its values per pixel, against its people.
+void check_files(const DatasetInfo& info, const Image& image, Findings& findings);
+
+/// Whether flow leads each person's pixels to where they are in the next frame. Fed frame by frame;
+/// remembers one frame of each camera.
+class FlowCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+
+ private:
+  /// Where a person's pixels go.
+  struct Led {
+    double left = 1e9;
+    double top = 1e9;
+    double right = -1e9;
+    double bottom = -1e9;
+  };
+  struct Before {
+    std::string run;
+    std::int64_t frame = 0;
+    std::string file;
+    std::map<std::int64_t, Led> people;  ///< by track
+  };
+  std::map<std::string, Before> cameras_;
+};
+
+/// Whether the file alone says where things appear: without a lens's distortion or a rolling
+/// shutter.
+bool is_plain(const Image& image);
+
+}  // namespace throng::formats

@@ -1,0 +1,23 @@
+// The exporters, one file each; exporter.cpp lists them in one table.
+#pragma once
+
+#include <memory>
+
+#include "formats/exporter.h"
+
+namespace throng::formats {
+
+using ExporterPointer = std::unique_ptr<Exporter>;
+
+ExporterPointer make_coco(const DatasetInfo& info, Output output);
+ExporterPointer make_coco_keypoints(const DatasetInfo& info, Output output);
+ExporterPointer make_coco_panoptic(const DatasetInfo& info, Output output);
+ExporterPointer make_yolo_detect(const DatasetInfo& info, Output output);
+ExporterPointer make_yolo_segment(const DatasetInfo& info, Output output);
+ExporterPointer make_yolo_pose(const DatasetInfo& info, Output output);
+ExporterPointer make_mot(const DatasetInfo& info, Output output);
+ExporterPointer make_mots(const DatasetInfo& info, Output output);
+ExporterPointer make_visdrone_det(const DatasetInfo& info, Output output);
+ExporterPointer make_visdrone_mot(const DatasetInfo& info, Output output);
+
+}  // namespace throng::formats

@@ -1,0 +1,117 @@
+// MOT Challenge and MOTS: a folder per sequence, frames and pixels counted from 1.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "formats/makers.h"
+#include "formats/mask.h"
+#include "formats/sequences.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kPedestrian = 1;
+constexpr int kMotsPedestrian = 2;
+constexpr int kMotsIgnored = 10;
+constexpr int kMotsIgnoredId = 10'000;
+/// Ids in a sequence are those in the run.
+constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
+
+std::string sequence_info(const DatasetInfo& info, const Image& image) {
+  return fmt::format(
+      "[Sequence]\nname={}\nimDir=img1\nframeRate={}\nseqLength={}\nimWidth={}\nimHeight={}\n"
+      "imExt=.jpg\n",
+      image.sequence(), info.rate_hz, info.frames_per_camera, image.width, image.height);
+}
+
+/// What MOT and MOTS share: the folders of a sequence, its pictures and its text.
+class SequenceExporter : public Exporter {
+ public:
+  SequenceExporter(const DatasetInfo& info, Output output)
+      : info_(info), output_(std::move(output)), texts_(output_) {}
+
+  void add(const Image& image) override {
+    const std::string folder = fmt::format("{}/{}", name_of(image.split), image.sequence());
+    bool is_new = false;
+    OutputStream& text = texts_.of(image.run, folder + "/gt/gt.txt", is_new);
+    if (is_new) output_.write(folder + "/seqinfo.ini", sequence_info(info_, image));
+    output_.link(fmt::format("{}/img1/{:06}.jpg", folder, image.frame + 1),
+                 info_.root / image.file);
+    lines_.clear();
+    append(lines_, image);
+    text.write(lines_);
+  }
+
+  void finish() override { texts_.close(); }
+
+ protected:
+  virtual void append(std::string& lines, const Image& image) const = 0;
+
+ private:
+  const DatasetInfo& info_;
+  Output output_;
+  SequenceTexts texts_;
+  std::string lines_;
+};
+
+class MotExporter : public SequenceExporter {
+  using SequenceExporter::SequenceExporter;
+
+  void append(std::string& lines, const Image& image) const override {
+    for (const Person& person : image.people) {
+      const Box& box = person.amodal;
+      fmt::format_to(std::back_inserter(lines), "{},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{:.5f}\n",
+                     image.frame + 1, person.track_id % kTrackIdsPerRun, box.x + 1, box.y + 1,
+                     box.width, box.height, person.is_ignored ? 0 : 1, kPedestrian,
+                     person.visibility);
+    }
+  }
+};
+
+/// class * 1000 + number; numbers that do not fit get more digits, away from the ignored id.
+std::int64_t mots_id(std::int64_t number) {
+  constexpr std::int64_t kPerClass = 1000;
+  constexpr std::int64_t kMore = 1'000'000;
+  return kMotsPedestrian * (number < kPerClass ? kPerClass : kMore) + number;
+}
+
+class MotsExporter : public SequenceExporter {
+  using SequenceExporter::SequenceExporter;
+
+  void append(std::string& lines, const Image& image) const override {
+    const auto pixels =
+        static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+    std::vector<Bitmap> ignored;
+    const auto add = [&](std::int64_t id, int category, const std::string& counts) {
+      fmt::format_to(std::back_inserter(lines), "{} {} {} {} {} {}\n", image.frame + 1, id,
+                     category, image.height, image.width, counts);
+    };
+    for (const Person& person : image.people) {
+      if (person.is_ignored) {
+        ignored.push_back(bitmap_of(runs_of(person.mask, pixels), image.height));
+      } else {
+        add(mots_id(person.track_id % kTrackIdsPerRun), kMotsPedestrian, person.mask);
+      }
+    }
+    if (ignored.empty()) return;
+    add(kMotsIgnoredId, kMotsIgnored, counts_of(runs_of(ignored, image.width, image.height)));
+  }
+};
+
+}  // namespace
+
+ExporterPointer make_mot(const DatasetInfo& info, Output output) {
+  return std::make_unique<MotExporter>(info, std::move(output));
+}
+
+ExporterPointer make_mots(const DatasetInfo& info, Output output) {
+  return std::make_unique<MotsExporter>(info, std::move(output));
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,40 @@
+#include "formats/npy.h"
+
+#include <cstdint>
+#include <cstring>
+#include <regex>
+#include <string>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::formats {
+
+FloatMap read_npy(const std::filesystem::path& path) {
+  const auto refuse = [&](const char* found) -> InputError {
+    return InputError({path.string(), "", found, "a .npy file of float32, C order, 2 dimensions"});
+  };
+  if (!std::filesystem::is_regular_file(path)) throw refuse("no such file");
+  const std::string bytes = read_file(path);
+  constexpr std::size_t kPreamble = 10;
+  if (bytes.size() < kPreamble || bytes.compare(0, 8, std::string("\x93NUMPY\x01\x00", 8)) != 0) {
+    throw refuse("another kind of file");
+  }
+  const std::size_t length = static_cast<unsigned char>(bytes[8]) |
+                             static_cast<std::size_t>(static_cast<unsigned char>(bytes[9])) << 8;
+  const std::string header = bytes.substr(kPreamble, length);
+  static const std::regex kHeader(
+      R"(\{'descr': '<f4', 'fortran_order': False, 'shape': \((\d{1,6}), (\d{1,6})\), \}\s*)");
+  std::smatch match;
+  if (!std::regex_match(header, match, kHeader)) throw refuse("another header");
+  FloatMap map{std::stoi(match[2]), std::stoi(match[1]), {}};
+  map.value.resize(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
+  if (bytes.size() != kPreamble + length + map.value.size() * sizeof(float)) {
+    throw refuse("a file of another length");
+  }
+  std::memcpy(map.value.data(), bytes.data() + kPreamble + length,
+              map.value.size() * sizeof(float));
+  return map;
+}
+
+}  // namespace throng::formats

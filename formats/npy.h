@@ -1,0 +1,18 @@
+// NumPy's .npy files of float32 maps, as the dataset has them.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace throng::formats {
+
+struct FloatMap {
+  int width = 0;
+  int height = 0;
+  std::vector<float> value;  ///< row by row
+};
+
+/// Throws InputError unless the file is version 1.0, float32, C order, with two dimensions.
+FloatMap read_npy(const std::filesystem::path& path);
+
+}  // namespace throng::formats

@@ -1,0 +1,51 @@
+// What a user may choose about exports: splits, filters and classes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace throng::formats {
+
+enum class Split : std::uint8_t { train, val, test };
+inline constexpr std::array<std::string_view, 3> kSplitNames = {"train", "val", "test"};
+inline std::string_view name_of(Split split) {
+  return kSplitNames.at(static_cast<std::size_t>(split));
+}
+
+/// Whole runs go to one split: frames of one run resemble each other too much to be apart.
+struct SplitOptions {
+  /// Shares of the runs, in their order; normalised. Each split begins at the run that the shares
+  /// before it round to.
+  std::array<double, 3> share = {1, 0, 0};
+  /// Runs that are asked for by name ("run003"); the others are shared out.
+  std::map<std::string, Split> runs;
+};
+
+/// Who is worth a label. The rest become ignore regions where a format has them.
+struct FilterOptions {
+  double min_visibility = 0;
+  double min_height_px = 0;
+};
+
+/// Classes by a property that people have; "none": everybody is a person.
+struct ClassOptions {
+  std::string by = "none";
+  std::map<std::string, std::string> names;  ///< other names for values of that property
+};
+
+struct ExportOptions {
+  SplitOptions splits;
+  FilterOptions filters;
+  ClassOptions classes;
+};
+
+/// Values of a property, in a fixed order; they are the classes. Empty for an unknown property.
+std::vector<std::string> class_values(std::string_view property);
+/// "none", "sex", "age_band", "state", "carries".
+std::vector<std::string_view> class_properties();
+
+}  // namespace throng::formats

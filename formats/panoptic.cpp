@@ -1,0 +1,173 @@
+// COCO panoptic: the dataset's pictures of instances as they are, and a list of their segments.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "formats/makers.h"
+#include "formats/raster.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+// Values of the pictures of instances (docs/formats.md).
+constexpr std::uint32_t kFirstBuilding = 0x800000;
+constexpr std::uint32_t kFirstProp = 0xC00000;
+constexpr std::uint32_t kGround = 0xFF0000;
+constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
+
+struct Segment {
+  std::uint64_t area = 0;
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+
+  void add(int x, int y) {
+    if (area++ == 0) *this = {1, x, y, x + 1, y + 1};
+    left = std::min(left, x);
+    right = std::max(right, x + 1);
+    bottom = y + 1;
+  }
+};
+
+class PanopticExporter : public Exporter {
+ public:
+  PanopticExporter(const DatasetInfo& info, Output output)
+      : info_(info), output_(std::move(output)) {
+    for (const Split split : info.splits()) {
+      for (OutputStream* stream :
+           {&stream_of(split, images_, ".images"), &stream_of(split, segments_, ".annotations")}) {
+        stream->write("");
+      }
+    }
+  }
+
+  void add(const Image& image) override {
+    const std::string_view split = name_of(image.split);
+    const std::string name = image.stem() + ".jpg";
+    const fs::path instances = raster_path(info_.root, "instances", image.file);
+    output_.link(fs::path(split) / name, info_.root / image.file);
+    output_.link(fmt::format("panoptic_{}/{}.png", split, image.stem()), instances);
+    const json record = {
+        {"id", image.id}, {"file_name", name}, {"width", image.width}, {"height", image.height}};
+    append(images_.at(image.split), record);
+    const json annotation = {{"image_id", image.id},
+                             {"file_name", image.stem() + ".png"},
+                             {"segments_info", segments_of(image, read_instances(instances))}};
+    append(segments_.at(image.split), annotation);
+  }
+
+  void finish() override {
+    for (const Split split : info_.splits()) {
+      OutputStream file = output_.open(annotations_path(split));
+      const json head = {{"description", info_.name}, {"version", "1"}};
+      file.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":{},\n\"images\":[",
+                             head.dump(), categories().dump()));
+      take_over(file, split, images_.at(split), ".images");
+      file.write("\n],\n\"annotations\":[");
+      take_over(file, split, segments_.at(split), ".annotations");
+      file.write("\n]}\n");
+      file.close();
+    }
+  }
+
+ private:
+  /// Records of one kind, aside until the file is put together.
+  struct Aside {
+    OutputStream stream;
+    bool is_empty = true;
+    void write(std::string_view text) { stream.write(text); }
+  };
+
+  static std::string annotations_path(Split split) {
+    return fmt::format("annotations/panoptic_{}.json", name_of(split));
+  }
+
+  OutputStream& stream_of(Split split, std::map<Split, Aside>& asides, const char* suffix) {
+    return asides.try_emplace(split, Aside{output_.open(annotations_path(split) + suffix)})
+        .first->second.stream;
+  }
+
+  static void append(Aside& aside, const json& record) {
+    aside.write((aside.is_empty ? "\n" : ",\n") + record.dump());
+    aside.is_empty = false;
+  }
+
+  void take_over(OutputStream& file, Split split, Aside& aside, const char* suffix) {
+    aside.stream.close();
+    const fs::path path = output_.folder() / (annotations_path(split) + suffix);
+    std::ifstream from(path, std::ios::binary);
+    for (std::string line; std::getline(from, line);) {
+      if (!line.empty()) file.write("\n" + line);
+    }
+    from.close();
+    fs::remove(path);
+  }
+
+  json categories() const {
+    json list = json::array();
+    for (const std::string& name : info_.categories) {
+      list.push_back(
+          {{"id", list.size() + 1}, {"name", name}, {"supercategory", "person"}, {"isthing", 1}});
+    }
+    for (const auto& [name, kind] : {std::pair{"building", 1}, {"prop", 1}, {"ground", 0}}) {
+      list.push_back(
+          {{"id", list.size() + 1}, {"name", name}, {"supercategory", "place"}, {"isthing", kind}});
+    }
+    return list;
+  }
+
+  json segments_of(const Image& image, const std::vector<std::uint32_t>& ids) const {
+    std::map<std::uint32_t, Segment> segments;
+    const std::uint32_t* id = ids.data();
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x, ++id) {
+        if (*id != 0) segments[*id].add(x, y);
+      }
+    }
+    std::map<std::uint32_t, const Person*> people;
+    for (const Person& person : image.people) {
+      people[static_cast<std::uint32_t>(person.track_id % kTrackIdsPerRun)] = &person;
+    }
+    json list = json::array();
+    const std::size_t classes = info_.categories.size();
+    for (const auto& [number, segment] : segments) {
+      std::size_t category = 0;
+      bool is_crowd = false;
+      if (number >= kFirstBuilding) {
+        category = classes + (number == kGround ? 2 : number >= kFirstProp ? 1 : 0);
+      } else if (const auto person = people.find(number); person != people.end()) {
+        category = person->second->category;
+        is_crowd = person->second->is_ignored;
+      }
+      list.push_back({{"id", number},
+                      {"category_id", category + 1},
+                      {"area", segment.area},
+                      {"bbox",
+                       {segment.left, segment.top, segment.right - segment.left,
+                        segment.bottom - segment.top}},
+                      {"iscrowd", is_crowd ? 1 : 0}});
+    }
+    return list;
+  }
+
+  const DatasetInfo& info_;
+  Output output_;
+  std::map<Split, Aside> images_;
+  std::map<Split, Aside> segments_;
+};
+
+}  // namespace
+
+ExporterPointer make_coco_panoptic(const DatasetInfo& info, Output output) {
+  return std::make_unique<PanopticExporter>(info, std::move(output));
+}
+
+}  // namespace throng::formats

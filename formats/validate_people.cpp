@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/error.h"
+#include "formats/findings.h"
+#include "formats/mask.h"
+
+namespace throng::formats {
+
+namespace {
+
+/// Boxes and areas of whole bodies come from another draw than masks: outlines may be off by less
+/// than a pixel.
+constexpr double kBoxSlackPx = 1;
+
+bool holds(const Box& outer, double x, double y, double slack) {
+  return x >= outer.x - slack && y >= outer.y - slack && x <= outer.x + outer.width + slack &&
+         y <= outer.y + outer.height + slack;
+}
+
+void check_mask(const Image& image, const Person& person, Findings& findings) {
+  const auto pixels =
+      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  const nlohmann::json& size = person.record.at("segmentation").at("size");
+  if (size != nlohmann::json{image.height, image.width}) {
+    findings.add("mask-size", person, "the mask's size is not the image's: " + size.dump());
+    return;
+  }
+  Bitmap mask;
+  try {
+    mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+  } catch (const InputError& error) {
+    findings.add("mask-runs", person, error.problems().front().expected);
+    return;
+  }
+  const Box& box = person.box;
+  if (mask.x != box.x || mask.y != box.y || mask.width != box.width || mask.height != box.height) {
+    findings.add(
+        "box-is-mask-bounds", person,
+        fmt::format("bbox [{},{},{},{}], but the mask's bounds are [{},{},{},{}]", box.x, box.y,
+                    box.width, box.height, mask.x, mask.y, mask.width, mask.height));
+  }
+  if (static_cast<double>(mask.area()) != person.area) {
+    findings.add("area-is-mask", person,
+                 fmt::format("area {}, but the mask has {} pixels", person.area, mask.area()));
+  }
+}
+
+void check_box(const Image& image, const Person& person, Findings& findings) {
+  const Box& box = person.box;
+  if (!(box.width > 0 && box.height > 0 && person.amodal.width > 0 && person.amodal.height > 0)) {
+    findings.add("box-not-empty", person, "a box without a pixel");
+    return;
+  }
+  if (!holds({0, 0, static_cast<double>(image.width), static_cast<double>(image.height)}, box.x,
+             box.y, 0) ||
+      box.x + box.width > image.width || box.y + box.height > image.height) {
+    findings.add("box-in-image", person, "bbox leaves the image");
+  }
+  if (!holds(person.amodal, box.x, box.y, kBoxSlackPx) ||
+      !holds(person.amodal, box.x + box.width, box.y + box.height, kBoxSlackPx)) {
+    findings.add("visible-in-amodal", person, "bbox leaves bbox_amodal");
+  }
+}
+
+void check_visibility(const Person& person, Findings& findings) {
+  const double whole = person.record.at("area_amodal").get<double>();
+  constexpr double kRounding = 1e-5;
+  if (!(whole >= person.area)) {
+    findings.add("visible-in-amodal", person,
+                 fmt::format("area {} above area_amodal {}", person.area, whole));
+  } else if (!(std::abs(person.visibility - person.area / whole) <= kRounding)) {
+    findings.add("visibility-is-ratio", person,
+                 fmt::format("visibility {}, but area / area_amodal is {}", person.visibility,
+                             person.area / whole));
+  }
+  if (person.record.at("iscrowd") != 0) {
+    findings.add("iscrowd", person, "iscrowd of an individual is not 0");
+  }
+}
+
+void check_keypoints(const Image& image, const Person& person, Findings& findings) {
+  if (person.keypoints.empty()) return;
+  int labelled = 0;
+  for (const Keypoint& point : person.keypoints) {
+    if (point.visibility == 0) {
+      if (point.x != 0 || point.y != 0) {
+        findings.add("keypoints", person, "a keypoint that is not labelled has a place");
+      }
+      continue;
+    }
+    ++labelled;
+    if (point.x < 0 || point.y < 0 || point.x > image.width || point.y > image.height ||
+        !holds(person.amodal, point.x, point.y, kBoxSlackPx)) {
+      findings.add("keypoints", person, "a keypoint outside of bbox_amodal or the image");
+    }
+  }
+  if (person.record.at("num_keypoints") != labelled) {
+    findings.add("keypoints", person,
+                 fmt::format("num_keypoints {}, but {} are labelled",
+                             person.record.at("num_keypoints").dump(), labelled));
+  }
+}
+
+void check_projection(const Image& image, const Person& person, Findings& findings) {
+  const Eigen::Vector3d seen = image.K * (image.R * person.position + image.t);
+  if (!(seen.z() > 0) ||
+      !holds(person.amodal, seen.x() / seen.z() + 0.5, seen.y() / seen.z() + 0.5, kBoxSlackPx)) {
+    findings.add("position-in-box", person, "position does not project into bbox_amodal");
+  }
+}
+
+bool is_finite(const nlohmann::json& value) {
+  if (value.is_structured()) {
+    for (const nlohmann::json& part : value) {
+      if (!is_finite(part)) return false;
+    }
+  }
+  return !value.is_number_float() || std::isfinite(value.get<double>());
+}
+
+}  // namespace
+
+bool is_plain(const Image& image) {
+  if (image.record.at("camera").value("model", "pinhole") != "pinhole") return false;
+  const auto sensor = image.record.find("sensor");
+  return sensor == image.record.end() || sensor->value("strips", 1) == 1;
+}
+
+void check_people(const Image& image, Findings& findings) {
+  const bool plain = is_plain(image);
+  for (const Person& person : image.people) {
+    if (!is_finite(person.record)) findings.add("finite", person, "a number that is not finite");
+    check_box(image, person, findings);
+    check_mask(image, person, findings);
+    check_visibility(person, findings);
+    check_keypoints(image, person, findings);
+    if (plain) check_projection(image, person, findings);
+  }
+}
+
+}  // namespace throng::formats

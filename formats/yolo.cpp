@@ -1,0 +1,107 @@
+// YOLO as Ultralytics reads it: one text per picture, in shares of the picture's size.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <string>
+
+#include "formats/makers.h"
+#include "formats/mask.h"
+#include "skinning/landmarks.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+enum class Task : std::uint8_t { detect, segment, pose };
+
+/// The keypoint that each becomes when a picture is mirrored.
+constexpr std::array<int, skinning::kKeypointCount> kMirrored = {0,  2, 1,  4,  3,  6,  5,  8, 7,
+                                                                 10, 9, 12, 11, 14, 13, 16, 15};
+
+double share(double value, int size) { return std::clamp(value / size, 0.0, 1.0); }
+
+class YoloExporter : public Exporter {
+ public:
+  YoloExporter(const DatasetInfo& info, Output output, Task task)
+      : info_(info), output_(std::move(output)), task_(task) {}
+
+  void add(const Image& image) override {
+    const fs::path place = fs::path(name_of(image.split)) / image.stem();
+    output_.link("images" / fs::path(place.string() + ".jpg"), info_.root / image.file);
+    std::string text;
+    for (const Person& person : image.people) {
+      if (!person.is_ignored) append(text, image, person);
+    }
+    output_.write("labels" / fs::path(place.string() + ".txt"), text);
+  }
+
+  void finish() override {
+    // A trainer wants both of these; what has no split of its own is looked at again.
+    const std::vector<Split> splits = info_.splits();
+    const auto folder_of = [&](Split split) {
+      const bool is_there = std::find(splits.begin(), splits.end(), split) != splits.end();
+      return fmt::format("images/{}", name_of(is_there ? split : splits.front()));
+    };
+    std::string yaml =
+        fmt::format("train: {}\nval: {}\n", folder_of(Split::train), folder_of(Split::val));
+    if (splits.back() == Split::test) yaml += "test: images/test\n";
+    yaml += fmt::format("nc: {}\nnames:\n", info_.categories.size());
+    for (std::size_t i = 0; i < info_.categories.size(); ++i) {
+      yaml += fmt::format("  {}: {}\n", i, nlohmann::json(info_.categories[i]).dump());
+    }
+    if (task_ == Task::pose) {
+      yaml += fmt::format("kpt_shape: [{}, 3]\nflip_idx: {}\n", skinning::kKeypointCount,
+                          nlohmann::json(kMirrored).dump());
+    }
+    output_.write("data.yaml", yaml);
+  }
+
+ private:
+  void append(std::string& text, const Image& image, const Person& person) const {
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, "{}", person.category);
+    if (task_ == Task::segment) {
+      const auto pixels =
+          static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+      for (const auto& [x, y] : polygon_of(bitmap_of(runs_of(person.mask, pixels), image.height))) {
+        fmt::format_to(out, " {:.6f} {:.6f}", share(x, image.width), share(y, image.height));
+      }
+    } else {
+      const Box& box = person.box;
+      fmt::format_to(out, " {:.6f} {:.6f} {:.6f} {:.6f}", share(box.x + box.width / 2, image.width),
+                     share(box.y + box.height / 2, image.height), share(box.width, image.width),
+                     share(box.height, image.height));
+    }
+    if (task_ == Task::pose) {
+      for (const Keypoint& point : person.keypoints) {
+        fmt::format_to(out, " {:.6f} {:.6f} {}", share(point.x, image.width),
+                       share(point.y, image.height), point.visibility);
+      }
+    }
+    text.push_back('\n');
+  }
+
+  const DatasetInfo& info_;
+  Output output_;
+  Task task_;
+};
+
+}  // namespace
+
+ExporterPointer make_yolo_detect(const DatasetInfo& info, Output output) {
+  return std::make_unique<YoloExporter>(info, std::move(output), Task::detect);
+}
+
+ExporterPointer make_yolo_segment(const DatasetInfo& info, Output output) {
+  return std::make_unique<YoloExporter>(info, std::move(output), Task::segment);
+}
+
+ExporterPointer make_yolo_pose(const DatasetInfo& info, Output output) {
+  return std::make_unique<YoloExporter>(info, std::move(output), Task::pose);
+}
+
+}  // namespace throng::formats

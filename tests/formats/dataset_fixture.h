@@ -1,0 +1,142 @@
+// A small finished dataset without a renderer: synthetic frames, written as jobs write them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "annotate/coco.h"
+#include "annotate/density.h"
+#include "annotate/keypoints.h"
+#include "annotate/png.h"
+#include "annotate/preview.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "formats/exporter.h"
+#include "tests/annotate/synthetic_frame.h"
+
+namespace throng::formats {
+
+/// Two runs of two cameras with three frames each, written once for all tests of a program.
+class SmallDataset : public testing::Test {
+ protected:
+  static constexpr int kRuns = 2;
+  static constexpr int kCameras = 2;
+  static constexpr int kFrames = 3;
+
+  void SetUp() override {
+    folder_ =
+        std::filesystem::path(testing::TempDir()) /
+        ("formats_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    root_ = folder_ / "dataset";
+    write_dataset();
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write_dataset() {
+    {
+      annotate::CocoShardWriter writer(folder_ / "shard");
+      for (int run = 0; run < kRuns; ++run) {
+        for (int frame = 0; frame < kFrames; ++frame) {
+          for (int camera = 0; camera < kCameras; ++camera) add(writer, run, camera, frame);
+        }
+      }
+      writer.finish();
+    }
+    std::filesystem::create_directories(root_ / "annotations");
+    annotate::merge_coco({folder_ / "shard"}, root_ / kCocoFile, "small", true);
+    write_manifest();
+  }
+
+  void add(annotate::CocoShardWriter& writer, int run, int camera, int frame) {
+    annotate::SyntheticScene scene;
+    scene.seed = static_cast<std::uint64_t>(100 * run + 10 * camera + frame);
+    scene.people = frame == 1 && camera == 1 ? 0 : 14;
+    render::Frame picture = annotate::synthetic_frame(scene);
+    picture.index = frame;
+    picture.time_s = 0.5 * frame;
+    picture.depth_m.assign(picture.id.size(), 9.0F);
+    for (render::PersonInView& person : picture.people) {
+      person.position = person.hips;
+      person.keypoints.fill(person.hips.cast<float>());
+      person.box_middle = person.hips.cast<float>();
+      person.box_size = {0.4F, 0.5F, 1.7F};
+    }
+    annotate::FrameLabels labels = annotate::label_people(picture);
+    annotate::add_keypoints(picture, labels);
+    annotate::CocoImage image;
+    image.id = 1 + (run * kCameras + camera) * kFrames + frame;
+    image.run = "run00" + std::to_string(run);
+    image.run_index = run;
+    image.camera_id = camera == 0 ? "d1" : "d2";
+    const std::string place = image.run + "/" + image.camera_id + "/00000" + std::to_string(frame);
+    image.file_name = "images/" + place + ".jpg";
+    image.frame_index = frame;
+    image.time_s = picture.time_s;
+    image.camera = picture.camera;
+    std::vector<Eigen::Vector2d> heads;
+    for (const annotate::PersonLabel& label : labels.people) {
+      const auto head = render::head_in(label.person, picture.camera);
+      if (!head || head->x() < 0 || head->y() < 0 || head->x() >= picture.width() ||
+          head->y() >= picture.height()) {
+        continue;
+      }
+      heads.push_back(*head);
+    }
+    image.density_file = "density/" + place + ".npy";
+    image.density_count = static_cast<std::int64_t>(heads.size());
+    writer.add(image, labels);
+    const auto write = [&](const std::string& path, const std::string& bytes) {
+      write_file_atomically(root_ / path, bytes);
+    };
+    write(image.file_name,
+          annotate::jpeg_bytes(picture.rgb, picture.width(), picture.height(), 80));
+    write(image.density_file,
+          annotate::npy_bytes(annotate::density_map(heads, picture.width(), picture.height(), 4)));
+    write("instances/" + place + ".png", annotate::instance_png(picture));
+    write("depth/" + place + ".png", annotate::depth_png(picture));
+  }
+
+  void write_manifest() {
+    nlohmann::json files = nlohmann::json::array();
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root_)) {
+      if (!entry.is_regular_file() || entry.path().filename() == "manifest.json") continue;
+      files.push_back({{"path", std::filesystem::relative(entry.path(), root_).string()},
+                       {"bytes", entry.file_size()},
+                       {"sha256", sha256_hex_of_file(entry.path())}});
+    }
+    const nlohmann::json manifest = {
+        {"schema_version", 1},
+        {"generator", "throng test"},
+        {"job",
+         {{"name", "small"},
+          {"capture", {{"rate_hz", 2}, {"from_s", 0}, {"to_s", 1}}},
+          {"outputs", {{"annotations", {"coco", "keypoints", "density", "depth", "instances"}}}}}},
+        {"runs", {{{"run", "run000"}}, {{"run", "run001"}}}},
+        {"files", files}};
+    write_file_atomically(root_ / "manifest.json", manifest.dump(1));
+  }
+
+  DatasetInfo info(const ExportOptions& options = {}) const {
+    return describe_dataset(root_, read_manifest(root_), options);
+  }
+
+  /// Exports one format and gives its folder.
+  std::filesystem::path exported(const std::string& name, const ExportOptions& options = {}) const {
+    const DatasetInfo described = info(options);
+    export_dataset(described, choose_formats({name}, described.annotations, ""), folder_ / "out");
+    return folder_ / "out" / name;
+  }
+
+  nlohmann::json coco() const { return nlohmann::json::parse(read_file(root_ / kCocoFile)); }
+
+  std::filesystem::path folder_;
+  std::filesystem::path root_;
+};
+
+}  // namespace throng::formats

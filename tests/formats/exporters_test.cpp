@@ -1,0 +1,352 @@
+// Every export is read back by a reader of its own and compared with the dataset's COCO file.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "base/error.h"
+#include "formats/mask.h"
+#include "formats/raster.h"
+#include "tests/annotate/rle.h"
+#include "tests/formats/dataset_fixture.h"
+
+namespace throng::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Exports = SmallDataset;
+
+std::vector<std::string> lines_of(const fs::path& path) {
+  std::istringstream text(read_file(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<double> numbers_of(std::string line) {
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream text(line);
+  std::vector<double> numbers;
+  for (double number = 0; text >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+std::map<std::int64_t, json> images_by_id(const json& coco) {
+  std::map<std::int64_t, json> images;
+  for (const json& image : coco.at("images")) images[image.at("id")] = image;
+  return images;
+}
+
+std::string stem_of(const json& image) {
+  std::string name = image.at("file_name");
+  name = name.substr(name.find('/') + 1, name.size() - name.find('/') - 5);
+  std::replace(name.begin(), name.end(), '/', '-');
+  return name;
+}
+
+/// The COCO file's annotations, in order, by the stem of their image.
+std::map<std::string, std::vector<json>> people_by_stem(const json& coco) {
+  const auto images = images_by_id(coco);
+  std::map<std::string, std::vector<json>> people;
+  for (const auto& [id, image] : images) people[stem_of(image)];
+  for (const json& person : coco.at("annotations")) {
+    people[stem_of(images.at(person.at("image_id")))].push_back(person);
+  }
+  return people;
+}
+
+double number(const json& value) { return value.get<double>(); }
+
+TEST_F(Exports, YoloBoxesAreTheVisibleOnes) {
+  const fs::path out = exported("yolo-detect");
+  std::size_t count = 0;
+  for (const auto& [stem, people] : people_by_stem(coco())) {
+    EXPECT_TRUE(fs::exists(out / "images/train" / (stem + ".jpg")));
+    const auto lines = lines_of(out / "labels/train" / (stem + ".txt"));
+    ASSERT_EQ(lines.size(), people.size());
+    for (std::size_t i = 0; i < lines.size(); ++i, ++count) {
+      const std::vector<double> line = numbers_of(lines[i]);
+      ASSERT_EQ(line.size(), 5U);
+      const json& box = people[i].at("bbox");
+      EXPECT_EQ(line[0], 0);
+      EXPECT_NEAR((line[1] - line[3] / 2) * 160, number(box[0]), 1e-3);
+      EXPECT_NEAR((line[2] - line[4] / 2) * 120, number(box[1]), 1e-3);
+      EXPECT_NEAR(line[3] * 160, number(box[2]), 1e-3);
+      EXPECT_NEAR(line[4] * 120, number(box[3]), 1e-3);
+    }
+  }
+  EXPECT_GT(count, 60U);
+  EXPECT_THAT(read_file(out / "data.yaml"), testing::HasSubstr("  0: \"person\""));
+}
+
+// The even-odd rule at a pixel's middle, over the edges of the one polygon.
+bool is_inside(const std::vector<double>& line, double x, double y) {
+  bool inside = false;
+  const std::size_t corners = (line.size() - 1) / 2;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const std::size_t j = (i + 1) % corners;
+    const double ax = line[1 + 2 * i] * 160;
+    const double ay = line[2 + 2 * i] * 120;
+    const double bx = line[1 + 2 * j] * 160;
+    const double by = line[2 + 2 * j] * 120;
+    if ((ay > y) != (by > y) && x < ax + (bx - ax) * (y - ay) / (by - ay)) inside = !inside;
+  }
+  return inside;
+}
+
+TEST_F(Exports, YoloPolygonsHoldExactlyTheMask) {
+  const fs::path out = exported("yolo-segment");
+  for (const auto& [stem, people] : people_by_stem(coco())) {
+    const auto lines = lines_of(out / "labels/train" / (stem + ".txt"));
+    ASSERT_EQ(lines.size(), people.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::vector<double> line = numbers_of(lines[i]);
+      ASSERT_GE(line.size(), 7U);
+      const auto mask = annotate::mask_of_runs(
+          annotate::runs_of_counts(people[i].at("segmentation").at("counts")), 160, 120);
+      int wrong = 0;
+      for (int y = 0; y < 120; ++y) {
+        for (int x = 0; x < 160; ++x) {
+          wrong += is_inside(line, x + 0.5, y + 0.5) != mask[static_cast<std::size_t>(y) * 160 + x];
+        }
+      }
+      EXPECT_EQ(wrong, 0) << stem << " line " << i;
+    }
+  }
+}
+
+TEST_F(Exports, YoloPosesAreTheKeypoints) {
+  const fs::path out = exported("yolo-pose");
+  EXPECT_THAT(read_file(out / "data.yaml"), testing::HasSubstr("kpt_shape: [17, 3]"));
+  for (const auto& [stem, people] : people_by_stem(coco())) {
+    const auto lines = lines_of(out / "labels/train" / (stem + ".txt"));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::vector<double> line = numbers_of(lines[i]);
+      ASSERT_EQ(line.size(), 5U + 51);
+      const json& keypoints = people[i].at("keypoints");
+      for (std::size_t k = 0; k < 17; ++k) {
+        EXPECT_NEAR(line[5 + 3 * k] * 160, number(keypoints[3 * k]), 1e-3);
+        EXPECT_NEAR(line[6 + 3 * k] * 120, number(keypoints[3 * k + 1]), 1e-3);
+        EXPECT_EQ(line[7 + 3 * k], number(keypoints[3 * k + 2]));
+      }
+    }
+  }
+}
+
+TEST_F(Exports, MotCountsFromOneAndHasWholeBodies) {
+  ExportOptions options;
+  options.filters.min_visibility = 0.5;
+  const fs::path out = exported("mot", options) / "train";
+  const json all = coco();
+  const auto images = images_by_id(all);
+  std::map<std::string, std::vector<std::vector<double>>> rows;
+  for (const json& person : all.at("annotations")) {
+    const json& image = images.at(person.at("image_id"));
+    const json& box = person.at("bbox_amodal");
+    const double visibility = number(person.at("visibility"));
+    rows[image.at("run").get<std::string>() + "-" + image.at("camera_id").get<std::string>()]
+        .push_back({number(image.at("frame")) + 1, std::fmod(number(person.at("track_id")), 1e6),
+                    number(box[0]) + 1, number(box[1]) + 1, number(box[2]), number(box[3]),
+                    visibility < 0.5 ? 0.0 : 1, 1, visibility});
+  }
+  ASSERT_EQ(rows.size(), 4U);
+  int ignored = 0;
+  for (const auto& [sequence, expected] : rows) {
+    const auto lines = lines_of(out / sequence / "gt/gt.txt");
+    ASSERT_EQ(lines.size(), expected.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      EXPECT_THAT(numbers_of(lines[i]), testing::Pointwise(testing::DoubleNear(1e-4), expected[i]));
+      ignored += expected[i][6] == 0 ? 1 : 0;
+    }
+    for (const char* name : {"000001", "000002", "000003"}) {
+      EXPECT_TRUE(fs::exists(out / sequence / "img1" / (std::string(name) + ".jpg")));
+    }
+    EXPECT_EQ(read_file(out / sequence / "seqinfo.ini"),
+              "[Sequence]\nname=" + sequence +
+                  "\nimDir=img1\nframeRate=2\nseqLength=3\nimWidth=160\nimHeight=120\n"
+                  "imExt=.jpg\n");
+  }
+  EXPECT_GT(ignored, 3);
+}
+
+TEST_F(Exports, MotsMasksDoNotOverlapAndAreTheDatasets) {
+  ExportOptions options;
+  options.filters.min_visibility = 0.5;
+  const fs::path out = exported("mots", options) / "train";
+  std::map<std::pair<std::string, int>, std::vector<int>> painted;
+  int regions = 0;
+  for (const char* sequence : {"run000-d1", "run000-d2", "run001-d1", "run001-d2"}) {
+    for (const std::string& line : lines_of(out / sequence / "gt/gt.txt")) {
+      std::istringstream text(line);
+      int frame = 0;
+      int id = 0;
+      int category = 0;
+      int height = 0;
+      int width = 0;
+      std::string counts;
+      text >> frame >> id >> category >> height >> width >> counts;
+      EXPECT_EQ(id == 10000, category == 10);
+      EXPECT_TRUE(category == 10 || id / 1000 == 2);
+      regions += category == 10 ? 1 : 0;
+      const auto mask = annotate::mask_of_runs(annotate::runs_of_counts(counts), width, height);
+      auto& pixels = painted[{sequence, frame}];
+      pixels.resize(mask.size());
+      for (std::size_t i = 0; i < mask.size(); ++i) pixels[i] += mask[i] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(regions, 3);
+  EXPECT_LE(regions, 12) << "at most one ignore region a frame";
+  double area = 0;
+  for (const auto& [key, pixels] : painted) {
+    EXPECT_LE(*std::max_element(pixels.begin(), pixels.end()), 1);
+    area += static_cast<double>(std::count(pixels.begin(), pixels.end(), 1));
+  }
+  double expected = 0;
+  const json all = coco();
+  for (const json& person : all.at("annotations")) expected += number(person.at("area"));
+  EXPECT_EQ(area, expected);
+}
+
+TEST_F(Exports, VisDroneHasWholeNumbersAndClasses) {
+  ExportOptions options;
+  options.filters.min_height_px = 12;
+  const fs::path det = exported("visdrone-det", options) / "train";
+  for (const auto& [stem, people] : people_by_stem(coco())) {
+    const auto lines = lines_of(det / "annotations" / (stem + ".txt"));
+    ASSERT_EQ(lines.size(), people.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      EXPECT_EQ(lines[i].find('.'), std::string::npos);
+      const json& person = people[i];
+      const double visibility = number(person.at("visibility"));
+      const bool kept = number(person.at("height_px")) >= 12;
+      const double hidden = visibility > 0.995 ? 0 : visibility >= 0.5 ? 1 : 2;
+      const json& box = person.at("bbox");
+      EXPECT_THAT(
+          numbers_of(lines[i]),
+          testing::ElementsAre(number(box[0]), number(box[1]), number(box[2]), number(box[3]), kept,
+                               kept, number(person.at("truncation")) < 0.005 ? 0 : 1, hidden));
+    }
+  }
+  const fs::path mot = exported("visdrone-mot", options) / "train";
+  EXPECT_TRUE(fs::exists(mot / "sequences/run001-d2/0000003.jpg"));
+  const auto first = numbers_of(lines_of(mot / "annotations/run001-d1.txt").at(0));
+  ASSERT_EQ(first.size(), 10U);
+  EXPECT_EQ(first[0], 1);
+}
+
+TEST_F(Exports, CocoSplitsByRunAndHasIgnoreRegions) {
+  ExportOptions options;
+  options.splits.share = {0.5, 0.5, 0};
+  options.filters.min_visibility = 0.5;
+  const fs::path out = exported("coco", options);
+  const json whole = coco();
+  std::size_t annotations = 0;
+  for (const auto& [split, run] : {std::pair{"train", "run000"}, {"val", "run001"}}) {
+    const json part =
+        json::parse(read_file(out / "annotations" / (std::string("instances_") + split + ".json")));
+    EXPECT_EQ(part.at("images").size(), 6U);
+    for (const json& image : part.at("images")) {
+      EXPECT_EQ(image.at("run"), run);
+      EXPECT_TRUE(fs::exists(out / split / image.at("file_name").get<std::string>()));
+    }
+    for (const json& person : part.at("annotations")) {
+      const bool is_crowd = number(person.at("visibility")) < 0.5;
+      EXPECT_EQ(person.at("iscrowd"), is_crowd ? 1 : 0);
+      const json& counts = person.at("segmentation").at("counts");
+      EXPECT_EQ(counts.is_array(), is_crowd);
+      EXPECT_FALSE(person.contains("keypoints"));
+      if (!is_crowd) continue;
+      const auto mask = annotate::mask_of_runs(counts.get<std::vector<std::int64_t>>(), 160, 120);
+      EXPECT_EQ(std::count(mask.begin(), mask.end(), true), person.at("area"));
+    }
+    annotations += part.at("annotations").size();
+  }
+  EXPECT_EQ(annotations, whole.at("annotations").size());
+  EXPECT_FALSE(fs::exists(out / "annotations/instances_test.json"));
+}
+
+TEST_F(Exports, PanopticListsExactlyTheSegmentsOfThePicture) {
+  const fs::path out = exported("coco-panoptic");
+  const json list = json::parse(read_file(out / "annotations/panoptic_train.json"));
+  ASSERT_EQ(list.at("annotations").size(), 12U);
+  for (const json& annotation : list.at("annotations")) {
+    const auto ids =
+        read_instances(out / "panoptic_train" / annotation.at("file_name").get<std::string>());
+    std::map<std::uint32_t, std::uint64_t> areas;
+    for (const std::uint32_t id : ids) ++areas[id];
+    areas.erase(0);
+    ASSERT_EQ(annotation.at("segments_info").size(), areas.size());
+    for (const json& segment : annotation.at("segments_info")) {
+      EXPECT_EQ(segment.at("area"), areas.at(segment.at("id")));
+      EXPECT_EQ(segment.at("category_id"), segment.at("id") == 0xFF0000 ? 4 : 1);
+    }
+  }
+}
+
+TEST_F(Exports, SplitsKeepRunsTogether) {
+  ExportOptions options;
+  options.splits.runs = {{"run000", Split::test}};
+  const DatasetInfo described = info(options);
+  EXPECT_EQ(described.split_of("run000"), Split::test);
+  EXPECT_EQ(described.split_of("run001"), Split::train);
+  EXPECT_THAT(described.splits(), testing::ElementsAre(Split::train, Split::test));
+  options.splits.runs = {{"run009", Split::test}};
+  EXPECT_THROW(info(options), InputError);
+}
+
+TEST_F(Exports, UnknownFormatsAndMissingNeedsAreNamed) {
+  try {
+    choose_formats({"mot", "docx", "mot", "yolo-pose"}, {"coco"}, "/outputs/formats");
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 3U);
+    EXPECT_EQ(error.problems()[0].where, "/outputs/formats/1");
+    EXPECT_THAT(error.problems()[0].expected, testing::HasSubstr("visdrone-det"));
+    EXPECT_EQ(error.problems()[1].found, "mot once more");
+    EXPECT_THAT(error.problems()[2].expected, testing::HasSubstr("\"keypoints\""));
+  }
+}
+
+TEST_F(Exports, ADamagedRecordIsNamedByItsLine) {
+  std::string text = read_file(root_ / kCocoFile);
+  text.replace(text.find("\"bbox\""), 6, "\"bbux\"");
+  write_file_atomically(root_ / kCocoFile, text);
+  try {
+    exported("mot");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.problems()[0].where, testing::StartsWith("line "));
+    EXPECT_THAT(error.problems()[0].found, testing::HasSubstr("bbox"));
+  }
+}
+
+TEST(Mask, PolygonsOfHolesAndPiecesAreOneLine) {
+  // A ring, and a pixel that touches it by a corner.
+  const Bitmap ring{3, 2, 4, 4, {1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 0, 0, 1}};
+  const std::vector<Corner> polygon = polygon_of(ring);
+  EXPECT_GE(polygon.size(), 12U);
+  double twice_area = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner& a = polygon[i];
+    const Corner& b = polygon[(i + 1) % polygon.size()];
+    twice_area += a.first * b.second - b.first * a.second;
+  }
+  EXPECT_EQ(twice_area, 2 * 9);
+  EXPECT_TRUE(polygon_of(Bitmap{}).empty());
+}
+
+TEST(Mask, CountsGoThereAndBack) {
+  const Bitmap mask{3, 2, 3, 2, {1, 0, 1, 1, 1, 0}};
+  const auto runs = runs_of({mask}, 8, 6);
+  EXPECT_EQ(runs_of(counts_of(runs), 48), runs);
+  EXPECT_EQ(bitmap_of(runs, 6).set, mask.set);
+  EXPECT_THROW(runs_of(counts_of(runs), 49), InputError);
+  EXPECT_THROW(runs_of("~", 48), InputError);
+}
+
+}  // namespace
+}  // namespace throng::formats
