@@ -7,6 +7,7 @@ void Agents::resize(std::size_t count, std::size_t model_parameter_count) {
   present.resize(count, 1);
   awaited.resize(count, 0);
   panicked.resize(count, 0);
+  fallen.resize(count, 0);
   social_group.resize(count, -1);
   position.resize(count, zero);
   velocity.resize(count, zero);

@@ -66,6 +66,7 @@ struct Agents {
   std::vector<std::uint8_t> present;  ///< 1: takes part
   std::vector<std::uint8_t> awaited;  ///< 1: is still to arrive, see Arrivals
   std::vector<std::uint8_t> panicked;
+  std::vector<std::uint8_t> fallen;          ///< 1: lies on the ground, see Bodies
   std::vector<std::int32_t> social_group;    ///< index into Crowd::social_groups; -1: alone
   std::vector<Eigen::Vector2f> position;     ///< m
   std::vector<Eigen::Vector2f> velocity;     ///< m/s

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "crowd/behavior.h"
+#include "crowd/bodies.h"
 #include "crowd/crowd.h"
 #include "crowd/grid.h"
 #include "crowd/machine.h"
@@ -32,6 +33,8 @@ struct Simulation::State {
   std::unique_ptr<Machine> machine;
   std::unique_ptr<Model> model;
   std::unique_ptr<Separation> separation;  // where it is wanted
+  std::unique_ptr<Bodies> bodies;          // where they give way
+  std::vector<Fall> falls;                 // in this step
   Grid grid;
   std::vector<Eigen::Vector2f> new_velocity;
 };
@@ -63,6 +66,7 @@ Simulation::State::State(const std::filesystem::path& scene_file,
   machine = std::make_unique<Machine>(std::move(made), count);
   model = entry.make(crowd);
   if (options.hard_separation) separation = std::make_unique<Separation>(crowd);
+  if (options.physical.on) bodies = std::make_unique<Bodies>(options.physical, count);
   new_velocity.resize(count, Eigen::Vector2f::Zero());
   machine->start(crowd);
   warnings = scene.warnings();
@@ -70,6 +74,7 @@ Simulation::State::State(const std::filesystem::path& scene_file,
 }
 
 void Simulation::State::step() {
+  falls.clear();
   for (int i = 0; i < sub_steps; ++i) sub_step();
 }
 
@@ -77,8 +82,13 @@ void Simulation::State::sub_step() {
   machine->run_processes_before(crowd);
   machine->take_transitions(crowd);
   machine->prefer(crowd);
+  if (bodies) bodies->lie(crowd);
   grid.build(crowd.agents);
   model->step(crowd, grid, new_velocity);
+  if (bodies) {
+    bodies->react(crowd, grid, new_velocity);
+    falls.insert(falls.end(), bodies->falls().begin(), bodies->falls().end());
+  }
   if (separation) separation->remember(crowd);
   move(crowd, new_velocity);
   if (separation) separation->separate(crowd);
@@ -139,6 +149,10 @@ std::span<const std::uint8_t> Simulation::present() const { return state_->crowd
 
 std::span<const std::uint8_t> Simulation::panicked() const { return state_->crowd.agents.panicked; }
 
+std::span<const std::uint8_t> Simulation::fallen() const { return state_->crowd.agents.fallen; }
+
+std::span<const Fall> Simulation::falls() const { return state_->falls; }
+
 std::span<const std::int32_t> Simulation::social_groups() const {
   return state_->crowd.agents.social_group;
 }
@@ -173,6 +187,10 @@ void Simulation::set_present(std::size_t agent, bool present) {
   }
   agents.present[agent] = present ? 1 : 0;
   if (!present) agents.velocity[agent].setZero();
+}
+
+void Simulation::strike(std::size_t agent, const Eigen::Vector2f& impulse_ns) {
+  if (state_->bodies) state_->bodies->strike(agent, impulse_ns);
 }
 
 void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& centre) {

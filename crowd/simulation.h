@@ -22,6 +22,19 @@ enum class Compat {
   huang2016  ///< also those of the elements that the paper's authors added to it
 };
 
+/// Whether people's bodies give way (crowd/bodies.h).
+struct Physical {
+  bool on = false;
+  float fall_impulse_ns = 20;  ///< a blow that throws somebody over
+};
+
+/// Somebody fell.
+struct Fall {
+  std::uint32_t agent;
+  float impulse_ns;     ///< of the blow; 0: it was the crowd
+  float crush_n_per_m;  ///< of the crowd, per metre of girth; 0: it was a blow
+};
+
 struct LoadOptions {
   std::uint64_t seed = 1;
   std::string model = "orca";  ///< the pedestrian model
@@ -30,6 +43,7 @@ struct LoadOptions {
   int sub_steps = 0;                       ///< steps in between that nobody sees, per time step
   bool hard_separation = false;            ///< bodies never overlap by more than 1 cm
   double compliance = 1;                   ///< times the probability that somebody follows a guide
+  Physical physical = {};
 };
 
 /// A goal chosen by an agent: set and goal id of the behaviour file; -1 for one made on the fly
@@ -72,6 +86,8 @@ class Simulation {
   /// 1: takes part, i.e. has arrived and not left yet.
   std::span<const std::uint8_t> present() const;
   std::span<const std::uint8_t> panicked() const;  ///< 1: is in panic
+  std::span<const std::uint8_t> fallen() const;    ///< 1: lies on the ground (Physical)
+  std::span<const Fall> falls() const;             ///< who fell in the last step
   /// Who walks with whom: agents of a social group have the same number; -1: alone.
   std::span<const std::int32_t> social_groups() const;
   std::span<const std::int32_t> agent_classes() const;  ///< as profiles number them, for reports
@@ -84,6 +100,9 @@ class Simulation {
   /// Whether an agent takes part; one that does not neither moves nor is seen by others, and its
   /// state rests. All do at first, but for those who are still to arrive, who then never do.
   void set_present(std::size_t agent, bool present);
+
+  /// Hits somebody (N s): felt in the next step, and only where bodies are Physical.
+  void strike(std::size_t agent, const Eigen::Vector2f& impulse_ns);
 
   /// Moves a goal's centre, e.g. to a drone. Throws InputError when there is no such goal.
   void move_goal(int set, int goal, const Eigen::Vector2f& centre);

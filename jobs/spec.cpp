@@ -84,6 +84,8 @@ void read_crowd(const json& value, JobSpec& job) {
   if (value.contains("agents")) job.agents = value["agents"].get<int>();
   read(value, "model", job.crowd.model);
   read(value, "compliance", job.crowd.compliance);
+  read(value, "physical", job.crowd.physical.on);
+  read(value, "fall_impulse_ns", job.crowd.physical.fall_impulse_ns);
   if (value.contains("compat")) {
     job.crowd.compat = crowd::compat_of(value["compat"].get<std::string>());
   }
@@ -307,7 +309,9 @@ json to_json(const JobSpec& job) {
        {{"model", job.crowd.model},
         {"compat", crowd::kCompatWords[static_cast<std::size_t>(job.crowd.compat)]},
         {"separation", crowd::kSeparationWords[job.crowd.hard_separation ? 1 : 0]},
-        {"compliance", job.crowd.compliance}}},
+        {"compliance", job.crowd.compliance},
+        {"physical", job.crowd.physical.on},
+        {"fall_impulse_ns", job.crowd.physical.fall_impulse_ns}}},
       {"drones", std::move(drones)},
       {"capture",
        {{"rate_hz", job.capture.rate_hz},

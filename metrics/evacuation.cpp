@@ -114,6 +114,10 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   if (metrics.people > 0) metrics.mean_escape_time_s = sum_s / metrics.people;
   metrics.exits = totals_of(exits, trace.header.dt_s);
   metrics.drones = drone_figures(trace);
+  for (const world::TraceEvent& event : trace.events) {
+    if (event.type != "fall") continue;
+    ++(event.partner == "drone" ? metrics.falls_struck : metrics.falls_crushed);
+  }
   return metrics;
 }
 
@@ -140,6 +144,7 @@ json to_json(const RunMetrics& metrics) {
           {"people", metrics.people},
           {"duration_s", metrics.duration_s},
           {"not_escaped", metrics.not_escaped},
+          {"falls", {{"struck", metrics.falls_struck}, {"crushed", metrics.falls_crushed}}},
           {"mean_escape_time_censored_s", metrics.mean_escape_time_s},
           {"escape_time_percentiles", percentiles},
           {"escape_curve", {{"rate_hz", 1}, {"escaped_share", metrics.escape_curve}}},

@@ -37,6 +37,8 @@ struct RunMetrics {
   std::vector<Percentile> percentiles;
   double mean_escape_time_s = 0;  ///< censored at the end of the run
   int not_escaped = 0;
+  int falls_struck = 0;   ///< by a drone
+  int falls_crushed = 0;  ///< by the crowd
   std::vector<ExitTotals> exits;
   std::vector<DroneFigures> drones;
 };

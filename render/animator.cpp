@@ -90,9 +90,10 @@ class Watcher {
     Moment moment;
     moment.position = trace_.position[at];
     moment.yaw_rad = trace_.yaw_rad[at];
+    moment.down = (trace_.flags[at] & world::kFallen) != 0;
     moment.panicked = (trace_.flags[at] & world::kPanicked) != 0;
     if (at < trace_.state.size() && trace_.state[at] < down_states_.size()) {
-      moment.down = down_states_[trace_.state[at]] != 0;
+      moment.down = moment.down || down_states_[trace_.state[at]] != 0;
     }
     if (!curiosity.at(trace_.time_s[step])) return moment;
     for (const Eigen::Vector3d& drone : drones_[step]) {

@@ -18,7 +18,7 @@ const char* word_of(Obstacle obstacle) {
 }
 
 void ContactLog::note(std::size_t craft, Obstacle obstacle, int index, double speed_mps,
-                      double impulse_ns) {
+                      const Eigen::Vector3d& push_ns, double impulse_ns) {
   const auto is_same = [&](const Contact& contact) {
     return contact.impact.craft == craft && contact.impact.obstacle == obstacle &&
            contact.impact.index == index;
@@ -29,7 +29,9 @@ void ContactLog::note(std::size_t craft, Obstacle obstacle, int index, double sp
     found = contacts_.end() - 1;
   }
   found->apart_s = 0;
-  if (!found->counted) found->impact.impulse_ns += impulse_ns;
+  if (found->counted) return;
+  found->impact.impulse_ns += impulse_ns;
+  found->impact.push_ns += push_ns;
 }
 
 void ContactLog::advance(double dt_s) {

@@ -1,6 +1,7 @@
 // Which touches are one and the same collision, and how hard each was.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,13 +22,16 @@ struct Impact {
   int index = -1;         ///< of the building, craft or person; -1: the ground
   double speed_mps = 0;   ///< of one relative to the other just before
   double impulse_ns = 0;  ///< given in the first 50 ms
-  double ago_s = 0;       ///< how long ago it began
+  Eigen::Vector3d push_ns =
+      Eigen::Vector3d::Zero();  ///< the same with its direction, on the obstacle
+  double ago_s = 0;             ///< how long ago it began
 };
 
 class ContactLog {
  public:
   /// One step's contact: call once per step and pair that pushes each other.
-  void note(std::size_t craft, Obstacle obstacle, int index, double speed_mps, double impulse_ns);
+  void note(std::size_t craft, Obstacle obstacle, int index, double speed_mps,
+            const Eigen::Vector3d& push_ns, double impulse_ns);
 
   /// Ends a step of `dt_s`.
   void advance(double dt_s);

@@ -47,7 +47,8 @@ world::CrowdStep crowd_step(const crowd::Simulation& crowd) {
   step.flags.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     step.flags[i] = static_cast<std::uint8_t>((crowd.present()[i] != 0 ? world::kPresent : 0) |
-                                              (crowd.panicked()[i] != 0 ? world::kPanicked : 0));
+                                              (crowd.panicked()[i] != 0 ? world::kPanicked : 0) |
+                                              (crowd.fallen()[i] != 0 ? world::kFallen : 0));
   }
   return step;
 }

@@ -182,6 +182,9 @@ void Flight::record_impacts(std::span<const Impact> impacts) {
     event.other = is_person ? -1 : impact.index;
     event.extra = impact.impulse_ns;
     log_.event(event);
+    if (is_person && log_.strike) {
+      log_.strike(static_cast<std::size_t>(impact.index), impact.push_ns.head<2>());
+    }
   }
 }
 

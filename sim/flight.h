@@ -22,6 +22,8 @@ namespace throng::sim {
 struct FlightLog {
   std::function<void(std::size_t drone, const world::DroneSample&)> sample;
   std::function<void(const world::TraceEvent&)> event;
+  /// Somebody was hit, and how hard (N s, on the ground).
+  std::function<void(std::size_t agent, const Eigen::Vector2d& impulse_ns)> strike = {};
 };
 
 /// The air that a flight goes through.

@@ -176,23 +176,26 @@ struct FlightWorld::Bodies {
     for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
       const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
       double impulse_ns = 0;
+      btVector3 push_ns(0, 0, 0);  // on the second body
       for (int point = 0; point < manifold.getNumContacts(); ++point) {
-        impulse_ns += manifold.getContactPoint(point).getAppliedImpulse();
+        const btManifoldPoint& contact = manifold.getContactPoint(point);
+        impulse_ns += contact.getAppliedImpulse();
+        push_ns -= contact.getAppliedImpulse() * contact.m_normalWorldOnB;
       }
       // Bodies that are near but do not push yet do not touch.
       if (impulse_ns <= 0) continue;
-      note_contact(*manifold.getBody0(), *manifold.getBody1(), impulse_ns);
-      note_contact(*manifold.getBody1(), *manifold.getBody0(), impulse_ns);
+      note_contact(*manifold.getBody0(), *manifold.getBody1(), to_eigen(push_ns), impulse_ns);
+      note_contact(*manifold.getBody1(), *manifold.getBody0(), -to_eigen(push_ns), impulse_ns);
     }
     contacts.advance(dt_s);
   }
 
   void note_contact(const btCollisionObject& who, const btCollisionObject& what,
-                    double impulse_ns) {
+                    const Vector3d& push_ns, double impulse_ns) {
     if (obstacle_of(who) != Obstacle::drone) return;
     const double speed_mps = (velocity_before(who) - velocity_before(what)).norm();
     contacts.note(static_cast<std::size_t>(who.getUserIndex2()), obstacle_of(what),
-                  what.getUserIndex2(), speed_mps, impulse_ns);
+                  what.getUserIndex2(), speed_mps, push_ns, impulse_ns);
   }
 
   Vector3d velocity_before(const btCollisionObject& body) const {

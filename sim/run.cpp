@@ -82,6 +82,19 @@ std::span<const std::uint8_t> people_there(const crowd::Simulation& crowd,
   return there;
 }
 
+void report_falls(const crowd::Simulation& crowd, double time_s, RunObserver& observer) {
+  for (const crowd::Fall& fall : crowd.falls()) {
+    world::TraceEvent event;
+    event.time_s = time_s;
+    event.type = "fall";
+    event.agent = static_cast<std::int32_t>(fall.agent);
+    event.value = fall.impulse_ns;
+    event.partner = fall.impulse_ns > 0 ? "drone" : "crowd";
+    event.extra = fall.crush_n_per_m;
+    observer.event(event);
+  }
+}
+
 world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spec,
                              const crowd::Simulation& crowd,
                              const std::vector<world::AgentRole>& roles) {
@@ -103,6 +116,7 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
   options.compat = spec.compat;
   options.hard_separation = spec.hard_separation;
   options.compliance = spec.compliance;
+  options.physical = spec.physical;
   return {scenario.scene_file, scenario.behavior_file, options};
 }
 
@@ -131,6 +145,9 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
        [&](const world::TraceEvent& event) {
          observer.event(event);
          hold.note(event);
+       },
+       [&](std::size_t agent, const Eigen::Vector2d& impulse_ns) {
+         crowd.strike(agent, impulse_ns.cast<float>());
        }},
       {spec.wind, spec.seed});
   const std::vector<world::GoalRef> moving_goals = goals_moved_by(drones);
@@ -150,6 +167,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
     flight.advance({crowd.positions(), people_there(crowd, roles, there)});
     const double time_s = static_cast<double>(step) * dt_s;
     recorder.record(crowd, time_s, observer);
+    report_falls(crowd, time_s, observer);
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
   }
   flight.finish();

@@ -77,6 +77,7 @@ struct CrowdSpec {
   crowd::Compat compat = crowd::Compat::none;
   bool hard_separation = false;
   double compliance = 1;  ///< probability that somebody near a guide follows it
+  crowd::Physical physical;
 };
 
 struct RunSpec {

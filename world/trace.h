@@ -22,9 +22,10 @@ enum class AgentRole : std::uint8_t {
 };
 
 /// Bits of Trace::flags, what an agent is at a step: takes part, i.e. has arrived and not left yet;
-/// is in panic.
+/// is in panic; has fallen and lies on the ground.
 inline constexpr std::uint8_t kPresent = 1;
 inline constexpr std::uint8_t kPanicked = 2;
+inline constexpr std::uint8_t kFallen = 4;
 
 /// What does not change during a run.
 struct TraceHeader {
@@ -52,7 +53,7 @@ struct CrowdStep {
   std::vector<float> desired_speed_mps;   ///< what the agent wants now
   std::vector<std::uint8_t> state;        ///< index into TraceHeader::state_names
   std::vector<std::int8_t> exit_intent;   ///< index into exit_ids; -1: none
-  std::vector<std::uint8_t> flags;        ///< kPresent, kPanicked
+  std::vector<std::uint8_t> flags;        ///< kPresent, kPanicked, kFallen
 };
 
 /// One drone at one instant.

@@ -276,5 +276,41 @@ TEST(Run, NobodyWalksThroughTheThingsThatStandInTheSquare) {
   }
 }
 
+/// A drone that ploughs through the people of the square.
+RunSpec low_flight(bool physical) {
+  RunSpec spec = short_run();
+  spec.duration_s = 8;
+  spec.crowd.physical = {physical, 1};
+  spec.drones[0].start = {-4, 12, 1.3};
+  spec.drones[0].waypoints = {{-4, -12, 1.3}};
+  spec.drones[0].speed_mps = 6;
+  return spec;
+}
+
+TEST(Run, PhysicalPeopleFallWhenADroneHitsThemHard) {
+  const world::Trace hard = trace_of(low_flight(false));
+  const world::Trace physical = trace_of(low_flight(true));
+  const auto count = [](const world::Trace& trace, const std::string& type) {
+    return std::count_if(trace.events.begin(), trace.events.end(),
+                         [&](const world::TraceEvent& event) { return event.type == type; });
+  };
+  ASSERT_GT(count(hard, "collision"), 0);
+  EXPECT_EQ(count(hard, "fall"), 0);
+  ASSERT_GT(count(physical, "fall"), 0);
+  for (const world::TraceEvent& event : physical.events) {
+    if (event.type != "fall") continue;
+    EXPECT_EQ(event.partner, "drone");
+    EXPECT_GE(event.value, 1);
+    const auto agent = static_cast<std::size_t>(event.agent);
+    const auto step = static_cast<std::size_t>(std::lround(event.time_s / physical.header.dt_s));
+    EXPECT_EQ(physical.flags[physical.at(step - 1, agent)] & world::kFallen, 0);
+    for (std::size_t later = step; later < physical.steps(); ++later) {
+      ASSERT_NE(physical.flags[physical.at(later, agent)] & world::kFallen, 0);
+      ASSERT_EQ(physical.position[physical.at(later, agent)],
+                physical.position[physical.at(step, agent)]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace throng::sim
