@@ -61,6 +61,12 @@ Texture make_texture(GLenum target) {
   return Texture(name);
 }
 
+Sampler make_sampler() {
+  GLuint name = 0;
+  glCreateSamplers(1, &name);
+  return Sampler(name);
+}
+
 Texture make_texture_2d(GLenum format, int width, int height) {
   Texture texture = make_texture(GL_TEXTURE_2D);
   glTextureStorage2D(texture.name(), 1, format, width, height);

@@ -35,12 +35,14 @@ class Handle {
 
 inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
 inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+inline void delete_sampler(GLuint name) { glDeleteSamplers(1, &name); }
 inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
 inline void delete_program(GLuint name) { glDeleteProgram(name); }
 
 using Buffer = Handle<delete_buffer>;
 using Texture = Handle<delete_texture>;
+using Sampler = Handle<delete_sampler>;
 using Framebuffer = Handle<delete_framebuffer>;
 using VertexArray = Handle<delete_vertex_array>;
 using Program = Handle<delete_program>;
@@ -63,6 +65,9 @@ VertexArray make_vertex_array();
 
 /// A texture of `target` with default sampling.
 Texture make_texture(GLenum target);
+
+/// A sampler that is used instead of a texture's own settings.
+Sampler make_sampler();
 
 /// A single-level 2D texture, sampled to the nearest texel, clamped to its edge.
 Texture make_texture_2d(GLenum format, int width, int height);

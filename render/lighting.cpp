@@ -64,6 +64,7 @@ LightBlock light_block(const Daylight& light, const LightFrame& frame) {
   const Eigen::Array3d ground_albedo(0.33, 0.31, 0.28);
   const Eigen::Array3d bounce = 0.8 * ground_albedo * (light.sun * light.direction.z() + light.sky);
   const Eigen::Vector2d slope = shadow_slope(light);
+  constexpr double kSunRadius = 0.00465;  // of its disc in the sky, rad
   constexpr double kLog2OfE = 1.4426950408889634;
   LightBlock block;
   block.sun_direction = four(light.direction);
@@ -73,7 +74,8 @@ LightBlock light_block(const Daylight& light, const LightFrame& frame) {
   block.haze = four(light.haze, light.extinction_per_m * kLog2OfE);
   block.shadow_area = area_of(frame.shadow_area);
   block.shadow_slope = {static_cast<float>(slope.x()), static_cast<float>(slope.y()),
-                        static_cast<float>(1 / frame.tallest_m), 0};
+                        static_cast<float>(1 / frame.tallest_m),
+                        static_cast<float>(kSunRadius / light.direction.z())};
   block.zenith = four(light.zenith);
   block.lamps = four(light.lamps);
   block.lamp_area = area_of(frame.lamp_area);

@@ -15,7 +15,7 @@ struct QualitySettings {
   int ground_texels;      ///< along each side of a tile of the ground's textures
   int textured_levels;    ///< of people; coarser ones, whose triangles are pixels, by their corners
   int shadow_texels;      ///< along each side of the shadow map; 0: no shadows
-  bool fine_shadows;      ///< edges from 3 x 3 texels instead of 2 x 2
+  bool fine_shadows;      ///< edges on ground and walls as soft as the sun's disc makes them
   /// Along the outlines of people and things: on the CPU by what the ids say, on a GPU with
   /// kSamples a pixel.
   bool smooth_edges;

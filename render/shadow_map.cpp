@@ -8,6 +8,7 @@ namespace throng::render {
 ShadowMap::ShadowMap(int texels)
     : texels_(std::max(texels, 1)),
       depth_(make_texture_2d(GL_DEPTH_COMPONENT32F, texels_, texels_)),
+      heights_(make_sampler()),
       framebuffer_(make_framebuffer({}, depth_.name())) {
   const GLuint name = depth_.name();
   // Outside the map nothing is higher than the ground: lit.
@@ -17,6 +18,11 @@ ShadowMap::ShadowMap(int texels)
   glTextureParameterfv(name, GL_TEXTURE_BORDER_COLOR, ground.data());
   glTextureParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTextureParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+  glSamplerParameteri(heights_.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glSamplerParameteri(heights_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glSamplerParameteri(heights_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glSamplerParameteri(heights_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  glSamplerParameterfv(heights_.name(), GL_TEXTURE_BORDER_COLOR, ground.data());
   begin();
 }
 
@@ -27,6 +33,10 @@ void ShadowMap::begin() const {
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &ground);
 }
 
-void ShadowMap::bind() const { glBindTextureUnit(1, depth_.name()); }
+void ShadowMap::bind() const {
+  glBindTextureUnit(1, depth_.name());
+  glBindTextureUnit(4, depth_.name());
+  glBindSampler(4, heights_.name());
+}
 
 }  // namespace throng::render

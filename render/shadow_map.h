@@ -19,6 +19,7 @@ class ShadowMap {
  private:
   int texels_;
   Texture depth_;
+  Sampler heights_;  ///< reads them without comparison
   Framebuffer framebuffer_;
 };
 

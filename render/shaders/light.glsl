@@ -6,7 +6,9 @@ layout(std140, binding = 1) uniform Light {
   vec4 bounce;         // light that comes back from the ground
   vec4 haze;           // colour of far air; w: its thickness, in powers of two per metre
   vec4 shadow_area;    // corner of the shadow map on the ground, then 1 / size (1/m)
-  vec4 shadow_slope;   // shadow of height 1 m on the ground is at -xy; z: 1 / tallest thing (1/m)
+  // Shadow of height 1 m on the ground is at -xy; z: 1 / tallest thing (1/m); w: half the width, m,
+  // of the sun's disc on the ground across that direction, seen through a hole 1 m high.
+  vec4 shadow_slope;
   vec4 zenith;         // colour of the sky above
   vec4 lamps;          // radiance of a white surface in one unit of lamp light
   vec4 lamp_area;      // corner of the lamp map on the ground, then 1 / size (1/m)
@@ -25,25 +27,7 @@ vec2 shadow_uv(vec3 world) {
 float sunlit(vec3 world, float bias_m) { return 0.0; }
 float sunlit_small(vec3 world, float bias_m) { return 0.0; }
 #else
-// How much of the sun reaches a point, from 3 x 3 texels with bilinear weights.
-float sunlit_sharp(vec3 world, float bias_m) {
-  vec2 size = vec2(textureSize(shadow_map, 0));
-  float height = (world.z + bias_m) * light.shadow_slope.z;
-  vec2 texel = shadow_uv(world) * size - 0.5;
-  vec2 f = fract(texel);
-  vec2 middle = (floor(texel) + 1.0) / size;  // corner shared by four texels
-  vec4 a = textureGatherOffset(shadow_map, middle, height, ivec2(-1, -1));
-  vec4 b = textureGatherOffset(shadow_map, middle, height, ivec2(1, -1));
-  vec4 c = textureGatherOffset(shadow_map, middle, height, ivec2(-1, 1));
-  vec4 d = textureGatherOffset(shadow_map, middle, height, ivec2(1, 1));
-  // A gather returns the texels (0,1), (1,1), (1,0), (0,0) of its 2 x 2 block.
-  vec2 g = 1.0 - f;
-  float lower = (a.w * g.x + a.z + b.w + b.z * f.x) * g.y + (a.x * g.x + a.y + b.x + b.y * f.x);
-  float upper = (c.w * g.x + c.z + d.w + d.z * f.x) + (c.x * g.x + c.y + d.x + d.y * f.x) * f.y;
-  return (lower + upper) * (1.0 / 9.0);
-}
-
-// The same from the nearest 2 x 2 texels, for surfaces with little room for soft edges.
+// How much of the sun reaches a point, from the nearest 2 x 2 texels.
 float sunlit_small(vec3 world, float bias_m) {
   vec2 size = vec2(textureSize(shadow_map, 0));
   vec2 texel = shadow_uv(world) * size - 0.5;
@@ -65,7 +49,55 @@ float sunlit(vec3 world, float bias_m) {
   return sum * 0.125;
 }
 #elif defined(FINE_SHADOWS)
-float sunlit(vec3 world, float bias_m) { return sunlit_sharp(world, bias_m); }
+// The same heights, without comparison; above the ground as a share of the tallest thing.
+layout(binding = 4) uniform sampler2D shadow_heights;
+
+const float kWidestPenumbra = 1.0;  // m
+
+// Places spread evenly over a disc of radius 1 (Vogel 1979).
+const int kLooks = 12;
+const vec2 kOnDisc[kLooks] = vec2[](
+    vec2(0.204, 0.000), vec2(-0.261, 0.239), vec2(0.040, -0.455), vec2(0.329, 0.429),
+    vec2(-0.603, -0.107), vec2(0.571, -0.363), vec2(-0.191, 0.711), vec2(-0.364, -0.702),
+    vec2(0.791, 0.289), vec2(-0.822, 0.339), vec2(0.396, -0.847), vec2(0.293, 0.934));
+
+// How much of the sun's disc reaches a point: edges are the softer the higher what casts them is
+// above it (percentage-closer soft shadows, Fernando 2005). The disc on the ground is an ellipse,
+// longer along the shadow.
+float sunlit(vec3 world, float bias_m) {
+  float height = (world.z + bias_m) * light.shadow_slope.z;
+  vec2 uv = shadow_uv(world);
+  vec2 along = light.shadow_slope.xy;
+  float slope = max(length(along), 1e-4);
+  along /= slope;
+  float across_m = light.shadow_slope.w;
+  mat2 disc = mat2(along / light.sun_direction.z, vec2(-along.y, along.x));
+  // A turn of its own for each pixel turns bands into grain (Jimenez 2014).
+  float turn =
+      6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  disc *= mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+  disc = mat2(disc[0] * light.shadow_area.zw, disc[1] * light.shadow_area.zw);
+  float widest_m = min(across_m * (1.0 / light.shadow_slope.z - world.z), kWidestPenumbra);
+  float sum = 0.0;
+  float count = 0.0;
+  for (int i = 0; i < kLooks; ++i) {
+    float above = textureLod(shadow_heights, uv + disc * kOnDisc[i] * widest_m, 0.0).r - height;
+    if (above > 0.0) {
+      sum += above;
+      count += 1.0;
+    }
+  }
+  if (count == 0.0) return sunlit_small(world, bias_m);
+  float penumbra_m = min(across_m * sum / (count * light.shadow_slope.z), kWidestPenumbra);
+  // Never less than a texel, or the map's squares would show.
+  float texel_m = 1.0 / (light.shadow_area.z * float(textureSize(shadow_map, 0).x));
+  penumbra_m = max(penumbra_m, texel_m);
+  float lit = 0.0;
+  for (int i = 0; i < kLooks; ++i) {
+    lit += step(textureLod(shadow_heights, uv + disc * kOnDisc[i] * penumbra_m, 0.0).r, height);
+  }
+  return lit / float(kLooks);
+}
 #else
 float sunlit(vec3 world, float bias_m) { return sunlit_small(world, bias_m); }
 #endif

@@ -77,6 +77,49 @@ TEST(Quality, SeveralSamplesChangeEdgesAlone) {
   EXPECT_GT(mixed, edge / 50);
 }
 
+/// Width, m, over which the shadow of a wall of this height fades on the ground, in the sun's
+/// direction: from a fifth to four fifths of the difference.
+double penumbra_m(double height_m, Quality quality) {
+  Environment lighting;
+  lighting.sun_azimuth_rad = 0;
+  lighting.sun_elevation_rad = 45 * kDegree;
+  Stage stage(open_ground({block(0, 6, -8, 8, height_m)}), lighting, {.quality = quality});
+  Stage bare(open_ground(), lighting, {.quality = quality});
+  // The shadow's edge is in the middle of the picture, its direction is up.
+  const camera::Camera camera = camera_at({-height_m, 0, 9}, 0, -90, 200, 400, 8);
+  const Frame frame = stage.draw(camera);
+  const Frame lit = bare.draw(camera);
+  const double metre_px = camera.intrinsics.fy_px / 9;
+  // Farther away from the edge walls take light from the ground.
+  const int around = static_cast<int>(0.35 * metre_px);
+  std::vector<double> share;
+  for (int y = 200 - around; y < 200 + around; ++y) {
+    double sum = 0;
+    double all = 0;
+    for (int x = 0; x < 200; ++x) {
+      sum += brightness(frame, x, y);
+      all += brightness(lit, x, y);
+    }
+    share.push_back(sum / all);
+  }
+  const auto [dark, bright] = std::minmax_element(share.begin(), share.end());
+  const double low = *dark + 0.2 * (*bright - *dark);
+  const double high = *dark + 0.8 * (*bright - *dark);
+  const auto between =
+      std::count_if(share.begin(), share.end(), [&](double s) { return s > low && s < high; });
+  return static_cast<double>(between) / metre_px;
+}
+
+TEST(Quality, HighSoftensShadowsWithTheHeightOfWhatCastsThem) {
+  // The sun's disc is 0.53 degrees wide: 9.3 mm for each metre of a ray, which is 1.41 m for each
+  // metre of height at 45 degrees, and 1.41 times as much along the ground. Between a fifth
+  // and four fifths of a disc's area lies 0.49 of its width.
+  const double expected = 0.0093 * 1.41 * 1.41 * 0.49;
+  EXPECT_NEAR(penumbra_m(12, Quality::high), 12 * expected, 0.03);
+  EXPECT_NEAR(penumbra_m(3, Quality::high), 3 * expected, 0.02);
+  EXPECT_LT(penumbra_m(12, Quality::standard), 0.03) << "sharp, but for the map's texels";
+}
+
 /// White above and black below a line of this slope through the middle.
 Frame halves(double slope) {
   Frame frame;
