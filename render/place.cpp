@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "render/frame.h"
+#include "render/place_details.h"
 #include "render/triangulate.h"
 
 namespace throng::render {
@@ -174,6 +175,8 @@ PlaceMesh place_mesh(const world::Scenario& scenario) {
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
     add_walls(scenario.buildings[i], kIdBuilding + i, mesh);
   }
+  add_exit_doors(scenario, mesh);
+  add_roof_plant(scenario, mesh);
   mesh.walls = {0, indices()};
   for (std::uint32_t i = 0; i < scenario.buildings.size(); ++i) {
     add_roof(scenario.buildings[i], kIdBuilding + i, mesh);
@@ -190,7 +193,8 @@ double tallest_m(const world::Scenario& scenario) {
   if (!scenario.meshes.empty()) tallest = kMeshM;
   for (const world::Prop& prop : scenario.props) tallest = std::max(tallest, kTreeM * prop.scale);
   for (const world::Building& building : scenario.buildings) {
-    tallest = std::max(tallest, building.height_m);
+    const double plant_m = has_roof_plant(building) ? kRoofPlantM : 0;
+    tallest = std::max(tallest, building.height_m + plant_m);
   }
   return tallest;
 }

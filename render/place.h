@@ -17,7 +17,7 @@ struct PlaceVertex {
   std::array<float, 4> local{};
   float openness = 1;    ///< share of the sky's light that reaches the ground here, 0 to 1
   std::uint32_t id = 0;  ///< what the id buffer gets
-  float facade = 0;      ///< walls: number of the world::Facade
+  float facade = 0;      ///< walls: number of the world::Facade or WallLook
 };
 
 /// A run of triangles that share a shader.

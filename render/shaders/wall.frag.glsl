@@ -4,7 +4,7 @@ in float openness;
 in vec4 local;  // along the wall, up, wall length, wall height; m
 flat in vec3 normal;
 flat in uint id;
-flat in float facade_kind;  // number of the world::Facade
+flat in float facade_kind;  // number of the world::Facade, or of a WallLook
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint instance;
@@ -137,10 +137,57 @@ void add_door(inout Surface s, ivec2 key, vec2 p, vec2 width) {
   s.glow *= 1.0 - surround;
 }
 
+// The doorway of an exit (render/place_details.h): a stone frame, a lit sign above, and either a dark
+// passage between opened leaves or shut ones, each about 1 m wide.
+Surface exit_door(vec2 p, vec2 size, bool open) {
+  vec2 width = fwidth(p);
+  float inside = band(p.x, 0.14, size.x - 0.14, width.x) * band(p.y, -1.0, size.y - 0.34, width.y);
+  float middle = abs(p.x - 0.5 * size.x);
+  float sign_board = band(middle, -1.0, 0.32, width.x) *
+                     band(p.y, size.y - 0.29, size.y - 0.06, width.y);
+  float leaves = max(1.0, round(size.x - 0.28));
+  float leaf = (p.x - 0.14) * leaves / (size.x - 0.28);
+  float edge = stripes(leaf + 0.03, 0.06, width.x * leaves / size.x);
+  float pane = (1.0 - stripes(leaf + 0.14, 0.28, width.x * leaves / size.x)) *
+               band(p.y, 0.9, size.y - 0.5, width.y);
+  Surface s;
+  s.shine = vec3(0.0);
+  s.glow = vec3(0.0);
+  s.albedo = vec3(0.46, 0.44, 0.40);
+  // Light falls a little way in along the floor.
+  vec3 passage = mix(vec3(0.10, 0.095, 0.085), vec3(0.018), clamp(p.y / 1.3, 0.0, 1.0));
+  vec3 shut = mix(vec3(0.10, 0.11, 0.12) * (1.0 - 0.6 * edge), vec3(0.03), pane);
+  float jamb = 1.0 - band(p.x, 0.22, size.x - 0.22, width.x);
+  s.albedo = mix(s.albedo, open ? mix(passage, vec3(0.10, 0.11, 0.12), jamb) : shut, inside);
+  s.shine += open ? vec3(0.0) : vec3(0.8 * pane * inside);
+  s.albedo = mix(s.albedo, open ? vec3(0.03, 0.30, 0.12) : vec3(0.10), sign_board);
+#ifdef LAMPS
+  float lamp = inside * (0.12 + 0.5 * clamp(0.45 * p.y, 0.0, 1.0));
+  if (open) s.glow = vec3(1.0, 0.86, 0.6) * lamp + vec3(0.2, 1.4, 0.5) * sign_board;
+#endif
+  return s;
+}
+
+// What stands on a roof: grey metal with slots, lighter on top.
+Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
+  vec2 width = fwidth(p);
+  float tone = 0.8 + 0.4 * hash(key + ivec2(int(size.x * 53.0), int(size.y * 31.0)));
+  float slots = normal.z > 0.5 ? 0.0 : stripes(p.y / 0.12, 0.4, width.y / 0.12);
+  float rim = 1.0 - band(p.x, 0.06, size.x - 0.06, width.x) * band(p.y, 0.06, size.y - 0.06, width.y);
+  Surface s;
+  s.shine = vec3(0.0);
+  s.glow = vec3(0.0);
+  s.albedo = vec3(0.33, 0.335, 0.34) * tone * (1.0 - 0.45 * slots * (1.0 - rim)) *
+             (0.85 + 0.3 * noise(p * 2.3));
+  return s;
+}
+
 Surface facade(vec2 p, vec2 size, uint building) {
   vec2 width = fwidth(p);
   ivec2 key = ivec2(int(building), 3);
   int kind = int(facade_kind + 0.5);
+  if (kind == 4 || kind == 5) return exit_door(p, size, kind == 4);
+  if (kind == 6) return roof_plant(p, size, key);
   if (kind == 3) return glass_facade(p, size, key);
   float floors = max(1.0, round(size.y / 3.3));
   float bays = max(1.0, round(size.x / 2.8));
@@ -190,8 +237,9 @@ void main() {
   float facing = max(dot(normal, light.sun_direction.xyz), 0.0);
   // Walls stand off their own shadow by more than a texel of the map.
   float sun = facing * sunlit(world + 0.12 * normal, 0.02);
-  float low = clamp(local.y / 4.0, 0.0, 1.0);
+  float low = clamp(world.z / 4.0, 0.0, 1.0);
   vec3 ambient = light.sky.rgb * (0.42 + 0.13 * low) + light.bounce.rgb * (0.5 - 0.2 * low);
+  ambient = mix(ambient, light.sky.rgb, normal.z);
   vec3 received = light.sun.rgb * sun + ambient;
   vec3 glow = vec3(0.0);
 #ifdef LAMPS
