@@ -15,6 +15,7 @@
 #include "sim/hold_warnings.h"
 #include "sim/participants.h"
 #include "sim/plan.h"
+#include "sim/prop_watch.h"
 #include "sim/trace_recorder.h"
 #include "world/trace.h"
 
@@ -131,10 +132,14 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   const std::vector<world::AgentRole> roles =
       choose_roles(scenario, crowd.agent_count(), spec.people, spec.seed, problems);
   check_goals(drones, crowd, problems);
-  if (!problems.empty()) throw InputError(std::move(problems));
   for (std::size_t i = 0; i < roles.size(); ++i) {
     crowd.set_present(i, roles[i] != world::AgentRole::absent);
   }
+  std::vector<std::uint8_t> there;
+  PropWatch props(scenario);
+  props.look(crowd.positions(), people_there(crowd, roles, there), 0);
+  problems.insert(problems.end(), props.problems().begin(), props.problems().end());
+  if (!problems.empty()) throw InputError(std::move(problems));
 
   observer.begin(header_of(scenario, spec, crowd, roles));
   const double dt_s = crowd.dt_s();
@@ -155,7 +160,6 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   GuidanceLoop guidance(scenario, roles, drones, spec.seed, dt_s);
   recorder.record(crowd, 0, observer);
 
-  std::vector<std::uint8_t> there;
   constexpr double kRounding = 1e-9;
   const auto steps = static_cast<long>(std::ceil(spec.duration_s / dt_s - kRounding));
   for (long step = 1; step <= steps && !observer.done(); ++step) {
@@ -166,6 +170,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
     crowd.step();
     flight.advance({crowd.positions(), people_there(crowd, roles, there)});
     const double time_s = static_cast<double>(step) * dt_s;
+    props.look(crowd.positions(), there, time_s);
     recorder.record(crowd, time_s, observer);
     report_falls(crowd, time_s, observer);
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
@@ -173,6 +178,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   flight.finish();
   std::vector<Problem> warnings = crowd.warnings();
   warnings.insert(warnings.end(), hold.warnings().begin(), hold.warnings().end());
+  warnings.insert(warnings.end(), props.problems().begin(), props.problems().end());
   return warnings;
 }
 

@@ -276,6 +276,65 @@ TEST(Run, NobodyWalksThroughTheThingsThatStandInTheSquare) {
   }
 }
 
+/// Whether the square with nothing but a bench is refused, and else what is said against it.
+std::pair<bool, std::vector<Problem>> verdict_on_bench(const Eigen::Vector2d& position,
+                                                       std::size_t placed) {
+  world::Scenario scenario = city_square();
+  world::Prop bench;
+  bench.kind = world::PropKind::bench;
+  bench.position = position;
+  scenario.props = {bench};
+  scenario.placed_props = placed;
+  const TemporaryFolder folder;
+  try {
+    std::vector<Problem> warnings = simulate(scenario, short_run(), folder.path() / "run.h5");
+    std::erase_if(warnings, [](const Problem& problem) {
+      return !problem.where.starts_with("/props") && !problem.where.starts_with("/scatter");
+    });
+    return {false, warnings};
+  } catch (const InputError& error) {
+    EXPECT_TRUE(fs::is_empty(folder.path())) << "nothing is half there";
+    return {true, error.problems()};
+  }
+}
+
+TEST(Run, ThingsInPeoplesWayAreNamedWithWhoIsInThem) {
+  const world::Trace trace = trace_of(short_run());
+  const auto place_of = [&](double time_s) -> Eigen::Vector2d {
+    const auto step = static_cast<std::size_t>(std::lround(time_s / trace.header.dt_s));
+    return trace.position[trace.at(step, 5)].cast<double>();
+  };
+  const auto [refused, reasons] = verdict_on_bench(place_of(0), 1);
+  EXPECT_TRUE(refused) << "somebody stands there when the run begins";
+  ASSERT_EQ(reasons.size(), 1U);
+  EXPECT_EQ(reasons[0].where, "/props/0/position");
+  EXPECT_THAT(reasons[0].found, ::testing::HasSubstr("a bench at"));
+  EXPECT_THAT(reasons[0].found, ::testing::HasSubstr("agent 5 is at"));
+
+  const Eigen::Vector2d on_the_way(0, 300);
+  EXPECT_TRUE(verdict_on_bench(on_the_way, 1).second.empty()) << "nobody comes there";
+}
+
+TEST(Run, WhoWalksThroughAThingIsAWarning) {
+  // A place that nobody stands at in the beginning and somebody comes to later.
+  const world::Trace trace = trace_of(short_run());
+  for (std::size_t agent = 0; agent < kPeopleInSquare; ++agent) {
+    const Eigen::Vector2d place = trace.position[trace.at(trace.steps() - 1, agent)].cast<double>();
+    double nearest = 100;
+    for (std::size_t other = 0; other < kPeopleInSquare; ++other) {
+      const Eigen::Vector2d start = trace.position[trace.at(0, other)].cast<double>();
+      nearest = std::min(nearest, (start - place).norm());
+    }
+    if (nearest < 1) continue;
+    const auto [refused, warnings] = verdict_on_bench(place, 0);
+    EXPECT_FALSE(refused);
+    ASSERT_EQ(warnings.size(), 1U) << "one for each thing";
+    EXPECT_EQ(warnings[0].where, "/scatter");
+    return;
+  }
+  FAIL() << "everybody stays where somebody was";
+}
+
 /// A drone that ploughs through the people of the square.
 RunSpec low_flight(bool physical) {
   RunSpec spec = short_run();
