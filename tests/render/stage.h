@@ -102,4 +102,46 @@ class Stage {
   Renderer renderer_;
 };
 
+/// Somebody in the middle of a step: `phase` of a stride.
+inline PersonInstance stepping(const Stage& stage, std::uint32_t agent, const Eigen::Vector2d& at,
+                               double yaw_rad, double phase) {
+  PersonInstance person = stage.standing(agent, at.x(), at.y(), yaw_rad);
+  const skinning::Clip& walk = stage.people().clips[1];
+  const double position = phase * walk.frames;
+  const auto frame = static_cast<std::uint32_t>(position);
+  person.pose = {walk.first + frame % walk.frames, walk.first + (frame + 1) % walk.frames,
+                 static_cast<float>(position - frame)};
+  return person;
+}
+
+/// Share of the pixels of either mask that are in both: `agent`'s pixels of `frame` carried along
+/// the flow, against those of `next`. Carried pixels spread, so each fills a 3 x 3 block of
+/// quarters.
+inline double carried_overlap(const Frame& frame, const Frame& next, std::uint32_t agent) {
+  const std::uint32_t id = id_of_agent(agent);
+  std::vector<char> carried(frame.id.size(), 0);
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const std::size_t i = index_of(frame, x, y);
+      if (frame.id[i] != id) continue;
+      for (const double dy : {-0.4, 0.0, 0.4}) {
+        for (const double dx : {-0.4, 0.0, 0.4}) {
+          const auto to_x = static_cast<int>(std::lround(x + dx + frame.flow[i * 2]));
+          const auto to_y = static_cast<int>(std::lround(y + dy + frame.flow[i * 2 + 1]));
+          if (to_x < 0 || to_y < 0 || to_x >= frame.width() || to_y >= frame.height()) continue;
+          carried[index_of(frame, to_x, to_y)] = 1;
+        }
+      }
+    }
+  }
+  double both = 0;
+  double either = 0;
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    const bool there = next.id[i] == id;
+    both += there && carried[i] != 0 ? 1 : 0;
+    either += there || carried[i] != 0 ? 1 : 0;
+  }
+  return both / either;
+}
+
 }  // namespace throng::render
