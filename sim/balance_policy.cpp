@@ -32,6 +32,7 @@ constexpr double kAtTheDoorM = 5;
 constexpr double kInVainM = 3;  // who did not come with the drone is left alone for a while
 constexpr double kInVainS = 40;
 constexpr int kLargestBatch = 50;
+constexpr double kLineUpM = 9;      // a batch is long: nearer, its tail would come along the wall
 constexpr double kHalfWorthS = 20;  // a trip that takes so long is worth half
 
 class BalancePolicy : public Policy {
@@ -45,7 +46,7 @@ class BalancePolicy : public Policy {
         glide_(context.start, context.yaw_rad),
         queues_(place_) {
     for (const world::Exit& exit : place_.exits) {
-      routes_.push_back(route_through(exit, place_.buildings));
+      routes_.push_back(route_through(exit, place_.buildings, kLineUpM));
     }
   }
 
@@ -141,14 +142,14 @@ class BalancePolicy : public Policy {
     if (person.guide >= 0) return person.guide == drone_;
     if (person.exit < 0) return place_.guides_alert;
     const world::Exit& exit = place_.exits[static_cast<std::size_t>(person.exit)];
-    return (person.position - exit.middle()).norm() > kAtTheDoorM;
+    return !exit.open || (person.position - exit.middle()).norm() > kAtTheDoorM;
   }
 
   bool is_idle(const PersonSeen& person) const {
     if (person.exit < 0) return true;
     const world::Exit& exit = place_.exits[static_cast<std::size_t>(person.exit)];
     return person.velocity.norm() < kStandsMps &&
-           (person.position - exit.middle()).norm() > 2 * kAtTheDoorM;
+           (!exit.open || (person.position - exit.middle()).norm() > 2 * kAtTheDoorM);
   }
 
   void decide(const WorldView& view) {
@@ -250,7 +251,7 @@ class BalancePolicy : public Policy {
       if (is_idle(person)) {
         result.idle += 1;
       } else {
-        result.want[static_cast<std::size_t>(person.exit)] += 1;
+        result.want[static_cast<std::size_t>(queues_.ends_up_at(person))] += 1;
       }
     }
     return result;

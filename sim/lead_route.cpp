@@ -8,8 +8,8 @@ namespace throng::sim {
 
 using Eigen::Vector2d;
 
-LeadRoute route_through(const world::Exit& exit, const std::vector<world::Building>& buildings) {
-  constexpr double kBeforeM = 3;
+LeadRoute route_through(const world::Exit& exit, const std::vector<world::Building>& buildings,
+                        double before_m) {
   constexpr double kBeyondM = 2;
   constexpr double kDeepestM = 30;
   constexpr double kStepM = 0.5;
@@ -26,7 +26,7 @@ LeadRoute route_through(const world::Exit& exit, const std::vector<world::Buildi
     if (depth_m > walls_end_m + kBeyondM) break;
   }
   return {
-      {middle - kBeforeM * exit.outward, middle, middle + (walls_end_m + kBeyondM) * exit.outward}};
+      {middle - before_m * exit.outward, middle, middle + (walls_end_m + kBeyondM) * exit.outward}};
 }
 
 std::vector<int> exits_to_lead_to(const world::Scenario& place,

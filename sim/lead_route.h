@@ -15,7 +15,9 @@ struct LeadRoute {
   const Eigen::Vector2d& mouth() const { return points[1]; }
 };
 
-LeadRoute route_through(const world::Exit& exit, const std::vector<world::Building>& buildings);
+/// Lines up `before_m` in front of the door.
+LeadRoute route_through(const world::Exit& exit, const std::vector<world::Building>& buildings,
+                        double before_m = 3);
 
 /// The exits that a drone may lead to: those of these ids, or all, as far as they are open.
 std::vector<int> exits_to_lead_to(const world::Scenario& place,

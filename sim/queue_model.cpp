@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace throng::sim {
 
@@ -12,13 +13,19 @@ constexpr double kPriorPerMeterSecond = 1.1;  // discs of 0.4 m through clean do
 constexpr double kPressM = 4;                 // from the door: who is nearer presses on it
 constexpr int kPressPeople = 4;
 constexpr double kExpected = 0.8;   // of those who have not noticed yet
+constexpr double kSurePrior = 100;  // looks: at first everybody is taken to choose the nearest exit
+constexpr double kMemory = 0.99;    // per look
+constexpr double kOnTheWayM = 6;    // farther from the door it was a choice
 constexpr double kLearning = 0.02;  // per look, of the rate
 constexpr double kSlowestPart = 0.5;
 constexpr double kFastestPart = 1.5;
 
 }  // namespace
 
-QueueModel::QueueModel(const world::Scenario& place) : place_(place), people_(place.exits.size()) {
+QueueModel::QueueModel(const world::Scenario& place)
+    : place_(place),
+      people_(place.exits.size()),
+      habits_(place.exits.size(), std::vector<double>(place.exits.size())) {
   for (const world::Exit& exit : place.exits) {
     capacity_per_s_.push_back(kPriorPerMeterSecond * exit.width_m());
   }
@@ -27,13 +34,14 @@ QueueModel::QueueModel(const world::Scenario& place) : place_(place), people_(pl
 void QueueModel::update(const WorldView& view, int self) {
   std::fill(people_.begin(), people_.end(), 0);
   std::vector<int> pressing(people_.size());
+  learn_habits(view);
   for (const PersonSeen& person : view.people) {
     if (person.guide >= 0) continue;
-    if (person.exit < 0) {  // will run to the nearest once the news is there
-      people_[nearest_exit(person.position)] += kExpected;
+    if (person.exit < 0) {
+      expect(person);
       continue;
     }
-    const std::size_t e = index(person.exit);
+    const std::size_t e = index(ends_up_at(person));
     people_[e] += 1;
     if ((person.position - place_.exits[e].middle()).norm() < kPressM) ++pressing[e];
   }
@@ -55,12 +63,39 @@ void QueueModel::update(const WorldView& view, int self) {
   }
 }
 
+// Whom the news reaches later will choose as those before chose from there.
+void QueueModel::learn_habits(const WorldView& view) {
+  for (std::vector<double>& chosen : habits_) {
+    for (double& looks : chosen) looks *= kMemory;
+  }
+  for (const PersonSeen& person : view.people) {
+    if (person.guide >= 0 || person.exit < 0) continue;
+    const std::size_t e = index(ends_up_at(person));
+    if ((person.position - place_.exits[e].middle()).norm() < kOnTheWayM) continue;
+    habits_[nearest_exit(person.position)][e] += 1;
+  }
+}
+
+void QueueModel::expect(const PersonSeen& unaware) {
+  const std::size_t nearest = nearest_exit(unaware.position);
+  const std::vector<double>& chosen = habits_[nearest];
+  const double all = std::accumulate(chosen.begin(), chosen.end(), kSurePrior);
+  people_[nearest] += kExpected * kSurePrior / all;
+  for (std::size_t e = 0; e < people_.size(); ++e) people_[e] += kExpected * chosen[e] / all;
+}
+
 std::size_t QueueModel::nearest_exit(const Eigen::Vector2d& place) const {
   const auto nearer = [&](const world::Exit& a, const world::Exit& b) {
+    if (a.open != b.open) return a.open;
     return (a.middle() - place).squaredNorm() < (b.middle() - place).squaredNorm();
   };
   return static_cast<std::size_t>(
       std::min_element(place_.exits.begin(), place_.exits.end(), nearer) - place_.exits.begin());
+}
+
+int QueueModel::ends_up_at(const PersonSeen& person) const {
+  if (place_.exits[index(person.exit)].open) return person.exit;
+  return static_cast<int>(nearest_exit(place_.exits[index(person.exit)].middle()));
 }
 
 double QueueModel::wait_s(int exit) const {

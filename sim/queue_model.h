@@ -20,6 +20,9 @@ class QueueModel {
   void update(const WorldView& view, int self);
 
   double capacity_per_s(int exit) const { return capacity_per_s_[index(exit)]; }
+  /// Where somebody who has noticed will end up: who runs to a shut door finds out there, and goes
+  /// on to the nearest one that is open.
+  int ends_up_at(const PersonSeen& person) const;
   /// Time until everybody who wants this exit is out; far more than any run for a shut one.
   double wait_s(int exit) const;
 
@@ -30,12 +33,17 @@ class QueueModel {
   double saving_of_idle_s(double idle_s, int to, double arrive_s, double people) const;
 
  private:
+  /// Of those that are open.
   std::size_t nearest_exit(const Eigen::Vector2d& place) const;
+  void learn_habits(const WorldView& view);
+  void expect(const PersonSeen& unaware);
   static std::size_t index(int exit) { return static_cast<std::size_t>(exit); }
 
   const world::Scenario& place_;
   std::vector<double> capacity_per_s_;
   std::vector<double> people_;  // who want each exit, with what is planned
+  /// [nearest exit][exit that is chosen there]: looks at people, the latest counting most.
+  std::vector<std::vector<double>> habits_;
 };
 
 }  // namespace throng::sim
