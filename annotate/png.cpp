@@ -1,7 +1,6 @@
 #include "annotate/png.h"
 
 #include <isa-l/crc.h>
-#include <isa-l/igzip_lib.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/deflate.h"
 #include "base/error.h"
 
 namespace throng::annotate {
@@ -42,26 +42,6 @@ std::string header(const Raster& raster, int bits) {
   data.push_back(static_cast<char>(raster.channels == 3 ? kRgb : kGrey));
   data.append(3, '\0');  // deflate, the usual filters, not interlaced
   return data;
-}
-
-/// One zlib stream at ISA-L's level 1.
-std::string_view deflated(std::vector<std::uint8_t>& input, std::vector<std::uint8_t>& output) {
-  thread_local std::vector<std::uint8_t> work(ISAL_DEF_LVL1_DEFAULT);
-  output.resize(std::max(output.size(), input.size() + input.size() / 8 + 1024));
-  isal_zstream stream;
-  isal_deflate_stateless_init(&stream);
-  stream.level = 1;
-  stream.level_buf = work.data();
-  stream.level_buf_size = static_cast<std::uint32_t>(work.size());
-  stream.gzip_flag = IGZIP_ZLIB;
-  stream.end_of_stream = 1;
-  stream.flush = NO_FLUSH;
-  stream.next_in = input.data();
-  stream.avail_in = static_cast<std::uint32_t>(input.size());
-  stream.next_out = output.data();
-  stream.avail_out = static_cast<std::uint32_t>(output.size());
-  check(isal_deflate_stateless(&stream) == COMP_OK, "the room for a compressed picture suffices");
-  return {reinterpret_cast<const char*>(output.data()), stream.total_out};
 }
 
 /// Each row as its difference to the one above: neighbouring rows of ground truth are nearly alike.

@@ -100,6 +100,7 @@ T read_attribute(const Handle& object, const std::string& name) {
 }
 
 /// A dataset whose first dimension grows; chunked by `rows_per_chunk` rows, shuffled and deflated.
+/// Whole chunks are compressed here, which is several times as fast as HDF5's own filters.
 class RowDataset {
  public:
   /// `row` is the shape of one row, e.g. {agents, 2}.
@@ -109,8 +110,14 @@ class RowDataset {
   void append(const void* data, hsize_t count);
 
  private:
+  bool is_whole_chunk(hsize_t count) const;
+  void append_chunk(const void* data);
+
   std::string name_;
   hid_t memory_type_;
+  hsize_t rows_per_chunk_;
+  std::size_t value_bytes_;
+  bool as_in_file_;  ///< memory holds values as the file does
   std::vector<hsize_t> shape_;
   Handle dataset_;
 };

@@ -1,0 +1,15 @@
+// Fast compression that any reader of zlib streams understands.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace throng {
+
+/// One zlib stream (RFC 1950) of `input`, at ISA-L's level 1: several times as fast as zlib's own.
+/// The result lies in `output`, whose room grows as needed and may serve again.
+std::string_view deflated(std::span<const std::uint8_t> input, std::vector<std::uint8_t>& output);
+
+}  // namespace throng
