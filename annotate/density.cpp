@@ -1,8 +1,10 @@
 #include "annotate/density.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -52,12 +54,21 @@ double DensityMap::sum() const { return std::accumulate(value.begin(), value.end
 
 DensityMap density_map(std::span<const Eigen::Vector2d> heads, int width, int height,
                        double sigma_px) {
-  check(width > 0 && height > 0 && sigma_px > 0, "a density map has pixels and a width of kernel");
+  return density_map(heads, std::vector<double>(heads.size(), sigma_px), width, height);
+}
+
+DensityMap density_map(std::span<const Eigen::Vector2d> heads, std::span<const double> sigmas_px,
+                       int width, int height) {
+  check(width > 0 && height > 0, "a density map has pixels");
+  check(heads.size() == sigmas_px.size(), "each head has a width of kernel");
   // Doubles: thousands of tails add up in one pixel.
   std::vector<double> sums(static_cast<std::size_t>(width) * height);
   AxisKernel across;
   AxisKernel down;
-  for (const Eigen::Vector2d& head : heads) {
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    const Eigen::Vector2d& head = heads[i];
+    const double sigma_px = sigmas_px[i];
+    check(sigma_px > 0, "a kernel has a width");
     if (!is_inside(head, width, height)) continue;
     set_kernel(across, head.x(), width, sigma_px);
     set_kernel(down, head.y(), height, sigma_px);
@@ -70,10 +81,10 @@ DensityMap density_map(std::span<const Eigen::Vector2d> heads, int width, int he
   return {width, height, std::vector<float>(sums.begin(), sums.end())};
 }
 
-std::string npy_bytes(const DensityMap& map) {
+std::string npy_bytes(std::span<const int> shape, std::span<const float> values) {
   static_assert(std::endian::native == std::endian::little, "values are written as they lie");
-  std::string header = fmt::format(
-      "{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}", map.height, map.width);
+  std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}",
+                                   fmt::join(shape, ", "));
   constexpr std::size_t kPreamble = 10;  // magic, version, length of the header
   constexpr std::size_t kAlignment = 64;
   while ((kPreamble + header.size() + 1) % kAlignment != 0) header.push_back(' ');
@@ -83,9 +94,13 @@ std::string npy_bytes(const DensityMap& map) {
             static_cast<char>(header.size() >> 8)};
   bytes += header;
   const std::size_t start = bytes.size();
-  bytes.resize(start + map.value.size() * sizeof(float));
-  std::memcpy(bytes.data() + start, map.value.data(), map.value.size() * sizeof(float));
+  bytes.resize(start + values.size() * sizeof(float));
+  std::memcpy(bytes.data() + start, values.data(), values.size() * sizeof(float));
   return bytes;
+}
+
+std::string npy_bytes(const DensityMap& map) {
+  return npy_bytes(std::array{map.height, map.width}, map.value);
 }
 
 }  // namespace throng::annotate

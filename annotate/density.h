@@ -23,7 +23,13 @@ struct DensityMap {
 DensityMap density_map(std::span<const Eigen::Vector2d> heads, int width, int height,
                        double sigma_px);
 
-/// The bytes of a NumPy .npy version 1.0 file: float32, C order, shape (height, width).
+/// The same with a width of its own for each head.
+DensityMap density_map(std::span<const Eigen::Vector2d> heads, std::span<const double> sigmas_px,
+                       int width, int height);
+
+/// The bytes of a NumPy .npy version 1.0 file: float32, C order.
+std::string npy_bytes(std::span<const int> shape, std::span<const float> values);
+/// That of a map, shape (height, width).
 std::string npy_bytes(const DensityMap& map);
 
 }  // namespace throng::annotate

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "annotate/exits_csv.h"
+#include "annotate/ground_field.h"
 #include "base/error.h"
 #include "jobs/camera_files.h"
 #include "jobs/environment.h"
@@ -72,6 +73,25 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
 
 namespace {
 
+// Crowding and motion on the ground at the time of every frame.
+void add_fields(const JobSpec& job, int run, const world::Trace& trace,
+                const world::Scenario& scenario, Publication& output) {
+  nlohmann::json people = nlohmann::json::array();
+  annotate::GroundField field;
+  for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {
+    field = annotate::ground_field(trace, scenario.ground, job.frame_time_s(frame));
+    output.add(fmt::format("fields/{}/{:06}.npy", run_name(run), frame),
+               annotate::npy_bytes(field));
+    people.push_back(field.people);
+  }
+  const nlohmann::json grid = {{"origin_m", {field.origin.x(), field.origin.y()}},
+                               {"cell_m", annotate::kFieldCell_m},
+                               {"columns", field.columns},
+                               {"rows", field.rows},
+                               {"people", people}};
+  output.add("fields/" + run_name(run) + ".json", grid.dump(kJsonIndent) + "\n");
+}
+
 // The calibration of every camera, and the tables of sensors if they are asked for.
 void add_flights(const JobSpec& job, int run, const world::Trace& trace, Publication& output) {
   const std::uint64_t seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
@@ -109,6 +129,7 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
     }
     output.add("exits/" + run_name(run) + ".csv", annotate::exits_csv(exits, trace.time_s, frames));
   }
+  if (wants(job, "fields")) add_fields(job, run, trace, scenario, output);
   add_flights(job, run, trace, output);
   // The trace may come from elsewhere (`throng render`): its seed is the one that counts.
   output.publish({{"seed", trace.header.seed}, {"metrics", figures}});
