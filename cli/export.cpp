@@ -74,13 +74,8 @@ formats::ExportOptions options_of(const ExportArguments& arguments) {
   options.splits = splits_of(arguments.splits);
   options.filters = {arguments.min_visibility, arguments.min_height_px};
   options.classes.by = arguments.classes;
-  const std::vector<std::string> values = formats::class_values(arguments.classes);
   for (const std::string& word : arguments.class_names) {
-    const auto [value, name] = sides_of(word, "--class-name");
-    if (std::find(values.begin(), values.end(), value) == values.end()) {
-      throw InputError({"", "--class-name", value, "a value of " + arguments.classes});
-    }
-    options.classes.names[value] = name;
+    formats::add_class_name(word, "--class-name", options.classes);
   }
   return options;
 }
@@ -139,7 +134,7 @@ void add_export(CLI::App& app) {
   command->callback([arguments, list] {
     if (*list) {
       for (const formats::Format& format : formats::all_formats()) {
-        fmt::print("{:<16}{}\n", format.name, format.summary);
+        fmt::print("{:<26}{}\n", format.name, format.summary);
       }
       return;
     }

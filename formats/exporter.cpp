@@ -24,6 +24,20 @@ constexpr std::array kFormats = {
     Format{"mots", "MOTS: tracks of masks", "", make_mots},
     Format{"visdrone-det", "VisDrone DET: a text for each picture", "", make_visdrone_det},
     Format{"visdrone-mot", "VisDrone MOT: a text for each sequence", "", make_visdrone_mot},
+    Format{"shanghaitech", "heads as .mat, density of sigma 4 as .h5 and .npy", "", make_points},
+    Format{"shanghaitech-adaptive", "the same, sigma from the nearest heads", "",
+           make_points_adaptive},
+    Format{"shanghaitech-perspective", "the same, sigma from the distance to the camera", "",
+           make_points_perspective},
+    Format{"dronecrowd", "DroneCrowd: tracks of heads", "", make_dronecrowd},
+    Format{"kitti", "KITTI: boxes in the picture and in the camera's frame", "", make_kitti},
+    Format{"voc", "Pascal VOC: an XML for each picture", "", make_voc},
+    Format{"cvat", "CVAT for images 1.1", "", make_cvat},
+    Format{"webdataset", "WebDataset: tar shards of pictures and JSON", "", make_webdataset},
+    Format{"imagefolder", "Hugging Face ImageFolder with metadata.jsonl", "", make_imagefolder},
+    Format{"depth-exr", "depth as OpenEXR, metres", "depth", make_depth_exr},
+    Format{"flow-flo", "flow as Middlebury's .flo", "flow", make_flow_flo},
+    Format{"table", "one CSV of all people in all pictures", "", make_table},
 };
 
 }  // namespace
@@ -69,7 +83,7 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
 }
 
 void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& formats,
-                    const std::filesystem::path& output) {
+                    const std::filesystem::path& output, Exporter* also) {
   std::vector<std::unique_ptr<Exporter>> exporters;
   exporters.reserve(formats.size());
   for (const Format* format : formats) {
@@ -79,8 +93,10 @@ void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& f
   Image image;
   while (reader.next(image)) {
     for (const auto& exporter : exporters) exporter->add(image);
+    if (also != nullptr) also->add(image);
   }
   for (const auto& exporter : exporters) exporter->finish();
+  if (also != nullptr) also->finish();
 }
 
 }  // namespace throng::formats

@@ -44,8 +44,9 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
                                           const std::vector<std::string>& annotations,
                                           const std::string& where);
 
-/// One pass over the dataset: each format below `output`, in a folder of its name.
+/// One pass over the dataset: each format below `output`, in a folder of its name. `also` is fed
+/// with them, if given.
 void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& formats,
-                    const std::filesystem::path& output);
+                    const std::filesystem::path& output, Exporter* also = nullptr);
 
 }  // namespace throng::formats

@@ -19,5 +19,17 @@ ExporterPointer make_mot(const DatasetInfo& info, Output output);
 ExporterPointer make_mots(const DatasetInfo& info, Output output);
 ExporterPointer make_visdrone_det(const DatasetInfo& info, Output output);
 ExporterPointer make_visdrone_mot(const DatasetInfo& info, Output output);
+ExporterPointer make_points(const DatasetInfo& info, Output output);
+ExporterPointer make_points_adaptive(const DatasetInfo& info, Output output);
+ExporterPointer make_points_perspective(const DatasetInfo& info, Output output);
+ExporterPointer make_dronecrowd(const DatasetInfo& info, Output output);
+ExporterPointer make_kitti(const DatasetInfo& info, Output output);
+ExporterPointer make_voc(const DatasetInfo& info, Output output);
+ExporterPointer make_cvat(const DatasetInfo& info, Output output);
+ExporterPointer make_webdataset(const DatasetInfo& info, Output output);
+ExporterPointer make_imagefolder(const DatasetInfo& info, Output output);
+ExporterPointer make_depth_exr(const DatasetInfo& info, Output output);
+ExporterPointer make_flow_flo(const DatasetInfo& info, Output output);
+ExporterPointer make_table(const DatasetInfo& info, Output output);
 
 }  // namespace throng::formats

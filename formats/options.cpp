@@ -1,6 +1,12 @@
 #include "formats/options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <utility>
+
+#include "base/error.h"
 
 namespace throng::formats {
 
@@ -26,6 +32,18 @@ std::vector<std::string> class_values(std::string_view property) {
     if (name == property) return values;
   }
   return {};
+}
+
+void add_class_name(const std::string& text, const std::string& where, ClassOptions& classes) {
+  const std::size_t equals = text.find('=');
+  const std::vector<std::string> values = class_values(classes.by);
+  const std::string value = text.substr(0, equals);
+  if (equals == std::string::npos || equals + 1 == text.size() ||
+      std::find(values.begin(), values.end(), value) == values.end()) {
+    throw InputError(
+        {"", where, text, fmt::format("VALUE=NAME, VALUE one of: {}", fmt::join(values, ", "))});
+  }
+  classes.names[value] = text.substr(equals + 1);
 }
 
 std::vector<std::string_view> class_properties() {

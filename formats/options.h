@@ -45,6 +45,8 @@ struct ExportOptions {
 
 /// Values of a property, in a fixed order; they are the classes. Empty for an unknown property.
 std::vector<std::string> class_values(std::string_view property);
+/// "female=woman": another name for a value of the property. Throws InputError naming `where`.
+void add_class_name(const std::string& text, const std::string& where, ClassOptions& classes);
 /// "none", "sex", "age_band", "state", "carries".
 std::vector<std::string_view> class_properties();
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -64,7 +66,7 @@ class SmallDataset : public testing::Test {
     for (render::PersonInView& person : picture.people) {
       person.position = person.hips;
       person.keypoints.fill(person.hips.cast<float>());
-      person.box_middle = person.hips.cast<float>();
+      person.box_middle = person.hips.cast<float>() + Eigen::Vector3f(0, 0, 0.85F);
       person.box_size = {0.4F, 0.5F, 1.7F};
     }
     annotate::FrameLabels labels = annotate::label_people(picture);
@@ -98,6 +100,8 @@ class SmallDataset : public testing::Test {
           annotate::jpeg_bytes(picture.rgb, picture.width(), picture.height(), 80));
     write(image.density_file,
           annotate::npy_bytes(annotate::density_map(heads, picture.width(), picture.height(), 4)));
+    picture.flow.assign(2 * picture.id.size(), 1.5F);
+    write("flow/" + place + ".png", annotate::flow_png(picture));
     write("instances/" + place + ".png", annotate::instance_png(picture));
     write("depth/" + place + ".png", annotate::depth_png(picture));
   }
@@ -110,15 +114,14 @@ class SmallDataset : public testing::Test {
                        {"bytes", entry.file_size()},
                        {"sha256", sha256_hex_of_file(entry.path())}});
     }
-    const nlohmann::json manifest = {
-        {"schema_version", 1},
-        {"generator", "throng test"},
-        {"job",
-         {{"name", "small"},
-          {"capture", {{"rate_hz", 2}, {"from_s", 0}, {"to_s", 1}}},
-          {"outputs", {{"annotations", {"coco", "keypoints", "density", "depth", "instances"}}}}}},
-        {"runs", {{{"run", "run000"}}, {{"run", "run001"}}}},
-        {"files", files}};
+    const nlohmann::json manifest = {{"schema_version", 1},
+                                     {"generator", "throng test"},
+                                     {"job",
+                                      {{"name", "small"},
+                                       {"capture", {{"rate_hz", 2}, {"from_s", 0}, {"to_s", 1}}},
+                                       {"outputs", {{"annotations", annotations_}}}}},
+                                     {"runs", {{{"run", "run000"}}, {{"run", "run001"}}}},
+                                     {"files", files}};
     write_file_atomically(root_ / "manifest.json", manifest.dump(1));
   }
 
@@ -135,6 +138,8 @@ class SmallDataset : public testing::Test {
 
   nlohmann::json coco() const { return nlohmann::json::parse(read_file(root_ / kCocoFile)); }
 
+  /// What the manifest says that the dataset has; write_manifest() writes it.
+  std::vector<std::string> annotations_ = {"coco", "keypoints", "density", "depth", "instances"};
   std::filesystem::path folder_;
   std::filesystem::path root_;
 };

@@ -12,6 +12,7 @@
 #include "formats/raster.h"
 #include "tests/annotate/rle.h"
 #include "tests/formats/dataset_fixture.h"
+#include "tests/formats/readers.h"
 
 namespace throng::formats {
 namespace {
@@ -19,47 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using Exports = SmallDataset;
-
-std::vector<std::string> lines_of(const fs::path& path) {
-  std::istringstream text(read_file(path));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  return lines;
-}
-
-std::vector<double> numbers_of(std::string line) {
-  std::replace(line.begin(), line.end(), ',', ' ');
-  std::istringstream text(line);
-  std::vector<double> numbers;
-  for (double number = 0; text >> number;) numbers.push_back(number);
-  return numbers;
-}
-
-std::map<std::int64_t, json> images_by_id(const json& coco) {
-  std::map<std::int64_t, json> images;
-  for (const json& image : coco.at("images")) images[image.at("id")] = image;
-  return images;
-}
-
-std::string stem_of(const json& image) {
-  std::string name = image.at("file_name");
-  name = name.substr(name.find('/') + 1, name.size() - name.find('/') - 5);
-  std::replace(name.begin(), name.end(), '/', '-');
-  return name;
-}
-
-/// The COCO file's annotations, in order, by the stem of their image.
-std::map<std::string, std::vector<json>> people_by_stem(const json& coco) {
-  const auto images = images_by_id(coco);
-  std::map<std::string, std::vector<json>> people;
-  for (const auto& [id, image] : images) people[stem_of(image)];
-  for (const json& person : coco.at("annotations")) {
-    people[stem_of(images.at(person.at("image_id")))].push_back(person);
-  }
-  return people;
-}
-
-double number(const json& value) { return value.get<double>(); }
 
 TEST_F(Exports, YoloBoxesAreTheVisibleOnes) {
   const fs::path out = exported("yolo-detect");

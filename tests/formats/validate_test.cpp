@@ -127,6 +127,17 @@ TEST_F(Validate, DepthThatIsSomewhereElse) {
   expect("depth", "depth/run000/d1/000000.png", "annotation ");
 }
 
+// In the fixture nobody is where flow would lead them: every frame is another scene.
+TEST_F(Validate, FlowThatLeadsElsewhere) {
+  annotations_.emplace_back("flow");
+  write_manifest();
+  expect("flow-leads-to-boxes", "flow/run000/d1/000000.png", "annotation ");
+  write_file_atomically(root_ / "flow/run000/d1/000001.png",
+                        annotate::png_bytes({160, 120, 3}, std::vector<std::uint16_t>(57600, 7)));
+  write_manifest();
+  expect("flow", "flow/run000/d1/000001.png", "pixel 0");
+}
+
 TEST_F(Validate, RecordsThatAreNone) {
   change_person([](json& r) { r.erase("position"); });
   expect("schema", kCocoFile, "line ");

@@ -1,0 +1,226 @@
+#include "formats/card.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace throng::formats {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int kCardVersion = 1;
+/// Of the characters that set-up bakes; own ones that were imported have their own.
+constexpr const char* kPeopleLicence =
+    "CC0-1.0 for those that throng people build makes; see NOTICE.txt beside the baked people";
+
+/// "00016-00032": the class of a value between two borders, in names that sort.
+std::string band_of(double value, std::span<const int> borders) {
+  for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
+    if (value < borders[i + 1]) return fmt::format("{:05}-{:05}", borders[i], borders[i + 1]);
+  }
+  return fmt::format("{:05}-", borders.back());
+}
+
+std::string light_of(const json& record) {
+  const auto environment = record.find("environment");
+  if (environment == record.end() || !environment->contains("sun_elevation_deg")) return "unknown";
+  constexpr double kCivil_deg = -6;
+  constexpr double kLow_deg = 10;
+  const double elevation = environment->at("sun_elevation_deg");
+  if (elevation < kCivil_deg) return "night";
+  if (elevation < 0) return "twilight";
+  return elevation < kLow_deg ? "low sun" : "day";
+}
+
+std::string weather_of(const json& record) {
+  const auto environment = record.find("environment");
+  return environment == record.end() ? "unknown" : environment->value("weather", "unknown");
+}
+
+/// What lies where, for the kinds of ground truth that a job may ask for.
+const std::map<std::string, std::string>& places() {
+  static const std::map<std::string, std::string> table = {
+      {"coco", "annotations/instances.json"},
+      {"density", "density/RUN/CAMERA/FRAME.npy: people per pixel, float32"},
+      {"exits", "exits/RUN.csv"},
+      {"fields",
+       "fields/RUN/FRAME.npy: people per square metre, velocity; grid in fields/RUN.json"},
+      {"depth", "depth/RUN/CAMERA/FRAME.png: centimetres, 16 bits, 0 beyond 655.35 m"},
+      {"instances", "instances/RUN/CAMERA/FRAME.png: red + 256 green + 65536 blue"},
+      {"parts", "parts/RUN/CAMERA/FRAME.png"},
+      {"normals", "normals/RUN/CAMERA/FRAME.png"},
+      {"flow", "flow/RUN/CAMERA/FRAME.png: KITTI's 16-bit PNG"},
+      {"sensors", "sensors/RUN/CAMERA.csv"}};
+  return table;
+}
+
+constexpr std::string_view kCocoSnippet = R"(
+## Loading
+
+Boxes, masks and cameras, with nothing but Python's standard library:
+
+```python
+import json
+
+coco = json.load(open("annotations/instances.json"))
+people = {}
+for annotation in coco["annotations"]:
+    people.setdefault(annotation["image_id"], []).append(annotation)
+for image in coco["images"]:
+    boxes = [person["bbox"] for person in people.get(image["id"], [])]
+    print(image["file_name"], len(boxes), "people")
+```
+)";
+
+constexpr std::string_view kDensitySnippet = R"(
+A density map and its count, with NumPy:
+
+```python
+import json
+import numpy
+
+image = json.load(open("annotations/instances.json"))["images"][0]
+density = numpy.load(image["density_file"])
+assert abs(density.sum(dtype=numpy.float64) - image["density_count"]) < 0.01 * max(1, image["density_count"])
+```
+)";
+
+constexpr std::string_view kProjectionSnippet = R"(
+Where somebody stands, in the picture (of a camera without distortion):
+
+```python
+import json
+import numpy
+
+coco = json.load(open("annotations/instances.json"))
+images = {image["id"]: image for image in coco["images"]}
+for person in coco["annotations"][:10]:
+    camera = images[person["image_id"]]["camera"]
+    point = numpy.array(camera["R"]) @ person["position"] + camera["t"]
+    u, v = (numpy.array(camera["K"]) @ point)[:2] / point[2] + 0.5  # box coordinates
+```
+)";
+
+}  // namespace
+
+DatasetCard::DatasetCard(const DatasetInfo& info, json manifest, Output output)
+    : info_(info), manifest_(std::move(manifest)), output_(std::move(output)) {}
+
+void DatasetCard::add(const Image& image) {
+  constexpr std::array kHeights = {0, 8, 16, 32, 64, 128, 256};
+  constexpr std::array kCounts = {0, 1, 10, 50, 100, 200, 500, 1000};
+  constexpr int kPercent = 100;
+  constexpr std::array kShares = {0, 10, 25, 50, 75, 90};
+  constexpr double kTruncated = 0.005;
+  ++images_;
+  people_ += static_cast<std::int64_t>(image.people.size());
+  most_in_image_ = std::max(most_in_image_, static_cast<std::int64_t>(image.people.size()));
+  ++by_count_[band_of(static_cast<double>(image.people.size()), kCounts)];
+  ++by_light_[light_of(image.record)];
+  ++by_weather_[weather_of(image.record)];
+  ++by_split_[std::string(name_of(image.split))];
+  for (const Person& person : image.people) {
+    ++by_height_[band_of(person.height_px, kHeights)];
+    ++by_visibility_[band_of(kPercent * person.visibility, kShares)];
+    ++by_state_[person.state.empty() ? "unknown" : person.state];
+    truncated_ += person.truncation >= kTruncated ? 1 : 0;
+    ignored_ += person.is_ignored ? 1 : 0;
+  }
+}
+
+json DatasetCard::statistics() const {
+  return {{"images", images_},
+          {"annotations", people_},
+          {"most_people_in_an_image", most_in_image_},
+          {"truncated", truncated_},
+          {"fail_the_filters", ignored_},
+          {"annotations_by_height_px", by_height_},
+          {"annotations_by_visibility_percent", by_visibility_},
+          {"annotations_by_state", by_state_},
+          {"images_by_people", by_count_},
+          {"images_by_light", by_light_},
+          {"images_by_weather", by_weather_},
+          {"images_by_split", by_split_}};
+}
+
+json DatasetCard::description() const {
+  json places_here = {{"images", "images/RUN/CAMERA/FRAME.jpg"},
+                      {"metrics", "metrics.json"},
+                      {"cameras", "cameras/RUN/CAMERA.opencv.yaml and .ros.yaml"},
+                      {"files", "manifest.json: size and SHA-256 of each file"}};
+  for (const std::string& kind : info_.annotations) {
+    if (const auto place = places().find(kind); place != places().end()) {
+      places_here[kind] = place->second;
+    }
+  }
+  json formats = json::object();
+  for (const json& name : manifest_.at("job").at("outputs").value("formats", json::array())) {
+    formats[name.get<std::string>()] = "formats/" + name.get<std::string>();
+  }
+  json splits = json::object();
+  json seeds = json::object();
+  for (const json& run : manifest_.at("runs")) {
+    const std::string name = run.at("run");
+    splits[std::string(name_of(info_.split_of(name)))].push_back(name);
+    seeds[name] = run.value("seed", json());
+  }
+  return {
+      {"schema_version", kCardVersion},
+      {"name", info_.name},
+      {"generator", info_.generator},
+      {"schema_versions", {{"manifest", manifest_.at("schema_version")}, {"coco", "1"}}},
+      {"files", places_here},
+      {"formats", formats},
+      {"splits", splits},
+      {"seeds", seeds},
+      {"statistics", statistics()},
+      {"conventions",
+       {{"boxes", "origin at the top left corner of the top left pixel; pixel i covers [i, i+1)"},
+        {"projection",
+         "OpenCV's pixels: u = K (R X + t), divided by its third part; + 0.5 in "
+         "box coordinates"},
+        {"world", "right-handed, metres, z up, the ground is z = 0"},
+        {"camera", "x right, y down, z forward"},
+        {"time", "seconds since the run began; label and picture are of the same instant"}}},
+      {"licence", {{"people", kPeopleLicence}}},
+      {"job", manifest_.at("job")}};
+}
+
+std::string DatasetCard::readme() const {
+  std::string text = fmt::format(
+      "# {}\n\nA synthetic crowd dataset made by {}: {} images with {} annotations of people, in "
+      "{} "
+      "runs.\n`dataset.json` describes it, `manifest.json` lists every file with its SHA-256. "
+      "`throng "
+      "validate` checks it.\n\n",
+      info_.name, info_.generator, images_, people_, info_.runs.size());
+  text += "| what | where |\n|---|---|\n";
+  const json card = description();
+  for (const auto& [kind, place] : card.at("files").items()) {
+    text += fmt::format("| {} | {} |\n", kind, place.get<std::string>());
+  }
+  for (const auto& [name, place] : card.at("formats").items()) {
+    text += fmt::format("| {} | {}/ |\n", name, place.get<std::string>());
+  }
+  text += kCocoSnippet;
+  if (info_.has("density")) text += kDensitySnippet;
+  text += kProjectionSnippet;
+  text += fmt::format(
+      "\n## Splits\n\nWhole runs: {}.\n\n## Licence\n\nThe people that are drawn: {}. Everything "
+      "else is made by {}.\n",
+      card.at("splits").dump(), kPeopleLicence, info_.generator);
+  return text;
+}
+
+void DatasetCard::finish() {
+  constexpr int kIndent = 2;
+  output_.write("dataset.json", description().dump(kIndent) + "\n");
+  output_.write("README.md", readme());
+}
+
+}  // namespace throng::formats

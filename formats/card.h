@@ -1,0 +1,44 @@
+// A dataset's own description: dataset.json for programs and README.md for people.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "formats/exporter.h"
+
+namespace throng::formats {
+
+/// Counts while it is fed, and describes the dataset at the end.
+class DatasetCard : public Exporter {
+ public:
+  /// `manifest` is what manifest.json will say, but for its files.
+  DatasetCard(const DatasetInfo& info, nlohmann::json manifest, Output output);
+
+  void add(const Image& image) override;
+  /// Writes dataset.json and README.md.
+  void finish() override;
+
+ private:
+  nlohmann::json statistics() const;
+  nlohmann::json description() const;
+  std::string readme() const;
+
+  const DatasetInfo& info_;
+  nlohmann::json manifest_;
+  Output output_;
+  std::int64_t images_ = 0;
+  std::int64_t people_ = 0;
+  std::int64_t truncated_ = 0;
+  std::int64_t ignored_ = 0;
+  std::int64_t most_in_image_ = 0;
+  std::map<std::string, std::int64_t> by_height_;
+  std::map<std::string, std::int64_t> by_visibility_;
+  std::map<std::string, std::int64_t> by_count_;  ///< images by people in them
+  std::map<std::string, std::int64_t> by_light_;  ///< images by where the sun is
+  std::map<std::string, std::int64_t> by_weather_;
+  std::map<std::string, std::int64_t> by_state_;
+  std::map<std::string, std::int64_t> by_split_;
+};
+
+}  // namespace throng::formats

@@ -1,0 +1,64 @@
+// DroneCrowd: tracks of heads, a text per sequence.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+
+#include "formats/makers.h"
+#include "formats/sequences.h"
+
+namespace throng::formats {
+
+namespace {
+
+constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
+/// Boxes about heads are as large as a head of this size is at its distance.
+constexpr double kHead_m = 0.25;
+
+class DroneCrowdExporter : public Exporter {
+ public:
+  DroneCrowdExporter(const DatasetInfo& info, Output output)
+      : info_(info), output_(std::move(output)), texts_(output_) {}
+
+  void add(const Image& image) override {
+    const std::string_view split = name_of(image.split);
+    const std::string sequence = image.sequence();
+    output_.link(fmt::format("{}/images/{}/{:06}.jpg", split, sequence, image.frame + 1),
+                 info_.root / image.file);
+    bool is_new = false;
+    OutputStream& text =
+        texts_.of(image.run, fmt::format("{}/annotations/{}.txt", split, sequence), is_new);
+    std::string lines;
+    for (const Person& person : image.people) {
+      if (!person.is_ignored && person.head) append(lines, image, person);
+    }
+    text.write(lines);
+  }
+  void finish() override { texts_.close(); }
+
+ private:
+  /// frame,head,x,y,width,height,out,occluded,-1,-1; x and y are the box's left upper corner.
+  static void append(std::string& lines, const Image& image, const Person& person) {
+    const Eigen::Vector2d& at = *person.head;
+    if (at.x() < 0 || at.y() < 0 || at.x() >= image.width || at.y() >= image.height) return;
+    const double depth_m = std::max((image.R * person.position + image.t).z(), 0.1);
+    const double size = std::max(kHead_m * image.K(0, 0) / depth_m, 1.0);
+    const bool is_hidden = person.visibility < 0.5;
+    fmt::format_to(std::back_inserter(lines), "{},{},{:.2f},{:.2f},{:.2f},{:.2f},0,{},-1,-1\n",
+                   image.frame + 1, person.track_id % kTrackIdsPerRun, at.x() - size / 2,
+                   at.y() - size / 2, size, size, is_hidden ? 1 : 0);
+  }
+
+  const DatasetInfo& info_;
+  Output output_;
+  SequenceTexts texts_;
+};
+
+}  // namespace
+
+ExporterPointer make_dronecrowd(const DatasetInfo& info, Output output) {
+  return std::make_unique<DroneCrowdExporter>(info, std::move(output));
+}
+
+}  // namespace throng::formats

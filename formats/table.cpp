@@ -1,0 +1,91 @@
+// One CSV of all people in all frames, for tables and statistics. Debian 12 has no library that
+// writes Parquet; readers of CSV convert in a line.
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+
+#include "formats/makers.h"
+
+namespace throng::formats {
+
+using nlohmann::json;
+
+namespace {
+
+/// A field of the record as CSV; texts in quotes where they need them.
+std::string field_of(const json& record, const char* key) {
+  const auto found = record.find(key);
+  if (found == record.end() || found->is_null()) return "";
+  if (!found->is_string()) return found->dump();
+  const std::string text = *found;
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted(1, '"');
+  for (const char c : text) {
+    if (c == '"') quoted.push_back(c);
+    quoted.push_back(c);
+  }
+  quoted.push_back('"');
+  return quoted;
+}
+
+class TableExporter : public Exporter {
+ public:
+  explicit TableExporter(const Output& output) : csv_(output.open("people.csv")) {
+    csv_.write(
+        "run,camera,frame,time_s,split,image_id,annotation_id,track_id,x,y,width,height,amodal_x,"
+        "amodal_y,amodal_width,amodal_height,visibility,truncation,height_px,head_x,head_y,"
+        "ground_x_m,ground_y_m,velocity_x_mps,velocity_y_mps,heading_rad,ignored,state,behaviour,"
+        "exit,group,sex,age_years,age_band,stature_m,carries\n");
+  }
+
+  void add(const Image& image) override {
+    text_.clear();
+    for (const Person& person : image.people) append(image, person);
+    csv_.write(text_);
+  }
+
+  void finish() override { csv_.close(); }
+
+ private:
+  void append(const Image& image, const Person& person) {
+    const auto out = std::back_inserter(text_);
+    const Box& box = person.box;
+    const Box& amodal = person.amodal;
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},", image.run, image.camera, image.frame,
+                   image.time_s, name_of(image.split), image.id, person.id, person.track_id);
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},", box.x, box.y, box.width, box.height,
+                   amodal.x, amodal.y, amodal.width, amodal.height, person.visibility,
+                   person.truncation, person.height_px);
+    if (person.head) {
+      fmt::format_to(out, "{},{}", person.head->x(), person.head->y());
+    } else {
+      text_ += ",";
+    }
+    fmt::format_to(out, ",{},{},{},{},{},{}", person.ground_position.x(),
+                   person.ground_position.y(), person.velocity.x(), person.velocity.y(),
+                   person.heading_rad, person.is_ignored ? 1 : 0);
+    for (const char* key : {"state", "behaviour", "exit", "group"}) {
+      text_.push_back(',');
+      text_ += field_of(person.record, key);
+    }
+    static const json kNone = json::object();
+    const auto attributes = person.record.find("attributes");
+    for (const char* key : {"sex", "age_years", "age_band", "stature_m", "carries"}) {
+      text_.push_back(',');
+      text_ += field_of(attributes == person.record.end() ? kNone : *attributes, key);
+    }
+    text_ += "\n";
+  }
+
+  OutputStream csv_;
+  std::string text_;
+};
+
+}  // namespace
+
+ExporterPointer make_table(const DatasetInfo& /*info*/, Output output) {
+  return std::make_unique<TableExporter>(output);
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,117 @@
+// WebDataset: plain tar shards in which a sample's members lie together: KEY.jpg and KEY.json.
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "formats/makers.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// Samples in a shard: some hundred megabytes of full pictures.
+constexpr std::int64_t kSamplesPerShard = 500;
+
+struct CloseArchive {
+  void operator()(archive* tar) const { archive_write_free(tar); }
+};
+
+/// Equal members give equal bytes: owner 0, time 0.
+class TarFile {
+ public:
+  explicit TarFile(fs::path path) : path_(std::move(path)), tar_(archive_write_new()) {
+    fs::create_directories(path_.parent_path());
+    require(archive_write_set_format_ustar(tar_.get()));
+    require(archive_write_add_filter_none(tar_.get()));
+    require(archive_write_open_filename(tar_.get(), path_.c_str()));
+  }
+
+  void add(const std::string& name, std::string_view bytes) {
+    constexpr int kMode = 0644;
+    const std::unique_ptr<archive_entry, decltype(&archive_entry_free)> entry(archive_entry_new(),
+                                                                              archive_entry_free);
+    archive_entry_set_pathname(entry.get(), name.c_str());
+    archive_entry_set_size(entry.get(), static_cast<la_int64_t>(bytes.size()));
+    archive_entry_set_filetype(entry.get(), AE_IFREG);
+    archive_entry_set_perm(entry.get(), kMode);
+    archive_entry_set_mtime(entry.get(), 0, 0);
+    require(archive_write_header(tar_.get(), entry.get()));
+    if (archive_write_data(tar_.get(), bytes.data(), bytes.size()) !=
+        static_cast<la_ssize_t>(bytes.size())) {
+      require(ARCHIVE_FATAL);
+    }
+  }
+
+  void close() { require(archive_write_close(tar_.get())); }
+
+ private:
+  void require(int result) const {
+    if (result == ARCHIVE_OK) return;
+    const char* reason = archive_error_string(tar_.get());
+    throw EnvironmentError(fmt::format("cannot write {}: {}", path_.string(),
+                                       reason == nullptr ? "unknown reason" : reason));
+  }
+
+  fs::path path_;
+  std::unique_ptr<archive, CloseArchive> tar_;
+};
+
+class WebDatasetExporter : public Exporter {
+ public:
+  WebDatasetExporter(const DatasetInfo& info, Output output)
+      : info_(info), output_(std::move(output)) {}
+
+  void add(const Image& image) override {
+    Shards& shards = shards_[image.split];
+    if (shards.samples % kSamplesPerShard == 0) {
+      if (shards.open) shards.open->close();
+      shards.open = std::make_unique<TarFile>(
+          output_.folder() /
+          fmt::format("{}-{:06}.tar", name_of(image.split), shards.samples / kSamplesPerShard));
+    }
+    ++shards.samples;
+    json sample = image.record;
+    sample["annotations"] = json::array();
+    for (const Person& person : image.people) {
+      json& record = sample["annotations"].emplace_back(person.record);
+      record["category"] = info_.categories[person.category];
+      if (person.is_ignored) record["ignored"] = true;
+    }
+    // Keys end at the first dot, and have none.
+    shards.open->add(image.stem() + ".jpg", read_file(info_.root / image.file));
+    shards.open->add(image.stem() + ".json", sample.dump());
+  }
+
+  void finish() override {
+    for (auto& [split, shards] : shards_) shards.open->close();
+  }
+
+ private:
+  struct Shards {
+    std::unique_ptr<TarFile> open;
+    std::int64_t samples = 0;
+  };
+
+  const DatasetInfo& info_;
+  Output output_;
+  std::map<Split, Shards> shards_;
+};
+
+}  // namespace
+
+ExporterPointer make_webdataset(const DatasetInfo& info, Output output) {
+  return std::make_unique<WebDatasetExporter>(info, std::move(output));
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,36 @@
+// Text inside XML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace throng::formats {
+
+/// The text with the five characters escaped that mean something in XML.
+inline std::string xml_text(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&apos;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace throng::formats

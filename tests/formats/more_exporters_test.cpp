@@ -1,0 +1,272 @@
+// Exports of texts, points, values per pixel and containers, read back by readers of their own.
+#include <archive.h>
+#include <archive_entry.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <tinyxml2.h>
+
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "formats/npy.h"
+#include "tests/formats/dataset_fixture.h"
+#include "tests/formats/readers.h"
+
+namespace throng::formats {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using MoreExports = SmallDataset;
+
+template <typename Value>
+Value value_at(const std::string& bytes, std::size_t at) {
+  Value value;
+  EXPECT_LE(at + sizeof(value), bytes.size());
+  std::memcpy(&value, bytes.data() + at, sizeof(value));
+  return value;
+}
+
+// Heads inside the picture, in box coordinates.
+std::vector<std::pair<double, double>> heads_of_people(const std::vector<json>& people) {
+  std::vector<std::pair<double, double>> heads;
+  for (const json& person : people) {
+    const json& head = person.at("head");
+    if (head.is_null() || head[0] < 0 || head[1] < 0 || head[0] >= 160 || head[1] >= 120) continue;
+    heads.emplace_back(head[0], head[1]);
+  }
+  return heads;
+}
+
+TEST_F(MoreExports, PointsAndDensityOfAllKernelsCountHeads) {
+  for (const char* format : {"shanghaitech", "shanghaitech-adaptive", "shanghaitech-perspective"}) {
+    const fs::path truth = exported(format) / "train_data/ground_truth";
+    for (const auto& [stem, people] : people_by_stem(coco())) {
+      const double count = static_cast<double>(heads_of_people(people).size());
+      const FloatMap map = read_npy(truth / ("IMG_" + stem + ".npy"));
+      EXPECT_NEAR(std::accumulate(map.value.begin(), map.value.end(), 0.0), count,
+                  1e-3 * std::max(count, 1.0));
+      const hid_t file =
+          H5Fopen((truth / ("IMG_" + stem + ".h5")).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+      const hid_t data = H5Dopen2(file, "density", H5P_DEFAULT);
+      std::vector<float> values(map.value.size());
+      EXPECT_GE(H5Dread(data, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+      H5Dclose(data);
+      H5Fclose(file);
+      EXPECT_EQ(values, map.value);
+    }
+  }
+}
+
+// Elements of a MATLAB 5 file: (type, begin, end) from `at` on.
+struct Element {
+  std::uint32_t type;
+  std::size_t begin;
+  std::size_t size;
+};
+std::vector<Element> elements_of(const std::string& bytes, std::size_t at, std::size_t end) {
+  std::vector<Element> elements;
+  while (at < end) {
+    const auto size = value_at<std::uint32_t>(bytes, at + 4);
+    elements.push_back({value_at<std::uint32_t>(bytes, at), at + 8, size});
+    at += 8 + (size + 7) / 8 * 8;
+  }
+  return elements;
+}
+
+TEST_F(MoreExports, MatFilesHoldThePointsFromOne) {
+  const fs::path truth = exported("shanghaitech") / "train_data/ground_truth";
+  for (const auto& [stem, people] : people_by_stem(coco())) {
+    const std::string bytes = read_file(truth / ("GT_IMG_" + stem + ".mat"));
+    EXPECT_EQ(bytes.substr(0, 10), "MATLAB 5.0");
+    EXPECT_EQ(bytes.substr(124, 4), std::string("\x00\x01IM", 4));
+    const auto variables = elements_of(bytes, 128, bytes.size());
+    ASSERT_EQ(variables.size(), 1U);
+    const auto cell =
+        elements_of(bytes, variables[0].begin, variables[0].begin + variables[0].size);
+    ASSERT_EQ(cell.size(), 4U);
+    EXPECT_EQ(bytes.substr(cell[2].begin, cell[2].size), "image_info");
+    const auto inner = elements_of(bytes, cell[3].begin, cell[3].begin + cell[3].size);
+    ASSERT_EQ(inner.size(), 7U);
+    EXPECT_STREQ(bytes.c_str() + inner[4].begin, "location");
+    const auto location = elements_of(bytes, inner[5].begin, inner[5].begin + inner[5].size);
+    const auto heads = heads_of_people(people);
+    ASSERT_EQ(location.at(3).size, heads.size() * 16);
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+      EXPECT_NEAR(value_at<double>(bytes, location[3].begin + 8 * i), heads[i].first + 0.5, 1e-9);
+      EXPECT_NEAR(value_at<double>(bytes, location[3].begin + 8 * (heads.size() + i)),
+                  heads[i].second + 0.5, 1e-9);
+    }
+  }
+}
+
+TEST_F(MoreExports, KittiPutsPeopleWhereTheirBoxesAre) {
+  ExportOptions options;
+  options.filters.min_visibility = 0.5;
+  const fs::path out = exported("kitti", options) / "train";
+  int ignored = 0;
+  for (const auto& [stem, people] : people_by_stem(coco())) {
+    const auto lines = lines_of(out / "label_2" / (stem + ".txt"));
+    ASSERT_EQ(lines.size(), people.size());
+    const auto camera = numbers_of(lines_of(out / "calib" / (stem + ".txt")).at(2).substr(3));
+    ASSERT_EQ(camera.size(), 12U);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const std::string type = lines[i].substr(0, lines[i].find(' '));
+      const auto line = numbers_of(lines[i].substr(type.size()));
+      ASSERT_EQ(line.size(), 14U);
+      const json& box = people[i].at("bbox");
+      EXPECT_NEAR(line[3], number(box[0]), 0.01);
+      EXPECT_NEAR(line[6], number(box[1]) + number(box[3]), 0.01);
+      ignored += type == "DontCare" ? 1 : 0;
+      if (type == "DontCare") continue;
+      EXPECT_EQ(type, "Pedestrian");
+      EXPECT_NEAR(line[7], 1.7, 1e-3);
+      // The fixture's box stands on what the scene puts at the middle of the amodal box's edge.
+      const double u = (camera[0] * line[10] + camera[2] * line[12]) / line[12];
+      const json& amodal = people[i].at("bbox_amodal");
+      EXPECT_NEAR(u + 0.5, number(amodal[0]) + number(amodal[2]) / 2, 0.1);
+    }
+  }
+  EXPECT_GT(ignored, 3);
+}
+
+TEST_F(MoreExports, VocCountsFromOneWithBothEndsInside) {
+  const fs::path out = exported("voc");
+  const auto people = people_by_stem(coco());
+  EXPECT_EQ(lines_of(out / "ImageSets/Main/train.txt").size(), people.size());
+  for (const auto& [stem, expected] : people) {
+    tinyxml2::XMLDocument xml;
+    ASSERT_EQ(xml.LoadFile((out / "Annotations" / (stem + ".xml")).c_str()), tinyxml2::XML_SUCCESS);
+    std::size_t i = 0;
+    for (const auto* object = xml.RootElement()->FirstChildElement("object"); object != nullptr;
+         object = object->NextSiblingElement("object"), ++i) {
+      const auto* box = object->FirstChildElement("bndbox");
+      const json& bbox = expected.at(i).at("bbox");
+      EXPECT_EQ(box->FirstChildElement("xmin")->DoubleText(), number(bbox[0]) + 1);
+      EXPECT_EQ(box->FirstChildElement("xmax")->DoubleText(), number(bbox[0]) + number(bbox[2]));
+      EXPECT_EQ(box->FirstChildElement("ymin")->DoubleText(), number(bbox[1]) + 1);
+      EXPECT_EQ(box->FirstChildElement("ymax")->DoubleText(), number(bbox[1]) + number(bbox[3]));
+    }
+    EXPECT_EQ(i, expected.size());
+  }
+}
+
+TEST_F(MoreExports, CvatListsEveryPictureAndBox) {
+  const fs::path out = exported("cvat");
+  tinyxml2::XMLDocument xml;
+  ASSERT_EQ(xml.LoadFile((out / "annotations.xml").c_str()), tinyxml2::XML_SUCCESS);
+  std::size_t images = 0;
+  std::size_t boxes = 0;
+  const auto people = people_by_stem(coco());
+  for (const auto* image = xml.RootElement()->FirstChildElement("image"); image != nullptr;
+       image = image->NextSiblingElement("image"), ++images) {
+    const fs::path name = image->Attribute("name");
+    EXPECT_TRUE(fs::exists(out / "images" / name));
+    std::size_t i = 0;
+    for (const auto* box = image->FirstChildElement("box"); box != nullptr;
+         box = box->NextSiblingElement("box"), ++i, ++boxes) {
+      const json& bbox = people.at(name.stem()).at(i).at("bbox");
+      EXPECT_EQ(box->DoubleAttribute("xtl"), number(bbox[0]));
+      EXPECT_EQ(box->DoubleAttribute("ybr"), number(bbox[1]) + number(bbox[3]));
+    }
+  }
+  EXPECT_EQ(images, 12U);
+  EXPECT_EQ(boxes, coco().at("annotations").size());
+}
+
+TEST_F(MoreExports, ImageFoldersLinesHaveEqualKeys) {
+  ExportOptions options;
+  options.splits.runs = {{"run001", Split::val}};
+  const fs::path out = exported("imagefolder", options);
+  std::size_t boxes = 0;
+  for (const char* split : {"train", "validation"}) {
+    std::vector<std::string> keys;
+    for (const std::string& text : lines_of(out / split / "metadata.jsonl")) {
+      const json line = json::parse(text);
+      std::vector<std::string> own;
+      for (const auto& [key, value] : line.items()) own.push_back(key);
+      EXPECT_TRUE(keys.empty() || keys == own);
+      keys = own;
+      EXPECT_TRUE(fs::exists(out / split / line.at("file_name").get<std::string>()));
+      boxes += line.at("objects").at("bbox").size();
+    }
+    EXPECT_FALSE(keys.empty());
+  }
+  EXPECT_EQ(boxes, coco().at("annotations").size());
+}
+
+TEST_F(MoreExports, WebDatasetKeepsSamplesTogether) {
+  const fs::path tar = exported("webdataset") / "train-000000.tar";
+  archive* reader = archive_read_new();
+  archive_read_support_format_tar(reader);
+  ASSERT_EQ(archive_read_open_filename(reader, tar.c_str(), 10240), ARCHIVE_OK);
+  archive_entry* entry = nullptr;
+  std::vector<std::string> names;
+  std::size_t annotations = 0;
+  while (archive_read_next_header(reader, &entry) == ARCHIVE_OK) {
+    names.emplace_back(archive_entry_pathname(entry));
+    EXPECT_EQ(archive_entry_mtime(entry), 0);
+    std::string bytes(static_cast<std::size_t>(archive_entry_size(entry)), '\0');
+    EXPECT_EQ(archive_read_data(reader, bytes.data(), bytes.size()),
+              static_cast<la_ssize_t>(bytes.size()));
+    if (!names.back().ends_with(".json")) continue;
+    annotations += json::parse(bytes).at("annotations").size();
+  }
+  archive_read_free(reader);
+  ASSERT_EQ(names.size(), 24U);
+  for (std::size_t i = 0; i < names.size(); i += 2) {
+    const std::string key = names[i].substr(0, names[i].find('.'));
+    EXPECT_EQ(names[i], key + ".jpg");
+    EXPECT_EQ(names[i + 1], key + ".json");
+  }
+  EXPECT_EQ(annotations, coco().at("annotations").size());
+}
+
+TEST_F(MoreExports, FloAndExrAreTheValuesPerPixel) {
+  annotations_.emplace_back("flow");
+  write_manifest();
+  const std::string flo = read_file(exported("flow-flo") / "run000-d1/run000-d1-000001.flo");
+  ASSERT_EQ(flo.size(), 12U + 8 * 160 * 120);
+  EXPECT_EQ(flo.substr(0, 4), "PIEH");
+  EXPECT_EQ(value_at<std::int32_t>(flo, 4), 160);
+  EXPECT_EQ(value_at<float>(flo, 12 + 8 * 500), 1.5F);
+  const std::string exr = read_file(exported("depth-exr") / "run000-d1/run000-d1-000001.exr");
+  EXPECT_EQ(value_at<std::uint32_t>(exr, 0), 20000630U);
+  // The last pixel of the last line ends the file.
+  EXPECT_NEAR(value_at<float>(exr, exr.size() - 4), 9.0, 0.005);
+  EXPECT_EQ(exr.size() % 4, (exr.size() - 120 * (8 + 8 + 4 * 160)) % 4);
+}
+
+TEST_F(MoreExports, TheTableHasALineForEachAnnotation) {
+  const auto lines = lines_of(exported("table") / "people.csv");
+  const json all = coco();
+  ASSERT_EQ(lines.size(), 1 + all.at("annotations").size());
+  const auto columns = std::count(lines[0].begin(), lines[0].end(), ',');
+  for (const std::string& line : lines) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns);
+  }
+  EXPECT_THAT(lines[1], testing::HasSubstr("," + all.at("annotations")[0].at("id").dump() + ","));
+}
+
+TEST_F(MoreExports, DroneCrowdBoxesAreAboutHeads) {
+  const fs::path out = exported("dronecrowd") / "train";
+  std::size_t heads = 0;
+  std::size_t expected = 0;
+  for (const auto& [stem, people] : people_by_stem(coco()))
+    expected += heads_of_people(people).size();
+  for (const char* sequence : {"run000-d1", "run000-d2", "run001-d1", "run001-d2"}) {
+    for (const std::string& line :
+         lines_of(out / "annotations" / (std::string(sequence) + ".txt"))) {
+      const auto numbers = numbers_of(line);
+      ASSERT_EQ(numbers.size(), 10U);
+      EXPECT_GE(numbers[4], 1);
+      ++heads;
+    }
+  }
+  EXPECT_EQ(heads, expected);
+}
+
+}  // namespace
+}  // namespace throng::formats
