@@ -44,6 +44,8 @@ void check_fits(const world::Trace& trace, const jobs::JobSpec& job,
 void render(const RenderArguments& arguments) {
   jobs::JobSpec job = read_job_file(arguments.job_file);
   job.runs = 1;
+  std::erase_if(job.outputs.exports.splits.runs,
+                [](const auto& named) { return named.first != jobs::run_name(0); });
   check_fits(world::read_trace(arguments.trace_file), job, arguments);
   const auto folder = jobs::JobFolder::create(arguments.output, job);
   const auto place = folder.output_of({jobs::Task::Kind::simulate, 0, 0});

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <unordered_map>
 
 #include "base/error.h"
 #include "jobs/manifest.h"
@@ -35,6 +36,7 @@ constexpr Field kSize{124, 12};
 constexpr Field kTime{136, 12};
 constexpr Field kChecksum{148, 8};
 constexpr Field kType{156, 1};
+constexpr Field kLink{157, 100};
 constexpr Field kMagic{257, 8};
 constexpr Field kPrefix{345, 155};
 
@@ -65,7 +67,8 @@ void put_path(Header& header, const std::string& path) {
   put(header, kName, path.substr(slash + 1));
 }
 
-Header header_of(const std::string& path, std::int64_t bytes) {
+// `same_as`: the path of an earlier member that this one is a hard link to, or "".
+Header header_of(const std::string& path, std::int64_t bytes, const std::string& same_as) {
   Header header{};
   put_path(header, path);
   put(header, kMode, "0000644");
@@ -73,7 +76,8 @@ Header header_of(const std::string& path, std::int64_t bytes) {
   put_number(header, kGroup, 0);
   put_number(header, kSize, bytes);
   put_number(header, kTime, 0);
-  put(header, kType, "0");
+  put(header, kType, same_as.empty() ? "0" : "1");
+  put(header, kLink, same_as);
   put(header, kMagic,
       std::string_view("ustar\0"
                        "00",
@@ -122,13 +126,21 @@ void read_exactly(const fs::path& path, std::int64_t offset, std::span<char> buf
 
 Archive::Archive(fs::path dataset, std::string root)
     : dataset_(std::move(dataset)), root_(std::move(root)) {
+  // Other formats hold the same pictures under other names.
+  std::unordered_map<std::string, std::string> first_of;
   for (FileEntry& file : read_manifest_files(dataset_)) {
-    members_.push_back({std::move(file.path), file.bytes});
+    const auto [first, is_new] = first_of.try_emplace(file.sha256, file.path);
+    const std::string target = is_new ? "" : root_ + "/" + first->second;
+    if (is_new || file.bytes <= kBlock || target.size() > kLink.length) {
+      members_.push_back({std::move(file.path), file.bytes, 0, ""});
+    } else {
+      members_.push_back({std::move(file.path), 0, 0, target});
+    }
   }
   std::error_code error;
   const auto manifest_bytes = fs::file_size(dataset_ / kManifestName, error);
   if (error) throw EnvironmentError(fmt::format("cannot read {}", kManifestName));
-  members_.push_back({kManifestName, static_cast<std::int64_t>(manifest_bytes)});
+  members_.push_back({kManifestName, static_cast<std::int64_t>(manifest_bytes), 0, ""});
   std::sort(members_.begin(), members_.end(),
             [](const Member& a, const Member& b) { return a.path < b.path; });
   for (Member& member : members_) {
@@ -175,7 +187,7 @@ std::size_t Archive::read_member(const Member& member, std::int64_t offset,
     return part;
   };
   if (offset < kBlock) {
-    const Header header = header_of(root_ + "/" + member.path, member.bytes);
+    const Header header = header_of(root_ + "/" + member.path, member.bytes, member.same_as);
     const std::int64_t from = offset;
     const std::span<char> part = take(kBlock);
     std::copy_n(header.begin() + from, part.size(), part.begin());

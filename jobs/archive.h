@@ -13,7 +13,8 @@
 namespace throng::jobs {
 
 /// A ustar archive of the files in the manifest and the manifest itself, sorted by path, below one
-/// folder; owner 0, time 0: equal datasets give equal bytes.
+/// folder; owner 0, time 0: equal datasets give equal bytes. Of files with equal bytes the first is
+/// there and the others are hard links to it.
 class Archive {
  public:
   /// Reads the dataset's manifest. `root` names the folder inside the archive: at most 100
@@ -31,6 +32,7 @@ class Archive {
     std::string path;  ///< relative to the dataset
     std::int64_t bytes = 0;
     std::int64_t offset = 0;  ///< of its header
+    std::string same_as;      ///< path in the archive of the member that has its bytes, or ""
   };
 
   std::size_t read_member(const Member& member, std::int64_t offset, std::span<char> buffer) const;

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/version.h"
+#include "formats/card.h"
+#include "formats/exporter.h"
 #include "jobs/environment.h"
 #include "jobs/manifest.h"
 #include "jobs/people.h"
@@ -58,7 +60,9 @@ class Collector {
                            wants(job_, "keypoints"));
       list(path);
     }
-    write_manifest(std::move(runs));
+    json manifest = manifest_of(std::move(runs));
+    if (wants(job_, "coco")) add_exports(manifest);
+    write_manifest(std::move(manifest));
     staging_.commit();
   }
 
@@ -107,18 +111,36 @@ class Collector {
         {path, static_cast<std::int64_t>(fs::file_size(file)), sha256_hex_of_file(file)});
   }
 
-  void write_manifest(json runs) {
+  json manifest_of(json runs) const {
+    return {{"schema_version", kManifestVersion},
+            {"generator", kGenerator},
+            {"job", to_json(job_)},
+            {"devices", devices_},
+            {"people", {{"content_hash", pinned_people(folder_)}}},
+            {"counts", {{"frames", images_}, {"annotations", annotations_}, {"agents", agents_}}},
+            {"runs", std::move(runs)}};
+  }
+
+  // Other formats, and what the dataset says of itself: one pass over its annotations.
+  void add_exports(const json& manifest) {
+    const formats::DatasetInfo info =
+        formats::describe_dataset(staging_.path(), manifest, job_.outputs.exports);
+    formats::DatasetCard card(info, manifest, formats::Output(staging_.path()));
+    const fs::path folder = staging_.path() / "formats";
+    formats::export_dataset(
+        info, formats::choose_formats(job_.outputs.formats, job_.outputs.annotations, ""), folder,
+        &card);
+    for (const char* path : {"dataset.json", "README.md"}) list(path);
+    if (!fs::exists(folder)) return;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.is_regular_file()) list(entry.path().lexically_relative(staging_.path()).string());
+    }
+  }
+
+  void write_manifest(json manifest) {
     std::sort(files_.begin(), files_.end(),
               [](const FileEntry& a, const FileEntry& b) { return a.path < b.path; });
-    const json manifest = {
-        {"schema_version", kManifestVersion},
-        {"generator", kGenerator},
-        {"job", to_json(job_)},
-        {"devices", devices_},
-        {"people", {{"content_hash", pinned_people(folder_)}}},
-        {"counts", {{"frames", images_}, {"annotations", annotations_}, {"agents", agents_}}},
-        {"runs", std::move(runs)},
-        {"files", files_}};
+    manifest["files"] = files_;
     write_new_file(staging_.path() / kManifestName, manifest.dump(kJsonIndent) + "\n");
   }
 

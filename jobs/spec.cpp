@@ -10,6 +10,7 @@
 #include "crowd/model.h"
 #include "crowd/project.h"
 #include "crowd/simulation.h"
+#include "jobs/export_spec.h"
 #include "jobs/guidance_spec.h"
 #include "jobs/plan.h"
 #include "jobs/schema.h"
@@ -129,6 +130,7 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
   read(outputs, "annotations", job.outputs.annotations);
   read(part(outputs, "density"), "sigma_px", job.outputs.density_sigma_px);
   read(outputs, "previews", job.outputs.previews);
+  read_exports(outputs, job.runs, job.outputs, problems);
   return job;
 }
 
@@ -326,6 +328,7 @@ json to_json(const JobSpec& job) {
         {"annotations", job.outputs.annotations},
         {"density", {{"sigma_px", job.outputs.density_sigma_px}}},
         {"previews", job.outputs.previews}}}};
+  value["outputs"].update(exports_json(job.outputs));
   if (job.agents) value["crowd"]["agents"] = *job.agents;
   if (!job.randomize.empty()) value["randomize"] = to_json(job.randomize);
   return value;

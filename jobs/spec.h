@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/options.h"
 #include "jobs/camera_spec.h"
 #include "jobs/environment.h"
 #include "jobs/randomize.h"
@@ -36,6 +37,8 @@ struct OutputSpec {
   std::vector<std::string> annotations = {"coco", "density", "exits"};
   double density_sigma_px = 4;
   int previews = 3;
+  std::vector<std::string> formats;  ///< other formats, below formats/ in the dataset
+  formats::ExportOptions exports;
 };
 
 struct JobSpec {

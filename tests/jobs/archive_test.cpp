@@ -87,6 +87,32 @@ TEST_F(ArchiveTest, ReadersFindEveryFileWithItsBytes) {
   EXPECT_TRUE(members.contains("square/manifest.json"));
 }
 
+TEST_F(ArchiveTest, EqualFilesAreLinksToTheFirst) {
+  const std::string picture(20'000, 'p');
+  add("formats/yolo/000001.jpg", picture);
+  add("images/000001.jpg", picture);
+  add("formats/small", "s");
+  add("images/small", "s");
+  write_manifest();
+  const Archive archive(folder.path(), "square");
+  const std::string tar = all_of(archive, 4096);
+  EXPECT_EQ(static_cast<std::int64_t>(tar.size()), archive.size());
+  EXPECT_LT(tar.size(), 2 * picture.size());
+  const std::unique_ptr<struct archive, decltype(&archive_read_free)> reader(archive_read_new(),
+                                                                             &archive_read_free);
+  archive_read_support_format_tar(reader.get());
+  ASSERT_EQ(archive_read_open_memory(reader.get(), tar.data(), tar.size()), ARCHIVE_OK);
+  std::map<std::string, std::string> links;
+  archive_entry* entry = nullptr;
+  while (archive_read_next_header(reader.get(), &entry) == ARCHIVE_OK) {
+    const char* target = archive_entry_hardlink(entry);
+    links[archive_entry_pathname(entry)] = target == nullptr ? "" : target;
+  }
+  EXPECT_EQ(links.at("square/formats/yolo/000001.jpg"), "");
+  EXPECT_EQ(links.at("square/images/000001.jpg"), "square/formats/yolo/000001.jpg");
+  EXPECT_EQ(links.at("square/images/small"), "") << "a link would not be shorter";
+}
+
 TEST_F(ArchiveTest, AnyPartIsThatPartOfTheWhole) {
   for (int i = 0; i < 5; ++i) add(fmt::format("f{}", i), std::string(300 * i, 'a' + i));
   write_manifest();

@@ -103,8 +103,11 @@ TEST_F(Spec, ReadsEveryField) {
                              "profile": {"choice": ["power", "uniform"]}, "roughness_m": 1,
                              "exponent": 0.3, "gusts": "ou", "intensity": 2, "gust_mps": 1,
                              "gust_time_s": 2}},
-    "outputs": {"image": {"format": "jpeg", "quality": 80}, "annotations": ["density"],
-                "density": {"sigma_px": 6}, "previews": 0}})");
+    "outputs": {"image": {"format": "jpeg", "quality": 80}, "annotations": ["density", "coco"],
+                "density": {"sigma_px": 6}, "previews": 0, "formats": ["mot", "yolo-detect"],
+                "splits": {"train": 0.5, "val": 0.25, "test": 0.25, "val_runs": [3]},
+                "filters": {"min_visibility": 0.2, "min_height_px": 9},
+                "classes": {"by": "sex", "names": ["female=woman"]}}})");
   EXPECT_EQ(job.seed, 9007199254740991U);
   EXPECT_EQ(job.agents, 2);
   EXPECT_EQ(job.crowd.model, "orca");
@@ -132,7 +135,13 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(wind.gust_time_s, 2);
   EXPECT_EQ(job.frames_per_camera(), 5);
   EXPECT_EQ(job.quality, render::Quality::high);
-  EXPECT_THAT(job.outputs.annotations, ElementsAre("density"));
+  EXPECT_THAT(job.outputs.annotations, ElementsAre("density", "coco"));
+  EXPECT_THAT(job.outputs.formats, ElementsAre("mot", "yolo-detect"));
+  EXPECT_EQ(job.outputs.exports.splits.share[1], 0.25);
+  EXPECT_EQ(job.outputs.exports.splits.runs.at("run003"), formats::Split::val);
+  EXPECT_EQ(job.outputs.exports.filters.min_visibility, 0.2);
+  EXPECT_EQ(job.outputs.exports.filters.min_height_px, 9);
+  EXPECT_EQ(job.outputs.exports.classes.names.at("female"), "woman");
   EXPECT_EQ(job.outputs.density_sigma_px, 6);
   EXPECT_EQ(to_json(parse(to_json(job).dump())), to_json(job));
 }
@@ -216,6 +225,15 @@ TEST_F(Spec, EachMistakeIsNamedByItsPointer) {
        "/outputs/annotations/1"},
       {R"({"scenario": "yard", "outputs": {"annotations": ["coco", "coco"]}})",
        "/outputs/annotations"},
+      {R"({"scenario": "yard", "outputs": {"formats": ["mot", "docx"]}})", "/outputs/formats/1"},
+      {R"({"scenario": "yard", "outputs": {"formats": ["yolo-pose"]}})", "/outputs/formats/0"},
+      {R"({"scenario": "yard", "outputs": {"splits": {"val_runs": [1]}}})",
+       "/outputs/splits/val_runs/0"},
+      {R"({"scenario": "yard", "outputs": {"splits": {"train": 0}}})", "/outputs/splits"},
+      {R"({"scenario": "yard", "outputs": {"filters": {"min_visibility": 2}}})",
+       "/outputs/filters/min_visibility"},
+      {R"({"scenario": "yard", "outputs": {"classes": {"names": ["male=man"]}}})",
+       "/outputs/classes/names/0"},
       {R"({"scenario": "yard", "a/b~c": 1})", "/a~1b~0c"},
   };
   for (const auto& [text, pointer] : cases) {
