@@ -4,6 +4,8 @@ import io
 import json
 import os
 import pathlib
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -29,6 +31,13 @@ JOB = {
         "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
     }],
     "capture": {"rate_hz": 2, "from_s": 1, "to_s": 21},
+    "outputs": {
+        "annotations": ["coco", "keypoints", "density", "exits", "depth", "instances", "flow"],
+        "formats": ["coco", "coco-keypoints", "coco-panoptic", "yolo-detect", "yolo-segment", "yolo-pose",
+                    "mot", "mots", "visdrone-det", "visdrone-mot"],
+        "splits": {"val_runs": [1]},
+        "filters": {"min_visibility": 0.1},
+    },
 }
 
 
@@ -78,6 +87,50 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(frames, 2 * 41)
         self.assertGreater(annotations, 1000)
 
+    def test_validation_agrees_and_notices_a_changed_byte(self):
+        done = throng("validate", self.dataset)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        damaged = self.base / "damaged"
+        shutil.copytree(self.dataset, damaged)
+        picture = damaged / "images/run001/d1/000003.jpg"
+        picture.write_bytes(picture.read_bytes()[:-1] + b"x")
+        done = throng("validate", damaged)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("images/run001/d1/000003.jpg: its SHA-256", done.stdout)
+
+    def test_snippets_of_the_readme_run(self):
+        text = (self.dataset / "README.md").read_text()
+        snippets = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        self.assertEqual(len(snippets), 3)
+        for snippet in snippets:
+            done = subprocess.run([sys.executable, "-c", snippet], cwd=self.dataset, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_dataset_json_counts_what_is_there(self):
+        card = json.loads((self.dataset / "dataset.json").read_text())
+        coco = json.loads((self.dataset / "annotations/instances.json").read_text())
+        statistics = card["statistics"]
+        self.assertEqual(statistics["images"], len(coco["images"]))
+        self.assertEqual(sum(statistics["annotations_by_height_px"].values()), len(coco["annotations"]))
+        self.assertEqual(card["splits"], {"train": ["run000"], "val": ["run001"]})
+        for folder in card["formats"].values():
+            self.assertTrue((self.dataset / folder).is_dir())
+
+    def test_an_export_later_is_that_of_the_job(self):
+        out = self.base / "exported"
+        done = throng("export", self.dataset, "-o", out, "--formats", "mot,yolo-pose,coco-panoptic",
+                      "--split", "val=run001", "--min-visibility", "0.1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("mot", "yolo-pose", "coco-panoptic"):
+            mine, theirs = files_of(out / name), files_of(self.dataset / "formats" / name)
+            self.assertEqual(sorted(mine), sorted(theirs))
+            self.assertEqual([p for p in mine if not filecmp.cmp(mine[p], theirs[p], shallow=False)], [])
+        done = throng("export", self.dataset, "-o", out, "--formats", "mot")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("exists", done.stderr)
+        done = throng("export", self.dataset, "-o", self.base / "none", "--formats", "docx")
+        self.assertIn("yolo-detect", done.stderr)
+
     def test_same_seed_gives_the_same_bytes_whatever_the_number_of_workers(self):
         again = self.base / "again"
         done = throng("run", self.job, "-o", again, "--workers", 1)
@@ -87,7 +140,7 @@ class EndToEnd(unittest.TestCase):
             self.assertTrue(filecmp.cmp(self.first / "work" / run / "trace.h5", again / "work" / run / "trace.h5", shallow=False))
 
     def test_another_seed_gives_other_pictures(self):
-        job = dict(JOB, seed=4, runs=1)
+        job = dict(JOB, seed=4, runs=1, outputs={})
         path = self.base / "other.json"
         path.write_text(json.dumps(job))
         done = throng("run", path, "-o", self.base / "other")
@@ -114,6 +167,8 @@ class EndToEnd(unittest.TestCase):
         self.bad_job(lambda j: j.update(colour="red"), "/colour")
         self.bad_job(lambda j: j.update(scenario="atlantis"), "/scenario", "city_square/nearest_exit")
         self.bad_job(lambda j: j.update(crowd={"agents": 100000}), "/crowd/agents", "260")
+        self.bad_job(lambda j: j["outputs"].update(formats=["mot", "docx"]), "/outputs/formats/1", "yolo-detect")
+        self.bad_job(lambda j: j["outputs"]["splits"].update(test_runs=[2]), "/outputs/splits/test_runs/0", "0 to 1")
         self.bad_job(lambda j: j["drones"][0].update(airframe="brick"), "/drones/0/airframe", "f450")
         self.bad_job(lambda j: j["drones"][0]["guidance"].update(waypoints=[[25, 0, 3]]), "/drones/0/guidance/waypoints/0")
 

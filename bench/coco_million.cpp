@@ -1,0 +1,123 @@
+// A COCO file of a million annotations: written in shards, merged, and read again for an export.
+// Prints seconds and the process's peak memory after each; a person's record has everything that a
+// job can ask for, keypoints included, unless "plain" is given.
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "annotate/coco.h"
+#include "annotate/keypoints.h"
+#include "base/files.h"
+#include "formats/exporter.h"
+#include "tests/annotate/synthetic_frame.h"
+
+namespace throng {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFrames = 1600;
+constexpr int kPeople = 700;
+constexpr int kFramesPerShard = 30;
+
+double peak_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  constexpr double kKibPerMib = 1024;
+  return static_cast<double>(usage.ru_maxrss) / kKibPerMib;
+}
+
+class Stage {
+ public:
+  explicit Stage(const char* name) : name_(name), start_(std::chrono::steady_clock::now()) {}
+  ~Stage() {
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+    fmt::print("{:<24}{:8.1f} s, peak {:6.0f} MiB\n", name_, seconds.count(), peak_mib());
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+ private:
+  const char* name_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+render::Frame frame_of_crowd() {
+  annotate::SyntheticScene scene;
+  scene.width = 1920;
+  scene.height = 1080;
+  scene.people = kPeople;
+  scene.min_size_px = 15;
+  scene.max_size_px = 40;
+  render::Frame frame = annotate::synthetic_frame(scene);
+  frame.depth_m.assign(frame.id.size(), 9);
+  for (render::PersonInView& person : frame.people) {
+    for (std::size_t i = 0; i < person.keypoints.size(); ++i) {
+      const auto shift = 0.1F * static_cast<float>(i);
+      person.keypoints[i] = person.hips.cast<float>() + Eigen::Vector3f(shift, -shift, shift / 3);
+    }
+  }
+  return frame;
+}
+
+void run(const fs::path& folder, bool keypoints) {
+  const render::Frame frame = frame_of_crowd();
+  annotate::FrameLabels labels = annotate::label_people(frame);
+  if (keypoints) annotate::add_keypoints(frame, labels);
+  annotate::CocoImage image;
+  image.run = "run000";
+  image.camera_id = "d1";
+  image.camera = frame.camera;
+  fmt::print("{} annotations\n", kFrames * labels.people.size());
+  std::vector<fs::path> shards;
+  {
+    const Stage stage("writing shards");
+    for (int first = 0; first < kFrames; first += kFramesPerShard) {
+      shards.push_back(folder / fmt::format("shard{}", first));
+      annotate::CocoShardWriter writer(shards.back());
+      for (int i = first; i < std::min(first + kFramesPerShard, kFrames); ++i) {
+        image.id = i + 1;
+        image.frame_index = i;
+        image.file_name = fmt::format("images/run000/d1/{:06}.jpg", i);
+        writer.add(image, labels);
+      }
+      writer.finish();
+    }
+  }
+  const fs::path root = folder / "dataset";
+  fs::create_directories(root / "annotations");
+  {
+    const Stage stage("merging");
+    annotate::merge_coco(shards, root / formats::kCocoFile, "a million", keypoints);
+  }
+  fmt::print("{:.0f} MB\n", static_cast<double>(fs::file_size(root / formats::kCocoFile)) / 1e6);
+  const nlohmann::json manifest = {
+      {"generator", "bench"},
+      {"schema_version", 1},
+      {"job",
+       {{"name", "million"},
+        {"capture", {{"rate_hz", 1}, {"from_s", 0}, {"to_s", kFrames - 1}}},
+        {"outputs", {{"annotations", {"coco"}}}}}},
+      {"runs", {{{"run", "run000"}}}}};
+  for (int i = 0; i < kFrames; ++i) {
+    write_file_atomically(root / fmt::format("images/run000/d1/{:06}.jpg", i), "");
+  }
+  const Stage stage("exporting MOT, YOLO");
+  const formats::DatasetInfo info = formats::describe_dataset(root, manifest, {});
+  export_dataset(info, formats::choose_formats({"mot", "yolo-detect"}, {"coco"}, ""),
+                 folder / "out");
+}
+
+}  // namespace
+}  // namespace throng
+
+int main(int argc, char** argv) {
+  const auto folder = std::filesystem::temp_directory_path() / "throng_bench_coco_million";
+  std::filesystem::remove_all(folder);
+  throng::run(folder, argc < 2 || std::string_view(argv[1]) != "plain");
+  std::filesystem::remove_all(folder);
+}

@@ -1,0 +1,186 @@
+"""Exports read with tools that nobody here wrote: Python's own library, NumPy and Pillow, and h5py, SciPy, OpenCV and
+torchvision where Debian's packages of them are installed (python3-h5py, python3-scipy, python3-opencv,
+python3-torchvision). What is missing is skipped, and says so."""
+import configparser
+import csv
+import importlib.util
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tarfile
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import numpy
+from PIL import Image
+
+THRONG = sys.argv.pop(1)
+
+JOB = {
+    "name": "external readers",
+    "scenario": "city_square/nearest_exit",
+    "seed": 5,
+    "runs": 2,
+    "drones": [{
+        "id": "d1", "start": [-24, -6, 14],
+        "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
+    }],
+    "capture": {"rate_hz": 1, "from_s": 6, "to_s": 9},
+    "outputs": {"annotations": ["coco", "keypoints", "density", "depth", "instances", "flow", "fields"]},
+}
+
+
+def needs(module):
+    return unittest.skipUnless(importlib.util.find_spec(module), f"{module} is not installed")
+
+
+def throng(*arguments):
+    done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+class ExternalReaders(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        base = pathlib.Path(cls.folder.name)
+        (base / "job.json").write_text(json.dumps(JOB))
+        throng("run", base / "job.json", "-o", base / "job")
+        cls.dataset = base / "job/dataset"
+        formats = [line.split()[0] for line in throng("export", "--list").splitlines()]
+        cls.out = base / "out"
+        throng("export", cls.dataset, "-o", cls.out, "--formats", ",".join(formats), "--split", "val=run001")
+        cls.coco = json.loads((cls.dataset / "annotations/instances.json").read_text())
+        cls.images = {image["id"]: image for image in cls.coco["images"]}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @staticmethod
+    def stem(image):
+        return f"{image['run']}-{image['camera_id']}-{image['frame']:06}"
+
+    def people(self, image):
+        return [person for person in self.coco["annotations"] if person["image_id"] == image["id"]]
+
+    def heads(self, image):
+        heads = [person["head"] for person in self.people(image) if person["head"]]
+        return [h for h in heads if 0 <= h[0] < image["width"] and 0 <= h[1] < image["height"]]
+
+    @needs("h5py")
+    def test_h5py_reads_densities(self):
+        import h5py
+        for image in self.coco["images"]:
+            split = "train" if image["run"] == "run000" else "val"
+            for kind in ("shanghaitech", "shanghaitech-adaptive", "shanghaitech-perspective"):
+                path = self.out / kind / f"{split}_data/ground_truth/IMG_{self.stem(image)}.h5"
+                with h5py.File(path) as file:
+                    density = file["density"][:]
+                self.assertEqual(density.shape, (image["height"], image["width"]))
+                self.assertEqual(density.dtype, numpy.float32)
+                count = len(self.heads(image))
+                self.assertAlmostEqual(density.sum(dtype=numpy.float64), count, delta=1e-3 * max(count, 1))
+
+    @needs("scipy")
+    def test_scipy_reads_points(self):
+        import scipy.io
+        for image in self.coco["images"]:
+            split = "train" if image["run"] == "run000" else "val"
+            path = self.out / f"shanghaitech/{split}_data/ground_truth/GT_IMG_{self.stem(image)}.mat"
+            points = scipy.io.loadmat(path)["image_info"][0, 0][0, 0][0]
+            numpy.testing.assert_allclose(points, numpy.array(self.heads(image)).reshape(-1, 2) + 0.5, atol=1e-9)
+
+    @needs("cv2")
+    def test_opencv_reads_exr_flow_and_calibration(self):
+        os.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"
+        import cv2
+        image = self.coco["images"][1]
+        depth = cv2.imread(str(self.out / f"depth-exr/run000-d1/{self.stem(image)}.exr"), cv2.IMREAD_UNCHANGED)
+        place = image["file_name"].split("/", 1)[1].replace(".jpg", ".png")
+        png = cv2.imread(str(self.dataset / "depth" / place), cv2.IMREAD_UNCHANGED)
+        numpy.testing.assert_allclose(depth[png > 0], png[png > 0] / 100.0, atol=1e-4)
+        self.assertTrue(numpy.isinf(depth[png == 0]).all())
+        flow = cv2.readOpticalFlow(str(self.out / f"flow-flo/run000-d1/{self.stem(image)}.flo"))
+        kitti = cv2.imread(str(self.dataset / "flow" / place), cv2.IMREAD_UNCHANGED)
+        known = kitti[:, :, 0] == 1
+        numpy.testing.assert_allclose(flow[known][:, 0], (kitti[known][:, 2] - 32768.0) / 64, atol=1e-5)
+        storage = cv2.FileStorage(str(self.dataset / "cameras/run000/d1.opencv.yaml"), cv2.FILE_STORAGE_READ)
+        numpy.testing.assert_allclose(storage.getNode("camera_matrix").mat(), image["camera"]["K"])
+
+    @needs("cv2")
+    def test_opencv_fills_yolo_polygons_to_the_masks_areas(self):
+        import cv2
+        filled, area = 0, 0
+        for image in self.coco["images"][:4]:
+            lines = (self.out / f"yolo-segment/labels/train/{self.stem(image)}.txt").read_text().splitlines()
+            for line, person in zip(lines, self.people(image)):
+                corners = numpy.array(line.split()[1:], float).reshape(-1, 2) * (image["width"], image["height"])
+                # Corners are pixels' corners: enlarged, the mask's pixels are whole squares. OpenCV also draws a
+                # polygon's outline, and so the lines of no width that join a mask's pieces.
+                canvas = numpy.zeros((image["height"] * 8, image["width"] * 8), numpy.uint8)
+                cv2.fillPoly(canvas, [numpy.round(corners * 8).astype(numpy.int32)], 1)
+                filled += int(canvas[4::8, 4::8].sum())
+                area += person["area"]
+        self.assertGreaterEqual(filled, area)
+        self.assertLess(filled, 1.03 * area)
+
+    @needs("torchvision")
+    @needs("pycocotools")
+    def test_torchvision_reads_coco(self):
+        from torchvision.datasets import CocoDetection
+        data = CocoDetection(self.out / "coco/train", self.out / "coco/annotations/instances_train.json")
+        self.assertEqual(len(data), 4)
+        _, target = data[0]
+        for annotation in target:
+            self.assertEqual(int(data.coco.annToMask(annotation).sum()), annotation["area"])
+
+    def test_tarfile_reads_webdataset(self):
+        with tarfile.open(self.out / "webdataset/train-000000.tar") as archive:
+            names = archive.getnames()
+            self.assertEqual([name.split(".")[0] for name in names[::2]], [name.split(".")[0] for name in names[1::2]])
+            picture = Image.open(archive.extractfile(names[0]))
+            self.assertEqual(picture.size, (320, 200))
+            sample = json.load(archive.extractfile(names[1]))
+        self.assertEqual(len(sample["annotations"]), len(self.people(sample)))
+
+    def test_configparser_and_numpy_read_mot(self):
+        sequence = self.out / "mot/train/run000-d1"
+        info = configparser.ConfigParser()
+        info.read(sequence / "seqinfo.ini")
+        self.assertEqual(int(info["Sequence"]["seqLength"]), 4)
+        rows = numpy.loadtxt(sequence / "gt/gt.txt", delimiter=",", ndmin=2)
+        self.assertEqual(rows.shape[1], 9)
+        keys = {(row[0], row[1]) for row in rows}
+        self.assertEqual(len(keys), len(rows), "a track is in a frame once")
+        self.assertTrue((rows[:, 1] > 0).all() and rows[:, 0].min() == 1)
+
+    def test_xml_and_csv_are_read_by_pythons_library(self):
+        boxes = xml.etree.ElementTree.parse(self.out / "cvat/annotations.xml").findall("image/box")
+        self.assertEqual(len(boxes), len(self.coco["annotations"]))
+        with open(self.out / "table/people.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(self.coco["annotations"]))
+        for row, person in zip(rows, self.coco["annotations"]):
+            self.assertEqual(int(row["track_id"]), person["track_id"])
+            self.assertEqual(row["state"], person["state"])
+            self.assertEqual(row["sex"], person["attributes"]["sex"])
+
+    def test_fields_on_the_ground_sum_to_the_people(self):
+        grid = json.loads((self.dataset / "fields/run000.json").read_text())
+        for frame, people in enumerate(grid["people"]):
+            field = numpy.load(self.dataset / f"fields/run000/{frame:06}.npy")
+            self.assertEqual(field.shape, (3, grid["rows"], grid["columns"]))
+            self.assertAlmostEqual(field[0].sum(dtype=numpy.float64) * grid["cell_m"] ** 2, people, places=3)
+        self.assertGreater(people, 100)
+
+    def test_validation_finds_no_faults(self):
+        self.assertIn("no faults", throng("validate", self.dataset))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
