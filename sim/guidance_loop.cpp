@@ -11,7 +11,17 @@ std::vector<std::optional<world::GoalRef>> goals_of(const std::vector<PlannedDro
   return goals;
 }
 
-bool leads(const Pilot& pilot) { return pilot.is_on_mission() && pilot.policy().beacon(); }
+// A craft that is so far below where it should be has come down, whatever its pilot thinks.
+bool is_down(const Flight& flight, std::size_t drone) {
+  constexpr double kDownM = 5;
+  const double should_be_m = flight.pilot(drone).setpoint().position.z();
+  return flight.state(drone).position.z() < should_be_m - kDownM;
+}
+
+bool leads(const Flight& flight, std::size_t drone) {
+  const Pilot& pilot = flight.pilot(drone);
+  return pilot.is_on_mission() && pilot.policy().beacon() && !is_down(flight, drone);
+}
 
 }  // namespace
 
@@ -32,7 +42,8 @@ GuidanceLoop::GuidanceLoop(const world::Scenario& scenario,
 DroneSeen GuidanceLoop::seen(const Flight& flight, std::size_t drone) {
   const FlightState state = flight.state(drone);
   const Pilot& pilot = flight.pilot(drone);
-  return {state.position, state.velocity, leads(pilot), pilot.policy().plan()};
+  const LeadPlan plan = is_down(flight, drone) ? LeadPlan{} : pilot.policy().plan();
+  return {state.position, state.velocity, leads(flight, drone), plan};
 }
 
 void GuidanceLoop::look(const crowd::Simulation& crowd, const CrowdRecorder& recorder,
@@ -51,8 +62,8 @@ void GuidanceLoop::look(const crowd::Simulation& crowd, const CrowdRecorder& rec
 void GuidanceLoop::report(const Flight& flight, RunObserver& observer) const {
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     const Setpoint& setpoint = flight.pilot(i).setpoint();
-    observer.pilot(
-        i, {lookout_.view().time_s, setpoint.position, setpoint.yaw_rad, leads(flight.pilot(i))});
+    observer.pilot(i,
+                   {lookout_.view().time_s, setpoint.position, setpoint.yaw_rad, leads(flight, i)});
   }
 }
 
@@ -61,7 +72,7 @@ void GuidanceLoop::move_goals(const Flight& flight, crowd::Simulation& crowd) co
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     if (!goals_[i]) continue;
     const Eigen::Vector2f below = flight.state(i).position.head<2>().cast<float>();
-    crowd.move_goal(goals_[i]->set, goals_[i]->goal, leads(flight.pilot(i)) ? below : out_of_sight);
+    crowd.move_goal(goals_[i]->set, goals_[i]->goal, leads(flight, i) ? below : out_of_sight);
   }
 }
 

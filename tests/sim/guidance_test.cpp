@@ -1,11 +1,14 @@
 // Drones that guide people, in whole runs of the square.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/files.h"
+#include "sim/guidance_loop.h"
 #include "sim/pilot_log.h"
 #include "sim/run.h"
+#include "tests/sim/missions.h"
 #include "tests/world/temporary_folder.h"
 #include "world/trace.h"
 
@@ -117,6 +120,33 @@ TEST(Guidance, ARunCanBeFlownAgainFromItsPilotLog) {
     EXPECT_LT((first.drone_at(0, time_s).position - again.drone_at(0, time_s).position).norm(), 1)
         << time_s;
   }
+}
+
+class Beacons : public RunObserver {
+ public:
+  void pilot(std::size_t drone, const PilotSample& sample) override {
+    lit.resize(std::max(lit.size(), drone + 1));
+    lit[drone] = sample.beacon;
+  }
+  std::vector<bool> lit;
+};
+
+TEST(Guidance, ADroneThatHasComeDownLeadsNobody) {
+  std::vector<PlannedDrone> drones = {testing::planned_drone({0, 0, 20}, {}, 1),
+                                      testing::planned_drone({5, 0, 20}, {}, 1)};
+  drones[1].airframe.mass_kg *= 4;  // more than its rotors lift, as after a crash
+  const std::vector<world::AgentRole> roles;
+  const world::Scenario place = square("nearest_exit");
+  Flight flight(place.buildings, drones, 0.1, 1.0 / 480,
+                {[](std::size_t, const world::DroneSample&) {}, [](const world::TraceEvent&) {}});
+  GuidanceLoop guidance(place, roles, drones, 1, 0.1);
+  Beacons beacons;
+  guidance.report(flight, beacons);
+  EXPECT_EQ(beacons.lit, (std::vector<bool>{true, true}));
+  for (int i = 0; i < 40; ++i) flight.advance();
+  ASSERT_LT(flight.state(1).position.z(), 12);
+  guidance.report(flight, beacons);
+  EXPECT_EQ(beacons.lit, (std::vector<bool>{true, false}));
 }
 
 }  // namespace
