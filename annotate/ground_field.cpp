@@ -26,8 +26,8 @@ GroundField ground_field(const world::Trace& trace, const world::Rectangle& grou
   GroundField field;
   field.origin = ground.min;
   const Eigen::Vector2d size = ground.max - ground.min;
-  field.columns = std::max(1, static_cast<int>(std::ceil(size.x() / kFieldCell_m)));
-  field.rows = std::max(1, static_cast<int>(std::ceil(size.y() / kFieldCell_m)));
+  field.columns = std::max(1, static_cast<int>(std::ceil(size.x() / kFieldCellM)));
+  field.rows = std::max(1, static_cast<int>(std::ceil(size.y() / kFieldCellM)));
   const auto cells = static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows);
   for (auto* values : {&field.density, &field.velocity_x, &field.velocity_y}) {
     values->assign(cells, 0);
@@ -38,7 +38,7 @@ GroundField ground_field(const world::Trace& trace, const world::Rectangle& grou
       continue;
     }
     const Eigen::Vector2d at = trace.position[trace.at(step, agent)].cast<double>();
-    const Eigen::Vector2d cell = (at - field.origin) / kFieldCell_m;
+    const Eigen::Vector2d cell = (at - field.origin) / kFieldCellM;
     const int column = static_cast<int>(std::floor(cell.x()));
     const int row = static_cast<int>(std::floor(cell.y()));
     if (column < 0 || row < 0 || column >= field.columns || row >= field.rows) continue;
@@ -55,7 +55,7 @@ GroundField ground_field(const world::Trace& trace, const world::Rectangle& grou
     if (field.density[i] == 0) continue;
     field.velocity_x[i] /= field.density[i];
     field.velocity_y[i] /= field.density[i];
-    field.density[i] /= static_cast<float>(kFieldCell_m * kFieldCell_m);
+    field.density[i] /= static_cast<float>(kFieldCellM * kFieldCellM);
   }
   return field;
 }

@@ -12,7 +12,7 @@
 namespace throng::annotate {
 
 /// Side of a cell (m).
-inline constexpr double kFieldCell_m = 1;
+inline constexpr double kFieldCellM = 1;
 
 /// A grid over the scenario's ground. Cell (row, column) covers origin + [column, column + 1) ·
 /// cell in x and origin + [row, row + 1) · cell in y.

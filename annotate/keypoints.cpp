@@ -12,11 +12,11 @@ namespace {
 
 /// How far (m) a keypoint may lie behind the surface that shows it: joints are inside of limbs, and
 /// hips deepest.
-constexpr std::array<float, skinning::kKeypointCount> kDepthInBody_m = {
+constexpr std::array<float, skinning::kKeypointCount> kDepthInBodyM = {
     0.04F, 0.05F, 0.05F, 0.06F, 0.06F, 0.13F, 0.13F, 0.10F, 0.10F,
     0.08F, 0.08F, 0.20F, 0.20F, 0.13F, 0.13F, 0.13F, 0.13F};
 /// Surfaces behind the keypoint by more are another part of the body, seen past it.
-constexpr float kBehind_m = 0.10F;
+constexpr float kBehindM = 0.10F;
 
 bool shows(const render::Frame& frame, std::uint32_t agent, const Eigen::Vector3f& at,
            float depth_in_body_m) {
@@ -27,7 +27,7 @@ bool shows(const render::Frame& frame, std::uint32_t agent, const Eigen::Vector3
       const std::size_t pixel = static_cast<std::size_t>(y) * frame.width() + x;
       if (frame.id[pixel] != render::id_of_agent(agent)) continue;
       const float behind_surface = at.z() - frame.depth_m[pixel];
-      if (behind_surface <= depth_in_body_m && behind_surface >= -kBehind_m) return true;
+      if (behind_surface <= depth_in_body_m && behind_surface >= -kBehindM) return true;
     }
   }
   return false;
@@ -46,7 +46,7 @@ void add_keypoints(const render::Frame& frame, FrameLabels& labels) {
                              at.x() < static_cast<float>(frame.width()) &&
                              at.y() < static_cast<float>(frame.height());
       if (!is_inside) continue;
-      const bool is_visible = shows(frame, label.agent, at, kDepthInBody_m[i]);
+      const bool is_visible = shows(frame, label.agent, at, kDepthInBodyM[i]);
       label.keypoints[i] = {at.x(), at.y(), is_visible ? 2 : 1};
     }
   }

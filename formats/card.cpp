@@ -194,11 +194,11 @@ json DatasetCard::description() const {
 std::string DatasetCard::readme() const {
   std::string text = fmt::format(
       "# {}\n\nA synthetic crowd dataset made by {}: {} images with {} annotations of people, in "
-      "{} "
-      "runs.\n`dataset.json` describes it, `manifest.json` lists every file with its SHA-256. "
+      "{}.\n`dataset.json` describes it, `manifest.json` lists every file with its SHA-256. "
       "`throng "
       "validate` checks it.\n\n",
-      info_.name, info_.generator, images_, people_, info_.runs.size());
+      info_.name, info_.generator, images_, people_,
+      info_.runs.size() == 1 ? "one run" : fmt::format("{} runs", info_.runs.size()));
   text += "| what | where |\n|---|---|\n";
   const json card = description();
   for (const auto& [kind, place] : card.at("files").items()) {

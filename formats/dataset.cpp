@@ -99,7 +99,7 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
   record.at("frame").get_to(image.frame);
   record.at("time_s").get_to(image.time_s);
   const json& camera = record.at("camera");
-  image.K = matrix_of(camera.at("K"));
+  image.camera_matrix = matrix_of(camera.at("K"));
   image.R = matrix_of(camera.at("R"));
   image.t = vector_of<Eigen::Vector3d>(camera.at("t"));
   image.split = info.split_of(image.run);

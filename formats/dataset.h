@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "annotate/coco.h"
 #include "formats/options.h"
 
 namespace throng::formats {
@@ -53,7 +54,9 @@ struct Person {
   std::string state;
   std::vector<Keypoint> keypoints;  ///< 17, or none if the dataset has none
   std::size_t category = 0;         ///< index into DatasetInfo::categories
-  bool is_ignored = false;          ///< fails the filters: to be written as an ignore region
+  /// What track_id says of the person within its run, from 1: also in pictures of instances.
+  std::int64_t number_in_run() const { return track_id % annotate::kTrackIdsPerRun; }
+  bool is_ignored = false;  ///< fails the filters: to be written as an ignore region
 };
 
 struct Image {
@@ -68,8 +71,8 @@ struct Image {
   double time_s = 0;
   Split split = Split::train;
   std::vector<Person> people;
-  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< OpenCV's pixels
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< world to camera
+  Eigen::Matrix3d camera_matrix = Eigen::Matrix3d::Identity();  ///< OpenCV's pixels
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();              ///< world to camera
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 
   /// "run000-d1": one camera's pictures of one run, in order.

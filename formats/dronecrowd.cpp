@@ -12,9 +12,8 @@ namespace throng::formats {
 
 namespace {
 
-constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
 /// Boxes about heads are as large as a head of this size is at its distance.
-constexpr double kHead_m = 0.25;
+constexpr double kHeadM = 0.25;
 
 class DroneCrowdExporter : public Exporter {
  public:
@@ -43,11 +42,11 @@ class DroneCrowdExporter : public Exporter {
     const Eigen::Vector2d& at = *person.head;
     if (at.x() < 0 || at.y() < 0 || at.x() >= image.width || at.y() >= image.height) return;
     const double depth_m = std::max((image.R * person.position + image.t).z(), 0.1);
-    const double size = std::max(kHead_m * image.K(0, 0) / depth_m, 1.0);
+    const double size = std::max(kHeadM * image.camera_matrix(0, 0) / depth_m, 1.0);
     const bool is_hidden = person.visibility < 0.5;
     fmt::format_to(std::back_inserter(lines), "{},{},{:.2f},{:.2f},{:.2f},{:.2f},0,{},-1,-1\n",
-                   image.frame + 1, person.track_id % kTrackIdsPerRun, at.x() - size / 2,
-                   at.y() - size / 2, size, size, is_hidden ? 1 : 0);
+                   image.frame + 1, person.number_in_run(), at.x() - size / 2, at.y() - size / 2,
+                   size, size, is_hidden ? 1 : 0);
   }
 
   const DatasetInfo& info_;

@@ -60,6 +60,7 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
     const Format* format = find_format(names[i]);
     if (format == nullptr) {
       std::vector<std::string_view> known;
+      known.reserve(kFormats.size());
       for (const Format& other : kFormats) known.push_back(other.name);
       problems.push_back({"", place, names[i], fmt::format("one of: {}", fmt::join(known, ", "))});
       continue;

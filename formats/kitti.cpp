@@ -59,7 +59,7 @@ std::string calibration(const Image& image) {
     text += "\n";
   };
   for (const char* name : {"P0:", "P1:", "P2:", "P3:"}) {
-    append(name, image.K, Eigen::Vector3d::Zero());
+    append(name, image.camera_matrix, Eigen::Vector3d::Zero());
   }
   text += "R0_rect: 1 0 0 0 1 0 0 0 1\n";
   append("Tr_world_to_cam:", image.R, image.t);

@@ -9,8 +9,8 @@ namespace throng::formats {
 namespace {
 
 // Numbers of "MAT-File Level 5 Format" (The MathWorks), tables 1-1 and 1-3.
-enum Type : std::uint32_t { int8 = 1, int32 = 5, uint32 = 6, doubles = 9, matrix = 14 };
-enum Class : std::uint32_t { cell = 1, structure = 2, numbers = 6 };
+enum class Type : std::uint32_t { int8 = 1, int32 = 5, uint32 = 6, doubles = 9, matrix = 14 };
+enum class Class : std::uint32_t { cell = 1, structure = 2, numbers = 6 };
 
 constexpr std::size_t kAligned = 8;
 
@@ -38,16 +38,16 @@ std::string array_start(Class kind, std::int32_t rows, std::int32_t columns,
   add(dimensions, rows);
   add(dimensions, columns);
   std::string bytes;
-  add_element(bytes, uint32, flags);
-  add_element(bytes, int32, dimensions);
-  add_element(bytes, int8, name);
+  add_element(bytes, Type::uint32, flags);
+  add_element(bytes, Type::int32, dimensions);
+  add_element(bytes, Type::int8, name);
   return bytes;
 }
 
 /// Column by column.
 std::string number_array(std::int32_t rows, std::int32_t columns, std::string_view values) {
-  std::string bytes = array_start(numbers, rows, columns, "");
-  add_element(bytes, doubles, values);
+  std::string bytes = array_start(Class::numbers, rows, columns, "");
+  add_element(bytes, Type::doubles, values);
   return bytes;
 }
 
@@ -69,14 +69,15 @@ std::string image_info_mat(std::span<const Eigen::Vector2d> points) {
   }
   std::string name_length;
   add(name_length, static_cast<std::int32_t>(kNameLength));
-  std::string inner = array_start(structure, 1, 1, "");
-  add_element(inner, int32, name_length);
-  add_element(inner, int8, names);
-  add_element(inner, matrix, number_array(static_cast<std::int32_t>(points.size()), 2, places));
-  add_element(inner, matrix, number_array(1, 1, count));
+  std::string inner = array_start(Class::structure, 1, 1, "");
+  add_element(inner, Type::int32, name_length);
+  add_element(inner, Type::int8, names);
+  add_element(inner, Type::matrix,
+              number_array(static_cast<std::int32_t>(points.size()), 2, places));
+  add_element(inner, Type::matrix, number_array(1, 1, count));
 
-  std::string outer = array_start(cell, 1, 1, "image_info");
-  add_element(outer, matrix, inner);
+  std::string outer = array_start(Class::cell, 1, 1, "image_info");
+  add_element(outer, Type::matrix, inner);
 
   constexpr std::size_t kTextLength = 124;
   constexpr std::uint16_t kVersion = 0x0100;
@@ -85,7 +86,7 @@ std::string image_info_mat(std::span<const Eigen::Vector2d> points) {
   file.resize(kTextLength, '\0');
   add(file, kVersion);
   file += "IM";  // little-endian
-  add_element(file, matrix, outer);
+  add_element(file, Type::matrix, outer);
   return file;
 }
 

@@ -20,8 +20,6 @@ constexpr int kPedestrian = 1;
 constexpr int kMotsPedestrian = 2;
 constexpr int kMotsIgnored = 10;
 constexpr int kMotsIgnoredId = 10'000;
-/// Ids in a sequence are those in the run.
-constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
 
 std::string sequence_info(const DatasetInfo& info, const Image& image) {
   return fmt::format(
@@ -67,9 +65,8 @@ class MotExporter : public SequenceExporter {
     for (const Person& person : image.people) {
       const Box& box = person.amodal;
       fmt::format_to(std::back_inserter(lines), "{},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{:.5f}\n",
-                     image.frame + 1, person.track_id % kTrackIdsPerRun, box.x + 1, box.y + 1,
-                     box.width, box.height, person.is_ignored ? 0 : 1, kPedestrian,
-                     person.visibility);
+                     image.frame + 1, person.number_in_run(), box.x + 1, box.y + 1, box.width,
+                     box.height, person.is_ignored ? 0 : 1, kPedestrian, person.visibility);
     }
   }
 };
@@ -96,7 +93,7 @@ class MotsExporter : public SequenceExporter {
       if (person.is_ignored) {
         ignored.push_back(bitmap_of(runs_of(person.mask, pixels), image.height));
       } else {
-        add(mots_id(person.track_id % kTrackIdsPerRun), kMotsPedestrian, person.mask);
+        add(mots_id(person.number_in_run()), kMotsPedestrian, person.mask);
       }
     }
     if (ignored.empty()) return;

@@ -20,7 +20,6 @@ namespace {
 constexpr std::uint32_t kFirstBuilding = 0x800000;
 constexpr std::uint32_t kFirstProp = 0xC00000;
 constexpr std::uint32_t kGround = 0xFF0000;
-constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
 
 struct Segment {
   std::uint64_t area = 0;
@@ -134,7 +133,7 @@ class PanopticExporter : public Exporter {
     }
     std::map<std::uint32_t, const Person*> people;
     for (const Person& person : image.people) {
-      people[static_cast<std::uint32_t>(person.track_id % kTrackIdsPerRun)] = &person;
+      people[static_cast<std::uint32_t>(person.number_in_run())] = &person;
     }
     json list = json::array();
     const std::size_t classes = info_.categories.size();

@@ -21,8 +21,8 @@ namespace {
 
 enum class Kernel : std::uint8_t { fixed, adaptive, perspective };
 
-constexpr double kFixedSigma_px = 4;
-constexpr double kLeastSigma_px = 0.5;
+constexpr double kFixedSigmaPx = 4;
+constexpr double kLeastSigmaPx = 0.5;
 
 struct Heads {
   std::vector<Eigen::Vector2d> place;  ///< box coordinates, inside the image
@@ -70,16 +70,16 @@ std::vector<double> perspective_sigmas(const Heads& heads, const Image& image) {
   std::vector<double> sigmas;
   sigmas.reserve(heads.depth_m.size());
   for (const double depth_m : heads.depth_m) {
-    sigmas.push_back(kSigma_m * image.K(0, 0) / std::max(depth_m, 0.1));
+    sigmas.push_back(kSigma_m * image.camera_matrix(0, 0) / std::max(depth_m, 0.1));
   }
   return sigmas;
 }
 
 std::vector<double> sigmas_of(Kernel kernel, const Heads& heads, const Image& image) {
-  std::vector<double> sigmas(heads.place.size(), kFixedSigma_px);
+  std::vector<double> sigmas(heads.place.size(), kFixedSigmaPx);
   if (kernel == Kernel::adaptive) sigmas = adaptive_sigmas(heads, image);
   if (kernel == Kernel::perspective) sigmas = perspective_sigmas(heads, image);
-  for (double& sigma : sigmas) sigma = std::max(sigma, kLeastSigma_px);
+  for (double& sigma : sigmas) sigma = std::max(sigma, kLeastSigmaPx);
   return sigmas;
 }
 

@@ -4,6 +4,7 @@
 
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "formats/makers.h"
 
@@ -31,7 +32,8 @@ std::string field_of(const json& record, const char* key) {
 
 class TableExporter : public Exporter {
  public:
-  explicit TableExporter(const Output& output) : csv_(output.open("people.csv")) {
+  explicit TableExporter(Output output)
+      : output_(std::move(output)), csv_(output_.open("people.csv")) {
     csv_.write(
         "run,camera,frame,time_s,split,image_id,annotation_id,track_id,x,y,width,height,amodal_x,"
         "amodal_y,amodal_width,amodal_height,visibility,truncation,height_px,head_x,head_y,"
@@ -78,6 +80,7 @@ class TableExporter : public Exporter {
     text_ += "\n";
   }
 
+  Output output_;
   OutputStream csv_;
   std::string text_;
 };
@@ -85,7 +88,7 @@ class TableExporter : public Exporter {
 }  // namespace
 
 ExporterPointer make_table(const DatasetInfo& /*info*/, Output output) {
-  return std::make_unique<TableExporter>(output);
+  return std::make_unique<TableExporter>(std::move(output));
 }
 
 }  // namespace throng::formats

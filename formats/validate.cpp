@@ -18,9 +18,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::int64_t kAgentsPerImage = 100'000;
-constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
-
 /// The files that the manifest lists are there, whole, and no others are.
 void check_manifest(const fs::path& root, const json& manifest, Findings& findings) {
   std::set<std::string> listed;
@@ -61,14 +58,14 @@ class IdCheck {
       findings.add("ids", kCocoFile, record, "a run that the manifest does not have: " + image.run);
       return;
     }
-    const std::int64_t first_track = (run - info.runs.begin()) * kTrackIdsPerRun;
+    const std::int64_t first_track = (run - info.runs.begin()) * annotate::kTrackIdsPerRun;
     std::set<std::int64_t> tracks;
     for (const Person& person : image.people) {
       const std::int64_t agent = person.track_id - first_track - 1;
-      if (agent < 0 || agent >= kAgentsPerImage) {
+      if (agent < 0 || agent >= annotate::kMaxAgentsPerRun) {
         findings.add("ids", person,
                      fmt::format("track_id {} is none of {}", person.track_id, image.run));
-      } else if (person.id != image.id * kAgentsPerImage + agent + 1) {
+      } else if (person.id != image.id * annotate::kMaxAgentsPerRun + agent + 1) {
         findings.add("ids", person, "an id that is not that of its image and track");
       }
       if (!tracks.insert(person.track_id).second) {

@@ -24,7 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
 constexpr std::uint32_t kFirstThing = 0x800000;
 
 std::string relative(const DatasetInfo& info, const fs::path& path) {
@@ -88,7 +87,7 @@ void check_instances(const DatasetInfo& info, const Image& image,
   const auto pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   for (const Person& person : image.people) {
-    const auto id = static_cast<std::uint32_t>(person.track_id % kTrackIdsPerRun);
+    const auto id = static_cast<std::uint32_t>(person.number_in_run());
     const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
     std::size_t wrong = 0;
     for (int y = mask.y; y < mask.y + mask.height; ++y) {
@@ -132,7 +131,7 @@ void check_depth(const DatasetInfo& info, const Image& image, const std::vector<
   // Nobody reaches farther than this from the middle of the pelvis, with what they carry.
   constexpr double kReach_m = 1.6;
   for (const Person& person : image.people) {
-    const auto found = range.find(static_cast<std::uint32_t>(person.track_id % kTrackIdsPerRun));
+    const auto found = range.find(static_cast<std::uint32_t>(person.number_in_run()));
     if (found == range.end()) continue;  // a finding of another rule
     const double z = (image.R * person.position + image.t).z();
     const auto& [low, high] = found->second;

@@ -106,7 +106,7 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
 }
 
 void check_projection(const Image& image, const Person& person, Findings& findings) {
-  const Eigen::Vector3d seen = image.K * (image.R * person.position + image.t);
+  const Eigen::Vector3d seen = image.camera_matrix * (image.R * person.position + image.t);
   if (!(seen.z() > 0) ||
       !holds(person.amodal, seen.x() / seen.z() + 0.5, seen.y() / seen.z() + 0.5, kBoxSlackPx)) {
     findings.add("position-in-box", person, "position does not project into bbox_amodal");

@@ -14,14 +14,12 @@ namespace throng::formats {
 
 namespace {
 
-enum Category : std::uint8_t { ignored = 0, pedestrian = 1, people = 2 };
-
-constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
+enum class Category : std::uint8_t { ignored = 0, pedestrian = 1, people = 2 };
 
 /// Standing and walking people are pedestrians; in other poses they are "people".
 Category category_of(const Person& person) {
-  if (person.is_ignored) return ignored;
-  return person.state == "lying" ? people : pedestrian;
+  if (person.is_ignored) return Category::ignored;
+  return person.state == "lying" ? Category::people : Category::pedestrian;
 }
 
 /// 0 none, 1 up to a half, 2 more; what rounds to nothing is none.
@@ -75,8 +73,7 @@ class VisDroneMot : public Exporter {
         texts_.of(image.run, fmt::format("{}/annotations/{}.txt", split, sequence), is_new);
     std::string lines;
     for (const Person& person : image.people) {
-      fmt::format_to(std::back_inserter(lines), "{},{},", image.frame + 1,
-                     person.track_id % kTrackIdsPerRun);
+      fmt::format_to(std::back_inserter(lines), "{},{},", image.frame + 1, person.number_in_run());
       append_person(lines, person);
     }
     text.write(lines);

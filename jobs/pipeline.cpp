@@ -85,7 +85,7 @@ void add_fields(const JobSpec& job, int run, const world::Trace& trace,
     people.push_back(field.people);
   }
   const nlohmann::json grid = {{"origin_m", {field.origin.x(), field.origin.y()}},
-                               {"cell_m", annotate::kFieldCell_m},
+                               {"cell_m", annotate::kFieldCellM},
                                {"columns", field.columns},
                                {"rows", field.rows},
                                {"people", people}};

@@ -13,7 +13,13 @@ namespace throng::skinning {
 
 namespace {
 
-enum Keypoint : std::uint8_t { nose, left_eye, right_eye, left_ear, right_ear, left_shoulder };
+// Places in kKeypointNames.
+constexpr std::size_t kNose = 0;
+constexpr std::size_t kLeftEye = 1;
+constexpr std::size_t kRightEye = 2;
+constexpr std::size_t kLeftEar = 3;
+constexpr std::size_t kRightEar = 4;
+constexpr std::size_t kLeftShoulder = 5;
 
 /// Bones that begin at the keypoints from the left shoulder on.
 constexpr std::array kJointBones = {
@@ -21,7 +27,7 @@ constexpr std::array kJointBones = {
     Bone::left_hand,      Bone::right_hand,      Bone::left_thigh,   Bone::right_thigh,
     Bone::left_shin,      Bone::right_shin,      Bone::left_foot,    Bone::right_foot,
 };
-static_assert(left_shoulder + kJointBones.size() == kKeypointCount);
+static_assert(kLeftShoulder + kJointBones.size() == kKeypointCount);
 
 Eigen::Vector3f position_of(const Vertex& vertex) {
   return {vertex.position[0], vertex.position[1], vertex.position[2]};
@@ -102,30 +108,30 @@ Landmarks landmarks_of(const Character& character) {
   for (const Eigen::Vector3f& point : face.skin) foremost = std::max(foremost, point.x());
 
   Landmarks landmarks;
-  std::fill_n(landmarks.bone.begin(), left_shoulder, Bone::head);
+  std::fill_n(landmarks.bone.begin(), kLeftShoulder, Bone::head);
   const auto eye = [&](float side) {
     return eyeball(face.eyes, side)
         .value_or(Eigen::Vector3f(foremost - 0.01F * stature, side * half_eyes, eye_height));
   };
-  landmarks.rest[left_eye] = eye(1);
-  landmarks.rest[right_eye] = eye(-1);
-  const Eigen::Vector3f eyes = 0.5F * (landmarks.rest[left_eye] + landmarks.rest[right_eye]);
+  landmarks.rest[kLeftEye] = eye(1);
+  landmarks.rest[kRightEye] = eye(-1);
+  const Eigen::Vector3f eyes = 0.5F * (landmarks.rest[kLeftEye] + landmarks.rest[kRightEye]);
   constexpr float kNoseBelow = 0.035F;  // statures below the eyes, at most
   constexpr float kEarsReach = 0.02F;   // statures above and below the eyes
-  landmarks.rest[nose] =
+  landmarks.rest[kNose] =
       farthest(face.skin, eyes.z() - kNoseBelow * stature, eyes.z(), Eigen::Vector3f::UnitX())
           .value_or(Eigen::Vector3f(foremost, 0, eyes.z() - 0.02F * stature));
-  landmarks.rest[nose].y() = 0.5F * (landmarks.rest[left_eye].y() + landmarks.rest[right_eye].y());
-  for (const Keypoint ear : {left_ear, right_ear}) {
-    const float side = ear == left_ear ? 1.0F : -1.0F;
+  landmarks.rest[kNose].y() = 0.5F * (landmarks.rest[kLeftEye].y() + landmarks.rest[kRightEye].y());
+  for (const std::size_t ear : {kLeftEar, kRightEar}) {
+    const float side = ear == kLeftEar ? 1.0F : -1.0F;
     landmarks.rest[ear] =
         farthest(face.skin, eyes.z() - kEarsReach * stature, eyes.z() + kEarsReach * stature,
                  {0, side, 0})
             .value_or(Eigen::Vector3f(head.x() + 0.01F * stature, side * half_ears, eyes.z()));
   }
   for (std::size_t i = 0; i < kJointBones.size(); ++i) {
-    landmarks.bone[left_shoulder + i] = kJointBones[i];
-    landmarks.rest[left_shoulder + i] = character.joints[index_of(kJointBones[i])];
+    landmarks.bone[kLeftShoulder + i] = kJointBones[i];
+    landmarks.rest[kLeftShoulder + i] = character.joints[index_of(kJointBones[i])];
   }
   return landmarks;
 }
