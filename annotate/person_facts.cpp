@@ -74,7 +74,7 @@ Activity activity_of(std::string_view state, bool is_panicked, double speed_mps)
 }
 
 PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& population,
-                         const skinning::Tone& dye)
+                         const skinning::Styling& styling)
     : trace_(&trace) {
   for (const std::string& name : trace.header.state_names) {
     behaviour_.push_back(nlohmann::json(name).dump());
@@ -82,7 +82,7 @@ PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& 
   for (const std::string& id : trace.header.exit_ids) exit_.push_back(nlohmann::json(id).dump());
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     const skinning::Appearance appearance = skinning::appearance_of(
-        population, trace.header.seed, static_cast<std::uint32_t>(agent), dye);
+        population, trace.header.seed, static_cast<std::uint32_t>(agent), styling);
     const std::int32_t group = agent < trace.header.group.size() ? trace.header.group[agent] : -1;
     fixed_.push_back(
         fmt::format(R"(,"group":{},"attributes":{})", group < 0 ? "null" : std::to_string(group),

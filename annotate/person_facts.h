@@ -25,9 +25,10 @@ Activity activity_of(std::string_view state, bool is_panicked, double speed_mps)
 
 class PersonFacts {
  public:
-  /// The trace must outlive it; the population and the dye are those that the run is drawn with.
+  /// The trace must outlive it; the population and the styling are those that the run is drawn
+  /// with.
   PersonFacts(const world::Trace& trace, const skinning::Population& population,
-              const skinning::Tone& dye);
+              const skinning::Styling& styling);
 
   /// Appends `,"state":..,"behaviour":..,"exit":..,"group":..,"attributes":{..}` of an agent at a
   /// time (docs/formats.md).

@@ -9,6 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <tuple>
 
 #include "base/angle.h"
 #include "render/lens.h"
@@ -100,6 +101,14 @@ std::vector<Field> make_fields() {
           "sensor/exposure_s", 0, 0.5, [](auto& s) -> auto& { return s.exposure.exposure_s; }),
       field(
           "sensor/readout_s", 0, 0.5, [](auto& s) -> auto& { return s.exposure.readout_s; })};
+  const std::array<std::tuple<const char*, double, double PerFrame::*>, 3> per_frame = {
+      {{"per_frame/yaw_deg", 45, &PerFrame::yaw_deg},
+       {"per_frame/pitch_deg", 45, &PerFrame::pitch_deg},
+       {"per_frame/ev", 3, &PerFrame::ev}}};
+  for (const auto& [name, most, member] : per_frame) {
+    fields.push_back(field(
+        name, 0, most, [member = member](auto& s) -> auto& { return s.per_frame.*member; }));
+  }
   for (Field& gimbal : gimbal_fields()) fields.push_back(std::move(gimbal));
   const std::array<std::pair<const char*, double LensCoefficients::*>, 8> coefficients = {
       {{"distortion/k1", &LensCoefficients::k1},

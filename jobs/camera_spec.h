@@ -31,6 +31,13 @@ struct LensCoefficients {
   double p2 = 0;
 };
 
+/// Standard deviations of what is drawn for each frame (jobs/frame_draw.h).
+struct PerFrame {
+  double yaw_deg = 0;
+  double pitch_deg = 0;
+  double ev = 0;
+};
+
 struct CameraSpec {
   std::string preset;  ///< a camera of jobs/cameras.json that lent what the job left out, or ""
   int width = 1280;
@@ -47,6 +54,7 @@ struct CameraSpec {
   render::Sensor sensor;
   render::Exposure exposure;
   sim::GimbalSpec gimbal;
+  PerFrame per_frame;
   /// Fields that are drawn for each run, by their pointer below the camera ("sensor/iso"); what the
   /// other members say of these does not count.
   std::map<std::string, Distribution> drawn;

@@ -50,7 +50,7 @@ std::int64_t count_inside(const std::vector<Eigen::Vector2d>& heads, int width, 
 class ShardOutput {
  public:
   ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
-              std::string environment, std::string drawn, const annotate::PersonFacts& facts,
+              std::string environment, nlohmann::json drawn, const annotate::PersonFacts& facts,
               StageClock* clock)
       : job_(job),
         shard_(shard),
@@ -81,7 +81,7 @@ class ShardOutput {
     image.time_s = frame.time_s;
     image.camera = frame.camera;
     image.environment = environment_;
-    image.drawn = drawn_;
+    image.drawn = drawn_of(picture);
     image.sensor = picture.sensor;
     image.flight = picture.flight;
     image.facts = &facts_;
@@ -118,6 +118,13 @@ class ShardOutput {
   }
 
  private:
+  /// What was drawn for the run and for the frame, or "".
+  std::string drawn_of(const Picture& picture) const {
+    nlohmann::json drawn = drawn_;
+    drawn.update(picture.drawn);
+    return drawn.empty() ? "" : drawn.dump();
+  }
+
   std::int64_t add_density(const std::string& path, const render::Frame& frame,
                            const annotate::FrameLabels& labels) {
     const std::vector<Eigen::Vector2d> heads = heads_of(labels, frame.camera);
@@ -153,7 +160,7 @@ class ShardOutput {
   const Shard& shard_;
   const annotate::PersonFacts& facts_;
   std::string environment_;  ///< JSON
-  std::string drawn_;        ///< JSON
+  nlohmann::json drawn_;     ///< for the run
   StageClock* clock_;
   Publication publication_;
   std::optional<annotate::CocoShardWriter> coco_;
@@ -188,9 +195,9 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
 
   const Task task{Task::Kind::render, shard.run, shard.index};
   const nlohmann::json drawn = drawn_of_run(whole_job, shard.run);
-  const annotate::PersonFacts facts(trace, population, job.dye);
-  ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(),
-                     drawn.empty() ? "" : drawn.dump(), facts, options.clock);
+  const annotate::PersonFacts facts(trace, population, job.styling);
+  ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(), drawn, facts,
+                     options.clock);
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;

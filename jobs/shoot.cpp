@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "jobs/flight_record.h"
+#include "jobs/frame_draw.h"
 #include "jobs/gimbal.h"
 #include "jobs/pipeline.h"
 #include "render/sensor.h"
@@ -29,7 +31,7 @@ Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& tra
       run_seed_(run_seed),
       trace_(&trace),
       clock_(clock),
-      animator_(trace, population, job.dye),
+      animator_(trace, population, job.styling),
       lens_(renderer, population) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     cameras_.push_back(camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i)));
@@ -40,27 +42,35 @@ Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& tra
   }
 }
 
-render::ShutterMoment Shoot::moment_at(std::size_t drone, std::int64_t frame, double time_s) {
+render::ShutterMoment Shoot::moment_at(std::size_t drone, std::int64_t frame, std::int64_t index,
+                                       double time_s) {
   if (clock_ != nullptr) clock_->lap("light and rows");
   std::shared_ptr<const render::Scene> scene = scene_;
-  if (!scene || scene->index != frame || scene->time_s != time_s) {
-    scene = std::make_shared<const render::Scene>(animator_.scene_at(time_s, frame));
+  if (!scene || scene->index != index || scene->time_s != time_s) {
+    scene = std::make_shared<const render::Scene>(animator_.scene_at(time_s, index));
     // The moments around a frame's own time are needed by one camera only.
-    if (time_s == job_->frame_time_s(frame)) scene_ = scene;
+    if (time_s == job_->frame_time_s(index)) scene_ = scene;
   }
   if (clock_ != nullptr) clock_->lap("scene");
   const world::DroneSample sample = trace_->drone_at(drones_[drone], time_s);
-  return {std::move(scene), camera_on(sample, cameras_[drone], view_at(drone, sample))};
+  return {std::move(scene), camera_on(sample, cameras_[drone], view_at(drone, frame, sample))};
 }
 
-sim::ViewAngles Shoot::view_at(std::size_t drone, const world::DroneSample& sample) const {
-  return cameras_[drone].gimbal.ideal ? ideal_view(sample, cameras_[drone])
-                                      : gimbals_[drone].view_at(sample.time_s);
+sim::ViewAngles Shoot::view_at(std::size_t drone, std::int64_t frame,
+                               const world::DroneSample& sample) const {
+  const CameraSpec& camera = cameras_[drone];
+  sim::ViewAngles view =
+      camera.gimbal.ideal ? ideal_view(sample, camera) : gimbals_[drone].view_at(sample.time_s);
+  const FrameDraw draw = draw_of_frame(camera, run_seed_, drone, frame);
+  view.yaw += draw.yaw_deg * kDegree;
+  view.pitch += draw.pitch_deg * kDegree;
+  return view;
 }
 
-std::string Shoot::flight_at(std::size_t drone, double time_s) const {
+std::string Shoot::flight_at(std::size_t drone, std::int64_t frame) const {
+  const double time_s = job_->frame_time_s(frame);
   const world::DroneSample sample = trace_->drone_at(drones_[drone], time_s);
-  const sim::ViewAngles view = view_at(drone, sample);
+  const sim::ViewAngles view = view_at(drone, frame, sample);
   return flight_record({sample, view, camera_on(sample, cameras_[drone], view),
                         sensors_[drone].at(time_s), gimbals_[drone].reading_at(time_s)})
       .dump();
@@ -68,14 +78,20 @@ std::string Shoot::flight_at(std::size_t drone, double time_s) const {
 
 Picture Shoot::take(std::size_t drone, std::int64_t frame) {
   if (clock_ != nullptr) clock_->skip();
-  const CameraSpec& camera = cameras_.at(drone);
+  const FrameDraw draw = draw_of_frame(cameras_.at(drone), run_seed_, drone, frame);
+  const CameraSpec camera = camera_of_frame(cameras_[drone], draw);
+  const double time_s = job_->frame_time_s(frame);
   std::optional<double> next_s;
   if (wants(*job_, "flow") && frame + 1 < job_->frames_per_camera()) {
     next_s = job_->frame_time_s(frame + 1);
   }
   render::Exposed exposed = render::expose(
-      lens_, [&](double time_s) { return moment_at(drone, frame, time_s); },
-      job_->frame_time_s(frame), camera.exposure, next_s);
+      lens_,
+      [&](double at_s) {
+        const bool is_next = next_s && at_s > 0.5 * (time_s + *next_s);
+        return moment_at(drone, is_next ? frame + 1 : frame, frame, at_s);
+      },
+      time_s, camera.exposure, next_s);
   constexpr unsigned kFrameBits = 40;
   const std::uint64_t index =
       (static_cast<std::uint64_t>(drone) << kFrameBits) + static_cast<std::uint64_t>(frame);
@@ -84,7 +100,8 @@ Picture Shoot::take(std::size_t drone, std::int64_t frame) {
   if (clock_ != nullptr) clock_->lap("light and rows");
   Picture picture;
   picture.sensor = sensor_record(camera, exposed, job_->outputs.image_quality).dump();
-  picture.flight = flight_at(drone, job_->frame_time_s(frame));
+  picture.flight = flight_at(drone, frame);
+  picture.drawn = to_json(cameras_[drone], draw);
   picture.frame = std::move(exposed.frame);
   return picture;
 }

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -20,8 +20,9 @@ namespace throng::jobs {
 
 struct Picture {
   render::Frame frame;
-  std::string sensor;  ///< a JSON object: what sensor and shutter did
-  std::string flight;  ///< a JSON object: the drone then, and what its sensors say
+  std::string sensor;    ///< a JSON object: what sensor and shutter did
+  std::string flight;    ///< a JSON object: the drone then, and what its sensors say
+  nlohmann::json drawn;  ///< an object: what was drawn for this frame alone
 };
 
 /// Everything given must outlive it. Pictures do not depend on which were taken before.
@@ -36,9 +37,12 @@ class Shoot {
   void recycle(Picture&& picture);
 
  private:
-  render::ShutterMoment moment_at(std::size_t drone, std::int64_t frame, double time_s);
-  sim::ViewAngles view_at(std::size_t drone, const world::DroneSample& sample) const;
-  std::string flight_at(std::size_t drone, double time_s) const;
+  /// What a camera sees at a time around that of one of its frames, in the scene of this index.
+  render::ShutterMoment moment_at(std::size_t drone, std::int64_t frame, std::int64_t index,
+                                  double time_s);
+  sim::ViewAngles view_at(std::size_t drone, std::int64_t frame,
+                          const world::DroneSample& sample) const;
+  std::string flight_at(std::size_t drone, std::int64_t frame) const;
 
   const JobSpec* job_;
   std::uint64_t run_seed_;

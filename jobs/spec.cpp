@@ -121,8 +121,12 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
   read(capture, "to_s", job.capture.to_s);
   job.environment = read_environment(part(value, "environment"), problems);
   if (value.contains("quality")) job.quality = quality_of(value["quality"].get<std::string>());
-  read(part(value, "appearance"), "brightness", job.dye.brightness);
-  read(part(value, "appearance"), "saturation", job.dye.saturation);
+  const json& appearance = part(value, "appearance");
+  read(appearance, "brightness", job.styling.brightness);
+  read(appearance, "saturation", job.styling.saturation);
+  read(appearance, "variety", job.styling.variety);
+  read(appearance, "youngest_years", job.styling.youngest_years);
+  read(appearance, "oldest_years", job.styling.oldest_years);
   read(part(value, "props"), "density", job.props_density);
   const json& outputs = part(value, "outputs");
   read(part(outputs, "image"), "format", job.outputs.image_format);
@@ -321,7 +325,12 @@ json to_json(const JobSpec& job) {
         {"to_s", job.capture.to_s}}},
       {"environment", to_json(job.environment)},
       {"quality", render::settings_of(job.quality).word},
-      {"appearance", {{"brightness", job.dye.brightness}, {"saturation", job.dye.saturation}}},
+      {"appearance",
+       {{"brightness", job.styling.brightness},
+        {"saturation", job.styling.saturation},
+        {"variety", job.styling.variety},
+        {"youngest_years", job.styling.youngest_years},
+        {"oldest_years", job.styling.oldest_years}}},
       {"props", {{"density", job.props_density}}},
       {"outputs",
        {{"image", {{"format", job.outputs.image_format}, {"quality", job.outputs.image_quality}}},

@@ -52,8 +52,8 @@ struct JobSpec {
   CaptureSpec capture;
   EnvironmentSpec environment;
   render::Quality quality = render::Quality::standard;
-  skinning::Tone dye;        ///< of what people wear
-  double props_density = 1;  ///< share of the scenario's scattered props that are there
+  skinning::Styling styling;  ///< of people
+  double props_density = 1;   ///< share of the scenario's scattered props that are there
   OutputSpec outputs;
   std::vector<RandomField> randomize;  ///< drawn for each run by job_of_run()
 

@@ -123,7 +123,7 @@ bool is_down(std::string_view state_name) {
 }
 
 Animator::Animator(const world::Trace& trace, const skinning::Population& population,
-                   const skinning::Tone& dye)
+                   const skinning::Styling& styling)
     : trace_(&trace), stays_(trace.agents()) {
   std::vector<char> down_states;
   for (const std::string& name : trace.header.state_names) {
@@ -133,7 +133,7 @@ Animator::Animator(const world::Trace& trace, const skinning::Population& popula
   std::vector<Moment> moments;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     appearance_.push_back(skinning::appearance_of(population, trace.header.seed,
-                                                  static_cast<std::uint32_t>(agent), dye));
+                                                  static_cast<std::uint32_t>(agent), styling));
     if (trace.header.role[agent] != world::AgentRole::person) continue;
     const std::uint64_t key = derive_seed(trace.header.seed, Stream::motion, agent);
     const Curiosity curiosity(Random(key, Stream::motion, 1));

@@ -20,7 +20,7 @@ bool is_down(std::string_view state_name);
 class Animator {
  public:
   Animator(const world::Trace& trace, const skinning::Population& population,
-           const skinning::Tone& dye = {});
+           const skinning::Styling& styling = {});
 
   /// The people at `time_s` (interpolated between crowd steps); agents that are not people,
   /// have not arrived yet or have left are left out.

@@ -1,5 +1,7 @@
 #include "skinning/appearance.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,6 +16,7 @@ namespace {
 
 constexpr std::uint64_t kOrders = std::uint64_t{1} << 40;  // apart from the agents' own indices
 constexpr std::uint64_t kColours = std::uint64_t{1} << 41;
+constexpr std::uint64_t kCasts = std::uint64_t{1} << 43;
 
 void shuffle(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end,
              Random& random) {
@@ -37,6 +40,35 @@ std::uint32_t character_of(std::uint64_t seed, std::uint32_t agent, std::uint32_
   return order[agent % count];
 }
 
+// Characters that take part: all of the ages, or of these a share in an order of the run's own.
+std::vector<std::uint32_t> cast_of(const Population& population, std::uint64_t seed,
+                                   const Styling& styling) {
+  std::vector<std::uint32_t> cast;
+  float youngest = population.characters.front().age_years;
+  float oldest = youngest;
+  for (std::uint32_t i = 0; i < population.characters.size(); ++i) {
+    const float age = population.characters[i].age_years;
+    youngest = std::min(youngest, age);
+    oldest = std::max(oldest, age);
+    if (age >= styling.youngest_years && age <= styling.oldest_years) cast.push_back(i);
+  }
+  if (cast.empty()) {
+    throw InputError(
+        {"", "/appearance",
+         fmt::format("nobody from {:g} to {:g} years", styling.youngest_years,
+                     styling.oldest_years),
+         fmt::format("ages that some of the people have, who are from {:.0f} to {:.0f}", youngest,
+                     oldest)});
+  }
+  const auto kept = static_cast<std::size_t>(
+      std::ceil(styling.variety * static_cast<double>(cast.size()) - 1e-9));
+  if (kept >= cast.size()) return cast;
+  Random choosing(seed, Stream::appearance, kCasts);
+  shuffle(cast, 0, cast.size(), choosing);
+  cast.resize(std::max<std::size_t>(kept, 1));
+  return cast;
+}
+
 // Which of its colours a character shows in a block: the next one each time, from a start of its
 // own, and the kinds of things drift against each other, so that equal outfits are far apart.
 std::size_t colour_number(std::uint64_t seed, std::uint32_t character, std::size_t tint,
@@ -57,12 +89,13 @@ Rgb varied(const Rgb& colour, Random& random) {
   return result;
 }
 
-Rgb dyed(const Rgb& colour, const Tone& tone) {
+Rgb dyed(const Rgb& colour, const Styling& styling) {
   // Grey of the same luma (ITU-R BT.601).
   const double grey = 0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2];
   Rgb result{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double value = tone.brightness * (grey + tone.saturation * (colour[channel] - grey));
+    const double value =
+        styling.brightness * (grey + styling.saturation * (colour[channel] - grey));
     result[channel] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
   }
   return result;
@@ -71,17 +104,18 @@ Rgb dyed(const Rgb& colour, const Tone& tone) {
 }  // namespace
 
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
-                         const Tone& tone) {
+                         const Styling& styling) {
   check(!population.characters.empty(), "a population has characters");
   Appearance appearance;
-  appearance.character =
-      character_of(run_seed, agent, static_cast<std::uint32_t>(population.characters.size()));
+  const std::vector<std::uint32_t> cast = cast_of(population, run_seed, styling);
+  const auto count = static_cast<std::uint32_t>(cast.size());
+  appearance.character = cast[character_of(run_seed, agent, count)];
   Random random(run_seed, Stream::appearance, agent);
   appearance.phase_offset = static_cast<float>(random.uniform());
   appearance.cadence = static_cast<float>(random.uniform(0.95, 1.05));
   appearance.amplitude = static_cast<float>(random.uniform(0.92, 1.08));
   const Character& character = population.characters[appearance.character];
-  const std::uint32_t block = agent / static_cast<std::uint32_t>(population.characters.size());
+  const std::uint32_t block = agent / count;
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {
     const std::vector<Rgb>& colours = character.tints[tint];
     appearance.tint[tint] = {255, 255, 255};
@@ -90,7 +124,7 @@ Appearance appearance_of(const Population& population, std::uint64_t run_seed, s
         colour_number(run_seed, appearance.character, tint, block, colours.size());
     appearance.tint[tint] = varied(colours[number], random);
     if (tint != static_cast<std::size_t>(Tint::hair)) {
-      appearance.tint[tint] = dyed(appearance.tint[tint], tone);
+      appearance.tint[tint] = dyed(appearance.tint[tint], styling);
     }
   }
   return appearance;

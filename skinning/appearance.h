@@ -19,16 +19,20 @@ struct Appearance {
   std::array<Rgb, kTintCount> tint{};  ///< by skinning::Tint; white where nothing is tinted
 };
 
-/// What is done to the colours of clothes, shoes and things carried, as far as they are dyed at
-/// all.
-struct Tone {
-  double brightness = 1;  ///< factor of lightness
-  double saturation = 1;  ///< 0: grey; 2: twice as colourful
+/// Who of a population takes part in a run, and what is done to the colours of clothes, shoes and
+/// things carried, as far as they are dyed at all.
+struct Styling {
+  double brightness = 1;      ///< factor of lightness
+  double saturation = 1;      ///< 0: grey; 2: twice as colourful
+  double variety = 1;         ///< share of the characters of these ages, chosen by the run's seed
+  double youngest_years = 0;  ///< who is younger does not take part
+  double oldest_years = 150;  ///< nor who is older
 };
 
-/// Agents near each other in id get different characters: with n of them, equal ones are more than
-/// n / 2 - 1 ids apart, and when a character comes again it wears other colours.
+/// Agents near each other in id get different characters: with n that take part, equal ones are
+/// more than n / 2 - 1 ids apart, and when a character comes again it wears other colours. Throws
+/// InputError when nobody is of the ages.
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
-                         const Tone& tone = {});
+                         const Styling& styling = {});
 
 }  // namespace throng::skinning

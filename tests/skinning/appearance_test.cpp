@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "base/error.h"
 #include "skinning/person.h"
 
 namespace throng::skinning {
@@ -119,6 +120,61 @@ TEST(Twins, ABodyRarelyWearsTheSameColoursAgain) {
   RecordProperty("next_repeats", next_repeats);
   EXPECT_LT(next_repeats, static_cast<int>(kAgents) / 40);
   EXPECT_LT(repeats, static_cast<int>(kAgents) / 3);
+}
+
+Population people_of_ages(int count) {
+  Population population = people_of(count);
+  for (std::size_t i = 0; i < population.characters.size(); ++i) {
+    population.characters[i].age_years = static_cast<float>(5 + 3 * i);
+  }
+  return population;
+}
+
+TEST(Cast, OnlyPeopleOfTheAgesTakePart) {
+  const Population population = people_of_ages(24);
+  Styling styling;
+  styling.youngest_years = 18;
+  styling.oldest_years = 40;
+  std::map<std::uint32_t, int> seen;
+  for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
+    const std::uint32_t character = appearance_of(population, 5, agent, styling).character;
+    EXPECT_GE(population.characters[character].age_years, 18);
+    EXPECT_LE(population.characters[character].age_years, 40);
+    ++seen[character];
+  }
+  EXPECT_EQ(seen.size(), 7U) << "20, 23, ... 38 years";
+}
+
+TEST(Cast, AShareIsChosenByTheRun) {
+  const Population population = people_of_ages(24);
+  Styling styling;
+  styling.variety = 0.25;
+  const auto cast_of_run = [&](std::uint64_t seed) {
+    std::map<std::uint32_t, int> seen;
+    for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
+      ++seen[appearance_of(population, seed, agent, styling).character];
+    }
+    return seen;
+  };
+  EXPECT_EQ(cast_of_run(1).size(), 6U);
+  EXPECT_EQ(cast_of_run(1), cast_of_run(1));
+  EXPECT_NE(cast_of_run(1), cast_of_run(2));
+  styling.variety = 0.001;
+  EXPECT_EQ(cast_of_run(1).size(), 1U) << "never nobody";
+}
+
+TEST(Cast, NobodyOfTheAgesIsAMistakeOfTheInput) {
+  const Population population = people_of_ages(3);
+  Styling styling;
+  styling.oldest_years = 4;
+  try {
+    appearance_of(population, 1, 0, styling);
+    FAIL() << "nobody is so young";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1U);
+    EXPECT_EQ(error.problems().front().where, "/appearance");
+    EXPECT_NE(error.problems().front().expected.find("from 5 to 11"), std::string::npos);
+  }
 }
 
 }  // namespace
