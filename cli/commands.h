@@ -19,6 +19,8 @@ void add_worker(CLI::App& app);
 void add_people(CLI::App& app);
 void add_scenarios(CLI::App& app);
 void add_airframes(CLI::App& app);
+void add_metrics(CLI::App& app);
+void add_report(CLI::App& app);
 void add_export(CLI::App& app);
 void add_validate(CLI::App& app);
 

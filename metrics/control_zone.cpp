@@ -70,6 +70,8 @@ ControlZone::ControlZone(const world::Exit& exit, std::span<const world::Buildin
       outward_(exit.outward),
       radius_m_(std::max(exit.width_m(), 2.0) + 1.0) {
   const Polygon whole = half_disc(middle_, outward_, radius_m_);
+  for (const Point& corner : whole.outer()) outline_.emplace_back(corner.x(), corner.y());
+  outline_.pop_back();  // the first corner again
   MultiPolygon walkable{whole};
   for (const world::Building& building : buildings) {
     const Polygon footprint = polygon_of(building.footprint);

@@ -19,11 +19,15 @@ class ControlZone {
   double radius_m() const { return radius_m_; }
   /// Walkable ground in the zone; 0 when buildings cover all of it.
   double area_m2() const { return area_m2_; }
+  const Eigen::Vector2d& middle() const { return middle_; }
+  /// The half disc, counter-clockwise, with what buildings cover.
+  const std::vector<Eigen::Vector2d>& outline() const { return outline_; }
 
  private:
   Eigen::Vector2d middle_;
   Eigen::Vector2d outward_;
   double radius_m_;
+  std::vector<Eigen::Vector2d> outline_;
   std::vector<std::vector<Eigen::Vector2d>> footprints_;  ///< those that reach into the half disc
   double area_m2_ = 0;
 };

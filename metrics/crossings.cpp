@@ -21,7 +21,9 @@ bool ExitLine::leads_through_door(const Eigen::Vector2d& a, const Eigen::Vector2
   return std::abs((hit - middle_).dot(along)) <= half_width_m_;
 }
 
-int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position) {
+int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position, double time_s) {
+  const double before_s = last_s_;
+  last_s_ = time_s;
   const double beyond = line.beyond_m(position);
   if (!last_) {
     last_ = position;
@@ -29,8 +31,10 @@ int CrossingCounter::step(const ExitLine& line, const Eigen::Vector2d& position)
     return 0;
   }
   const bool is_outside = beyond >= 0;
-  if (is_outside != (line.beyond_m(*last_) >= 0)) {
+  const double was_beyond = line.beyond_m(*last_);
+  if (is_outside != (was_beyond >= 0)) {
     passed_ = is_outside != outside_ && line.leads_through_door(*last_, position);
+    crossed_at_s_ = before_s + was_beyond / (was_beyond - beyond) * (time_s - before_s);
   }
   last_ = position;
   if (is_outside == outside_ || std::abs(beyond) < kHysteresisM) return 0;

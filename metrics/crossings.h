@@ -34,10 +34,14 @@ class CrossingCounter {
   static constexpr double kHysteresisM = 0.2;
 
   /// The person's next position. Returns +1 for a crossing outward, -1 inward, else 0.
-  int step(const ExitLine& line, const Eigen::Vector2d& position);
+  int step(const ExitLine& line, const Eigen::Vector2d& position, double time_s = 0);
+  /// After step() returned a crossing: when the person was on the line, between two steps.
+  double crossed_at_s() const { return crossed_at_s_; }
 
  private:
   std::optional<Eigen::Vector2d> last_;
+  double last_s_ = 0;
+  double crossed_at_s_ = 0;
   bool outside_ = false;  ///< the side that the person was last clear of the line on
   bool passed_ = false;   ///< has gone through the door to the other side since then
 };

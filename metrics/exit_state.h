@@ -9,6 +9,9 @@ namespace throng::metrics {
 /// Flow that an exit of `width_m` can take (people/s): 1.3 per metre and second.
 double capacity_per_s(double width_m);
 
+/// How long nobody may have gone out for a jam to be a clog: max(2 s, 3 / capacity).
+double clog_after_s(double width_m);
+
 /// What the state depends on besides the sample's own values.
 struct ExitDemand {
   bool demand = false;           ///< enough people in the zone to fill the door
@@ -20,7 +23,8 @@ double clogging_index(const ExitSample& sample, const ExitDemand& demand, double
 
 class ExitStateMachine {
  public:
-  explicit ExitStateMachine(double width_m);
+  /// A door that is not open is closed for ever.
+  explicit ExitStateMachine(double width_m, bool open = true);
 
   /// The state after a step at `time_s` with the sample's density, speed and time since the last
   /// outward crossing.
@@ -31,6 +35,7 @@ class ExitStateMachine {
   bool relieved(double time_s, const ExitSample& sample, const ExitDemand& demand);
 
   double clog_after_s_;
+  bool open_;
   ExitState state_ = ExitState::idle;
   double demand_since_s_ = 0;
   double relief_since_s_ = -1;  ///< negative: not relieved now

@@ -6,12 +6,19 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "metrics/clogs.h"
 #include "metrics/control_zone.h"
 #include "metrics/crossings.h"
 #include "metrics/exit_state.h"
+#include "metrics/near_people.h"
+#include "metrics/pressure.h"
+#include "metrics/queue.h"
+#include "metrics/voronoi.h"
 
 namespace throng::metrics {
 
@@ -20,6 +27,10 @@ namespace {
 using world::Trace;
 
 constexpr double kFlowWindowS = 4.0;
+constexpr double kWaitWindowS = 20.0;
+constexpr double kLeastFlow = 0.1;  // of the capacity, for the predicted wait
+constexpr double kMemberWidths = 1.5;
+constexpr double kCellGridM = 0.8;
 
 std::vector<std::size_t> people_of(const Trace& trace) {
   std::vector<std::size_t> people;
@@ -47,16 +58,18 @@ std::optional<std::size_t> intent_of(const Trace& trace, const std::string& exit
 class ExitObserver {
  public:
   ExitObserver(const Trace& trace, const world::Exit& exit, const ControlZone& zone,
-               const std::vector<std::size_t>& people)
+               const std::vector<std::size_t>& people, const VoronoiCutter& cutter)
       : trace_(trace),
         people_(people),
+        cutter_(cutter),
         zone_(zone),
-        middle_(exit.middle()),
+        exit_(exit),
         intent_(intent_of(trace, exit.id)),
         mean_radius_m_(mean_radius_m(trace, people)),
         line_(exit, mean_radius_m_),
         capacity_per_s_(capacity_per_s(exit.width_m())),
-        state_(exit.width_m()),
+        state_(exit.width_m(), exit.open),
+        pressure_(zone, trace.header.dt_s),
         counters_(people.size()) {
     if (people.empty()) return;
     const double fills_door = exit.width_m() / (2 * mean_radius_m_);
@@ -64,69 +77,141 @@ class ExitObserver {
     demand_from_ = static_cast<int>(std::ceil(fills_door - 1e-6)) + 1;
   }
 
-  std::vector<ExitSample> observe() {
-    const auto window = static_cast<std::size_t>(std::lround(kFlowWindowS / trace_.header.dt_s));
-    std::vector<ExitSample> samples;
-    samples.reserve(trace_.steps());
+  ExitSeries observe() {
+    ExitSeries series{exit_.id, exit_.width_m(), zone_.area_m2(), {}, {}, {}};
+    series.samples.reserve(trace_.steps());
     for (std::size_t step = 0; step < trace_.steps(); ++step) {
-      const int crossed_before = step > window ? samples[step - window].crossed : 0;
-      samples.push_back(observe_step(step, crossed_before));
+      const double flow = change_over(series.samples, step, kFlowWindowS);
+      const double wait_flow = change_over(series.samples, step, kWaitWindowS);
+      series.samples.push_back(observe_step(step, series.passages));
+      finish(series.samples.back(), trace_.time_s[step], flow, wait_flow);
     }
-    return samples;
+    find_clogs(series, trace_.time_s);
+    for (ClogEvent& clog : series.clogs) clog.members = members_of(clog);
+    return series;
   }
 
  private:
-  struct Zone {
-    int count = 0;
-    double approach_speed_mps = 0;
-    double desired_speed_mps = 0;
-  };
+  // How many had crossed a window before this step.
+  double change_over(const std::vector<ExitSample>& samples, std::size_t step,
+                     double window_s) const {
+    const auto window = static_cast<std::size_t>(std::lround(window_s / trace_.header.dt_s));
+    return step > window ? samples[step - window].crossed : 0;
+  }
 
-  ExitSample observe_step(std::size_t step, int crossed_before) {
-    const double time_s = trace_.time_s[step];
-    count_crossings(step, time_s);
-    const Zone zone = look_at_zone(step);
+  // What can be measured at the step itself.
+  ExitSample observe_step(std::size_t step, std::vector<Passage>& passages) {
+    look_around(step, passages);
     ExitSample sample;
-    sample.in_zone = zone.count;
-    sample.density_per_m2 = zone.count / zone_.area_m2();
-    sample.normalised_density = sample.density_per_m2 * close_packing_m2();
-    sample.approach_speed_mps = zone.approach_speed_mps;
     sample.crossed = crossed_;
-    sample.flow_per_s = (crossed_ - crossed_before) / kFlowWindowS;
-    sample.since_crossing_s = time_s - last_outward_s_;
-    const ExitDemand demand{zone.count >= demand_from_ && !people_.empty(), zone.desired_speed_mps};
-    sample.state = state_.step(time_s, sample, demand);
-    sample.clogging_index = clogging_index(sample, demand, capacity_per_s_);
+    desired_speed_mps_ = 0;
+    for (const NearPerson& person : queuing_) {
+      if (!zone_.contains(person.place)) continue;
+      ++sample.in_zone;
+      sample.approach_speed_mps +=
+          person.velocity.dot((zone_.middle() - person.place).normalized());
+      desired_speed_mps_ += person.desired_speed_mps;
+    }
+    if (sample.in_zone > 0) {
+      sample.approach_speed_mps /= sample.in_zone;
+      desired_speed_mps_ /= sample.in_zone;
+    }
+    sample.density_per_m2 = sample.in_zone / zone_.area_m2();
+    sample.normalised_density = sample.density_per_m2 * close_packing_m2();
+    sample.voronoi_density_per_m2 = voronoi_density();
+    sample.pressure_per_s2 = pressure_.step(near_);
+    const Queue queue = queue_before(zone_, exit_.outward, queuing_);
+    sample.queue = queue.people;
+    sample.queue_length_m = queue.length_m;
+    sample.demand = sample.in_zone >= demand_from_ && !people_.empty();
     return sample;
   }
 
-  void count_crossings(std::size_t step, double time_s) {
+  // What depends on earlier steps as well.
+  void finish(ExitSample& sample, double time_s, double crossed_4s_ago, double crossed_20s_ago) {
+    sample.flow_per_s = (sample.crossed - crossed_4s_ago) / kFlowWindowS;
+    sample.specific_flow_per_ms = sample.flow_per_s / exit_.width_m();
+    sample.since_crossing_s = time_s - last_outward_s_;
+    const double recent_flow = (sample.crossed - crossed_20s_ago) / kWaitWindowS;
+    sample.predicted_wait_s = sample.queue / std::max(recent_flow, kLeastFlow * capacity_per_s_);
+    const ExitDemand demand{sample.demand, desired_speed_mps_};
+    sample.state = state_.step(time_s, sample, demand);
+    if (exit_.open) sample.clogging_index = clogging_index(sample, demand, capacity_per_s_);
+  }
+
+  // Counts who crosses, and gathers who is near and who comes here.
+  void look_around(std::size_t step, std::vector<Passage>& passages) {
+    const double time_s = trace_.time_s[step];
+    // Cells that reach into the zone depend on people two cells' radii beyond them.
+    const double near_m = zone_.radius_m() + 3.1 * kCellRadiusM;
+    near_.clear();
+    queuing_.clear();
+    const std::size_t already = passages.size();
     for (std::size_t i = 0; i < people_.size(); ++i) {
       if (!trace_.present(step, people_[i])) continue;
-      const int crossing = counters_[i].step(line_, position(step, people_[i]));
+      const std::size_t at = trace_.at(step, people_[i]);
+      const Eigen::Vector2d place = trace_.position[at].cast<double>();
+      const int crossing = counters_[i].step(line_, place, time_s);
       crossed_ += crossing;
-      if (crossing > 0) last_outward_s_ = time_s;
+      if (crossing > 0) {
+        last_outward_s_ = time_s;
+        passages.push_back({counters_[i].crossed_at_s(), people_[i]});
+      }
+      const bool comes = !intent_ || trace_.exit_intent[at] == static_cast<int>(*intent_);
+      const bool near = (place - zone_.middle()).squaredNorm() < near_m * near_m;
+      if (!comes && !near) continue;
+      const NearPerson person{people_[i], place, trace_.velocity[at].cast<double>(),
+                              trace_.desired_speed_mps[at], comes};
+      if (near) near_.push_back(person);
+      if (comes) queuing_.push_back(person);
+    }
+    // They are known with a delay, and not all with the same: who crossed first may come second.
+    if (passages.size() > already) {
+      std::sort(passages.begin(), passages.end(), [](const Passage& one, const Passage& other) {
+        return std::tie(one.time_s, one.agent) < std::tie(other.time_s, other.agent);
+      });
     }
   }
 
-  Zone look_at_zone(std::size_t step) const {
-    Zone zone;
-    for (const std::size_t person : people_) {
-      const std::size_t at = trace_.at(step, person);
-      if (!trace_.present(step, person)) continue;
-      if (intent_ && trace_.exit_intent[at] != static_cast<int>(*intent_)) continue;
-      const Eigen::Vector2d place = position(step, person);
-      if (!zone_.contains(place)) continue;
-      ++zone.count;
-      zone.approach_speed_mps +=
-          trace_.velocity[at].cast<double>().dot((middle_ - place).normalized());
-      zone.desired_speed_mps += trace_.desired_speed_mps[at];
+  double voronoi_density() const {
+    std::vector<Eigen::Vector2d> places;
+    for (const NearPerson& person : near_) places.push_back(person.place);
+    const PointGrid grid(places, kCellGridM);
+    const double reach_m = zone_.radius_m() + 1.01 * kCellRadiusM;
+    double people = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Eigen::Vector2d offset = places[i] - zone_.middle();
+      if (offset.norm() > reach_m || offset.dot(exit_.outward) > 1.01 * kCellRadiusM) continue;
+      const VoronoiCell cell = cutter_.cell(grid, i);
+      people += share_in_zone(cell);
     }
-    if (zone.count > 0) {
-      zone.approach_speed_mps /= zone.count;
-      zone.desired_speed_mps /= zone.count;
+    return people / zone_.area_m2();
+  }
+
+  double share_in_zone(const VoronoiCell& cell) const {
+    const double radius = zone_.radius_m();
+    const bool whole = std::all_of(
+        cell.rings.front().begin(), cell.rings.front().end(), [&](const Eigen::Vector2d& corner) {
+          const Eigen::Vector2d offset = corner - zone_.middle();
+          return offset.squaredNorm() < radius * radius && offset.dot(exit_.outward) <= 0;
+        });
+    return whole ? 1.0 : area_in(cell, zone_.outline()) / cell.area_m2;
+  }
+
+  std::vector<std::size_t> members_of(const ClogEvent& clog) const {
+    const double near_m = kMemberWidths * exit_.width_m();
+    std::set<std::size_t> members;
+    for (std::size_t step = 0; step < trace_.steps(); ++step) {
+      if (trace_.time_s[step] < clog.from_s || trace_.time_s[step] > clog.until_s) continue;
+      for (const std::size_t agent : people_) {
+        const std::size_t at = trace_.at(step, agent);
+        if (!trace_.present(step, agent)) continue;
+        if (intent_ && trace_.exit_intent[at] != static_cast<int>(*intent_)) continue;
+        const Eigen::Vector2d offset = trace_.position[at].cast<double>() - zone_.middle();
+        if (offset.norm() <= near_m && offset.dot(exit_.outward) < 0) members.insert(agent);
+      }
     }
-    return zone;
+    return {members.begin(), members.end()};
   }
 
   // Ground per person at close packing: discs of the mean radius in a hexagonal lattice.
@@ -134,20 +219,21 @@ class ExitObserver {
     return 2 * std::numbers::sqrt3 * mean_radius_m_ * mean_radius_m_;
   }
 
-  Eigen::Vector2d position(std::size_t step, std::size_t agent) const {
-    return trace_.position[trace_.at(step, agent)].cast<double>();
-  }
-
   const Trace& trace_;
   const std::vector<std::size_t>& people_;
+  const VoronoiCutter& cutter_;
   const ControlZone& zone_;
-  Eigen::Vector2d middle_;
+  const world::Exit& exit_;
   std::optional<std::size_t> intent_;  ///< empty: the trace does not say who wants this exit
   double mean_radius_m_;
   ExitLine line_;
   double capacity_per_s_;
   ExitStateMachine state_;
+  PressureMeter pressure_;
   std::vector<CrossingCounter> counters_;
+  std::vector<NearPerson> near_;     ///< whoever may matter for density and pressure in the zone
+  std::vector<NearPerson> queuing_;  ///< who intends this exit, wherever they are
+  double desired_speed_mps_ = 0;     ///< mean over the zone
   int demand_from_ = 1;
   int crossed_ = 0;
   double last_outward_s_ = 0;
@@ -196,12 +282,11 @@ std::string name_of(ExitState state) {
 std::vector<ExitSeries> exit_series(const Trace& trace, const world::Scenario& scenario) {
   const std::vector<ControlZone> zones = zones_of(scenario);
   const std::vector<std::size_t> people = people_of(trace);
+  const VoronoiCutter cutter(scenario.buildings);
   std::vector<ExitSeries> series(scenario.exits.size());
   parallel_ranges(series.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const world::Exit& exit = scenario.exits[i];
-      series[i] = {exit.id, exit.width_m(), zones[i].area_m2(),
-                   ExitObserver(trace, exit, zones[i], people).observe()};
+      series[i] = ExitObserver(trace, scenario.exits[i], zones[i], people, cutter).observe();
     }
   });
   return series;

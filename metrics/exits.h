@@ -1,4 +1,4 @@
-// What happens at each exit over time: crossings, flow, density, queue, clogging index.
+// What happens at each exit over time: crossings, flow, density, queue, pressure, clogging.
 // Definitions and sources: docs/metrics.md.
 #pragma once
 
@@ -31,18 +31,45 @@ struct ExitSample {
   double flow_per_s = 0;          ///< crossings per second over the last 4 s
   double since_crossing_s = 0;    ///< since the last outward crossing (or since the start)
   ExitState state = ExitState::idle;
-  double clogging_index = 0;  ///< in [0, 1]
+  double clogging_index = 0;          ///< in [0, 1]
+  double voronoi_density_per_m2 = 0;  ///< of all people, over the zone (metrics/voronoi.h)
+  double specific_flow_per_ms = 0;    ///< flow per metre of width
+  bool demand = false;                ///< enough people in the zone to fill the door
+  int queue = 0;                      ///< people (metrics/queue.h)
+  double queue_length_m = 0;
+  double predicted_wait_s = 0;                ///< queue over the flow of the last 20 s
+  double pressure_per_s2 = 0;                 ///< greatest in the zone (metrics/pressure.h)
+  ExitState state_offline = ExitState::idle;  ///< not causal: the whole gap of a clog is clogged
+};
+
+/// A time without passages long enough to be a clog.
+struct ClogEvent {
+  double from_s = 0;  ///< the last passage before it, or when people came if that was later
+  double until_s = 0;
+  bool ended = true;        ///< otherwise the run ended first
+  int people_at_onset = 0;  ///< in the zone
+  double max_normalised_density = 0;
+  double max_pressure_per_s2 = 0;
+  std::vector<std::size_t> members;  ///< agents within 1.5 widths of the middle at any time of it
+};
+
+/// Somebody went out through a door.
+struct Passage {
+  double time_s = 0;  ///< on the line, between two steps
+  std::size_t agent = 0;
 };
 
 struct ExitSeries {
   std::string exit_id;
   double width_m = 0;
   double zone_area_m2 = 0;
-  std::vector<ExitSample> samples;  ///< one per trace step
+  std::vector<ExitSample> samples;     ///< one per trace step
+  std::vector<Passage> passages = {};  ///< by time
+  std::vector<ClogEvent> clogs = {};   ///< in order
 };
 
-/// One series per exit of the scenario, at the trace's rate, causal: a sample depends only on the
-/// trace up to its step.
+/// One series per exit of the scenario, at the trace's rate, causal but for what is called offline
+/// and the clogs: a sample depends only on the trace up to its step.
 std::vector<ExitSeries> exit_series(const world::Trace& trace, const world::Scenario& scenario);
 
 }  // namespace throng::metrics

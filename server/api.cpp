@@ -56,26 +56,32 @@ constexpr const char* kJobs = "/v1/jobs";
 constexpr const char* kJob = "/v1/jobs/([a-z0-9]+)";
 constexpr const char* kArchive = "/v1/jobs/([a-z0-9]+)/archive";
 constexpr const char* kMetrics = "/v1/jobs/([a-z0-9]+)/metrics";
+constexpr const char* kRunMetrics = "/v1/jobs/([a-z0-9]+)/runs/([0-9]+)/metrics";
+constexpr const char* kRunMetricsCsv = "/v1/jobs/([a-z0-9]+)/runs/([0-9]+)/metrics.csv";
 constexpr const char* kSchema = "/v1/schema";
 constexpr const char* kHealth = "/healthz";
 constexpr std::array kPaths = {Path{kJobs, "GET, HEAD, POST"}, Path{kJob, "GET, HEAD, DELETE"},
                                Path{kArchive, "GET, HEAD"},    Path{kMetrics, "GET, HEAD"},
+                               Path{kRunMetrics, "GET, HEAD"}, Path{kRunMetricsCsv, "GET, HEAD"},
                                Path{kSchema, "GET, HEAD"},     Path{kHealth, "GET, HEAD"}};
 
-// Whether the library would find `path` by `pattern`.
+// Whether the library would find `path` by `pattern`, whose groups are whole segments.
 bool fits(std::string_view pattern, std::string_view path) {
-  constexpr std::string_view kId = "([a-z0-9]+)";
-  const std::size_t at = pattern.find(kId);
-  if (at == std::string_view::npos) return path == pattern;
-  const std::string_view before = pattern.substr(0, at);
-  const std::string_view after = pattern.substr(at + kId.size());
-  if (path.size() <= before.size() + after.size() || !path.starts_with(before) ||
-      !path.ends_with(after)) {
-    return false;
+  constexpr std::string_view kGroupEnd = "]+)";
+  for (std::size_t at = pattern.find('('); at != std::string_view::npos; at = pattern.find('(')) {
+    if (!path.starts_with(pattern.substr(0, at))) return false;
+    path.remove_prefix(at);
+    const std::size_t end = pattern.find(kGroupEnd, at);
+    const bool letters = pattern.substr(at, end - at).find("a-z") != std::string_view::npos;
+    pattern.remove_prefix(end + kGroupEnd.size());
+    const std::string_view segment = path.substr(0, path.find('/'));
+    const auto allowed = [&](char c) {
+      return ('0' <= c && c <= '9') || (letters && 'a' <= c && c <= 'z');
+    };
+    if (segment.empty() || !std::all_of(segment.begin(), segment.end(), allowed)) return false;
+    path.remove_prefix(segment.size());
   }
-  const std::string_view id = path.substr(at, path.size() - before.size() - after.size());
-  return std::all_of(id.begin(), id.end(),
-                     [](char c) { return ('a' <= c && c <= 'z') || ('0' <= c && c <= '9'); });
+  return path == pattern;
 }
 
 // The library answers 404 for a method that a path does not know.
@@ -202,6 +208,23 @@ void send_metrics(JobService& service, const Request& request, Response& respons
   response.set_content(read_file(service.dataset_of(row.id) / "metrics.json"), "application/json");
 }
 
+// A file of one run of a dataset; 404 when there is no such run or the job did not ask for it.
+void send_run_file(JobService& service, const Request& request, Response& response,
+                   const char* folder, const char* suffix, const char* type) {
+  const jobs::JobRow row = find_succeeded(service, request);
+  const std::string number = request.matches[2];
+  constexpr std::size_t kMostDigits = 6;
+  std::filesystem::path file;
+  if (number.size() <= kMostDigits) {
+    const std::string name = fmt::format("run{:03}{}", std::stoi(number), suffix);
+    file = service.dataset_of(row.id) / folder / name;
+  }
+  if (file.empty() || !std::filesystem::exists(file)) {
+    throw HttpError{404, fmt::format("the dataset has no {} of run {}", folder, number)};
+  }
+  response.set_content(read_file(file), type);
+}
+
 // Runs a handler; turns what it throws into an answer.
 template <typename Handler>
 void guarded(const JobService& service, const Request& request, Response& response,
@@ -255,6 +278,13 @@ Api::Api(JobService& service, const HttpOptions& options) : server_(options, &wr
                 }));
   routes.Get(kArchive, route(&send_archive));
   routes.Get(kMetrics, route(&send_metrics));
+  routes.Get(kRunMetrics, route([](JobService& jobs, const Request& request, Response& response) {
+               send_run_file(jobs, request, response, "metrics", ".json", "application/json");
+             }));
+  routes.Get(kRunMetricsCsv,
+             route([](JobService& jobs, const Request& request, Response& response) {
+               send_run_file(jobs, request, response, "exits", ".csv", "text/csv");
+             }));
   routes.Get(kSchema, route([](JobService&, const Request&, Response& response) {
                response.set_content(std::string(jobs::job_schema()), "application/schema+json");
              }));

@@ -70,7 +70,7 @@ struct OutcomeObserver::Doors {
 };
 
 OutcomeObserver::OutcomeObserver(const world::Scenario& scenario, double duration_s, double alarm_s,
-                                 BoundSpec bound_spec)
+                                 metrics::BoundSpec bound_spec)
     : scenario_(scenario), bound_spec_(std::move(bound_spec)), doors_(std::make_unique<Doors>()) {
   outcome_.duration_s = duration_s;
   outcome_.alarm_s = alarm_s;
@@ -106,7 +106,7 @@ void OutcomeObserver::step(const world::CrowdStep& step) {
     if (alarm) people.push_back(place);
   }
   if (!alarm) return;
-  outcome_.bound = flow_bound(scenario_, people, bound_spec_);
+  outcome_.bound = metrics::flow_bound(scenario_, people, bound_spec_);
   bound_done_ = true;
 }
 

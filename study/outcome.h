@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/run.h"
-#include "study/flow_bound.h"
+#include "metrics/flow_bound.h"
 #include "world/scenario.h"
 
 namespace throng::study {
@@ -19,7 +19,7 @@ struct Outcome {
   std::vector<double> escape_s;  ///< of those who got out, in order
   std::vector<int> exit_use;     ///< per exit: who went through its door, less who came back
   int followed = 0;              ///< how many were in a state "Follow" at some time
-  FlowBound bound;
+  metrics::FlowBound bound;
 
   int not_escaped() const { return people - static_cast<int>(escape_s.size()); }
   /// With `duration_s - alarm_s` for those who did not get out.
@@ -37,7 +37,7 @@ class OutcomeObserver : public sim::RunObserver {
  public:
   /// `bound_spec`: for the bound, which counts from where people are at the alarm.
   OutcomeObserver(const world::Scenario& scenario, double duration_s, double alarm_s,
-                  BoundSpec bound_spec);
+                  metrics::BoundSpec bound_spec);
   ~OutcomeObserver() override;
 
   void begin(const world::TraceHeader& header) override;
@@ -51,7 +51,7 @@ class OutcomeObserver : public sim::RunObserver {
   struct Doors;
 
   const world::Scenario& scenario_;
-  BoundSpec bound_spec_;
+  metrics::BoundSpec bound_spec_;
   Outcome outcome_;
   std::vector<world::AgentRole> roles_;
   std::vector<bool> follows_;  // per state of the behaviour: its name is "Follow"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "jobs/spec.h"
-#include "study/flow_bound.h"
+#include "metrics/flow_bound.h"
 #include "world/scenario.h"
 
 namespace throng::study {
@@ -19,7 +19,7 @@ struct Case {
   double alarm_s = 0;  ///< from when evacuation counts
   double duration_s = 900;
   world::Scenario scenario;
-  BoundSpec bound;
+  metrics::BoundSpec bound;
 };
 
 /// One way to guide people; or none.

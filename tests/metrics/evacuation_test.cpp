@@ -46,7 +46,7 @@ TEST(RunMetrics, WhoIsStillInsideCountsUntilTheEnd) {
   EXPECT_EQ(metrics.not_escaped, 10);
   EXPECT_EQ(metrics.escape_curve.size(), 11U);
   EXPECT_DOUBLE_EQ(metrics.escape_curve.back(), 0.5);
-  ASSERT_EQ(metrics.percentiles.size(), 7U);
+  ASSERT_EQ(metrics.percentiles.size(), 8U);
   EXPECT_TRUE(metrics.percentiles[1].time_s);
   EXPECT_FALSE(metrics.percentiles[2].time_s);
   EXPECT_NEAR(metrics.mean_escape_time_s, (55 + 10 * 10.5) / 20, 0.051);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "jobs/spec.h"
 #include "tests/server/service_fixture.h"
 
@@ -94,6 +95,14 @@ TEST_F(ApiTest, AJobFromSubmissionToMetrics) {
   EXPECT_THAT(done["ended_at"].get<std::string>(), StartsWith("20"));
   EXPECT_EQ(get_json(done["links"]["metrics"]), json::parse(R"({"runs":[]})"));
   EXPECT_EQ(get(done["links"]["archive"])->status, 200);
+  // The pretended dataset has no runs of its own.
+  expect_problem(get(self + "/runs/0/metrics"), 404);
+  write_file_atomically(service.dataset_of(job["id"]) / "metrics/run000.json", R"({"people":3})");
+  write_file_atomically(service.dataset_of(job["id"]) / "exits/run000.csv", "frame\n");
+  EXPECT_EQ(get_json(self + "/runs/0/metrics"), json::parse(R"({"people":3})"));
+  EXPECT_EQ(get(self + "/runs/0/metrics.csv")->body, "frame\n");
+  expect_problem(get(self + "/runs/1/metrics.csv"), 404);
+  expect_problem(get(self + "/runs/99999999999999/metrics"), 404);
 }
 
 TEST_F(ApiTest, MistakesComeBackWithTheirPointers) {
@@ -137,6 +146,8 @@ TEST_F(ApiTest, UnknownThingsAre404AndWrongMethods405) {
   expect_problem(answer, 405);
   EXPECT_EQ(answer->get_header_value("Allow"), "GET, HEAD, POST");
   expect_problem(client().Put("/v1/jobs", "{}", "application/json"), 405);
+  expect_problem(client().Put("/v1/jobs/j1/runs/0/metrics.csv", "{}", "application/json"), 405);
+  expect_problem(client().Put("/v1/jobs/j1/runs/x/metrics", "{}", "application/json"), 404);
   expect_problem(client().Post("/healthz", "", "application/json"), 405);
 }
 

@@ -1,10 +1,10 @@
-#include "study/flow_bound.h"
+#include "metrics/flow_bound.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace throng::study {
+namespace throng::metrics {
 namespace {
 
 using Eigen::Vector2d;
@@ -56,4 +56,4 @@ TEST(FlowBound, NobodyOrNoWayOut) {
 }
 
 }  // namespace
-}  // namespace throng::study
+}  // namespace throng::metrics

@@ -1,10 +1,10 @@
-#include "study/flow_bound.h"
+#include "metrics/flow_bound.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace throng::study {
+namespace throng::metrics {
 
 using Eigen::Vector2d;
 
@@ -143,4 +143,4 @@ FlowBound flow_bound(const world::Scenario& place, const std::vector<Vector2d>& 
   return bound;
 }
 
-}  // namespace throng::study
+}  // namespace throng::metrics

@@ -6,7 +6,7 @@
 
 #include "world/scenario.h"
 
-namespace throng::study {
+namespace throng::metrics {
 
 struct BoundSpec {
   double speed_mps = 2;                ///< of everybody, from the alarm on
@@ -29,4 +29,4 @@ struct FlowBound {
 FlowBound flow_bound(const world::Scenario& place, const std::vector<Eigen::Vector2d>& people,
                      const BoundSpec& spec);
 
-}  // namespace throng::study
+}  // namespace throng::metrics

@@ -1,0 +1,107 @@
+// throng metrics: the figures of a run, or of recorded people, at the exits of a scenario.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "annotate/exits_csv.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/commands.h"
+#include "cli/scenario_named.h"
+#include "metrics/evacuation.h"
+#include "metrics/exits.h"
+#include "metrics/trajectory_file.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::cli {
+
+namespace {
+
+struct MetricsArguments {
+  std::string trace;
+  std::string trajectory;
+  std::string scenario;
+  std::string output;
+  std::string csv;
+  std::string to_jupedsim;
+  std::string without_guides;
+  metrics::WalkerDefaults walkers;
+};
+
+void write_csv(const std::vector<metrics::ExitSeries>& exits, const world::Trace& trace,
+               const std::string& file) {
+  std::vector<annotate::FrameTime> steps;
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    steps.push_back({static_cast<std::int64_t>(step), trace.time_s[step]});
+  }
+  write_file_atomically(file, annotate::exits_csv(exits, trace.time_s, steps));
+}
+
+void measure(const MetricsArguments& arguments) {
+  const bool recorded = !arguments.trajectory.empty();
+  if (recorded == !arguments.trace.empty()) {
+    throw InputError({"throng metrics", "", recorded ? "a trace and a trajectory" : "neither",
+                      "a trace or --trajectory"});
+  }
+  const world::Trace trace = recorded
+                                 ? metrics::read_trajectory(arguments.trajectory, arguments.walkers)
+                                 : world::read_trace(arguments.trace);
+  if (!arguments.to_jupedsim.empty()) {
+    metrics::write_trajectory(trace, arguments.to_jupedsim);
+    fmt::print("{}\n", arguments.to_jupedsim);
+    if (arguments.output.empty() && arguments.csv.empty()) return;
+  }
+  if (recorded && arguments.scenario.empty()) {
+    throw InputError(
+        {"--scenario", "", "nothing", "the scenario whose exits the recorded people walk to"});
+  }
+  const world::Scenario scenario =
+      scenario_named(arguments.scenario.empty() ? trace.header.scenario_id : arguments.scenario);
+  const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
+  nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
+  if (!arguments.without_guides.empty()) {
+    figures["guidance"]["lead_efficiency_s"] =
+        metrics::lead_efficiency_s(trace, world::read_trace(arguments.without_guides), scenario);
+  }
+  const std::string text = figures.dump(2) + "\n";
+  if (arguments.output.empty()) {
+    fmt::print("{}", text);
+  } else {
+    write_file_atomically(arguments.output, text);
+    fmt::print("{}\n", arguments.output);
+  }
+  if (!arguments.csv.empty()) write_csv(exits, trace, arguments.csv);
+}
+
+}  // namespace
+
+void add_metrics(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "metrics", "Measure a trace, or recorded people: exits, clogs, escape, exposure");
+  const auto arguments = std::make_shared<MetricsArguments>();
+  command->add_option("trace", arguments->trace, "Trace of a run (HDF5)");
+  command->add_option("--trajectory", arguments->trajectory,
+                      "Recorded people instead: text of JuPedSim or PedPy, or JuPedSim's SQLite");
+  command->add_option("--scenario", arguments->scenario,
+                      "Id or file (.json) of the scenario; default: the trace's");
+  command->add_option("-o,--output", arguments->output, "JSON to write; default: standard output");
+  command->add_option("--csv", arguments->csv, "Also write every exit at every step");
+  command->add_option("--to-jupedsim", arguments->to_jupedsim,
+                      "Write the people as a JuPedSim trajectory (.txt or .sqlite)");
+  command->add_option("--without-guides", arguments->without_guides,
+                      "Trace of the same run without drones, for the guides' effect");
+  command->add_option("--radius", arguments->walkers.radius_m, "Of recorded people, m")
+      ->check(CLI::Range(0.05, 2.0))
+      ->capture_default_str();
+  command
+      ->add_option("--desired-speed", arguments->walkers.desired_speed_mps,
+                   "Of recorded people, m/s")
+      ->check(CLI::Range(0.1, 20.0))
+      ->capture_default_str();
+  command->callback([arguments] { measure(*arguments); });
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,34 @@
+// The ways that people took out.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <vector>
+
+#include "metrics/exits.h"
+#include "metrics/people.h"
+
+namespace throng::metrics {
+
+/// From when the person noticed (or arrived, if they never did) to the last passage of a door.
+struct Journey {
+  std::size_t agent = 0;
+  std::size_t exit = 0;  ///< the door, as number of the scenario's exit
+  double from_s = 0;
+  double to_s = 0;
+  double walked_m = 0;
+  std::optional<double> to_used_m;     ///< shortest way around buildings to that door
+  std::optional<double> to_nearest_m;  ///< to the open door that is nearest on foot
+  double speed_ratio = 0;              ///< mean speed over mean desired speed; 0 if nothing desired
+  int stops = 0;                       ///< times slower than 0.1 m/s for more than 1 s
+};
+
+/// Of those who went out through a door; by number of the agent.
+std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& scenario,
+                              const std::vector<ExitSeries>& exits,
+                              const std::vector<PersonRecord>& people);
+
+/// Medians, quantiles and sums over the journeys.
+nlohmann::json to_json(const std::vector<Journey>& journeys);
+
+}  // namespace throng::metrics

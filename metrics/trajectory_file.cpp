@@ -1,0 +1,280 @@
+#include "metrics/trajectory_file.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::metrics {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr double kCentimetre = 0.01;
+constexpr std::int64_t kMostFrames = 10'000'000;
+constexpr std::string_view kDatabaseStart = "SQLite format 3";
+
+struct Recorded {
+  double frames_per_s = 0;
+  std::map<std::int64_t, std::map<std::int64_t, Vector2d>> places;  ///< by person and frame
+};
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  constexpr std::string_view kBetween = " \t,;\r";
+  std::vector<std::string_view> words;
+  for (std::size_t at = line.find_first_not_of(kBetween); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kBetween, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(kBetween, end);
+  }
+  return words;
+}
+
+std::optional<double> number_in(std::string_view word) {
+  double value = 0;
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (result.ec != std::errc() || result.ptr != word.data() + word.size() ||
+      !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+// Reads "framerate: 16.00 fps" and the like.
+std::optional<double> frame_rate_in(std::string_view comment) {
+  std::string lower(comment);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (lower.find("framerate") == std::string::npos && lower.find("fps") == std::string::npos) {
+    return std::nullopt;
+  }
+  for (const std::string_view word : words_of(lower)) {
+    const auto rate = number_in(word.substr(word.rfind(':') + 1));
+    if (rate && *rate > 0) return rate;
+  }
+  return std::nullopt;
+}
+
+class TextReader {
+ public:
+  TextReader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
+
+  Recorded read() {
+    for (std::size_t at = 0; at < text_.size();) {
+      const std::size_t end = std::min(text_.find('\n', at), text_.size());
+      ++line_;
+      read_line(text_.substr(at, end - at));
+      at = end + 1;
+    }
+    if (recorded_.frames_per_s <= 0) {
+      throw InputError({name_, "", "no frame rate", "a comment like \"# framerate: 16\""});
+    }
+    return std::move(recorded_);
+  }
+
+ private:
+  void read_line(std::string_view line) {
+    const std::vector<std::string_view> words = words_of(line);
+    if (words.empty()) return;
+    if (words.front().front() == '#') {
+      if (const auto rate = frame_rate_in(line)) recorded_.frames_per_s = *rate;
+      if (line.find("x/cm") != std::string_view::npos) unit_m_ = kCentimetre;
+      return;
+    }
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, words.size()); ++i) {
+      const auto number = number_in(words[i]);
+      if (!number || (i < 2 && *number != std::floor(*number))) reject(std::string(words[i]));
+      numbers.push_back(*number);
+    }
+    if (numbers.size() < 4) reject(fmt::format("{} values", numbers.size()));
+    if (std::abs(numbers[1]) > kMostFrames) reject(std::string(words[1]));
+    const auto place = recorded_.places[std::llround(numbers[0])].try_emplace(
+        std::llround(numbers[1]), unit_m_ * numbers[2], unit_m_ * numbers[3]);
+    if (!place.second) reject("the same person and frame again");
+  }
+
+  [[noreturn]] void reject(const std::string& found) const {
+    throw InputError({name_, fmt::format("line {}", line_), found,
+                      "id, frame (whole numbers), x and y, each person once a frame"});
+  }
+
+  std::string_view text_;
+  std::string name_;
+  int line_ = 0;
+  double unit_m_ = 1;
+  Recorded recorded_;
+};
+
+Recorded read_database(const fs::path& file) {
+  try {
+    const SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
+    Recorded recorded;
+    SQLite::Statement rate(database, "SELECT value FROM metadata WHERE key = 'fps'");
+    if (rate.executeStep()) recorded.frames_per_s = rate.getColumn(0).getDouble();
+    if (!(recorded.frames_per_s > 0)) {
+      throw InputError({file.string(), "table metadata", "no fps", "a number above 0"});
+    }
+    SQLite::Statement rows(database, "SELECT id, frame, pos_x, pos_y FROM trajectory_data");
+    while (rows.executeStep()) {
+      recorded.places[rows.getColumn(0).getInt64()][rows.getColumn(1).getInt64()] = {
+          rows.getColumn(2).getDouble(), rows.getColumn(3).getDouble()};
+    }
+    return recorded;
+  } catch (const SQLite::Exception& error) {
+    throw InputError({file.string(), "", error.what(),
+                      "a database of JuPedSim: tables trajectory_data and metadata"});
+  }
+}
+
+// Central differences; one-sided at the ends; 0 for who is there in one frame only.
+Vector2d velocity_at(const std::map<std::int64_t, Vector2d>& places, std::int64_t frame,
+                     double frames_per_s) {
+  const auto now = places.find(frame);
+  const auto before = places.contains(frame - 1) ? std::prev(now) : now;
+  const auto after = places.contains(frame + 1) ? std::next(now) : now;
+  const auto frames = static_cast<double>(after->first - before->first);
+  if (frames == 0) return Vector2d::Zero();
+  return (after->second - before->second) * frames_per_s / frames;
+}
+
+void add_people(const Recorded& recorded, std::int64_t first, const WalkerDefaults& walkers,
+                world::Trace& trace) {
+  const std::size_t count = trace.steps() * recorded.places.size();
+  trace.position.assign(count, Eigen::Vector2f::Zero());
+  trace.velocity.assign(count, Eigen::Vector2f::Zero());
+  trace.yaw_rad.assign(count, 0);
+  trace.desired_speed_mps.assign(count, static_cast<float>(walkers.desired_speed_mps));
+  trace.state.assign(count, 0);
+  trace.exit_intent.assign(count, -1);
+  trace.flags.assign(count, 0);
+  std::size_t agent = 0;
+  for (const auto& [id, places] : recorded.places) {
+    for (const auto& [frame, place] : places) {
+      const std::size_t at = trace.at(static_cast<std::size_t>(frame - first), agent);
+      const Vector2d velocity = velocity_at(places, frame, recorded.frames_per_s);
+      trace.position[at] = place.cast<float>();
+      trace.velocity[at] = velocity.cast<float>();
+      trace.yaw_rad[at] = static_cast<float>(std::atan2(velocity.y(), velocity.x()));
+      trace.flags[at] = world::kPresent;
+    }
+    ++agent;
+  }
+}
+
+std::string text_of(const world::Trace& trace) {
+  std::string text = fmt::format("# framerate: {}\n# ID\tFR\tx/m\ty/m\n", 1 / trace.header.dt_s);
+  for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
+    if (trace.header.role[agent] != world::AgentRole::person) continue;
+    for (std::size_t step = 0; step < trace.steps(); ++step) {
+      if (!trace.present(step, agent)) continue;
+      const Eigen::Vector2f& place = trace.position[trace.at(step, agent)];
+      fmt::format_to(std::back_inserter(text), "{}\t{}\t{}\t{}\n", agent + 1, step, place.x(),
+                     place.y());
+    }
+  }
+  return text;
+}
+
+// As JuPedSim 1.x writes it, version 2, without a geometry.
+void fill_database(const world::Trace& trace, SQLite::Database& database) {
+  SQLite::Transaction transaction(database);
+  database.exec(
+      "CREATE TABLE trajectory_data (frame INTEGER NOT NULL, id INTEGER NOT NULL, pos_x REAL NOT "
+      "NULL, pos_y REAL NOT NULL, ori_x REAL NOT NULL, ori_y REAL NOT NULL);"
+      "CREATE TABLE metadata (key TEXT NOT NULL UNIQUE, value TEXT NOT NULL);"
+      "CREATE TABLE geometry (hash INTEGER NOT NULL, wkt TEXT NOT NULL);"
+      "CREATE TABLE frame_data (frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
+      "CREATE INDEX frame_id_idx ON trajectory_data (frame, id)");
+  SQLite::Statement metadata(database, "INSERT INTO metadata VALUES (?, ?)");
+  metadata.bind(1, "version");
+  metadata.bind(2, "2");
+  metadata.exec();
+  metadata.reset();
+  metadata.bind(1, "fps");
+  metadata.bind(2, fmt::format("{}", 1 / trace.header.dt_s));
+  metadata.exec();
+  SQLite::Statement row(database, "INSERT INTO trajectory_data VALUES (?, ?, ?, ?, ?, ?)");
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
+      if (trace.header.role[agent] != world::AgentRole::person || !trace.present(step, agent)) {
+        continue;
+      }
+      const std::size_t at = trace.at(step, agent);
+      row.bind(1, static_cast<std::int64_t>(step));
+      row.bind(2, static_cast<std::int64_t>(agent) + 1);
+      row.bind(3, trace.position[at].x());
+      row.bind(4, trace.position[at].y());
+      row.bind(5, std::cos(trace.yaw_rad[at]));
+      row.bind(6, std::sin(trace.yaw_rad[at]));
+      row.exec();
+      row.reset();
+    }
+  }
+  transaction.commit();
+}
+
+}  // namespace
+
+world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers) {
+  const std::string bytes = read_file(file);
+  const Recorded recorded = bytes.starts_with(kDatabaseStart)
+                                ? read_database(file)
+                                : TextReader(bytes, file.string()).read();
+  if (recorded.places.empty()) {
+    throw InputError({file.string(), "", "nobody", "at least one person in one frame"});
+  }
+  std::int64_t first = recorded.places.begin()->second.begin()->first;
+  std::int64_t last = first;
+  for (const auto& [id, places] : recorded.places) {
+    first = std::min(first, places.begin()->first);
+    last = std::max(last, places.rbegin()->first);
+  }
+  if (last - first > kMostFrames) {
+    throw InputError({file.string(), "", fmt::format("frames {} to {}", first, last),
+                      fmt::format("at most {} frames", kMostFrames)});
+  }
+  world::Trace trace;
+  trace.header.scenario_id = file.stem().string();
+  trace.header.dt_s = 1 / recorded.frames_per_s;
+  const std::size_t people = recorded.places.size();
+  trace.header.role.assign(people, world::AgentRole::person);
+  trace.header.radius_m.assign(people, static_cast<float>(walkers.radius_m));
+  trace.header.pref_speed_mps.assign(people, static_cast<float>(walkers.desired_speed_mps));
+  trace.header.group.assign(people, -1);
+  for (std::int64_t frame = first; frame <= last; ++frame) {
+    trace.time_s.push_back(static_cast<double>(frame - first) / recorded.frames_per_s);
+  }
+  add_people(recorded, first, walkers, trace);
+  return trace;
+}
+
+void write_trajectory(const world::Trace& trace, const fs::path& file) {
+  if (file.extension() != ".sqlite") return write_file_atomically(file, text_of(trace));
+  try {
+    StagedFile staged(file);
+    {
+      SQLite::Database database(staged.path().string(),
+                                SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+      fill_database(trace, database);
+    }
+    staged.commit();
+  } catch (const SQLite::Exception& error) {
+    throw EnvironmentError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace throng::metrics

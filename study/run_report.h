@@ -1,0 +1,29 @@
+// The report of one or several runs of one place: one HTML file that needs nothing else.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "metrics/evacuation.h"
+#include "metrics/exits.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::study {
+
+/// A run as the report needs it.
+struct MeasuredRun {
+  std::string name;
+  world::Trace trace;
+  std::vector<metrics::ExitSeries> exits;
+  metrics::RunMetrics metrics;
+};
+
+MeasuredRun measured(std::string name, world::Trace trace, const world::Scenario& scenario);
+
+/// Escape curves of all runs with median and quartiles; of the first run the exits' states over
+/// time, maps of density and pressure, the fundamental diagram and everybody's way; a table of all
+/// runs. Charts are SVG; there are no scripts. Equal runs give equal bytes. At least one run.
+std::string html_report(const world::Scenario& scenario, const std::vector<MeasuredRun>& runs);
+
+}  // namespace throng::study
