@@ -64,7 +64,8 @@ TEST(Bodies, NobodyIsPushedWhereBodiesAreNotPhysical) {
 Simulation press(int people, double speed_mps, bool physical) {
   std::string agents;
   for (int i = 0; i < people; ++i) {
-    agents += test::agent_at(-0.5 - 0.5 * (i / 8), 0.5 * (i % 8) - 1.75);
+    const int row = i / 8;
+    agents += test::agent_at(-0.5 - 0.5 * row, 0.5 * (i % 8) - 1.75);
   }
   const std::string walls = R"(<ObstacleSet type="explicit" class="1">
     <Obstacle closed="1"><Vertex p_x="0" p_y="-3"/><Vertex p_x="0.4" p_y="-3"/>
