@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/run.h"
 #include "metrics/flow_bound.h"
+#include "sim/run.h"
 #include "world/scenario.h"
 
 namespace throng::study {
