@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "study/plot.h"
+
 namespace throng::study {
 
 namespace {
@@ -23,36 +25,6 @@ constexpr double kRight = 190;  // room for the legend
 constexpr double kTop = 44;
 constexpr double kBottom = 52;
 constexpr double kHighest = 100;
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
-
-// 1, 2 or 5 times a power of ten: about six of them in the range.
-double tick_step(double range) {
-  const double rough = std::max(range, 1e-9) / 6;
-  const double power = std::pow(10, std::floor(std::log10(rough)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (step * power >= rough) return step * power;
-  }
-  return 10 * power;
-}
 
 class Drawing {
  public:
@@ -71,7 +43,7 @@ class Drawing {
         kWidth, kHeight);
     add(R"svg(<text x="{}" y="24" font-size="15" font-weight="bold">{}</text>)svg"
         "\n",
-        kLeft, escaped(chart_.title));
+        kLeft, escaped_markup(chart_.title));
     axes();
     for (std::size_t i = 0; i < chart_.curves.size(); ++i) curve(i);
     text_ += "</svg>\n";
@@ -96,7 +68,7 @@ class Drawing {
           "\n",
           kLeft, y(value), x(x_max_), y(value), kLeft - 6, y(value) + 4, value);
     }
-    const double step = tick_step(x_max_);
+    const double step = nice_step(x_max_);
     for (double value = 0; value <= x_max_ * (1 + 1e-9); value += step) {
       add(R"svg(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" stroke="#dddddd"/>)svg"
           R"svg(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{:g}</text>)svg"
@@ -105,10 +77,10 @@ class Drawing {
     }
     add(R"svg(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)svg"
         "\n",
-        0.5 * (kLeft + x(x_max_)), kHeight - 12, escaped(chart_.x_label));
+        0.5 * (kLeft + x(x_max_)), kHeight - 12, escaped_markup(chart_.x_label));
     add(R"svg(<text transform="translate(16 {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)svg"
         "\n",
-        0.5 * (y(0) + kTop), escaped(chart_.y_label));
+        0.5 * (y(0) + kTop), escaped_markup(chart_.y_label));
   }
 
   void curve(std::size_t i) {
@@ -124,7 +96,7 @@ class Drawing {
         R"svg(<text x="{:.1f}" y="{:.1f}">{}</text>)svg"
         "\n",
         legend_x, legend_y, legend_x + 22, legend_y, colour, dash, legend_x + 28, legend_y + 4,
-        escaped(curve.name));
+        escaped_markup(curve.name));
   }
 
   const Chart& chart_;

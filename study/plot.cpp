@@ -20,6 +20,8 @@ constexpr double kPlotBottom = 48;
 constexpr double kUsualHeight = 360;
 constexpr double kMostHeight = 1100;
 
+}  // namespace
+
 double nice_step(double range) {
   const double rough = std::max(range, 1e-9) / 6;
   const double power = std::pow(10, std::floor(std::log10(rough)));
@@ -28,8 +30,6 @@ double nice_step(double range) {
   }
   return 10 * power;
 }
-
-}  // namespace
 
 std::string escaped_markup(const std::string& text) {
   std::string safe;

@@ -50,6 +50,9 @@ class Plot {
   std::string body_;
 };
 
+/// 1, 2 or 5 times a power of ten: about six of them in the range.
+double nice_step(double range);
+
 /// Text with what HTML and SVG would take for markup made harmless.
 std::string escaped_markup(const std::string& text);
 
