@@ -120,7 +120,7 @@ void Bodies::press(const Crowd& crowd, const Grid& grid, const std::vector<Vecto
 }
 
 void Bodies::hand_on() {
-  std::vector<Vector2f> next(given_.size(), Vector2f::Zero());
+  handed_.assign(given_.size(), Vector2f::Zero());
   std::fill(pressure_.begin(), pressure_.end(), 0.0F);
   for (std::size_t slot = 0; slot < given_.size(); ++slot) {
     const Vector2f force = drive_[slot] + given_[slot];
@@ -132,11 +132,11 @@ void Bodies::hand_on() {
     if (!hands_on_[slot]) continue;
     for (std::size_t t = first_touch_[slot]; t < first_touch_[slot + 1]; ++t) {
       const float part_n = force.norm() * share_towards(force, touches_[t].towards) / all;
-      next[touches_[t].slot] += part_n * touches_[t].towards;
+      handed_[touches_[t].slot] += part_n * touches_[t].towards;
       pressure_[touches_[t].slot] += part_n;
     }
   }
-  given_.swap(next);
+  given_.swap(handed_);
 }
 
 // Nobody is pushed through a wall.

@@ -16,7 +16,8 @@ namespace throng::crowd {
 /// tau = 0.5 s), and those hand on what they get to whoever is ahead of them in turn. Nobody ahead:
 /// the push moves them. More than 1600 N per metre of somebody's girth and they fall (the same
 /// paper's limit for injuries), and so does whoever is struck with the impulse that the options
-/// give. Who has fallen lies for kLiesS, in everybody's way, and then gets up unless still pressed.
+/// give. Who has fallen lies for kLiesS, in everybody's way but pressed by nobody, and then gets
+/// up.
 class Bodies {
  public:
   static constexpr double kLiesS = 10;
@@ -59,10 +60,11 @@ class Bodies {
   // By slot.
   std::vector<std::size_t> first_touch_;  // in touches_, then the end
   std::vector<Touch> touches_;
-  std::vector<Eigen::Vector2f> drive_;  // own force, N
-  std::vector<Eigen::Vector2f> given_;  // by others, N
-  std::vector<float> pressure_;         // sum of others' forces, N
-  std::vector<bool> hands_on_;          // somebody is ahead
+  std::vector<Eigen::Vector2f> drive_;   // own force, N
+  std::vector<Eigen::Vector2f> given_;   // by others, N
+  std::vector<Eigen::Vector2f> handed_;  // while that is worked out anew
+  std::vector<float> pressure_;          // sum of others' forces, N
+  std::vector<bool> hands_on_;           // somebody is ahead
 };
 
 }  // namespace throng::crowd

@@ -22,17 +22,13 @@ class DroneCrowdExporter : public Exporter {
 
   void add(const Image& image) override {
     const std::string_view split = name_of(image.split);
-    const std::string sequence = image.sequence();
-    output_.link(fmt::format("{}/images/{}/{:06}.jpg", split, sequence, image.frame + 1),
+    output_.link(fmt::format("{}/images/{}/{:06}.jpg", split, image.sequence(), image.frame + 1),
                  info_.root / image.file);
-    bool is_new = false;
-    OutputStream& text =
-        texts_.of(image.run, fmt::format("{}/annotations/{}.txt", split, sequence), is_new);
     std::string lines;
     for (const Person& person : image.people) {
       if (!person.is_ignored && person.head) append(lines, image, person);
     }
-    text.write(lines);
+    texts_.annotations_of(image).write(lines);
   }
   void finish() override { texts_.close(); }
 

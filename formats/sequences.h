@@ -1,10 +1,13 @@
 // For formats with one text per sequence, which is one camera's pictures of one run.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <map>
 #include <string>
 #include <utility>
 
+#include "formats/exporter.h"
 #include "formats/output.h"
 
 namespace throng::formats {
@@ -23,6 +26,13 @@ class SequenceTexts {
     is_new = found == texts_.end();
     if (!is_new) return found->second;
     return texts_.emplace(path, output_->open(path)).first->second;
+  }
+
+  /// Where VisDrone and its kin keep the text of the sequence that an image is part of.
+  OutputStream& annotations_of(const Image& image) {
+    bool is_new = false;
+    return of(image.run,
+              fmt::format("{}/annotations/{}.txt", name_of(image.split), image.sequence()), is_new);
   }
 
   void close() {

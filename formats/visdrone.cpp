@@ -65,18 +65,14 @@ class VisDroneMot : public Exporter {
 
   void add(const Image& image) override {
     const std::string_view split = name_of(image.split);
-    const std::string sequence = image.sequence();
-    output_.link(fmt::format("{}/sequences/{}/{:07}.jpg", split, sequence, image.frame + 1),
+    output_.link(fmt::format("{}/sequences/{}/{:07}.jpg", split, image.sequence(), image.frame + 1),
                  info_.root / image.file);
-    bool is_new = false;
-    OutputStream& text =
-        texts_.of(image.run, fmt::format("{}/annotations/{}.txt", split, sequence), is_new);
     std::string lines;
     for (const Person& person : image.people) {
       fmt::format_to(std::back_inserter(lines), "{},{},", image.frame + 1, person.number_in_run());
       append_person(lines, person);
     }
-    text.write(lines);
+    texts_.annotations_of(image).write(lines);
   }
   void finish() override { texts_.close(); }
 
