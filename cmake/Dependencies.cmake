@@ -40,3 +40,15 @@ foreach(module IN ITEMS core imgproc)
 endforeach()
 find_path(OPENCV_INCLUDE opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
 target_include_directories(throng_opencv SYSTEM INTERFACE "${OPENCV_INCLUDE}")
+
+# Debian's pkg-config file of rosbag asks for one of pluginlib, which there is not.
+add_library(throng_rosbag INTERFACE)
+foreach(library IN ITEMS rosbag_storage roscpp_serialization rostime cpp_common console_bridge class_loader
+    ament_index_cpp rcutils rcpputils)
+  find_library(ROS_${library} ${library} REQUIRED)
+  target_link_libraries(throng_rosbag INTERFACE "${ROS_${library}}")
+endforeach()
+find_path(ROS_INCLUDE rosbag/bag.h REQUIRED)
+foreach(package IN ITEMS pluginlib class_loader ament_index_cpp rcutils rcpputils)
+  target_include_directories(throng_rosbag SYSTEM INTERFACE "${ROS_INCLUDE}/${package}")
+endforeach()

@@ -109,6 +109,17 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
 
 }  // namespace
 
+json sample_of(const Image& image, const DatasetInfo& info) {
+  json sample = image.record;
+  sample["annotations"] = json::array();
+  for (const Person& person : image.people) {
+    json& record = sample["annotations"].emplace_back(person.record);
+    record["category"] = info.categories[person.category];
+    if (person.is_ignored) record["ignored"] = true;
+  }
+  return sample;
+}
+
 std::string Image::stem() const { return fmt::format("{}-{}-{:06}", run, camera, frame); }
 
 bool DatasetInfo::has(std::string_view annotation) const {

@@ -98,6 +98,10 @@ struct DatasetInfo {
   Split split_of(const std::string& run) const;
 };
 
+/// The image's record with `annotations`, its people's records, in which `category` names their
+/// class and `ignored` is true of who fails the filters: everything about a picture in one object.
+nlohmann::json sample_of(const Image& image, const DatasetInfo& info);
+
 /// What a dataset's manifest says. Throws InputError when it has no COCO annotations, or when the
 /// options name runs that it does not have.
 DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::json& manifest,

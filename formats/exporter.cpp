@@ -37,6 +37,9 @@ constexpr std::array kFormats = {
     Format{"imagefolder", "Hugging Face ImageFolder with metadata.jsonl", "", make_imagefolder},
     Format{"depth-exr", "depth as OpenEXR, metres", "depth", make_depth_exr},
     Format{"flow-flo", "flow as Middlebury's .flo", "flow", make_flow_flo},
+    Format{"rosbag", "ROS 1 bag for each run: pictures, tf, odometry, IMU, people", "",
+           make_rosbag},
+    Format{"rosbag-lz4", "the same, compressed", "", make_rosbag_lz4},
     Format{"table", "one CSV of all people in all pictures", "", make_table},
 };
 

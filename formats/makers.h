@@ -30,6 +30,8 @@ ExporterPointer make_webdataset(const DatasetInfo& info, Output output);
 ExporterPointer make_imagefolder(const DatasetInfo& info, Output output);
 ExporterPointer make_depth_exr(const DatasetInfo& info, Output output);
 ExporterPointer make_flow_flo(const DatasetInfo& info, Output output);
+ExporterPointer make_rosbag(const DatasetInfo& info, Output output);
+ExporterPointer make_rosbag_lz4(const DatasetInfo& info, Output output);
 ExporterPointer make_table(const DatasetInfo& info, Output output);
 
 }  // namespace throng::formats

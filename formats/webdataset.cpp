@@ -16,8 +16,6 @@
 namespace throng::formats {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-
 namespace {
 
 /// Samples in a shard: some hundred megabytes of full pictures.
@@ -81,16 +79,9 @@ class WebDatasetExporter : public Exporter {
           fmt::format("{}-{:06}.tar", name_of(image.split), shards.samples / kSamplesPerShard));
     }
     ++shards.samples;
-    json sample = image.record;
-    sample["annotations"] = json::array();
-    for (const Person& person : image.people) {
-      json& record = sample["annotations"].emplace_back(person.record);
-      record["category"] = info_.categories[person.category];
-      if (person.is_ignored) record["ignored"] = true;
-    }
     // Keys end at the first dot, and have none.
     shards.open->add(image.stem() + ".jpg", read_file(info_.root / image.file));
-    shards.open->add(image.stem() + ".json", sample.dump());
+    shards.open->add(image.stem() + ".json", sample_of(image, info_).dump());
   }
 
   void finish() override {

@@ -1,6 +1,6 @@
-"""Exports read with tools that nobody here wrote: Python's own library, NumPy and Pillow, and h5py, SciPy, OpenCV and
-torchvision where Debian's packages of them are installed (python3-h5py, python3-scipy, python3-opencv,
-python3-torchvision). What is missing is skipped, and says so."""
+"""Exports read with tools that nobody here wrote: Python's own library, NumPy and Pillow, and h5py, SciPy, OpenCV,
+torchvision and rosbag where Debian's packages of them are installed (python3-h5py, python3-scipy, python3-opencv,
+python3-torchvision, python3-rosbag). What is missing is skipped, and says so."""
 import configparser
 import csv
 import importlib.util
@@ -29,7 +29,8 @@ JOB = {
         "camera": {"width": 320, "height": 200, "hfov_deg": 80, "pitch_deg": -40, "yaw_deg": -90},
     }],
     "capture": {"rate_hz": 1, "from_s": 6, "to_s": 9},
-    "outputs": {"annotations": ["coco", "keypoints", "density", "depth", "instances", "flow", "fields"]},
+    "outputs": {"annotations": ["coco", "keypoints", "density", "depth", "instances", "flow", "fields",
+                                "sensors"]},
 }
 
 
@@ -147,6 +148,70 @@ class ExternalReaders(unittest.TestCase):
             self.assertEqual(picture.size, (320, 200))
             sample = json.load(archive.extractfile(names[1]))
         self.assertEqual(len(sample["annotations"]), len(self.people(sample)))
+
+    @needs("rosbag")
+    def test_rosbag_replays_the_runs(self):
+        import rosbag
+        for run, split in (("run000", "train"), ("run001", "val")):
+            images = [image for image in self.coco["images"] if image["run"] == run]
+            topics = {}
+            with rosbag.Bag(self.out / f"rosbag/{split}/{run}.bag") as bag:
+                for topic, message, _ in bag.read_messages():
+                    topics.setdefault(topic, []).append(message)
+            with rosbag.Bag(self.out / f"rosbag-lz4/{split}/{run}.bag") as bag:
+                self.assertEqual(bag.get_compression_info().compression, "lz4")
+                self.assertEqual(bag.get_message_count(), sum(map(len, topics.values())))
+            self.assertEqual(set(topics), {"/tf", "/d1/odometry", "/d1/imu", "/d1/camera/camera_info",
+                                           "/d1/camera/image_color/compressed", "/d1/ground_truth/boxes",
+                                           "/d1/ground_truth/annotations"})
+            for topic in set(topics) - {"/d1/imu"}:
+                self.assertEqual(len(topics[topic]), len(images), topic)
+            imu = [message.header.stamp.to_sec() for message in topics["/d1/imu"]]
+            self.assertTrue(60 * 3 < len(imu) < 60 * 6 and imu == sorted(imu) and imu[-1] <= images[-1]["time_s"])
+            for i, image in enumerate(images):
+                picture, lens = topics["/d1/camera/image_color/compressed"][i], topics["/d1/camera/camera_info"][i]
+                tf, odometry = topics["/tf"][i].transforms, topics["/d1/odometry"][i]
+                boxes, annotations = topics["/d1/ground_truth/boxes"][i], topics["/d1/ground_truth/annotations"][i]
+                for header in (picture.header, lens.header, odometry.header, tf[0].header, boxes.markers[0].header):
+                    self.assertAlmostEqual(header.stamp.to_sec(), image["time_s"], places=8)
+                self.assertEqual(picture.data, (self.dataset / image["file_name"]).read_bytes())
+                numpy.testing.assert_array_equal(numpy.reshape(lens.K, (3, 3)), image["camera"]["K"])
+                self.assertEqual((lens.distortion_model, list(lens.D)), ("plumb_bob", [0.0] * 5))
+                self.assertEqual(json.loads(annotations.data)["annotations"][0]["id"], self.people(image)[0]["id"])
+                self.check_boxes(boxes.markers, self.people(image))
+                self.check_transforms(tf, image, odometry)
+
+    def check_boxes(self, markers, people):
+        cubes = [marker for marker in markers if marker.action == 0]
+        self.assertEqual(len(cubes), len(people))
+        for cube, person in zip(cubes, people):
+            self.assertEqual(cube.id, person["track_id"] % 1000000)
+            place = cube.pose.position
+            numpy.testing.assert_allclose([place.x, place.y, place.z], person["box_3d"]["middle"])
+            turn = cube.pose.orientation
+            difference = 2 * numpy.arctan2(turn.z, turn.w) - person["heading"]
+            self.assertAlmostEqual(numpy.cos(difference), 1, places=9)
+
+    def check_transforms(self, transforms, image, odometry):
+        """From the camera to the world, step by step: as the image's record says."""
+        pose = numpy.eye(4)
+        for transform, frames in zip(transforms, (("world", "d1/base_link"),
+                                                  ("d1/base_link", "d1/camera_optical_frame"))):
+            self.assertEqual((transform.header.frame_id, transform.child_frame_id), frames)
+            q, step = transform.transform.rotation, numpy.eye(4)
+            w, x, y, z = q.w, q.x, q.y, q.z
+            step[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+            shift = transform.transform.translation
+            step[:3, 3] = [shift.x, shift.y, shift.z]
+            pose = pose @ step
+        numpy.testing.assert_allclose(pose[:3, :3].T, image["camera"]["R"], atol=1e-9)
+        numpy.testing.assert_allclose(pose[:3, 3], image["camera"]["centre"], atol=1e-9)
+        true, place = image["flight"]["true"], odometry.pose.pose.position
+        numpy.testing.assert_allclose([place.x, place.y, place.z], true["position"], atol=1e-9)
+        speed = odometry.twist.twist.linear
+        self.assertAlmostEqual(numpy.linalg.norm([speed.x, speed.y, speed.z]), numpy.linalg.norm(true["velocity"]))
 
     def test_configparser_and_numpy_read_mot(self):
         sequence = self.out / "mot/train/run000-d1"

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "base/error.h"
 #include "formats/npy.h"
 #include "tests/formats/dataset_fixture.h"
 #include "tests/formats/readers.h"
@@ -248,6 +249,25 @@ TEST_F(MoreExports, TheTableHasALineForEachAnnotation) {
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns);
   }
   EXPECT_THAT(lines[1], testing::HasSubstr("," + all.at("annotations")[0].at("id").dump() + ","));
+}
+
+// What is in them is read by rosbag itself: tests/cli/test_external_readers.py.
+TEST_F(MoreExports, BagsAreTheSameEveryTime) {
+  const std::string bag = read_file(exported("rosbag") / "train/run001.bag");
+  EXPECT_TRUE(bag.starts_with("#ROSBAG V2.0\n"));
+  EXPECT_EQ(read_file(exported("rosbag") / "train/run001.bag"), bag);
+  EXPECT_LT(read_file(exported("rosbag-lz4") / "train/run001.bag").size(), bag.size());
+}
+
+TEST_F(MoreExports, BagsRefuseDronesThatRosCannotTellApart) {
+  std::string text = read_file(root_ / kCocoFile);
+  for (const auto& [from, to] : {std::pair{R"("d1")", R"("d-1")"}, {R"("d2")", R"("d_1")"}}) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
+      text.replace(at, 4, to);
+    }
+  }
+  write_file_atomically(root_ / kCocoFile, text);
+  EXPECT_THROW(exported("rosbag"), InputError);
 }
 
 TEST_F(MoreExports, DroneCrowdBoxesAreAboutHeads) {

@@ -1,0 +1,155 @@
+#include "formats/bag_file.h"
+
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Imu.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+
+namespace throng::formats {
+
+namespace {
+
+std_msgs::Header header_of(const std::string& frame, double time_s) {
+  std_msgs::Header header;
+  header.stamp = ros::Time(time_s);
+  header.frame_id = frame;
+  return header;
+}
+
+template <typename Message>
+void set_vector(Message& message, const Eigen::Vector3d& vector) {
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+}
+
+template <typename Message>
+void set_rotation(Message& message, const Eigen::Quaterniond& rotation) {
+  message.w = rotation.w();
+  message.x = rotation.x();
+  message.y = rotation.y();
+  message.z = rotation.z();
+}
+
+void set_pose(geometry_msgs::Pose& message, const BagPose& pose) {
+  set_vector(message.position, pose.position);
+  set_rotation(message.orientation, pose.rotation);
+}
+
+}  // namespace
+
+struct BagFile::Bag {
+  rosbag::Bag file;
+
+  template <typename Message>
+  void add(const std::string& topic, double time_s, const Message& message) {
+    file.write(topic, std::max(ros::Time(time_s), ros::TIME_MIN), message);
+  }
+};
+
+BagFile::BagFile(const std::filesystem::path& path, bool is_compressed)
+    : bag_(std::make_unique<Bag>()) {
+  bag_->file.open(path.string(), rosbag::bagmode::Write);
+  bag_->file.setCompression(is_compressed ? rosbag::compression::LZ4
+                                          : rosbag::compression::Uncompressed);
+}
+
+BagFile::~BagFile() = default;
+
+void BagFile::add_picture(const std::string& topic, const std::string& frame, double time_s,
+                          const std::string& jpeg) {
+  sensor_msgs::CompressedImage message;
+  message.header = header_of(frame, time_s);
+  message.format = "jpeg";
+  message.data.assign(jpeg.begin(), jpeg.end());
+  bag_->add(topic, time_s, message);
+}
+
+void BagFile::add_lens(const std::string& topic, const std::string& frame, double time_s,
+                       const BagLens& lens) {
+  sensor_msgs::CameraInfo message;
+  message.header = header_of(frame, time_s);
+  message.width = lens.width;
+  message.height = lens.height;
+  message.distortion_model = lens.model;
+  message.D = lens.coefficients;
+  for (int row = 0; row < 3; ++row) {
+    message.R[static_cast<std::size_t>(4 * row)] = 1;
+    for (int column = 0; column < 3; ++column) {
+      message.K[static_cast<std::size_t>(3 * row + column)] = lens.matrix(row, column);
+      message.P[static_cast<std::size_t>(4 * row + column)] = lens.matrix(row, column);
+    }
+  }
+  bag_->add(topic, time_s, message);
+}
+
+void BagFile::add_transforms(double time_s, const std::vector<BagTransform>& transforms) {
+  tf2_msgs::TFMessage message;
+  for (const BagTransform& transform : transforms) {
+    geometry_msgs::TransformStamped& part = message.transforms.emplace_back();
+    part.header = header_of(transform.parent, time_s);
+    part.child_frame_id = transform.child;
+    set_vector(part.transform.translation, transform.pose.position);
+    set_rotation(part.transform.rotation, transform.pose.rotation);
+  }
+  bag_->add("/tf", time_s, message);
+}
+
+void BagFile::add_odometry(const std::string& topic, const std::string& frame,
+                           const std::string& child, double time_s, const BagMotion& motion) {
+  nav_msgs::Odometry message;
+  message.header = header_of(frame, time_s);
+  message.child_frame_id = child;
+  set_pose(message.pose.pose, motion.pose);
+  set_vector(message.twist.twist.linear, motion.velocity_mps);
+  set_vector(message.twist.twist.angular, motion.rates_rad_s);
+  bag_->add(topic, time_s, message);
+}
+
+void BagFile::add_imu(const std::string& topic, const std::string& frame, double time_s,
+                      const Eigen::Vector3d& rates, const Eigen::Vector3d& acceleration) {
+  sensor_msgs::Imu message;
+  message.header = header_of(frame, time_s);
+  message.orientation_covariance[0] = -1;  // ROS' way to say that there is no orientation
+  set_vector(message.angular_velocity, rates);
+  set_vector(message.linear_acceleration, acceleration);
+  bag_->add(topic, time_s, message);
+}
+
+void BagFile::add_boxes(const std::string& topic, const std::string& frame, double time_s,
+                        const std::vector<BagBox>& boxes) {
+  constexpr float kOpacity = 0.5F;
+  visualization_msgs::MarkerArray message;
+  visualization_msgs::Marker& first = message.markers.emplace_back();
+  first.header = header_of(frame, time_s);
+  first.action = visualization_msgs::Marker::DELETEALL;
+  for (const BagBox& box : boxes) {
+    visualization_msgs::Marker& marker = message.markers.emplace_back();
+    marker.header = header_of(frame, time_s);
+    marker.ns = "people";
+    marker.id = box.id;
+    marker.type = visualization_msgs::Marker::CUBE;
+    marker.action = visualization_msgs::Marker::ADD;
+    set_pose(marker.pose, box.pose);
+    set_vector(marker.scale, box.size_m);
+    marker.color.g = 1;
+    marker.color.a = kOpacity;
+  }
+  bag_->add(topic, time_s, message);
+}
+
+void BagFile::add_text(const std::string& topic, double time_s, const std::string& text) {
+  std_msgs::String message;
+  message.data = text;
+  bag_->add(topic, time_s, message);
+}
+
+void BagFile::close() { bag_->file.close(); }
+
+}  // namespace throng::formats
