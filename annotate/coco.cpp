@@ -133,7 +133,7 @@ class CocoShardWriter::Files {
 
   void add(const CocoImage& image, const FrameLabels& labels) {
     text_.clear();
-    append_image_record(text_, image);
+    append_image_record(text_, image, labels);
     images_.write(text_);
     text_.clear();
     for (const PersonLabel& label : labels.people) append_annotation_record(text_, image, label);

@@ -27,6 +27,7 @@ struct CocoImage {
   std::string drawn;         ///< a JSON object: what was drawn for the run; "" when nothing was
   std::string sensor;        ///< a JSON object: sensor and exposure; "" when not known
   std::string flight;        ///< a JSON object: the drone and its sensors; "" when not known
+  std::string exits;         ///< a JSON array: exits in the picture; "" when not known
   std::string density_file;  ///< like file_name; "" when the frame has no density map
   std::int64_t density_count = 0;      ///< heads that the density map sums to
   const PersonFacts* facts = nullptr;  ///< of the run's people; null when not known

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -79,6 +80,10 @@ void append_fixed(std::string& text, const Eigen::Matrix<double, kSize, 1>& valu
   text.push_back(']');
 }
 
+std::int64_t track_id(const CocoImage& image, std::uint32_t agent) {
+  return agent + 1 + image.run_index * kTrackIdsPerRun;
+}
+
 // The middle of the head in box coordinates; null when the camera cannot see it.
 void append_head(std::string& text, const render::PersonInView& person,
                  const camera::Camera& camera) {
@@ -114,6 +119,27 @@ void append_lens(std::string& text, const std::optional<camera::Distortion>& dis
   text.push_back('}');
 }
 
+// How many there are, and where those are of whom nothing is visible.
+void append_people(std::string& text, const CocoImage& image, const FrameLabels& labels) {
+  const auto truncated =
+      std::count_if(labels.people.begin(), labels.people.end(), [&](const PersonLabel& label) {
+        return truncation_of(label.person.amodal_box, image.camera.intrinsics) > 0;
+      });
+  append(text, R"(,"counts":{{"all":{},"visible":{},"truncated":{}}})",
+         labels.people.size() + labels.hidden.size(), labels.people.size(), truncated);
+  if (labels.hidden.empty()) return;
+  text += R"(,"hidden":[)";
+  for (const HiddenPerson& person : labels.hidden) {
+    if (text.back() != '[') text.push_back(',');
+    append(text, R"({{"track_id":{},"bbox_amodal":)", track_id(image, person.agent));
+    const Eigen::AlignedBox2d& box = person.amodal_box;
+    const Eigen::Vector2d size = box.sizes();
+    append_fixed<3>(text, Eigen::Vector4d(box.min().x(), box.min().y(), size.x(), size.y()));
+    text.push_back('}');
+  }
+  text.push_back(']');
+}
+
 // The characters of RLE strings run from '0' to 'o'; the backslash is among them.
 void append_counts(std::string& text, const RunLengths& mask) {
   for (const char c : coco_counts(mask)) {
@@ -124,7 +150,7 @@ void append_counts(std::string& text, const RunLengths& mask) {
 
 }  // namespace
 
-void append_image_record(std::string& text, const CocoImage& image) {
+void append_image_record(std::string& text, const CocoImage& image, const FrameLabels& labels) {
   append(text,
          R"({{"id":{},"file_name":{},"width":{},"height":{},"run":{},"camera_id":{},"frame":{},)",
          image.id, quoted(image.file_name), image.camera.intrinsics.width,
@@ -148,6 +174,8 @@ void append_image_record(std::string& text, const CocoImage& image) {
     append(text, R"(,"density_file":{},"density_count":{})", quoted(image.density_file),
            image.density_count);
   }
+  append_people(text, image, labels);
+  if (!image.exits.empty()) text += R"(,"exits":)" + image.exits;
   text += "}\n";
 }
 
@@ -163,8 +191,7 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
   append_counts(text, label.mask);
   const Eigen::AlignedBox2d& amodal = label.person.amodal_box;
   const Eigen::Vector2d size = amodal.sizes();
-  append(text, R"("}},"track_id":{},"bbox_amodal":)",
-         label.agent + 1 + image.run_index * kTrackIdsPerRun);
+  append(text, R"("}},"track_id":{},"bbox_amodal":)", track_id(image, label.agent));
   append_fixed<3>(text, Eigen::Vector4d(amodal.min().x(), amodal.min().y(), size.x(), size.y()));
   text.push_back(',');
   append(text, R"("area_amodal":{},"visibility":{:.6g},"position":)", label.person.amodal_area_px,

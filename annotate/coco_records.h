@@ -11,8 +11,8 @@ namespace throng::annotate {
 /// Id of the one category, "person".
 inline constexpr int kPersonCategory = 1;
 
-/// Appends the record of an image and a line break.
-void append_image_record(std::string& text, const CocoImage& image);
+/// Appends the record of an image with these labels and a line break.
+void append_image_record(std::string& text, const CocoImage& image, const FrameLabels& labels);
 
 /// Appends the record of a person in that image and a line break.
 void append_annotation_record(std::string& text, const CocoImage& image, const PersonLabel& label);

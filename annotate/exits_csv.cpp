@@ -2,23 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 
+#include "annotate/exit_view.h"
 #include "base/error.h"
 
 namespace throng::annotate {
 
 namespace {
-
-// Frame times and step times are computed apart, so equal times may differ in the last bits.
-constexpr double kTimeSlackS = 1e-6;
-
-std::size_t step_at(std::span<const double> step_times_s, double time_s) {
-  const auto after =
-      std::upper_bound(step_times_s.begin(), step_times_s.end(), time_s + kTimeSlackS);
-  return after == step_times_s.begin() ? 0 : after - step_times_s.begin() - 1;
-}
 
 // Quoted where a comma, quote or line break would break the row (RFC 4180).
 std::string csv_field(const std::string& text) {

@@ -209,10 +209,18 @@ FrameLabels label_people(const render::Frame& frame) {
   check(frame.id.size() == pixels, "the id buffer has the camera's size");
   const RunsByPerson grouped = group(scan(frame), frame.people.size());
   ColumnRuns column_runs;
-  FrameLabels labels{frame.index, frame.time_s, {}};
+  FrameLabels labels{frame.index, frame.time_s, {}, {}};
+  const Eigen::AlignedBox2d image(Eigen::Vector2d(0, 0),
+                                  Eigen::Vector2d(frame.width(), frame.height()));
   for (std::size_t p = 0; p < frame.people.size(); ++p) {
     const std::span<const RowRun> runs = grouped.of(p);
-    if (runs.empty()) continue;
+    if (runs.empty()) {
+      const Eigen::AlignedBox2d& box = frame.people[p].amodal_box;
+      const Eigen::AlignedBox2d inside = box.intersection(image);
+      if (!inside.isEmpty() && inside.volume() > 0)
+        labels.hidden.push_back({frame.people[p].agent, box});
+      continue;
+    }
     PersonLabel& label = labels.people.emplace_back();
     label.person = frame.people[p];
     label.agent = label.person.agent;

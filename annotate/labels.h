@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -40,10 +41,17 @@ struct PersonLabel {
   std::vector<Keypoint> keypoints;  ///< as skinning::kKeypointNames; empty unless asked for
 };
 
+/// Somebody in view of whom no pixel is visible.
+struct HiddenPerson {
+  std::uint32_t agent = 0;
+  Eigen::AlignedBox2d amodal_box;  ///< box coordinates; reaches into the image
+};
+
 struct FrameLabels {
   std::int64_t frame_index = 0;
   double time_s = 0;
-  std::vector<PersonLabel> people;  ///< visible ones (at least one pixel), by agent id
+  std::vector<PersonLabel> people;   ///< visible ones (at least one pixel), by agent id
+  std::vector<HiddenPerson> hidden;  ///< the others whose amodal box reaches into the image
 };
 
 /// One pass over the id buffer. Everybody who shows there must be in Frame::people (else check()).

@@ -46,13 +46,16 @@ void append_vector(std::string& text, const Eigen::Vector3f& vector) {
   text.push_back(']');
 }
 
-/// Share of the box that is outside of the image.
+}  // namespace
+
 double truncation_of(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k) {
   const Eigen::AlignedBox2d image(Eigen::Vector2d::Zero(), Eigen::Vector2d(k.width, k.height));
   const Eigen::AlignedBox2d inside = box.intersection(image);
   if (box.volume() <= 0) return 0;
   return inside.isEmpty() ? 1 : std::clamp(1 - inside.volume() / box.volume(), 0.0, 1.0);
 }
+
+namespace {
 
 void append_keypoints(std::string& text, const PersonLabel& label) {
   text += R"(,"keypoints":[)";

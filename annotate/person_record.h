@@ -9,6 +9,9 @@
 
 namespace throng::annotate {
 
+/// Share of a box that is outside of the image.
+double truncation_of(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k);
+
 /// Appends the members, each after a comma.
 void append_person_members(std::string& text, const CocoImage& image, const PersonLabel& label);
 

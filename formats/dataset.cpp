@@ -89,6 +89,17 @@ Person person_of(json record, const ExportOptions& options) {
   return person;
 }
 
+void read_hidden(const json& record, const FilterOptions& filters, Image& image) {
+  image.hidden.clear();
+  const auto hidden = record.find("hidden");
+  if (hidden == record.end()) return;
+  for (const json& person : *hidden) {
+    const Box amodal = box_of(person.at("bbox_amodal"));
+    image.hidden.push_back({person.at("track_id"), amodal,
+                            filters.min_visibility > 0 || amodal.height < filters.min_height_px});
+  }
+}
+
 void read_image(json record, const DatasetInfo& info, Image& image) {
   record.at("id").get_to(image.id);
   record.at("file_name").get_to(image.file);
@@ -104,6 +115,7 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
   image.t = vector_of<Eigen::Vector3d>(camera.at("t"));
   image.split = info.split_of(image.run);
   image.people.clear();
+  read_hidden(record, info.options.filters, image);
   image.record = std::move(record);
 }
 

@@ -59,6 +59,14 @@ struct Person {
   bool is_ignored = false;  ///< fails the filters: to be written as an ignore region
 };
 
+/// Somebody in the camera's view of whom nothing is visible.
+struct HiddenPerson {
+  std::int64_t track_id = 0;
+  Box amodal;
+  std::int64_t number_in_run() const { return track_id % annotate::kTrackIdsPerRun; }
+  bool is_ignored = false;
+};
+
 struct Image {
   nlohmann::json record;
   std::int64_t id = 0;
@@ -71,6 +79,7 @@ struct Image {
   double time_s = 0;
   Split split = Split::train;
   std::vector<Person> people;
+  std::vector<HiddenPerson> hidden;
   Eigen::Matrix3d camera_matrix = Eigen::Matrix3d::Identity();  ///< OpenCV's pixels
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();              ///< world to camera
   Eigen::Vector3d t = Eigen::Vector3d::Zero();

@@ -24,6 +24,7 @@ constexpr std::array kFormats = {
     Format{"mots", "MOTS: tracks of masks", "", make_mots},
     Format{"visdrone-det", "VisDrone DET: a text for each picture", "", make_visdrone_det},
     Format{"visdrone-mot", "VisDrone MOT: a text for each sequence", "", make_visdrone_mot},
+    Format{"uavdt", "UAVDT: texts for each sequence", "", make_uavdt},
     Format{"shanghaitech", "heads as .mat, density of sigma 4 as .h5 and .npy", "", make_points},
     Format{"shanghaitech-adaptive", "the same, sigma from the nearest heads", "",
            make_points_adaptive},

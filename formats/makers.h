@@ -19,6 +19,7 @@ ExporterPointer make_mot(const DatasetInfo& info, Output output);
 ExporterPointer make_mots(const DatasetInfo& info, Output output);
 ExporterPointer make_visdrone_det(const DatasetInfo& info, Output output);
 ExporterPointer make_visdrone_mot(const DatasetInfo& info, Output output);
+ExporterPointer make_uavdt(const DatasetInfo& info, Output output);
 ExporterPointer make_points(const DatasetInfo& info, Output output);
 ExporterPointer make_points_adaptive(const DatasetInfo& info, Output output);
 ExporterPointer make_points_perspective(const DatasetInfo& info, Output output);

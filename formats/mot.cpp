@@ -1,11 +1,14 @@
 // MOT Challenge and MOTS: a folder per sequence, frames and pixels counted from 1.
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "annotate/png.h"
 #include "formats/makers.h"
 #include "formats/mask.h"
 #include "formats/sequences.h"
@@ -44,12 +47,18 @@ class SequenceExporter : public Exporter {
     lines_.clear();
     append(lines_, image);
     text.write(lines_);
+    add_files(image, folder);
   }
 
   void finish() override { texts_.close(); }
 
  protected:
   virtual void append(std::string& lines, const Image& image) const = 0;
+  /// What else there is of a picture, below the sequence's folder.
+  virtual void add_files(const Image& image, const std::string& folder) = 0;
+
+  const Output& output() const { return output_; }
+  SequenceTexts& texts() { return texts_; }
 
  private:
   const DatasetInfo& info_;
@@ -68,6 +77,31 @@ class MotExporter : public SequenceExporter {
                      image.frame + 1, person.number_in_run(), box.x + 1, box.y + 1, box.width,
                      box.height, person.is_ignored ? 0 : 1, kPedestrian, person.visibility);
     }
+    append_hidden(lines, image);
+  }
+
+  /// MOT's tracks go on where nothing of somebody is visible.
+  static void append_hidden(std::string& lines, const Image& image) {
+    for (const HiddenPerson& person : image.hidden) {
+      const Box& box = person.amodal;
+      fmt::format_to(std::back_inserter(lines), "{},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},0\n",
+                     image.frame + 1, person.number_in_run(), box.x + 1, box.y + 1, box.width,
+                     box.height, person.is_ignored ? 0 : 1, kPedestrian);
+    }
+  }
+
+  /// What a detector would say that finds what is visible, as sure as it sees much of somebody.
+  void add_files(const Image& image, const std::string& folder) override {
+    std::string lines;
+    for (const Person& person : image.people) {
+      if (person.is_ignored) continue;
+      const Box& box = person.box;
+      fmt::format_to(std::back_inserter(lines),
+                     "{},-1,{:.0f},{:.0f},{:.0f},{:.0f},{:.5f},-1,-1,-1\n", image.frame + 1,
+                     box.x + 1, box.y + 1, box.width, box.height, person.visibility);
+    }
+    bool is_new = false;
+    texts().of(image.run, folder + "/det/det.txt", is_new).write(lines);
   }
 };
 
@@ -98,6 +132,27 @@ class MotsExporter : public SequenceExporter {
     }
     if (ignored.empty()) return;
     add(kMotsIgnoredId, kMotsIgnored, counts_of(runs_of(ignored, image.width, image.height)));
+  }
+
+  /// The same ids as pixels. Those that 16 bits do not hold are ignored there.
+  void add_files(const Image& image, const std::string& folder) override {
+    const auto width = static_cast<std::size_t>(image.width);
+    const std::size_t pixels = width * static_cast<std::size_t>(image.height);
+    std::vector<std::uint16_t> ids(pixels, 0);
+    for (const Person& person : image.people) {
+      const std::int64_t id = mots_id(person.number_in_run());
+      const bool fits = !person.is_ignored && id <= std::numeric_limits<std::uint16_t>::max();
+      const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+      for (int y = mask.y; y < mask.y + mask.height; ++y) {
+        for (int x = mask.x; x < mask.x + mask.width; ++x) {
+          if (!mask.at(x, y)) continue;
+          ids[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+              static_cast<std::uint16_t>(fits ? id : kMotsIgnoredId);
+        }
+      }
+    }
+    output().write(fmt::format("{}/instances/{:06}.png", folder, image.frame + 1),
+                   annotate::png_bytes({image.width, image.height, 1}, ids));
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "annotate/coco.h"
 #include "annotate/density.h"
+#include "annotate/exit_view.h"
 #include "annotate/keypoints.h"
 #include "annotate/labels.h"
 #include "annotate/person_facts.h"
@@ -51,10 +52,11 @@ class ShardOutput {
  public:
   ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
               std::string environment, nlohmann::json drawn, const annotate::PersonFacts& facts,
-              StageClock* clock)
+              const annotate::ExitView* exits, StageClock* clock)
       : job_(job),
         shard_(shard),
         facts_(facts),
+        exits_(exits),
         environment_(std::move(environment)),
         drawn_(std::move(drawn)),
         clock_(clock),
@@ -85,6 +87,7 @@ class ShardOutput {
     image.sensor = picture.sensor;
     image.flight = picture.flight;
     image.facts = &facts_;
+    if (exits_ != nullptr) image.exits = exits_->json(frame.camera, frame.time_s);
     const std::string jpeg =
         annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
     lap("jpeg");
@@ -159,8 +162,9 @@ class ShardOutput {
   const JobSpec& job_;
   const Shard& shard_;
   const annotate::PersonFacts& facts_;
-  std::string environment_;  ///< JSON
-  nlohmann::json drawn_;     ///< for the run
+  const annotate::ExitView* exits_;  ///< null unless exits are asked for
+  std::string environment_;          ///< JSON
+  nlohmann::json drawn_;             ///< for the run
   StageClock* clock_;
   Publication publication_;
   std::optional<annotate::CocoShardWriter> coco_;
@@ -196,8 +200,12 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   const Task task{Task::Kind::render, shard.run, shard.index};
   const nlohmann::json drawn = drawn_of_run(whole_job, shard.run);
   const annotate::PersonFacts facts(trace, population, job.styling);
+  std::optional<annotate::ExitView> exits;
+  if (wants(job, "exits") && wants(job, "coco")) {
+    exits.emplace(scenario, metrics::exit_series(trace, scenario), trace.time_s);
+  }
   ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(), drawn, facts,
-                     options.clock);
+                     exits ? &*exits : nullptr, options.clock);
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;

@@ -114,7 +114,16 @@ TEST_F(Coco, HoldsWhatALoaderNeeds) {
       EXPECT_EQ(image.at("density_file"), expected.density_file);
       EXPECT_EQ(image.at("density_count"), expected.density_count);
     }
-    annotations += label_people(frames[i]).people.size();
+    const FrameLabels labels = label_people(frames[i]);
+    EXPECT_EQ(image.at("counts").at("visible"), labels.people.size());
+    EXPECT_EQ(image.at("counts").at("all"), labels.people.size() + labels.hidden.size());
+    ASSERT_EQ(image.value("hidden", json::array()).size(), labels.hidden.size());
+    for (std::size_t j = 0; j < labels.hidden.size(); ++j) {
+      EXPECT_EQ(image["hidden"][j].at("track_id"), 1'000'000 + labels.hidden[j].agent + 1);
+      EXPECT_NEAR(image["hidden"][j].at("bbox_amodal")[0].get<double>(),
+                  labels.hidden[j].amodal_box.min().x(), 1e-3);
+    }
+    annotations += labels.people.size();
   }
   ASSERT_EQ(coco.at("annotations").size(), annotations);
   ASSERT_GT(annotations, 30U);
@@ -128,7 +137,7 @@ TEST_F(Coco, HoldsWhatALoaderNeeds) {
 TEST_F(Coco, ImagesNameTheirLensAndSensor) {
   const auto record_of = [](const CocoImage& image) {
     std::string text;
-    append_image_record(text, image);
+    append_image_record(text, image, {});
     return json::parse(text);
   };
   CocoImage image = image_of(0);

@@ -121,6 +121,28 @@ TEST(LabelPeople, HiddenPeopleAndOtherThingsHaveNoLabel) {
   EXPECT_TRUE(label_people(frame).people.empty());
 }
 
+TEST(LabelPeople, ListsWhoIsHiddenInTheImage) {
+  render::Frame frame = empty_frame(40, 30);
+  const auto add = [&](std::uint32_t agent, double left, double top) {
+    render::PersonInView person;
+    person.agent = agent;
+    person.amodal_box = {Eigen::Vector2d(left, top), Eigen::Vector2d(left + 5, top + 9)};
+    frame.people.push_back(person);
+  };
+  add(1, 10, 10);    // hidden
+  add(2, 20, 10);    // visible
+  add(3, -4.5, 10);  // hidden, half a pixel in the image
+  add(4, -5, 10);    // touches the image from outside
+  add(5, 60, 50);    // far outside
+  frame.id[12 * 40 + 22] = render::id_of_agent(2);
+  const FrameLabels labels = label_people(frame);
+  ASSERT_EQ(labels.people.size(), 1U);
+  ASSERT_EQ(labels.hidden.size(), 2U);
+  EXPECT_EQ(labels.hidden[0].agent, 1U);
+  EXPECT_EQ(labels.hidden[1].agent, 3U);
+  EXPECT_EQ(labels.hidden[1].amodal_box.min().x(), -4.5);
+}
+
 TEST(LabelPeople, VisibilityIsAtMostOne) {
   render::Frame frame = empty_frame(10, 10);
   frame.people.emplace_back().amodal_area_px = 1;

@@ -114,13 +114,28 @@ TEST_F(Exports, MotCountsFromOneAndHasWholeBodies) {
                     visibility < 0.5 ? 0.0 : 1, 1, visibility});
   }
   ASSERT_EQ(rows.size(), 4U);
+  // Those of whom nothing is visible stand after the others of their frame.
+  for (const json& image : all.at("images")) {
+    auto& of =
+        rows[image.at("run").get<std::string>() + "-" + image.at("camera_id").get<std::string>()];
+    for (const json& person : image.value("hidden", json::array())) {
+      const json& box = person.at("bbox_amodal");
+      of.push_back({number(image.at("frame")) + 1, std::fmod(number(person.at("track_id")), 1e6),
+                    number(box[0]) + 1, number(box[1]) + 1, number(box[2]), number(box[3]), 0, 1,
+                    0});
+    }
+    std::stable_sort(of.begin(), of.end(),
+                     [](const auto& a, const auto& b) { return a[0] < b[0]; });
+  }
   int ignored = 0;
+  int hidden = 0;
   for (const auto& [sequence, expected] : rows) {
     const auto lines = lines_of(out / sequence / "gt/gt.txt");
     ASSERT_EQ(lines.size(), expected.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
       EXPECT_THAT(numbers_of(lines[i]), testing::Pointwise(testing::DoubleNear(1e-4), expected[i]));
       ignored += expected[i][6] == 0 ? 1 : 0;
+      hidden += expected[i][8] == 0 ? 1 : 0;
     }
     for (const char* name : {"000001", "000002", "000003"}) {
       EXPECT_TRUE(fs::exists(out / sequence / "img1" / (std::string(name) + ".jpg")));
@@ -131,6 +146,27 @@ TEST_F(Exports, MotCountsFromOneAndHasWholeBodies) {
                   "imExt=.jpg\n");
   }
   EXPECT_GT(ignored, 3);
+  EXPECT_GT(hidden, 0);
+}
+
+TEST_F(Exports, MotDetectionsAreWhatIsVisible) {
+  const fs::path out = exported("mot") / "train";
+  std::map<std::string, std::size_t> lines;
+  for (const auto& [stem, people] : people_by_stem(coco())) {
+    lines[stem.substr(0, stem.rfind('-'))] += people.size();
+  }
+  for (const auto& [sequence, expected] : lines) {
+    const auto detections = lines_of(out / sequence / "det/det.txt");
+    ASSERT_EQ(detections.size(), expected);
+    for (const std::string& line : detections) {
+      const auto numbers = numbers_of(line);
+      ASSERT_EQ(numbers.size(), 10U);
+      EXPECT_EQ(numbers[1], -1);
+      EXPECT_GE(numbers[2], 1);
+      EXPECT_LE(numbers[2] + numbers[4], 161);
+      EXPECT_GT(numbers[6], 0);
+    }
+  }
 }
 
 TEST_F(Exports, MotsMasksDoNotOverlapAndAreTheDatasets) {
@@ -138,6 +174,7 @@ TEST_F(Exports, MotsMasksDoNotOverlapAndAreTheDatasets) {
   options.filters.min_visibility = 0.5;
   const fs::path out = exported("mots", options) / "train";
   std::map<std::pair<std::string, int>, std::vector<int>> painted;
+  std::map<std::pair<std::string, int>, std::vector<std::uint16_t>> ids_of_pixels;
   int regions = 0;
   for (const char* sequence : {"run000-d1", "run000-d2", "run001-d1", "run001-d2"}) {
     for (const std::string& line : lines_of(out / sequence / "gt/gt.txt")) {
@@ -155,7 +192,12 @@ TEST_F(Exports, MotsMasksDoNotOverlapAndAreTheDatasets) {
       const auto mask = annotate::mask_of_runs(annotate::runs_of_counts(counts), width, height);
       auto& pixels = painted[{sequence, frame}];
       pixels.resize(mask.size());
-      for (std::size_t i = 0; i < mask.size(); ++i) pixels[i] += mask[i] ? 1 : 0;
+      auto& ids = ids_of_pixels[{sequence, frame}];
+      ids.resize(mask.size());
+      for (std::size_t i = 0; i < mask.size(); ++i) {
+        pixels[i] += mask[i] ? 1 : 0;
+        if (mask[i]) ids[i] = static_cast<std::uint16_t>(id);
+      }
     }
   }
   EXPECT_GT(regions, 3);
@@ -164,6 +206,14 @@ TEST_F(Exports, MotsMasksDoNotOverlapAndAreTheDatasets) {
   for (const auto& [key, pixels] : painted) {
     EXPECT_LE(*std::max_element(pixels.begin(), pixels.end()), 1);
     area += static_cast<double>(std::count(pixels.begin(), pixels.end(), 1));
+  }
+  for (const auto& [key, ids] : ids_of_pixels) {
+    char name[16];
+    std::snprintf(name, sizeof(name), "%06d.png", key.second);
+    const Raster picture = read_raster(out / key.first / "instances" / name);
+    ASSERT_EQ(picture.bits, 16);
+    ASSERT_EQ(picture.channels, 1);
+    EXPECT_EQ(picture.samples, ids) << key.first << " " << name;
   }
   double expected = 0;
   const json all = coco();
@@ -196,6 +246,40 @@ TEST_F(Exports, VisDroneHasWholeNumbersAndClasses) {
   const auto first = numbers_of(lines_of(mot / "annotations/run001-d1.txt").at(0));
   ASSERT_EQ(first.size(), 10U);
   EXPECT_EQ(first[0], 1);
+}
+
+TEST_F(Exports, UavdtHasClassesOfItsOwn) {
+  ExportOptions options;
+  options.filters.min_visibility = 0.2;
+  const fs::path out = exported("uavdt", options) / "train";
+  EXPECT_TRUE(fs::exists(out / "UAV-benchmark-M/run001-d2/img000003.jpg"));
+  std::map<std::string, std::vector<json>> people;
+  std::map<std::string, std::size_t> ignored;
+  for (const auto& [stem, in_image] : people_by_stem(coco())) {
+    const std::string sequence = stem.substr(0, stem.rfind('-'));
+    for (const json& person : in_image) {
+      if (number(person.at("visibility")) < 0.2) {
+        ++ignored[sequence];
+      } else {
+        people[sequence].push_back(person);
+      }
+    }
+  }
+  for (const auto& [sequence, expected] : people) {
+    EXPECT_EQ(lines_of(out / "GT" / (sequence + "_gt_ignore.txt")).size(), ignored[sequence]);
+    const auto lines = lines_of(out / "GT" / (sequence + "_gt_whole.txt"));
+    ASSERT_EQ(lines.size(), expected.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto line = numbers_of(lines[i]);
+      ASSERT_EQ(line.size(), 9U);
+      const double visibility = number(expected[i].at("visibility"));
+      EXPECT_EQ(line[2], number(expected[i].at("bbox")[0]));
+      EXPECT_EQ(line[7], visibility > 0.995  ? 1
+                         : visibility >= 0.7 ? 4
+                         : visibility >= 0.3 ? 3
+                                             : 2);
+    }
+  }
 }
 
 TEST_F(Exports, CocoSplitsByRunAndHasIgnoreRegions) {

@@ -1,0 +1,136 @@
+#include "annotate/exit_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/error.h"
+#include "metrics/control_zone.h"
+
+namespace throng::annotate {
+
+namespace {
+
+/// Sides of outlines are no longer, so that lenses bend them as they bend what is on the ground.
+constexpr double kLongestSideM = 0.5;
+/// Nearer to the camera's plane nothing is projected.
+constexpr double kNearestM = 0.1;
+/// The passage's depth: what people stand in while they go out.
+constexpr double kDoorDepthM = 0.5;
+/// Sides that stand for the zone's half circle.
+constexpr int kArcSides = 24;
+
+std::vector<Eigen::Vector2d> with_short_sides(const std::vector<Eigen::Vector2d>& corners) {
+  std::vector<Eigen::Vector2d> fine;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d& from = corners[i];
+    const Eigen::Vector2d& to = corners[(i + 1) % corners.size()];
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kLongestSideM)));
+    for (int part = 0; part < parts; ++part) fine.push_back(from + (to - from) * part / parts);
+  }
+  return fine;
+}
+
+std::vector<Eigen::Vector2d> zone_of(const world::Exit& exit) {
+  const metrics::ControlZone zone(exit, {});
+  const Eigen::Vector2d along(exit.outward.y(), -exit.outward.x());
+  std::vector<Eigen::Vector2d> corners;
+  for (int i = 0; i <= kArcSides; ++i) {
+    const double angle = std::numbers::pi * i / kArcSides;
+    corners.emplace_back(zone.middle() + zone.radius_m() * (std::cos(angle) * along -
+                                                            std::sin(angle) * exit.outward));
+  }
+  return with_short_sides(corners);
+}
+
+std::vector<Eigen::Vector2d> door_of(const world::Exit& exit) {
+  const Eigen::Vector2d depth = kDoorDepthM * exit.outward;
+  return with_short_sides({exit.from, exit.to, exit.to + depth, exit.from + depth});
+}
+
+/// The part of a polygon on the ground that is in front of the camera (Sutherland and Hodgman,
+/// 1974), m.
+std::vector<Eigen::Vector3d> in_front(const std::vector<Eigen::Vector2d>& polygon,
+                                      const camera::Camera& camera) {
+  const auto depth_of = [&](const Eigen::Vector3d& point) {
+    return (camera.pose.R * point + camera.pose.t).z() - kNearestM;
+  };
+  std::vector<Eigen::Vector3d> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& next = polygon[(i + 1) % polygon.size()];
+    const Eigen::Vector3d from(polygon[i].x(), polygon[i].y(), 0);
+    const Eigen::Vector3d to(next.x(), next.y(), 0);
+    const double depth = depth_of(from);
+    const double depth_to = depth_of(to);
+    if (depth >= 0) kept.push_back(from);
+    if ((depth >= 0) != (depth_to >= 0))
+      kept.emplace_back(from + (to - from) * (depth / (depth - depth_to)));
+  }
+  return kept;
+}
+
+void append_polygon(std::string& text, const std::vector<Eigen::Vector2d>& polygon,
+                    const camera::Camera& camera) {
+  Eigen::AlignedBox2d bounds;
+  std::string corners;
+  for (const Eigen::Vector3d& point : in_front(polygon, camera)) {
+    const camera::Camera::Projection seen = camera.project(point);
+    if (!seen.visible) continue;
+    const Eigen::Vector2d at = seen.pixel.array() + 0.5;
+    bounds.extend(at);
+    fmt::format_to(std::back_inserter(corners), "{}[{:.2f},{:.2f}]", corners.empty() ? "" : ",",
+                   at.x(), at.y());
+  }
+  const Eigen::AlignedBox2d image(
+      Eigen::Vector2d(0, 0), Eigen::Vector2d(camera.intrinsics.width, camera.intrinsics.height));
+  text.push_back('[');
+  if (!bounds.isEmpty() && bounds.intersects(image)) text += corners;
+  text.push_back(']');
+}
+
+}  // namespace
+
+ExitView::ExitView(const world::Scenario& scenario, std::vector<metrics::ExitSeries> exits,
+                   std::vector<double> step_times_s)
+    : exits_(std::move(exits)), step_times_s_(std::move(step_times_s)) {
+  check(exits_.size() == scenario.exits.size(), "each exit has a series");
+  for (const world::Exit& exit : scenario.exits) {
+    outlines_.push_back({nlohmann::json(exit.id).dump(), door_of(exit), zone_of(exit)});
+  }
+}
+
+std::string ExitView::json(const camera::Camera& camera, double time_s) const {
+  const std::size_t step = step_at(step_times_s_, time_s);
+  std::string text = "[";
+  for (std::size_t i = 0; i < exits_.size(); ++i) {
+    check(step < exits_[i].samples.size(), "an exit has a sample per step");
+    const metrics::ExitSample& sample = exits_[i].samples[step];
+    fmt::format_to(std::back_inserter(text),
+                   R"({}{{"id":{},"state":"{}","in_zone":{},"queue":{},"queue_length_m":{:.2f},)"
+                   R"("clogging_index":{:.4f},"flow_per_s":{:.2f},"door":)",
+                   i > 0 ? "," : "", outlines_[i].id, metrics::name_of(sample.state),
+                   sample.in_zone, sample.queue, sample.queue_length_m, sample.clogging_index,
+                   sample.flow_per_s);
+    append_polygon(text, outlines_[i].door, camera);
+    text += R"(,"zone":)";
+    append_polygon(text, outlines_[i].zone, camera);
+    text.push_back('}');
+  }
+  text.push_back(']');
+  return text;
+}
+
+std::size_t step_at(std::span<const double> step_times_s, double time_s) {
+  // Frame times and step times are computed apart, so equal times may differ in the last bits.
+  constexpr double kTimeSlackS = 1e-6;
+  const auto after =
+      std::upper_bound(step_times_s.begin(), step_times_s.end(), time_s + kTimeSlackS);
+  return after == step_times_s.begin() ? 0
+                                       : static_cast<std::size_t>(after - step_times_s.begin()) - 1;
+}
+
+}  // namespace throng::annotate
