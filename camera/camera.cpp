@@ -10,7 +10,7 @@ namespace throng::camera {
 
 Eigen::Matrix3d Intrinsics::matrix() const {
   Eigen::Matrix3d k;
-  k << fx_px, 0, cx_px, 0, fy_px, cy_px, 0, 0, 1;
+  k << fx_px, skew_px, cx_px, 0, fy_px, cy_px, 0, 0, 1;
   return k;
 }
 
@@ -39,11 +39,13 @@ std::optional<Eigen::Vector2d> Intrinsics::pixel_of(const Eigen::Vector2d& direc
   const std::optional<Eigen::Vector2d> shown =
       distortion ? distortion->distort(direction) : direction;
   if (!shown) return std::nullopt;
-  return Eigen::Vector2d(fx_px * shown->x() + cx_px, fy_px * shown->y() + cy_px);
+  return Eigen::Vector2d(fx_px * shown->x() + skew_px * shown->y() + cx_px,
+                         fy_px * shown->y() + cy_px);
 }
 
 std::optional<Eigen::Vector2d> Intrinsics::direction_of(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d shown((pixel.x() - cx_px) / fx_px, (pixel.y() - cy_px) / fy_px);
+  const double y = (pixel.y() - cy_px) / fy_px;
+  const Eigen::Vector2d shown((pixel.x() - cx_px - skew_px * y) / fx_px, y);
   return distortion ? distortion->undistort(shown) : shown;
 }
 

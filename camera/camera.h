@@ -19,6 +19,9 @@ struct Intrinsics {
   double cx_px = 0;  ///< OpenCV convention: (width - 1) / 2 for a centred camera
   double cy_px = 0;
   std::optional<Distortion> distortion = std::nullopt;  ///< nothing: a pinhole
+  /// How far a column leans: u = fx x + skew y + cx. A renderer wants a distortion (of zeros)
+  /// beside it.
+  double skew_px = 0;
 
   Eigen::Matrix3d matrix() const;
   /// The pixel that shows the direction (x / z, y / z); nothing outside the distortion's range.

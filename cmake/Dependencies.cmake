@@ -32,7 +32,11 @@ find_path(RECAST_INCLUDE Recast.h PATH_SUFFIXES recastnavigation REQUIRED)
 target_link_libraries(throng_recast INTERFACE "${RECAST_LIBRARY}")
 target_include_directories(throng_recast SYSTEM INTERFACE "${RECAST_INCLUDE}")
 
-# Only core and imgproc: Debian's CMake files come with all of OpenCV, which is ten times the size.
+find_package(Ceres 2.1 REQUIRED)
+add_library(throng_ceres INTERFACE)
+target_link_libraries(throng_ceres INTERFACE Ceres::ceres)
+
+# Only these modules: Debian's CMake files come with all of OpenCV, which is ten times the size.
 add_library(throng_opencv INTERFACE)
 foreach(module IN ITEMS core imgproc)
   find_library(OPENCV_${module} opencv_${module} REQUIRED)
@@ -52,3 +56,11 @@ find_path(ROS_INCLUDE rosbag/bag.h REQUIRED)
 foreach(package IN ITEMS pluginlib class_loader ament_index_cpp rcutils rcpputils)
   target_include_directories(throng_rosbag SYSTEM INTERFACE "${ROS_INCLUDE}/${package}")
 endforeach()
+
+# What finds calibration boards in pictures, for the room that does.
+add_library(throng_opencv_calib INTERFACE)
+foreach(module IN ITEMS imgcodecs calib3d aruco)
+  find_library(OPENCV_${module} opencv_${module} REQUIRED)
+  target_link_libraries(throng_opencv_calib INTERFACE "${OPENCV_${module}}")
+endforeach()
+target_link_libraries(throng_opencv_calib INTERFACE throng_opencv)

@@ -11,7 +11,7 @@
 #include "annotate/exits_csv.h"
 #include "annotate/ground_field.h"
 #include "base/error.h"
-#include "jobs/camera_files.h"
+#include "camera/files.h"
 #include "jobs/environment.h"
 #include "jobs/flight_record.h"
 #include "jobs/publication.h"
@@ -100,8 +100,8 @@ void add_flights(const JobSpec& job, int run, const world::Trace& trace, Publica
     const auto lens = intrinsics_of(camera_of_run(job.drones[i].camera, seed, camera_pointer(i)));
     check(lens.has_value(), "a job's lenses are checked when it is read");
     const std::string place = fmt::format("{}/{}", run_name(run), id);
-    output.add("cameras/" + place + ".opencv.yaml", opencv_yaml(*lens));
-    output.add("cameras/" + place + ".ros.yaml", ros_yaml(*lens, id));
+    output.add("cameras/" + place + ".opencv.yaml", camera::opencv_yaml(*lens));
+    output.add("cameras/" + place + ".ros.yaml", camera::ros_yaml(*lens, id));
     if (!wants(job, "sensors")) continue;
     const auto& ids = trace.header.drone_ids;
     const auto drone =

@@ -286,6 +286,7 @@ struct Lens::Known {
   bool is_of(const camera::Intrinsics& other, const Rows& others) const {
     return lens.width == other.width && lens.height == other.height && lens.fx_px == other.fx_px &&
            lens.fy_px == other.fy_px && lens.cx_px == other.cx_px && lens.cy_px == other.cy_px &&
+           lens.skew_px == other.skew_px &&
            lens.distortion->model() == other.distortion->model() &&
            lens.distortion->coefficients() == other.distortion->coefficients() &&
            rows.first == others.first && rows.end == others.end;

@@ -5,14 +5,14 @@
 
 #include "camera/camera.h"
 
-namespace throng::jobs {
+namespace throng::camera {
 
 /// For cv::FileStorage: image_width, image_height, camera_matrix, distortion_model and
 /// distortion_coefficients in OpenCV's order (k1, k2, p1, p2, k3, k4, k5, k6; fisheye: k1 to k4).
-std::string opencv_yaml(const camera::Intrinsics& intrinsics);
+std::string opencv_yaml(const Intrinsics& intrinsics);
 
 /// For ROS' camera_info_manager (sensor_msgs/CameraInfo): plumb_bob, rational_polynomial or
 /// equidistant.
-std::string ros_yaml(const camera::Intrinsics& intrinsics, const std::string& camera_name);
+std::string ros_yaml(const Intrinsics& intrinsics, const std::string& camera_name);
 
-}  // namespace throng::jobs
+}  // namespace throng::camera

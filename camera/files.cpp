@@ -1,4 +1,4 @@
-#include "jobs/camera_files.h"
+#include "camera/files.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <vector>
 
-namespace throng::jobs {
+namespace throng::camera {
 
 namespace {
 
-using Model = camera::Distortion::Model;
+using Model = Distortion::Model;
 
 // Always with a point, so that readers that go by looks see a floating-point number.
 std::string real(double value) {
@@ -27,8 +27,8 @@ std::string list_of(const std::vector<double>& values) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::vector<double> matrix_of(const camera::Intrinsics& k) {
-  return {k.fx_px, 0, k.cx_px, 0, k.fy_px, k.cy_px, 0, 0, 1};
+std::vector<double> matrix_of(const Intrinsics& k) {
+  return {k.fx_px, k.skew_px, k.cx_px, 0, k.fy_px, k.cy_px, 0, 0, 1};
 }
 
 struct Lens {
@@ -36,7 +36,7 @@ struct Lens {
   std::vector<double> coefficients;
 };
 
-Lens lens_of(const camera::Intrinsics& k) {
+Lens lens_of(const Intrinsics& k) {
   if (!k.distortion) return {"plumb_bob", std::vector<double>(5, 0)};
   const auto& c = k.distortion->coefficients();
   if (k.distortion->model() == Model::fisheye) return {"equidistant", {c.begin(), c.begin() + 4}};
@@ -57,7 +57,7 @@ std::string ros_matrix(const char* name, int rows, int cols, const std::vector<d
 
 }  // namespace
 
-std::string opencv_yaml(const camera::Intrinsics& k) {
+std::string opencv_yaml(const Intrinsics& k) {
   const Lens lens = lens_of(k);
   const auto columns = static_cast<int>(lens.coefficients.size());
   return fmt::format("%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n", k.width, k.height) +
@@ -66,7 +66,7 @@ std::string opencv_yaml(const camera::Intrinsics& k) {
          opencv_matrix("distortion_coefficients", 1, columns, lens.coefficients);
 }
 
-std::string ros_yaml(const camera::Intrinsics& k, const std::string& camera_name) {
+std::string ros_yaml(const Intrinsics& k, const std::string& camera_name) {
   const Lens lens = lens_of(k);
   const auto columns = static_cast<int>(lens.coefficients.size());
   return fmt::format("image_width: {}\nimage_height: {}\ncamera_name: {}\n", k.width, k.height,
@@ -76,7 +76,7 @@ std::string ros_yaml(const camera::Intrinsics& k, const std::string& camera_name
          ros_matrix("distortion_coefficients", 1, columns, lens.coefficients) +
          ros_matrix("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1}) +
          ros_matrix("projection_matrix", 3, 4,
-                    {k.fx_px, 0, k.cx_px, 0, 0, k.fy_px, k.cy_px, 0, 0, 0, 1, 0});
+                    {k.fx_px, k.skew_px, k.cx_px, 0, 0, k.fy_px, k.cy_px, 0, 0, 0, 1, 0});
 }
 
-}  // namespace throng::jobs
+}  // namespace throng::camera

@@ -1,19 +1,19 @@
 // Calibrations as OpenCV and ROS read them.
-#include "jobs/camera_files.h"
+#include "camera/files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
-namespace throng::jobs {
+namespace throng::camera {
 namespace {
 
 using ::testing::HasSubstr;
-using Model = camera::Distortion::Model;
+using Model = Distortion::Model;
 
-camera::Intrinsics full_hd() {
-  camera::Intrinsics k;
+Intrinsics full_hd() {
+  Intrinsics k;
   k.width = 1920;
   k.height = 1080;
   k.fx_px = 1480.25;
@@ -24,8 +24,8 @@ camera::Intrinsics full_hd() {
 }
 
 TEST(CameraFiles, OpenCvReadsWhatWasWritten) {
-  camera::Intrinsics k = full_hd();
-  k.distortion = camera::Distortion(Model::brown_conrady, {-0.28, 0.08, 0.0003, -0.0002, 0.001});
+  Intrinsics k = full_hd();
+  k.distortion = Distortion(Model::brown_conrady, {-0.28, 0.08, 0.0003, -0.0002, 0.001});
   const cv::FileStorage file(opencv_yaml(k), cv::FileStorage::READ | cv::FileStorage::MEMORY);
   ASSERT_TRUE(file.isOpened());
   EXPECT_EQ(static_cast<int>(file["image_width"]), 1920);
@@ -46,20 +46,20 @@ TEST(CameraFiles, OpenCvReadsWhatWasWritten) {
 }
 
 TEST(CameraFiles, NameTheLensModelAsRosDoes) {
-  camera::Intrinsics k = full_hd();
+  Intrinsics k = full_hd();
   EXPECT_THAT(ros_yaml(k, "d1"), HasSubstr("distortion_model: plumb_bob\n"));
   EXPECT_THAT(ros_yaml(k, "d1"), HasSubstr("camera_name: d1\n"));
   EXPECT_THAT(ros_yaml(k, "d1"),
               HasSubstr("projection_matrix:\n  rows: 3\n  cols: 4\n  data: [1480.25, 0.0, 962.1, "
                         "0.0, 0.0, 1481.0, 538.4, 0.0, 0.0, 0.0, 1.0, 0.0]\n"));
-  k.distortion = camera::Distortion(Model::brown_conrady, {-0.1, 0, 0, 0, 0, 0.01});
+  k.distortion = Distortion(Model::brown_conrady, {-0.1, 0, 0, 0, 0, 0.01});
   EXPECT_THAT(ros_yaml(k, "d1"), HasSubstr("distortion_model: rational_polynomial\n"));
   EXPECT_THAT(ros_yaml(k, "d1"), HasSubstr("cols: 8\n"));
-  k.distortion = camera::Distortion(Model::fisheye, {0.01, 0.002});
+  k.distortion = Distortion(Model::fisheye, {0.01, 0.002});
   EXPECT_THAT(ros_yaml(k, "d1"),
               HasSubstr("distortion_model: equidistant\ndistortion_coefficients:\n  rows: 1\n  "
                         "cols: 4\n  data: [0.01, 0.002, 0.0, 0.0]\n"));
 }
 
 }  // namespace
-}  // namespace throng::jobs
+}  // namespace throng::camera

@@ -1,0 +1,152 @@
+#include "calibrate/correspondences.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include "calibrate/table.h"
+
+namespace throng::calibrate {
+
+namespace {
+
+constexpr int kLargestSide = 100000;
+
+template <typename Vector>
+std::size_t twins_in(const std::vector<Vector>& list) {
+  std::set<std::vector<double>> seen;
+  std::size_t twins = 0;
+  for (const Vector& v : list) {
+    if (!seen.insert(std::vector<double>(v.data(), v.data() + v.size())).second) ++twins;
+  }
+  return twins;
+}
+
+bool all_finite(const View& view) {
+  return std::all_of(view.points.begin(), view.points.end(),
+                     [](const auto& p) { return p.allFinite(); }) &&
+         std::all_of(view.pixels.begin(), view.pixels.end(),
+                     [](const auto& p) { return p.allFinite(); });
+}
+
+/// Ratio of the second largest extent of the points to the largest: 0 in a line.
+double flatness_to_line(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::MatrixXd all(3, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) all.col(static_cast<Eigen::Index>(i)) = points[i];
+  all.colwise() -= all.rowwise().mean().eval();
+  const Eigen::Vector3d extents = (all * all.transpose()).jacobiSvd().singularValues();
+  return extents[0] > 0 ? std::sqrt(extents[1] / extents[0]) : 0;
+}
+
+struct Reading {
+  View view;
+  std::vector<Problem> problems;
+};
+
+}  // namespace
+
+ImageSize image_size_of(const std::string& text, const std::string& source) {
+  const std::size_t by = text.find('x');
+  ImageSize size;
+  const auto read = [](std::string_view word, int& value) {
+    const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+    return result.ec == std::errc() && result.ptr == word.data() + word.size() && value > 0 &&
+           value <= kLargestSide;
+  };
+  if (by == std::string::npos || !read(std::string_view(text).substr(0, by), size.width) ||
+      !read(std::string_view(text).substr(by + 1), size.height)) {
+    throw InputError(
+        Problem{source, "", fmt::format("\"{}\"", text), "WIDTHxHEIGHT in pixels, as 640x480"});
+  }
+  return size;
+}
+
+std::vector<Problem> problems_of(const View& view, const ImageSize& size) {
+  const auto problem = [&](std::string found, std::string expected) {
+    return std::vector<Problem>{{view.name, "", std::move(found), std::move(expected)}};
+  };
+  if (!all_finite(view)) return problem("coordinates that are not finite", "finite numbers");
+  if (view.points.size() < kFewestPoints) {
+    return problem(fmt::format("{} points", view.points.size()),
+                   fmt::format("at least {}", kFewestPoints));
+  }
+  if (const std::size_t twins = twins_in(view.points); twins > 0) {
+    return problem(fmt::format("{} points given twice", twins), "each point of the world once");
+  }
+  if (const std::size_t twins = twins_in(view.pixels); twins > 0) {
+    return problem(fmt::format("{} pixels given twice", twins), "each pixel for one point");
+  }
+  const auto outside = std::count_if(view.pixels.begin(), view.pixels.end(), [&](const auto& p) {
+    return p.x() < -size.width || p.x() > 2 * size.width || p.y() < -size.height ||
+           p.y() > 2 * size.height;
+  });
+  if (outside > 0) {
+    return problem(
+        fmt::format("{} pixels far outside an image of {} x {}", outside, size.width, size.height),
+        "pixels of an image of this size");
+  }
+  constexpr double kLine = 1e-3;
+  if (flatness_to_line(view.points) < kLine) return problem("points in a line", "points beside it");
+  return {};
+}
+
+void leave_out_bad_views(Correspondences& all) {
+  std::vector<View> good;
+  for (View& view : all.views) {
+    std::vector<Problem> problems = problems_of(view, all.size);
+    if (problems.empty()) {
+      good.push_back(std::move(view));
+    } else {
+      all.left_out.insert(all.left_out.end(), problems.begin(), problems.end());
+    }
+  }
+  all.views = std::move(good);
+}
+
+Correspondences read_correspondences(const std::filesystem::path& file, const ImageSize& size) {
+  const Table table = read_table(file, {"image", "X", "Y", "Z", "u", "v"});
+  std::vector<std::string> order;
+  std::map<std::string, Reading> readings;
+  for (const TableRow& row : table.rows) {
+    Reading& reading = readings[row.cells[0]];
+    if (reading.view.name.empty()) {
+      reading.view.name = row.cells[0].empty() ? "(no name)" : row.cells[0];
+      order.push_back(row.cells[0]);
+    }
+    std::array<double, 5> numbers{};
+    bool good = true;
+    for (std::size_t i = 0; i < numbers.size() && good; ++i) {
+      const std::optional<double> value = number_in(row.cells[i + 1]);
+      if (!value) {
+        reading.problems.push_back({file.string(),
+                                    fmt::format("line {}, image {}", row.line, reading.view.name),
+                                    fmt::format("\"{}\"", row.cells[i + 1]), "a finite number"});
+        good = false;
+      }
+      numbers[i] = value.value_or(0);
+    }
+    reading.view.points.emplace_back(numbers[0], numbers[1], numbers[2]);
+    reading.view.pixels.emplace_back(numbers[3], numbers[4]);
+  }
+  Correspondences all;
+  all.size = size;
+  for (const std::string& name : order) {
+    Reading& reading = readings[name];
+    if (reading.problems.empty()) {
+      all.views.push_back(std::move(reading.view));
+    } else {
+      all.left_out.push_back(reading.problems.front());
+    }
+  }
+  leave_out_bad_views(all);
+  if (all.views.empty()) throw InputError(all.left_out);
+  return all;
+}
+
+}  // namespace throng::calibrate

@@ -1,0 +1,135 @@
+#include "calibrate/robust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace throng::calibrate {
+
+namespace {
+
+/// Scale of the loss under which outliers are looked for (px): they are pixels off, corners a few
+/// tenths.
+constexpr double kSearchLossPx = 1;
+
+std::vector<double> view_sigmas(const Adjustment& adjustment,
+                                const std::vector<Eigen::Vector2d>& residuals, double& overall) {
+  std::vector<std::vector<double>> by_view(adjustment.poses.size());
+  std::vector<double> all;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (!residuals[i].allFinite()) continue;
+    for (const double r : residuals[i]) {
+      by_view[adjustment.observations[i].view].push_back(r);
+      all.push_back(r);
+    }
+  }
+  overall = robust_sigma(std::move(all));
+  std::vector<double> sigmas;
+  sigmas.reserve(by_view.size());
+  for (auto& values : by_view) sigmas.push_back(robust_sigma(std::move(values)));
+  return sigmas;
+}
+
+/// Whether the marks changed.
+bool mark_outliers(Adjustment& adjustment, double least_px) {
+  std::vector<Eigen::Vector2d> residuals;
+  residuals.reserve(adjustment.observations.size());
+  for (const Observation& seen : adjustment.observations) {
+    residuals.push_back(adjustment.residual(seen));
+  }
+  double overall = 0;
+  const std::vector<double> sigmas = view_sigmas(adjustment, residuals, overall);
+  // A view that is worse than this is not unsharp, but wrong.
+  constexpr double kMostUnsharp = 4;
+  bool changed = false;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    Observation& seen = adjustment.observations[i];
+    const double most = std::max(
+        least_px, kOutlierSigmas * std::clamp(sigmas[seen.view], overall, kMostUnsharp * overall));
+    const bool used = residuals[i].norm() <= most;  // false for NaN
+    changed = changed || used != seen.used;
+    seen.used = used;
+  }
+  return changed;
+}
+
+double sum_of_squares(const Adjustment& adjustment) {
+  double sum = 0;
+  for (const Observation& seen : adjustment.observations) {
+    if (seen.used) sum += adjustment.residual(seen).squaredNorm();
+  }
+  return sum;
+}
+
+/// What is known beforehand is weighed against the pixels' deviation, which has to be known for it.
+bool weighs_knowledge(const Adjustment& adjustment) {
+  return std::any_of(adjustment.rules.priors.begin(), adjustment.rules.priors.end(),
+                     [](const auto& prior) { return prior.has_value(); }) ||
+         std::any_of(adjustment.points.begin(), adjustment.points.end(),
+                     [](const WorldPoint& point) { return point.sd && *point.sd > 0; });
+}
+
+void solve_without_outliers(Adjustment& adjustment, const FitOptions& options, Fit& fit) {
+  SolveOptions plain{options.loss_px, 100, options.go_on};
+  const auto run = [&](const SolveOptions& how) {
+    const SolveReport report = solve(adjustment, how);
+    fit.converged = report.converged;
+    fit.iterations += report.iterations;
+  };
+  if (options.reject) {
+    SolveOptions search = plain;
+    search.loss_px = kSearchLossPx;
+    run(search);
+    mark_outliers(adjustment, options.outlier_px);
+  }
+  run(plain);
+  constexpr int kMostRounds = 6;
+  for (int round = 0; options.reject && round < kMostRounds; ++round) {
+    if (!mark_outliers(adjustment, options.outlier_px)) break;
+    run(plain);
+  }
+}
+
+}  // namespace
+
+double robust_sigma(std::vector<double> values) {
+  if (values.empty()) return 0;
+  constexpr double kNormal = 1.4826;
+  for (double& value : values) value = std::abs(value);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return kNormal * *middle;
+}
+
+Fit fit(Adjustment& adjustment, const FitOptions& options) {
+  Fit result;
+  const double sigma_before = adjustment.sigma_px;
+  adjustment.sigma_px = options.sigma_px.value_or(sigma_before);
+  solve_without_outliers(adjustment, options, result);
+  constexpr double kLeastSigmaPx = 1e-6;
+  const auto estimate = [&] {
+    result.derivatives = linearise(adjustment);
+    const auto& d = result.derivatives;
+    const double sum = sum_of_squares(adjustment);
+    result.sigma_px = d.equations > d.unknowns
+                          ? std::sqrt(sum / static_cast<double>(d.equations - d.unknowns))
+                          : std::numeric_limits<double>::quiet_NaN();
+    if (!options.sigma_px && result.sigma_px > kLeastSigmaPx) adjustment.sigma_px = result.sigma_px;
+  };
+  estimate();
+  if (!options.sigma_px && weighs_knowledge(adjustment)) {
+    constexpr int kRounds = 2;
+    for (int i = 0; i < kRounds; ++i) {
+      solve_without_outliers(adjustment, options, result);
+      estimate();
+    }
+  }
+  if (!options.sigma_px) result.derivatives = linearise(adjustment);
+  for (const Observation& seen : adjustment.observations) {
+    ++(seen.used ? result.used : result.rejected);
+  }
+  result.rms_px = std::sqrt(sum_of_squares(adjustment) / static_cast<double>(result.used));
+  return result;
+}
+
+}  // namespace throng::calibrate

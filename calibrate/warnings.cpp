@@ -1,0 +1,186 @@
+#include "calibrate/warnings.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "calibrate/initialise.h"
+
+namespace throng::calibrate {
+
+namespace {
+
+constexpr std::size_t kEnoughViews = 10;
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+void say(Calibration& calibration, std::string text) {
+  calibration.warnings.push_back(std::move(text));
+}
+
+/// Largest angle (rad) between the normals of two planar views in the camera's frame; nothing if a
+/// view is not planar.
+std::optional<double> spread_of_tilts(const Calibration& calibration) {
+  std::vector<Eigen::Vector3d> normals;
+  for (const ViewResult& view : calibration.views) {
+    std::vector<Eigen::Vector3d> points;
+    for (const PointResult& point : view.points) points.push_back(point.point);
+    const std::optional<PlaneView> plane = plane_of(points);
+    if (!plane) return std::nullopt;
+    normals.emplace_back(view.pose.pose().R * plane->axes.col(2));
+  }
+  double most = 0;
+  for (const Eigen::Vector3d& a : normals) {
+    for (const Eigen::Vector3d& b : normals) {
+      most = std::max(most, std::acos(std::min(1.0, std::abs(a.dot(b)))));
+    }
+  }
+  return most;
+}
+
+void warn_of_views(const Rules& rules, Calibration& calibration) {
+  const std::size_t views = calibration.views.size();
+  if (views < kEnoughViews) {
+    say(calibration,
+        fmt::format(
+            "{} views: with fewer than {} the lens depends much on each; take more, or give "
+            "priors (--prior cx={:.0f}:20)",
+            views, kEnoughViews, 0.5 * (calibration.size.width - 1)));
+  }
+  constexpr double kFlatDeg = 15;
+  const bool focal_free = rules.free[kFx] || rules.free[kFy];
+  const std::optional<double> tilts = spread_of_tilts(calibration);
+  if (focal_free && tilts && *tilts * kDegrees < kFlatDeg) {
+    say(calibration,
+        fmt::format(
+            "the boards' planes differ by at most {:.1f} degrees: focal lengths and distances "
+            "cannot be told apart; tilt the board by 30 to 45 degrees in several directions",
+            *tilts * kDegrees));
+  }
+  constexpr double kThin = 0.4;
+  const double coverage = coverage_of(calibration);
+  if (coverage < kThin) {
+    say(calibration, fmt::format("points cover {:.0f} % of the image: outside of them the lens is "
+                                 "extrapolated; show the board near borders and corners, too",
+                                 100 * coverage));
+  }
+}
+
+void warn_of_parameters(const Fit& fit, Calibration& calibration) {
+  std::vector<std::string> open;
+  for (const std::size_t place : fit.derivatives.undetermined) {
+    open.push_back(parameter_name(calibration.lens, place));
+  }
+  if (!open.empty()) {
+    say(calibration,
+        fmt::format("the data leave {} open: fix them (--fix), tie them (--tie) or give "
+                    "priors (--prior)",
+                    fmt::join(open, ", ")));
+  }
+  constexpr double kLooseFocal = 0.02;
+  constexpr double kLooseCentrePx = 0.02;  // of the width
+  for (const std::size_t place : calibration.places) {
+    const double sd = calibration.sd.at(place);
+    const std::string name = parameter_name(calibration.lens, place);
+    const double value = calibration.parameters.at(place);
+    if ((place == kFx || place == kFy) && sd > kLooseFocal * value) {
+      say(calibration, fmt::format("{} is known to {:.1f} % only", name, 100 * sd / value));
+    }
+    if ((place == kCx || place == kCy) && sd > kLooseCentrePx * calibration.size.width) {
+      say(calibration, fmt::format("{} is known to {:.1f} px only", name, sd));
+    }
+    if (place >= kCoefficients && std::abs(value) < sd) {
+      say(calibration,
+          fmt::format("{} = {:.2g} cannot be told from 0 (standard deviation {:.2g}): a "
+                      "lens with fewer coefficients may do",
+                      name, value, sd));
+    }
+  }
+}
+
+void warn_of_outliers(Calibration& calibration) {
+  constexpr double kMany = 0.05;
+  const auto all = static_cast<double>(calibration.points + calibration.rejected);
+  if (static_cast<double>(calibration.rejected) > kMany * all) {
+    say(calibration, fmt::format("{} of {} points were taken for outliers: look at the residuals",
+                                 calibration.rejected, all));
+  }
+  if (!calibration.converged) say(calibration, "the solver ended before it converged");
+}
+
+/// Whether the lens holds along the image's border.
+bool holds_at_border(const Calibration& calibration) {
+  const camera::Intrinsics k = calibration.intrinsics();
+  constexpr int kSteps = 32;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double x = (k.width - 1.0) * i / kSteps;
+    const double y = (k.height - 1.0) * i / kSteps;
+    for (const Eigen::Vector2d& pixel :
+         {Eigen::Vector2d(x, 0), Eigen::Vector2d(x, k.height - 1.0), Eigen::Vector2d(0, y),
+          Eigen::Vector2d(k.width - 1.0, y)}) {
+      if (!k.direction_of(pixel)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+double coverage_of(const Calibration& calibration) {
+  constexpr int kColumns = 8;
+  constexpr int kRows = 6;
+  std::array<bool, kColumns * kRows> hit{};
+  for (const ViewResult& view : calibration.views) {
+    for (const PointResult& point : view.points) {
+      const auto column =
+          static_cast<int>(std::floor((point.pixel.x() + 0.5) * kColumns / calibration.size.width));
+      const auto row =
+          static_cast<int>(std::floor((point.pixel.y() + 0.5) * kRows / calibration.size.height));
+      if (!point.used || column < 0 || row < 0 || column >= kColumns || row >= kRows) continue;
+      hit.at(static_cast<std::size_t>(row * kColumns + column)) = true;
+    }
+  }
+  return static_cast<double>(std::count(hit.begin(), hit.end(), true)) / hit.size();
+}
+
+void add_intrinsics_warnings(const Rules& rules, const Fit& fit, Calibration& calibration) {
+  warn_of_views(rules, calibration);
+  warn_of_parameters(fit, calibration);
+  warn_of_outliers(calibration);
+  if (!holds_at_border(calibration)) {
+    say(calibration,
+        "the lens's model folds within the image: pictures cannot be rendered with it; take views "
+        "with points near the borders, or a lens with fewer coefficients");
+  }
+}
+
+void add_control_point_warnings(const std::vector<Eigen::Vector3d>& control_points, const Fit& fit,
+                                Calibration& calibration) {
+  const std::size_t count = control_points.size();
+  if (count < kEnoughControlPoints) {
+    say(calibration, fmt::format("{} control points: with fewer than {} the pose is unreliable",
+                                 count, kEnoughControlPoints));
+  }
+  Eigen::MatrixXd all(3, count);
+  for (std::size_t i = 0; i < count; ++i) all.col(static_cast<Eigen::Index>(i)) = control_points[i];
+  all.colwise() -= all.rowwise().mean().eval();
+  const Eigen::Vector3d extents = (all * all.transpose()).jacobiSvd().singularValues().cwiseSqrt();
+  constexpr double kNearlyLine = 0.05;
+  if (extents[1] < kNearlyLine * extents[0]) {
+    say(calibration, "the control points are nearly in a line: turning about it is barely fixed");
+  }
+  constexpr double kThin = 0.15;
+  if (coverage_of(calibration) < kThin && count >= kEnoughControlPoints) {
+    say(calibration, "the control points are in a small part of the image");
+  }
+  if (!fit.derivatives.poses_determined) {
+    say(calibration, "the points leave the pose of at least one view open");
+  }
+  warn_of_outliers(calibration);
+}
+
+}  // namespace throng::calibrate

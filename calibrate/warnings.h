@@ -1,0 +1,25 @@
+// What a calibration's data cannot support, said in words.
+#pragma once
+
+#include "calibrate/calibration.h"
+#include "calibrate/robust.h"
+
+namespace throng::calibrate {
+
+/// Adds warnings of too few views, boards that are all seen from one direction, parts of the image
+/// without points, parameters that the data leave open or barely fix, models that fold within the
+/// image, and many outliers.
+void add_intrinsics_warnings(const Rules& rules, const Fit& fit, Calibration& calibration);
+
+/// Adds warnings of control points that are few, in a line, or in a corner of the image, and of
+/// poses that they leave open.
+void add_control_point_warnings(const std::vector<Eigen::Vector3d>& control_points, const Fit& fit,
+                                Calibration& calibration);
+
+/// Control points below which a pose is unreliable (measured: docs/calibration.md).
+inline constexpr std::size_t kEnoughControlPoints = 8;
+
+/// Share of the cells of an 8 x 6 grid over the image that hold a used point.
+double coverage_of(const Calibration& calibration);
+
+}  // namespace throng::calibrate
