@@ -191,6 +191,7 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
     manifest.at("generator").get_to(info.generator);
     const json& capture = job.at("capture");
     capture.at("rate_hz").get_to(info.rate_hz);
+    capture.at("from_s").get_to(info.from_s);
     constexpr double kSlack = 1e-9;
     info.frames_per_camera =
         1 +
@@ -198,7 +199,11 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
             (capture.at("to_s").get<double>() - capture.at("from_s").get<double>()) * info.rate_hz +
             kSlack));
     for (const json& run : manifest.at("runs")) info.runs.push_back(run.at("run"));
-    job.at("outputs").at("annotations").get_to(info.annotations);
+    const json& outputs = job.at("outputs");
+    outputs.at("annotations").get_to(info.annotations);
+    info.formats = outputs.value("formats", info.formats);
+    info.density_sigma_px =
+        outputs.value("density", json::object()).value("sigma_px", info.density_sigma_px);
   } catch (const json::exception& error) {
     throw InputError(
         {(root / "manifest.json").string(), "", error.what(), "the manifest that throng wrote"});

@@ -95,9 +95,12 @@ struct DatasetInfo {
   std::string name;
   std::string generator;
   double rate_hz = 1;
+  double from_s = 0;  ///< time of the first frame
+  double density_sigma_px = 4;
   std::int64_t frames_per_camera = 0;
   std::vector<std::string> runs;
   std::vector<std::string> annotations;  ///< kinds of ground truth that the dataset has
+  std::vector<std::string> formats;      ///< that it has below formats/
   std::vector<std::string> categories;   ///< names of the classes to write
   ExportOptions options;
 

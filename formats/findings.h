@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "formats/dataset.h"
+#include "formats/npy.h"
 #include "formats/validate.h"
 
 namespace throng::formats {
@@ -34,6 +37,33 @@ void check_people(const Image& image, Findings& findings);
 
 /// One picture's files: its size, its density map and its values per pixel, against its people.
 void check_files(const DatasetInfo& info, const Image& image, Findings& findings);
+
+/// A density map against the heads of the records.
+void check_density_is_heads(const Image& image, const std::string& path, const FloatMap& map,
+                            double sigma_px, Findings& findings);
+
+/// Depth where the ground shows against where the plane z = 0 is; of a plain image.
+void check_ground_depth(const Image& image, const std::string& path,
+                        const std::vector<std::uint32_t>& ids,
+                        const std::vector<std::uint16_t>& centimetres, Findings& findings);
+
+/// Boxes, tracks and who is ignored in other formats' texts below formats/, as far as they have
+/// them as lines of numbers: YOLO, MOT and VisDrone.
+class FormatCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+  void finish(Findings& findings);
+
+ private:
+  /// What a format's lines of an image begin with.
+  static std::vector<std::vector<double>> lines_of(const std::string& format, const Image& image);
+  static void compare(const std::string& file, const Image& image, std::istream& text,
+                      const std::vector<std::vector<double>>& expected, Findings& findings);
+  static void check_yolo(const DatasetInfo& info, const Image& image,
+                         const std::filesystem::path& folder, Findings& findings);
+
+  std::map<std::string, std::ifstream> texts_;  ///< of sequences, read as far as their images
+};
 
 /// Whether flow leads each person's pixels to where they are in the next frame. Fed frame by frame;
 /// remembers one frame of each camera.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -45,6 +46,42 @@ void check_manifest(const fs::path& root, const json& manifest, Findings& findin
   }
 }
 
+/// The instant of a picture is that of its frame, and its file that of its run, camera and frame.
+void check_time(const DatasetInfo& info, const Image& image, Findings& findings) {
+  constexpr double kSlackS = 1e-6;
+  const std::string record = fmt::format("image {}", image.id);
+  const double expected_s = info.from_s + static_cast<double>(image.frame) / info.rate_hz;
+  if (std::abs(image.time_s - expected_s) > kSlackS) {
+    findings.add("time", kCocoFile, record,
+                 fmt::format("time_s {}, but its frame is of {} s", image.time_s, expected_s));
+  }
+  const std::string file =
+      fmt::format("images/{}/{}/{:06}.jpg", image.run, image.camera, image.frame);
+  if (image.file != file) findings.add("time", kCocoFile, record, "file_name is not " + file);
+}
+
+/// As many pictures and annotations as the manifest says.
+void check_counts(const json& manifest, const Validation& validation, Findings& findings) {
+  const auto counts = manifest.find("counts");
+  if (counts == manifest.end()) return;
+  if (counts->at("frames") != validation.images ||
+      counts->at("annotations") != validation.annotations) {
+    findings.add("counts", kCocoFile, "",
+                 fmt::format("{} images with {} annotations, but the manifest says {} and {}",
+                             validation.images, validation.annotations, counts->at("frames").dump(),
+                             counts->at("annotations").dump()));
+  }
+}
+
+/// The filters that the dataset's other formats were written with.
+ExportOptions options_of(const json& manifest) {
+  ExportOptions options;
+  const json filters = manifest.at("job").at("outputs").value("filters", json::object());
+  options.filters.min_visibility = filters.value("min_visibility", 0.0);
+  options.filters.min_height_px = filters.value("min_height_px", 0.0);
+  return options;
+}
+
 /// Ids say which image, run and person they are of, and come once.
 class IdCheck {
  public:
@@ -82,12 +119,13 @@ class IdCheck {
 
 Validation validate_dataset(const fs::path& root) {
   const json manifest = read_manifest(root);
-  const DatasetInfo info = describe_dataset(root, manifest, {});
+  const DatasetInfo info = describe_dataset(root, manifest, options_of(manifest));
   Validation validation;
   Findings findings(validation);
   check_manifest(root, manifest, findings);
   IdCheck ids;
   FlowCheck flow;
+  FormatCheck other_formats;
   try {
     DatasetReader reader(info);
     Image image;
@@ -95,6 +133,8 @@ Validation validate_dataset(const fs::path& root) {
       ++validation.images;
       validation.annotations += image.people.size();
       ids.add(info, image, findings);
+      check_time(info, image, findings);
+      other_formats.add(info, image, findings);
       const std::size_t before = validation.found;
       check_people(image, findings);
       // What is said of broken masks would only be repeated.
@@ -104,6 +144,8 @@ Validation validate_dataset(const fs::path& root) {
         flow.add(info, image, findings);
       }
     }
+    other_formats.finish(findings);
+    check_counts(manifest, validation, findings);
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();
     findings.add("schema", fs::path(problem.source).lexically_relative(root).string(),

@@ -30,15 +30,22 @@ std::string relative(const DatasetInfo& info, const fs::path& path) {
   return path.lexically_relative(info.root).string();
 }
 
+/// Decodes all of it: what is cut off or damaged has no size.
 std::optional<std::pair<int, int>> jpeg_size(const std::string& bytes) {
   const tjhandle decoder = tjInitDecompress();
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   int width = 0;
   int height = 0;
   int subsampling = 0;
   int colours = 0;
-  const int failed =
-      tjDecompressHeader3(decoder, reinterpret_cast<const unsigned char*>(bytes.data()),
-                          bytes.size(), &width, &height, &subsampling, &colours);
+  int failed =
+      tjDecompressHeader3(decoder, data, bytes.size(), &width, &height, &subsampling, &colours);
+  if (failed == 0) {
+    std::vector<unsigned char> grey(static_cast<std::size_t>(width) *
+                                    static_cast<std::size_t>(height));
+    failed = tjDecompress2(decoder, data, bytes.size(), grey.data(), width, 0, height, TJPF_GRAY,
+                           TJFLAG_STOPONWARNING | TJFLAG_FASTDCT);
+  }
   tjDestroy(decoder);
   if (failed != 0) return std::nullopt;
   return std::pair(width, height);
@@ -52,7 +59,7 @@ void check_picture(const DatasetInfo& info, const Image& image, Findings& findin
     findings.add("picture", image.file, fmt::format("image {}", image.id),
                  size ? fmt::format("{} x {} pixels, but the record says {} x {}", size->first,
                                     size->second, image.width, image.height)
-                 : is_there ? "no JPEG"
+                 : is_there ? "no whole JPEG"
                             : "no such file");
   }
 }
@@ -66,6 +73,7 @@ void check_density(const DatasetInfo& info, const Image& image, Findings& findin
   const double count = image.record.at("density_count").get<double>();
   if (map.width != image.width || map.height != image.height) {
     findings.add("density-size", path, "", "another size than the image's");
+    return;
   }
   if (!(std::abs(sum - count) <= 1e-3 * std::max(count, 1.0))) {
     findings.add("density-sum", path, "",
@@ -74,6 +82,7 @@ void check_density(const DatasetInfo& info, const Image& image, Findings& findin
   const bool has_negative =
       std::any_of(map.value.begin(), map.value.end(), [](float value) { return !(value >= 0); });
   if (has_negative) findings.add("density-sum", path, "", "a value below 0 or not a number");
+  check_density_is_heads(image, path, map, info.density_sigma_px, findings);
 }
 
 /// Masks against the picture of instances, bit for bit.
@@ -118,6 +127,9 @@ void check_depth(const DatasetInfo& info, const Image& image, const std::vector<
   if (depth.width != image.width || depth.height != image.height) {
     findings.add("depth", relative(info, file), "", "another size than the image's");
     return;
+  }
+  if (is_plain(image)) {
+    check_ground_depth(image, relative(info, file), ids, depth.samples, findings);
   }
   std::map<std::uint32_t, std::pair<double, double>> range;  // nearest and farthest, m
   for (std::size_t i = 0; i < ids.size(); ++i) {

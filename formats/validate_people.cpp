@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -21,20 +22,21 @@ bool holds(const Box& outer, double x, double y, double slack) {
          y <= outer.y + outer.height + slack;
 }
 
-void check_mask(const Image& image, const Person& person, Findings& findings) {
+/// False if there is no mask to look at.
+bool check_mask(const Image& image, const Person& person, Findings& findings) {
   const auto pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   const nlohmann::json& size = person.record.at("segmentation").at("size");
   if (size != nlohmann::json{image.height, image.width}) {
     findings.add("mask-size", person, "the mask's size is not the image's: " + size.dump());
-    return;
+    return false;
   }
   Bitmap mask;
   try {
     mask = bitmap_of(runs_of(person.mask, pixels), image.height);
   } catch (const InputError& error) {
     findings.add("mask-runs", person, error.problems().front().expected);
-    return;
+    return false;
   }
   const Box& box = person.box;
   if (mask.x != box.x || mask.y != box.y || mask.width != box.width || mask.height != box.height) {
@@ -47,6 +49,7 @@ void check_mask(const Image& image, const Person& person, Findings& findings) {
     findings.add("area-is-mask", person,
                  fmt::format("area {}, but the mask has {} pixels", person.area, mask.area()));
   }
+  return true;
 }
 
 void check_box(const Image& image, const Person& person, Findings& findings) {
@@ -77,8 +80,36 @@ void check_visibility(const Person& person, Findings& findings) {
                  fmt::format("visibility {}, but area / area_amodal is {}", person.visibility,
                              person.area / whole));
   }
+  if (person.record.at("category_id") != 1) {
+    findings.add("category", person, "another category than that of people, 1");
+  }
   if (person.record.at("iscrowd") != 0) {
     findings.add("iscrowd", person, "iscrowd of an individual is not 0");
+  }
+}
+
+/// Whether the mask shows somebody within a pixel of a place, and one more for its rounding.
+bool shows_near(const Bitmap& mask, const Keypoint& point) {
+  constexpr int kReach = 2;
+  for (int y = -kReach; y <= kReach; ++y) {
+    for (int x = -kReach; x <= kReach; ++x) {
+      if (mask.at(static_cast<int>(point.x) + x, static_cast<int>(point.y) + y)) return true;
+    }
+  }
+  return false;
+}
+
+void check_visible_keypoints(const Image& image, const Person& person, Findings& findings) {
+  if (std::none_of(person.keypoints.begin(), person.keypoints.end(),
+                   [](const Keypoint& point) { return point.visibility == 2; })) {
+    return;
+  }
+  const auto pixels =
+      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+  for (const Keypoint& point : person.keypoints) {
+    if (point.visibility != 2 || shows_near(mask, point)) continue;
+    findings.add("keypoints", person, "a visible keypoint away from the mask");
   }
 }
 
@@ -113,15 +144,6 @@ void check_projection(const Image& image, const Person& person, Findings& findin
   }
 }
 
-bool is_finite(const nlohmann::json& value) {
-  if (value.is_structured()) {
-    for (const nlohmann::json& part : value) {
-      if (!is_finite(part)) return false;
-    }
-  }
-  return !value.is_number_float() || std::isfinite(value.get<double>());
-}
-
 }  // namespace
 
 bool is_plain(const Image& image) {
@@ -133,12 +155,20 @@ bool is_plain(const Image& image) {
 void check_people(const Image& image, Findings& findings) {
   const bool plain = is_plain(image);
   for (const Person& person : image.people) {
-    if (!is_finite(person.record)) findings.add("finite", person, "a number that is not finite");
     check_box(image, person, findings);
-    check_mask(image, person, findings);
+    const bool is_whole = check_mask(image, person, findings);
     check_visibility(person, findings);
     check_keypoints(image, person, findings);
+    if (is_whole) check_visible_keypoints(image, person, findings);
     if (plain) check_projection(image, person, findings);
+  }
+  if (const auto counts = image.record.find("counts"); counts != image.record.end()) {
+    if (counts->at("visible") != image.people.size() ||
+        counts->at("all") != image.people.size() + image.hidden.size()) {
+      findings.add("counts", kCocoFile, fmt::format("image {}", image.id),
+                   fmt::format("counts {}, but {} have annotations and {} are hidden",
+                               counts->dump(), image.people.size(), image.hidden.size()));
+    }
   }
 }
 

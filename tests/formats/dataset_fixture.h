@@ -62,7 +62,7 @@ class SmallDataset : public testing::Test {
     render::Frame picture = annotate::synthetic_frame(scene);
     picture.index = frame;
     picture.time_s = 0.5 * frame;
-    picture.depth_m.assign(picture.id.size(), 9.0F);
+    picture.depth_m = depth_of(picture);
     for (render::PersonInView& person : picture.people) {
       person.position = person.hips;
       person.keypoints.fill(person.hips.cast<float>());
@@ -106,6 +106,21 @@ class SmallDataset : public testing::Test {
     write("depth/" + place + ".png", annotate::depth_png(picture));
   }
 
+  /// People are 9 m away; the ground is where it is.
+  static std::vector<float> depth_of(const render::Frame& picture) {
+    std::vector<float> depth_m(picture.id.size(), 9.0F);
+    const camera::Camera& camera = picture.camera;
+    const Eigen::Vector3d centre = camera.pose.centre();
+    for (std::size_t i = 0; i < depth_m.size(); ++i) {
+      if (picture.id[i] != render::kIdGround) continue;
+      const auto column = static_cast<double>(static_cast<int>(i) % picture.width());
+      const auto row = static_cast<double>(static_cast<int>(i) / picture.width());
+      const Eigen::Vector3d ray = camera.unproject({column, row}, 1) - centre;
+      depth_m[i] = static_cast<float>(-centre.z() / ray.z());
+    }
+    return depth_m;
+  }
+
   void write_manifest() {
     nlohmann::json files = nlohmann::json::array();
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root_)) {
@@ -114,14 +129,15 @@ class SmallDataset : public testing::Test {
                        {"bytes", entry.file_size()},
                        {"sha256", sha256_hex_of_file(entry.path())}});
     }
-    const nlohmann::json manifest = {{"schema_version", 1},
-                                     {"generator", "throng test"},
-                                     {"job",
-                                      {{"name", "small"},
-                                       {"capture", {{"rate_hz", 2}, {"from_s", 0}, {"to_s", 1}}},
-                                       {"outputs", {{"annotations", annotations_}}}}},
-                                     {"runs", {{{"run", "run000"}}, {{"run", "run001"}}}},
-                                     {"files", files}};
+    const nlohmann::json manifest = {
+        {"schema_version", 1},
+        {"generator", "throng test"},
+        {"job",
+         {{"name", "small"},
+          {"capture", {{"rate_hz", 2}, {"from_s", 0}, {"to_s", 1}}},
+          {"outputs", {{"annotations", annotations_}, {"formats", formats_}}}}},
+        {"runs", {{{"run", "run000"}}, {{"run", "run001"}}}},
+        {"files", files}};
     write_file_atomically(root_ / "manifest.json", manifest.dump(1));
   }
 
@@ -140,6 +156,7 @@ class SmallDataset : public testing::Test {
 
   /// What the manifest says that the dataset has; write_manifest() writes it.
   std::vector<std::string> annotations_ = {"coco", "keypoints", "density", "depth", "instances"};
+  std::vector<std::string> formats_;  ///< that it has below formats/
   std::filesystem::path folder_;
   std::filesystem::path root_;
 };

@@ -5,9 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
+#include <limits>
 
 #include "base/error.h"
+#include "formats/mask.h"
+#include "formats/npy.h"
+#include "formats/raster.h"
 #include "tests/formats/dataset_fixture.h"
 
 namespace throng::formats {
@@ -18,22 +24,40 @@ using nlohmann::json;
 
 class Validate : public SmallDataset {
  protected:
-  /// Changes the first annotation's record and lists the files anew.
-  void change_person(const std::function<void(json&)>& change) {
+  /// Changes the first record that begins with such a member, and lists the files anew.
+  void change_record(const std::string& begin, const std::function<void(json&)>& change) {
+    change_lines(begin, [&](std::string line) {
+      const bool has_comma = line.ends_with(',');
+      json record = json::parse(line.substr(0, line.size() - (has_comma ? 1 : 0)));
+      change(record);
+      return record.dump() + (has_comma ? "," : "") + "\n";
+    });
+  }
+  void change_lines(const std::string& begin,
+                    const std::function<std::string(std::string)>& change) {
     std::ifstream in(root_ / kCocoFile);
     std::string text;
     bool is_changed = false;
     for (std::string line; std::getline(in, line);) {
-      if (!is_changed && line.find("\"track_id\"") != std::string::npos) {
-        const bool has_comma = line.ends_with(',');
-        json record = json::parse(line.substr(0, line.size() - (has_comma ? 1 : 0)));
-        change(record);
-        line = record.dump() + (has_comma ? "," : "");
+      if (!is_changed && line.starts_with("{\"id\":") && line.find(begin) != std::string::npos) {
+        text += change(line);
         is_changed = true;
+      } else {
+        text += line + "\n";
       }
-      text += line + "\n";
     }
+    EXPECT_TRUE(is_changed);
     write_file_atomically(root_ / kCocoFile, text);
+    write_manifest();
+  }
+  void change_person(const std::function<void(json&)>& change) {
+    change_record("\"image_id\":", change);
+  }
+  void change_image(const std::function<void(json&)>& change) {
+    change_record("\"file_name\":", change);
+  }
+  void write(const std::string& path, const std::string& bytes) {
+    write_file_atomically(root_ / path, bytes);
     write_manifest();
   }
 
@@ -71,6 +95,15 @@ TEST_F(Validate, AGoodDatasetHasNoFaults) {
   EXPECT_GT(validation.annotations, 60U);
 }
 
+/// All 17 visible at one place.
+json keypoints_at(double x, double y) {
+  json keypoints = json::array();
+  for (int i = 0; i < 17; ++i) {
+    for (const double value : {x, y, 2.0}) keypoints.push_back(value);
+  }
+  return keypoints;
+}
+
 TEST_F(Validate, RecordsThatContradictThemselves) {
   expect_change("box-is-mask-bounds",
                 [](json& r) { r["bbox"][0] = r["bbox"][0].get<double>() + 1; });
@@ -86,6 +119,9 @@ TEST_F(Validate, RecordsThatContradictThemselves) {
   expect_change("position-in-box", [](json& r) { r["position"][0] = 500; });
   expect_change("mask-runs", [](json& r) { r["segmentation"]["counts"] = "00"; });
   expect_change("mask-size", [](json& r) { r["segmentation"]["size"][0] = 7; });
+  expect_change("category", [](json& r) { r["category_id"] = 2; });
+  expect_change("keypoints", [](json& r) { r["keypoints"] = keypoints_at(-5, 3); });
+  expect_change("keypoints", [](json& r) { r["keypoints"] = keypoints_at(161, 3); });
   expect_change("ids", [](json& r) { r["track_id"] = 5'000'001; });
   expect_change("ids", [](json& r) { r["id"] = r["id"].get<std::int64_t>() + 7; });
 }
@@ -139,8 +175,165 @@ TEST_F(Validate, FlowThatLeadsElsewhere) {
 }
 
 TEST_F(Validate, RecordsThatAreNone) {
+  const std::string whole = read_file(root_ / kCocoFile);
   change_person([](json& r) { r.erase("position"); });
   expect("schema", kCocoFile, "line ");
+  write_file_atomically(root_ / kCocoFile, whole);
+  change_person([](json& r) { r["segmentation"].erase("size"); });
+  expect("schema", kCocoFile, "");
+  write_file_atomically(root_ / kCocoFile, whole);
+  change_lines("\"image_id\":", [](std::string line) {
+    const std::string key = "\"area\":";
+    return line.replace(line.find(key), key.size() + 1, key + "NaN") + "\n";
+  });
+  expect("schema", kCocoFile, "line ");
+}
+
+TEST_F(Validate, VisibleKeypointsAwayFromTheMask) {
+  change_person([](json& r) {
+    const auto x = r["bbox_amodal"][0].get<double>() > 80 ? 5.0 : 150.0;
+    r["keypoints"] = keypoints_at(x, 60);
+    r["bbox_amodal"] = {0, 0, 160, 120};
+  });
+  expect("keypoints", kCocoFile, "annotation ");
+}
+
+TEST_F(Validate, IdsThatComeTwice) {
+  const std::string whole = read_file(root_ / kCocoFile);
+  const auto twice = [](const std::string& line) { return line + "\n" + line + "\n"; };
+  change_lines("\"image_id\":", twice);
+  expect("ids", kCocoFile, "annotation ");
+  write_file_atomically(root_ / kCocoFile, whole);
+  change_lines("\"file_name\":", twice);
+  expect("ids", kCocoFile, "image 1");
+}
+
+TEST_F(Validate, PeopleAndPicturesThatAreLeftOut) {
+  const std::string whole = read_file(root_ / kCocoFile);
+  change_lines("\"image_id\":", [](const std::string&) { return ""; });
+  expect("counts", kCocoFile, "image 1");
+  write_file_atomically(root_ / kCocoFile, whole);
+  json manifest = json::parse(read_file(root_ / "manifest.json"));
+  manifest["counts"] = {{"frames", 13}, {"annotations", coco().at("annotations").size()}};
+  write_file_atomically(root_ / "manifest.json", manifest.dump());
+  expect("counts", kCocoFile, "");
+}
+
+TEST_F(Validate, PicturesOfAnotherTick) {
+  const std::string whole = read_file(root_ / kCocoFile);
+  change_image([](json& r) { r["time_s"] = 0.5; });
+  expect("time", kCocoFile, "image 1");
+  write_file_atomically(root_ / kCocoFile, whole);
+  change_image([](json& r) { r["file_name"] = "images/run000/d1/000001.jpg"; });
+  expect("time", kCocoFile, "image 1");
+}
+
+TEST_F(Validate, PicturesThatAreCutOff) {
+  const fs::path image = root_ / "images/run000/d1/000001.jpg";
+  fs::resize_file(image, fs::file_size(image) * 7 / 10);
+  write_manifest();
+  expect("picture", "images/run000/d1/000001.jpg", "image 2");
+}
+
+TEST_F(Validate, PicturesThatChangedPlaces) {
+  const fs::path a = root_ / "images/run000/d1/000001.jpg";
+  const fs::path b = root_ / "images/run000/d1/000002.jpg";
+  const render::Frame other = annotate::empty_frame(160, 120);
+  write("images/run000/d1/000001.jpg", annotate::jpeg_bytes(other.rgb, 160, 120, 50));
+  fs::rename(a, folder_ / "aside");
+  fs::rename(b, a);
+  fs::rename(folder_ / "aside", b);
+  expect("manifest", "images/run000/d1/000001.jpg", "");
+}
+
+TEST_F(Validate, DensityMapsThatAreNotTheHeads) {
+  const std::string path = "density/run000/d2/000000.npy";
+  const FloatMap whole = read_npy(root_ / path);
+  const auto damaged = [&](const std::function<void(annotate::DensityMap&)>& damage) {
+    annotate::DensityMap map{whole.width, whole.height, whole.value};
+    damage(map);
+    write(path, annotate::npy_bytes(map));
+  };
+  damaged([](auto& map) {
+    for (float& value : map.value) value *= 1.01F;
+  });
+  expect("density-sum", path, "");
+  damaged([](auto& map) { map.value[7] = std::numeric_limits<float>::quiet_NaN(); });
+  expect("density-sum", path, "");
+  damaged([](auto& map) { map.value[7] = -1e-4F; });
+  expect("density-sum", path, "");
+  damaged(
+      [](auto& map) { std::rotate(map.value.begin(), map.value.begin() + 2, map.value.end()); });
+  expect("density-is-heads", path, "image 4");
+  damaged([](auto& map) { std::swap(map.width, map.height); });
+  expect("density-size", path, "");
+}
+
+TEST_F(Validate, DepthThatIsScaled) {
+  const std::string path = "depth/run000/d1/000000.png";
+  Raster depth = read_raster(root_ / path);
+  for (std::uint16_t& value : depth.samples) value = static_cast<std::uint16_t>(value * 1.01);
+  write(path, annotate::png_bytes({depth.width, depth.height, 1}, depth.samples));
+  expect("depth-of-ground", path, "image 1");
+}
+
+// As consistent as it can be made: mask, box, area and visibility.
+TEST_F(Validate, MasksThatAreAPixelWider) {
+  change_person([](json& r) {
+    const Bitmap mask =
+        bitmap_of(runs_of(r["segmentation"]["counts"].get<std::string>(), 160 * 120), 120);
+    Bitmap wide = mask;
+    wide.x = std::max(0, mask.x - 1);
+    wide.width = std::min(160, mask.x + mask.width + 1) - wide.x;
+    wide.set.clear();
+    for (int y = mask.y; y < mask.y + mask.height; ++y) {
+      for (int x = wide.x; x < wide.x + wide.width; ++x) {
+        wide.set.push_back(mask.at(x - 1, y) || mask.at(x, y) || mask.at(x + 1, y) ? 1 : 0);
+      }
+    }
+    r["segmentation"]["counts"] = counts_of(runs_of({wide}, 160, 120));
+    r["bbox"] = {wide.x, wide.y, wide.width, wide.height};
+    r["bbox_amodal"] = {0, 0, 160, 120};
+    r["area"] = wide.area();
+    r["area_amodal"] = std::max<std::uint64_t>(wide.area(), r["area_amodal"].get<std::uint64_t>());
+    r["visibility"] = static_cast<double>(wide.area()) / r["area_amodal"].get<double>();
+  });
+  expect("instances-are-masks", "instances/run000/d1/000000.png", "annotation ");
+}
+
+TEST_F(Validate, OtherFormatsThatSaySomethingElse) {
+  formats_ = {"mot", "visdrone-det", "visdrone-mot", "yolo-detect", "yolo-pose"};
+  const DatasetInfo described = info();
+  export_dataset(described, choose_formats(formats_, described.annotations, ""), root_ / "formats");
+  write_manifest();
+  const Validation validation = validate_dataset(root_);
+  ASSERT_EQ(validation.found, 0U) << validation.findings.front().file << " "
+                                  << validation.findings.front().what;
+  const auto damaged = [&](const std::string& path, const auto& damage) {
+    SCOPED_TRACE(path);
+    const std::string whole = read_file(root_ / "formats" / path);
+    std::string text = whole;
+    damage(text);
+    write("formats/" + path, text);
+    expect("formats", path, "");
+    write("formats/" + path, whole);
+  };
+  // A track's number, its whole line, a box moved by a pixel, a line too many.
+  damaged("mot/train/run000-d1/gt/gt.txt", [](std::string& text) { text.insert(2, "9"); });
+  damaged("mot/train/run000-d1/gt/gt.txt",
+          [](std::string& text) { text.erase(0, text.find('\n') + 1); });
+  damaged("mot/train/run001-d2/gt/gt.txt",
+          [](std::string& text) { text += "3,77,1,1,5,5,1,1,1\n"; });
+  const auto next_digit = [](std::string& text) {
+    char& digit = text[text.find(',') - 1];
+    digit = digit == '9' ? '8' : static_cast<char>(digit + 1);
+  };
+  damaged("visdrone-det/train/annotations/run000-d1-000000.txt", next_digit);
+  damaged("visdrone-mot/train/annotations/run001-d1.txt", next_digit);
+  damaged("yolo-detect/labels/train/run000-d1-000000.txt",
+          [](std::string& text) { text.replace(4, 1, text[4] == '5' ? "6" : "5"); });
+  damaged("yolo-pose/labels/train/run000-d1-000000.txt",
+          [](std::string& text) { text += text.substr(0, text.find('\n') + 1); });
 }
 
 TEST_F(Validate, AFolderThatIsNoDatasetIsRefused) {
