@@ -235,13 +235,8 @@ class GoOn : public ceres::IterationCallback {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// J'J and how many rows J has.
-struct Normal {
-  Sparse matrix;
-  std::size_t rows = 0;
-};
-
-Normal normal_matrix(CeresProblem& ceres) {
+/// J'J at the solution.
+Sparse normal_matrix(CeresProblem& ceres) {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = ceres.free_blocks();
   options.apply_loss_function = false;
@@ -251,7 +246,7 @@ Normal normal_matrix(CeresProblem& ceres) {
   const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> jacobian(
       crs.num_rows, crs.num_cols, static_cast<Eigen::Index>(crs.values.size()), crs.rows.data(),
       crs.cols.data(), crs.values.data());
-  return {Sparse(jacobian.transpose() * jacobian), static_cast<std::size_t>(crs.num_rows)};
+  return jacobian.transpose() * jacobian;
 }
 
 /// Largest entries of the direction in which the scaled matrix is (nearly) singular.
@@ -313,6 +308,27 @@ Vector2d Adjustment::residual(const Observation& observation) const {
   return pixel - observation.pixel;
 }
 
+std::ptrdiff_t Adjustment::surplus() const {
+  std::vector<bool> point_seen(points.size(), false);
+  std::vector<bool> view_seen(poses.size(), false);
+  std::ptrdiff_t count = 0;
+  for (const Observation& seen : observations) {
+    if (!seen.used) continue;
+    count += 2;
+    point_seen[seen.point] = true;
+    view_seen[seen.view] = true;
+  }
+  for (std::size_t i = 0; i < kParameters; ++i) {
+    count += (rules.priors[i] ? 1 : 0) - (rules.free[i] ? 1 : 0);
+  }
+  count -= kPoseNumbers * std::count(view_seen.begin(), view_seen.end(), true);
+  // One that is measured has as many equations of its own as unknowns.
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (point_seen[i] && !points[i].sd) count -= kPointNumbers;
+  }
+  return count;
+}
+
 SolveReport solve(Adjustment& adjustment, const SolveOptions& options) {
   // A step that fails is tried smaller; nobody needs to read of it.
   FLAGS_minloglevel = google::GLOG_FATAL;
@@ -324,7 +340,7 @@ SolveReport solve(Adjustment& adjustment, const SolveOptions& options) {
   solver.linear_solver_ordering = ceres.ordering();
   solver.max_num_iterations = options.most_iterations;
   constexpr double kTolerance = 1e-14;
-  solver.function_tolerance = kTolerance;
+  solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = kTolerance;
   solver.gradient_tolerance = kTolerance;
   solver.num_threads = 1;
@@ -344,11 +360,9 @@ Linearisation linearise(const Adjustment& adjustment) {
   CeresProblem ceres(adjustment, 0);
   Linearisation result;
   if (ceres.lens_unknowns() > 0) result.places = adjustment.rules.free_places();
-  const Normal normal = normal_matrix(ceres);
-  const Eigen::Index count = normal.matrix.rows();
-  result.unknowns = static_cast<std::size_t>(count);
-  result.equations = normal.rows;
-  const Eigen::VectorXd diagonal = normal.matrix.diagonal();
+  const Sparse normal = normal_matrix(ceres);
+  const Eigen::Index count = normal.rows();
+  const Eigen::VectorXd diagonal = normal.diagonal();
   std::vector<Eigen::Index> empty;
   for (Eigen::Index i = 0; i < count; ++i) {
     if (!(diagonal[i] > 0)) empty.push_back(i);
@@ -358,7 +372,7 @@ Linearisation linearise(const Adjustment& adjustment) {
     return result;
   }
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Sparse scaled = scale.asDiagonal() * normal.matrix * scale.asDiagonal();
+  const Sparse scaled = scale.asDiagonal() * normal * scale.asDiagonal();
   const Eigen::SimplicialLDLT<Sparse> factors(scaled);
   // What rounding leaves of a pivot that ought to be 0.
   constexpr double kNothing = 1e-13;

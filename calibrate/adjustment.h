@@ -50,12 +50,18 @@ struct Adjustment {
   double sigma_px = 1;
 
   Eigen::Vector2d residual(const Observation& observation) const;  ///< shown - observed; NaN behind
+
+  /// Numbers observed (priors included) beyond those to be found: lens, poses, points.
+  std::ptrdiff_t surplus() const;
 };
 
 struct SolveOptions {
   /// Cauchy's loss with this scale (px); 0: plain least squares.
   double loss_px = 0;
   int most_iterations = 100;
+  /// Ends when a step makes the cost smaller by a smaller share: parameters are then within about
+  /// its root of a standard deviation.
+  double tolerance = 1e-12;
   /// Asked after every step whether to go on; false ends with Cancelled.
   std::function<bool()> go_on = {};
 };
@@ -80,8 +86,6 @@ struct Linearisation {
   /// What the data leave open: places of lens parameters.
   std::vector<std::size_t> undetermined;
   bool poses_determined = true;
-  std::size_t unknowns = 0;   ///< free numbers: lens, poses, points
-  std::size_t equations = 0;  ///< residuals, priors included
 };
 Linearisation linearise(const Adjustment& adjustment);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <opencv2/aruco/charuco.hpp>
@@ -46,13 +47,12 @@ double smallest_spacing(const std::vector<cv::Point2f>& corners, int columns) {
   return least;
 }
 
-void refine(const cv::Mat& image, double spacing_px, std::vector<cv::Point2f>& corners) {
-  // Wider than nearly half a square, a window holds the next corner, too, and is drawn to it.
-  constexpr double kShare = 0.45;
+/// `clear_px`: how far from a corner there is nothing but its own edges.
+void refine(const cv::Mat& image, double clear_px, std::vector<cv::Point2f>& corners) {
   constexpr int kWidest = 11;
   constexpr int kMostSteps = 100;
   constexpr double kPrecise = 1e-4;
-  const int half = std::clamp(static_cast<int>(kShare * spacing_px), 2, kWidest);
+  const int half = std::clamp(static_cast<int>(clear_px), 2, kWidest);
   cv::cornerSubPix(
       image, corners, cv::Size(half, half), cv::Size(-1, -1),
       cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kMostSteps, kPrecise));
@@ -111,7 +111,10 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
   const std::optional<cv::Size> there = size_of_any_chessboard(small.image);
   const bool fits = there && ((there->width == size.width && there->height == size.height) ||
                               (there->width == size.height && there->height == size.width));
-  const bool larger = there && there->area() > size.area();
+  // What looks like another row may be a shadow at the border: the other method has to see it, too.
+  std::vector<cv::Point2f> others;
+  const bool larger = there && found && there->area() > size.area() &&
+                      cv::findChessboardCorners(small.image, *there, others);
   if (there && !fits && (larger || !found)) {
     return no_board(
         name, board,
@@ -124,7 +127,9 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
     corner = (corner + cv::Point2f(0.5F, 0.5F)) / static_cast<float>(small.scale) -
              cv::Point2f(0.5F, 0.5F);
   }
-  refine(image, smallest_spacing(corners, board.columns), corners);
+  // Wider than nearly half a square, a window holds the next corner, too, and is drawn to it.
+  constexpr double kClearShare = 0.45;
+  refine(image, kClearShare * smallest_spacing(corners, board.columns), corners);
   return view_of(name, board_points(board), corners);
 }
 
@@ -171,6 +176,13 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
     return no_board(name, board,
                     fmt::format("{} markers and {} corners", ids.size(), corners.size()));
   }
+  // OpenCV 4.6 refines them, and counts from the pixel's corner. The markers must stay outside.
+  double spacing = INFINITY;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    spacing = std::min<double>(
+        spacing, std::hypot(corners[i].x - corners[i - 1].x, corners[i].y - corners[i - 1].y));
+  }
+  refine(image, 0.5 * (1 - marker_of(board) / board.square) * spacing, corners);
   std::vector<Eigen::Vector3d> points;
   for (const int id : corner_ids) {
     points.push_back(board_points(board)[static_cast<std::size_t>(id)]);

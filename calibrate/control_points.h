@@ -30,8 +30,8 @@ struct NamedPixel {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
-/// Reads the columns point, u, v and, if there, image (without it, all are of one image, ""). Throws
-/// InputError as above, also for a point that an image shows twice.
+/// Reads the columns point, u, v and, if there, image (without it, all are of one image, "").
+/// Throws InputError as above, also for a point that an image shows twice.
 std::vector<NamedPixel> read_named_pixels(const std::filesystem::path& file);
 
 }  // namespace throng::calibrate

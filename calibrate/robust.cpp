@@ -11,6 +11,8 @@ namespace {
 /// Scale of the loss under which outliers are looked for (px): they are pixels off, corners a few
 /// tenths.
 constexpr double kSearchLossPx = 1;
+/// Good enough to tell them.
+constexpr double kSearchTolerance = 1e-4;
 
 std::vector<double> view_sigmas(const Adjustment& adjustment,
                                 const std::vector<Eigen::Vector2d>& residuals, double& overall) {
@@ -69,16 +71,21 @@ bool weighs_knowledge(const Adjustment& adjustment) {
                      [](const WorldPoint& point) { return point.sd && *point.sd > 0; });
 }
 
-void solve_without_outliers(Adjustment& adjustment, const FitOptions& options, Fit& fit) {
-  SolveOptions plain{options.loss_px, 100, options.go_on};
+/// `first`: nothing is known of outliers yet.
+void solve_without_outliers(Adjustment& adjustment, const FitOptions& options, bool first,
+                            Fit& fit) {
+  SolveOptions plain;
+  plain.loss_px = options.loss_px;
+  plain.go_on = options.go_on;
   const auto run = [&](const SolveOptions& how) {
     const SolveReport report = solve(adjustment, how);
     fit.converged = report.converged;
     fit.iterations += report.iterations;
   };
-  if (options.reject) {
+  if (options.reject && first) {
     SolveOptions search = plain;
     search.loss_px = kSearchLossPx;
+    search.tolerance = kSearchTolerance;
     run(search);
     mark_outliers(adjustment, options.outlier_px);
   }
@@ -105,26 +112,27 @@ Fit fit(Adjustment& adjustment, const FitOptions& options) {
   Fit result;
   const double sigma_before = adjustment.sigma_px;
   adjustment.sigma_px = options.sigma_px.value_or(sigma_before);
-  solve_without_outliers(adjustment, options, result);
+  solve_without_outliers(adjustment, options, true, result);
   constexpr double kLeastSigmaPx = 1e-6;
   const auto estimate = [&] {
-    result.derivatives = linearise(adjustment);
-    const auto& d = result.derivatives;
-    const double sum = sum_of_squares(adjustment);
-    result.sigma_px = d.equations > d.unknowns
-                          ? std::sqrt(sum / static_cast<double>(d.equations - d.unknowns))
+    const std::ptrdiff_t surplus = adjustment.surplus();
+    result.sigma_px = surplus > 0
+                          ? std::sqrt(sum_of_squares(adjustment) / static_cast<double>(surplus))
                           : std::numeric_limits<double>::quiet_NaN();
-    if (!options.sigma_px && result.sigma_px > kLeastSigmaPx) adjustment.sigma_px = result.sigma_px;
-  };
-  estimate();
-  if (!options.sigma_px && weighs_knowledge(adjustment)) {
-    constexpr int kRounds = 2;
-    for (int i = 0; i < kRounds; ++i) {
-      solve_without_outliers(adjustment, options, result);
-      estimate();
+    const double before = adjustment.sigma_px;
+    if (!options.sigma_px && surplus > 0) {
+      adjustment.sigma_px = std::max(result.sigma_px, kLeastSigmaPx);
     }
+    return std::abs(adjustment.sigma_px / before - 1);
+  };
+  double change = estimate();
+  constexpr double kSame = 0.05;
+  constexpr int kRounds = 3;
+  for (int i = 0; i < kRounds && change > kSame && weighs_knowledge(adjustment); ++i) {
+    solve_without_outliers(adjustment, options, false, result);
+    change = estimate();
   }
-  if (!options.sigma_px) result.derivatives = linearise(adjustment);
+  result.derivatives = linearise(adjustment);
   for (const Observation& seen : adjustment.observations) {
     ++(seen.used ? result.used : result.rejected);
   }

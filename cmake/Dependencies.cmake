@@ -59,7 +59,7 @@ endforeach()
 
 # What finds calibration boards in pictures, for the room that does.
 add_library(throng_opencv_calib INTERFACE)
-foreach(module IN ITEMS imgcodecs calib3d aruco)
+foreach(module IN ITEMS imgcodecs calib3d features2d aruco)
   find_library(OPENCV_${module} opencv_${module} REQUIRED)
   target_link_libraries(throng_opencv_calib INTERFACE "${OPENCV_${module}}")
 endforeach()

@@ -1,0 +1,53 @@
+// A calibration as it is asked for, on the command line and over HTTP, and its way to a result.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/board.h"
+#include "calibrate/calibration.h"
+#include "calibrate/intrinsics.h"
+
+namespace throng::calibrate {
+
+struct Request {
+  std::string kind = "intrinsics";            ///< or "pose" or "bundle"
+  std::vector<std::filesystem::path> images;  ///< of a board
+  Board board;
+  std::filesystem::path points;          ///< intrinsics, instead of images: image,i,X,Y,Z,u,v
+  std::filesystem::path observations;    ///< pose, bundle: image,point,u,v
+  std::filesystem::path control_points;  ///< pose, bundle: point,X,Y,Z[,sd]
+  std::optional<ImageSize> size;         ///< of what tables speak of
+  /// pose: the lens; bundle: what it starts from.
+  std::filesystem::path camera;
+  bool fix_lens = false;  ///< bundle: leave the lens as it is
+  IntrinsicsOptions options;
+};
+
+/// Reads what a client sent; paths are below `folder`, where its files lie. Throws InputError with
+/// JSON pointers.
+Request request_from_json(const nlohmann::json& value, const std::filesystem::path& folder);
+
+/// `done` of `total` of the work, and what it is.
+using OnProgress = std::function<void(double share, const std::string& what)>;
+
+/// Throws InputError, EnvironmentError (a file cannot be read) and Cancelled (by
+/// options.fit.go_on).
+Calibration carry_out(const Request& request, const OnProgress& on_progress = {});
+
+/// What carry_out_in() writes beside the request.
+inline constexpr const char* kCameraName = "camera.json";
+inline constexpr const char* kOpenCvName = "opencv.yaml";
+inline constexpr const char* kRosName = "ros.yaml";
+inline constexpr const char* kPictureName = "residuals.svg";
+
+/// Reads folder/request.json, whose files lie in folder/files, and writes the results into the
+/// folder, the camera last. Throws as carry_out().
+void carry_out_in(const std::filesystem::path& folder, const OnProgress& on_progress,
+                  const std::function<bool()>& go_on);
+
+}  // namespace throng::calibrate
