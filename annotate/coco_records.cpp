@@ -189,6 +189,12 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
   append(text, R"("segmentation":{{"size":[{},{}],"counts":")", image.camera.intrinsics.height,
          image.camera.intrinsics.width);
   append_counts(text, label.mask);
+  if (label.person.whole_mask != nullptr) {
+    append(text, R"("}},"amodal_segmentation":{{"size":[{},{}],"counts":")",
+           image.camera.intrinsics.height, image.camera.intrinsics.width);
+    append_counts(text, run_lengths(*label.person.whole_mask, image.camera.intrinsics.width,
+                                    image.camera.intrinsics.height));
+  }
   const Eigen::AlignedBox2d& amodal = label.person.amodal_box;
   const Eigen::Vector2d size = amodal.sizes();
   append(text, R"("}},"track_id":{},"bbox_amodal":)", track_id(image, label.agent));

@@ -235,6 +235,36 @@ FrameLabels label_people(const render::Frame& frame) {
   return labels;
 }
 
+RunLengths run_lengths(const render::PixelMask& mask, int width, int height) {
+  RunLengths lengths = {0};
+  bool is_set = false;
+  std::uint64_t at = 0;  // pixels that are in runs
+  const auto run_to = [&](std::uint64_t position) {
+    lengths.back() += static_cast<std::uint32_t>(position - at);
+    at = position;
+  };
+  const auto rows = static_cast<std::uint64_t>(height);
+  const auto switch_at = [&](int x, int y) {
+    run_to(static_cast<std::uint64_t>(x) * rows + static_cast<std::uint64_t>(y));
+    lengths.push_back(0);
+    is_set = !is_set;
+  };
+  if (!mask.set.empty()) {
+    for (int x = mask.pixels.min().x(); x < mask.pixels.max().x(); ++x) {
+      for (int y = mask.pixels.min().y(); y < mask.pixels.max().y(); ++y) {
+        if (mask.at(x, y) != is_set) switch_at(x, y);
+      }
+      // Below the mask nothing is set; a run that ends with its column may go on in the next.
+      if (is_set && mask.pixels.max().y() < height) switch_at(x, mask.pixels.max().y());
+      const bool goes_on = is_set && mask.at(x + 1, 0);
+      if (is_set && !goes_on) switch_at(x + 1, 0);
+    }
+  }
+  run_to(static_cast<std::uint64_t>(width) * rows);
+  if (lengths.size() > 1 && lengths.back() == 0) lengths.pop_back();
+  return lengths;
+}
+
 std::string coco_counts(const RunLengths& runs) {
   std::string text;
   text.reserve(2 * runs.size() + 8);

@@ -57,6 +57,9 @@ struct FrameLabels {
 /// One pass over the id buffer. Everybody who shows there must be in Frame::people (else check()).
 FrameLabels label_people(const render::Frame& frame);
 
+/// A mask's runs in COCO's order in an image of this size, which it lies in.
+RunLengths run_lengths(const render::PixelMask& mask, int width, int height);
+
 /// COCO's compressed counts string (see docs/formats.md).
 std::string coco_counts(const RunLengths& runs);
 

@@ -7,6 +7,7 @@
 
 #include "annotate/coco.h"
 #include "annotate/density.h"
+#include "annotate/keypoints.h"
 #include "annotate/labels.h"
 #include "annotate/preview.h"
 #include "tests/annotate/synthetic_frame.h"
@@ -26,6 +27,13 @@ const render::Frame& frame_with(std::int64_t people) {
     scene.min_size_px = people > 1000 ? 5 : 15;
     scene.max_size_px = people > 1000 ? 15 : 40;
     entry->second = synthetic_frame(scene);
+    entry->second.depth_m.assign(entry->second.id.size(), 9);
+    for (render::PersonInView& person : entry->second.people) {
+      for (std::size_t i = 0; i < person.keypoints.size(); ++i) {
+        const auto shift = 0.1F * static_cast<float>(i);
+        person.keypoints[i] = person.hips.cast<float>() + Eigen::Vector3f(shift, -shift, shift / 3);
+      }
+    }
   }
   return entry->second;
 }
@@ -92,16 +100,41 @@ void coco_add(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 
+void keypoints(benchmark::State& state) {
+  const render::Frame& frame = frame_with(state.range(0));
+  FrameLabels labels = label_people(frame);
+  for (auto _ : state) add_keypoints(frame, labels);
+  state.SetItemsProcessed(state.iterations());
+}
+
 // Boxes, masks, visibility, density and the COCO records: all but the picture.
-void annotate_frame(benchmark::State& state) {
+void annotate_all(benchmark::State& state, bool with_keypoints) {
   const render::Frame& frame = frame_with(state.range(0));
   CocoImage image = image_of(frame);
   ScratchShard shard;
   for (auto _ : state) {
     ++image.id;
-    shard.writer().add(image, label_people(frame));
+    FrameLabels labels = label_people(frame);
+    if (with_keypoints) add_keypoints(frame, labels);
+    shard.writer().add(image, labels);
     benchmark::DoNotOptimize(
         npy_bytes(density_map(heads_of(frame), frame.width(), frame.height(), 4)));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+void annotate_frame(benchmark::State& state) { annotate_all(state, false); }
+void annotate_with_keypoints(benchmark::State& state) { annotate_all(state, true); }
+
+// Each head's kernel as wide as its three nearest neighbours say, from 2 to 40 px.
+void density_adaptive(benchmark::State& state) {
+  const render::Frame& frame = frame_with(state.range(0));
+  const auto heads = heads_of(frame);
+  std::vector<double> sigmas;
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    sigmas.push_back(2 + 38 * static_cast<double>(i % 20) / 20);
+  }
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(density_map(heads, sigmas, frame.width(), frame.height()));
   }
   state.SetItemsProcessed(state.iterations());
 }
@@ -129,7 +162,10 @@ void sizes(benchmark::internal::Benchmark* bench) {
 BENCHMARK(label)->Name("BM_Label")->Apply(sizes);
 BENCHMARK(density)->Name("BM_Density")->Apply(sizes);
 BENCHMARK(coco_add)->Name("BM_CocoAdd")->Apply(sizes);
+BENCHMARK(keypoints)->Name("BM_Keypoints")->Apply(sizes);
 BENCHMARK(annotate_frame)->Name("BM_Annotate")->Apply(sizes);
+BENCHMARK(annotate_with_keypoints)->Name("BM_AnnotateKeypoints")->Apply(sizes);
+BENCHMARK(density_adaptive)->Name("BM_DensityOfManyWidths")->Apply(sizes);
 BENCHMARK(preview)->Name("BM_Preview")->Apply(sizes);
 BENCHMARK(jpeg)->Name("BM_Jpeg")->Apply(sizes);
 

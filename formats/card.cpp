@@ -18,6 +18,10 @@ constexpr int kCardVersion = 1;
 constexpr const char* kPeopleLicence =
     "CC0-1.0 for those that throng people build makes; see NOTICE.txt beside the baked people";
 
+/// Grounds, walls, sky and props are drawn from formulas.
+constexpr const char* kPlaceLicence =
+    "no third party's: textures and shapes are computed; mesh files of a scenario have their own";
+
 /// "00016-00032": the class of a value between two borders, in names that sort.
 std::string band_of(double value, std::span<const int> borders) {
   for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
@@ -46,6 +50,8 @@ std::string weather_of(const json& record) {
 const std::map<std::string, std::string>& places() {
   static const std::map<std::string, std::string> table = {
       {"coco", "annotations/instances.json"},
+      {"keypoints", "annotations/instances.json: keypoints, keypoints_3d"},
+      {"amodal", "annotations/instances.json: amodal_segmentation"},
       {"density", "density/RUN/CAMERA/FRAME.npy: people per pixel, float32"},
       {"exits", "exits/RUN.csv"},
       {"fields",
@@ -187,7 +193,8 @@ json DatasetCard::description() const {
         {"world", "right-handed, metres, z up, the ground is z = 0"},
         {"camera", "x right, y down, z forward"},
         {"time", "seconds since the run began; label and picture are of the same instant"}}},
-      {"licence", {{"people", kPeopleLicence}}},
+      {"licence", {{"people", kPeopleLicence}, {"place", kPlaceLicence}}},
+      {"people", manifest_.value("people", json::object())},
       {"job", manifest_.at("job")}};
 }
 
@@ -205,7 +212,7 @@ std::string DatasetCard::readme() const {
     text += fmt::format("| {} | {} |\n", kind, place.get<std::string>());
   }
   for (const auto& [name, place] : card.at("formats").items()) {
-    text += fmt::format("| {} | {}/ |\n", name, place.get<std::string>());
+    text += fmt::format("| format {} | {}/ |\n", name, place.get<std::string>());
   }
   text += kCocoSnippet;
   if (info_.has("density")) text += kDensitySnippet;

@@ -38,6 +38,9 @@ void check_people(const Image& image, Findings& findings);
 /// One picture's files: its size, its density map and its values per pixel, against its people.
 void check_files(const DatasetInfo& info, const Image& image, Findings& findings);
 
+/// R is a rotation, and the centre is where R and t put it.
+void check_camera(const Image& image, Findings& findings);
+
 /// A density map against the heads of the records.
 void check_density_is_heads(const Image& image, const std::string& path, const FloatMap& map,
                             double sigma_px, Findings& findings);

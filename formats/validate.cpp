@@ -134,6 +134,7 @@ Validation validate_dataset(const fs::path& root) {
       validation.annotations += image.people.size();
       ids.add(info, image, findings);
       check_time(info, image, findings);
+      check_camera(image, findings);
       other_formats.add(info, image, findings);
       const std::size_t before = validation.found;
       check_people(image, findings);

@@ -52,6 +52,44 @@ bool check_mask(const Image& image, const Person& person, Findings& findings) {
   return true;
 }
 
+/// The mask of the whole person, if there is one: it holds the visible one, and has as many pixels
+/// as the person covers, unless some of these are outside of the image.
+void check_whole_mask(const Image& image, const Person& person, Findings& findings) {
+  const auto found = person.record.find("amodal_segmentation");
+  if (found == person.record.end()) return;
+  const auto pixels =
+      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  Bitmap whole;
+  try {
+    whole = bitmap_of(runs_of(found->at("counts").get<std::string>(), pixels), image.height);
+  } catch (const InputError& error) {
+    findings.add("mask-runs", person, error.problems().front().expected);
+    return;
+  }
+  const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
+  for (int y = mask.y; y < mask.y + mask.height; ++y) {
+    for (int x = mask.x; x < mask.x + mask.width; ++x) {
+      if (!mask.at(x, y) || whole.at(x, y)) continue;
+      findings.add("visible-in-amodal", person, "the visible mask leaves amodal_segmentation");
+      return;
+    }
+  }
+  const double area = person.record.at("area_amodal").get<double>();
+  const auto covered = static_cast<double>(whole.area());
+  const Box& box = person.amodal;
+  const bool is_inside = box.x >= 0 && box.y >= 0 && box.x + box.width <= image.width &&
+                         box.y + box.height <= image.height;
+  if (covered > area || (is_inside && covered < area)) {
+    findings.add(
+        "area-is-mask", person,
+        fmt::format("area_amodal {}, but amodal_segmentation has {} pixels", area, covered));
+  }
+  if (!holds(box, whole.x, whole.y, kBoxSlackPx) ||
+      !holds(box, whole.x + whole.width, whole.y + whole.height, kBoxSlackPx)) {
+    findings.add("visible-in-amodal", person, "amodal_segmentation leaves bbox_amodal");
+  }
+}
+
 void check_box(const Image& image, const Person& person, Findings& findings) {
   const Box& box = person.box;
   if (!(box.width > 0 && box.height > 0 && person.amodal.width > 0 && person.amodal.height > 0)) {
@@ -159,7 +197,10 @@ void check_people(const Image& image, Findings& findings) {
     const bool is_whole = check_mask(image, person, findings);
     check_visibility(person, findings);
     check_keypoints(image, person, findings);
-    if (is_whole) check_visible_keypoints(image, person, findings);
+    if (is_whole) {
+      check_visible_keypoints(image, person, findings);
+      check_whole_mask(image, person, findings);
+    }
     if (plain) check_projection(image, person, findings);
   }
   if (const auto counts = image.record.find("counts"); counts != image.record.end()) {

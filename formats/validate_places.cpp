@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -35,6 +36,20 @@ void check_density_is_heads(const Image& image, const std::string& path, const F
                  fmt::format("{} at pixel ({}, {}), but the heads give {}", map.value[i], i % width,
                              i / width, expected.value[i]));
     return;
+  }
+}
+
+void check_camera(const Image& image, Findings& findings) {
+  constexpr double kSlack = 1e-6;
+  const nlohmann::json& written = image.record.at("camera").at("centre");
+  const Eigen::Vector3d centre(written.at(0).get<double>(), written.at(1).get<double>(),
+                               written.at(2).get<double>());
+  const bool turns =
+      (image.R * image.R.transpose() - Eigen::Matrix3d::Identity()).norm() < kSlack &&
+      image.R.determinant() > 0;
+  if (!turns || !((image.R * centre + image.t).norm() < kSlack * (1 + centre.norm()))) {
+    findings.add("camera", kCocoFile, fmt::format("image {}", image.id),
+                 turns ? "the camera's centre is not where R and t put it" : "R is no rotation");
   }
 }
 

@@ -193,6 +193,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   options.normals = wants(job, "normals");
   options.flow = wants(job, "flow");
   options.parts = wants(job, "parts");
+  options.whole_masks = wants(job, "coco") && wants(job, "amodal");
   options.clock = clock ? &*clock : nullptr;
   render::Renderer renderer(scenario, population, environment.light, {}, options);
   Shoot shoot(job, seed, trace, population, renderer, options.clock);

@@ -76,8 +76,8 @@ std::uint64_t CoverageCounter::covered_in(const Tile& tile, const PixelWeights* 
 void CoverageCounter::draw_and_add(PeoplePass& pass, std::span<const PersonInstance> people,
                                    std::span<const CoverageRequest> requests,
                                    std::span<const Tile> tiles, int used_rows,
-                                   const PixelWeights* weights,
-                                   std::vector<std::uint64_t>& counts) {
+                                   const PixelWeights* weights, std::vector<std::uint64_t>& counts,
+                                   std::span<PixelMask> masks) {
   const std::array<float, 4> nothing{};
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, nothing.data());
   std::vector<PersonDraw> draws;
@@ -89,14 +89,27 @@ void CoverageCounter::draw_and_add(PeoplePass& pass, std::span<const PersonInsta
   pass.draw(PeoplePass::Purpose::coverage, people, std::move(draws));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, kAtlasSize, used_rows, GL_RED, GL_UNSIGNED_BYTE, pixels_.data());
-  for (const Tile& tile : tiles) counts[tile.request] += covered_in(tile, weights);
+  for (const Tile& tile : tiles) {
+    counts[tile.request] += covered_in(tile, weights);
+    if (!masks.empty()) add_to_mask(tile, masks[tile.request]);
+  }
+}
+
+void CoverageCounter::add_to_mask(const Tile& tile, PixelMask& mask) const {
+  for (int y = 0; y < tile.size.y(); ++y) {
+    const std::size_t first = static_cast<std::size_t>(tile.atlas.y() + y) * kAtlasSize +
+                              static_cast<std::size_t>(tile.atlas.x());
+    add_covered(std::span(pixels_).subspan(first, static_cast<std::size_t>(tile.size.x())),
+                tile.image + Eigen::Vector2i(0, y), mask);
+  }
 }
 
 std::vector<std::uint64_t> CoverageCounter::count(PeoplePass& pass,
                                                   std::span<const PersonInstance> people,
                                                   std::span<const CoverageRequest> requests,
                                                   const camera::Camera& camera,
-                                                  const PixelWeights* weights) {
+                                                  const PixelWeights* weights,
+                                                  std::span<PixelMask> masks) {
   std::vector<std::uint64_t> counts(requests.size(), 0);
   if (requests.empty()) return counts;
   const Viewport viewport = guarded_viewport(kAtlasSize, kAtlasSize);
@@ -111,7 +124,7 @@ std::vector<std::uint64_t> CoverageCounter::count(PeoplePass& pass,
     int used_rows = 0;
     const std::size_t end = place(tiles, first, used_rows);
     draw_and_add(pass, people, requests, std::span(tiles).subspan(first, end - first), used_rows,
-                 weights, counts);
+                 weights, counts, masks);
     first = end;
   }
   return counts;

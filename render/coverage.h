@@ -11,6 +11,7 @@
 #include "camera/camera.h"
 #include "render/gl_objects.h"
 #include "render/people_pass.h"
+#include "render/pixel_mask.h"
 #include "render/pixel_weights.h"
 
 namespace throng::render {
@@ -26,11 +27,13 @@ class CoverageCounter {
   CoverageCounter();
 
   /// Covered pixels for each request, also those outside the image, counted as `weights` say or
-  /// once each. Leaves its own target, viewport and View block bound.
+  /// once each; `masks`, if given, one for each request, get those that lie in them. Leaves its own
+  /// target, viewport and View block bound.
   std::vector<std::uint64_t> count(PeoplePass& pass, std::span<const PersonInstance> people,
                                    std::span<const CoverageRequest> requests,
                                    const camera::Camera& camera,
-                                   const PixelWeights* weights = nullptr);
+                                   const PixelWeights* weights = nullptr,
+                                   std::span<PixelMask> masks = {});
 
  private:
   /// A part of a request's bounds that fits the atlas, and where it lies there.
@@ -47,7 +50,9 @@ class CoverageCounter {
   std::uint64_t covered_in(const Tile& tile, const PixelWeights* weights) const;
   void draw_and_add(PeoplePass& pass, std::span<const PersonInstance> people,
                     std::span<const CoverageRequest> requests, std::span<const Tile> tiles,
-                    int used_rows, const PixelWeights* weights, std::vector<std::uint64_t>& counts);
+                    int used_rows, const PixelWeights* weights, std::vector<std::uint64_t>& counts,
+                    std::span<PixelMask> masks);
+  void add_to_mask(const Tile& tile, PixelMask& mask) const;
 
   Texture atlas_;
   Framebuffer framebuffer_;

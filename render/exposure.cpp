@@ -127,6 +127,9 @@ class PeopleInStrips {
       ++known.strips;
       known.area_px += area_px;
       known.box.extend(person.amodal_box);
+      if (person.whole_mask != nullptr) {
+        known.whole = union_of(known.whole, *person.whole_mask);
+      }
       see_head(strip.camera, person.head, rows, known);
       see_keypoints(strip.camera, person, rows, known);
     }
@@ -140,6 +143,9 @@ class PeopleInStrips {
       people.back().amodal_area_px = known.area_px;
       people.back().head_px = known.head_px;
       people.back().keypoints_px = known.keypoints_px;
+      if (known.person.whole_mask != nullptr) {
+        people.back().whole_mask = std::make_shared<PixelMask>(known.whole);
+      }
     }
     return people;
   }
@@ -151,6 +157,7 @@ class PeopleInStrips {
     int strips = 0;
     std::uint64_t area_px = 0;
     Eigen::AlignedBox2d box;
+    PixelMask whole;
     std::optional<Vector2d> head_px;
     double head_off_rows = std::numeric_limits<double>::infinity();
     skinning::Keypoints keypoints_px =

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "camera/camera.h"
+#include "render/pixel_mask.h"
 #include "skinning/landmarks.h"
 
 namespace throng::render {
@@ -64,6 +66,9 @@ struct PersonInView {
   /// Like head_px, of the keypoints: x and y in box coordinates and the camera's z (m); NaN where
   /// the camera sees nothing.
   std::optional<skinning::Keypoints> keypoints_px = std::nullopt;
+  /// What of the image the person would cover were nothing in front of it; null unless
+  /// RenderOptions asks for it.
+  std::shared_ptr<const PixelMask> whole_mask = nullptr;
 };
 
 /// The middle of a person's head in a frame of this camera, in box coordinates, also if hidden;

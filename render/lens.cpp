@@ -286,8 +286,7 @@ struct Lens::Known {
   bool is_of(const camera::Intrinsics& other, const Rows& others) const {
     return lens.width == other.width && lens.height == other.height && lens.fx_px == other.fx_px &&
            lens.fy_px == other.fy_px && lens.cx_px == other.cx_px && lens.cy_px == other.cy_px &&
-           lens.skew_px == other.skew_px &&
-           lens.distortion->model() == other.distortion->model() &&
+           lens.skew_px == other.skew_px && lens.distortion->model() == other.distortion->model() &&
            lens.distortion->coefficients() == other.distortion->coefficients() &&
            rows.first == others.first && rows.end == others.end;
   }
@@ -308,6 +307,36 @@ const LensMap& Lens::map_of(const camera::Intrinsics& lens, const Rows& rows) {
   known_.push_back(std::make_unique<Known>(Known{lens, rows, lens_map(lens, rows)}));
   return known_.back()->map;
 }
+
+namespace {
+
+/// A mask of a picture of rows, or of a wide picture, as pixels of the image.
+PixelMask seen_through(const LensMap* map, const camera::Intrinsics& lens, const Rows& rows,
+                       const PersonInView& person) {
+  const PixelMask& drawn = *person.whole_mask;
+  Eigen::AlignedBox2i bounds(Eigen::Vector2i(0, rows.first), Eigen::Vector2i(lens.width, rows.end));
+  const Eigen::AlignedBox2d& box = person.amodal_box;
+  bounds = bounds.intersection(Eigen::AlignedBox2i(box.min().array().floor().cast<int>() - 1,
+                                                   box.max().array().ceil().cast<int>() + 1));
+  PixelMask mask(bounds);
+  if (mask.set.empty()) return mask;
+  for (int y = bounds.min().y(); y < bounds.max().y(); ++y) {
+    for (int x = bounds.min().x(); x < bounds.max().x(); ++x) {
+      Eigen::Vector2i at(x, y - rows.first);
+      if (map != nullptr) {
+        const std::size_t pixel =
+            static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(lens.width) +
+            static_cast<std::size_t>(x);
+        at = {static_cast<int>(std::lround(map->position[2 * pixel])),
+              static_cast<int>(std::lround(map->position[2 * pixel + 1]))};
+      }
+      if (drawn.at(at.x(), at.y())) mask.put(x, y);
+    }
+  }
+  return mask;
+}
+
+}  // namespace
 
 Frame Lens::draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next) {
   return draw_rows(scene, camera, {0, camera.intrinsics.height}, next);
@@ -334,6 +363,10 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
   }
   frame.camera = camera;
   measure_boxes(scene, rows, frame);
+  for (PersonInView& person : frame.people) {
+    if (person.whole_mask == nullptr) continue;
+    person.whole_mask = std::make_shared<PixelMask>(seen_through(map, lens, rows, person));
+  }
   return frame;
 }
 

@@ -53,6 +53,19 @@ Eigen::AlignedBox2i pixels_of(const Eigen::AlignedBox2d& box) {
   return {box.min().array().floor().cast<int>() - 1, box.max().array().ceil().cast<int>() + 1};
 }
 
+/// Sets what shows a person.
+void add_visible(const Frame& frame, std::uint32_t agent, PixelMask& mask) {
+  if (mask.set.empty()) return;
+  for (int y = mask.pixels.min().y(); y < mask.pixels.max().y(); ++y) {
+    for (int x = mask.pixels.min().x(); x < mask.pixels.max().x(); ++x) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width()) +
+          static_cast<std::size_t>(x);
+      if (frame.id[pixel] == id_of_agent(agent)) mask.put(x, y);
+    }
+  }
+}
+
 /// What the pixels [min, max) that show a person count for.
 std::uint64_t visible_in(const Frame& frame, std::uint32_t agent, const Eigen::AlignedBox2i& pixels,
                          const PixelWeights* weights) {
@@ -385,19 +398,33 @@ void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
     PersonInView& truth = seen[i].truth;
     if (seen[i].tile) {
       truth.amodal_area_px = silhouettes.count(*seen[i].tile, weights);
+      if (options.whole_masks) {
+        truth.whole_mask = std::make_shared<PixelMask>(silhouettes.mask(*seen[i].tile));
+      }
       continue;
     }
     measured.push_back(i);
     requests.push_back({seen[i].draw, pixels_of(truth.amodal_box)});
   }
+  std::vector<PixelMask> masks;
+  if (options.whole_masks) {
+    const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
+                                    Eigen::Vector2i(frame.width(), frame.height()));
+    for (const CoverageRequest& request : requests) {
+      masks.emplace_back(request.bounds.intersection(image));
+    }
+  }
   const std::vector<std::uint64_t> counts =
-      coverage.count(people_pass, scene.people, requests, frame.camera, weights);
+      coverage.count(people_pass, scene.people, requests, frame.camera, weights, masks);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     // A texel at the threshold of an alpha test may round differently in a tile; what is visible is
     // covered all the same.
     PersonInView& truth = seen[measured[i]].truth;
     truth.amodal_area_px =
         std::max(counts[i], visible_in(frame, truth.agent, requests[i].bounds, weights));
+    if (!options.whole_masks) continue;
+    add_visible(frame, truth.agent, masks[i]);
+    truth.whole_mask = std::make_shared<PixelMask>(std::move(masks[i]));
   }
 }
 

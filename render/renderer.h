@@ -27,9 +27,10 @@ struct DeviceChoice {
 /// What is drawn beside the scene itself.
 struct RenderOptions {
   Quality quality = Quality::standard;
-  bool normals = false;  ///< fill Frame::normal
-  bool flow = false;     ///< fill Frame::flow
-  bool parts = false;    ///< fill Frame::part
+  bool normals = false;      ///< fill Frame::normal
+  bool flow = false;         ///< fill Frame::flow
+  bool parts = false;        ///< fill Frame::part
+  bool whole_masks = false;  ///< fill PersonInView::whole_mask
   /// How edges are smoothed: by several samples a pixel, or afterwards. Nothing: as QualitySettings
   /// says, so this is for tests and comparisons.
   std::optional<bool> multisample = std::nullopt;

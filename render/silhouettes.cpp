@@ -9,6 +9,7 @@ namespace {
 
 /// Along each side. Whoever finds no room is measured by CoverageCounter.
 constexpr int kSilhouetteAtlas = 4096;
+constexpr std::uint8_t kCovered = 255;
 
 }  // namespace
 
@@ -59,9 +60,27 @@ std::uint64_t Silhouettes::count(std::size_t tile, const PixelWeights* weights) 
   return sum;
 }
 
+PixelMask Silhouettes::mask(std::size_t tile) const {
+  const Tile& at = tiles_[tile];
+  const Eigen::Vector2i size = at.pixels.sizes();
+  PixelMask mask(at.pixels);
+  for (int y = 0; y < size.y(); ++y) {
+    const std::size_t first = static_cast<std::size_t>(at.atlas.y() + y) * kSilhouetteAtlas +
+                              static_cast<std::size_t>(at.atlas.x());
+    add_covered(std::span(texels_).subspan(first, static_cast<std::size_t>(size.x())),
+                at.pixels.min() + Eigen::Vector2i(0, y), mask);
+  }
+  return mask;
+}
+
+void add_covered(std::span<const std::uint8_t> row, const Eigen::Vector2i& first, PixelMask& mask) {
+  for (int x = 0; x < static_cast<int>(row.size()); ++x) {
+    if (row[static_cast<std::size_t>(x)] == kCovered) mask.put(first.x() + x, first.y());
+  }
+}
+
 std::uint64_t covered(std::span<const std::uint8_t> row, const Eigen::Vector2i& first,
                       const PixelWeights* weights) {
-  constexpr std::uint8_t kCovered = 255;
   if (weights == nullptr) {
     return static_cast<std::uint64_t>(std::count(row.begin(), row.end(), kCovered));
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/gl_objects.h"
+#include "render/pixel_mask.h"
 #include "render/pixel_weights.h"
 #include "render/shelves.h"
 
@@ -35,6 +36,9 @@ class Silhouettes {
   /// Covered pixels of the `tile`-th one that was added, counted as `weights` say or once each.
   std::uint64_t count(std::size_t tile, const PixelWeights* weights) const;
 
+  /// The same pixels themselves.
+  PixelMask mask(std::size_t tile) const;
+
  private:
   struct Tile {
     Eigen::AlignedBox2i pixels;  ///< of the image
@@ -47,6 +51,9 @@ class Silhouettes {
   Framebuffer framebuffer_;
   std::vector<std::uint8_t> texels_;
 };
+
+/// Sets in a mask what of a row's texels is covered. The first one is image pixel `first`.
+void add_covered(std::span<const std::uint8_t> row, const Eigen::Vector2i& first, PixelMask& mask);
 
 /// How many of a row's texels are covered, each counting for its weight or once. The first one is
 /// image pixel `first`.

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "tests/annotate/rle.h"
@@ -168,6 +170,33 @@ TEST(LabelPeopleDeathTest, SomebodyUnlistedIsABug) {
 }
 
 // The first by hand, the second as other tools write that mask.
+TEST(RunLengths, OfMasksAreThoseOfTheirPixels) {
+  constexpr int kWidth = 7;
+  constexpr int kHeight = 5;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Random random(seed, Stream::crowd_generator, 0);
+    const int left = static_cast<int>(random.below(kWidth));
+    const int top = static_cast<int>(random.below(kHeight));
+    const int right = left + 1 + static_cast<int>(random.below(kWidth - left));
+    const int bottom = top + 1 + static_cast<int>(random.below(kHeight - top));
+    render::PixelMask mask({Eigen::Vector2i(left, top), Eigen::Vector2i(right, bottom)});
+    const double share = random.uniform(0, 1.5);
+    for (std::uint8_t& pixel : mask.set) pixel = random.uniform(0, 1) < share ? 1 : 0;
+    const RunLengths runs = run_lengths(mask, kWidth, kHeight);
+    EXPECT_EQ(std::accumulate(runs.begin(), runs.end(), 0U), 35U);
+    EXPECT_EQ(std::count(runs.begin() + 1, runs.end(), 0U), 0) << "no empty run but the first";
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      for (std::uint32_t j = 0; j < runs[i]; ++j, ++at) {
+        EXPECT_EQ(mask.at(static_cast<int>(at) / kHeight, static_cast<int>(at) % kHeight),
+                  i % 2 == 1)
+            << "seed " << seed << " pixel " << at;
+      }
+    }
+  }
+  EXPECT_EQ(run_lengths({}, kWidth, kHeight), RunLengths({35}));
+}
+
 TEST(CocoCounts, MatchesKnownStrings) {
   EXPECT_EQ(coco_counts({0, 12}), "0<");
   EXPECT_EQ(coco_counts({6, 1, 40, 4, 5, 4, 5, 4, 21}), "61X13mN000`0");

@@ -228,6 +228,38 @@ TEST_F(Validate, PicturesOfAnotherTick) {
   expect("time", kCocoFile, "image 1");
 }
 
+TEST_F(Validate, CamerasThatContradictThemselves) {
+  const std::string whole = read_file(root_ / kCocoFile);
+  change_image([](json& r) { r["camera"]["t"][1] = r["camera"]["t"][1].get<double>() + 0.01; });
+  expect("camera", kCocoFile, "image 1");
+  write_file_atomically(root_ / kCocoFile, whole);
+  change_image([](json& r) { std::swap(r["camera"]["R"][0], r["camera"]["R"][1]); });
+  expect("camera", kCocoFile, "image 1");
+}
+
+TEST_F(Validate, WholeMasksThatLackWhatIsVisible) {
+  const std::string whole = read_file(root_ / kCocoFile);
+  // Nobody is set apart: the mask is empty, of the visible pixels, or of one more than there are.
+  change_person([](json& r) {
+    r["amodal_segmentation"] = r["segmentation"];
+    r["amodal_segmentation"]["counts"] = counts_of({160 * 120});
+  });
+  expect("visible-in-amodal", kCocoFile, "annotation ");
+  write_file_atomically(root_ / kCocoFile, whole);
+  change_person([](json& r) {
+    r["amodal_segmentation"] = r["segmentation"];
+    r["area_amodal"] = r["area"];
+    r["visibility"] = 1;
+  });
+  EXPECT_EQ(validate_dataset(root_).found, 0U);
+  write_file_atomically(root_ / kCocoFile, whole);
+  change_person([](json& r) {
+    r["amodal_segmentation"] = r["segmentation"];
+    r["amodal_segmentation"]["counts"] = counts_of({0, 160 * 120});
+  });
+  expect("area-is-mask", kCocoFile, "annotation ");
+}
+
 TEST_F(Validate, PicturesThatAreCutOff) {
   const fs::path image = root_ / "images/run000/d1/000001.jpg";
   fs::resize_file(image, fs::file_size(image) * 7 / 10);
