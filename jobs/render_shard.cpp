@@ -178,7 +178,7 @@ class ShardOutput {
 void render_shard(const JobFolder& folder, const JobSpec& whole_job,
                   const std::filesystem::path& scenarios, const Shard& shard,
                   const OnTaskProgress& on_progress, const std::stop_token& stop) {
-  const JobSpec job = job_of_run(whole_job, shard.run);
+  JobSpec job = job_of_run(whole_job, shard.run);
   const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
   world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
   world::thin_out(scenario, job.props_density, seed);
@@ -186,6 +186,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   const skinning::Population population = skinning::load_population(skinning::population_folder());
   pin_people(folder, population.content_hash);
   const RunEnvironment environment = environment_of_run(job.environment, seed);
+  job.styling = styling_in(job, environment.light.weather);
   std::optional<StageClock> clock;
   if (is_profiling()) clock.emplace();
   render::RenderOptions options;

@@ -127,6 +127,7 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
   read(appearance, "variety", job.styling.variety);
   read(appearance, "youngest_years", job.styling.youngest_years);
   read(appearance, "oldest_years", job.styling.oldest_years);
+  read(appearance, "umbrellas", job.styling.umbrellas);
   read(part(value, "props"), "density", job.props_density);
   const json& outputs = part(value, "outputs");
   read(part(outputs, "image"), "format", job.outputs.image_format);
@@ -268,6 +269,12 @@ json drone_json(const DroneSpec& drone) {
 
 }  // namespace
 
+skinning::Styling styling_in(const JobSpec& job, render::Weather weather) {
+  skinning::Styling styling = job.styling;
+  if (weather != render::Weather::rain) styling.umbrellas = 0;
+  return styling;
+}
+
 std::int64_t JobSpec::frames_per_camera() const {
   // A frame that falls on to_s counts even if the division lands just below.
   constexpr double kSlack = 1e-9;
@@ -330,7 +337,8 @@ json to_json(const JobSpec& job) {
         {"saturation", job.styling.saturation},
         {"variety", job.styling.variety},
         {"youngest_years", job.styling.youngest_years},
-        {"oldest_years", job.styling.oldest_years}}},
+        {"oldest_years", job.styling.oldest_years},
+        {"umbrellas", job.styling.umbrellas}}},
       {"props", {{"density", job.props_density}}},
       {"outputs",
        {{"image", {{"format", job.outputs.image_format}, {"quality", job.outputs.image_quality}}},

@@ -52,7 +52,7 @@ struct JobSpec {
   CaptureSpec capture;
   EnvironmentSpec environment;
   render::Quality quality = render::Quality::standard;
-  skinning::Styling styling;  ///< of people
+  skinning::Styling styling{.umbrellas = 0.15};  ///< of people; umbrellas when it rains
   double props_density = 1;   ///< share of the scenario's scattered props that are there
   OutputSpec outputs;
   std::vector<RandomField> randomize;  ///< drawn for each run by job_of_run()
@@ -70,6 +70,9 @@ JobSpec parse_job(std::string_view json, const std::string& source,
 
 /// The job as JSON with every default filled in; parse_job reads it back to the same job.
 nlohmann::json to_json(const JobSpec& job);
+
+/// How people look in this weather: umbrellas are up when it rains.
+skinning::Styling styling_in(const JobSpec& job, render::Weather weather);
 
 /// The job as one of its runs has it: the fields of `randomize` have their drawn values there.
 JobSpec job_of_run(const JobSpec& job, int run);

@@ -79,14 +79,14 @@ double exposure_for(double mean) {
   constexpr double kNoonIlluminance = 1.55;
   constexpr double kDusk = 0.02;
   const double bright = std::max(mean, kDusk);
-  const double seen = bright * std::pow(kNoonIlluminance / bright, 0.7);
+  const double seen = bright * std::pow(kNoonIlluminance / bright, 0.85);
   return seen * std::pow(std::min(mean / kDusk, 1.0), 0.06) / mean;
 }
 
 /// The camera meters the light of a fog too, and closes: pictures of fog are grey, not white.
 double closed_for_fog(const Environment& environment, double extinction_per_m) {
   constexpr double kMeteredM = 40;  // what a drone looks at is about that far away
-  constexpr double kAirShare = 0.7;
+  constexpr double kAirShare = 0.35;
   if (environment.weather != Weather::fog) return 1;
   return 1 / (1 + kAirShare * (1 - std::exp(-extinction_per_m * kMeteredM)));
 }

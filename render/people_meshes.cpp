@@ -177,13 +177,16 @@ class Packer {
 
 }  // namespace
 
-PeopleMeshes people_meshes(const skinning::Population& population, std::size_t textured_levels) {
+PeopleMeshes people_meshes(const skinning::Population& population, const Packing& packing) {
   PeopleMeshes meshes;
   Packer packer(population);
   for (const skinning::Character& character : population.characters) {
-    std::vector<PeopleLevel>& levels = meshes.levels.emplace_back();
-    for (const skinning::Mesh& mesh : character.levels) {
-      levels.push_back(packer.add(mesh, levels.size() >= textured_levels));
+    std::vector<PeopleLevel>& textured = meshes.textured.emplace_back();
+    std::vector<PeopleLevel>& by_corners = meshes.by_corners.emplace_back();
+    for (std::size_t level = 0; level < character.levels.size(); ++level) {
+      const skinning::Mesh& mesh = character.levels[level];
+      textured.push_back(level < packing.textured_below ? packer.add(mesh, false) : PeopleLevel{});
+      by_corners.push_back(level >= packing.corners_from ? packer.add(mesh, true) : PeopleLevel{});
     }
   }
   meshes.vertices = packer.vertices();

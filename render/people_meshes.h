@@ -31,14 +31,21 @@ struct PeopleLevel {
   Range alpha_tested;
 };
 
+/// What is packed of each level, by its number.
+struct Packing {
+  std::size_t textured_below = 0;  ///< so many levels with their texture coordinates
+  std::size_t corners_from = 0;    ///< those from here on coloured corner by corner
+};
+
 struct PeopleMeshes {
   Buffer vertices;
   Buffer indices;
-  std::vector<std::vector<PeopleLevel>> levels;  ///< [character][level]
+  /// [character][level]. Of those coloured by their corners, opaque vertices that differ in texture
+  /// coordinates alone are one. What is not packed is empty.
+  std::vector<std::vector<PeopleLevel>> textured;
+  std::vector<std::vector<PeopleLevel>> by_corners;
 };
 
-/// Packs a population's meshes. Levels from `textured_levels` on are coloured corner by corner:
-/// their opaque vertices that differ in texture coordinates alone become one.
-PeopleMeshes people_meshes(const skinning::Population& population, std::size_t textured_levels);
+PeopleMeshes people_meshes(const skinning::Population& population, const Packing& packing);
 
 }  // namespace throng::render

@@ -49,6 +49,7 @@ constexpr std::string_view kShadow = "#define SHADOW\n";
 constexpr std::string_view kCoverage = "#define COVERAGE\n";
 constexpr std::string_view kAlphaTest = "#define ALPHA_TEST\n";
 constexpr std::string_view kCorners = "#define CORNERS\n";
+constexpr std::string_view kLitCorners = "#define LIT_CORNERS\n";
 constexpr std::string_view kShadowed = "#define SHADOWED\n";
 constexpr std::string_view kSurface = "#define SURFACE\n";
 constexpr std::string_view kSilhouettes = "#define SILHOUETTES\n";
@@ -94,6 +95,13 @@ std::array<std::uint32_t, 4> packed(const std::array<skinning::Rgb, skinning::kT
   return words;
 }
 
+/// Without textured people no level has textures; shadows take the last level by its corners.
+Packing packing_of(const QualitySettings& quality) {
+  constexpr std::size_t kAll = 99;
+  const auto always = static_cast<std::size_t>(quality.textured_levels);
+  return {quality.people_places > 0 ? kAll : always, always};
+}
+
 /// How many bytes of palettes shaders can read: four words to a texel.
 std::uint64_t largest_palettes() {
   GLint texels = 0;
@@ -114,8 +122,7 @@ Texture make_buffer_texture(GLenum format, const Buffer& buffer) {
 PeoplePass::PeoplePass(const skinning::Population& population, const QualitySettings& quality,
                        std::string_view words)
     : palettes_per_character_(population.palettes_per_character),
-      textured_levels_(static_cast<std::uint32_t>(quality.textured_levels)),
-      meshes_(people_meshes(population, textured_levels_)),
+      meshes_(people_meshes(population, packing_of(quality))),
       palettes_(make_buffer(device_palettes(population, largest_palettes()))),
       palette_texels_(make_buffer_texture(GL_RGBA32UI, palettes_)),
       instances_(make_buffer()),
@@ -144,15 +151,18 @@ PeoplePass::PeoplePass(const skinning::Population& population, const QualitySett
 
 PeoplePass::PicturePrograms PeoplePass::make_picture_programs(std::string_view words, bool shadowed,
                                                               std::string_view silhouettes) {
-  const auto textured = [&](std::string_view alpha) {
+  const std::string_view shadows = shadowed ? kShadowed : "";
+  const auto textured = [&](std::string_view lit, std::string_view alpha) {
     return make_program(
-        {words, silhouettes, shader_view, shader_light, shader_person_vert},
-        {words, silhouettes, alpha, shader_light, embedded::shader_silhouette, shader_person_frag});
+        {words, silhouettes, lit, shadows, shader_view, shader_light, shader_person_vert},
+        {words, silhouettes, lit, alpha, shader_light, embedded::shader_silhouette,
+         shader_person_frag});
   };
-  return {textured(""), textured(kAlphaTest),
-          make_program({words, silhouettes, kCorners, shadowed ? kShadowed : "", shader_view,
-                        shader_light, shader_person_vert},
-                       {silhouettes, embedded::shader_silhouette, embedded::shader_corners_frag})};
+  Program by_corners = make_program(
+      {words, silhouettes, kCorners, shadows, shader_view, shader_light, shader_person_vert},
+      {silhouettes, embedded::shader_silhouette, embedded::shader_corners_frag});
+  return {{textured("", ""), textured(kLitCorners, ""), std::move(by_corners)},
+          textured("", kAlphaTest)};
 }
 
 void PeoplePass::load_textures(const skinning::Population& population) {
@@ -191,14 +201,15 @@ std::vector<PeoplePass::Batch> PeoplePass::upload(std::span<const PersonInstance
   for (const PersonDraw& draw : draws) {
     const PersonInstance& person = people[draw.person];
     const std::uint32_t character = person.appearance.character;
-    check(character < meshes_.levels.size() && draw.level < meshes_.levels[character].size() &&
+    const auto& levels =
+        draw.shading == Shading::by_corners ? meshes_.by_corners : meshes_.textured;
+    check(character < levels.size() && draw.level < levels[character].size() &&
               std::max(person.pose.a, person.pose.b) < palettes_per_character_,
           "people use characters and palettes that the population has");
     const std::uint32_t first_palette = character * palettes_per_character_;
-    const PeopleLevel* level = &meshes_.levels[character][draw.level];
+    const PeopleLevel* level = &levels[character][draw.level];
     if (batches.empty() || batches.back().level != level) {
-      batches.push_back(
-          {level, draw.level < textured_levels_, static_cast<std::uint32_t>(instances.size()), 0});
+      batches.push_back({level, draw.shading, static_cast<std::uint32_t>(instances.size()), 0});
     }
     ++batches.back().count;
     instances.push_back({{person.position.x(), person.position.y(), person.position.z()},
@@ -232,10 +243,10 @@ void PeoplePass::draw_batches(const std::vector<Batch>& batches, Range PeopleLev
 
 void PeoplePass::draw_picture(const std::vector<Batch>& batches, const PicturePrograms& programs) {
   glEnable(GL_CULL_FACE);
-  for (const bool textured : {true, false}) {
-    glUseProgram(textured ? programs.textured.name() : programs.corners.name());
+  for (const Shading shading : {Shading::textured, Shading::lit_by_corners, Shading::by_corners}) {
+    glUseProgram(programs.opaque[static_cast<std::size_t>(shading)].name());
     for (const Batch& batch : batches) {
-      if (batch.textured == textured) draw_batch(batch, &PeopleLevel::opaque);
+      if (batch.shading == shading) draw_batch(batch, &PeopleLevel::opaque);
     }
   }
   glDisable(GL_CULL_FACE);
@@ -253,8 +264,8 @@ void PeoplePass::sort(std::span<const PersonInstance> people,
                       std::vector<PersonDraw>& draws) const {
   const auto key = [&](const PersonDraw& draw) {
     const PersonInstance& person = people[draw.person];
-    return std::tuple(draw.level, person.appearance.character, draw.depth_m, person.agent,
-                      draw.shift);
+    return std::tuple(draw.level, person.appearance.character, draw.shading, draw.depth_m,
+                      person.agent, draw.shift);
   };
   std::sort(draws.begin(), draws.end(),
             [&](const PersonDraw& a, const PersonDraw& b) { return key(a) < key(b); });

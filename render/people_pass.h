@@ -15,11 +15,19 @@
 
 namespace throng::render {
 
+/// How a person's colours come about, the costliest first.
+enum class Shading : std::uint8_t {
+  textured,        ///< texture and light for each pixel
+  lit_by_corners,  ///< texture for each pixel, light for each corner
+  by_corners       ///< both for each corner
+};
+
 /// One person in one draw.
 struct PersonDraw {
   std::uint32_t person = 0;  ///< index into the scene's people
   std::uint32_t level = 0;   ///< of detail
-  float depth_m = 0;         ///< nearer ones are drawn first
+  Shading shading = Shading::by_corners;
+  float depth_m = 0;  ///< nearer ones are drawn first
   /// Pixels right and down: from the picture to the person's silhouette (Purpose::coverage, and
   /// Purpose::picture with silhouettes).
   std::array<std::int32_t, 2> shift = kNowhere;
@@ -53,7 +61,7 @@ class PeoplePass {
   /// People drawn by one call.
   struct Batch {
     const PeopleLevel* level;
-    bool textured;
+    Shading shading;
     std::uint32_t first;
     std::uint32_t count;
   };
@@ -67,9 +75,8 @@ class PeoplePass {
   static void draw_batch(const Batch& batch, Range PeopleLevel::*range);
   static void draw_batches(const std::vector<Batch>& batches, Range PeopleLevel::*range);
   struct PicturePrograms {
-    Program textured;
+    std::array<Program, 3> opaque;  ///< by Shading
     Program alpha_tested;
-    Program corners;
   };
   static PicturePrograms make_picture_programs(std::string_view words, bool shadowed,
                                                std::string_view silhouettes);
@@ -77,7 +84,6 @@ class PeoplePass {
   void bind(const VertexArray& array) const;
 
   std::uint32_t palettes_per_character_;
-  std::uint32_t textured_levels_;  ///< coarser ones are coloured corner by corner
   PeopleMeshes meshes_;
   Buffer palettes_;
   Texture palette_texels_;  ///< the same, as shaders read it

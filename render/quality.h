@@ -13,9 +13,13 @@ struct QualitySettings {
   std::string_view word;  ///< in job files
   bool textured;          ///< else ground and walls are coloured corner by corner
   int ground_texels;      ///< along each side of a tile of the ground's textures
-  int textured_levels;    ///< of people; coarser ones, whose triangles are pixels, by their corners
-  int shadow_texels;      ///< along each side of the shadow map; 0: no shadows
-  bool fine_shadows;      ///< edges on ground and walls as soft as the sun's disc makes them
+  /// People at so many of the finest levels of detail are textured and lit pixel by pixel. Of the
+  /// others, whose triangles are pixels, the nearest are textured: as many as leave room for all in
+  /// view, if who is textured takes two of so many places. The rest are coloured corner by corner.
+  int textured_levels;
+  int people_places;
+  int shadow_texels;  ///< along each side of the shadow map; 0: no shadows
+  bool fine_shadows;  ///< edges on ground and walls as soft as the sun's disc makes them
   /// Along the outlines of people and things: on the CPU by what the ids say, on a GPU with
   /// kSamples a pixel.
   bool smooth_edges;
@@ -28,9 +32,9 @@ struct QualitySettings {
 inline constexpr int kSamples = 4;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{
-    {"draft", false, 0, 0, 0, false, false, 1, 0.5, 60},
-    {"standard", true, 1024, 2, 2048, false, true, 1, 1, 0},
-    {"high", true, 2048, 5, 4096, true, false, 2, 2, 0},
+    {"draft", false, 0, 0, 0, 0, false, false, 1, 0.5, 60},
+    {"standard", true, 1024, 2, 700, 2048, false, true, 1, 1, 0},
+    {"high", true, 2048, 7, 0, 4096, true, false, 2, 2, 0},
 }};
 
 constexpr const QualitySettings& settings_of(Quality quality) {

@@ -11,8 +11,8 @@
 #include "render/lamps.h"
 #include "render/lighting.h"
 #include "render/multisample_target.h"
+#include "render/people_in_view.h"
 #include "render/people_pass.h"
-#include "render/person_geometry.h"
 #include "render/place_pass.h"
 #include "render/prop_pass.h"
 #include "render/shadow_map.h"
@@ -28,25 +28,6 @@
 namespace throng::render {
 
 namespace {
-
-/// A sphere about a person's middle, as a share of stature, that holds any pose.
-constexpr double kReach = 1.2;
-
-/// The level of detail whose bounds are people's boxes in the world: a coarse one, as the outlines
-/// of all levels are nearly equal.
-constexpr std::size_t kBoxLevel = 4;
-
-/// A person who may be in view, and what was measured so far.
-struct Seen {
-  PersonDraw draw;
-  PersonInView truth;
-  std::optional<std::size_t> tile;  ///< of their silhouette
-};
-
-Eigen::AlignedBox2d image_box(const camera::Camera& camera) {
-  return {Eigen::Vector2d::Zero(),
-          Eigen::Vector2d(camera.intrinsics.width, camera.intrinsics.height)};
-}
 
 /// Whole pixels that a box touches, and one more on each side for the rasteriser's rounding.
 Eigen::AlignedBox2i pixels_of(const Eigen::AlignedBox2d& box) {
@@ -91,14 +72,6 @@ std::vector<PersonDraw> draws_of(const std::vector<Seen>& seen) {
   return draws;
 }
 
-std::vector<std::vector<BodyShape>> shapes_of(const skinning::Population& people) {
-  std::vector<std::vector<BodyShape>> shapes;
-  for (const skinning::Character& character : people.characters) {
-    shapes.emplace_back(character.levels.begin(), character.levels.end());
-  }
-  return shapes;
-}
-
 /// The same camera with `times` as many pixels along each side.
 camera::Camera scaled(const camera::Camera& camera, int times) {
   camera::Camera fine = camera;
@@ -130,7 +103,6 @@ struct Renderer::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  std::vector<Seen> find_seen(const Scene& scene, const camera::Camera& camera) const;
   void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area);
   void draw_picture(const Scene& scene, const camera::Camera& camera, bool truth,
                     std::vector<Seen>& seen, Frame& frame);
@@ -156,8 +128,7 @@ struct Renderer::State {
   QualitySettings quality;
   bool multisample;
   const skinning::Population* population;
-  std::vector<std::vector<BodyShape>> shapes;  ///< [character][level]
-  std::vector<skinning::Landmarks> landmarks;  ///< per character
+  PeopleFinder finder;
   Daylight daylight;
   Eigen::AlignedBox2d ground;
   double tallest;
@@ -190,7 +161,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       quality(settings_of(wanted.quality)),
       multisample(quality.smooth_edges && wanted.multisample.value_or(!context.is_software())),
       population(&people),
-      shapes(shapes_of(people)),
+      finder(people, quality),
       daylight(render::daylight(environment)),
       ground(scenario.ground.min, scenario.ground.max),
       tallest(tallest_m(scenario)),
@@ -204,10 +175,6 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       view_buffer(make_buffer()),
       next_view_buffer(make_buffer()),
       light_buffer(make_buffer()) {
-  landmarks.reserve(people.characters.size());
-  for (const skinning::Character& character : people.characters) {
-    landmarks.push_back(skinning::landmarks_of(character));
-  }
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   // Image rows grow downwards and GL's window upwards, so that rows read back top-down; what is
   // counter-clockwise in the world is then clockwise in the window.
@@ -219,60 +186,18 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
 
 Renderer::State::~State() { context.make_current(); }
 
-std::vector<Seen> Renderer::State::find_seen(const Scene& scene,
-                                             const camera::Camera& camera) const {
-  const ClipPlanes planes = clip_planes(camera);
-  const Eigen::AlignedBox2d image = image_box(camera);
-  std::vector<Seen> seen;
-  for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
-    const PersonInstance& person = scene.people[i];
-    check(person.appearance.character < population->characters.size() &&
-              std::max(person.pose.a, person.pose.b) < population->palettes_per_character,
-          "people use characters and palettes that the population has");
-    const skinning::Character& character = population->characters[person.appearance.character];
-    const Eigen::Vector3d position = person.position.cast<double>();
-    const Eigen::Vector3d middle = position + Eigen::Vector3d(0, 0, 0.5 * character.stature_m);
-    if (is_outside(planes, middle, kReach * character.stature_m)) continue;
-    const double depth = std::max<double>(camera.project(middle).depth_m, kNear);
-    const double height_px = camera.intrinsics.fy_px * character.stature_m / depth;
-    const std::size_t levels = character.levels.size();
-    const std::size_t level = height_px < quality.proxy_below_px
-                                  ? levels - 1
-                                  : level_of_detail(quality.detail * height_px, levels);
-    const skinning::Palette palette = blended_palette(*population, person);
-    const Silhouette shape =
-        silhouette(shapes[person.appearance.character][level], palette, person, camera);
-    if (shape.box.isEmpty() || !shape.box.intersects(image)) continue;
-    const float stature_m = character.stature_m;
-    seen.push_back({{i, static_cast<std::uint32_t>(level), static_cast<float>(depth)},
-                    {person.agent, position,
-                     posed_point(palette, person, skinning::Bone::hips, kHipsShare * stature_m),
-                     posed_point(palette, person, skinning::Bone::head, kHeadShare * stature_m),
-                     person.velocity.cast<double>(), person.yaw_rad, stature_m, shape.box, 0,
-                     static_cast<std::uint32_t>(level)},
-                    {}});
-    const std::vector<BodyShape>& all = shapes[person.appearance.character];
-    measure_body(all[std::min(kBoxLevel, all.size() - 1)], landmarks[person.appearance.character],
-                 palette, person, seen.back().truth);
-  }
-  std::sort(seen.begin(), seen.end(),
-            [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });
-  return seen;
-}
-
 void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area) {
   const Eigen::Vector2d slope = shadow_slope(daylight);
   std::vector<PersonDraw> casters;
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
     const PersonInstance& person = scene.people[i];
     const skinning::Character& character = population->characters[person.appearance.character];
-    const double reach = kReach * character.stature_m;
+    const double reach = kPersonReach * character.stature_m;
     Eigen::AlignedBox2d shade(person.position.head<2>().cast<double>());
     shade.extend(Eigen::Vector2d(shade.min() - slope * reach));
     shade = {shade.min().array() - reach, shade.max().array() + reach};
     if (!shade.intersects(area)) continue;
-    // A shadow shows no more than the coarsest level.
-    casters.push_back({i, static_cast<std::uint32_t>(character.levels.size() - 1), 0});
+    casters.push_back(finder.caster(i, person));
   }
   shadow_map.begin();
   place.draw_shadow();
@@ -448,7 +373,7 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   frame.time_s = scene.time_s;
   frame.camera = camera;
   frame.people.clear();
-  std::vector<Seen> seen = state.find_seen(scene, camera);
+  std::vector<Seen> seen = state.finder.find(scene, camera);
   state.lap("cull");
   state.draw_picture(scene, camera, choice.truth, seen, frame);
   const bool wants_light = state.quality.supersampling == 1 && !state.multisample;

@@ -28,7 +28,7 @@ void shuffle(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t e
 // Agents come in blocks in which everybody occurs once. The people are dealt into two halves for
 // the whole run, and each block has the one half in an order of its own before the other: between
 // two agents with the same character there is always at least the other half.
-std::uint32_t character_of(std::uint64_t seed, std::uint32_t agent, std::uint32_t count) {
+std::uint32_t place_of(std::uint64_t seed, std::uint32_t agent, std::uint32_t count) {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0);
   Random dealing(seed, Stream::appearance, kOrders);
@@ -40,32 +40,64 @@ std::uint32_t character_of(std::uint64_t seed, std::uint32_t agent, std::uint32_
   return order[agent % count];
 }
 
-// Characters that take part: all of the ages, or of these a share in an order of the run's own.
-std::vector<std::uint32_t> cast_of(const Population& population, std::uint64_t seed,
-                                   const Styling& styling) {
-  std::vector<std::uint32_t> cast;
-  float youngest = population.characters.front().age_years;
-  float oldest = youngest;
+// A place in the row of people that is dealt out again and again: a character, and how often it
+// stands further ahead in the row.
+struct Place {
+  std::uint32_t character;
+  std::uint32_t copy;
+};
+
+// Characters of the ages, with or without an umbrella: all of them, or a share in an order of the
+// run's own.
+std::vector<std::uint32_t> take_part(const Population& population, bool umbrella,
+                                     std::uint64_t seed, const Styling& styling) {
+  std::vector<std::uint32_t> taken;
   for (std::uint32_t i = 0; i < population.characters.size(); ++i) {
-    const float age = population.characters[i].age_years;
-    youngest = std::min(youngest, age);
-    oldest = std::max(oldest, age);
-    if (age >= styling.youngest_years && age <= styling.oldest_years) cast.push_back(i);
-  }
-  if (cast.empty()) {
-    throw InputError(
-        {"", "/appearance",
-         fmt::format("nobody from {:g} to {:g} years", styling.youngest_years,
-                     styling.oldest_years),
-         fmt::format("ages that some of the people have, who are from {:.0f} to {:.0f}", youngest,
-                     oldest)});
+    const Character& character = population.characters[i];
+    const float age = character.age_years;
+    if (age < styling.youngest_years || age > styling.oldest_years) continue;
+    if ((character.carries == Carry::umbrella) == umbrella) taken.push_back(i);
   }
   const auto kept = static_cast<std::size_t>(
-      std::ceil(styling.variety * static_cast<double>(cast.size()) - 1e-9));
-  if (kept >= cast.size()) return cast;
+      std::ceil(styling.variety * static_cast<double>(taken.size()) - 1e-9));
+  if (kept >= taken.size()) return taken;
   Random choosing(seed, Stream::appearance, kCasts);
-  shuffle(cast, 0, cast.size(), choosing);
-  cast.resize(std::max<std::size_t>(kept, 1));
+  shuffle(taken, 0, taken.size(), choosing);
+  taken.resize(std::max<std::size_t>(kept, 1));
+  return taken;
+}
+
+[[noreturn]] void refuse_ages(const Population& population, const Styling& styling) {
+  const auto [youngest, oldest] = std::minmax_element(
+      population.characters.begin(), population.characters.end(),
+      [](const Character& a, const Character& b) { return a.age_years < b.age_years; });
+  throw InputError(
+      {"", "/appearance",
+       fmt::format("nobody from {:g} to {:g} years", styling.youngest_years, styling.oldest_years),
+       fmt::format("ages that some of the people have, who are from {:.0f} to {:.0f}",
+                   youngest->age_years, oldest->age_years)});
+}
+
+// Everybody without an umbrella once, and so many with one, again and again from the front, as make
+// up their share. Who has none to leave at home comes with it.
+std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
+                           const Styling& styling) {
+  const std::vector<std::uint32_t> dry = take_part(population, true, seed, styling);
+  std::vector<std::uint32_t> bare = take_part(population, false, seed, styling);
+  if (dry.empty() && bare.empty()) refuse_ages(population, styling);
+  const bool all_dry = !dry.empty() && (bare.empty() || styling.umbrellas >= 1);
+  if (all_dry) bare.clear();
+  const std::size_t under =
+      all_dry ? dry.size()
+      : dry.empty()
+          ? 0
+          : static_cast<std::size_t>(std::lround(static_cast<double>(bare.size()) *
+                                                 styling.umbrellas / (1 - styling.umbrellas)));
+  std::vector<Place> cast;
+  for (const std::uint32_t character : bare) cast.push_back({character, 0});
+  for (std::size_t i = 0; i < under; ++i) {
+    cast.push_back({dry[i % dry.size()], static_cast<std::uint32_t>(i / dry.size())});
+  }
   return cast;
 }
 
@@ -107,15 +139,16 @@ Appearance appearance_of(const Population& population, std::uint64_t run_seed, s
                          const Styling& styling) {
   check(!population.characters.empty(), "a population has characters");
   Appearance appearance;
-  const std::vector<std::uint32_t> cast = cast_of(population, run_seed, styling);
+  const std::vector<Place> cast = cast_of(population, run_seed, styling);
   const auto count = static_cast<std::uint32_t>(cast.size());
-  appearance.character = cast[character_of(run_seed, agent, count)];
+  const Place& place = cast[place_of(run_seed, agent, count)];
+  appearance.character = place.character;
   Random random(run_seed, Stream::appearance, agent);
   appearance.phase_offset = static_cast<float>(random.uniform());
   appearance.cadence = static_cast<float>(random.uniform(0.95, 1.05));
   appearance.amplitude = static_cast<float>(random.uniform(0.92, 1.08));
   const Character& character = population.characters[appearance.character];
-  const std::uint32_t block = agent / count;
+  const std::uint32_t block = agent / count + place.copy;
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {
     const std::vector<Rgb>& colours = character.tints[tint];
     appearance.tint[tint] = {255, 255, 255};

@@ -27,11 +27,13 @@ struct Styling {
   double variety = 1;         ///< share of the characters of these ages, chosen by the run's seed
   double youngest_years = 0;  ///< who is younger does not take part
   double oldest_years = 150;  ///< nor who is older
+  double umbrellas = 0;       ///< share of the people under one, as far as there are such people
 };
 
 /// Agents near each other in id get different characters: with n that take part, equal ones are
-/// more than n / 2 - 1 ids apart, and when a character comes again it wears other colours. Throws
-/// InputError when nobody is of the ages.
+/// more than n / 2 - 1 ids apart, and when a character comes again it wears other colours. Those
+/// under umbrellas, who are few, may come several times among n. Throws InputError when nobody is
+/// of the ages.
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
                          const Styling& styling = {});
 

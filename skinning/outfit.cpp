@@ -180,7 +180,7 @@ class Stylist {
                 : std::vector<Share>{{Carry::backpack, age < 70 ? 0.15 : 0},
                                      {Carry::shoulder_bag, 0.08 + 0.05 * women},
                                      {Carry::handbag, 0.02 + 0.14 * women},
-                                     {Carry::umbrella, 0.04}};
+                                     {Carry::umbrella, 0.18}};
     double sum = 0;
     for (const Share& share : shares) {
       sum += share.share;

@@ -79,6 +79,7 @@ struct Mesh {
 };
 
 /// What somebody carries; see items.h for where it hangs and where a hand holds it.
+/// Umbrellas are up; who has one takes part when it rains (Styling::umbrellas).
 enum class Carry : std::uint8_t { nothing, backpack, shoulder_bag, handbag, umbrella };
 inline constexpr std::size_t kCarryCount = 5;
 

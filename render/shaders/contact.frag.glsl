@@ -1,4 +1,5 @@
 // Less of the sky reaches the ground beside something that stands on it.
+in vec3 world;
 in vec2 from_middle;
 flat in vec4 extent;
 
@@ -8,5 +9,5 @@ void main() {
   float away = length(max(abs(from_middle) - extent.xy, 0.0));
   float near = max(1.0 - away / extent.z, 0.0);
   // The air before it shines all the same.
-  colour = vec4(film(through_air(vec3(0.0), 1.0 / gl_FragCoord.w)), extent.w * near * near);
+  colour = vec4(film(through_air(vec3(0.0), world)), extent.w * near * near);
 }

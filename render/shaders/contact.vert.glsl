@@ -2,6 +2,7 @@
 layout(location = 0) in vec4 footprint;  // per instance: middle, half sizes, m
 layout(location = 1) in vec4 shade;      // heading's cosine and sine, reach in m, strength
 
+out vec3 world;
 out vec2 from_middle;
 flat out vec4 extent;  // half sizes, reach, strength
 
@@ -13,5 +14,6 @@ void main() {
   extent = vec4(footprint.zw, shade.zw);
   vec2 at = footprint.xy + vec2(shade.x * from_middle.x - shade.y * from_middle.y,
                                 shade.y * from_middle.x + shade.x * from_middle.y);
-  gl_Position = project(vec3(at, kHeight));
+  world = vec3(at, kHeight);
+  gl_Position = project(world);
 }

@@ -53,6 +53,6 @@ void main() {
 #ifdef WET
   radiance = wet(radiance, openness);
 #endif
-  colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
+  colour = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

@@ -124,7 +124,20 @@ vec3 film(vec3 radiance) {
   return (x * (6.2 * x + 0.5)) / (x * (6.2 * x + 1.7) + 0.06);
 }
 
-// Air between the camera and a surface at depth z: Beer's law.
-vec3 through_air(vec3 radiance, float z) {
-  return mix(light.haze.rgb, radiance, exp2(-z * light.haze.w));
+// Air between the camera and a point: the light that it adds, and the share that it lets through
+// (Beer's law). Droplets throw light forwards, so that a ray from
+// below brings more of the ground's light than of the sky's: the share of a hemisphere that reaches
+// the camera is integrated from Henyey and Greenstein's phase function (1941; g = 0.75, ground of
+// albedo 0.25) and fitted within 0.04.
+vec4 air_before(vec3 world) {
+  vec3 way = light.eye.xyz - world;
+  float distance_m = length(way);
+  float down = max(way.z, 0.0) / distance_m;
+  float passed = exp2(-distance_m * light.haze.w);
+  return vec4(light.haze.rgb * ((1.0 - 0.54 * down * (2.0 - down)) * (1.0 - passed)), passed);
+}
+
+vec3 through_air(vec3 radiance, vec3 world) {
+  vec4 air = air_before(world);
+  return radiance * air.a + air.rgb;
 }

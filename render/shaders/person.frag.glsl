@@ -1,6 +1,12 @@
-// Skin, hair and clothes.
+// Skin, hair and clothes. With LIT_CORNERS light and air come from the corners.
+#ifdef LIT_CORNERS
+in vec3 received;
+in vec3 air;
+in vec2 uv;
+#else
 in vec4 world_sun;
 in vec3 uv_sky;
+#endif
 flat in uvec4 surface;
 flat in uvec4 shaded;
 
@@ -13,26 +19,37 @@ vec3 linear_from_srgb(vec3 c) {
   return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878);
 }
 
-void main() {
-  vec4 texel = texture(textures, vec3(uv_sky.xy, float(surface.x)));
-#ifdef ALPHA_TEST
-  if (texel.a < 0.5) discard;
-#endif
-  vec3 albedo = texel.rgb * linear_from_srgb(unpackUnorm4x8(surface.y).rgb);
-  if (surface.w != 0u) {
-    vec4 shades = texture(textures, vec3(uv_sky.xy, float(surface.w)));
-    for (int i = 0; i < 4; ++i) {
-      albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(shaded[i]).rgb);
-    }
-  }
+#ifdef LIT_CORNERS
+vec2 texture_place() { return uv; }
+
+vec3 seen(vec3 albedo) { return albedo * received + air; }
+#else
+vec2 texture_place() { return uv_sky.xy; }
+
+vec3 seen(vec3 albedo) {
   vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, uv_sky.z);
 #ifdef LAMPS
   vec3 direct = light.lamps.rgb * world_sun.w;
 #else
   vec3 direct = light.sun.rgb * (world_sun.w * sunlit_small(world_sun.xyz, 0.06));
 #endif
-  vec3 radiance = albedo * (direct + ambient);
-  colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
+  return through_air(albedo * (direct + ambient), world_sun.xyz);
+}
+#endif
+
+void main() {
+  vec4 texel = texture(textures, vec3(texture_place(), float(surface.x)));
+#ifdef ALPHA_TEST
+  if (texel.a < 0.5) discard;
+#endif
+  vec3 albedo = texel.rgb * linear_from_srgb(unpackUnorm4x8(surface.y).rgb);
+  if (surface.w != 0u) {
+    vec4 shades = texture(textures, vec3(texture_place(), float(surface.w)));
+    for (int i = 0; i < 4; ++i) {
+      albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(shaded[i]).rgb);
+    }
+  }
+  colour = vec4(film(seen(albedo)), 1.0);
   instance = surface.z;
   leave_silhouette();
 }

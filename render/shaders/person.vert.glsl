@@ -1,6 +1,6 @@
 // A person: blends two palettes, skins, turns and places the body. With SHADOW it is flattened into
-// the shadow map instead of being seen by the camera; with CORNERS it is lit corner by corner; with
-// SURFACE it carries what person_surface.frag.glsl writes.
+// the shadow map instead of being seen by the camera; with CORNERS it is lit and coloured corner by
+// corner, with LIT_CORNERS only lit so; with SURFACE it carries what person_surface.frag.glsl writes.
 layout(location = 0) in vec3 position_in;
 layout(location = 1) in uvec4 skin;     // bones, weights, part, normal: see render/people_meshes.h
 layout(location = 2) in vec2 uv_in;
@@ -92,6 +92,22 @@ uint tint_of(uint slot) {
 flat out ivec2 to_tile;  // from the picture, pixels
 #endif
 
+#if defined(CORNERS) || defined(LIT_CORNERS)
+// What a corner receives of sun, sky and lamps.
+vec3 light_at(vec3 world, vec3 n) {
+  vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z);
+#ifdef LAMPS
+  vec3 direct = light.lamps.rgb * lamp_light(world, n);
+#else
+  vec3 direct = light.sun.rgb * max(dot(n, light.sun_direction.xyz), 0.0);
+#ifdef SHADOWED
+  direct *= sunlit_small(world, 0.06);
+#endif
+#endif
+  return direct + ambient;
+}
+#endif
+
 #ifdef SHADOW
 void main() {
   vec3 world = placed(vec4(position_in, 1.0) * blended_rows());
@@ -115,20 +131,12 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(tints[i]).rgb);
   }
-  vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z);
-#ifdef LAMPS
-  vec3 direct = light.lamps.rgb * lamp_light(world, n);
-#else
-  vec3 direct = light.sun.rgb * max(dot(n, light.sun_direction.xyz), 0.0);
-#ifdef SHADOWED
-  direct *= sunlit_small(world, 0.06);
-#endif
-#endif
+  vec3 received = light_at(world, n);
   gl_Position = project_movable(world, ivec2(0));
 #ifdef SILHOUETTES
   to_tile = shift();
 #endif
-  lit = film(through_air(albedo * (direct + ambient), max(gl_Position.w, 0.0)));
+  lit = film(through_air(albedo * received, world));
   id = pose.w;
 }
 #elif defined(SURFACE)
@@ -173,8 +181,14 @@ void main() {
   gl_Position = project_movable(placed(vec4(position_in, 1.0) * blended_rows()), shift());
 }
 #else
+#ifdef LIT_CORNERS
+out vec3 received;
+out vec3 air;  // the light of the air before the camera
+out vec2 uv;
+#else
 out vec4 world_sun;     // position; sunlight received before shadows, or after sunset the lamps' light
 out vec3 uv_sky;        // texture coordinates; share of the sky's light
+#endif
 flat out uvec4 surface;  // texture layer, tint as sRGB, id, a portrait's second layer or 0
 flat out uvec4 shaded;   // a portrait's tints
 
@@ -182,12 +196,19 @@ void main() {
   mat3x4 rows = blended_rows();
   vec3 world = placed(vec4(position_in, 1.0) * rows);
   vec3 n = turned(normalize(vec4(normal_in(), 0.0) * rows));
+#ifdef LIT_CORNERS
+  vec4 before = air_before(world);
+  received = light_at(world, n) * before.a;
+  air = before.rgb;
+  uv = uv_in;
+#else
 #ifdef LAMPS
   world_sun = vec4(world, lamp_light(world, n));
 #else
   world_sun = vec4(world, max(dot(n, light.sun_direction.xyz), 0.0));
 #endif
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
+#endif
   surface = uvec4(part() & 0xFFFu, tint_of(part() >> 24), pose.w, part() >> 12 & 0xFFFu);
   shaded = tints;
   gl_Position = project_movable(world, ivec2(0));

@@ -18,6 +18,6 @@ void main() {
   vec3 direct = light.sun.rgb * max(dot(normal, light.sun_direction.xyz), 0.0);
 #endif
   gl_Position = project(position);
-  lit = film(through_air(albedo * (direct + ambient), max(gl_Position.w, 0.0)));
+  lit = film(through_air(albedo * (direct + ambient), position));
   id = id_in;
 }

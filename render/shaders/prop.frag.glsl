@@ -66,6 +66,6 @@ void main() {
 #ifdef LAMPS
   if (finish == kLamp) radiance += light.lamps.rgb * 2.5e-3;
 #endif
-  colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
+  colour = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

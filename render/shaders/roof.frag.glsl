@@ -27,6 +27,6 @@ void main() {
 #endif
   float sun = light.sun_direction.z * sunlit(world, 0.1);
   vec3 radiance = albedo * (light.sun.rgb * sun + light.sky.rgb);
-  colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
+  colour = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

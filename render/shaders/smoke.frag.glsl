@@ -1,4 +1,5 @@
 // A puff as a ball whose rim is torn, lit from above and by the sun.
+in vec3 world;
 in vec2 on_disc;
 flat in vec4 puff;
 flat in vec2 shift;
@@ -19,5 +20,5 @@ void main() {
 #ifdef LAMPS
   received += light.lamps.rgb * 4.0e-4;
 #endif
-  colour = vec4(film(through_air(puff.rgb * received, 1.0 / gl_FragCoord.w)), puff.a * thick);
+  colour = vec4(film(through_air(puff.rgb * received, world)), puff.a * thick);
 }

@@ -2,6 +2,7 @@
 layout(location = 0) in vec4 place;  // per instance: middle and radius, m
 layout(location = 1) in vec4 look;   // albedo, opacity
 
+out vec3 world;
 out vec2 on_disc;  // -1 to 1
 flat out vec4 puff;
 flat out vec2 shift;  // no two puffs are torn alike
@@ -10,5 +11,6 @@ void main() {
   on_disc = vec2(float((gl_VertexID & 1) * 2 - 1), float((gl_VertexID & 2) - 1));
   puff = look;
   shift = place.xy * 3.0 + vec2(gl_InstanceID);
-  gl_Position = project(place.xyz + place.w * (view.right.xyz * on_disc.x + view.down.xyz * on_disc.y));
+  world = place.xyz + place.w * (view.right.xyz * on_disc.x + view.down.xyz * on_disc.y);
+  gl_Position = project(world);
 }

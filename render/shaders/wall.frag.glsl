@@ -247,6 +247,6 @@ void main() {
   glow = s.glow * light.lamps.rgb * kWindow;
 #endif
   vec3 radiance = s.albedo * received + s.shine * mirrored_in_glass() + glow;
-  colour = vec4(film(through_air(radiance, 1.0 / gl_FragCoord.w)), 1.0);
+  colour = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

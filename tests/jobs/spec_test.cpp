@@ -283,6 +283,14 @@ TEST_F(Spec, SaysWhatItExpected) {
   EXPECT_THAT(problems_of(R"({"scenario": "nowhere"})")[0].expected, HasSubstr("yard"));
 }
 
+TEST_F(Spec, UmbrellasAreUpInTheRain) {
+  const JobSpec job = parse(R"({"scenario": "yard", "appearance": {"umbrellas": 0.4}})");
+  EXPECT_EQ(styling_in(job, render::Weather::rain).umbrellas, 0.4);
+  EXPECT_EQ(styling_in(job, render::Weather::clear).umbrellas, 0);
+  EXPECT_EQ(styling_in(job, render::Weather::overcast).umbrellas, 0);
+  EXPECT_GT(styling_in(parse(R"({"scenario": "yard"})"), render::Weather::rain).umbrellas, 0);
+}
+
 TEST_F(Spec, SyntaxErrorsNameLineAndColumn) {
   EXPECT_EQ(pointers_of("{\n  \"scenario\": yard}"), std::vector<std::string>{"line 2, column 15"});
   EXPECT_EQ(problems_of("").size(), 1U);

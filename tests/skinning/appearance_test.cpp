@@ -177,5 +177,40 @@ TEST(Cast, NobodyOfTheAgesIsAMistakeOfTheInput) {
   }
 }
 
+// Every sixth of them under an umbrella.
+Population people_with_umbrellas(int count) {
+  Population population = people_of(count);
+  for (std::size_t i = 0; i < population.characters.size(); i += 6) {
+    population.characters[i].carries = Carry::umbrella;
+    population.characters[i].tints = population.characters[0].tints;
+  }
+  return population;
+}
+
+double share_under_umbrellas(const Population& population, double wanted) {
+  Styling styling;
+  styling.umbrellas = wanted;
+  int under = 0;
+  for (std::uint32_t agent = 0; agent < kAgents; ++agent) {
+    const std::uint32_t character = appearance_of(population, 9, agent, styling).character;
+    under += population.characters[character].carries == Carry::umbrella ? 1 : 0;
+  }
+  return static_cast<double>(under) / kAgents;
+}
+
+TEST(Umbrellas, AreUpForTheShareThatIsAskedFor) {
+  const Population population = people_with_umbrellas(24);
+  for (const double share : {0.0, 0.1, 0.4, 0.8, 1.0}) {
+    EXPECT_NEAR(share_under_umbrellas(population, share), share, 0.03);
+  }
+}
+
+TEST(Umbrellas, StayShutWhereNobodyHasOneAndUpWhereAllHave) {
+  EXPECT_EQ(share_under_umbrellas(people_of(24), 0.5), 0);
+  Population population = people_of(4);
+  for (Character& character : population.characters) character.carries = Carry::umbrella;
+  EXPECT_EQ(share_under_umbrellas(population, 0), 1);
+}
+
 }  // namespace
 }  // namespace throng::skinning

@@ -1,0 +1,55 @@
+// Who of a scene a camera may see: how detailed they are drawn, and what of them is measured on the
+// CPU.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "camera/camera.h"
+#include "render/people_pass.h"
+#include "render/person_geometry.h"
+#include "render/quality.h"
+#include "render/renderer.h"
+#include "skinning/landmarks.h"
+#include "skinning/population.h"
+
+namespace throng::render {
+
+/// A sphere about a person's middle, as a share of stature, that holds any pose.
+inline constexpr double kPersonReach = 1.2;
+
+/// A person who may be in view, and what was measured so far.
+struct Seen {
+  PersonDraw draw;
+  PersonInView truth;
+  std::optional<std::size_t> tile;  ///< of their silhouette
+};
+
+class PeopleFinder {
+ public:
+  /// The population must outlive it.
+  PeopleFinder(const skinning::Population& population, const QualitySettings& quality);
+
+  /// Everybody whose box touches the image of a pinhole camera, by agent: with box, body, level of
+  /// detail and whether they are drawn with textures. A pure function of the arguments.
+  std::vector<Seen> find(const Scene& scene, const camera::Camera& camera) const;
+
+  /// How somebody is drawn into the shadow map, which shows no more than the coarsest level.
+  PersonDraw caster(std::uint32_t person, const PersonInstance& instance) const;
+
+ private:
+  Shading shading_of(std::size_t level) const;
+  PersonDraw draw_of(std::uint32_t person, double height_px, double depth_m,
+                     std::size_t levels) const;
+  void measure(const PersonInstance& person, const skinning::Palette& palette,
+               PersonInView& truth) const;
+  void texture_the_nearest(std::vector<Seen>& seen) const;
+
+  const skinning::Population* population_;
+  QualitySettings quality_;
+  std::vector<std::vector<BodyShape>> shapes_;  ///< [character][level]
+  std::vector<skinning::Landmarks> landmarks_;  ///< per character
+};
+
+}  // namespace throng::render
