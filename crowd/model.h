@@ -48,6 +48,7 @@ const std::vector<ModelEntry>& models();
 const ModelEntry& find_model(std::string_view name);
 
 ModelEntry orca_model();
+ModelEntry weidmann_model();
 ModelEntry pedvo_model();
 ModelEntry helbing_model();
 ModelEntry johansson_model();

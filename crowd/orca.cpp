@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <optional>
 
 #include "crowd/model.h"
 #include "crowd/neighborhood.h"
 #include "crowd/orca_batch.h"
 #include "crowd/orca_lines.h"
+#include "crowd/pace.h"
 
 namespace throng::crowd {
 
@@ -19,8 +21,9 @@ struct Workspace {
 
 class Orca : public Model {
  public:
-  explicit Orca(const Crowd& crowd)
-      : neighborhood_(crowd),
+  Orca(const Crowd& crowd, std::optional<Pace> pace)
+      : pace_(pace),
+        neighborhood_(crowd),
         solve_(OrcaBatch::kernel(crowd.instruction_set)),
         workspaces_(make_workspace(crowd)) {}
 
@@ -62,8 +65,8 @@ class Orca : public Model {
     }
   }
 
-  static void add(const Crowd& crowd, const Grid& grid, const Surroundings& around,
-                  Workspace& workspace) {
+  void add(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+           Workspace& workspace) const {
     const Agents& agents = crowd.agents;
     const std::size_t id = around.agent;
     workspace.walls.clear();
@@ -73,18 +76,33 @@ class Orca : public Model {
       avoid_walls(self, crowd.obstacles.segments(), around.walls,
                   agents.model_parameters[tau_obstacles][id], workspace.walls);
     }
-    workspace.batch.add({around.slot, agents.model_parameters[tau][id],
-                         agents.preferred_speed[id] * agents.preferred_direction[id],
+    float speed = agents.preferred_speed[id];
+    float horizon_s = agents.model_parameters[tau][id];
+    if (pace_) {
+      const float share = pace_->share(crowd, grid, around);
+      speed = std::min(speed, share * agents[Property::pref_speed][id]);
+      // Who is slow need not look as far; and at a door nobody waits for those beside them.
+      horizon_s *= share;
+    }
+    workspace.batch.add({around.slot, horizon_s, speed * agents.preferred_direction[id],
                          agents[Property::max_speed][id]},
                         workspace.walls, around.neighbors);
   }
 
+  std::optional<Pace> pace_;  // of those who slow down where it is crowded
   Neighborhood neighborhood_;
   OrcaBatch::Kernel* solve_;
   PerThread<Workspace> workspaces_;
 };
 
-std::unique_ptr<Model> make_orca(const Crowd& crowd) { return std::make_unique<Orca>(crowd); }
+std::unique_ptr<Model> make_orca(const Crowd& crowd) {
+  return std::make_unique<Orca>(crowd, std::nullopt);
+}
+
+std::unique_ptr<Model> make_weidmann(const Crowd& crowd) {
+  const std::vector<float>& c = crowd.model_constants;
+  return std::make_unique<Orca>(crowd, Pace({c[0], c[1], c[2], c[3]}));
+}
 
 }  // namespace
 
@@ -96,6 +114,23 @@ ModelEntry orca_model() {
            {"tauObst", 0.15F, 1e-3F, 1000, "how long moves stay free of walls, in s"}},
           {},
           make_orca};
+}
+
+ModelEntry weidmann_model() {
+  const PaceSpec pace;
+  return {
+      "weidmann",
+      "Weidmann",
+      "orca, slower where it is crowded ahead: calibrated to the fundamental diagram of Weidmann "
+      "(1993) and the flow through doors",
+      {{"tau", 0.51F, 1e-3F, 1000,
+        "how long moves stay free of others, in s; less where speed is less"},
+       {"tauObst", 0.15F, 1e-3F, 1000, "how long moves stay free of walls, in s"}},
+      {{"reach", pace.reach_m, 0.1F, 100, "how far ahead others count, in m"},
+       {"jam_density", pace.jam_density, 0.1F, 100, "at which nobody would walk, per m^2"},
+       {"decline", pace.decline, 0.01F, 100, "how late speed falls with density, per m^2"},
+       {"least", pace.least, 0, 1, "share of the free speed that is left in a jam"}},
+      make_weidmann};
 }
 
 }  // namespace throng::crowd

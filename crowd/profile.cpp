@@ -161,9 +161,9 @@ AttributeTable fixed_common_attributes() {
 }
 
 bool is_model_tag(std::string_view name) {
-  static constexpr std::array<std::string_view, 9> kTags = {"ORCA",      "PedVO",      "Helbing",
-                                                            "Johansson", "Karamouzas", "Zanlungo",
-                                                            "GCF",       "Dummy",      "OpenSteer"};
+  static constexpr std::array<std::string_view, 10> kTags = {
+      "ORCA",       "Weidmann", "PedVO", "Helbing", "Johansson",
+      "Karamouzas", "Zanlungo", "GCF",   "Dummy",   "OpenSteer"};
   return std::find(kTags.begin(), kTags.end(), name) != kTags.end();
 }
 

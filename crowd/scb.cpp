@@ -60,19 +60,29 @@ std::array<float, kLongestRecord> values_of(std::size_t version, const Simulatio
 
 }  // namespace
 
-ScbWriter::ScbWriter(const fs::path& path, std::string_view version, const Simulation& crowd)
-    : file_(path), version_(index_of(version)) {
-  std::string header(version);
-  header += '\0';
-  put(header, static_cast<std::uint32_t>(crowd.agent_count()));
+ScbFile::ScbFile(const fs::path& path, std::string_view version, double dt_s,
+                 std::span<const std::int32_t> classes)
+    : file_(path) {
+  bytes_ = version;
+  bytes_ += '\0';
+  put(bytes_, static_cast<std::uint32_t>(classes.size()));
   if (version != "1.0") {
-    put(header, std::bit_cast<std::uint32_t>(static_cast<float>(crowd.dt_s())));
-    for (const std::int32_t agent_class : crowd.agent_classes()) {
-      put(header, static_cast<std::uint32_t>(agent_class));
+    put(bytes_, std::bit_cast<std::uint32_t>(static_cast<float>(dt_s)));
+    for (const std::int32_t agent_class : classes) {
+      put(bytes_, static_cast<std::uint32_t>(agent_class));
     }
   }
-  file_.write(header);
+  file_.write(bytes_);
 }
+
+void ScbFile::add(std::span<const float> values) {
+  bytes_.clear();
+  for (const float value : values) put(bytes_, std::bit_cast<std::uint32_t>(value));
+  file_.write(bytes_);
+}
+
+ScbWriter::ScbWriter(const fs::path& path, std::string_view version, const Simulation& crowd)
+    : version_(index_of(version)), file_(path, version, crowd.dt_s(), crowd.agent_classes()) {}
 
 void ScbWriter::record(const Simulation& crowd) {
   const std::size_t floats = kFloats[version_];
@@ -84,9 +94,10 @@ void ScbWriter::record(const Simulation& crowd) {
     } else {
       values.fill(std::numeric_limits<float>::quiet_NaN());
     }
-    for (std::size_t k = 0; k < floats; ++k) put(frame_, std::bit_cast<std::uint32_t>(values[k]));
+    frame_.insert(frame_.end(), values.begin(),
+                  values.begin() + static_cast<std::ptrdiff_t>(floats));
   }
-  file_.write(frame_);
+  file_.add(frame_);
 }
 
 void ScbWriter::finish(const Simulation&) { file_.commit(); }

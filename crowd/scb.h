@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,26 @@ namespace throng::crowd {
 
 inline constexpr std::array<std::string_view, 6> kScbVersions = {"1.0", "2.0", "2.1",
                                                                  "2.2", "2.3", "2.4"};
+
+/// A file that is written frame by frame.
+class ScbFile {
+ public:
+  /// `version` is one of kScbVersions; `classes` has the agents' classes. Throws EnvironmentError
+  /// when the file cannot be written.
+  ScbFile(const std::filesystem::path& path, std::string_view version, double dt_s,
+          std::span<const std::int32_t> classes);
+
+  /// Adds a frame: the version's floats, agent after agent.
+  void add(std::span<const float> values);
+  void commit() { file_.commit(); }
+
+  const std::filesystem::path& path() const { return file_.path(); }
+  void flush() { file_.flush(); }
+
+ private:
+  StagedFile file_;
+  std::string bytes_;
+};
 
 class ScbWriter : public Recorder {
  public:
@@ -39,9 +60,9 @@ class ScbWriter : public Recorder {
   void flush() { file_.flush(); }
 
  private:
-  StagedFile file_;
   std::size_t version_;  // index into kScbVersions
-  std::string frame_;
+  ScbFile file_;
+  std::vector<float> frame_;
 };
 
 class ScbReader {

@@ -152,8 +152,9 @@ void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
   }
 }
 
-// Gives drones what the scenario knows of them. A job without drones flies the scenario's.
+// Gives the job what the scenario knows: its model, and its drones to a job without any.
 void take_from_scenario(JobSpec& job, const world::Scenario& scenario) {
+  job.crowd.model = sim::model_for(scenario, job.crowd);
   if (job.drones.empty()) {
     for (const world::DroneStart& known : scenario.drones) {
       job.drones.emplace_back().mission.id = known.id;

@@ -109,11 +109,17 @@ world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spe
 
 }  // namespace
 
+std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
+  if (!spec.model.empty()) return spec.model;
+  if (!scenario.crowd_model.empty()) return scenario.crowd_model;
+  return spec.compat == crowd::Compat::none ? "weidmann" : "orca";
+}
+
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
                              const CrowdSpec& spec) {
   crowd::LoadOptions options;
   options.seed = seed;
-  options.model = spec.model;
+  options.model = model_for(scenario, spec);
   options.compat = spec.compat;
   options.hard_separation = spec.hard_separation;
   options.compliance = spec.compliance;

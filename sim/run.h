@@ -73,7 +73,7 @@ struct DroneMission {
 
 /// How the crowd engine computes.
 struct CrowdSpec {
-  std::string model = "orca";  ///< a name in crowd::models()
+  std::string model;  ///< a name in crowd::models(); empty: as model_for() says
   crowd::Compat compat = crowd::Compat::none;
   bool hard_separation = false;
   double compliance = 1;  ///< probability that somebody near a guide follows it
@@ -89,6 +89,10 @@ struct RunSpec {
   WindSpec wind;
   double physics_dt_s = 1.0 / 480;  ///< at most 1/240 s
 };
+
+/// The pedestrian model of a run: the spec's, else the one that the scenario was made for, else
+/// `orca` where Menge's results are wanted and `weidmann` where people should walk as people do.
+std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec);
 
 /// The crowd of a run as the scenario begins. Throws like crowd::Simulation's constructor.
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,

@@ -249,7 +249,7 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   root.fields({"name", "crowd", "ground", "inside", "exits"},
               {"description", "buildings", "drones", "disaster_agents", "guides_alert", "meshes",
                "props", "scatter"});
-  root["crowd"].fields({"scene", "behavior"});
+  root["crowd"].fields({"scene", "behavior"}, {"model"});
   root["ground"].fields({"min", "max", "material"}, {"areas", "markings"});
   root["inside"].fields({"min", "max"});
 
@@ -259,6 +259,7 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   scenario.description = root["description"].text();
   scenario.scene_file = read_companion(root["crowd"]["scene"], file);
   scenario.behavior_file = read_companion(root["crowd"]["behavior"], file);
+  if (root["crowd"]["model"].exists()) scenario.crowd_model = root["crowd"]["model"].text();
   scenario.ground = read_rectangle(root["ground"]);
   scenario.ground_material = read_ground_material(root["ground"]["material"]);
   scenario.inside = read_rectangle(root["inside"]);

@@ -74,6 +74,7 @@ struct Scenario {
   std::string description;
   std::filesystem::path scene_file;     ///< Menge scene XML, absolute
   std::filesystem::path behavior_file;  ///< Menge behaviour XML, absolute
+  std::string crowd_model;              ///< pedestrian model that it was made for; empty: any
   Rectangle ground;                     ///< what is drawn as ground
   std::string ground_material;          ///< "pavers", "asphalt", "grass", "concrete"
   Rectangle inside;                     ///< who leaves this rectangle has escaped

@@ -1,0 +1,108 @@
+// How people of the model `weidmann` slow down where it is crowded ahead.
+#include "crowd/pace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "crowd/grid.h"
+#include "crowd_files.h"
+
+namespace throng::crowd {
+namespace {
+
+/// Agent 0 at the origin, heading for +x, among others.
+class PaceOf {
+ public:
+  explicit PaceOf(const std::vector<Eigen::Vector2f>& others, float max_neighbors = 10) {
+    Agents& agents = crowd_.agents;
+    agents.resize(1 + others.size(), 0);
+    for (std::size_t i = 0; i < agents.count(); ++i) {
+      agents.position[i] = i == 0 ? Eigen::Vector2f(0, 0) : others[i - 1];
+      agents.preferred_direction[i] = {1, 0};
+      agents.present[i] = 1;
+      agents[Property::neighbor_dist][i] = 5;
+      agents[Property::max_neighbors][i] = max_neighbors;
+    }
+    grid_.build(agents);
+    crowd_.obstacles.build();
+  }
+
+  float density() {
+    return look(
+        [this](const Surroundings& around) { return pace_.density_ahead(crowd_, grid_, around); });
+  }
+  float share() {
+    return look([this](const Surroundings& around) { return pace_.share(crowd_, grid_, around); });
+  }
+
+ private:
+  template <typename Measure>
+  float look(const Measure& measure) {
+    Neighborhood neighborhood(crowd_);
+    neighborhood.prepare(crowd_, grid_);
+    std::size_t slot = 0;
+    while (grid_.id(slot) != 0) ++slot;
+    return measure(neighborhood.look(crowd_, grid_, slot));
+  }
+
+  Crowd crowd_;
+  Grid grid_;
+  Pace pace_{PaceSpec{}};
+};
+
+std::vector<Eigen::Vector2f> lattice(float spacing) {
+  std::vector<Eigen::Vector2f> places;
+  for (int i = -12; i <= 12; ++i) {
+    for (int k = -12; k <= 12; ++k) {
+      const float shift = k % 2 == 0 ? 0 : 0.5F;  // rows apart, as in a crowd
+      if (i != 0 || k != 0)
+        places.emplace_back(spacing * (static_cast<float>(i) + shift),
+                            spacing * static_cast<float>(k));
+    }
+  }
+  return places;
+}
+
+TEST(Pace, IsFreeWhereNobodyIsAhead) {
+  EXPECT_EQ(PaceOf({}).share(), 1);
+  EXPECT_EQ(PaceOf({{-0.5F, 0}, {-1, 0.3F}, {0, 0.6F}}).share(), 1) << "behind and beside";
+  EXPECT_EQ(PaceOf({{1.75F, 0}}).share(), 1) << "out of reach";
+}
+
+TEST(Pace, FallsWithNearness) {
+  EXPECT_LT(PaceOf({{1, 0}}).share(), 1);
+  EXPECT_LT(PaceOf({{0.5F, 0}}).share(), PaceOf({{1, 0}}).share());
+  EXPECT_LT(PaceOf({{1, 0}}).share(), PaceOf({{0.5F, 0.866F}}).share()) << "aside counts less";
+}
+
+TEST(Pace, MeasuresTheDensityOfACrowd) {
+  for (const float spacing : {1.0F, 0.7F, 0.5F}) {
+    const float density = 1 / (spacing * spacing);
+    EXPECT_NEAR(PaceOf(lattice(spacing), 60).density(), density, 0.25F * density);
+    EXPECT_NEAR(PaceOf(lattice(spacing)).density(), density, 0.35F * density)
+        << "also where only ten others are minded";
+  }
+}
+
+TEST(Pace, LeavesALittleInAJam) {
+  const float share = PaceOf(lattice(0.3F), 60).share();
+  EXPECT_EQ(share, PaceSpec{}.least);
+  EXPECT_GT(share, 0);
+}
+
+TEST(Pace, HoldsForTheModelOnly) {
+  // Two in file; the one behind would run into the other's density.
+  const auto second_speed = [](const std::string& model) {
+    Simulation crowd = test::load(
+        test::scene_with(test::agent_at(0.8, 0) + test::agent_at(0, 0), R"(pref_speed="1.3")"),
+        R"(<BFSM><State name="Start" final="0"><VelComponent type="const_dir" x="1" y="0"/></State></BFSM>)",
+        {.model = model});
+    for (int i = 0; i < 8; ++i) crowd.step();  // as fast as max_accel lets them be
+    return crowd.velocities()[1].x();
+  };
+  EXPECT_LT(second_speed("weidmann"), second_speed("orca") - 0.02F);
+}
+
+}  // namespace
+}  // namespace throng::crowd
