@@ -23,6 +23,7 @@ void add_metrics(CLI::App& app);
 void add_report(CLI::App& app);
 void add_export(CLI::App& app);
 void add_validate(CLI::App& app);
+void add_validate_crowd(CLI::App& app);
 
 // Subcommands of `throng people` with files of their own.
 void add_people_import(CLI::App& people);

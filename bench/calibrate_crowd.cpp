@@ -1,0 +1,150 @@
+// Fits the parameters of the model `weidmann` to the fundamental diagram and to the flow through
+// doors, with Ceres, and prints what they give. Without --fit it prints the tables of any model.
+//
+//   calibrate_crowd [MODEL]   speed over density in a ring, specific flow of doors
+//   calibrate_crowd --fit     the fit, from the parameters that the model has now
+#include <ceres/ceres.h>
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crowd/model.h"
+#include "validation/flow.h"
+
+namespace throng::validation {
+namespace {
+
+constexpr std::array<double, 8> kDensities = {0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4};  // 1/m^2
+constexpr std::array<double, 5> kWidths = {0.8, 1.0, 1.2, 1.6, 2.0};            // m
+constexpr std::array<double, 2> kWalls = {0.2, 4};                              // m
+
+struct Tables {
+  std::vector<double> speeds;              ///< by density
+  std::vector<std::vector<double>> flows;  ///< by wall and width: of each seed
+};
+
+Tables measure(const Tested& tested, std::size_t seeds) {
+  Tables tables;
+  tables.speeds.resize(kDensities.size());
+  tables.flows.assign(kWalls.size() * kWidths.size(), std::vector<double>(seeds));
+  const std::size_t rings = kDensities.size();
+  const std::size_t runs = rings + tables.flows.size() * seeds;
+  tbb::parallel_for(std::size_t{0}, runs, [&](std::size_t run) {
+    tbb::task_arena alone(1);
+    alone.execute([&] {
+      if (run < rings) {
+        tables.speeds[run] = walk_in_ring(tested, kDensities[run], 1).speed_mps;
+        return;
+      }
+      const std::size_t door = (run - rings) / seeds;
+      const std::size_t seed = (run - rings) % seeds;
+      const Bottleneck bottleneck{kWidths[door % kWidths.size()], kWalls[door / kWidths.size()]};
+      tables.flows[door][seed] = specific_flow(tested, bottleneck, seed + 1);
+    });
+  });
+  return tables;
+}
+
+void print(const Tables& tables) {
+  fmt::print("density  speed  Weidmann\n");
+  for (std::size_t i = 0; i < kDensities.size(); ++i) {
+    fmt::print("{:7.1f} {:6.2f} {:9.2f}\n", kDensities[i], tables.speeds[i],
+               weidmann_speed_mps(kDensities[i]));
+  }
+  fmt::print("  wall  width  specific flow: median (least - greatest)\n");
+  for (std::size_t door = 0; door < tables.flows.size(); ++door) {
+    const std::vector<double>& flows = tables.flows[door];
+    const auto [least, greatest] = std::minmax_element(flows.begin(), flows.end());
+    fmt::print("{:6.1f} {:6.1f} {:6.2f} ({:.2f} - {:.2f})\n", kWalls[door / kWidths.size()],
+               kWidths[door % kWidths.size()], median(flows), *least, *greatest);
+  }
+}
+
+/// What is fitted: shares and densities that Pace has, and the horizon of avoidance.
+constexpr std::array<std::string_view, 4> kNames = {"decline", "jam_density", "least", "tau"};
+using Values = std::array<double, kNames.size()>;
+
+Tested weidmann_with(const Values& v) {
+  return {"weidmann",
+          fmt::format(R"(<Weidmann decline="{}" jam_density="{}" least="{}"/>)", v[0], v[1], v[2]),
+          fmt::format(R"(<Weidmann tau="{}"/>)", v[3])};
+}
+
+/// Deviations in units of what is tolerable: 0.1 m/s, and 0.3 /(m s) from the middle of what is
+/// observed at doors (1.2 to 2.3).
+struct Deviation {
+  static constexpr double kSpeedScale = 0.1;
+  static constexpr double kFlow = 1.75;
+  static constexpr double kFlowScale = 0.3;
+  static constexpr std::size_t kSeeds = 5;
+
+  bool operator()(const double* const values, double* residuals) const {
+    Values v{};
+    std::copy_n(values, v.size(), v.begin());
+    const Tables tables = measure(weidmann_with(v), kSeeds);
+    for (std::size_t i = 0; i < kDensities.size(); ++i) {
+      *residuals++ = (tables.speeds[i] - weidmann_speed_mps(kDensities[i])) / kSpeedScale;
+    }
+    for (const auto& flows : tables.flows) *residuals++ = (median(flows) - kFlow) / kFlowScale;
+    return true;
+  }
+};
+
+Values fit(Values values) {
+  constexpr int kResiduals = kDensities.size() + kWalls.size() * kWidths.size();
+  ceres::NumericDiffOptions steps;
+  steps.relative_step_size = 0.1;  // wide: flows through doors are chaotic
+  ceres::Problem problem;
+  problem.AddResidualBlock(
+      new ceres::NumericDiffCostFunction<Deviation, ceres::CENTRAL, kResiduals, kNames.size()>(
+          new Deviation, ceres::TAKE_OWNERSHIP, kResiduals, steps),
+      nullptr, values.data());
+  constexpr std::array<double, kNames.size()> kLow = {0.5, 3, 0.02, 0.3};
+  constexpr std::array<double, kNames.size()> kHigh = {5, 7, 0.3, 4};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    problem.SetParameterLowerBound(values.data(), static_cast<int>(i), kLow[i]);
+    problem.SetParameterUpperBound(values.data(), static_cast<int>(i), kHigh[i]);
+  }
+  ceres::Solver::Options options;
+  options.max_num_iterations = 2;  // more fit the noise of flows
+  options.minimizer_progress_to_stdout = true;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  fmt::print("{}\n", summary.BriefReport());
+  return values;
+}
+
+Values shipped_values() {
+  const crowd::ModelEntry& entry = crowd::find_model("weidmann");
+  Values values{};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    for (const auto* table : {&entry.constants, &entry.parameters}) {
+      for (const crowd::ModelParameter& parameter : *table) {
+        if (parameter.name == kNames[i]) values[i] = parameter.initial;
+      }
+    }
+  }
+  return values;
+}
+
+}  // namespace
+}  // namespace throng::validation
+
+int main(int argc, char** argv) {
+  using namespace throng::validation;
+  constexpr std::size_t kSeeds = 7;
+  const std::string word = argc > 1 ? argv[1] : "weidmann";
+  if (word != "--fit") {
+    print(measure({word}, kSeeds));
+    return 0;
+  }
+  const Values values = fit(shipped_values());
+  for (std::size_t i = 0; i < kNames.size(); ++i) fmt::print("{} {:.3f}\n", kNames[i], values[i]);
+  print(measure(weidmann_with(values), kSeeds));
+}

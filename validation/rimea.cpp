@@ -1,0 +1,224 @@
+// Tests of RiMEA (Richtlinie für mikroskopische Entfluchtungsanalysen, 4.1.1), but for those about
+// bottlenecks in series and those about stairs, which a crowd in a plane does not have.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "validation/floors.h"
+#include "validation/flow.h"
+#include "validation/run.h"
+#include "validation/suite.h"
+
+namespace throng::validation {
+
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+
+Verdict one_in_corridor(const Tested& tested, Effort) {
+  const Corridor walk = walk_corridor(tested, 1.33);
+  return {walk.time_s >= 26 && walk.time_s <= 34 && walk.inside,
+          fmt::format("{:.1f} s{}", walk.time_s, walk.inside ? "" : ", left the corridor")};
+}
+
+Verdict speed_over_density(const Tested& tested, Effort effort) {
+  const std::vector<double> densities = effort == Effort::full
+                                            ? std::vector<double>{0.5, 1, 2, 3, 4, 5, 6}
+                                            : std::vector<double>{1, 3};
+  std::string values;
+  bool falls = true;
+  double last = 10;
+  for (const double density : densities) {
+    const double speed = walk_in_ring(tested, density, kSeed).speed_mps;
+    values += fmt::format("{}{:.2f}", values.empty() ? "" : " ", speed);
+    falls = falls && speed < last;
+    last = speed;
+  }
+  return {falls, values + " m/s"};
+}
+
+Verdict pre_movement(const Tested& tested, Effort) {
+  Scene scene;
+  scene.walls = room(8, 5, {{Side::right, 2.5, 1}});
+  std::string states;
+  constexpr int kPeople = 10;
+  for (int i = 0; i < kPeople; ++i) {
+    const std::string name = fmt::format("Wait{}", i);
+    Group group;
+    group.places = {Vector2d(0.6 + 0.7 * i, 1 + (i % 3))};
+    group.state = name;
+    scene.groups.push_back(group);
+    states += fmt::format(
+        R"(<State name="{0}" final="0"/><Transition from="{0}" to="Walk"><Condition type="timer" per_agent="0" dist="c" value="{1}"/></Transition>
+)",
+        name, 10 * (i + 1));
+  }
+  scene.behavior = goal_box(0, 10, 1.5, 12, 3.5) + states + walk_to(0) + leave_at_goal();
+  crowd::Simulation crowd = load(scene, tested, kSeed);
+  const std::vector<Eigen::Vector2f> begin(crowd.positions().begin(), crowd.positions().end());
+  std::array<double, kPeople> started{};
+  const auto end = until_all_left(crowd, 300, [&](const crowd::Simulation& now) {
+    constexpr float kStep = 0.01F;  // m
+    for (std::size_t i = 0; i < started.size(); ++i) {
+      const bool walks = now.states()[i] != static_cast<std::uint8_t>(i);
+      if (started[i] == 0 && walks && (now.positions()[i] - begin[i]).norm() > kStep) {
+        started[i] = now.time_s();
+      }
+    }
+  });
+  double worst = 0;
+  for (int i = 0; i < kPeople; ++i) {
+    worst = std::max(worst, std::abs(started[static_cast<std::size_t>(i)] - 10.0 * (i + 1)));
+  }
+  return {end && worst <= 0.5, fmt::format("{:.1f} s off{}", worst, end ? "" : ", not all out")};
+}
+
+Verdict speeds_of_groups(const Tested& tested, Effort) {
+  struct AgeGroup {
+    double low;
+    double high;
+  };
+  constexpr std::array<AgeGroup, 4> kAges = {
+      {{0.58, 1.61}, {1.41, 1.54}, {0.68, 1.41}, {0.46, 0.76}}};
+  std::string values;
+  bool inside = true;
+  std::array<double, kAges.size()> means{};
+  for (std::size_t age = 0; age < kAges.size(); ++age) {
+    const std::string speed =
+        fmt::format(R"(dist="u" min="{}" max="{}")", kAges[age].low, kAges[age].high);
+    const std::vector<double> speeds = walk_alone(tested, speed, 50);
+    const auto [least, greatest] = std::minmax_element(speeds.begin(), speeds.end());
+    constexpr double kTolerance = 0.03;  // m/s
+    inside = inside && *least >= kAges[age].low - kTolerance &&
+             *greatest <= kAges[age].high + kTolerance;
+    for (const double each : speeds) means[age] += each / static_cast<double>(speeds.size());
+    values += fmt::format("{}{:.2f}-{:.2f}", age == 0 ? "" : ", ", *least, *greatest);
+  }
+  return {inside && means[1] > means[2] && means[2] > means[3], values + " m/s"};
+}
+
+/// 30 m x 20 m, exits of 1 m in the walls at both ends, at 1/4 and 3/4 of their length.
+std::optional<double> empty_hall(const Tested& tested, std::size_t people, bool right_too) {
+  std::vector<Door> doors = {{Side::left, 5, 1}, {Side::left, 15, 1}};
+  std::string goals = exit_goal(0, -3, 5) + exit_goal(1, -3, 15);
+  if (right_too) {
+    doors.push_back({Side::right, 5, 1});
+    doors.push_back({Side::right, 15, 1});
+    goals += exit_goal(2, 33, 5) + exit_goal(3, 33, 15);
+  }
+  Scene scene;
+  scene.walls = room(30, 20, doors);
+  Group group;
+  group.places = lattice({0.5, 0.5}, {29.5, 19.5}, people);
+  group.aside_m = 0.05;
+  scene.groups = {group};
+  scene.behavior = "<GoalSet id=\"0\">" + goals + "</GoalSet>\n" + walk_to(0) + leave_at_goal();
+  crowd::Simulation crowd = load(scene, tested, kSeed);
+  return until_all_left(crowd, 3600);
+}
+
+Verdict half_the_exits(const Tested& tested, Effort effort) {
+  const std::size_t people = effort == Effort::full ? 1000 : 200;
+  const auto four = empty_hall(tested, people, true);
+  const auto two = empty_hall(tested, people, false);
+  if (!four || !two) return {false, "jams"};
+  const double ratio = *two / *four;
+  return {ratio >= 1.6 && ratio <= 2.4,
+          fmt::format("{:.2f} ({:.0f} s, {:.0f} s)", ratio, *four, *two)};
+}
+
+Verdict exit_choice(const Tested& tested, Effort effort) {
+  Scene scene;
+  scene.walls = room(30, 20, {{Side::bottom, 5, 1}, {Side::bottom, 20, 1}});
+  Group group;
+  group.places = lattice({0.5, 0.5}, {12.5, 19.5}, effort == Effort::full ? 600 : 150);
+  group.aside_m = 0.05;
+  scene.groups = {group};
+  scene.behavior =
+      R"(<GoalSet id="0"><Goal id="0" type="AABB" min_x="4" min_y="-4" max_x="6" max_y="-2" weight="1"/>
+<Goal id="1" type="AABB" min_x="19" min_y="-4" max_x="21" max_y="-2" weight="1"/></GoalSet>
+<State name="Walk" final="0"><GoalSelector type="exit_choice" goal_set="0"/><VelComponent type="auto"/></State>
+)" + leave_at_goal();
+  crowd::Simulation crowd = load(scene, tested, kSeed);
+  const std::vector<int> used = exits_used(crowd, {Vector2d(5, -1), Vector2d(20, -1)}, 1800);
+  const double share = 100.0 * used[0] / std::max(1, used[0] + used[1]);
+  return {used[0] + used[1] == static_cast<int>(crowd.agent_count()) && share > 50 && used[1] > 0,
+          fmt::format("{:.0f} % the nearer, {} of {} out", share, used[0] + used[1],
+                      crowd.agent_count())};
+}
+
+/// How long people need from a start area of 4 m x 50 m along a way of 4 m width: straight on for
+/// so long, or round a corner.
+std::optional<double> long_way(const Tested& tested, std::size_t people, double straight_m) {
+  constexpr double kWidth = 4;
+  Scene scene;
+  Group group;
+  group.places = lattice({-50, 0.3}, {-0.5, kWidth - 0.3}, people);
+  group.aside_m = 0.05;
+  scene.groups = {group};
+  if (straight_m > 0) {
+    scene.walls = {box(-52, -1, straight_m + 5, 0), box(-52, kWidth, straight_m + 5, kWidth + 1),
+                   box(-53, -1, -52, kWidth + 1)};
+    scene.behavior = goal_box(0, straight_m, 0.5, straight_m + 4, kWidth - 0.5);
+  } else {
+    scene.walls = {box(-52, -1, 10 + kWidth + 1, 0), box(-52, kWidth, 10, 19),
+                   box(-53, -1, -52, kWidth + 1), box(10 + kWidth, 0, 11 + kWidth, 19)};
+    scene.behavior = goal_box(0, 10.5, kWidth + 10, 9.5 + kWidth, kWidth + 14);
+  }
+  scene.behavior += walk_to(0) + leave_at_goal();
+  crowd::Simulation crowd = load(scene, tested, kSeed);
+  return until_all_left(crowd, 1800);
+}
+
+Verdict large_corner(const Tested& tested, Effort effort) {
+  const std::size_t people = effort == Effort::full ? 500 : 100;
+  const auto shorter = long_way(tested, people, 20);
+  const auto corner = long_way(tested, people, 0);
+  const auto longer = long_way(tested, people, 28);
+  if (!shorter || !corner || !longer) return {false, "jams"};
+  return {*shorter <= *corner && *corner <= *longer,
+          fmt::format("{:.0f}, {:.0f}, {:.0f} s", *shorter, *corner, *longer)};
+}
+
+}  // namespace
+
+std::vector<Test> rimea_tests() {
+  return {
+      {"rimea_1", "RiMEA 1", "one person, free speed 1.33 m/s, corridor of 2 m x 40 m",
+       "26 to 34 s, inside of the corridor", one_in_corridor},
+      {"rimea_4", "RiMEA 4",
+       "endless corridor (a ring of 3 m x 79 m) with 0.5, 1, 2, 3, 4, 5, 6 people/m²",
+       "speed falls with density", speed_over_density},
+      {"rimea_5", "RiMEA 5",
+       "room of 8 m x 5 m, exit of 1 m, ten people who begin to move after 10, 20, ..., 100 s",
+       "each starts within 0.5 s of their time; all get out", pre_movement},
+      {"rimea_6", "RiMEA 6", "20 people round a corner, corridor 2 m wide",
+       "nobody crosses a wall; all get out",
+       [](const Tested& tested, Effort) { return round_corner(tested, 1e9); }},
+      {"rimea_7", "RiMEA 7", "50 people each of four ages, alone on a plain",
+       "speeds within their group's range (0.58-1.61, 1.41-1.54, 0.68-1.41, 0.46-0.76) ± 0.03 m/s; "
+       "means fall with age from the second on",
+       speeds_of_groups},
+      {"rimea_9", "RiMEA 9", "hall of 30 m x 20 m, 1000 people, four exits of 1 m, then two",
+       "time with two / time with four in 1.6 to 2.4", half_the_exits},
+      {"rimea_10", "RiMEA 10", "23 people in 12 rooms along a corridor, each told one of two exits",
+       "all take the exit they were told", assigned_exits},
+      {"rimea_11", "RiMEA 11",
+       "hall of 30 m x 20 m, 600 people in its left part, two exits in one wall, behaviour "
+       "`exit_choice`",
+       "all out; most by the nearer exit, some by the other", exit_choice},
+      {"rimea_15", "RiMEA 15", "500 people, 4 m wide: 20 m straight, round a corner, 28 m straight",
+       "times grow in this order", large_corner},
+      {"rimea_16", "RiMEA 16",
+       "single file in a ring of 26 m, 10 to 40 people; free speeds 1.34, 0.8 and 1.6 m/s",
+       "three quarters of the speeds within 0.25 m/s of (headway - 0.36 m) / 1.06 s, at most the "
+       "free speed (Seyfried et al. 2005); slower free speed below, faster above",
+       single_file},
+  };
+}
+
+}  // namespace throng::validation
