@@ -26,7 +26,7 @@ struct MetricsArguments {
   std::string scenario;
   std::string output;
   std::string csv;
-  std::string to_jupedsim;
+  std::string to_file;
   std::string without_guides;
   metrics::WalkerDefaults walkers;
 };
@@ -49,9 +49,9 @@ void measure(const MetricsArguments& arguments) {
   const world::Trace trace = recorded
                                  ? metrics::read_trajectory(arguments.trajectory, arguments.walkers)
                                  : world::read_trace(arguments.trace);
-  if (!arguments.to_jupedsim.empty()) {
-    metrics::write_trajectory(trace, arguments.to_jupedsim);
-    fmt::print("{}\n", arguments.to_jupedsim);
+  if (!arguments.to_file.empty()) {
+    metrics::write_trajectory(trace, arguments.to_file);
+    fmt::print("{}\n", arguments.to_file);
     if (arguments.output.empty() && arguments.csv.empty()) return;
   }
   if (recorded && arguments.scenario.empty()) {
@@ -83,14 +83,16 @@ void add_metrics(CLI::App& app) {
       "metrics", "Measure a trace, or recorded people: exits, clogs, escape, exposure");
   const auto arguments = std::make_shared<MetricsArguments>();
   command->add_option("trace", arguments->trace, "Trace of a run (HDF5)");
-  command->add_option("--trajectory", arguments->trajectory,
-                      "Recorded people instead: text of JuPedSim or PedPy, or JuPedSim's SQLite");
+  command->add_option(
+      "--trajectory", arguments->trajectory,
+      "Recorded people instead: text of JuPedSim or PedPy, JuPedSim's SQLite, or Menge's .scb");
   command->add_option("--scenario", arguments->scenario,
                       "Id or file (.json) of the scenario; default: the trace's");
   command->add_option("-o,--output", arguments->output, "JSON to write; default: standard output");
   command->add_option("--csv", arguments->csv, "Also write every exit at every step");
-  command->add_option("--to-jupedsim", arguments->to_jupedsim,
-                      "Write the people as a JuPedSim trajectory (.txt or .sqlite)");
+  command->add_option(
+      "--to,--to-jupedsim", arguments->to_file,
+      "Write the people as a trajectory of JuPedSim (.txt, .sqlite) or Menge (.scb)");
   command->add_option("--without-guides", arguments->without_guides,
                       "Trace of the same run without drones, for the guides' effect");
   command->add_option("--radius", arguments->walkers.radius_m, "Of recorded people, m")

@@ -28,11 +28,6 @@ constexpr double kCentimetre = 0.01;
 constexpr std::int64_t kMostFrames = 10'000'000;
 constexpr std::string_view kDatabaseStart = "SQLite format 3";
 
-struct Recorded {
-  double frames_per_s = 0;
-  std::map<std::int64_t, std::map<std::int64_t, Vector2d>> places;  ///< by person and frame
-};
-
 std::vector<std::string_view> words_of(std::string_view line) {
   constexpr std::string_view kBetween = " \t,;\r";
   std::vector<std::string_view> words;
@@ -227,13 +222,17 @@ void fill_database(const world::Trace& trace, SQLite::Database& database) {
   transaction.commit();
 }
 
+Recorded read_recorded(const fs::path& file) {
+  if (file.extension() == ".scb") return read_scb(file);
+  const std::string bytes = read_file(file);
+  return bytes.starts_with(kDatabaseStart) ? read_database(file)
+                                           : TextReader(bytes, file.string()).read();
+}
+
 }  // namespace
 
 world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers) {
-  const std::string bytes = read_file(file);
-  const Recorded recorded = bytes.starts_with(kDatabaseStart)
-                                ? read_database(file)
-                                : TextReader(bytes, file.string()).read();
+  const Recorded recorded = read_recorded(file);
   if (recorded.places.empty()) {
     throw InputError({file.string(), "", "nobody", "at least one person in one frame"});
   }
@@ -263,6 +262,7 @@ world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers
 }
 
 void write_trajectory(const world::Trace& trace, const fs::path& file) {
+  if (file.extension() == ".scb") return write_scb(trace, file);
   if (file.extension() != ".sqlite") return write_file_atomically(file, text_of(trace));
   try {
     StagedFile staged(file);

@@ -67,7 +67,7 @@ TEST_P(TrajectoryRoundTrip, KeepsWhatTheFormatHolds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, TrajectoryRoundTrip,
-                         ::testing::Values("walk.txt", "walk.sqlite"));
+                         ::testing::Values("walk.txt", "walk.sqlite", "walk.scb"));
 
 TEST(TrajectoryFile, SaysWhichLineIsWrong) {
   const std::vector<std::pair<std::string, std::string>> cases = {

@@ -1,0 +1,203 @@
+"""What `throng metrics` says of a run, against an implementation of the same definitions (docs/metrics.md) written
+anew with NumPy, and the trajectories that it writes, read with Python's own library. Skipped without h5py."""
+import csv
+import importlib.util
+import json
+import math
+import pathlib
+import sqlite3
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+THRONG = sys.argv.pop(1)
+
+WIDTH = 1.2
+BUILDINGS = [[[0, -10], [4, -10], [4, -WIDTH / 2], [0, -WIDTH / 2]], [[0, WIDTH / 2], [4, WIDTH / 2], [4, 10], [0, 10]]]
+INSIDE = {"min": [-20, -12], "max": [3, 12]}
+
+SCENE = """<Experiment version="2.0"><SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
+<AgentProfile name="a"><Common r="0.25" max_accel="5"><Property name="pref_speed" dist="n" mean="1.3" stddev="0.2"/></Common>
+<ORCA tau="2" tauObst="0.3"/></AgentProfile>
+<AgentGroup><ProfileSelector type="const" name="a"/><StateSelector type="const" name="Walk"/>
+<Generator type="rect_grid" anchor_x="-8" anchor_y="-4" offset_x="0.9" offset_y="1" count_x="8" count_y="9"
+ displace_dist="u" displace_min="0" displace_max="0.1"/></AgentGroup>
+<ObstacleSet type="explicit" class="1">{}</ObstacleSet></Experiment>""".format("".join(
+    '<Obstacle closed="1">' + "".join(f'<Vertex p_x="{x}" p_y="{y}"/>' for x, y in building) + "</Obstacle>"
+    for building in BUILDINGS))
+BEHAVIOR = """<BFSM><GoalSet id="0"><Goal id="0" type="AABB" min_x="12" min_y="-1" max_x="14" max_y="1"/></GoalSet>
+<State name="Walk" final="0"><GoalSelector type="nearest" goal_set="0"/><VelComponent type="auto"/></State>
+<State name="Out" final="1"/><Transition from="Walk" to="Out"><Condition type="goal_reached"/></Transition></BFSM>"""
+PLACE = {
+    "name": "yard with a door",
+    "crowd": {"scene": "scene.xml", "behavior": "behavior.xml"},
+    "ground": {"min": [-30, -20], "max": [30, 20], "material": "asphalt"},
+    "inside": INSIDE,
+    "exits": [{"id": "door", "from": [0, -WIDTH / 2], "to": [0, WIDTH / 2], "outward": [1, 0], "goals": [[0, 0]]}],
+    "buildings": [{"id": f"b{i}", "footprint": corners, "height_m": 5} for i, corners in enumerate(BUILDINGS)],
+}
+
+
+def throng(*arguments):
+    done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@unittest.skipUnless(importlib.util.find_spec("h5py"), "h5py is not installed")
+class Metrics(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        import h5py
+        cls.folder = tempfile.TemporaryDirectory()
+        base = cls.base = pathlib.Path(cls.folder.name)
+        (base / "scene.xml").write_text(SCENE)
+        (base / "behavior.xml").write_text(BEHAVIOR)
+        (base / "place.json").write_text(json.dumps(PLACE))
+        throng("crowd", "-s", base / "scene.xml", "-b", base / "behavior.xml", "-m", "orca", "-r", "5", "-d", "90", "-q",
+               "-o", base / "run.h5")
+        throng("metrics", base / "run.h5", "--scenario", base / "place.json", "-o", base / "run.json",
+               "--csv", base / "exits.csv")
+        cls.figures = json.loads((base / "run.json").read_text())
+        with open(base / "exits.csv", newline="") as file:
+            cls.rows = list(csv.DictReader(file))
+        with h5py.File(base / "run.h5") as file:
+            cls.time = file["crowd/time_s"][:]
+            cls.place = file["crowd/position"][:].astype(float)
+            cls.velocity = file["crowd/velocity"][:].astype(float)
+            cls.desired = file["crowd/desired_speed_mps"][:].astype(float)
+            cls.radius = float(file["agents/radius_m"][:].mean())
+        cls.zone_radius = max(WIDTH, 2) + 1
+        cls.in_zone = (cls.place[..., 0] < 0) & (numpy.hypot(cls.place[..., 0], cls.place[..., 1]) < cls.zone_radius)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def column(self, name):
+        return numpy.array([float(row[name]) for row in self.rows])
+
+    def crossed(self):
+        """Cumulative crossings outward; who is 0.2 m beyond the line has crossed. In this place nobody comes back."""
+        beyond = numpy.maximum.accumulate(self.place[..., 0], axis=0) >= 0.2
+        return beyond.sum(axis=1)
+
+    def test_crossings_and_flow(self):
+        crossed = self.crossed()
+        self.assertEqual(crossed[0], 0)
+        self.assertGreater(crossed[-1], 60)
+        numpy.testing.assert_array_equal(self.column("crossed"), crossed)
+        earlier = numpy.concatenate([numpy.zeros(40), crossed[:-40]])
+        numpy.testing.assert_allclose(self.column("flow"), (crossed - earlier) / 4, atol=0.006)
+        numpy.testing.assert_allclose(self.column("specific_flow"), (crossed - earlier) / 4 / WIDTH, atol=6e-4)
+
+    def test_density_and_clogging_index(self):
+        area = math.pi * self.zone_radius ** 2 / 2
+        count = self.in_zone.sum(axis=1)
+        density = count / area
+        numpy.testing.assert_array_equal(self.column("in_zone"), count)
+        numpy.testing.assert_allclose(self.column("density"), density, atol=2e-4)
+        eta = density * 2 * math.sqrt(3) * self.radius ** 2
+        numpy.testing.assert_allclose(self.column("normalised_density"), eta, atol=2e-4)
+        to_door = -self.place / numpy.linalg.norm(self.place, axis=2, keepdims=True)
+        ahead = (self.velocity * to_door).sum(axis=2)
+        some = numpy.maximum(count, 1)
+        approach = (ahead * self.in_zone).sum(axis=1) / some
+        desired = (self.desired * self.in_zone).sum(axis=1) / some
+        numpy.testing.assert_allclose(self.column("approach_speed"), approach, atol=2e-4)
+        demand = count >= math.ceil(WIDTH / (2 * self.radius)) + 1
+        flow = self.column("flow")
+        lack = numpy.clip(1 - flow / (1.3 * WIDTH), 0, 1) + numpy.clip(1 - approach / numpy.maximum(0.6 * desired, 1e-9), 0, 1)
+        index = demand * numpy.minimum(1, eta / 0.6) * 0.5 * lack
+        numpy.testing.assert_allclose(self.column("clogging_index"), index, atol=2e-3)
+        self.assertGreater(index.max(), 0.2, "there is something to compare")
+
+    def test_voronoi_density_by_raster(self):
+        """Everybody's cell drawn in squares of 4 cm."""
+        cell = 0.04
+        x, y = numpy.meshgrid(numpy.arange(-7, 4, cell) + cell / 2, numpy.arange(-6, 6, cell) + cell / 2)
+        free = (x < 0) | ((abs(y) < WIDTH / 2) & (x < 4))
+        zone = (x < 0) & (numpy.hypot(x, y) < self.zone_radius)
+        measured = self.column("voronoi_density")
+        compared = 0
+        for step in range(30, len(self.time), 60):
+            near = self.place[step][(numpy.linalg.norm(self.place[step], axis=1) < self.zone_radius + 6)
+                                    & (self.place[step][:, 0] < 4)]
+            if len(near) == 0:
+                continue
+            distance = numpy.stack([(x - px) ** 2 + (y - py) ** 2 for px, py in near])
+            owner = distance.argmin(axis=0)
+            owned = free & (distance.min(axis=0) < 4)
+            people = 0.0
+            for i in range(len(near)):
+                mine = owned & (owner == i)
+                people += (mine & zone).sum() / max(mine.sum(), 1)
+            expected = people / (math.pi * self.zone_radius ** 2 / 2)
+            self.assertAlmostEqual(measured[step], expected, delta=0.03 * expected + 0.01, msg=f"step {step}")
+            compared += 1
+        self.assertGreater(compared, 3)
+
+    def test_escape_percentiles(self):
+        outside = ((self.place < INSIDE["min"]) | (self.place > INSIDE["max"])).any(axis=2)
+        first = numpy.where(outside.any(axis=0), self.time[outside.argmax(axis=0)], numpy.inf)
+        ordered = numpy.sort(first)
+        for percent in (50, 80, 90, 95, 99, 100):
+            expected = ordered[math.ceil(percent * len(ordered) / 100) - 1]
+            value = self.figures["escape_time_percentiles"][f"t{percent}_s"]
+            if math.isinf(expected):
+                self.assertIsNone(value)
+            else:
+                self.assertAlmostEqual(value, expected, delta=1e-6)
+        censored = numpy.minimum(first, self.time[-1]).mean()
+        self.assertAlmostEqual(self.figures["mean_escape_time_censored_s"], censored, delta=1e-6)
+        self.assertEqual(self.figures["not_escaped"], int(numpy.isinf(first).sum()))
+
+    def assert_places(self, rows):
+        """Rows of id, frame, x, y."""
+        self.assertEqual(len(rows), self.place.shape[0] * self.place.shape[1])
+        for person, frame, x, y in rows[:: max(1, len(rows) // 500)]:
+            numpy.testing.assert_allclose([x, y], self.place[frame, person - 1], atol=1e-4)
+
+    def test_text_for_pedpy(self):
+        throng("metrics", self.base / "run.h5", "--to", self.base / "run.txt")
+        lines = (self.base / "run.txt").read_text().splitlines()
+        self.assertEqual(lines[0], "# framerate: 10")
+        rows = [line.split() for line in lines if not line.startswith("#")]
+        self.assert_places([(int(a), int(f), float(x), float(y)) for a, f, x, y in rows])
+
+    def test_sqlite_of_jupedsim(self):
+        throng("metrics", self.base / "run.h5", "--to", self.base / "run.sqlite")
+        with sqlite3.connect(self.base / "run.sqlite") as database:
+            metadata = dict(database.execute("SELECT key, value FROM metadata"))
+            self.assertEqual(metadata, {"version": "2", "fps": "10"})
+            self.assert_places(list(database.execute(
+                "SELECT id, frame, pos_x, pos_y FROM trajectory_data ORDER BY id, frame")))
+
+    def test_scb_of_menge(self):
+        throng("metrics", self.base / "run.h5", "--to", self.base / "run.scb")
+        data = (self.base / "run.scb").read_bytes()
+        self.assertEqual(data[:4], b"2.1\0")
+        people, dt = struct.unpack_from("<if", data, 4)
+        self.assertEqual(people, self.place.shape[1])
+        self.assertAlmostEqual(dt, 0.1, places=6)
+        frames = numpy.frombuffer(data, dtype="<f4", offset=12 + 4 * people).reshape(-1, people, 4)
+        numpy.testing.assert_allclose(frames[..., :2], self.place, atol=1e-5)
+
+    def test_what_was_written_gives_the_same_figures(self):
+        for suffix in ("txt", "sqlite", "scb"):
+            file = self.base / f"again.{suffix}"
+            throng("metrics", self.base / "run.h5", "--to", file)
+            again = json.loads(throng("metrics", "--trajectory", file, "--scenario", self.base / "place.json"))
+            self.assertEqual(again["exits"][0]["crossings"], self.figures["exits"][0]["crossings"], suffix)
+            for name, value in self.figures["escape_time_percentiles"].items():
+                self.assertEqual(again["escape_time_percentiles"][name] is None, value is None)
+                if value is not None:
+                    self.assertAlmostEqual(again["escape_time_percentiles"][name], value, delta=1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
