@@ -303,7 +303,28 @@ constexpr const char* kStyle =
     "table{border-collapse:collapse;margin:1em 0;font-size:13px}"
     "td,th{border:1px solid #ccc;padding:3px 7px;text-align:right}"
     "th{background:#f3f3f3}td:first-child{text-align:left}svg{display:block;margin:1em 0;"
-    "max-width:100%;height:auto}";
+    "max-width:100%;height:auto}label{margin-right:1em}";
+
+/// Style by which only the run that is chosen is shown: a selector that needs no script.
+std::string shown_when_chosen(std::size_t runs) {
+  if (runs < 2) return "";
+  std::string style = "section{display:none}";
+  for (std::size_t i = 0; i < runs; ++i) {
+    style += fmt::format("#run{0}:checked~#of_run{0}{{display:block}}", i);
+  }
+  return style + "@media print{section{display:block}}";
+}
+
+/// Exits, maps, diagram and ways of one run.
+std::string run_charts(const MeasuredRun& run, const world::Scenario& scenario) {
+  const GroundFigures ground = ground_figures(run, scenario);
+  return "<h3>Exits, " + escaped_markup(run.name) + "</h3>\n" + exits_table(run) +
+         timeline_chart(run) + "<h3>Ground, " + escaped_markup(run.name) + "</h3>\n" +
+         map_chart("Mean density over the run", "/m²", ground.density, scenario) +
+         map_chart("Greatest crowd pressure (sampled each second)", "/s²", ground.pressure,
+                   scenario) +
+         fundamental_chart(ground.density_and_speed) + ways_chart(run, scenario);
+}
 
 }  // namespace
 
@@ -316,22 +337,27 @@ MeasuredRun measured(std::string name, world::Trace trace, const world::Scenario
 
 std::string html_report(const world::Scenario& scenario, const std::vector<MeasuredRun>& runs) {
   check(!runs.empty(), "a report has a run");
-  const MeasuredRun& first = runs.front();
-  const GroundFigures ground = ground_figures(first, scenario);
   const std::string title = escaped_markup(scenario.name.empty() ? scenario.id : scenario.name);
-  return fmt::format(
+  std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>"
-      "<style>{1}</style></head><body>\n<h1>{0}</h1>\n<p>{2}</p>\n<p>{3} runs, {4}, definitions "
-      "version {5} (docs/metrics.md). A time that was not reached before the run ended is called "
-      "so; the mean escape time counts the run's end for who was still inside. Exits, maps, "
-      "diagram and ways are those of {6}.</p>\n<h2>Runs</h2>\n{7}{8}<h2>Exits</h2>\n{9}{10}"
-      "<h2>Ground</h2>\n{11}{12}{13}{14}</body></html>\n",
-      title, kStyle, escaped_markup(scenario.description), runs.size(), kGenerator,
-      metrics::kDefinitionsVersion, escaped_markup(first.name), runs_table(runs),
-      escape_chart(runs), exits_table(first), timeline_chart(first),
-      map_chart("Mean density over the run", "/m²", ground.density, scenario),
-      map_chart("Greatest crowd pressure (sampled each second)", "/s²", ground.pressure, scenario),
-      fundamental_chart(ground.density_and_speed), ways_chart(first, scenario));
+      "<style>{1}{2}</style></head><body>\n<h1>{0}</h1>\n<p>{3}</p>\n<p>{4} run{5}, {6}, "
+      "definitions version {7} (docs/metrics.md). A time that was not reached before the run ended "
+      "is called so; the mean escape time counts the run's end for who was still inside.</p>\n"
+      "<h2>{8}</h2>\n{9}{10}",
+      title, kStyle, shown_when_chosen(runs.size()), escaped_markup(scenario.description),
+      runs.size(), runs.size() == 1 ? "" : "s", kGenerator, metrics::kDefinitionsVersion,
+      runs.size() == 1 ? "Run" : "All runs", runs_table(runs), escape_chart(runs));
+  if (runs.size() > 1) html += "<h2>One run</h2>\n";
+  for (std::size_t i = 0; i < runs.size() && runs.size() > 1; ++i) {
+    html += fmt::format(
+        "<input type=\"radio\" name=\"run\" id=\"run{0}\"{1}><label for=\"run{0}\">{2}</label>\n",
+        i, i == 0 ? " checked" : "", escaped_markup(runs[i].name));
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    html +=
+        fmt::format("<section id=\"of_run{}\">\n{}</section>\n", i, run_charts(runs[i], scenario));
+  }
+  return html + "</body></html>\n";
 }
 
 }  // namespace throng::study

@@ -33,13 +33,16 @@ TEST(RunReport, HoldsChartsAndTablesAndFetchesNothing) {
   scenario.name = "A \"hall\" & <more>";
   scenario.buildings.push_back(metrics::box({-10, 5}, {-5, 8}));
   const std::string html = html_report(scenario, two_runs(scenario));
-  EXPECT_EQ(count(html, "<svg "), 6U);
-  EXPECT_EQ(count(html, "</svg>"), 6U);
-  EXPECT_EQ(count(html, "<table>"), 2U);
+  EXPECT_EQ(count(html, "<svg "), 11U) << "one of all runs, five of each";
+  EXPECT_EQ(count(html, "</svg>"), 11U);
+  EXPECT_EQ(count(html, "<table>"), 3U);
+  EXPECT_EQ(count(html, "type=\"radio\""), 2U) << "to choose a run by";
+  EXPECT_EQ(count(html, " checked>"), 1U);
+  EXPECT_EQ(count(html, "<section id="), 2U);
   EXPECT_EQ(count(html, "<script"), 0U);
-  EXPECT_EQ(count(html, "http"), 6U) << "the name space of each chart, nothing else";
+  EXPECT_EQ(count(html, "http"), 11U) << "the name space of each chart, nothing else";
   EXPECT_EQ(count(html, "nan"), 0U);
-  EXPECT_EQ(count(html, "fast&lt;&amp;&gt;"), 4U);
+  EXPECT_EQ(count(html, "fast&lt;&amp;&gt;"), 6U);
   EXPECT_NE(html.find("A &quot;hall&quot; &amp; &lt;more&gt;"), std::string::npos);
   EXPECT_EQ(html, html_report(scenario, two_runs(scenario)));
 }
@@ -48,7 +51,9 @@ TEST(RunReport, NobodyIsNoError) {
   const world::Scenario scenario = metrics::place_with_door(2);
   std::vector<MeasuredRun> runs;
   runs.push_back(measured("empty", metrics::trace_of({}), scenario));
-  EXPECT_NE(html_report(scenario, runs).find("not reached"), std::string::npos);
+  const std::string html = html_report(scenario, runs);
+  EXPECT_NE(html.find("not reached"), std::string::npos);
+  EXPECT_EQ(count(html, "type=\"radio\""), 0U) << "one run needs no choice";
 }
 
 TEST(RunReport, PlotsScaleTheirAxes) {
