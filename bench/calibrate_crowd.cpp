@@ -100,11 +100,13 @@ Values fit(Values values) {
   constexpr int kResiduals = kDensities.size() + kWalls.size() * kWidths.size();
   ceres::NumericDiffOptions steps;
   steps.relative_step_size = 0.1;  // wide: flows through doors are chaotic
-  ceres::Problem problem;
-  problem.AddResidualBlock(
-      new ceres::NumericDiffCostFunction<Deviation, ceres::CENTRAL, kResiduals, kNames.size()>(
-          new Deviation, ceres::TAKE_OWNERSHIP, kResiduals, steps),
-      nullptr, values.data());
+  Deviation deviation;
+  ceres::NumericDiffCostFunction<Deviation, ceres::CENTRAL, kResiduals, kNames.size()> cost(
+      &deviation, ceres::DO_NOT_TAKE_OWNERSHIP, kResiduals, steps);
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&cost, nullptr, values.data());
   constexpr std::array<double, kNames.size()> kLow = {0.5, 3, 0.02, 0.3};
   constexpr std::array<double, kNames.size()> kHigh = {5, 7, 0.3, 4};
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -21,6 +21,16 @@ std::size_t onset_of(const std::vector<ExitSample>& samples, const std::vector<d
   return onset;
 }
 
+// The step of the next passage, or the first one without demand.
+std::size_t end_of(const std::vector<ExitSample>& samples, std::size_t from) {
+  std::size_t end = from;
+  while (end < samples.size() && samples[end].demand &&
+         samples[end].since_crossing_s > world::kTimeSlackS) {
+    ++end;
+  }
+  return end;
+}
+
 }  // namespace
 
 void find_clogs(ExitSeries& series, const std::vector<double>& time_s) {
@@ -45,6 +55,8 @@ void find_clogs(ExitSeries& series, const std::vector<double>& time_s) {
     ClogEvent& clog = series.clogs.back();
     std::size_t end = step;
     while (end < samples.size() && samples[end].state == ExitState::clogged) ++end;
+    // Who stops pressing has not passed yet.
+    end = std::max(end, end_of(samples, end));
     clog.until_s = end < samples.size() ? time_s[end] : time_s.back();
     clog.ended = end < samples.size();
     for (std::size_t i = onset; i < end; ++i) {

@@ -105,6 +105,7 @@ std::vector<double> walk_alone(const Tested& tested, const std::string& speed, s
   const std::vector<Eigen::Vector2f> begin(crowd.positions().begin(), crowd.positions().end());
   while (crowd.time_s() < kEnd - kRounding) crowd.step();
   std::vector<double> speeds;
+  speeds.reserve(people);
   for (std::size_t i = 0; i < people; ++i) {
     speeds.push_back((crowd.positions()[i] - begin[i]).norm() / (kEnd - kBegin));
   }

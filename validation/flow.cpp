@@ -14,6 +14,7 @@ namespace {
 Polygon regular_polygon(double radius, bool clockwise) {
   constexpr int kCorners = 120;
   Polygon polygon;
+  polygon.reserve(kCorners);
   for (int i = 0; i < kCorners; ++i) {
     const double angle = 2 * M_PI * (clockwise ? -i : i) / kCorners;
     polygon.emplace_back(radius * std::cos(angle), radius * std::sin(angle));

@@ -30,8 +30,9 @@ Verdict doors(const Tested& tested, double wall_m, Effort effort) {
   std::string values;
   bool inside = true;
   for (const double width : widths) {
-    std::vector<double> flows;
     const std::uint64_t seeds = effort == Effort::full ? 7 : 3;
+    std::vector<double> flows;
+    flows.reserve(seeds);
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       flows.push_back(specific_flow(tested, {width, wall_m, 150}, seed));
     }

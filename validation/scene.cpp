@@ -105,6 +105,7 @@ std::vector<Vector2d> lattice(const Vector2d& low, const Vector2d& high, std::si
   const Vector2d step(size.x() / static_cast<double>(columns),
                       size.y() / static_cast<double>(rows));
   std::vector<Vector2d> places;
+  places.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Vector2d cell(static_cast<double>(i / rows) + 0.5, static_cast<double>(i % rows) + 0.5);
     places.emplace_back(low + cell.cwiseProduct(step));

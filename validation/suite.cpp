@@ -28,6 +28,7 @@ class Suite {
     std::stop_source failed;
     {
       std::vector<std::jthread> pool;
+      pool.reserve(static_cast<std::size_t>(threads));
       for (int t = 0; t < threads; ++t) {
         pool.emplace_back([&] {
           tbb::task_arena alone(1);
@@ -79,6 +80,7 @@ std::vector<Test> chosen_tests(const std::vector<std::string>& ids) {
         std::find_if(all.begin(), all.end(), [&](const Test& test) { return test.id == id; });
     if (found == all.end()) {
       std::vector<std::string> known;
+      known.reserve(all.size());
       for (const Test& test : all) known.push_back(test.id);
       throw InputError(
           Problem{"", "--tests", id, fmt::format("one of {}", fmt::join(known, ", "))});
@@ -90,6 +92,7 @@ std::vector<Test> chosen_tests(const std::vector<std::string>& ids) {
 
 std::vector<std::string> chosen_models(const std::vector<std::string>& names) {
   std::vector<std::string> chosen;
+  chosen.reserve(crowd::models().size());
   for (const std::string& name : names) chosen.emplace_back(crowd::find_model(name).name);
   if (!chosen.empty()) return chosen;
   chosen.emplace_back("weidmann");
@@ -113,7 +116,7 @@ std::vector<Test> all_tests() {
 Results run_suite(const std::vector<std::string>& models, const std::vector<std::string>& tests,
                   Effort effort, int threads, const SuiteProgress& progress,
                   const std::stop_token& stop) {
-  Results results{chosen_models(models), chosen_tests(tests), {}};
+  Results results{effort, chosen_models(models), chosen_tests(tests), {}};
   results.verdicts.assign(results.tests.size(), std::vector<Verdict>(results.models.size()));
   if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   Suite(results, effort, progress).run(threads, stop);
@@ -127,6 +130,10 @@ std::string markdown(const Results& results) {
       "([crowd.md](crowd.md)). **+** passed, **-** failed, with what was measured. Tests of RiMEA "
       "and NIST TN 1822 that need stairs, smoke, lifts or groups are left out, since a crowd in a "
       "plane has none; criteria are those of published implementations (JuPedSim, Vadere).\n\n";
+  if (results.effort == Effort::reduced) {
+    page +=
+        "Reduced (`--reduced`): fewer people, densities and runs than the set-ups below say.\n\n";
+  }
   page += fmt::format("| test | {} |\n|---|", fmt::join(results.models, " | "));
   for (std::size_t m = 0; m < results.models.size(); ++m) page += "---|";
   page += "\n";

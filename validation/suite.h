@@ -35,6 +35,7 @@ std::vector<Test> flow_tests();
 std::vector<Test> all_tests();
 
 struct Results {
+  Effort effort = Effort::full;
   std::vector<std::string> models;
   std::vector<Test> tests;
   std::vector<std::vector<Verdict>> verdicts;  ///< by test and model

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "metrics/clogs.h"
 #include "metrics/exit_totals.h"
 #include "metrics/exits.h"
 #include "metrics/pressure.h"
@@ -146,6 +147,34 @@ TEST(ExitClogs, TheWholeGapIsClogged) {
     EXPECT_EQ(sample.state_offline, ExitState::clogged);
   }
   EXPECT_EQ(series.samples[5].state, ExitState::congested) << "which nobody knew at the time";
+}
+
+TEST(ExitClogs, LastsUntilSomebodyPasses) {
+  using enum ExitState;
+  // A second per sample; crossings in samples 1 and 7, relief without any in 5 and 6.
+  const std::vector<ExitState> states = {flowing, congested, congested, clogged,
+                                         clogged, flowing,   flowing,   flowing};
+  ExitSeries series;
+  std::vector<double> time_s;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    ExitSample sample;
+    sample.state = states[i];
+    sample.demand = true;
+    sample.since_crossing_s = i == 0 || i == 7 ? 0 : static_cast<double>(i) - 1;
+    series.samples.push_back(sample);
+    time_s.push_back(static_cast<double>(i));
+  }
+  ExitSeries left = series;
+  find_clogs(series, time_s);
+  ASSERT_EQ(series.clogs.size(), 1U);
+  EXPECT_EQ(series.clogs[0].from_s, 1);
+  EXPECT_EQ(series.clogs[0].until_s, 7);
+  EXPECT_TRUE(series.clogs[0].ended);
+  EXPECT_EQ(series.samples[6].state_offline, clogged);
+  EXPECT_EQ(series.samples[7].state_offline, flowing);
+  left.samples[6].demand = false;  // they have given up
+  find_clogs(left, time_s);
+  EXPECT_EQ(left.clogs.at(0).until_s, 6);
 }
 
 TEST(ExitClogs, AFreeDoorHasNone) {
