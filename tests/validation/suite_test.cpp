@@ -13,8 +13,8 @@ namespace {
 
 class Default : public testing::TestWithParam<std::string> {};
 
-/// What it does not do well (docs/crowd.md): it keeps to the inner side of corners, and single files
-/// are too quick.
+/// What it does not do well (docs/crowd.md): it keeps to the inner side of corners, and single
+/// files are too quick.
 const std::set<std::string> kKnownFailures = {"rimea_15", "rimea_16"};
 
 TEST_P(Default, Passes) {
