@@ -35,13 +35,21 @@ void set_kernel(AxisKernel& kernel, double centre, int size, double sigma) {
   kernel.weight.resize(last - kernel.first + 1);
   const double own_distance = own + 0.5 - centre;
   const double scale = 1 / (2 * sigma * sigma);
-  double sum = 0;
-  for (int i = kernel.first; i <= last; ++i) {
-    const double distance = i + 0.5 - centre;
-    const double exponent = (own_distance * own_distance - distance * distance) * scale;
-    sum += kernel.weight[i - kernel.first] = std::exp(exponent);
+  // From pixel to pixel a Gaussian's values change by a factor that itself changes by a constant
+  // one; outwards from the head's own pixel all of these are at most 1.
+  const double change = std::exp(-2 * scale);
+  double sum = kernel.weight[own - kernel.first] = 1;
+  double factor = std::exp(-(1 + 2 * own_distance) * scale);
+  double weight = 1;
+  for (int i = own + 1; i <= last; ++i, factor *= change) {
+    sum += kernel.weight[i - kernel.first] = weight *= factor;
   }
-  for (double& weight : kernel.weight) weight /= sum;
+  factor = std::exp(-(1 - 2 * own_distance) * scale);
+  weight = 1;
+  for (int i = own - 1; i >= kernel.first; --i, factor *= change) {
+    sum += kernel.weight[i - kernel.first] = weight *= factor;
+  }
+  for (double& share : kernel.weight) share /= sum;
 }
 
 bool is_inside(const Eigen::Vector2d& head, int width, int height) {
