@@ -20,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array kKinds = {"intrinsics", "pose", "bundle"};
+constexpr std::array kRequestKinds = {"intrinsics", "pose", "bundle"};
 constexpr std::array kFields = {"kind",    "images",     "board",    "points",   "observations",
                                 "gcp",     "size",       "camera",   "fix_lens", "lens",
                                 "skew",    "fix",        "tie",      "prior",    "reject",
@@ -155,7 +155,7 @@ Request request_from_json(const json& value, const fs::path& folder) {
   member<std::string>(value, "", "name", "");
   Request request;
   request.kind = member<std::string>(value, "", "kind", "intrinsics");
-  if (std::find(kKinds.begin(), kKinds.end(), request.kind) == kKinds.end()) {
+  if (std::find(kRequestKinds.begin(), kRequestKinds.end(), request.kind) == kRequestKinds.end()) {
     refuse("/kind", request.kind, "intrinsics, pose or bundle");
   }
   const json images = value.value("images", json::array());

@@ -24,10 +24,14 @@ void add_report(CLI::App& app);
 void add_export(CLI::App& app);
 void add_validate(CLI::App& app);
 void add_validate_crowd(CLI::App& app);
+void add_calibrate(CLI::App& app);
 
 // Subcommands of `throng people` with files of their own.
 void add_people_import(CLI::App& people);
 void add_people_sheet(CLI::App& people);
+
+/// The subcommand of `throng calibrate` with a file of its own.
+void add_calibrate_selftest(CLI::App& calibrate);
 
 /// Exit codes of the program, in one place: documented in `throng --help`.
 enum ExitCode : int {

@@ -3,11 +3,15 @@
 #include <fmt/core.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "calibrate/camera_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
+#include "jobs/calibrations.h"
 #include "jobs/local_processes.h"
 #include "jobs/profile.h"
 #include "jobs/supervisor.h"
@@ -63,7 +67,12 @@ jobs::JobSpec read_job_file(const std::string& path) {
   } catch (const EnvironmentError& error) {
     throw InputError({path, "", "no readable file", "a job file"});
   }
-  return jobs::parse_job(text, path, world::scenarios_folder());
+  // A calibration is a file, named from where the job's file is.
+  const auto camera_in = [&](const std::string& name) {
+    const std::filesystem::path file = std::filesystem::path(path).parent_path() / name;
+    return calibrate::to_json(calibrate::read_camera_file(file));
+  };
+  return jobs::parse_job(jobs::with_calibrations(text, camera_in), path, world::scenarios_folder());
 }
 
 void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job,

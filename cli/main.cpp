@@ -30,7 +30,8 @@ constexpr std::array kCommands = {cli::add_run,
                                   cli::add_validate,
                                   cli::add_validate_crowd,
                                   cli::add_metrics,
-                                  cli::add_report};
+                                  cli::add_report,
+                                  cli::add_calibrate};
 
 int run(int argc, char** argv) {
   CLI::App app{"Synthetic crowd datasets: simulate a crowd and drones, render, annotate."};

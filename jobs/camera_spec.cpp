@@ -178,6 +178,45 @@ std::optional<camera::Distortion> distortion_of(const CameraSpec& spec) {
   return std::nullopt;
 }
 
+/// What a calibration says, so that nothing else may.
+constexpr std::array kCalibrated = {"preset", "width", "height", "hfov_deg", "fx_px",
+                                    "fy_px",  "cx_px", "cy_px",  "model",    "distortion"};
+
+bool is_calibrated(const std::string& field) {
+  const std::string first = field.substr(0, field.find('/'));
+  return std::find(kCalibrated.begin(), kCalibrated.end(), first) != kCalibrated.end();
+}
+
+void read_calibration(const json& value, const std::string& pointer, CameraSpec& spec,
+                      std::vector<Problem>& problems) {
+  const std::string at = pointer + "/calibration";
+  const json& given = value.at("calibration");
+  if (given.is_string()) {
+    problems.push_back({"", at, given.dump(), "the id of a calibration that has succeeded"});
+    return;
+  }
+  for (const char* field : kCalibrated) {
+    if (value.contains(field)) {
+      problems.push_back(
+          {"", fmt::format("{}/{}", pointer, field), "also a calibration", "one of the two"});
+    }
+  }
+  try {
+    spec.calibration = calibrate::camera_from_json(given, "");
+  } catch (const InputError& error) {
+    for (Problem problem : error.problems()) {
+      problem.where = at + problem.where;
+      problems.push_back(std::move(problem));
+    }
+    return;
+  }
+  const calibrate::CameraFile& camera = *spec.calibration;
+  spec.width = camera.size.width;
+  spec.height = camera.size.height;
+  spec.fx_px = camera.parameters[calibrate::kFx];
+  spec.fy_px = camera.parameters[calibrate::kFy];
+}
+
 }  // namespace
 
 std::string camera_pointer(std::size_t drone) { return fmt::format("/drones/{}/camera", drone); }
@@ -222,6 +261,7 @@ CameraSpec read_camera(const json& value, const std::string& pointer,
     if (found.is_object()) spec.drawn.emplace(field.name, distribution);
   }
   check_choices(value, spec, pointer, problems);
+  if (value.contains("calibration")) read_calibration(value, pointer, spec, problems);
   return spec;
 }
 
@@ -229,10 +269,12 @@ json to_json(const CameraSpec& spec) {
   json value = {{"width", spec.width},
                 {"height", spec.height},
                 {"model", kModels.at(static_cast<std::size_t>(spec.model))}};
+  if (spec.calibration) value = {{"calibration", calibrate::to_json(*spec.calibration)}};
   value["gimbal"]["model"] = kGimbals.at(spec.gimbal.ideal ? 0 : 1);
   if (!spec.preset.empty()) value["preset"] = spec.preset;
   for (const Field& field : fields()) {
     if (field.name == "hfov_deg" && spec.fx_px) continue;
+    if (spec.calibration && is_calibrated(field.name)) continue;
     const auto drawn = spec.drawn.find(field.name);
     if (drawn != spec.drawn.end()) {
       value[below(field.name)] = drawn->second.to_json(number_quantity(field.low, field.high));
@@ -256,6 +298,7 @@ CameraSpec camera_of_run(const CameraSpec& spec, std::uint64_t run_seed,
 }
 
 std::optional<camera::Intrinsics> intrinsics_of(const CameraSpec& run_camera) {
+  if (run_camera.calibration) return run_camera.calibration->intrinsics();
   camera::Intrinsics k = camera::intrinsics_from_hfov(run_camera.width, run_camera.height,
                                                       run_camera.hfov_deg * kDegree);
   k.distortion = distortion_of(run_camera);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "calibrate/camera_file.h"
 #include "camera/camera.h"
 #include "jobs/distribution.h"
 #include "render/exposure.h"
@@ -40,6 +41,9 @@ struct PerFrame {
 
 struct CameraSpec {
   std::string preset;  ///< a camera of jobs/cameras.json that lent what the job left out, or ""
+  /// A real camera: its lens is what frames have. Its size and focal lengths are below, too, for
+  /// who needs no more.
+  std::optional<calibrate::CameraFile> calibration;
   int width = 1280;
   int height = 720;
   double hfov_deg = 78;         ///< counts if there is no fx_px

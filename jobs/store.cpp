@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 constexpr int kBusyTimeoutMs = 5000;
 
 constexpr const char* kTables = R"(
@@ -34,13 +34,18 @@ CREATE TABLE IF NOT EXISTS job (
   error TEXT NOT NULL DEFAULT '',
   created_ms INTEGER NOT NULL,
   started_ms INTEGER NOT NULL DEFAULT 0,
-  ended_ms INTEGER NOT NULL DEFAULT 0
+  ended_ms INTEGER NOT NULL DEFAULT 0,
+  kind TEXT NOT NULL DEFAULT 'dataset'
 ) WITHOUT ROWID;
 CREATE INDEX IF NOT EXISTS job_by_state ON job (state, id);
 )";
 
+/// Version 1 knew datasets only.
+constexpr const char* kFromVersion1 =
+    "ALTER TABLE job ADD COLUMN kind TEXT NOT NULL DEFAULT 'dataset'";
+
 constexpr const char* kColumns =
-    "id, name, state, attempt, spec, progress, error, created_ms, started_ms, ended_ms";
+    "id, name, state, attempt, spec, progress, error, created_ms, started_ms, ended_ms, kind";
 
 std::int64_t system_clock_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -95,6 +100,8 @@ JobRow row_of(SQLite::Statement& query) {
   row.created_ms = query.getColumn(7);
   row.started_ms = query.getColumn(8);
   row.ended_ms = query.getColumn(9);
+  const bool calibration = query.getColumn(10).getString() == name_of(JobKind::calibration);
+  row.kind = calibration ? JobKind::calibration : JobKind::dataset;
   return row;
 }
 
@@ -123,8 +130,11 @@ struct Store::Connections {
       throw EnvironmentError(fmt::format("the job store has version {}, this program knows {}",
                                          version, kSchemaVersion));
     }
+    SQLite::Transaction transaction(database);
+    if (version == 1) database.exec(kFromVersion1);
     database.exec(kTables);
     database.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
+    transaction.commit();
   }
 
   FolderLock lock;
@@ -161,21 +171,27 @@ Store::Store(const fs::path& folder, Clock clock)
 
 Store::~Store() = default;
 
-JobRow Store::add(const std::string& name, const std::string& spec_json) {
+std::string_view name_of(JobKind kind) {
+  return kind == JobKind::calibration ? "calibration" : "dataset";
+}
+
+JobRow Store::add(const std::string& name, const std::string& spec_json, JobKind kind) {
   return with_database(connections_->writer_mutex, [&] {
     std::random_device random;
     JobRow row;
     row.created_ms = clock_();
     row.id = make_job_id(row.created_ms, connections_->last_id, random());
+    row.kind = kind;
     row.name = name;
     row.spec_json = spec_json;
-    SQLite::Statement insert(
-        connections_->writer,
-        "INSERT INTO job (id, name, state, spec, created_ms) VALUES (?, ?, 'queued', ?, ?)");
+    SQLite::Statement insert(connections_->writer,
+                             "INSERT INTO job (id, name, state, spec, created_ms, kind) VALUES (?, "
+                             "?, 'queued', ?, ?, ?)");
     insert.bind(1, row.id);
     insert.bind(2, name);
     insert.bind(3, spec_json);
     insert.bind(4, row.created_ms);
+    insert.bind(5, text(name_of(kind)));
     insert.exec();
     connections_->last_id = row.id;
     return row;
@@ -192,14 +208,16 @@ std::optional<JobRow> Store::get(const std::string& id) const {
   });
 }
 
-std::vector<JobRow> Store::list(int limit, const std::string& after) const {
+std::vector<JobRow> Store::list(int limit, const std::string& after, JobKind kind) const {
   return with_database(connections_->reader_mutex, [&] {
     SQLite::Statement query(
         connections_->reader,
-        fmt::format("SELECT {} FROM job WHERE ?1 = '' OR id < ?1 ORDER BY id DESC LIMIT ?2",
+        fmt::format("SELECT {} FROM job WHERE kind = ?3 AND (?1 = '' OR id < ?1) ORDER BY id DESC "
+                    "LIMIT ?2",
                     kColumns));
     query.bind(1, after);
     query.bind(2, limit);
+    query.bind(3, text(name_of(kind)));
     std::vector<JobRow> rows;
     while (query.executeStep()) rows.push_back(row_of(query));
     return rows;

@@ -14,13 +14,19 @@
 
 namespace throng::jobs {
 
+/// What a queued job is asked to make.
+enum class JobKind { dataset, calibration };
+
+std::string_view name_of(JobKind kind);
+
 /// One job as stored.
 struct JobRow {
   std::string id;
+  JobKind kind = JobKind::dataset;
   std::string name;
   JobState state = JobState::queued;
   int attempt = 0;              ///< how often a supervisor took it up
-  std::string spec_json;        ///< the job with all defaults
+  std::string spec_json;        ///< the job with all defaults; a calibration's request
   std::string progress_json;    ///< the last that was saved; "" for none
   std::string error_json;       ///< why it failed; "" for none
   std::int64_t created_ms = 0;  ///< Unix time
@@ -42,11 +48,13 @@ class Store {
   Store& operator=(const Store&) = delete;
 
   /// Queues a job and returns it. Durable.
-  JobRow add(const std::string& name, const std::string& spec_json);
+  JobRow add(const std::string& name, const std::string& spec_json,
+             JobKind kind = JobKind::dataset);
 
   std::optional<JobRow> get(const std::string& id) const;
-  /// At most `limit` jobs, newest first, older than the job `after` (if not empty).
-  std::vector<JobRow> list(int limit, const std::string& after = "") const;
+  /// At most `limit` jobs of a kind, newest first, older than the job `after` (if not empty).
+  std::vector<JobRow> list(int limit, const std::string& after = "",
+                           JobKind kind = JobKind::dataset) const;
   /// The job to work on next: one that was running when the last server ended, else the oldest that
   /// is queued.
   std::optional<JobRow> next() const;

@@ -65,6 +65,19 @@ const char* title_of(int status) {
   }
 }
 
+/// What all that is queued has.
+json row_json(const jobs::JobRow& row) {
+  return {{"id", row.id},
+          {"name", row.name},
+          {"state", name_of(row.state)},
+          {"attempt", row.attempt},
+          {"created_at", time_json(row.created_ms)},
+          {"started_at", time_json(row.started_ms)},
+          {"ended_at", time_json(row.ended_ms)},
+          {"progress", parsed_or(row.progress_json, json::object())},
+          {"error", parsed_or(row.error_json, nullptr)}};
+}
+
 }  // namespace
 
 json progress_json(const jobs::JobProgress& progress) {
@@ -105,19 +118,24 @@ json error_json(const std::string& kind, const std::string& message,
   return {{"kind", kind}, {"message", message}, {"problems", problems_json(problems)}};
 }
 
+json calibration_json(const jobs::JobRow& row) {
+  const std::string self = "/v1/calibrations/" + row.id;
+  json value = row_json(row);
+  value["request"] = json::parse(row.spec_json);
+  value["links"] = {{"self", self}};
+  if (row.state == jobs::JobState::succeeded) {
+    for (const char* result : {"camera", "opencv", "ros", "residuals"}) {
+      value["links"][result] = fmt::format("{}/{}", self, result);
+    }
+  }
+  return value;
+}
+
 json job_json(const jobs::JobRow& row) {
   const std::string self = "/v1/jobs/" + row.id;
-  json value = {{"id", row.id},
-                {"name", row.name},
-                {"state", name_of(row.state)},
-                {"attempt", row.attempt},
-                {"created_at", time_json(row.created_ms)},
-                {"started_at", time_json(row.started_ms)},
-                {"ended_at", time_json(row.ended_ms)},
-                {"progress", parsed_or(row.progress_json, json::object())},
-                {"error", parsed_or(row.error_json, nullptr)},
-                {"job", json::parse(row.spec_json)},
-                {"links", {{"self", self}}}};
+  json value = row_json(row);
+  value["job"] = json::parse(row.spec_json);
+  value["links"] = {{"self", self}};
   if (row.state == jobs::JobState::succeeded) {
     value["links"]["archive"] = self + "/archive";
     value["links"]["metrics"] = self + "/metrics";

@@ -21,6 +21,9 @@ nlohmann::json error_json(const std::string& kind, const std::string& message,
 /// [{"pointer", "found", "expected", "message"}]
 nlohmann::json problems_json(const std::vector<Problem>& problems);
 
+/// A calibration as GET /v1/calibrations/{id} shows it; its camera is there once it has succeeded.
+nlohmann::json calibration_json(const jobs::JobRow& row);
+
 /// A job as GET /v1/jobs/{id} shows it.
 nlohmann::json job_json(const jobs::JobRow& row);
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
@@ -15,11 +14,12 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "jobs/archive.h"
-#include "jobs/job_id.h"
 #include "jobs/manifest.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
 #include "server/byte_range.h"
+#include "server/calibration_api.h"
+#include "server/requests.h"
 
 namespace throng::server {
 
@@ -28,18 +28,6 @@ using httplib::Response;
 using nlohmann::json;
 
 namespace {
-
-// What a handler throws to answer with a problem document.
-struct HttpError {
-  int status;
-  std::string detail;
-  std::vector<Problem> problems = {};
-};
-
-void write_json(Response& response, int status, const json& value) {
-  response.status = status;
-  response.set_content(text_of(value), "application/json");
-}
 
 void write_problem(Response& response, const HttpError& error) {
   response.status = error.status;
@@ -58,12 +46,22 @@ constexpr const char* kArchive = "/v1/jobs/([a-z0-9]+)/archive";
 constexpr const char* kMetrics = "/v1/jobs/([a-z0-9]+)/metrics";
 constexpr const char* kRunMetrics = "/v1/jobs/([a-z0-9]+)/runs/([0-9]+)/metrics";
 constexpr const char* kRunMetricsCsv = "/v1/jobs/([a-z0-9]+)/runs/([0-9]+)/metrics.csv";
+constexpr const char* kCalibrations = "/v1/calibrations";
+constexpr const char* kCalibration = "/v1/calibrations/([a-z0-9]+)";
+constexpr const char* kCalibrationResult = "/v1/calibrations/([a-z0-9]+)/([a-z0-9]+)";
 constexpr const char* kSchema = "/v1/schema";
 constexpr const char* kHealth = "/healthz";
-constexpr std::array kPaths = {Path{kJobs, "GET, HEAD, POST"}, Path{kJob, "GET, HEAD, DELETE"},
-                               Path{kArchive, "GET, HEAD"},    Path{kMetrics, "GET, HEAD"},
-                               Path{kRunMetrics, "GET, HEAD"}, Path{kRunMetricsCsv, "GET, HEAD"},
-                               Path{kSchema, "GET, HEAD"},     Path{kHealth, "GET, HEAD"}};
+constexpr std::array kPaths = {Path{kJobs, "GET, HEAD, POST"},
+                               Path{kJob, "GET, HEAD, DELETE"},
+                               Path{kArchive, "GET, HEAD"},
+                               Path{kMetrics, "GET, HEAD"},
+                               Path{kRunMetrics, "GET, HEAD"},
+                               Path{kRunMetricsCsv, "GET, HEAD"},
+                               Path{kCalibrations, "GET, HEAD, POST"},
+                               Path{kCalibration, "GET, HEAD, DELETE"},
+                               Path{kCalibrationResult, "GET, HEAD"},
+                               Path{kSchema, "GET, HEAD"},
+                               Path{kHealth, "GET, HEAD"}};
 
 // Whether the library would find `path` by `pattern`, whose groups are whole segments.
 bool fits(std::string_view pattern, std::string_view path) {
@@ -99,11 +97,7 @@ void write_library_error(const Request& request, Response& response, int status,
 }
 
 jobs::JobRow find(JobService& service, const Request& request) {
-  const std::string id = request.matches[1];
-  std::optional<jobs::JobRow> row;
-  if (jobs::is_job_id(id)) row = service.get(id);
-  if (!row) throw HttpError{404, fmt::format("there is no job {}", id)};
-  return std::move(*row);
+  return find_row(service, request, jobs::JobKind::dataset);
 }
 
 jobs::JobRow find_succeeded(JobService& service, const Request& request) {
@@ -113,22 +107,6 @@ jobs::JobRow find_succeeded(JobService& service, const Request& request) {
         409, fmt::format("the job is {}; this is there once it has succeeded", name_of(row.state))};
   }
   return row;
-}
-
-int limit_of(const Request& request) {
-  constexpr int kUsual = 50;
-  constexpr int kMost = 500;
-  if (!request.has_param("limit")) return kUsual;
-  const std::string text = request.get_param_value("limit");
-  int limit = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), limit);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || limit < 1 ||
-      limit > kMost) {
-    throw HttpError{400,
-                    "limit is wrong",
-                    {{"", "?limit", text, fmt::format("an integer from 1 to {}", kMost)}}};
-  }
-  return limit;
 }
 
 void submit(JobService& service, const Request& request, Response& response) {
@@ -143,12 +121,8 @@ void submit(JobService& service, const Request& request, Response& response) {
 }
 
 void list(JobService& service, const Request& request, Response& response) {
-  const std::string after = request.get_param_value("after");
-  if (!after.empty() && !jobs::is_job_id(after)) {
-    throw HttpError{400, "after is wrong", {{"", "?after", after, "the id of a job"}}};
-  }
   const int limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows = service.list(limit, after);
+  const std::vector<jobs::JobRow> rows = service.list(limit, after_of(request));
   json jobs = json::array();
   for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row));
   const bool more = static_cast<int>(rows.size()) == limit;
@@ -252,15 +226,28 @@ bool names_this_machine(const Request& request) {
   return host.empty() || is_loopback(host);
 }
 
+// Pictures of boards are uploaded; everything else is small.
+constexpr std::size_t kLargestUpload = 256 << 20;
+constexpr std::size_t kLargestText = 1 << 20;
+
+HttpOptions with_uploads(HttpOptions options) {
+  options.largest_body = kLargestUpload;
+  return options;
+}
+
 }  // namespace
 
-Api::Api(JobService& service, const HttpOptions& options) : server_(options, &write_library_error) {
+Api::Api(JobService& service, const HttpOptions& options)
+    : server_(with_uploads(options), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [&service, loopback](void (*handler)(JobService&, const Request&, Response&)) {
     return [&service, loopback, handler](const Request& request, Response& response) {
       guarded(service, request, response, [&] {
         if (loopback && !names_this_machine(request)) {
           throw HttpError{421, "this service is for its own machine"};
+        }
+        if (request.path != kCalibrations && request.body.size() > kLargestText) {
+          throw HttpError{413, fmt::format("a body may have {} bytes here", kLargestText)};
         }
         handler(service, request, response);
       });
@@ -285,6 +272,11 @@ Api::Api(JobService& service, const HttpOptions& options) : server_(options, &wr
              route([](JobService& jobs, const Request& request, Response& response) {
                send_run_file(jobs, request, response, "exits", ".csv", "text/csv");
              }));
+  routes.Post(kCalibrations, route(&submit_calibration));
+  routes.Get(kCalibrations, route(&list_calibrations));
+  routes.Get(kCalibration, route(&send_calibration));
+  routes.Delete(kCalibration, route(&remove_calibration));
+  routes.Get(kCalibrationResult, route(&send_calibration_result));
   routes.Get(kSchema, route([](JobService&, const Request&, Response& response) {
                response.set_content(std::string(jobs::job_schema()), "application/schema+json");
              }));

@@ -6,6 +6,11 @@
 //   DELETE /v1/jobs/{id}          end it, remove its files       204
 //   GET    /v1/jobs/{id}/archive  the dataset as a tar file      200, 206, 409 until it is there
 //   GET    /v1/jobs/{id}/metrics  figures of all runs            200, 409 until they are there
+//   POST   /v1/calibrations       queue a calibration            201, Location
+//   GET    /v1/calibrations       newest first; ?limit= ?after=  200
+//   GET    /v1/calibrations/{id}  state, and its camera          200
+//   DELETE /v1/calibrations/{id}  end it, remove its files       204
+//   GET    /v1/calibrations/{id}/camera, opencv, ros, residuals  200, 409 until they are there
 //   GET    /v1/schema             the JSON Schema of a job       200
 //   GET    /healthz               is the service alive           200
 //

@@ -23,7 +23,6 @@ constexpr std::size_t kRequestsPerConnection = 1'000'000;
 constexpr time_t kIdleS = 2;  // also bounds how long stop() takes
 constexpr time_t kReadS = 10;
 constexpr time_t kWriteS = 30;
-constexpr std::size_t kLargestBody = 1 << 20;
 
 bool is_number(const std::string& text) {
   constexpr std::size_t kMostDigits = 12;
@@ -75,7 +74,7 @@ HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_erro
   server_->set_keep_alive_timeout(kIdleS);
   server_->set_read_timeout(kReadS);
   server_->set_write_timeout(kWriteS);
-  server_->set_payload_max_length(kLargestBody);
+  server_->set_payload_max_length(options.largest_body);
   server_->set_tcp_nodelay(true);
   int listener = -1;
   // Without SO_REUSEPORT, which the library sets by default: two servers must not share a port.

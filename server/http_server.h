@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,6 +20,8 @@ namespace throng::server {
 struct HttpOptions {
   std::string host = "127.0.0.1";
   int port = 0;  ///< 0: any that is free
+  /// Bytes that a request's body may have; the rest is read, thrown away and answered with 413.
+  std::size_t largest_body = 1 << 20;
 };
 
 /// Whether an address can only be reached from this machine.

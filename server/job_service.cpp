@@ -7,12 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/files.h"
+#include "calibrate/request.h"
+#include "jobs/calibrations.h"
+#include "jobs/job_id.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
 
 namespace throng::server {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 using namespace std::chrono_literals;
 using jobs::JobEvent;
 using jobs::JobRow;
@@ -42,15 +47,61 @@ JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
 JobService::~JobService() = default;
 
 JobRow JobService::submit(std::string_view job_json) {
-  const jobs::JobSpec job = jobs::parse_job(job_json, "", options_.scenarios);
+  const std::string text =
+      jobs::with_calibrations(job_json, [this](const std::string& id) { return camera_of(id); });
+  const jobs::JobSpec job = jobs::parse_job(text, "", options_.scenarios);
   JobRow row = store_.add(job.name, text_of(to_json(job)));
   spdlog::info("job {} queued", row.id);
+  note_queued();
+  return row;
+}
+
+void JobService::note_queued() {
   {
     const std::lock_guard lock(mutex_);
     queued_ = true;
   }
   changed_.notify_all();
+}
+
+JobRow JobService::submit_calibration(std::string_view request_json,
+                                      const std::vector<Upload>& files) {
+  const json request = json::parse(request_json, nullptr, /*allow_exceptions=*/false);
+  if (!request.is_object()) {
+    throw InputError(Problem{"", "", "no JSON object", "a request: see docs/calibration.md"});
+  }
+  const fs::path all = options_.data / "calibrations";
+  StagingFolder staging(all / "next");
+  for (const Upload& file : files) {
+    if (fs::path(file.name).filename() != file.name || file.name.empty() || file.name == "." ||
+        file.name == "..") {
+      throw InputError(Problem{"", "/files", file.name, "plain names of files"});
+    }
+    write_file_atomically(staging.path() / "files" / file.name, file.bytes);
+  }
+  static_cast<void>(calibrate::request_from_json(request, staging.path() / "files"));
+  write_file_atomically(staging.path() / "request.json", text_of(request));
+  JobRow row;
+  {
+    // Under the lock, so that it is not begun before its files are in their place.
+    const std::lock_guard lock(mutex_);
+    row = store_.add(request.value("name", ""), text_of(request), jobs::JobKind::calibration);
+    fs::rename(staging.path(), place_of(row));
+  }
+  spdlog::info("calibration {} queued", row.id);
+  note_queued();
   return row;
+}
+
+json JobService::camera_of(const std::string& id) const {
+  const std::optional<JobRow> row = jobs::is_job_id(id) ? store_.get(id) : std::nullopt;
+  if (!row || row->kind != jobs::JobKind::calibration) {
+    throw EnvironmentError("there is no calibration of this id");
+  }
+  if (row->state != JobState::succeeded) {
+    throw EnvironmentError(fmt::format("the calibration is {}", name_of(row->state)));
+  }
+  return json::parse(read_file(place_of(*row) / calibrate::kCameraName));
 }
 
 std::optional<JobRow> JobService::get(const std::string& id) const {
@@ -62,8 +113,9 @@ std::optional<JobRow> JobService::get(const std::string& id) const {
   return row;
 }
 
-std::vector<JobRow> JobService::list(int limit, const std::string& after) const {
-  std::vector<JobRow> rows = store_.list(limit, after);
+std::vector<JobRow> JobService::list(int limit, const std::string& after,
+                                     jobs::JobKind kind) const {
+  std::vector<JobRow> rows = store_.list(limit, after, kind);
   const std::lock_guard lock(mutex_);
   for (JobRow& row : rows) {
     if (active_ && active_->row.id == row.id && !active_->row.progress_json.empty()) {
@@ -92,7 +144,7 @@ bool JobService::remove(const std::string& id) {
   const fs::path trash = options_.data / "trash";
   std::error_code error;
   fs::create_directories(trash, error);
-  fs::rename(folder_of(id).path(), trash / id, error);
+  fs::rename(place_of(*row), trash / id, error);
   fs::remove_all(trash / id, error);
   if (error) spdlog::warn("job {}: some files could not be removed: {}", id, error.message());
   spdlog::info("job {} removed", id);
@@ -101,6 +153,15 @@ bool JobService::remove(const std::string& id) {
 
 jobs::JobFolder JobService::folder_of(const std::string& id) const {
   return jobs::JobFolder(options_.data / "jobs" / id);
+}
+
+fs::path JobService::calibration_folder(const std::string& id) const {
+  return options_.data / "calibrations" / id;
+}
+
+fs::path JobService::place_of(const JobRow& row) const {
+  return row.kind == jobs::JobKind::calibration ? calibration_folder(row.id)
+                                                : folder_of(row.id).path();
 }
 
 std::string JobService::without_paths(std::string message) const {
@@ -161,17 +222,11 @@ void JobService::run(const JobRow& row, const std::stop_token& stop) {
   JobEvent event = JobEvent::fail;
   std::string error;
   try {
-    const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", options_.scenarios);
-    const auto folder = jobs::JobFolder::create(folder_of(row.id).path(), job);
-    auto last_save = std::chrono::steady_clock::time_point();
-    const auto on_progress = [&](const jobs::JobProgress& progress) {
-      report(row, progress);
-      const auto now = std::chrono::steady_clock::now();
-      if (now - last_save < kProgressInterval) return;
-      last_save = now;
-      save_progress(row);
-    };
-    jobs::run_job(folder, job, executor_, on_progress, stop);
+    if (row.kind == jobs::JobKind::calibration) {
+      make_calibration(row, stop);
+    } else {
+      make_dataset(row, stop);
+    }
     save_progress(row);
     event = JobEvent::succeed;
   } catch (const Cancelled&) {
@@ -190,6 +245,29 @@ void JobService::run(const JobRow& row, const std::stop_token& stop) {
   spdlog::info("job {} {}", row.id, ended ? name_of(ended->state) : "was cancelled meanwhile");
 }
 
+void JobService::make_dataset(const JobRow& row, const std::stop_token& stop) {
+  const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", options_.scenarios);
+  const auto folder = jobs::JobFolder::create(folder_of(row.id).path(), job);
+  auto last_save = std::chrono::steady_clock::time_point();
+  const auto on_progress = [&](const jobs::JobProgress& progress) {
+    report(row, text_of(progress_json(progress)));
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_save < kProgressInterval) return;
+    last_save = now;
+    save_progress(row);
+  };
+  jobs::run_job(folder, job, executor_, on_progress, stop);
+}
+
+void JobService::make_calibration(const JobRow& row, const std::stop_token& stop) {
+  const fs::path folder = calibration_folder(row.id);
+  const auto say = [&](double share, const std::string& what) {
+    report(row, text_of({{"share", share}, {"stage", what}}));
+  };
+  options_.calibrator(folder, say, stop);
+  say(1, "finished");
+}
+
 // Progress is worth no job: when it cannot be saved now, it will be a second later.
 void JobService::save_progress(const JobRow& row) {
   try {
@@ -199,10 +277,9 @@ void JobService::save_progress(const JobRow& row) {
   }
 }
 
-void JobService::report(const JobRow& row, const jobs::JobProgress& progress) {
-  std::string text = text_of(progress_json(progress));
+void JobService::report(const JobRow& row, std::string progress_json) {
   const std::lock_guard lock(mutex_);
-  if (active_ && active_->row.id == row.id) active_->row.progress_json = std::move(text);
+  if (active_ && active_->row.id == row.id) active_->row.progress_json = std::move(progress_json);
 }
 
 }  // namespace throng::server

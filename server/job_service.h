@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -16,12 +17,20 @@
 #include "jobs/folder.h"
 #include "jobs/store.h"
 #include "jobs/supervisor.h"
+#include "server/calibrator.h"
 
 namespace throng::server {
 
 struct JobServiceOptions {
   std::filesystem::path data;       ///< holds the store and a folder per job; one service at a time
   std::filesystem::path scenarios;  ///< the scenarios that jobs may name
+  Calibrator calibrator = calibrator_in_process();
+};
+
+/// A file that came with a calibration's request.
+struct Upload {
+  std::string name;
+  std::string bytes;
 };
 
 /// Safe to use from many threads. Errors are InputError and EnvironmentError.
@@ -38,16 +47,24 @@ class JobService {
   /// Queues the job if it can be done; durable when it returns. Throws InputError.
   jobs::JobRow submit(std::string_view job_json);
 
-  /// A job with its newest progress.
+  /// Queues a calibration (calibrate/request.h) of the files that came with it; durable when it
+  /// returns. Throws InputError.
+  jobs::JobRow submit_calibration(std::string_view request_json, const std::vector<Upload>& files);
+
+  /// A job or calibration with its newest progress.
   std::optional<jobs::JobRow> get(const std::string& id) const;
   /// Newest first, older than `after` (if not empty).
-  std::vector<jobs::JobRow> list(int limit, const std::string& after) const;
+  std::vector<jobs::JobRow> list(int limit, const std::string& after,
+                                 jobs::JobKind kind = jobs::JobKind::dataset) const;
 
   /// Ends the job if it is active and removes it with all its files. False when there is none.
   bool remove(const std::string& id);
 
   /// Where a job's dataset lies once it has succeeded.
   std::filesystem::path dataset_of(const std::string& id) const { return folder_of(id).dataset(); }
+
+  /// Where a calibration's results lie once it has succeeded.
+  std::filesystem::path calibration_folder(const std::string& id) const;
 
   /// A message without the places of this machine's folders.
   std::string without_paths(std::string message) const;
@@ -62,7 +79,12 @@ class JobService {
   void work(const std::stop_token& stop);
   bool work_on_next(const std::stop_token& stop);
   void run(const jobs::JobRow& row, const std::stop_token& stop);
-  void report(const jobs::JobRow& row, const jobs::JobProgress& progress);
+  void make_dataset(const jobs::JobRow& row, const std::stop_token& stop);
+  void make_calibration(const jobs::JobRow& row, const std::stop_token& stop);
+  nlohmann::json camera_of(const std::string& calibration_id) const;
+  std::filesystem::path place_of(const jobs::JobRow& row) const;
+  void note_queued();
+  void report(const jobs::JobRow& row, std::string progress_json);
   void save_progress(const jobs::JobRow& row);
   jobs::JobFolder folder_of(const std::string& id) const;
 

@@ -65,7 +65,9 @@ int serve(const ServeOptions& options) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
   jobs::LocalProcesses executor({.workers = options.workers});
-  JobService service({options.data, options.scenarios}, executor);
+  JobService service({options.data, options.scenarios,
+                      calibrator_in_child({"/proc/self/exe", "calibrate", "request"})},
+                     executor);
   Api api(service, {options.host, options.port});
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/angle.h"
+#include "jobs/calibrations.h"
 #include "jobs/gimbal.h"
 #include "jobs/spec.h"
 
@@ -51,6 +52,65 @@ TEST(CameraSpec, FieldOfViewIsThatOfTheDistortedImage) {
     ASSERT_TRUE(k);
     EXPECT_NEAR(hfov_deg(*k), 80, 1e-6) << text;
     EXPECT_EQ(k->fx_px, k->fy_px);
+  }
+}
+
+constexpr const char* kCalibration =
+    R"({"calibration": {"type": "throng-camera", "version": 1, "width": 640, "height": 480,
+        "lens": "brown5", "fx": 534, "fy": 533.5, "cx": 342.9, "cy": 234.5, "skew": 0.4,
+        "k1": -0.27, "k2": 0.02, "p1": 0.001, "p2": -0.0002, "k3": 0.05, "rms_px": 0.2},
+        "pitch_deg": -70})";
+
+TEST(CameraSpec, ACalibrationIsTheCameraThatFramesHave) {
+  const CameraSpec spec = parsed(kCalibration);
+  const auto k = intrinsics_of(camera_of_run(spec, 1, kPlace));
+  ASSERT_TRUE(k);
+  EXPECT_EQ(k->width, 640);
+  EXPECT_EQ(k->height, 480);
+  EXPECT_EQ(k->fx_px, 534);
+  EXPECT_EQ(k->cy_px, 234.5);
+  EXPECT_EQ(k->skew_px, 0.4);
+  ASSERT_TRUE(k->distortion);
+  EXPECT_EQ(k->distortion->coefficients()[4], 0.05);
+  EXPECT_EQ(spec.width, 640);
+  EXPECT_EQ(spec.pitch_deg, -70);
+  // Comes back as it was, and says nothing twice.
+  const json written = to_json(spec);
+  EXPECT_EQ(written.at("calibration").at("k1"), -0.27);
+  EXPECT_FALSE(written.contains("fx_px"));
+  EXPECT_FALSE(written.contains("model"));
+  EXPECT_EQ(to_json(parsed(written.dump().c_str())), written);
+}
+
+TEST(CameraSpec, ACalibrationStandsAlone) {
+  json both = json::parse(kCalibration);
+  both["hfov_deg"] = 70;
+  both["width"] = 640;
+  EXPECT_THAT(pointers_of(both.dump().c_str()),
+              ElementsAre("/drones/0/camera/width", "/drones/0/camera/hfov_deg"));
+  json bad = json::parse(kCalibration);
+  bad["calibration"]["fx"] = 0;
+  EXPECT_THAT(pointers_of(bad.dump().c_str()), ElementsAre("/drones/0/camera/calibration/fx"));
+  EXPECT_THAT(pointers_of(R"({"calibration": "c1"})"), ElementsAre("/drones/0/camera/calibration"));
+}
+
+TEST(CameraSpec, CalibrationsAreFoundByTheirNames) {
+  const json camera = json::parse(kCalibration).at("calibration");
+  const auto find = [&](const std::string& name) {
+    if (name != "mine.json") throw EnvironmentError("no such file");
+    return camera;
+  };
+  const std::string text =
+      with_calibrations(R"({"drones": [{"camera": {"calibration": "mine.json"}}, {}]})", find);
+  EXPECT_EQ(json::parse(text).at("drones").at(0).at("camera").at("calibration"), camera);
+  try {
+    with_calibrations(R"({"drones": [{}, {"camera": {"calibration": "other"}}]})", find);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().at(0).where, "/drones/1/camera/calibration");
+  }
+  for (const char* odd : {"no JSON", "[]", R"({"drones": 3})", R"({"drones": [1]})"}) {
+    EXPECT_EQ(with_calibrations(odd, find), odd);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "jobs/store.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -44,6 +45,40 @@ TEST_F(StoreTest, WhatWasAddedAndChangedSurvivesReopening) {
   EXPECT_EQ(a.ended_ms, 0);
   EXPECT_EQ(store.get(queued.id)->state, JobState::queued);
   EXPECT_FALSE(store.get("jnosuchjob00000"));
+}
+
+// A data folder that an older service has left.
+TEST_F(StoreTest, AStoreOfVersionOneIsTakenOver) {
+  {
+    SQLite::Database old(folder.path() / "jobs.sqlite",
+                         SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    old.exec(
+        "CREATE TABLE job (id TEXT PRIMARY KEY, name TEXT NOT NULL, state TEXT NOT NULL, attempt "
+        "INTEGER NOT NULL DEFAULT 0, spec TEXT NOT NULL, progress TEXT NOT NULL DEFAULT '', error "
+        "TEXT NOT NULL DEFAULT '', created_ms INTEGER NOT NULL, started_ms INTEGER NOT NULL "
+        "DEFAULT 0, ended_ms INTEGER NOT NULL DEFAULT 0) WITHOUT ROWID");
+    old.exec(
+        "INSERT INTO job (id, name, state, spec, created_ms) VALUES ('j1', 'old', 'queued', '{}', "
+        "5)");
+    old.exec("PRAGMA user_version = 1");
+  }
+  for (int i = 0; i < 2; ++i) {  // and stays as it is from then on
+    const Store store(folder.path(), clock());
+    ASSERT_EQ(store.list(10).size(), 1U);
+    EXPECT_EQ(store.next()->name, "old");
+    EXPECT_EQ(store.next()->kind, JobKind::dataset);
+  }
+}
+
+TEST_F(StoreTest, CalibrationsAreListedApart) {
+  Store store(folder.path(), clock());
+  const JobRow dataset = store.add("d", "{}");
+  const JobRow calibration = store.add("c", "{}", JobKind::calibration);
+  ASSERT_EQ(store.list(10).size(), 1U);
+  EXPECT_EQ(store.list(10)[0].id, dataset.id);
+  ASSERT_EQ(store.list(10, "", JobKind::calibration).size(), 1U);
+  EXPECT_EQ(store.list(10, "", JobKind::calibration)[0].id, calibration.id);
+  EXPECT_EQ(store.get(calibration.id)->kind, JobKind::calibration);
 }
 
 TEST_F(StoreTest, TheRunningJobComesNextThenTheOldestQueued) {

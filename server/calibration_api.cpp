@@ -1,0 +1,136 @@
+#include "server/calibration_api.h"
+
+#include <fmt/core.h>
+#include <httplib.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "calibrate/request.h"
+#include "server/answers.h"
+#include "server/requests.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+namespace {
+
+struct Result {
+  const char* name;
+  const char* file;
+  const char* type;
+};
+constexpr std::array kResults = {Result{"camera", calibrate::kCameraName, "application/json"},
+                                 Result{"opencv", calibrate::kOpenCvName, "application/yaml"},
+                                 Result{"ros", calibrate::kRosName, "application/yaml"},
+                                 Result{"residuals", calibrate::kPictureName, "image/svg+xml"}};
+
+// A browser sends forms of other sites' pages without asking, and says where they are from.
+void refuse_other_sites(const Request& request) {
+  const std::string origin = request.get_header_value("Origin");
+  const std::string host = request.get_header_value("Host");
+  if (origin.empty() || origin == "http://" + host || origin == "https://" + host) return;
+  throw HttpError{403, "pages of other sites may not send calibrations"};
+}
+
+struct Sent {
+  std::string request;
+  std::vector<Upload> files;
+};
+
+Sent sent_as_form(const Request& request) {
+  Sent sent;
+  for (const auto& [name, part] : request.files) {
+    if (name == "request") {
+      sent.request = part.content;
+    } else {
+      sent.files.push_back({part.filename.empty() ? name : part.filename, part.content});
+    }
+  }
+  if (sent.request.empty()) {
+    throw HttpError{400, "there is no part \"request\" with the request as JSON"};
+  }
+  return sent;
+}
+
+Sent sent_as_json(const Request& request) {
+  json value = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
+  if (!value.is_object()) throw HttpError{400, "the body is no JSON object"};
+  Sent sent;
+  const json files = value.value("files", json::object());
+  for (const auto& [name, text] : files.items()) {
+    if (!text.is_string()) {
+      throw HttpError{400, "files are wrong", {{"", "/files/" + name, text.dump(), "a text"}}};
+    }
+    sent.files.push_back({name, text.get<std::string>()});
+  }
+  value.erase("files");
+  sent.request = value.dump();
+  return sent;
+}
+
+}  // namespace
+
+void submit_calibration(JobService& service, const Request& request, Response& response) {
+  refuse_other_sites(request);
+  const std::string header = request.get_header_value("Content-Type");
+  const std::string type = header.substr(0, header.find(';'));
+  if (type != "application/json" && type != "multipart/form-data") {
+    throw HttpError{415, "a calibration is sent as multipart/form-data or application/json"};
+  }
+  const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
+  const jobs::JobRow row = service.submit_calibration(sent.request, sent.files);
+  response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
+  write_json(response, 201, calibration_json(row));
+}
+
+void list_calibrations(JobService& service, const Request& request, Response& response) {
+  const int limit = limit_of(request);
+  const std::vector<jobs::JobRow> rows =
+      service.list(limit, after_of(request), jobs::JobKind::calibration);
+  json list = json::array();
+  for (const jobs::JobRow& row : rows) list.push_back(calibration_json(row));
+  const bool more = static_cast<int>(rows.size()) == limit;
+  write_json(
+      response, 200,
+      {{"calibrations", std::move(list)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
+}
+
+void send_calibration(JobService& service, const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(service, request, jobs::JobKind::calibration);
+  json value = calibration_json(row);
+  if (row.state == jobs::JobState::succeeded) {
+    value["camera"] =
+        json::parse(read_file(service.calibration_folder(row.id) / calibrate::kCameraName));
+  }
+  write_json(response, 200, value);
+}
+
+void remove_calibration(JobService& service, const Request& request, Response& response) {
+  if (!service.remove(find_row(service, request, jobs::JobKind::calibration).id)) {
+    throw HttpError{404, "already removed"};
+  }
+  response.status = 204;
+}
+
+void send_calibration_result(JobService& service, const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(service, request, jobs::JobKind::calibration);
+  const std::string name = request.matches[2];
+  const auto* result = std::find_if(kResults.begin(), kResults.end(),
+                                    [&](const Result& entry) { return name == entry.name; });
+  if (result == kResults.end()) {
+    throw HttpError{404, fmt::format("a calibration has no \"{}\"", name)};
+  }
+  if (row.state != jobs::JobState::succeeded) {
+    throw HttpError{409, fmt::format("the calibration is {}; this is there once it has succeeded",
+                                     name_of(row.state))};
+  }
+  response.set_content(read_file(service.calibration_folder(row.id) / result->file), result->type);
+}
+
+}  // namespace throng::server

@@ -1,0 +1,30 @@
+// Routes of calibrations: /v1/calibrations. A calibration is queued with its files and worked off
+// like a job.
+#pragma once
+
+#include "server/job_service.h"
+
+namespace httplib {
+struct Request;
+struct Response;
+}  // namespace httplib
+
+namespace throng::server {
+
+// Handlers; they throw HttpError (server/requests.h), InputError and EnvironmentError.
+
+/// A request as multipart/form-data (a part "request" with JSON, and one per file, each with its
+/// file name), or as JSON whose "files" hold texts by their names.
+void submit_calibration(JobService& service, const httplib::Request& request,
+                        httplib::Response& response);
+void list_calibrations(JobService& service, const httplib::Request& request,
+                       httplib::Response& response);
+void send_calibration(JobService& service, const httplib::Request& request,
+                      httplib::Response& response);
+void remove_calibration(JobService& service, const httplib::Request& request,
+                        httplib::Response& response);
+/// camera, opencv, ros or residuals.
+void send_calibration_result(JobService& service, const httplib::Request& request,
+                             httplib::Response& response);
+
+}  // namespace throng::server

@@ -1,0 +1,119 @@
+#include "server/calibrator.h"
+
+#include <fmt/core.h>
+#include <poll.h>
+#include <sys/prctl.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "calibrate/request.h"
+#include "jobs/child_process.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr int kInputExit = 2;
+constexpr int kEnvironmentExit = 3;
+constexpr const char* kProblemsName = "problems.json";
+constexpr int kPollMs = 50;
+
+std::vector<Problem> read_problems(const fs::path& file) {
+  std::vector<Problem> problems;
+  for (const json& entry : json::parse(read_file(file))) {
+    problems.push_back(
+        {entry.at("source"), entry.at("where"), entry.at("found"), entry.at("expected")});
+  }
+  return problems;
+}
+
+void write_problems(const fs::path& file, const std::vector<Problem>& problems) {
+  json list = json::array();
+  for (const Problem& problem : problems) {
+    list.push_back({{"source", problem.source},
+                    {"where", problem.where},
+                    {"found", problem.found},
+                    {"expected", problem.expected}});
+  }
+  write_file_atomically(file, list.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+/// The last line of what the child said when it failed.
+std::string last_line(const fs::path& log) {
+  const std::string text = fs::exists(log) ? read_file(log) : "";
+  const std::size_t end = text.find_last_not_of('\n');
+  if (end == std::string::npos) return "it said nothing";
+  const std::size_t before = text.find_last_of('\n', end);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  return text.substr(first, end - first + 1);
+}
+
+}  // namespace
+
+Calibrator calibrator_in_process() {
+  return [](const fs::path& folder, const auto& on_progress, const std::stop_token& stop) {
+    calibrate::carry_out_in(folder, on_progress, [&] { return !stop.stop_requested(); });
+  };
+}
+
+Calibrator calibrator_in_child(std::vector<std::string> command) {
+  return [command = std::move(command)](const fs::path& folder, const auto& on_progress,
+                                        const std::stop_token& stop) {
+    std::vector<std::string> words = command;
+    words.push_back(folder.string());
+    jobs::ChildProcess child(words, {}, folder / "log.txt");
+    const auto pass_on = [&] {
+      for (const std::string& line : child.read_lines()) {
+        const std::size_t space = line.find(' ');
+        if (space == std::string::npos) continue;
+        on_progress(std::strtod(line.c_str(), nullptr), line.substr(space + 1));
+      }
+    };
+    while (!child.has_ended()) {
+      if (stop.stop_requested()) throw Cancelled();  // the child ends with its object
+      pollfd wait{child.output(), POLLIN, 0};
+      ::poll(&wait, 1, kPollMs);
+      pass_on();
+    }
+    pass_on();
+    const jobs::ExitStatus status = child.wait();
+    if (status.signal == 0 && status.code == 0) return;
+    if (status.code == kInputExit && fs::exists(folder / kProblemsName)) {
+      throw InputError(read_problems(folder / kProblemsName));
+    }
+    throw EnvironmentError(
+        status.signal != 0
+            ? fmt::format("the calibration was ended by signal {}", status.signal)
+            : fmt::format("the calibration failed: {}", last_line(folder / "log.txt")));
+  };
+}
+
+int run_calibration_child(const fs::path& folder) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  try {
+    calibrate::carry_out_in(folder,
+                            [](double share, const std::string& what) {
+                              fmt::print("{:.3f} {}\n", share, what);
+                              std::fflush(stdout);
+                            },
+                            {});
+    return 0;
+  } catch (const InputError& error) {
+    write_problems(folder / kProblemsName, error.problems());
+    return kInputExit;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kEnvironmentExit;
+  }
+}
+
+}  // namespace throng::server

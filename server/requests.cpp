@@ -1,0 +1,57 @@
+#include "server/requests.h"
+
+#include <fmt/core.h>
+#include <httplib.h>
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "jobs/job_id.h"
+#include "server/answers.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using nlohmann::json;
+
+void write_json(httplib::Response& response, int status, const json& value) {
+  response.status = status;
+  response.set_content(text_of(value), "application/json");
+}
+
+int limit_of(const Request& request) {
+  constexpr int kUsual = 50;
+  constexpr int kMost = 500;
+  if (!request.has_param("limit")) return kUsual;
+  const std::string text = request.get_param_value("limit");
+  int limit = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), limit);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || limit < 1 ||
+      limit > kMost) {
+    throw HttpError{400,
+                    "limit is wrong",
+                    {{"", "?limit", text, fmt::format("an integer from 1 to {}", kMost)}}};
+  }
+  return limit;
+}
+
+std::string after_of(const Request& request) {
+  std::string after = request.get_param_value("after");
+  if (!after.empty() && !jobs::is_job_id(after)) {
+    throw HttpError{400, "after is wrong", {{"", "?after", after, "the id of a job"}}};
+  }
+  return after;
+}
+
+jobs::JobRow find_row(JobService& service, const Request& request, jobs::JobKind kind) {
+  const std::string id = request.matches[1];
+  std::optional<jobs::JobRow> row;
+  if (jobs::is_job_id(id)) row = service.get(id);
+  if (!row || row->kind != kind) {
+    throw HttpError{404, fmt::format("there is no {} {}",
+                                     kind == jobs::JobKind::dataset ? "job" : "calibration", id)};
+  }
+  return std::move(*row);
+}
+
+}  // namespace throng::server

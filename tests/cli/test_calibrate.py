@@ -1,0 +1,184 @@
+"""throng calibrate: from the command line and over HTTP, and datasets that have the camera it found."""
+import http.client
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.request
+
+THRONG = sys.argv.pop(1)
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SHARED = ROOT.parent / "shared" / "data" / "calib"
+
+
+def throng(*arguments, **options):
+    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=500, **options)
+
+
+def points_table():
+    """Five views of a flat grid through a camera of f = 800 px, without a lens's distortion."""
+    import math
+    lines = ["image,i,X,Y,Z,u,v"]
+    for view, (tilt, turn) in enumerate([(0.5, 0.1), (-0.5, 0.4), (0.1, -0.6), (0.6, 0.6), (-0.3, -0.5)]):
+        a, b = math.cos(tilt), math.sin(tilt)
+        c, d = math.cos(turn), math.sin(turn)
+        for row in range(6):
+            for column in range(8):
+                x, y = 0.1 * (column - 3.5), 0.1 * (row - 2.5)
+                # About x by tilt, then about y by turn, two metres away.
+                x1, y1, z1 = x, a * y, b * y
+                x2, y2, z2 = c * x1 + d * z1, y1, -d * x1 + c * z1 + 1.6
+                lines.append(f"v{view},{row * 8 + column},{x},{y},0,{800 * x2 / z2 + 321},{800 * y2 / z2 + 238}")
+    return "\n".join(lines) + "\n"
+
+
+class Calibrate(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.base = pathlib.Path(self.folder.name)
+        self.points = self.base / "points.csv"
+        self.points.write_text(points_table())
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def calibrate(self, *more):
+        out = self.base / "camera.json"
+        done = throng("calibrate", "intrinsics", "--points", self.points, "--size", "640x480", "-o", out, *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(out.read_text()), done.stdout
+
+    def test_points_give_a_camera_and_all_files(self):
+        files = [self.base / name for name in ("cv.yaml", "ros.yaml", "residuals.svg")]
+        camera, said = self.calibrate("--lens", "pinhole", "--opencv", files[0], "--ros", files[1],
+                                      "--picture", files[2])
+        self.assertAlmostEqual(camera["fx"], 800, places=4)
+        self.assertAlmostEqual(camera["cx"], 321, places=4)
+        self.assertAlmostEqual(camera["cy"], 238, places=4)
+        self.assertLess(camera["rms_px"], 1e-6)
+        self.assertIn("5 views", said)
+        self.assertIn("warning: 5 views", said)
+        self.assertIn("camera_matrix", files[0].read_text())
+        self.assertIn("camera_name: ros", files[1].read_text())
+        self.assertIn("<svg", files[2].read_text())
+
+    def test_errors_name_what_is_wrong(self):
+        done = throng("calibrate", "intrinsics", "--points", self.points)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the size of the images", done.stderr)
+        done = throng("calibrate", "intrinsics", "--points", self.points, "--size", "640x480", "--fix", "k9=1")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("k9", done.stderr)
+        bad = self.base / "bad.jpg"
+        bad.write_text("no picture")
+        done = throng("calibrate", "intrinsics", bad)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("bad.jpg", done.stderr)
+
+    def test_pictures_of_a_real_board(self):
+        if not SHARED.exists():
+            self.skipTest("no pictures beside the sources")
+        pictures = sorted((SHARED / "chess").iterdir())
+        out = self.base / "left.json"
+        bad = self.base / "bad.jpg"
+        bad.write_text("no picture")
+        done = throng("calibrate", "intrinsics", *pictures, bad, "--columns", "9", "--rows", "6", "-o", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        camera = json.loads(out.read_text())
+        wanted = json.loads((SHARED / "reference.json").read_text())["left_full"]
+        self.assertAlmostEqual(camera["fx"], wanted["fx"], delta=0.05)
+        self.assertAlmostEqual(camera["rms_px"], wanted["rms_px"], delta=1e-3)
+        self.assertEqual(len(camera["views"]), 13)
+        self.assertIn("left out: " + str(bad), done.stdout)
+        done = throng("calibrate", "intrinsics", *pictures[:2], "--columns", "7", "--rows", "5")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("9 x 6 inner corners", done.stderr)
+
+    def test_a_rendered_board_gives_the_camera_that_rendered_it(self):
+        report = self.base / "report.json"
+        done = throng("calibrate", "selftest", "--device", "software", "-o", report)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        checks = json.loads(report.read_text())["checks"]
+        self.assertEqual(len(checks), 6)
+        for check in checks:
+            self.assertTrue(check["holds"], check)
+
+    def job(self, calibration):
+        return {"scenario": "city_square/nearest_exit", "crowd": {"agents": 20}, "quality": "draft",
+                "drones": [{"id": "d1", "start": [0, 0, 30],
+                            "camera": {"calibration": calibration, "pitch_deg": -80}}],
+                "capture": {"rate_hz": 1, "from_s": 0, "to_s": 1}}
+
+    def test_datasets_have_the_calibrated_camera(self):
+        camera, _ = self.calibrate("--lens", "brown5")
+        camera.update(k1=-0.2, p1=0.001, skew=0.5)
+        (self.base / "mine.json").write_text(json.dumps(camera))
+        job = self.base / "job.json"
+        job.write_text(json.dumps(self.job("mine.json")))
+        done = throng("run", job, "-o", self.base / "out", "--workers", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        dataset = self.base / "out" / "dataset"
+        manifest = json.loads((dataset / "manifest.json").read_text())
+        recorded = manifest["job"]["drones"][0]["camera"]["calibration"]
+        for name in ("fx", "fy", "cx", "cy", "skew", "k1", "p1", "width", "height"):
+            self.assertEqual(recorded[name], camera[name], name)
+        yaml = next(dataset.glob("cameras/**/*.opencv.yaml")).read_text()
+        self.assertIn(f"{camera['fx']!r}, 0.5, {camera['cx']!r}", yaml)
+        job.write_text(json.dumps(self.job("none.json")))
+        done = throng("run", job, "-o", self.base / "other")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("/drones/0/camera/calibration", done.stderr)
+
+    def serve(self):
+        port = self.base / "port"
+        server = subprocess.Popen([THRONG, "serve", "--data", self.base / "data", "--port", "0", "--port-file", port],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        for _ in range(500):
+            if port.exists():
+                return int(port.read_text())
+            time.sleep(0.02)
+        self.fail("the server does not serve")
+
+    def test_calibrations_over_http(self):
+        port = self.serve()
+        url = f"http://127.0.0.1:{port}"
+        boundary = "board"
+        request = json.dumps({"name": "wide", "points": "points.csv", "size": "640x480", "lens": "brown2"})
+        body = (f"--{boundary}\r\nContent-Disposition: form-data; name=\"request\"\r\n\r\n{request}\r\n"
+                f"--{boundary}\r\nContent-Disposition: form-data; name=\"file\"; filename=\"points.csv\"\r\n\r\n"
+                f"{points_table()}\r\n--{boundary}--\r\n")
+        client = http.client.HTTPConnection("127.0.0.1", port)
+        client.request("POST", "/v1/calibrations", body, {"Content-Type": f"multipart/form-data; boundary={boundary}"})
+        answer = client.getresponse()
+        queued = json.loads(answer.read())
+        self.assertEqual(answer.status, 201, queued)
+        for _ in range(300):
+            with urllib.request.urlopen(url + queued["links"]["self"]) as shown:
+                state = json.loads(shown.read())
+            if state["state"] in ("succeeded", "failed"):
+                break
+            time.sleep(0.05)
+        self.assertEqual(state["state"], "succeeded", state)
+        self.assertAlmostEqual(state["camera"]["fx"], 800, places=3)
+        for result, word in (("camera", "rms_px"), ("opencv", "camera_matrix"), ("ros", "camera_name: wide"),
+                             ("residuals", "<svg")):
+            with urllib.request.urlopen(url + state["links"][result]) as shown:
+                self.assertIn(word, shown.read().decode())
+        # A dataset job takes it by its id, and holds the camera itself.
+        client.request("POST", "/v1/jobs", json.dumps(self.job(state["id"])), {"Content-Type": "application/json"})
+        answer = client.getresponse()
+        job = json.loads(answer.read())
+        self.assertEqual(answer.status, 201, job)
+        self.assertEqual(job["job"]["drones"][0]["camera"]["calibration"]["fx"], state["camera"]["fx"])
+        client.request("DELETE", job["links"]["self"])
+        client.getresponse().read()
+        client.close()
+
+
+if __name__ == "__main__":
+    unittest.main()
