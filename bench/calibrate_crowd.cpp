@@ -139,7 +139,13 @@ Values shipped_values() {
 }  // namespace throng::validation
 
 int main(int argc, char** argv) {
-  using namespace throng::validation;
+  using throng::validation::fit;
+  using throng::validation::kNames;
+  using throng::validation::measure;
+  using throng::validation::print;
+  using throng::validation::shipped_values;
+  using throng::validation::Values;
+  using throng::validation::weidmann_with;
   constexpr std::size_t kSeeds = 7;
   const std::string word = argc > 1 ? argv[1] : "weidmann";
   if (word != "--fit") {

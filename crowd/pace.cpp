@@ -14,8 +14,8 @@ float Pace::density_ahead(const Crowd& crowd, const Grid& grid, const Surroundin
   if (!neighbors.empty() && neighbors.size() == most) {
     reach_sq = std::min(reach_sq, neighbors.back().distance_sq);
   }
-  const Eigen::Vector2f position = grid.position(around.slot);
-  const Eigen::Vector2f direction = crowd.agents.preferred_direction[id];
+  const Eigen::Vector2f& position = grid.position(around.slot);
+  const Eigen::Vector2f& direction = crowd.agents.preferred_direction[id];
   float sum = 0;
   for (const Grid::Neighbor& other : neighbors) {
     if (other.distance_sq >= reach_sq) break;

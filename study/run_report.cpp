@@ -116,9 +116,10 @@ struct FieldMap {
     values.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
   }
   Vector2d centre(std::size_t index) const {
-    const auto column = static_cast<double>(index % static_cast<std::size_t>(columns));
-    const auto row = static_cast<double>(index / static_cast<std::size_t>(columns));
-    return origin + kMapCellM * Vector2d(column + 0.5, row + 0.5);
+    const std::size_t column = index % static_cast<std::size_t>(columns);
+    const std::size_t row = index / static_cast<std::size_t>(columns);
+    return origin +
+           kMapCellM * Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   }
 };
 
@@ -188,13 +189,16 @@ GroundFigures ground_figures(const MeasuredRun& run, const world::Scenario& scen
     const auto people = people_at(run.trace, step, scenario.inside);
     if (people.empty()) continue;
     std::vector<Vector2d> places;
+    places.reserve(people.size());
     for (const auto& person : people) places.push_back(person.place);
     const metrics::PointGrid grid(places, metrics::kPressureRadiusM);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Vector2d cell = (places[i] - figures.density.origin) / kMapCellM;
       const int column = std::min(static_cast<int>(cell.x()), figures.density.columns - 1);
       const int row = std::min(static_cast<int>(cell.y()), figures.density.rows - 1);
-      figures.density.values[static_cast<std::size_t>(row * figures.density.columns + column)] += 1;
+      figures.density.values[static_cast<std::size_t>(row) *
+                                 static_cast<std::size_t>(figures.density.columns) +
+                             static_cast<std::size_t>(column)] += 1;
       figures.density_and_speed.emplace_back(cutter.cell(grid, i).density_per_m2(),
                                              people[i].velocity.norm());
     }
@@ -299,8 +303,8 @@ std::string exits_table(const MeasuredRun& run) {
 }
 
 constexpr const char* kStyle =
-    "body{font-family:sans-serif;max-width:60em;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;margin:1em 0;font-size:13px}"
+    "body{font-family:sans-serif;max-width:72em;margin:2em auto;padding:0 1em;color:#222}"
+    "table{display:block;overflow-x:auto;border-collapse:collapse;margin:1em 0;font-size:13px}"
     "td,th{border:1px solid #ccc;padding:3px 7px;text-align:right}"
     "th{background:#f3f3f3}td:first-child{text-align:left}svg{display:block;margin:1em 0;"
     "max-width:100%;height:auto}label{margin-right:1em}";

@@ -107,7 +107,9 @@ std::vector<Vector2d> lattice(const Vector2d& low, const Vector2d& high, std::si
   std::vector<Vector2d> places;
   places.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Vector2d cell(static_cast<double>(i / rows) + 0.5, static_cast<double>(i % rows) + 0.5);
+    const std::size_t column = i / rows;
+    const std::size_t row = i % rows;
+    const Vector2d cell(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     places.emplace_back(low + cell.cwiseProduct(step));
   }
   return places;

@@ -51,7 +51,7 @@ class PaceOf {
   Pace pace_{PaceSpec{}};
 };
 
-std::vector<Eigen::Vector2f> lattice(float spacing) {
+std::vector<Eigen::Vector2f> crowd_on_lattice(float spacing) {
   std::vector<Eigen::Vector2f> places;
   for (int i = -12; i <= 12; ++i) {
     for (int k = -12; k <= 12; ++k) {
@@ -79,14 +79,14 @@ TEST(Pace, FallsWithNearness) {
 TEST(Pace, MeasuresTheDensityOfACrowd) {
   for (const float spacing : {1.0F, 0.7F, 0.5F}) {
     const float density = 1 / (spacing * spacing);
-    EXPECT_NEAR(PaceOf(lattice(spacing), 60).density(), density, 0.25F * density);
-    EXPECT_NEAR(PaceOf(lattice(spacing)).density(), density, 0.35F * density)
+    EXPECT_NEAR(PaceOf(crowd_on_lattice(spacing), 60).density(), density, 0.25F * density);
+    EXPECT_NEAR(PaceOf(crowd_on_lattice(spacing)).density(), density, 0.35F * density)
         << "also where only ten others are minded";
   }
 }
 
 TEST(Pace, LeavesALittleInAJam) {
-  const float share = PaceOf(lattice(0.3F), 60).share();
+  const float share = PaceOf(crowd_on_lattice(0.3F), 60).share();
   EXPECT_EQ(share, PaceSpec{}.least);
   EXPECT_GT(share, 0);
 }
