@@ -184,6 +184,7 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
   }
   refine(image, 0.5 * (1 - marker_of(board) / board.square) * spacing, corners);
   std::vector<Eigen::Vector3d> points;
+  points.reserve(corner_ids.size());
   for (const int id : corner_ids) {
     points.push_back(board_points(board)[static_cast<std::size_t>(id)]);
   }

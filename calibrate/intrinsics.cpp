@@ -125,6 +125,7 @@ Calibration calibrate_with(Correspondences all, Lens lens, const Rules& rules,
   result.size = all.size;
   result.left_out = all.left_out;
   std::vector<std::string> names;
+  names.reserve(all.views.size());
   for (const View& view : all.views) names.push_back(view.name);
   take_results(solved.adjustment, solved.fit, names, result);
   add_intrinsics_warnings(rules, solved.fit, result);

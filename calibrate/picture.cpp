@@ -66,23 +66,15 @@ std::string image_panel(const Calibration& calibration) {
       "<g transform=\"translate({},{})\"><rect width=\"{:.1f}\" height=\"{:.1f}\" fill=\"white\" "
       "stroke=\"#888\"/>\n",
       kGap, kTop, kImageWidth, height);
-  constexpr int kColumns = 8;
-  constexpr int kRows = 6;
-  std::array<bool, static_cast<std::size_t>(kColumns * kRows)> hit{};
-  each_point(calibration, [&](std::size_t, const PointResult& point) {
-    const auto column =
-        static_cast<int>((point.pixel.x() + 0.5) * kColumns / calibration.size.width);
-    const auto row = static_cast<int>((point.pixel.y() + 0.5) * kRows / calibration.size.height);
-    if (point.used && column >= 0 && row >= 0 && column < kColumns && row < kRows) {
-      hit.at(static_cast<std::size_t>(row * kColumns + column)) = true;
-    }
-  });
-  for (int i = 0; i < kColumns * kRows; ++i) {
-    if (hit.at(static_cast<std::size_t>(i))) continue;
+  const Coverage covered = covered_cells(calibration);
+  constexpr double kCellWidth = kImageWidth / kCoverageColumns;
+  const double cell_height = height / kCoverageRows;
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    if (covered.at(i)) continue;
     svg += fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#eee\"/>\n",
-        (i % kColumns) * kImageWidth / kColumns, (i / kColumns) * height / kRows,
-        kImageWidth / kColumns, height / kRows);
+        kCellWidth * static_cast<double>(i % kCoverageColumns),
+        cell_height * static_cast<double>(i / kCoverageColumns), kCellWidth, cell_height);
   }
   each_point(calibration, [&](std::size_t view, const PointResult& point) {
     const std::string colour =

@@ -142,6 +142,7 @@ class Bundle {
       }
     }
     std::vector<Vector3d> points;
+    points.reserve(names.size());
     for (const std::string& name : names) points.push_back(known_.at(name).measured + middle_);
     return points;
   }

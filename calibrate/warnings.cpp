@@ -28,6 +28,7 @@ std::optional<double> spread_of_tilts(const Calibration& calibration) {
   std::vector<Eigen::Vector3d> normals;
   for (const ViewResult& view : calibration.views) {
     std::vector<Eigen::Vector3d> points;
+    points.reserve(view.points.size());
     for (const PointResult& point : view.points) points.push_back(point.point);
     const std::optional<PlaneView> plane = plane_of(points);
     if (!plane) return std::nullopt;
@@ -72,6 +73,7 @@ void warn_of_views(const Rules& rules, Calibration& calibration) {
 
 void warn_of_parameters(const Fit& fit, Calibration& calibration) {
   std::vector<std::string> open;
+  open.reserve(fit.derivatives.undetermined.size());
   for (const std::size_t place : fit.derivatives.undetermined) {
     open.push_back(parameter_name(calibration.lens, place));
   }
@@ -130,21 +132,30 @@ bool holds_at_border(const Calibration& calibration) {
 
 }  // namespace
 
-double coverage_of(const Calibration& calibration) {
-  constexpr int kColumns = 8;
-  constexpr int kRows = 6;
-  std::array<bool, kColumns * kRows> hit{};
+Coverage covered_cells(const Calibration& calibration) {
+  constexpr double kHalfPixel = 0.5;
+  Coverage covered{};
   for (const ViewResult& view : calibration.views) {
     for (const PointResult& point : view.points) {
-      const auto column =
-          static_cast<int>(std::floor((point.pixel.x() + 0.5) * kColumns / calibration.size.width));
-      const auto row =
-          static_cast<int>(std::floor((point.pixel.y() + 0.5) * kRows / calibration.size.height));
-      if (!point.used || column < 0 || row < 0 || column >= kColumns || row >= kRows) continue;
-      hit.at(static_cast<std::size_t>(row * kColumns + column)) = true;
+      const double column =
+          std::floor((point.pixel.x() + kHalfPixel) * kCoverageColumns / calibration.size.width);
+      const double row =
+          std::floor((point.pixel.y() + kHalfPixel) * kCoverageRows / calibration.size.height);
+      if (!point.used || column < 0 || row < 0 || column >= kCoverageColumns ||
+          row >= kCoverageRows) {
+        continue;
+      }
+      covered.at(static_cast<std::size_t>(row) * kCoverageColumns +
+                 static_cast<std::size_t>(column)) = true;
     }
   }
-  return static_cast<double>(std::count(hit.begin(), hit.end(), true)) / hit.size();
+  return covered;
+}
+
+double coverage_of(const Calibration& calibration) {
+  const Coverage covered = covered_cells(calibration);
+  return static_cast<double>(std::count(covered.begin(), covered.end(), true)) /
+         static_cast<double>(covered.size());
 }
 
 void add_intrinsics_warnings(const Rules& rules, const Fit& fit, Calibration& calibration) {

@@ -1,6 +1,9 @@
 // What a calibration's data cannot support, said in words.
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "calibrate/calibration.h"
 #include "calibrate/robust.h"
 
@@ -19,7 +22,13 @@ void add_control_point_warnings(const std::vector<Eigen::Vector3d>& control_poin
 /// Control points below which a pose is unreliable (measured: docs/calibration.md).
 inline constexpr std::size_t kEnoughControlPoints = 8;
 
-/// Share of the cells of an 8 x 6 grid over the image that hold a used point.
+/// Cells of a grid over the image, row by row, and whether each holds a used point.
+inline constexpr std::size_t kCoverageColumns = 8;
+inline constexpr std::size_t kCoverageRows = 6;
+using Coverage = std::array<bool, kCoverageColumns * kCoverageRows>;
+Coverage covered_cells(const Calibration& calibration);
+
+/// Share of these cells that hold one.
 double coverage_of(const Calibration& calibration);
 
 }  // namespace throng::calibrate
