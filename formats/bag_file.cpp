@@ -79,11 +79,14 @@ void BagFile::add_lens(const std::string& topic, const std::string& frame, doubl
   message.height = lens.height;
   message.distortion_model = lens.model;
   message.D = lens.coefficients;
-  for (int row = 0; row < 3; ++row) {
-    message.R[static_cast<std::size_t>(4 * row)] = 1;
-    for (int column = 0; column < 3; ++column) {
-      message.K[static_cast<std::size_t>(3 * row + column)] = lens.matrix(row, column);
-      message.P[static_cast<std::size_t>(4 * row + column)] = lens.matrix(row, column);
+  constexpr std::size_t kSide = 3;
+  for (std::size_t row = 0; row < kSide; ++row) {
+    message.R[(kSide + 1) * row] = 1;
+    for (std::size_t column = 0; column < kSide; ++column) {
+      const double value =
+          lens.matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
+      message.K[kSide * row + column] = value;
+      message.P[(kSide + 1) * row + column] = value;
     }
   }
   bag_->add(topic, time_s, message);

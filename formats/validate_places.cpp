@@ -69,8 +69,10 @@ void check_ground_depth(const Image& image, const std::string& path,
   for (std::size_t i = 0; i < ids.size(); i += kStep) {
     if (ids[i] != kGroundInstance || centimetres[i] == 0) continue;
     const auto width = static_cast<std::size_t>(image.width);
-    const Eigen::Vector3d ray = to_world * Eigen::Vector3d(static_cast<double>(i % width),
-                                                           static_cast<double>(i / width), 1);
+    const std::size_t row = i / width;
+    const std::size_t column = i % width;
+    const Eigen::Vector3d ray =
+        to_world * Eigen::Vector3d(static_cast<double>(column), static_cast<double>(row), 1);
     if (ray.z() >= 0) continue;
     ++looked_at;
     const double z = -height / ray.z();
