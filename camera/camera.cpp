@@ -43,10 +43,18 @@ std::optional<Eigen::Vector2d> Intrinsics::pixel_of(const Eigen::Vector2d& direc
                          fy_px * shown->y() + cy_px);
 }
 
-std::optional<Eigen::Vector2d> Intrinsics::direction_of(const Eigen::Vector2d& pixel) const {
+Eigen::Vector2d Intrinsics::shown_at(const Eigen::Vector2d& pixel) const {
   const double y = (pixel.y() - cy_px) / fy_px;
-  const Eigen::Vector2d shown((pixel.x() - cx_px - skew_px * y) / fx_px, y);
-  return distortion ? distortion->undistort(shown) : shown;
+  return {(pixel.x() - cx_px - skew_px * y) / fx_px, y};
+}
+
+std::optional<Eigen::Vector2d> Intrinsics::direction_of(const Eigen::Vector2d& pixel) const {
+  return distortion ? distortion->undistort(shown_at(pixel)) : shown_at(pixel);
+}
+
+std::optional<Eigen::Vector2d> Intrinsics::direction_of(const Eigen::Vector2d& pixel,
+                                                        const Eigen::Vector2d& guess) const {
+  return distortion ? distortion->undistort(shown_at(pixel), guess) : shown_at(pixel);
 }
 
 Camera::Projection Camera::project(const Eigen::Vector3d& world) const {

@@ -24,10 +24,15 @@ struct Intrinsics {
   double skew_px = 0;
 
   Eigen::Matrix3d matrix() const;
+  /// What a pixel is of the picture in front of the focal lengths, as Distortion takes it.
+  Eigen::Vector2d shown_at(const Eigen::Vector2d& pixel) const;
   /// The pixel that shows the direction (x / z, y / z); nothing outside the distortion's range.
   std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& direction) const;
   /// The inverse: (x / z, y / z) of what is seen at a pixel.
   std::optional<Eigen::Vector2d> direction_of(const Eigen::Vector2d& pixel) const;
+  /// The same, faster where the direction is near `guess`.
+  std::optional<Eigen::Vector2d> direction_of(const Eigen::Vector2d& pixel,
+                                              const Eigen::Vector2d& guess) const;
 };
 
 /// Square pixels, centred principal point, horizontal field of view in radians in (0, pi).

@@ -148,4 +148,20 @@ std::optional<Vector2d> Distortion::undistort(const Vector2d& distorted) const {
   return (apply(p) - distorted).norm() < 1e-12 ? std::optional(p) : std::nullopt;
 }
 
+std::optional<Vector2d> Distortion::undistort(const Vector2d& distorted,
+                                              const Vector2d& guess) const {
+  constexpr int kMostSteps = 4;
+  // Each step squares the error, but for a factor near 1.
+  constexpr double kLastStep = 1e-7;
+  Vector2d p = guess;
+  for (int i = 0; i < kMostSteps && p.norm() <= limit_; ++i) {
+    const Matrix2d j = derivatives(p);
+    if (!(j.determinant() > kNearAxis)) break;
+    const Vector2d step = j.inverse() * (apply(p) - distorted);
+    p -= step;
+    if (step.norm() < kLastStep && p.norm() <= limit_) return p;
+  }
+  return undistort(distorted);
+}
+
 }  // namespace throng::camera

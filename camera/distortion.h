@@ -38,6 +38,9 @@ class Distortion {
   std::optional<Eigen::Vector2d> distort(const Eigen::Vector2d& pinhole) const;
   /// The inverse, found by Newton's method to 1e-12; nothing if no valid point is shown there.
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted) const;
+  /// The same, several times as fast where `guess` is near, as a neighbour's result is.
+  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted,
+                                           const Eigen::Vector2d& guess) const;
   /// Derivatives of distort: column 0 by x, column 1 by y.
   Eigen::Matrix2d derivatives(const Eigen::Vector2d& pinhole) const;
 

@@ -99,7 +99,7 @@ double usual_visibility_m(render::Weather weather) {
     case render::Weather::overcast:
       return 8000;
     case render::Weather::fog:
-      return 500;
+      return 800;
     case render::Weather::rain:
       return 3000;
     case render::Weather::clear:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -49,22 +50,35 @@ double magnification(const camera::Intrinsics& lens) {
   return std::min(most, kMostMagnified);
 }
 
-/// Directions of the pixels of rows [first, end) and columns [left, right): NaN beyond the model.
+/// Directions of a row of pixels from `first` on, NaN beyond the model.
+void fill_row(const camera::Intrinsics& lens, const Eigen::Vector2i& first,
+              std::span<Vector2d> row) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Vector2d before = Vector2d::Constant(kNone);
+  Vector2d last = before;
+  Vector2d pixel = first.cast<double>();
+  for (Vector2d& direction : row) {
+    // Along a row directions grow nearly evenly. NaN is no guess.
+    direction = lens.direction_of(pixel, 2 * last - before).value_or(Vector2d::Constant(kNone));
+    before = last;
+    last = direction;
+    pixel.x() += 1;
+  }
+}
+
+/// Directions of an area's pixels, row by row: NaN beyond the model.
 std::vector<Vector2d> directions_of(const camera::Intrinsics& lens,
                                     const Eigen::AlignedBox2i& area) {
   const Eigen::Vector2i size = area.sizes();
+  const auto width = static_cast<std::size_t>(size.x());
   std::vector<Vector2d> directions(cells(size.x(), size.y()));
-  parallel_ranges(
-      static_cast<std::size_t>(size.y()), kGrain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-          for (int x = 0; x < size.x(); ++x) {
-            const Vector2d pixel(area.min().x() + x, area.min().y() + static_cast<int>(row));
-            directions[row * static_cast<std::size_t>(size.x()) + static_cast<std::size_t>(x)] =
-                lens.direction_of(pixel).value_or(
-                    Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
-          }
-        }
-      });
+  parallel_ranges(static_cast<std::size_t>(size.y()), kGrain,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t row = begin; row < end; ++row) {
+                      fill_row(lens, {area.min().x(), area.min().y() + static_cast<int>(row)},
+                               std::span(directions).subspan(row * width, width));
+                    }
+                  });
   return directions;
 }
 

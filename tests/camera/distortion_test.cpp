@@ -43,6 +43,19 @@ TEST_P(EveryLens, UndistortUndoesDistort) {
   }
 }
 
+TEST_P(EveryLens, AGuessChangesNothing) {
+  const Distortion& lens = GetParam().distortion;
+  for (const Vector2d& shown : {Vector2d(0, 0), Vector2d(0.3, -0.2), Vector2d(-0.1, 0.5)}) {
+    const auto alone = lens.undistort(shown);
+    for (const Vector2d& guess : {shown, Vector2d(0.31, -0.2), Vector2d(-3, 2), Vector2d(90, 0)}) {
+      const auto guessed = lens.undistort(shown, guess);
+      ASSERT_EQ(alone.has_value(), guessed.has_value());
+      if (!alone) continue;
+      EXPECT_LT((*alone - *guessed).norm(), 1e-10) << guess.transpose();
+    }
+  }
+}
+
 TEST_P(EveryLens, DerivativesAreThoseOfDistort) {
   const Distortion& lens = GetParam().distortion;
   constexpr double kStep = 1e-6;

@@ -53,7 +53,7 @@ TEST(EnvironmentOfRun, FixedValuesAreThemselves) {
   EXPECT_EQ(run.light.weather, render::Weather::rain);
   EXPECT_EQ(run.light.rain_mm_per_h, 9);
   EXPECT_EQ(run.light.visibility_m, 700);
-  EXPECT_EQ(environment_of_run(parsed(R"({"weather": "fog"})"), 5).light.visibility_m, 500);
+  EXPECT_EQ(environment_of_run(parsed(R"({"weather": "fog"})"), 5).light.visibility_m, 800);
   EXPECT_EQ(environment_of_run(parsed(R"({"weather": "fog"})"), 5).light.rain_mm_per_h, 0);
 }
 
