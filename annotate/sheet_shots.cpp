@@ -40,23 +40,6 @@ camera::Camera portrait_camera(int width, int height) {
   return camera_on({0, 0, 0.98}, kFar_m, -8 * kDegree, height / kShown_m, width, height);
 }
 
-// Looks of everybody for whom nothing else decides: as in a run with this seed.
-class Looks {
- public:
-  Looks(const Population& population, std::uint64_t seed) {
-    for (std::uint32_t agent = 0; agent < population.characters.size(); ++agent) {
-      const skinning::Appearance look = skinning::appearance_of(population, seed, agent);
-      by_character_.emplace(look.character, look);
-    }
-  }
-  const skinning::Appearance& of(std::uint32_t character) const {
-    return by_character_.at(character);
-  }
-
- private:
-  std::map<std::uint32_t, skinning::Appearance> by_character_;
-};
-
 // How far somebody who faces the viewer is turned to show this side.
 PersonInstance posed(const skinning::Appearance& look, const skinning::PoseBlend& pose,
                      double turn_rad) {
@@ -102,19 +85,30 @@ Moment moment_of_passer_by(Random& random) {
   return {"walk", speed_mps, share};
 }
 
+double share_of_umbrellas(const Population& population,
+                          const std::vector<std::uint32_t>& characters) {
+  const auto carriers =
+      std::count_if(characters.begin(), characters.end(), [&](std::uint32_t character) {
+        return population.characters[character].carries == skinning::Carry::umbrella;
+      });
+  return static_cast<double>(carriers) / static_cast<double>(characters.size());
+}
+
 // People on a grid that is shaken: two streams that meet, and some who stand.
 std::vector<PersonInstance> crowd_of(const Population& population, const SheetOptions& options,
                                      double half_m) {
   constexpr double kApart_m = 2.5;
   const auto count = static_cast<int>(std::ceil(half_m / kApart_m));
   std::vector<PersonInstance> people;
+  skinning::Styling styling;
+  styling.umbrellas = share_of_umbrellas(population, options.crowd);
   std::uint32_t candidate = 0;
   for (int row = -count; row <= count; ++row) {
     for (int column = -count; column <= count; ++column) {
       Random random(options.seed, Stream::environment, people.size());
       PersonInstance person;
       do {
-        person.appearance = skinning::appearance_of(population, options.seed, candidate++);
+        person.appearance = skinning::appearance_of(population, options.seed, candidate++, styling);
       } while (std::find(options.crowd.begin(), options.crowd.end(), person.appearance.character) ==
                options.crowd.end());
       person.agent = static_cast<std::uint32_t>(people.size());
@@ -141,14 +135,13 @@ SheetShot motion_shot(const Population& population, const skinning::Appearance& 
 std::vector<SheetRow> portrait_rows(const Population& population, const SheetOptions& options) {
   const std::size_t columns = options.portraits.size() <= 24 ? 8 : 12;
   const int width = options.width_px / static_cast<int>(2 * columns);
-  const Looks looks(population, options.seed);
   std::vector<SheetRow> rows;
   for (std::size_t i = 0; i < options.portraits.size(); ++i) {
     if (i % columns == 0) {
       rows.push_back({i == 0 ? "From the front and from the side" : "", {}});
     }
     const std::uint32_t character = options.portraits[i];
-    const skinning::Appearance& look = looks.of(character);
+    const skinning::Appearance look = skinning::appearance_as(population, character, options.seed);
     const double share = static_cast<double>(look.phase_offset);
     const auto standing = pose_of(population, character, {"idle", 0, share});
     const auto walking = pose_of(population, character, {"walk", 1.35, share});
@@ -192,8 +185,8 @@ std::vector<SheetRow> motion_rows(const Population& population, const SheetOptio
                                          {"panic", "panic", 3.4}}};
   constexpr int kPhases = 8;
   const int width = options.width_px / (2 * kPhases);
-  const Looks looks(population, options.seed);
-  const skinning::Appearance& look = looks.of(options.portraits.front());
+  const skinning::Appearance look =
+      skinning::appearance_as(population, options.portraits.front(), options.seed);
   std::vector<SheetRow> rows;
   for (std::size_t way = 0; way < kWays.size(); ++way) {
     if (way % 2 == 0)
@@ -276,7 +269,7 @@ std::vector<SheetRow> level_rows(const LevelsApart& apart, const SheetOptions& o
     // All levels of a person wear one set of colours.
     const bool next = i == 0 || population.characters[i].name != population.characters[i - 1].name;
     if (next) {
-      look = skinning::appearance_of(population, options.seed, i);
+      look = skinning::appearance_as(population, i, options.seed);
       for (std::size_t tint = 0; tint < skinning::kTintCount; ++tint) {
         const auto& colours = population.characters[i].tints[tint];
         if (!colours.empty()) look.tint[tint] = colours[options.seed % colours.size()];

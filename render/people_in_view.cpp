@@ -89,6 +89,7 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
   const ClipPlanes planes = clip_planes(camera);
   const Eigen::AlignedBox2d image = image_box(camera);
   std::vector<Seen> seen;
+  seen.reserve(scene.people.size());
   for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
     const PersonInstance& person = scene.people[i];
     check(person.appearance.character < population_->characters.size() &&

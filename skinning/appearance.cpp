@@ -133,34 +133,44 @@ Rgb dyed(const Rgb& colour, const Styling& styling) {
   return result;
 }
 
-}  // namespace
-
-Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
-                         const Styling& styling) {
-  check(!population.characters.empty(), "a population has characters");
+// A character as the agent shows it, in its colours of this block.
+Appearance shown(const Population& population, std::uint32_t number, std::uint64_t run_seed,
+                 std::uint32_t agent, std::uint32_t block, const Styling& styling) {
   Appearance appearance;
-  const std::vector<Place> cast = cast_of(population, run_seed, styling);
-  const auto count = static_cast<std::uint32_t>(cast.size());
-  const Place& place = cast[place_of(run_seed, agent, count)];
-  appearance.character = place.character;
+  appearance.character = number;
   Random random(run_seed, Stream::appearance, agent);
   appearance.phase_offset = static_cast<float>(random.uniform());
   appearance.cadence = static_cast<float>(random.uniform(0.95, 1.05));
   appearance.amplitude = static_cast<float>(random.uniform(0.92, 1.08));
-  const Character& character = population.characters[appearance.character];
-  const std::uint32_t block = agent / count + place.copy;
+  const Character& character = population.characters[number];
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {
     const std::vector<Rgb>& colours = character.tints[tint];
     appearance.tint[tint] = {255, 255, 255};
     if (colours.empty()) continue;
-    const std::size_t number =
-        colour_number(run_seed, appearance.character, tint, block, colours.size());
-    appearance.tint[tint] = varied(colours[number], random);
+    const std::size_t colour = colour_number(run_seed, number, tint, block, colours.size());
+    appearance.tint[tint] = varied(colours[colour], random);
     if (tint != static_cast<std::size_t>(Tint::hair)) {
       appearance.tint[tint] = dyed(appearance.tint[tint], styling);
     }
   }
   return appearance;
+}
+
+}  // namespace
+
+Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
+                         const Styling& styling) {
+  check(!population.characters.empty(), "a population has characters");
+  const std::vector<Place> cast = cast_of(population, run_seed, styling);
+  const auto count = static_cast<std::uint32_t>(cast.size());
+  const Place& place = cast[place_of(run_seed, agent, count)];
+  return shown(population, place.character, run_seed, agent, agent / count + place.copy, styling);
+}
+
+Appearance appearance_as(const Population& population, std::uint32_t character,
+                         std::uint64_t run_seed) {
+  check(character < population.characters.size(), "the population has the character");
+  return shown(population, character, run_seed, character, 0, {});
 }
 
 }  // namespace throng::skinning

@@ -37,4 +37,8 @@ struct Styling {
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,
                          const Styling& styling = {});
 
+/// The first look of this character in a run, whether it takes part or not.
+Appearance appearance_as(const Population& population, std::uint32_t character,
+                         std::uint64_t run_seed);
+
 }  // namespace throng::skinning

@@ -180,7 +180,7 @@ TEST(CalibrationChild, FailuresOfTheChildAreTold) {
   EXPECT_THROW(run({"/no/such/program"}), EnvironmentError);
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_THROW(calibrator_in_child({"sleep", "30"})(folder.path(), {}, stop.get_token()),
+  EXPECT_THROW(calibrator_in_child({"sh", "-c", "sleep 30"})(folder.path(), {}, stop.get_token()),
                Cancelled);
   write_file_atomically(folder.path() / "request.json", R"({"kind": "guess"})");
   EXPECT_EQ(run_calibration_child(folder.path()), 2);
