@@ -53,7 +53,7 @@ struct JobSpec {
   EnvironmentSpec environment;
   render::Quality quality = render::Quality::standard;
   skinning::Styling styling{.umbrellas = 0.05};  ///< of people; umbrellas when it rains
-  double props_density = 1;   ///< share of the scenario's scattered props that are there
+  double props_density = 1;  ///< share of the scenario's scattered props that are there
   OutputSpec outputs;
   std::vector<RandomField> randomize;  ///< drawn for each run by job_of_run()
 
