@@ -41,7 +41,11 @@ step_tidy() {
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build asan
-  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" ctest --preset asan -j2 -LE slow
+  # GCC 12's leak checker guesses where threads' dynamic variables lie, and now and then reads from
+  # nowhere after a library with threads was loaded. It has to do without.
+  ASAN_OPTIONS=intercept_tls_get_addr=0 \
+    LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" \
+    ctest --preset asan -j2 -LE slow
 }
 
 step_tsan() {

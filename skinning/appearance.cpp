@@ -94,6 +94,7 @@ std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
           : static_cast<std::size_t>(std::lround(static_cast<double>(bare.size()) *
                                                  styling.umbrellas / (1 - styling.umbrellas)));
   std::vector<Place> cast;
+  cast.reserve(bare.size() + under);
   for (const std::uint32_t character : bare) cast.push_back({character, 0});
   for (std::size_t i = 0; i < under; ++i) {
     cast.push_back({dry[i % dry.size()], static_cast<std::uint32_t>(i / dry.size())});

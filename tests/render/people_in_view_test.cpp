@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "stage.h"
 
@@ -17,7 +18,7 @@ Scene crowd(const skinning::Population& people, std::uint32_t count) {
   Scene scene;
   for (std::uint32_t i = 0; i < count; ++i) {
     scene.people.push_back(
-        standing(people, i, 16 + 0.4 * (i % 40), 0.5 * static_cast<double>(i / 40) - 3));
+        standing(people, i, 16 + 0.4 * (i % 40), 0.5 * std::floor(i / 40.0) - 3));
   }
   return scene;
 }
