@@ -71,10 +71,11 @@ std::string image_panel(const Calibration& calibration) {
   const double cell_height = height / kCoverageRows;
   for (std::size_t i = 0; i < covered.size(); ++i) {
     if (covered.at(i)) continue;
+    const std::size_t row = i / kCoverageColumns;
     svg += fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#eee\"/>\n",
         kCellWidth * static_cast<double>(i % kCoverageColumns),
-        cell_height * static_cast<double>(i / kCoverageColumns), kCellWidth, cell_height);
+        cell_height * static_cast<double>(row), kCellWidth, cell_height);
   }
   each_point(calibration, [&](std::size_t view, const PointResult& point) {
     const std::string colour =
