@@ -1,18 +1,14 @@
 #include "study/work.h"
 
 #include <fmt/core.h>
-#include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/run_items.h"
 #include "jobs/pipeline.h"
 
 namespace throng::study {
@@ -45,45 +41,19 @@ class Work {
   }
 
   Outcomes run(int threads, const std::stop_token& stop) {
-    std::stop_source failed;
-    std::vector<std::jthread> pool;
-    pool.reserve(static_cast<std::size_t>(threads));
-    for (int t = 0; t < threads; ++t) {
-      pool.emplace_back([&] {
-        // Runs are the unit of parallel work: within one there is a single thread.
-        tbb::task_arena alone(1);
-        alone.execute([&] { work(stop, failed); });
-      });
-    }
-    pool.clear();
-    if (failure_) std::rethrow_exception(failure_);
-    if (stop.stop_requested()) throw Cancelled();
+    run_items(items_.size(), threads, stop, [&](std::size_t number) {
+      const Item& item = items_[number];
+      Outcome outcome = result_of(item, stop);
+      const std::lock_guard lock(mutex_);
+      outcomes_[item.one_case][item.policy][static_cast<std::size_t>(item.run)] =
+          std::move(outcome);
+      ++done_;
+      if (progress_) progress_(done_, items_.size());
+    });
     return std::move(outcomes_);
   }
 
  private:
-  void work(const std::stop_token& stop, std::stop_source& failed) {
-    while (!stop.stop_requested() && !failed.stop_requested()) {
-      const std::size_t next = next_++;
-      if (next >= items_.size()) return;
-      const Item& item = items_[next];
-      try {
-        Outcome outcome = result_of(item, stop);
-        const std::lock_guard lock(mutex_);
-        outcomes_[item.one_case][item.policy][static_cast<std::size_t>(item.run)] =
-            std::move(outcome);
-        ++done_;
-        if (progress_) progress_(done_, items_.size());
-      } catch (const Cancelled&) {
-        return;
-      } catch (...) {
-        const std::lock_guard lock(mutex_);
-        if (!failure_) failure_ = std::current_exception();
-        failed.request_stop();
-      }
-    }
-  }
-
   Outcome result_of(const Item& item, const std::stop_token& stop) const {
     const fs::path file = folder_ / "runs" / study_.cases[item.one_case].id /
                           study_.policies[item.policy].id / fmt::format("{:03d}.json", item.run);
@@ -122,18 +92,15 @@ class Work {
   const fs::path& folder_;
   const StudyProgress& progress_;
   std::vector<Item> items_;
-  std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
   std::size_t done_ = 0;
   Outcomes outcomes_;
-  std::exception_ptr failure_;
 };
 
 }  // namespace
 
 Outcomes do_runs(const Study& study, const fs::path& folder, int threads,
                  const StudyProgress& progress, const std::stop_token& stop) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   return Work(study, folder, progress).run(threads, stop);
 }
 

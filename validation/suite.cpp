@@ -2,73 +2,45 @@
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <iterator>
 #include <mutex>
-#include <thread>
 
 #include "base/error.h"
+#include "base/run_items.h"
 #include "crowd/model.h"
 
 namespace throng::validation {
 
 namespace {
 
-/// Runs pairs of test and model on several threads, each alone on its own.
+/// Runs pairs of test and model.
 class Suite {
  public:
   Suite(Results& results, Effort effort, const SuiteProgress& progress)
       : results_(results), effort_(effort), progress_(progress) {}
 
   void run(int threads, const std::stop_token& stop) {
-    std::stop_source failed;
-    {
-      std::vector<std::jthread> pool;
-      pool.reserve(static_cast<std::size_t>(threads));
-      for (int t = 0; t < threads; ++t) {
-        pool.emplace_back([&] {
-          tbb::task_arena alone(1);
-          alone.execute([&] { work(stop, failed); });
-        });
-      }
-    }
-    if (failure_) std::rethrow_exception(failure_);
-    if (stop.stop_requested()) throw Cancelled();
+    const std::size_t models = results_.models.size();
+    const std::size_t total = results_.tests.size() * models;
+    run_items(total, threads, stop, [&](std::size_t number) {
+      const std::size_t test = number / models;
+      const std::size_t model = number % models;
+      Verdict verdict = results_.tests[test].run({results_.models[model]}, effort_);
+      const std::lock_guard lock(mutex_);
+      results_.verdicts[test][model] = std::move(verdict);
+      ++done_;
+      if (progress_) progress_(done_, total);
+    });
   }
 
  private:
-  void work(const std::stop_token& stop, std::stop_source& failed) {
-    const std::size_t total = results_.tests.size() * results_.models.size();
-    while (!stop.stop_requested() && !failed.stop_requested()) {
-      const std::size_t next = next_++;
-      if (next >= total) return;
-      const std::size_t test = next / results_.models.size();
-      const std::size_t model = next % results_.models.size();
-      try {
-        Verdict verdict = results_.tests[test].run({results_.models[model]}, effort_);
-        const std::lock_guard lock(mutex_);
-        results_.verdicts[test][model] = std::move(verdict);
-        ++done_;
-        if (progress_) progress_(done_, total);
-      } catch (...) {
-        const std::lock_guard lock(mutex_);
-        if (!failure_) failure_ = std::current_exception();
-        failed.request_stop();
-      }
-    }
-  }
-
   Results& results_;
   Effort effort_;
   const SuiteProgress& progress_;
-  std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
   std::size_t done_ = 0;
-  std::exception_ptr failure_;
 };
 
 std::vector<Test> chosen_tests(const std::vector<std::string>& ids) {
@@ -118,7 +90,6 @@ Results run_suite(const std::vector<std::string>& models, const std::vector<std:
                   const std::stop_token& stop) {
   Results results{effort, chosen_models(models), chosen_tests(tests), {}};
   results.verdicts.assign(results.tests.size(), std::vector<Verdict>(results.models.size()));
-  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   Suite(results, effort, progress).run(threads, stop);
   return results;
 }

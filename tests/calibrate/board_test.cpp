@@ -1,6 +1,7 @@
 // Boards found in pictures: real ones, and drawn ones whose corners are known.
 #include "calibrate/board.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <opencv2/aruco/charuco.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "base/files.h"
@@ -106,6 +108,29 @@ TEST(Board, AWrongSizeIsNamed) {
     ASSERT_TRUE(std::holds_alternative<Problem>(found)) << columns;
     EXPECT_THAT(std::get<Problem>(found).text(), HasSubstr("9 x 6 inner corners")) << columns;
   }
+}
+
+TEST(Board, PicturesOfAnotherSizeThanMostAreLeftOut) {
+  const fs::path folder = fs::temp_directory_path() / "throng_board_sizes";
+  fs::create_directories(folder);
+  Board board;
+  board.columns = 9;
+  board.rows = 6;
+  const cv::Mat drawn = flat_chessboard(9, 6, 40);
+  cv::Mat smaller;
+  cv::resize(drawn, smaller, {}, 0.8, 0.8, cv::INTER_AREA);
+  std::vector<fs::path> files;
+  for (const char* name : {"a.png", "b.png", "odd.png", "c.png"}) {
+    files.push_back(folder / name);
+    cv::imwrite(files.back().string(), std::string_view(name) == "odd.png" ? smaller : drawn);
+  }
+  const Correspondences found = find_boards(files, board);
+  fs::remove_all(folder);
+  EXPECT_EQ(found.views.size(), 3U);
+  ASSERT_EQ(found.left_out.size(), 1U);
+  EXPECT_THAT(found.left_out[0].text(), HasSubstr("odd.png"));
+  EXPECT_THAT(found.left_out[0].text(),
+              HasSubstr(fmt::format("{} x {}", smaller.cols, smaller.rows)));
 }
 
 TEST(Board, AnEmptyPictureHasNone) {

@@ -65,6 +65,28 @@ class Calibrate(unittest.TestCase):
         self.assertIn("camera_name: ros", files[1].read_text())
         self.assertIn("<svg", files[2].read_text())
 
+    def test_control_points_place_the_camera(self):
+        self.calibrate("--lens", "pinhole")
+        centres = {"a": (0.0, 0.0, 25.0), "b": (4.0, 1.0, 26.0), "c": (-3.0, 2.0, 24.0)}
+        ground = {f"p{i}": (2.5 * (i % 5) - 5, 3.0 * (i // 5) - 4, 0.4 * (i * 7 % 5)) for i in range(20)}
+        gcp, seen = self.base / "gcp.csv", self.base / "seen.csv"
+        gcp.write_text("point,X,Y,Z\n" + "".join(f"{p},{x},{y},{z}\n" for p, (x, y, z) in ground.items()))
+        lines = ["image,point,u,v"]  # straight down, the top of the image to the north
+        for image, (cx, cy, cz) in centres.items():
+            for point, (x, y, z) in ground.items():
+                lines.append(f"{image},{point},{800 * (x - cx) / (cz - z) + 321},{800 * (cy - y) / (cz - z) + 238}")
+        seen.write_text("\n".join(lines) + "\n")
+        for command in ("pose", "bundle"):
+            out = self.base / f"{command}.json"
+            done = throng("calibrate", command, "--camera", self.base / "camera.json", "--gcp", gcp,
+                          "--observations", seen, "-o", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            views = {view["image"]: view for view in json.loads(out.read_text())["views"]}
+            self.assertEqual(sorted(views), sorted(centres))
+            for image, centre in centres.items():
+                for found, true in zip(views[image]["camera_centre"], centre):
+                    self.assertAlmostEqual(found, true, places=3, msg=(command, image))
+
     def test_errors_name_what_is_wrong(self):
         done = throng("calibrate", "intrinsics", "--points", self.points)
         self.assertEqual(done.returncode, 2)
