@@ -111,11 +111,12 @@ std::string instance_png(const render::Frame& frame) {
   rgb.resize(frame.id.size() * 3);
   std::uint8_t* out = rgb.data();
   for (const std::uint32_t id : frame.id) {
-    const bool thing = !render::is_agent(id) && id != render::kIdNothing;
-    check(thing || id >> 23U == 0, "agents have less than 23 bits");
+    const bool thing = id >= render::kIdBuilding;
+    const std::uint32_t umbrella = render::is_umbrella(id) ? 0x40U : 0U;
+    check(thing || (id & ~render::kIdUmbrella) >> 22U == 0, "agents have less than 22 bits");
     out[0] = static_cast<std::uint8_t>(id);
     out[1] = static_cast<std::uint8_t>(id >> 8U);
-    out[2] = static_cast<std::uint8_t>(thing ? id >> 24U : id >> 16U);
+    out[2] = static_cast<std::uint8_t>(thing ? id >> 24U : id >> 16U | umbrella);
     out += 3;
   }
   return png_bytes({frame.width(), frame.height(), 3}, rgb);

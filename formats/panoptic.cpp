@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <tuple>
 
 #include "formats/makers.h"
 #include "formats/raster.h"
@@ -17,6 +18,7 @@ using nlohmann::json;
 namespace {
 
 // Values of the pictures of instances (docs/formats.md).
+constexpr std::uint32_t kFirstUmbrella = 0x400000;
 constexpr std::uint32_t kFirstBuilding = 0x800000;
 constexpr std::uint32_t kFirstProp = 0xC00000;
 constexpr std::uint32_t kGround = 0xFF0000;
@@ -116,11 +118,21 @@ class PanopticExporter : public Exporter {
       list.push_back(
           {{"id", list.size() + 1}, {"name", name}, {"supercategory", "person"}, {"isthing", 1}});
     }
-    for (const auto& [name, kind] : {std::pair{"building", 1}, {"prop", 1}, {"ground", 0}}) {
+    for (const auto& [name, group, kind] : {std::tuple{"building", "place", 1},
+                                            {"prop", "place", 1},
+                                            {"ground", "place", 0},
+                                            {"umbrella", "accessory", 1}}) {
       list.push_back(
-          {{"id", list.size() + 1}, {"name", name}, {"supercategory", "place"}, {"isthing", kind}});
+          {{"id", list.size() + 1}, {"name", name}, {"supercategory", group}, {"isthing", kind}});
     }
     return list;
+  }
+
+  /// Which of the categories after people's, from 0.
+  static std::size_t place_of(std::uint32_t number) {
+    if (number < kFirstBuilding) return 3;
+    if (number == kGround) return 2;
+    return number >= kFirstProp ? 1 : 0;
   }
 
   json segments_of(const Image& image, const std::vector<std::uint32_t>& ids) const {
@@ -140,8 +152,8 @@ class PanopticExporter : public Exporter {
     for (const auto& [number, segment] : segments) {
       std::size_t category = 0;
       bool is_crowd = false;
-      if (number >= kFirstBuilding) {
-        category = classes + (number == kGround ? 2 : number >= kFirstProp ? 1 : 0);
+      if (number >= kFirstUmbrella) {
+        category = classes + place_of(number);
       } else if (const auto person = people.find(number); person != people.end()) {
         category = person->second->category;
         is_crowd = person->second->is_ignored;

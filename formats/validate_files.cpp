@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint32_t kFirstThing = 0x800000;
+constexpr std::uint32_t kFirstThing = 0x400000;
 
 std::string relative(const DatasetInfo& info, const fs::path& path) {
   return path.lexically_relative(info.root).string();

@@ -18,11 +18,20 @@ namespace throng::render {
 
 /// Values of the instance id buffer.
 inline constexpr std::uint32_t kIdNothing = 0;            ///< sky
+inline constexpr std::uint32_t kIdUmbrella = 0x40000000;  ///< + id of who holds it
 inline constexpr std::uint32_t kIdGround = 0xFFFF0000;    ///< the ground
 inline constexpr std::uint32_t kIdBuilding = 0x80000000;  ///< + index of the building
 inline constexpr std::uint32_t kIdProp = 0xC0000000;      ///< + index of the prop; then meshes
 inline constexpr std::uint32_t id_of_agent(std::uint32_t agent) { return agent + 1; }
-inline constexpr bool is_agent(std::uint32_t id) { return id > 0 && id < kIdBuilding; }
+inline constexpr bool is_agent(std::uint32_t id) { return id > 0 && id < kIdUmbrella; }
+inline constexpr std::uint32_t id_of_umbrella(std::uint32_t agent) {
+  return kIdUmbrella + id_of_agent(agent);
+}
+inline constexpr bool is_umbrella(std::uint32_t id) {
+  return id >= kIdUmbrella && id < kIdBuilding;
+}
+/// Whether it is posed anew in every frame: people and what they hold above themselves.
+inline constexpr bool is_posed(std::uint32_t id) { return is_agent(id) || is_umbrella(id); }
 inline constexpr std::uint32_t agent_of_id(std::uint32_t id) { return id - 1; }
 
 /// Values of Frame::part.
@@ -36,7 +45,7 @@ enum class BodyPart : std::uint8_t {
   right_leg,
   left_foot,
   right_foot,
-  item,  ///< what is carried
+  item,  ///< what is carried; an umbrella is none of the person
 };
 
 /// Ground truth of one person that touches the view, hidden or not.

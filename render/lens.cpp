@@ -243,10 +243,11 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
   std::vector<PersonInView> kept;
   for (PersonInView& person : frame.people) {
     const PersonInstance& instance = *instances.at(person.agent);
-    const skinning::Mesh& mesh =
-        population_->characters[instance.appearance.character].levels[person.level];
+    const skinning::Character& character = population_->characters[instance.appearance.character];
+    const skinning::Mesh& mesh = character.levels[person.level];
     const Eigen::AlignedBox2d box =
-        shown_box(mesh, blended_palette(*population_, instance), instance, frame.camera, rows);
+        shown_box(mesh, parts_of(character, mesh, Share::body),
+                  blended_palette(*population_, instance), instance, frame.camera, rows);
     const bool shows = visible.contains(id_of_agent(person.agent));
     if (!shows && (box.isEmpty() || !box.intersects(image))) continue;
     // Of somebody right at the camera the model may show triangles but no corner of them.

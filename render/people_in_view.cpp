@@ -23,10 +23,14 @@ Eigen::AlignedBox2d image_box(const camera::Camera& camera) {
 
 PeopleFinder::PeopleFinder(const skinning::Population& population, const QualitySettings& quality)
     : population_(&population), quality_(quality) {
-  shapes_.reserve(population.characters.size());
   landmarks_.reserve(population.characters.size());
   for (const skinning::Character& character : population.characters) {
-    shapes_.emplace_back(character.levels.begin(), character.levels.end());
+    std::vector<BodyShape>& bodies = bodies_.emplace_back();
+    std::vector<BodyShape>& umbrellas = umbrellas_.emplace_back();
+    for (const skinning::Mesh& mesh : character.levels) {
+      bodies.emplace_back(mesh, parts_of(character, mesh, Share::body));
+      umbrellas.emplace_back(mesh, parts_of(character, mesh, Share::umbrella));
+    }
     landmarks_.push_back(skinning::landmarks_of(character));
   }
 }
@@ -62,7 +66,7 @@ void PeopleFinder::measure(const PersonInstance& person, const skinning::Palette
   truth.velocity = person.velocity.cast<double>();
   truth.yaw_rad = person.yaw_rad;
   truth.stature_m = stature_m;
-  const std::vector<BodyShape>& all = shapes_[character];
+  const std::vector<BodyShape>& all = bodies_[character];
   measure_body(all[std::min(kBoxLevel, all.size() - 1)], landmarks_[character], palette, person,
                truth);
 }
@@ -103,12 +107,19 @@ std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& c
     const double height_px = camera.intrinsics.fy_px * character.stature_m / depth_m;
     const PersonDraw draw = draw_of(i, height_px, depth_m, character.levels.size());
     const skinning::Palette palette = blended_palette(*population_, person);
-    const Silhouette shape =
-        silhouette(shapes_[person.appearance.character][draw.level], palette, person, camera);
-    if (shape.box.isEmpty() || !shape.box.intersects(image)) continue;
+    const auto box_of = [&](const std::vector<std::vector<BodyShape>>& shapes) {
+      const BodyShape& shape = shapes[person.appearance.character][draw.level];
+      return silhouette(shape, palette, person, camera).box;
+    };
+    const auto shows = [&](const Eigen::AlignedBox2d& box) {
+      return !box.isEmpty() && box.intersects(image);
+    };
+    const Eigen::AlignedBox2d body = box_of(bodies_);
+    if (!shows(body) && !shows(box_of(umbrellas_))) continue;
     Seen& found = seen.emplace_back();
     found.draw = draw;
-    found.truth.amodal_box = shape.box;
+    found.is_listed = shows(body);
+    found.truth.amodal_box = body;
     found.truth.level = draw.level;
     measure(person, palette, found.truth);
   }

@@ -22,6 +22,8 @@ inline constexpr double kPersonReach = 1.2;
 /// A person who may be in view, and what was measured so far.
 struct Seen {
   PersonDraw draw;
+  /// Else only their umbrella touches the image: they are drawn, but not among the frame's people.
+  bool is_listed = true;
   PersonInView truth;
   std::optional<std::size_t> tile;  ///< of their silhouette
 };
@@ -31,8 +33,9 @@ class PeopleFinder {
   /// The population must outlive it.
   PeopleFinder(const skinning::Population& population, const QualitySettings& quality);
 
-  /// Everybody whose box touches the image of a pinhole camera, by agent: with box, body, level of
-  /// detail and whether they are drawn with textures. A pure function of the arguments.
+  /// Everybody whose box, or whose umbrella's, touches the image of a pinhole camera, by agent:
+  /// with box, body, level of detail and whether they are drawn with textures. A pure function of
+  /// the arguments.
   std::vector<Seen> find(const Scene& scene, const camera::Camera& camera) const;
 
   /// How somebody is drawn into the shadow map, which shows no more than the coarsest level.
@@ -48,8 +51,9 @@ class PeopleFinder {
 
   const skinning::Population* population_;
   QualitySettings quality_;
-  std::vector<std::vector<BodyShape>> shapes_;  ///< [character][level]
-  std::vector<skinning::Landmarks> landmarks_;  ///< per character
+  std::vector<std::vector<BodyShape>> bodies_;     ///< [character][level]
+  std::vector<std::vector<BodyShape>> umbrellas_;  ///< the same; without points where there is none
+  std::vector<skinning::Landmarks> landmarks_;     ///< per character
 };
 
 }  // namespace throng::render

@@ -67,12 +67,13 @@ void pack_skin(const skinning::Vertex& vertex, DeviceVertex& packed) {
 }
 
 /// What the shader knows of a part; `white` is the layer of those without a texture.
-std::uint32_t info_of(const skinning::Part& part, std::uint32_t white) {
+std::uint32_t info_of(const skinning::Part& part, bool apart, std::uint32_t white) {
   const auto layer = [](std::int32_t number) { return static_cast<std::uint32_t>(number); };
   const std::uint32_t texture = part.texture < 0 ? white : layer(part.texture);
   const std::uint32_t shades = part.shades < 0 ? 0 : layer(part.shades);
   check(std::max(texture, shades) < 1U << 12U, "twelve bits number the people's textures");
-  return texture | (shades << 12U) | (static_cast<std::uint32_t>(part.tint) << 24U);
+  return texture | (shades << 12U) | (static_cast<std::uint32_t>(part.tint) << 24U) |
+         (apart ? 1U << 31U : 0U);
 }
 
 /// Packs meshes one after the other.
@@ -80,7 +81,8 @@ class Packer {
  public:
   explicit Packer(const skinning::Population& population) : population_(population) {}
 
-  PeopleLevel add(const skinning::Mesh& mesh, bool weld) {
+  PeopleLevel add(const skinning::Character& character, const skinning::Mesh& mesh, bool weld) {
+    character_ = &character;
     PeopleLevel level;
     first_vertex_ = static_cast<std::uint32_t>(vertices_.size());
     level.first_vertex = static_cast<std::int32_t>(first_vertex_);
@@ -114,7 +116,8 @@ class Packer {
     DeviceVertex packed{};
     packed.position = vertex.position;
     pack_skin(vertex, packed);
-    packed.part = info_of(part, static_cast<std::uint32_t>(population_.textures.size()));
+    packed.part = info_of(part, skinning::is_apart(*character_, part),
+                          static_cast<std::uint32_t>(population_.textures.size()));
     packed.normal = octahedral(vertex.normal);
     packed.uv = vertex.uv;
     packed.base = word_of(kWhite);
@@ -172,7 +175,8 @@ class Packer {
   const skinning::Population& population_;
   std::vector<DeviceVertex> vertices_;
   std::vector<std::uint32_t> indices_;
-  std::uint32_t first_vertex_ = 0;  ///< of the level that is being added
+  const skinning::Character* character_ = nullptr;  ///< whose level is being added
+  std::uint32_t first_vertex_ = 0;                  ///< of that level
 };
 
 }  // namespace
@@ -185,8 +189,10 @@ PeopleMeshes people_meshes(const skinning::Population& population, const Packing
     std::vector<PeopleLevel>& by_corners = meshes.by_corners.emplace_back();
     for (std::size_t level = 0; level < character.levels.size(); ++level) {
       const skinning::Mesh& mesh = character.levels[level];
-      textured.push_back(level < packing.textured_below ? packer.add(mesh, false) : PeopleLevel{});
-      by_corners.push_back(level >= packing.corners_from ? packer.add(mesh, true) : PeopleLevel{});
+      textured.push_back(level < packing.textured_below ? packer.add(character, mesh, false)
+                                                        : PeopleLevel{});
+      by_corners.push_back(level >= packing.corners_from ? packer.add(character, mesh, true)
+                                                         : PeopleLevel{});
     }
   }
   meshes.vertices = packer.vertices();

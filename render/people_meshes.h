@@ -17,8 +17,8 @@ struct DeviceVertex {
   std::array<float, 3> position;
   std::uint32_t bones;
   std::uint32_t weights;  ///< of 255, falling: the shader stops at the first zero
-  std::uint32_t part;     ///< texture layer, a portrait's second one << 12, tint << 24
-  std::uint32_t normal;   ///< signed bytes of 127
+  std::uint32_t part;  ///< texture layer, a portrait's second one << 12, tint << 24, umbrella << 31
+  std::uint32_t normal;  ///< signed bytes of 127
   std::array<float, 2> uv;
   std::uint32_t base;    ///< the texture around it, sRGB
   std::uint32_t shades;  ///< of a portrait, linear

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <tuple>
@@ -80,19 +81,29 @@ std::vector<Eigen::Vector4f> projected_vertices(const skinning::Mesh& mesh,
   return projected;
 }
 
+/// Calls `see(a, b)` for every side of these parts' triangles with the indices of its ends.
+template <typename See>
+void for_each_side(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts, See see) {
+  for (const skinning::Part& part : parts) {
+    for (std::uint32_t i = 0; i < part.index_count; ++i) {
+      const std::uint32_t next = i % 3 == 2 ? i - 2 : i + 1;
+      see(mesh.indices[part.first_index + i], mesh.indices[part.first_index + next]);
+    }
+  }
+}
+
 /// Bounds of the triangles' parts in front of the near plane.
-Eigen::AlignedBox2f cut_box(const skinning::Mesh& mesh,
-                            const std::vector<Eigen::Vector4f>& projected) {
+Eigen::AlignedBox2f cut_box(const BodyShape& shape, const std::vector<Eigen::Vector4f>& projected) {
   Eigen::AlignedBox2f box;
   const auto extend = [&](const Eigen::Vector4f& p) { box.extend(p.head<2>() / p.z()); };
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    const Eigen::Vector4f& a = projected[mesh.indices[i]];
-    const Eigen::Vector4f& b = projected[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
+  for_each_side(*shape.mesh, shape.parts, [&](std::uint32_t from, std::uint32_t to) {
+    const Eigen::Vector4f& a = projected[from];
+    const Eigen::Vector4f& b = projected[to];
     if (a.z() >= kNear) extend(a);
     if ((a.z() >= kNear) != (b.z() >= kNear)) {
       extend(a + (b - a) * ((kNear - a.z()) / (b.z() - a.z())));
     }
-  }
+  });
   return box;
 }
 
@@ -116,13 +127,27 @@ Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstan
   return person.position.cast<double>() + turn(person.yaw_rad) * posed.cast<double>();
 }
 
-BodyShape::BodyShape(const skinning::Mesh& of_mesh) : mesh(&of_mesh) {
+std::vector<skinning::Part> parts_of(const skinning::Character& character,
+                                     const skinning::Mesh& mesh, Share share) {
+  std::vector<skinning::Part> parts;
+  std::copy_if(mesh.parts.begin(), mesh.parts.end(), std::back_inserter(parts),
+               [&](const skinning::Part& part) {
+                 return skinning::is_apart(character, part) == (share == Share::umbrella);
+               });
+  return parts;
+}
+
+BodyShape::BodyShape(const skinning::Mesh& of_mesh, std::vector<skinning::Part> its_parts)
+    : mesh(&of_mesh), parts(std::move(its_parts)) {
   using Place =
       std::tuple<std::array<float, 3>, std::array<std::uint8_t, 4>, std::array<std::uint8_t, 4>>;
   std::set<Place> known;
-  for (const skinning::Vertex& vertex : of_mesh.vertices) {
-    if (known.emplace(vertex.position, vertex.bones, vertex.weights).second) {
-      points.push_back(skin_point(vertex));
+  for (const skinning::Part& part : parts) {
+    for (std::uint32_t i = part.first_index; i < part.first_index + part.index_count; ++i) {
+      const skinning::Vertex& vertex = mesh->vertices[mesh->indices[i]];
+      if (known.emplace(vertex.position, vertex.bones, vertex.weights).second) {
+        points.push_back(skin_point(vertex));
+      }
     }
   }
   // Loops over equal numbers of bones are the fastest.
@@ -164,7 +189,7 @@ Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
   if (shape.points.empty()) return seen;
   Eigen::AlignedBox2f box(low.head<2>().matrix(), high.head<2>().matrix());
   if (low.z() < kNear) {
-    box = cut_box(*shape.mesh, projected_vertices(*shape.mesh, project));
+    box = cut_box(shape, projected_vertices(*shape.mesh, project));
   }
   if (box.isEmpty()) return seen;
   const Eigen::Vector2d size(camera.intrinsics.width, camera.intrinsics.height);
@@ -174,9 +199,9 @@ Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
   return seen;
 }
 
-Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const skinning::Palette& palette,
-                              const PersonInstance& person, const camera::Camera& camera,
-                              const Rows& rows) {
+Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
+                              const skinning::Palette& palette, const PersonInstance& person,
+                              const camera::Camera& camera, const Rows& rows) {
   const camera::Intrinsics& k = camera.intrinsics;
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   const double top = rows.first == 0 ? -kEverywhere : rows.first;
@@ -193,16 +218,16 @@ Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const skinning::Palett
     if (shown.back()) shown.back()->array() += 0.5;
   }
   Eigen::AlignedBox2d box;
-  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    const auto& a = shown[mesh.indices[i]];
-    const auto& b = shown[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
-    if (!a) continue;
+  for_each_side(mesh, parts, [&](std::uint32_t from, std::uint32_t to) {
+    const auto& a = shown[from];
+    const auto& b = shown[to];
+    if (!a) return;
     if (a->y() >= top && a->y() <= bottom) box.extend(*a);
     for (const double border : {top, bottom}) {
       if (!b || (a->y() < border) == (b->y() < border)) continue;
       box.extend(Eigen::Vector2d(*a + (*b - *a) * ((border - a->y()) / (b->y() - a->y()))));
     }
-  }
+  });
   if (box.isEmpty()) return box;
   const Eigen::Vector2d size(k.width, k.height);
   return box.intersection(Eigen::AlignedBox2d(-size, 2 * size));

@@ -35,12 +35,18 @@ struct SkinPoint {
   std::uint32_t bone_count;
 };
 
-/// A mesh and where its vertices are, each place once however many normals or texture coordinates
-/// it has. The mesh must outlive it.
+/// What of a person's mesh is theirs, and what is an umbrella.
+enum class Share : std::uint8_t { body, umbrella };
+std::vector<skinning::Part> parts_of(const skinning::Character& character,
+                                     const skinning::Mesh& mesh, Share share);
+
+/// A share of a mesh and where its vertices are, each place once however many normals or texture
+/// coordinates it has. The mesh must outlive it.
 struct BodyShape {
-  explicit BodyShape(const skinning::Mesh& of_mesh);
+  BodyShape(const skinning::Mesh& of_mesh, std::vector<skinning::Part> its_parts);
 
   const skinning::Mesh* mesh;
+  std::vector<skinning::Part> parts;
   std::vector<SkinPoint> points;
 };
 
@@ -66,10 +72,11 @@ struct Rows {
   int end = 0;
 };
 
-/// Bounds in box coordinates of the part of a mesh that a camera with any lens shows in these rows
-/// of its image, from its vertices and edges; limited like Silhouette::box. Empty if there is none.
-Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const skinning::Palette& palette,
-                              const PersonInstance& person, const camera::Camera& camera,
-                              const Rows& rows);
+/// Bounds in box coordinates of what a camera with any lens shows of these parts of a mesh in these
+/// rows of its image, from their vertices and edges; limited like Silhouette::box. Empty if there
+/// is nothing.
+Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
+                              const skinning::Palette& palette, const PersonInstance& person,
+                              const camera::Camera& camera, const Rows& rows);
 
 }  // namespace throng::render

@@ -214,6 +214,7 @@ void Renderer::State::place_silhouettes(const camera::Camera& camera, std::vecto
   };
   std::vector<Room> rooms;
   for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!seen[i].is_listed) continue;
     const Eigen::AlignedBox2i pixels = pixels_of(seen[i].truth.amodal_box);
     if (image.contains(pixels)) rooms.push_back({i, pixels});
   }
@@ -320,6 +321,7 @@ void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
   std::vector<std::size_t> measured;
   std::vector<CoverageRequest> requests;
   for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!seen[i].is_listed) continue;
     PersonInView& truth = seen[i].truth;
     if (seen[i].tile) {
       truth.amodal_area_px = silhouettes.count(*seen[i].tile, weights);
@@ -388,7 +390,9 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   }
   if (choice.truth) state.measure_coverage(scene, frame, choice.weights, seen);
   check_gl("drawing a frame");
-  for (Seen& person : seen) frame.people.push_back(std::move(person.truth));
+  for (Seen& person : seen) {
+    if (person.is_listed) frame.people.push_back(std::move(person.truth));
+  }
   state.lap("coverage");
   return frame;
 }

@@ -65,7 +65,7 @@ void fill_still_normals(Frame& frame) {
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-      if (is_agent(frame.id[pixel]) || std::isinf(frame.depth_m[pixel])) continue;
+      if (is_posed(frame.id[pixel]) || std::isinf(frame.depth_m[pixel])) continue;
       const float across = inverse.slope(pixel, 1, x, frame.width());
       const float down = inverse.slope(pixel, width, y, frame.height());
       // The plane n . X = d gives 1 / z = (n / d) . K^-1 (x, y, 1); n / d points away from the eye.
@@ -91,7 +91,7 @@ void fill_still_flow(const camera::Camera& next, Frame& frame) {
   std::size_t pixel = 0;
   for (int y = 0; y < frame.height(); ++y) {
     for (int x = 0; x < frame.width(); ++x, ++pixel) {
-      if (is_agent(frame.id[pixel])) continue;
+      if (is_posed(frame.id[pixel])) continue;
       const double depth_m = frame.depth_m[pixel];
       // The point's place times 1 / depth, which is 0 for sky.
       const Eigen::Vector3d seen = from_far * Eigen::Vector3d(x, y, 1) + from_near / depth_m;

@@ -82,6 +82,10 @@ fs::path population_folder() {
   return resource_folder("THRONG_PEOPLE", "people", THRONG_PEOPLE_DIR);
 }
 
+bool is_apart(const Character& character, const Part& part) {
+  return character.carries == Carry::umbrella && part.tint == Tint::item;
+}
+
 Eigen::Vector3f skin(const Vertex& vertex, const Palette& a, const Palette& b, float blend) {
   BoneMatrix matrix = BoneMatrix::Zero();
   for (std::size_t slot = 0; slot < 4; ++slot) {

@@ -97,6 +97,10 @@ struct Character {
   std::array<std::vector<Rgb>, kTintCount> tints;
 };
 
+/// Whether a part is a thing of its own rather than the person's: an open umbrella, which hides its
+/// owner as a stranger's would.
+bool is_apart(const Character& character, const Part& part);
+
 /// All textures have one square size, so that they fit one texture array.
 struct Texture {
   std::vector<std::uint8_t> rgba;  ///< size * size * 4, sRGB, top row first

@@ -82,6 +82,13 @@ vec3 placed(vec3 model) { return placed_at(foot, facing(), model); }
 
 uint part() { return skin.z; }
 
+uint tint_slot() { return part() >> 24 & 0x7Fu; }
+
+// Whether it is a thing of its own: an umbrella.
+bool is_apart() { return part() >> 31 != 0u; }
+
+uint instance_id() { return is_apart() ? pose.w | 0x40000000u : pose.w; }  // kIdUmbrella
+
 // A tint's sRGB word: white where the part has none of its own.
 uint tint_of(uint slot) {
   if (slot == 5u) return tints.x >> 24 | tints.y >> 24 << 8 | tints.z >> 24 << 16;
@@ -90,6 +97,9 @@ uint tint_of(uint slot) {
 
 #ifdef SILHOUETTES
 flat out ivec2 to_tile;  // from the picture, pixels
+
+// What is apart leaves no silhouette: it leads out of every atlas.
+ivec2 way_to_tile() { return is_apart() ? ivec2(1 << 24) : shift(); }
 #endif
 
 #if defined(CORNERS) || defined(LIT_CORNERS)
@@ -127,17 +137,17 @@ void main() {
   vec3 n = turned(normalize(vec4(normal_in(), 0.0) * rows));
   vec3 base = unpackUnorm4x8(colours.x).rgb;
   vec4 shades = unpackUnorm4x8(colours.y);
-  vec3 albedo = linear_from_srgb(base) * linear_from_srgb(unpackUnorm4x8(tint_of(part() >> 24)).rgb);
+  vec3 albedo = linear_from_srgb(base) * linear_from_srgb(unpackUnorm4x8(tint_of(tint_slot())).rgb);
   for (int i = 0; i < 4; ++i) {
     albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(tints[i]).rgb);
   }
   vec3 received = light_at(world, n);
   gl_Position = project_movable(world, ivec2(0));
 #ifdef SILHOUETTES
-  to_tile = shift();
+  to_tile = way_to_tile();
 #endif
   lit = film(through_air(albedo * received, world));
-  id = pose.w;
+  id = instance_id();
 }
 #elif defined(SURFACE)
 layout(location = 8) in vec3 next_foot;  // per instance: the same person in the next frame
@@ -161,7 +171,9 @@ void main() {
   normal = turned(normalize(vec4(normal_in(), 0.0) * rows));
   uv = uv_in;
   surface = uvec2(part() & 0xFFFu,
-                  part() >> 24 == 5u ? kItem : kParts[min(first_byte(skin.x), uint(kBones - 1))]);
+                  is_apart()         ? 0u
+                  : tint_slot() == 5u ? kItem
+                                      : kParts[min(first_byte(skin.x), uint(kBones - 1))]);
   is_next = next_pose.w;
   next = vec3(0.0);
   if (is_next != 0u) {
@@ -178,7 +190,9 @@ flat out uint layer;
 void main() {
   uv = uv_in;
   layer = part() & 0xFFFu;
-  gl_Position = project_movable(placed(vec4(position_in, 1.0) * blended_rows()), shift());
+  gl_Position = is_apart()
+      ? vec4(0.0, 0.0, -1.0, 1.0)  // outside of the clip volume
+      : project_movable(placed(vec4(position_in, 1.0) * blended_rows()), shift());
 }
 #else
 #ifdef LIT_CORNERS
@@ -209,11 +223,11 @@ void main() {
 #endif
   uv_sky = vec3(uv_in, 0.5 + 0.5 * n.z);
 #endif
-  surface = uvec4(part() & 0xFFFu, tint_of(part() >> 24), pose.w, part() >> 12 & 0xFFFu);
+  surface = uvec4(part() & 0xFFFu, tint_of(tint_slot()), instance_id(), part() >> 12 & 0xFFFu);
   shaded = tints;
   gl_Position = project_movable(world, ivec2(0));
 #ifdef SILHOUETTES
-  to_tile = shift();
+  to_tile = way_to_tile();
 #endif
 }
 #endif

@@ -91,16 +91,16 @@ TEST(Png, DepthIsInCentimetresAndTheSkyZero) {
 }
 
 TEST(Png, InstancesTellPeopleAndThingsApart) {
-  render::Frame frame = empty_frame(4, 1);
+  render::Frame frame = empty_frame(5, 1);
   frame.id = {render::kIdNothing, render::id_of_agent(70'000), render::kIdBuilding + 258,
-              render::kIdGround};
+              render::kIdGround, render::id_of_umbrella(70'000)};
   const Decoded decoded = decode(instance_png(frame));
   std::vector<std::uint32_t> ids;
-  for (std::size_t i = 0; i < 12; i += 3) {
+  for (std::size_t i = 0; i < 15; i += 3) {
     ids.push_back(decoded.samples[i] + 256U * decoded.samples[i + 1] +
                   65536U * decoded.samples[i + 2]);
   }
-  EXPECT_EQ(ids, (std::vector<std::uint32_t>{0, 70'001, 0x800102, 0xFF0000}));
+  EXPECT_EQ(ids, (std::vector<std::uint32_t>{0, 70'001, 0x800102, 0xFF0000, 0x400000 + 70'001}));
 }
 
 TEST(Png, FlowIsKittis) {

@@ -60,6 +60,7 @@ class SmallDataset : public testing::Test {
     scene.seed = static_cast<std::uint64_t>(100 * run + 10 * camera + frame);
     scene.people = frame == 1 && camera == 1 ? 0 : 14;
     render::Frame picture = annotate::synthetic_frame(scene);
+    *std::find(picture.id.begin(), picture.id.end(), render::kIdGround) = render::id_of_umbrella(3);
     picture.index = frame;
     picture.time_s = 0.5 * frame;
     picture.depth_m = depth_of(picture);

@@ -317,6 +317,11 @@ TEST_F(Exports, PanopticListsExactlyTheSegmentsOfThePicture) {
   const fs::path out = exported("coco-panoptic");
   const json list = json::parse(read_file(out / "annotations/panoptic_train.json"));
   ASSERT_EQ(list.at("annotations").size(), 12U);
+  const auto category_of = [](std::uint32_t id) {
+    if (id == 0xFF0000) return 4;
+    return id == 0x400004 ? 5 : 1;
+  };
+  std::size_t umbrellas = 0;
   for (const json& annotation : list.at("annotations")) {
     const auto ids =
         read_instances(out / "panoptic_train" / annotation.at("file_name").get<std::string>());
@@ -326,9 +331,12 @@ TEST_F(Exports, PanopticListsExactlyTheSegmentsOfThePicture) {
     ASSERT_EQ(annotation.at("segments_info").size(), areas.size());
     for (const json& segment : annotation.at("segments_info")) {
       EXPECT_EQ(segment.at("area"), areas.at(segment.at("id")));
-      EXPECT_EQ(segment.at("category_id"), segment.at("id") == 0xFF0000 ? 4 : 1);
+      EXPECT_EQ(segment.at("category_id"), category_of(segment.at("id")));
+      umbrellas += segment.at("category_id") == 5 ? 1 : 0;
     }
   }
+  EXPECT_GT(umbrellas, 0U);
+  EXPECT_EQ(list.at("categories").at(4).at("name"), "umbrella");
 }
 
 TEST_F(Exports, SplitsKeepRunsTogether) {

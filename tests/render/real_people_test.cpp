@@ -35,8 +35,12 @@ TEST(RealPeople, AreDrawnWithTightBoxesAndExactAreas) {
     alone.people = {scene.people[person.agent]};
     const Frame single = renderer.draw(alone, frame.camera);
     const Mask mask = mask_of(single, id_of_agent(person.agent));
-    EXPECT_GT(mask.pixels, 500U);
+    EXPECT_GT(mask.pixels, 400U);
     EXPECT_LE(mask_of(frame, id_of_agent(person.agent)).pixels, person.amodal_area_px);
+    if (mask_of(single, id_of_umbrella(person.agent)).pixels > 0) {
+      EXPECT_GT(person.amodal_area_px, mask.pixels);
+      continue;
+    }
     EXPECT_EQ(person.amodal_area_px, mask.pixels);
     // Hair may be cut out of its cards, so the pixels can stay a little inside the box.
     EXPECT_NEAR(person.amodal_box.min().y(), mask.box.min().y(), 4);

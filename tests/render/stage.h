@@ -78,9 +78,10 @@ inline int brightness(const Frame& frame, int x, int y) {
 class Stage {
  public:
   explicit Stage(world::Scenario scenario, Environment lighting = {},
-                 const RenderOptions& options = {})
+                 const RenderOptions& options = {},
+                 skinning::Population people = synthetic_people())
       : scenario_(std::move(scenario)),
-        people_(synthetic_people()),
+        people_(std::move(people)),
         renderer_(scenario_, people_, lighting, {"software"}, options) {}
 
   const skinning::Population& people() const { return people_; }

@@ -87,24 +87,26 @@ void add_face(const Box& box, const Eigen::Vector3f& corner, const Eigen::Vector
   }
 }
 
+void add_box(const Box& box, int cuts, skinning::Mesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.indices.size());
+  const Eigen::Vector3f size = box.max - box.min;
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Vector3f u = Eigen::Vector3f::Zero();
+    Eigen::Vector3f v = Eigen::Vector3f::Zero();
+    u[(axis + 1) % 3] = size[(axis + 1) % 3];
+    v[(axis + 2) % 3] = size[(axis + 2) % 3];
+    Eigen::Vector3f upper = box.min;
+    upper[axis] = box.max[axis];
+    add_face(box, upper, u, v, cuts, mesh);
+    add_face(box, box.min, v, u, cuts, mesh);
+  }
+  mesh.parts.push_back({first, static_cast<std::uint32_t>(mesh.indices.size()) - first, box.texture,
+                        box.tint, box.texture == kHair});
+}
+
 skinning::Mesh boxes_mesh(int cuts) {
   skinning::Mesh mesh;
-  for (const Box& box : body()) {
-    const auto first = static_cast<std::uint32_t>(mesh.indices.size());
-    const Eigen::Vector3f size = box.max - box.min;
-    for (int axis = 0; axis < 3; ++axis) {
-      Eigen::Vector3f u = Eigen::Vector3f::Zero();
-      Eigen::Vector3f v = Eigen::Vector3f::Zero();
-      u[(axis + 1) % 3] = size[(axis + 1) % 3];
-      v[(axis + 2) % 3] = size[(axis + 2) % 3];
-      Eigen::Vector3f upper = box.min;
-      upper[axis] = box.max[axis];
-      add_face(box, upper, u, v, cuts, mesh);
-      add_face(box, box.min, v, u, cuts, mesh);
-    }
-    mesh.parts.push_back({first, static_cast<std::uint32_t>(mesh.indices.size()) - first,
-                          box.texture, box.tint, box.texture == kHair});
-  }
+  for (const Box& box : body()) add_box(box, cuts, mesh);
   return mesh;
 }
 
@@ -208,6 +210,17 @@ skinning::Population synthetic_people(std::size_t characters) {
             pose(swing_rad * std::cos(2 * std::numbers::pi_v<float> * phase)));
       }
     }
+  }
+  return people;
+}
+
+skinning::Population under_umbrellas(float half_m, std::size_t characters) {
+  skinning::Population people = synthetic_people(characters);
+  const Box canopy = {
+      Bone::chest, Tint::item, kCloth, {-half_m, -half_m, 1.9F}, {half_m, half_m, 1.95F}};
+  for (skinning::Character& character : people.characters) {
+    character.carries = skinning::Carry::umbrella;
+    for (skinning::Mesh& level : character.levels) add_box(canopy, 1, level);
   }
   return people;
 }

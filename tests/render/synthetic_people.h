@@ -15,6 +15,9 @@ inline constexpr float kSyntheticStature_m = 1.8F;
 /// four), an alpha-tested head of hair, and clips idle (1 palette), walk and run (8 each).
 skinning::Population synthetic_people(std::size_t characters = 2);
 
+/// The same people, each under a square umbrella of this half width, 1.9 m above the ground.
+skinning::Population under_umbrellas(float half_m, std::size_t characters = 2);
+
 /// Somebody of `population` who stands still.
 PersonInstance standing(const skinning::Population& population, std::uint32_t agent, double x,
                         double y, double yaw_rad = 0);
