@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "annotate/coco_records.h"
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kImagesFile = "images.jsonl";
+constexpr const char* kTracksFile = "tracks.jsonl";
 constexpr const char* kAnnotationsFile = "annotations.jsonl";
 constexpr const char* kShardFile = "coco_shard.json";
 
@@ -51,10 +53,12 @@ class Output {
 struct ShardCounts {
   std::size_t images = 0;
   std::size_t annotations = 0;
+  std::size_t tracks = 0;
 };
 
 void write_counts(const fs::path& folder, const ShardCounts& counts) {
-  const nlohmann::json json = {{"images", counts.images}, {"annotations", counts.annotations}};
+  const nlohmann::json json = {
+      {"images", counts.images}, {"annotations", counts.annotations}, {"tracks", counts.tracks}};
   write_file_atomically(folder / kShardFile, json.dump() + "\n");
 }
 
@@ -66,7 +70,8 @@ ShardCounts read_counts(const fs::path& folder) {
   }
   try {
     const nlohmann::json json = nlohmann::json::parse(read_file(path));
-    return {json.at("images").get<std::size_t>(), json.at("annotations").get<std::size_t>()};
+    return {json.at("images").get<std::size_t>(), json.at("annotations").get<std::size_t>(),
+            json.at("tracks").get<std::size_t>()};
   } catch (const nlohmann::json::exception& error) {
     throw EnvironmentError(fmt::format("{} is damaged: {}", path.string(), error.what()));
   }
@@ -106,6 +111,35 @@ class ShardLines {
   std::size_t number_ = 0;
 };
 
+// Writes every track once, by id, however many shards have it. Shards come by run, so that no more
+// is remembered than one run's people.
+void merge_tracks(Output& output, const std::vector<fs::path>& folders,
+                  const std::vector<ShardCounts>& counts) {
+  std::map<std::int64_t, std::string> of_run;
+  std::string_view separator = "\n";
+  const auto flush = [&] {
+    for (const auto& [id, record] : of_run) {
+      output.write(separator);
+      output.write(record);
+      separator = ",\n";
+    }
+    of_run.clear();
+  };
+  std::string line;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    ShardLines lines(folders[i] / kTracksFile, counts[i].tracks);
+    while (lines.next(line)) {
+      const auto id = nlohmann::json::parse(line).at("id").get<std::int64_t>();
+      if (!of_run.empty() && of_run.begin()->first / kTrackIdsPerRun != id / kTrackIdsPerRun) {
+        check(of_run.rbegin()->first < id, "shards are merged by run");
+        flush();
+      }
+      of_run.try_emplace(id, line);
+    }
+  }
+  flush();
+}
+
 // Appends one file of every shard as the elements of a JSON array.
 void merge_array(Output& output, const std::vector<fs::path>& folders,
                  const std::vector<ShardCounts>& counts, const char* file,
@@ -138,6 +172,7 @@ class CocoShardWriter::Files {
     text_.clear();
     for (const PersonLabel& label : labels.people) append_annotation_record(text_, image, label);
     annotations_.write(text_);
+    for (const PersonLabel& label : labels.people) add_track(image, label.agent);
     ++counts_.images;
     counts_.annotations += labels.people.size();
   }
@@ -145,13 +180,23 @@ class CocoShardWriter::Files {
   void finish() {
     images_.close();
     annotations_.close();
+    Output tracks(folder_ / kTracksFile);
+    for (const auto& [id, record] : tracks_) tracks.write(record);
+    tracks.close();
+    counts_.tracks = tracks_.size();
     write_counts(folder_, counts_);
   }
 
  private:
+  void add_track(const CocoImage& image, std::uint32_t agent) {
+    const auto [track, is_new] = tracks_.try_emplace(track_id(image, agent));
+    if (is_new) append_track_record(track->second, image, agent);
+  }
+
   fs::path folder_;
   Output images_;
   Output annotations_;
+  std::map<std::int64_t, std::string> tracks_;  // by id
   ShardCounts counts_;
   std::string text_;  // reused: the records of one frame
 };
@@ -196,8 +241,10 @@ void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& outp
     category["keypoints"] = skinning::kKeypointNames;
     category["skeleton"] = kSkeleton;
   }
-  merged.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":[{}],\n\"images\":[",
+  merged.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":[{}],\n\"tracks\":[",
                            info.dump(), category.dump()));
+  merge_tracks(merged, shard_folders, counts);
+  merged.write("\n],\n\"images\":[");
   merge_array(merged, shard_folders, counts, kImagesFile, &ShardCounts::images);
   merged.write("\n],\n\"annotations\":[");
   merge_array(merged, shard_folders, counts, kAnnotationsFile, &ShardCounts::annotations);

@@ -42,9 +42,10 @@ inline constexpr std::int64_t kMaxImageId = (std::int64_t{1} << 53) / kMaxAgents
 /// kTrackIdsPerRun.
 inline constexpr std::int64_t kTrackIdsPerRun = 1'000'000;
 
-/// Writes the records of one shard of frames: `images.jsonl` and `annotations.jsonl` in a folder,
-/// one JSON object per line, and `coco_shard.json`, which counts them and says that the shard is
-/// whole. Ids depend on image and agent only, never on how frames are sharded.
+/// Writes the records of one shard of frames: `images.jsonl`, `annotations.jsonl` and, of who is in
+/// them, `tracks.jsonl` in a folder, one JSON object per line, and `coco_shard.json`, which counts
+/// them and says that the shard is whole. Ids depend on image and agent only, never on how frames
+/// are sharded.
 class CocoShardWriter {
  public:
   /// Creates the folder; replaces the files of an earlier attempt. Throws EnvironmentError.
@@ -63,10 +64,10 @@ class CocoShardWriter {
   std::unique_ptr<Files> files_;
 };
 
-/// One linear pass over shard folders, in the given order, into one COCO file (written beside and
-/// renamed). `description` becomes info.description; with `keypoints`, the category names them.
-/// Throws EnvironmentError naming file and line
-/// when a shard is unfinished, truncated or damaged, or when the disk refuses.
+/// One linear pass over shard folders, in the given order, which is by run, into one COCO file
+/// (written beside and renamed). `description` becomes info.description; with `keypoints`, the
+/// category names them. Throws EnvironmentError naming file and line when a shard is unfinished,
+/// truncated or damaged, or when the disk refuses.
 void merge_coco(const std::vector<std::filesystem::path>& shard_folders,
                 const std::filesystem::path& output, const std::string& description,
                 bool keypoints = false);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "annotate/decimals.h"
 #include "annotate/person_record.h"
 #include "base/error.h"
 
@@ -49,50 +50,19 @@ void append_exact(std::string& text, const Eigen::Matrix3d& matrix) {
   text.push_back(']');
 }
 
-constexpr double kLargestFixed = 1e9;
-
-constexpr std::int64_t power_of_ten(int exponent) {
-  return exponent == 0 ? 1 : 10 * power_of_ten(exponent - 1);
-}
-
-// With so many digits after the point, several times as fast as fmt's general way. Five of a metre
-// are below 0.01 pixels for any camera more than a few metres away.
-template <int kDecimals>
-void append_fixed(std::string& text, double value) {
-  constexpr auto kUnit = power_of_ten(kDecimals);
-  check(std::abs(value) < kLargestFixed, "every number in a dataset is finite");
-  const std::int64_t scaled = std::llround(std::abs(value) * static_cast<double>(kUnit));
-  if (value < 0 && scaled != 0) text.push_back('-');
-  const fmt::format_int whole(scaled / kUnit);
-  text.append(whole.data(), whole.size());
-  text.push_back('.');
-  const fmt::format_int digits(kUnit + scaled % kUnit);  // leads with a 1 that is not wanted
-  text.append(digits.data() + 1, digits.size() - 1);
-}
-
-template <int kDecimals, int kSize>
-void append_fixed(std::string& text, const Eigen::Matrix<double, kSize, 1>& values) {
-  text.push_back('[');
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    if (i > 0) text.push_back(',');
-    append_fixed<kDecimals>(text, values[i]);
-  }
-  text.push_back(']');
-}
-
-std::int64_t track_id(const CocoImage& image, std::uint32_t agent) {
-  return agent + 1 + image.run_index * kTrackIdsPerRun;
+// x, y, width and height.
+void append_box(std::string& text, const Eigen::AlignedBox2d& box) {
+  const Eigen::Vector2d size = box.sizes();
+  append_decimals(text, Eigen::Vector4d(box.min().x(), box.min().y(), size.x(), size.y()),
+                  kPixelDecimals);
 }
 
 // The middle of the head in box coordinates; null when the camera cannot see it.
 void append_head(std::string& text, const render::PersonInView& person,
                  const camera::Camera& camera) {
   if (const std::optional<Eigen::Vector2d> head = render::head_in(person, camera)) {
-    text += R"("head":[)";
-    append_fixed<3>(text, head->x());
-    text.push_back(',');
-    append_fixed<3>(text, head->y());
-    text.push_back(']');
+    text += R"("head":)";
+    append_decimals(text, *head, kPixelDecimals);
   } else {
     text += R"("head":null)";
   }
@@ -132,9 +102,7 @@ void append_people(std::string& text, const CocoImage& image, const FrameLabels&
   for (const HiddenPerson& person : labels.hidden) {
     if (text.back() != '[') text.push_back(',');
     append(text, R"({{"track_id":{},"bbox_amodal":)", track_id(image, person.agent));
-    const Eigen::AlignedBox2d& box = person.amodal_box;
-    const Eigen::Vector2d size = box.sizes();
-    append_fixed<3>(text, Eigen::Vector4d(box.min().x(), box.min().y(), size.x(), size.y()));
+    append_box(text, person.amodal_box);
     text.push_back('}');
   }
   text.push_back(']');
@@ -149,6 +117,16 @@ void append_counts(std::string& text, const RunLengths& mask) {
 }
 
 }  // namespace
+
+std::int64_t track_id(const CocoImage& image, std::uint32_t agent) {
+  return agent + 1 + image.run_index * kTrackIdsPerRun;
+}
+
+void append_track_record(std::string& text, const CocoImage& image, std::uint32_t agent) {
+  append(text, R"({{"id":{},"run":{})", track_id(image, agent), quoted(image.run));
+  if (image.facts != nullptr) image.facts->append_track(text, agent);
+  text += "}\n";
+}
 
 void append_image_record(std::string& text, const CocoImage& image, const FrameLabels& labels) {
   append(text,
@@ -195,18 +173,13 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
     append_counts(text, run_lengths(*label.person.whole_mask, image.camera.intrinsics.width,
                                     image.camera.intrinsics.height));
   }
-  const Eigen::AlignedBox2d& amodal = label.person.amodal_box;
-  const Eigen::Vector2d size = amodal.sizes();
   append(text, R"("}},"track_id":{},"bbox_amodal":)", track_id(image, label.agent));
-  append_fixed<3>(text, Eigen::Vector4d(amodal.min().x(), amodal.min().y(), size.x(), size.y()));
-  text.push_back(',');
-  append(text, R"("area_amodal":{},"visibility":{:.6g},"position":)", label.person.amodal_area_px,
+  append_box(text, label.person.amodal_box);
+  append(text, R"(,"area_amodal":{},"visibility":{:.3g},"position":)", label.person.amodal_area_px,
          finite(label.visibility));
-  append_fixed<5>(text, label.person.hips);
-  text += R"(,"ground_position":)";
-  append_fixed<5>(text, label.person.position);
+  append_decimals(text, label.person.position, kMetreDecimals);
   text += R"(,"velocity":)";
-  append_fixed<5>(text, label.person.velocity);
+  append_decimals(text, label.person.velocity, kBodyDecimals);
   text.push_back(',');
   append_head(text, label.person, image.camera);
   append_person_members(text, image, label);

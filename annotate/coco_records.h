@@ -1,6 +1,7 @@
 // The JSON objects of a COCO file, one per line (layout: docs/formats.md).
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "annotate/coco.h"
@@ -13,6 +14,12 @@ inline constexpr int kPersonCategory = 1;
 
 /// Appends the record of an image with these labels and a line break.
 void append_image_record(std::string& text, const CocoImage& image, const FrameLabels& labels);
+
+/// A person's track_id in the file.
+std::int64_t track_id(const CocoImage& image, std::uint32_t agent);
+
+/// Appends what is true of a person all run long, and a line break.
+void append_track_record(std::string& text, const CocoImage& image, std::uint32_t agent);
 
 /// Appends the record of a person in that image and a line break.
 void append_annotation_record(std::string& text, const CocoImage& image, const PersonLabel& label);

@@ -108,9 +108,13 @@ void PersonFacts::append(std::string& text, std::uint32_t agent, double time_s,
       activity_of(is_named ? trace_->header.state_names[state] : "", is_panicked, speed_mps);
   const int exit = trace_->exit_intent.empty() ? -1 : trace_->exit_intent[at];
   const bool has_exit = exit >= 0 && static_cast<std::size_t>(exit) < exit_.size();
-  fmt::format_to(std::back_inserter(text), R"(,"state":"{}","behaviour":{},"exit":{})",
-                 name_of(activity), is_named ? behaviour_[state] : "null",
-                 has_exit ? exit_[static_cast<std::size_t>(exit)] : "null");
+  fmt::format_to(std::back_inserter(text), R"(,"state":"{}")", name_of(activity));
+  if (is_named) text += R"(,"behaviour":)" + behaviour_[state];
+  if (has_exit) text += R"(,"exit":)" + exit_[static_cast<std::size_t>(exit)];
+}
+
+void PersonFacts::append_track(std::string& text, std::uint32_t agent) const {
+  check(agent < fixed_.size(), "facts are those of the run that is drawn");
   text += fixed_[agent];
 }
 

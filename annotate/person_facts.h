@@ -30,9 +30,12 @@ class PersonFacts {
   PersonFacts(const world::Trace& trace, const skinning::Population& population,
               const skinning::Styling& styling);
 
-  /// Appends `,"state":..,"behaviour":..,"exit":..,"group":..,"attributes":{..}` of an agent at a
-  /// time (docs/formats.md).
+  /// Appends `,"state":..,"behaviour":..,"exit":..` of an agent at a time (docs/formats.md); the
+  /// last two only where there are any.
   void append(std::string& text, std::uint32_t agent, double time_s, double speed_mps) const;
+
+  /// Appends `,"group":..,"attributes":{..}`: what stays the same all run long.
+  void append_track(std::string& text, std::uint32_t agent) const;
 
  private:
   std::size_t step_at(double time_s) const;

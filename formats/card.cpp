@@ -68,18 +68,20 @@ const std::map<std::string, std::string>& places() {
 constexpr std::string_view kCocoSnippet = R"(
 ## Loading
 
-Boxes, masks and cameras, with nothing but Python's standard library:
+Boxes, masks, cameras and who is who, with nothing but Python's standard library:
 
 ```python
 import json
 
 coco = json.load(open("annotations/instances.json"))
+tracks = {track["id"]: track for track in coco["tracks"]}
 people = {}
 for annotation in coco["annotations"]:
     people.setdefault(annotation["image_id"], []).append(annotation)
 for image in coco["images"]:
     boxes = [person["bbox"] for person in people.get(image["id"], [])]
-    print(image["file_name"], len(boxes), "people")
+    hats = [tracks[person["track_id"]]["attributes"]["wears"] for person in people.get(image["id"], [])]
+    print(image["file_name"], len(boxes), "people,", sum("hat" in wears for wears in hats), "with hats")
 ```
 )";
 
@@ -131,7 +133,7 @@ void DatasetCard::add(const Image& image) {
   ++by_weather_[weather_of(image.record)];
   ++by_split_[std::string(name_of(image.split))];
   for (const Person& person : image.people) {
-    ++by_height_[band_of(person.height_px, kHeights)];
+    ++by_height_[band_of(person.amodal.height, kHeights)];
     ++by_visibility_[band_of(kPercent * person.visibility, kShares)];
     ++by_state_[person.state.empty() ? "unknown" : person.state];
     truncated_ += person.truncation >= kTruncated ? 1 : 0;

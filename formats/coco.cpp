@@ -2,8 +2,10 @@
 // filters' ignore regions as iscrowd.
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "annotate/keypoints.h"
@@ -17,13 +19,38 @@ using nlohmann::json;
 
 namespace {
 
-/// One JSON file whose annotations are written aside until the images are complete.
+/// An array of records that are written aside until those before it are complete.
+class Aside {
+ public:
+  explicit Aside(fs::path path) : path_(std::move(path)), stream_(path_) {}
+
+  void add(const json& record) {
+    stream_.write(count_++ == 0 ? "\n" : ",\n");
+    stream_.write(record.dump());
+  }
+  void move_to(OutputStream& output) {
+    stream_.close();
+    std::ifstream all(path_, std::ios::binary);
+    std::string block(1 << 20, '\0');
+    while (all.read(block.data(), static_cast<std::streamsize>(block.size())) || all.gcount() > 0) {
+      output.write(std::string_view(block).substr(0, static_cast<std::size_t>(all.gcount())));
+    }
+    all.close();
+    fs::remove(path_);
+  }
+
+ private:
+  fs::path path_;
+  OutputStream stream_;
+  std::size_t count_ = 0;
+};
+
 class CocoFile {
  public:
   CocoFile(const Output& output, const std::string& path)
       : final_(output.open(path)),
-        aside_path_(output.folder() / (path + ".annotations")),
-        aside_(aside_path_) {}
+        tracks_(output.folder() / (path + ".tracks")),
+        annotations_(output.folder() / (path + ".annotations")) {}
 
   void begin(const DatasetInfo& info, const json& categories) {
     const json head = {
@@ -31,35 +58,37 @@ class CocoFile {
     final_.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":{},\n\"images\":[",
                              head.dump(), categories.dump()));
   }
-  void add_image(const json& record) { add(final_, images_++, record); }
-  void add_annotation(const json& record) { add(aside_, annotations_++, record); }
+  void add_image(const json& record) {
+    final_.write(images_++ == 0 ? "\n" : ",\n");
+    final_.write(record.dump());
+  }
+  void add_annotation(const json& record) { annotations_.add(record); }
+
+  /// Images come by run: a track is in those of one run only.
+  void add_track(const json& track, const std::string& run) {
+    if (run != run_) tracks_of_run_.clear();
+    run_ = run;
+    if (!track.empty() && tracks_of_run_.insert(track.at("id").get<std::int64_t>()).second) {
+      tracks_.add(track);
+    }
+  }
 
   void finish() {
-    aside_.close();
+    final_.write("\n],\n\"tracks\":[");
+    tracks_.move_to(final_);
     final_.write("\n],\n\"annotations\":[");
-    std::ifstream aside(aside_path_, std::ios::binary);
-    std::string block(1 << 20, '\0');
-    while (aside.read(block.data(), static_cast<std::streamsize>(block.size())) ||
-           aside.gcount() > 0) {
-      final_.write(std::string_view(block).substr(0, static_cast<std::size_t>(aside.gcount())));
-    }
+    annotations_.move_to(final_);
     final_.write("\n]}\n");
     final_.close();
-    aside.close();
-    fs::remove(aside_path_);
   }
 
  private:
-  static void add(OutputStream& stream, std::size_t count, const json& record) {
-    stream.write(count == 0 ? "\n" : ",\n");
-    stream.write(record.dump());
-  }
-
   OutputStream final_;
-  fs::path aside_path_;
-  OutputStream aside_;
+  Aside tracks_;
+  Aside annotations_;
   std::size_t images_ = 0;
-  std::size_t annotations_ = 0;
+  std::string run_;
+  std::set<std::int64_t> tracks_of_run_;
 };
 
 json categories_of(const DatasetInfo& info, bool keypoints) {
@@ -109,6 +138,7 @@ class CocoExporter : public Exporter {
         for (const char* key : {"keypoints", "num_keypoints", "keypoints_3d"}) record.erase(key);
       }
       file.add_annotation(record);
+      file.add_track(*person.track, image.run);
     }
   }
 

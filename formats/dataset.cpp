@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <numeric>
 
 #include "base/error.h"
@@ -17,6 +18,7 @@ using nlohmann::json;
 
 namespace {
 
+constexpr const char* kTracksStart = "\"tracks\":[";
 constexpr const char* kImagesStart = "\"images\":[";
 constexpr const char* kAnnotationsStart = "\"annotations\":[";
 
@@ -42,8 +44,9 @@ Box box_of(const json& value) { return {value.at(0), value.at(1), value.at(2), v
 void read_pose(const json& record, Person& person) {
   person.heading_rad = record.value("heading", 0.0);
   if (const auto box = record.find("box_3d"); box != record.end()) {
-    person.box_middle = vector_of<Eigen::Vector3d>(box->at("middle"));
-    person.box_size = vector_of<Eigen::Vector3d>(box->at("size"));
+    const auto both = vector_of<Eigen::Matrix<double, 6, 1>>(*box);
+    person.box_middle = both.head<3>();
+    person.box_size = both.tail<3>();
   }
   person.keypoints.clear();
   if (const auto keypoints = record.find("keypoints"); keypoints != record.end()) {
@@ -53,17 +56,17 @@ void read_pose(const json& record, Person& person) {
   }
 }
 
-std::size_t category_of(const json& record, const ClassOptions& classes) {
+std::size_t category_of(const json& record, const json& track, const ClassOptions& classes) {
   if (classes.by == "none") return 0;
   const json& value =
-      classes.by == "state" ? record.at("state") : record.at("attributes").at(classes.by);
+      classes.by == "state" ? record.at("state") : track.at("attributes").at(classes.by);
   const std::vector<std::string> values = class_values(classes.by);
   const auto found = std::find(values.begin(), values.end(), value.get<std::string>());
   check(found != values.end(), "class_values() lists every value that people have");
   return static_cast<std::size_t>(found - values.begin());
 }
 
-Person person_of(json record, const ExportOptions& options) {
+Person person_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
   Person person;
   record.at("id").get_to(person.id);
   record.at("track_id").get_to(person.track_id);
@@ -72,20 +75,19 @@ Person person_of(json record, const ExportOptions& options) {
   record.at("segmentation").at("counts").get_to(person.mask);
   record.at("area").get_to(person.area);
   record.at("visibility").get_to(person.visibility);
-  person.height_px = record.value("height_px", person.amodal.height);
   person.truncation = record.value("truncation", 0.0);
   if (const json& head = record.at("head"); !head.is_null()) {
     person.head = vector_of<Eigen::Vector2d>(head);
   }
   person.position = vector_of<Eigen::Vector3d>(record.at("position"));
-  person.ground_position = vector_of<Eigen::Vector3d>(record.at("ground_position"));
   person.velocity = vector_of<Eigen::Vector2d>(record.at("velocity"));
   person.state = record.value("state", "");
   read_pose(record, person);
-  person.category = category_of(record, options.classes);
+  person.category = category_of(record, *track, options.classes);
   person.is_ignored = person.visibility < options.filters.min_visibility ||
-                      person.height_px < options.filters.min_height_px;
+                      person.amodal.height < options.filters.min_height_px;
   person.record = std::move(record);
+  person.track = std::move(track);
   return person;
 }
 
@@ -125,7 +127,9 @@ json sample_of(const Image& image, const DatasetInfo& info) {
   json sample = image.record;
   sample["annotations"] = json::array();
   for (const Person& person : image.people) {
-    json& record = sample["annotations"].emplace_back(person.record);
+    json& record = sample["annotations"].emplace_back(*person.track);
+    record.erase("run");
+    record.update(person.record);
     record["category"] = info.categories[person.category];
     if (person.is_ignored) record["ignored"] = true;
   }
@@ -260,8 +264,52 @@ class DatasetReader::Lines {
   std::size_t number_ = 0;
 };
 
+/// The tracks of one run at a time.
+class DatasetReader::Tracks {
+ public:
+  explicit Tracks(const fs::path& path) : lines_(path, kTracksStart) { advance(); }
+
+  /// Goes on to a run's tracks; never back.
+  void enter(const std::string& run, const std::vector<std::string>& runs) {
+    const auto at = std::find(runs.begin(), runs.end(), run);
+    if (at == runs.end() || at - runs.begin() <= run_) return;
+    run_ = at - runs.begin();
+    of_run_.clear();
+    for (; !waiting_.is_null() && last_ / annotate::kTrackIdsPerRun <= run_; advance()) {
+      if (last_ / annotate::kTrackIdsPerRun < run_) continue;
+      const std::int64_t id = last_;
+      of_run_.emplace_hint(of_run_.end(), id, std::make_shared<json>(std::move(waiting_)));
+    }
+  }
+
+  /// That of somebody of the run; an empty object if there is none.
+  std::shared_ptr<const json> find(std::int64_t id) const {
+    static const auto kNone = std::make_shared<const json>(json::object());
+    const auto found = of_run_.find(id);
+    return found == of_run_.end() ? kNone : found->second;
+  }
+
+ private:
+  void advance() {
+    waiting_ = lines_.next();
+    if (waiting_.is_null()) return;
+    const auto id = waiting_.find("id");
+    if (id == waiting_.end() || !id->is_number_integer() || *id <= last_) {
+      lines_.fail(waiting_.value("id", json()).dump(), "an id above those before");
+    }
+    last_ = *id;
+  }
+
+  Lines lines_;
+  json waiting_;
+  std::int64_t last_ = -1;  ///< id of the one that waits
+  std::int64_t run_ = -1;
+  std::map<std::int64_t, std::shared_ptr<const json>> of_run_;
+};
+
 DatasetReader::DatasetReader(const DatasetInfo& info)
     : info_(&info),
+      tracks_(std::make_unique<Tracks>(info.root / kCocoFile)),
       images_(std::make_unique<Lines>(info.root / kCocoFile, kImagesStart)),
       annotations_(std::make_unique<Lines>(info.root / kCocoFile, kAnnotationsStart)) {
   waiting_ = annotations_->next();
@@ -279,8 +327,10 @@ bool DatasetReader::next(Image& image) {
   try {
     read_image(std::move(record), *info_, image);
     at = annotations_.get();
+    tracks_->enter(image.run, info_->runs);
     while (!waiting_.is_null() && waiting_.at("image_id") == image.id) {
-      image.people.push_back(person_of(std::move(waiting_), info_->options));
+      std::shared_ptr<const json> track = tracks_->find(waiting_.at("track_id"));
+      image.people.push_back(person_of(std::move(waiting_), std::move(track), info_->options));
       waiting_ = annotations_->next();
     }
   } catch (const json::exception& error) {

@@ -35,6 +35,8 @@ struct Keypoint {
 /// Somebody in a picture; docs/formats.md says what the values mean.
 struct Person {
   nlohmann::json record;  ///< the annotation as it stands in the COCO file
+  /// That of `tracks`: what stays the same all run long. Empty if it has none; never null.
+  std::shared_ptr<const nlohmann::json> track;
   std::int64_t id = 0;
   std::int64_t track_id = 0;
   Box box;           ///< of the visible mask
@@ -42,11 +44,9 @@ struct Person {
   std::string mask;  ///< COCO's compressed run lengths
   double area = 0;   ///< visible pixels
   double visibility = 0;
-  double height_px = 0;
   double truncation = 0;
-  std::optional<Eigen::Vector2d> head;  ///< box coordinates
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d ground_position = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector2d> head;                 ///< box coordinates
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the ground
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   double heading_rad = 0;
   Eigen::Vector3d box_middle = Eigen::Vector3d::Zero();
@@ -110,8 +110,9 @@ struct DatasetInfo {
   Split split_of(const std::string& run) const;
 };
 
-/// The image's record with `annotations`, its people's records, in which `category` names their
-/// class and `ignored` is true of who fails the filters: everything about a picture in one object.
+/// The image's record with `annotations`, its people's records with what their tracks say, in which
+/// `category` names their class and `ignored` is true of who fails the filters: everything about a
+/// picture in one object.
 nlohmann::json sample_of(const Image& image, const DatasetInfo& info);
 
 /// What a dataset's manifest says. Throws InputError when it has no COCO annotations, or when the
@@ -139,7 +140,9 @@ class DatasetReader {
 
  private:
   class Lines;
+  class Tracks;
   const DatasetInfo* info_;
+  std::unique_ptr<Tracks> tracks_;
   std::unique_ptr<Lines> images_;
   std::unique_ptr<Lines> annotations_;
   nlohmann::json waiting_;  ///< the annotation after those of the last picture; null: none

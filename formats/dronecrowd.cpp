@@ -37,7 +37,7 @@ class DroneCrowdExporter : public Exporter {
   static void append(std::string& lines, const Image& image, const Person& person) {
     const Eigen::Vector2d& at = *person.head;
     if (at.x() < 0 || at.y() < 0 || at.x() >= image.width || at.y() >= image.height) return;
-    const double depth_m = std::max((image.R * person.position + image.t).z(), 0.1);
+    const double depth_m = std::max((image.R * person.box_middle + image.t).z(), 0.1);
     const double size = std::max(kHeadM * image.camera_matrix(0, 0) / depth_m, 1.0);
     const bool is_hidden = person.visibility < 0.5;
     fmt::format_to(std::back_inserter(lines), "{},{},{:.2f},{:.2f},{:.2f},{:.2f},0,{},-1,-1\n",

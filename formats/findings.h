@@ -32,8 +32,11 @@ class Findings {
   Validation* validation_;
 };
 
-/// One picture's annotations by themselves: boxes, masks, visibility, keypoints, projections.
+/// One picture's annotations by themselves: boxes, masks, visibility, keypoints.
 void check_people(const Image& image, Findings& findings);
+
+/// Where the people of a picture are in the world, against their boxes.
+void check_bodies(const Image& image, Findings& findings);
 
 /// One picture's files: its size, its density map and its values per pixel, against its people.
 void check_files(const DatasetInfo& info, const Image& image, Findings& findings);
@@ -91,8 +94,15 @@ class FlowCheck {
   std::map<std::string, Before> cameras_;
 };
 
+/// The corners of a person's upright box, m, in the camera's axes; 1 cm farther out than recorded,
+/// since that is rounded.
+Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& person);
+
 /// Whether the file alone says where things appear: without a lens's distortion or a rolling
 /// shutter.
 bool is_plain(const Image& image);
+
+/// Whether all rows show the same instant.
+bool is_shot_at_once(const Image& image);
 
 }  // namespace throng::formats

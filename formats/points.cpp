@@ -36,7 +36,7 @@ Heads heads_of(const Image& image) {
     const Eigen::Vector2d& at = *person.head;
     if (at.x() < 0 || at.y() < 0 || at.x() >= image.width || at.y() >= image.height) continue;
     heads.place.push_back(at);
-    heads.depth_m.push_back((image.R * person.position + image.t).z());
+    heads.depth_m.push_back((image.R * person.box_middle + image.t).z());
   }
   return heads;
 }

@@ -58,26 +58,28 @@ class TableExporter : public Exporter {
                    image.time_s, name_of(image.split), image.id, person.id, person.track_id);
     fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},", box.x, box.y, box.width, box.height,
                    amodal.x, amodal.y, amodal.width, amodal.height, person.visibility,
-                   person.truncation, person.height_px);
+                   person.truncation, amodal.height);
     if (person.head) {
       fmt::format_to(out, "{},{}", person.head->x(), person.head->y());
     } else {
       text_ += ",";
     }
-    fmt::format_to(out, ",{},{},{},{},{},{}", person.ground_position.x(),
-                   person.ground_position.y(), person.velocity.x(), person.velocity.y(),
-                   person.heading_rad, person.is_ignored ? 1 : 0);
-    for (const char* key : {"state", "behaviour", "exit", "group"}) {
-      text_.push_back(',');
-      text_ += field_of(person.record, key);
-    }
+    fmt::format_to(out, ",{},{},{},{},{},{}", person.position.x(), person.position.y(),
+                   person.velocity.x(), person.velocity.y(), person.heading_rad,
+                   person.is_ignored ? 1 : 0);
+    for (const char* key : {"state", "behaviour", "exit"}) add_field(person.record, key);
+    add_field(*person.track, "group");
     static const json kNone = json::object();
-    const auto attributes = person.record.find("attributes");
+    const auto attributes = person.track->find("attributes");
     for (const char* key : {"sex", "age_years", "age_band", "stature_m", "carries"}) {
-      text_.push_back(',');
-      text_ += field_of(attributes == person.record.end() ? kNone : *attributes, key);
+      add_field(attributes == person.track->end() ? kNone : *attributes, key);
     }
     text_ += "\n";
+  }
+
+  void add_field(const json& record, const char* key) {
+    text_.push_back(',');
+    text_ += field_of(record, key);
   }
 
   Output output_;

@@ -105,6 +105,9 @@ class IdCheck {
       } else if (person.id != image.id * annotate::kMaxAgentsPerRun + agent + 1) {
         findings.add("ids", person, "an id that is not that of its image and track");
       }
+      if (person.track->empty()) {
+        findings.add("ids", person, fmt::format("track_id {} is none of tracks", person.track_id));
+      }
       if (!tracks.insert(person.track_id).second) {
         findings.add("ids", person, "somebody who is in the image twice");
       }
@@ -136,6 +139,7 @@ Validation validate_dataset(const fs::path& root) {
       check_time(info, image, findings);
       check_camera(image, findings);
       other_formats.add(info, image, findings);
+      check_bodies(image, findings);
       const std::size_t before = validation.found;
       check_people(image, findings);
       // What is said of broken masks would only be repeated.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -109,7 +110,7 @@ void check_box(const Image& image, const Person& person, Findings& findings) {
 
 void check_visibility(const Person& person, Findings& findings) {
   const double whole = person.record.at("area_amodal").get<double>();
-  constexpr double kRounding = 1e-5;
+  constexpr double kRounding = 6e-4;  // three digits are written
   if (!(whole >= person.area)) {
     findings.add("visible-in-amodal", person,
                  fmt::format("area {} above area_amodal {}", person.area, whole));
@@ -174,24 +175,71 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
   }
 }
 
+/// The upright box holds the body: as seen by the camera, it holds the box in the picture, and its
+/// middle lies in that.
 void check_projection(const Image& image, const Person& person, Findings& findings) {
-  const Eigen::Vector3d seen = image.camera_matrix * (image.R * person.position + image.t);
-  if (!(seen.z() > 0) ||
-      !holds(person.amodal, seen.x() / seen.z() + 0.5, seen.y() / seen.z() + 0.5, kBoxSlackPx)) {
-    findings.add("position-in-box", person, "position does not project into bbox_amodal");
+  const Eigen::Matrix<double, 3, 8> corners =
+      image.camera_matrix * corners_in_camera(image, person);
+  const Eigen::Vector3d middle = corners.rowwise().mean();
+  if (!(middle.z() > 0) || !holds(person.amodal, middle.x() / middle.z() + 0.5,
+                                  middle.y() / middle.z() + 0.5, kBoxSlackPx)) {
+    findings.add("box-3d", person, "the middle of box_3d does not project into bbox_amodal");
+    return;
+  }
+  if (!(corners.row(2).minCoeff() > 0)) return;
+  const Eigen::Matrix<double, 2, 8> seen = corners.colwise().hnormalized().array() + 0.5;
+  const Eigen::Vector2d first = seen.rowwise().minCoeff();
+  const Eigen::Vector2d size = seen.rowwise().maxCoeff() - first;
+  const Box outer{first.x(), first.y(), size.x(), size.y()};
+  const Box& box = person.amodal;
+  if (!holds(outer, box.x, box.y, kBoxSlackPx) ||
+      !holds(outer, box.x + box.width, box.y + box.height, kBoxSlackPx)) {
+    findings.add("box-3d", person, "bbox_amodal leaves what box_3d projects to");
+  }
+}
+
+/// Somebody's place on the ground is below their body, or beside it when they lie.
+void check_position(const Person& person, Findings& findings) {
+  constexpr double kReach_m = 1.6;
+  if (!((person.position - person.box_middle).head<2>().norm() <= kReach_m)) {
+    findings.add("position", person, "position is away from box_3d");
   }
 }
 
 }  // namespace
 
+Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& person) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(person.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  constexpr double kRounding_m = 0.02;  // of the box's middle and size, on both sides
+  const Eigen::Vector3d size = person.box_size.array() + kRounding_m;
+  Eigen::Matrix<double, 3, 8> corners;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d side((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5,
+                               (i & 4) != 0 ? 0.5 : -0.5);
+    corners.col(i) = image.R * (person.box_middle + turn * side.cwiseProduct(size)) + image.t;
+  }
+  return corners;
+}
+
+void check_bodies(const Image& image, Findings& findings) {
+  const bool plain = is_plain(image);
+  for (const Person& person : image.people) {
+    check_position(person, findings);
+    if (plain) check_projection(image, person, findings);
+  }
+}
+
 bool is_plain(const Image& image) {
-  if (image.record.at("camera").value("model", "pinhole") != "pinhole") return false;
+  return image.record.at("camera").value("model", "pinhole") == "pinhole" && is_shot_at_once(image);
+}
+
+bool is_shot_at_once(const Image& image) {
   const auto sensor = image.record.find("sensor");
   return sensor == image.record.end() || sensor->value("strips", 1) == 1;
 }
 
 void check_people(const Image& image, Findings& findings) {
-  const bool plain = is_plain(image);
   for (const Person& person : image.people) {
     check_box(image, person, findings);
     const bool is_whole = check_mask(image, person, findings);
@@ -201,7 +249,6 @@ void check_people(const Image& image, Findings& findings) {
       check_visible_keypoints(image, person, findings);
       check_whole_mask(image, person, findings);
     }
-    if (plain) check_projection(image, person, findings);
   }
   if (const auto counts = image.record.find("counts"); counts != image.record.end()) {
     if (counts->at("visible") != image.people.size() ||

@@ -51,6 +51,7 @@ inline render::Frame synthetic_frame(const SyntheticScene& scene) {
     person.agent = static_cast<std::uint32_t>(i * 2);  // ids have gaps: not everybody is in view
     person.amodal_box = {Eigen::Vector2d(cx - rx, cy - ry), Eigen::Vector2d(cx + rx, cy + ry)};
     person.hips = frame.camera.unproject({cx - 0.5, cy + ry - 0.5}, 9 + 0.01 * i);
+    person.position = person.hips;
     person.head = frame.camera.unproject({cx - 0.5, cy - 0.8 * ry - 0.5}, 8.5 + 0.01 * i);
     person.velocity = {random.normal(0, 1), random.normal(0, 1)};
     const int top = std::max(0, static_cast<int>(cy - ry));

@@ -69,10 +69,10 @@ def check_annotation(annotation, image):
     assert ax + amodal_width >= x + width - 1 and ay + amodal_height >= y + height - 1
 
     camera = image["camera"]
-    point = numpy.array(camera["R"]) @ numpy.array(annotation["position"]) + numpy.array(camera["t"])
+    point = numpy.array(camera["R"]) @ numpy.array(annotation["box_3d"][:3]) + numpy.array(camera["t"])
     pixel = numpy.array(camera["K"]) @ point
     u, v = pixel[:2] / pixel[2] + 0.5
-    assert ax <= u <= ax + amodal_width and ay <= v <= ay + amodal_height, "position outside the amodal box"
+    assert ax <= u <= ax + amodal_width and ay <= v <= ay + amodal_height, "the body's middle outside the amodal box"
 
 
 def check_dataset(folder):
@@ -84,6 +84,10 @@ def check_dataset(folder):
     assert len(images) == len(coco["images"]), "image ids are not unique"
     assert len({a["id"] for a in coco["annotations"]}) == len(coco["annotations"]), "annotation ids are not unique"
     categories = {category["id"] for category in coco["categories"]}
+
+    tracks = {track["id"] for track in coco["tracks"]}
+    assert len(tracks) == len(coco["tracks"]), "track ids are not unique"
+    assert tracks == {a["track_id"] for a in coco["annotations"]}, "tracks are not those of the annotations"
 
     seen = set()
     for annotation in coco["annotations"]:

@@ -65,10 +65,8 @@ class SmallDataset : public testing::Test {
     picture.time_s = 0.5 * frame;
     picture.depth_m = depth_of(picture);
     for (render::PersonInView& person : picture.people) {
-      person.position = person.hips;
       person.keypoints.fill(person.hips.cast<float>());
-      person.box_middle = person.hips.cast<float>() + Eigen::Vector3f(0, 0, 0.85F);
-      person.box_size = {0.4F, 0.5F, 1.7F};
+      set_box(picture.camera, person);
     }
     annotate::FrameLabels labels = annotate::label_people(picture);
     annotate::add_keypoints(picture, labels);
@@ -105,6 +103,17 @@ class SmallDataset : public testing::Test {
     write("flow/" + place + ".png", annotate::flow_png(picture));
     write("instances/" + place + ".png", annotate::instance_png(picture));
     write("depth/" + place + ".png", annotate::depth_png(picture));
+  }
+
+  /// A cube that holds what the picture shows, 9 m away.
+  static void set_box(const camera::Camera& camera, render::PersonInView& person) {
+    const Eigen::AlignedBox2d& box = person.amodal_box;
+    const double depth_m = (camera.pose.R * person.hips + camera.pose.t).z();
+    person.box_middle =
+        camera.unproject(Eigen::Vector2d(box.center().array() - 0.5), depth_m).cast<float>();
+    const double size_m = 0.5 + 1.3 * box.sizes().maxCoeff() * depth_m / camera.intrinsics.fy_px;
+    person.box_size.setConstant(static_cast<float>(size_m));
+    person.position = person.box_middle.cast<double>();
   }
 
   /// People are 9 m away; the ground is where it is.

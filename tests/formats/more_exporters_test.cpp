@@ -114,6 +114,8 @@ TEST_F(MoreExports, KittiPutsPeopleWhereTheirBoxesAre) {
     ASSERT_EQ(lines.size(), people.size());
     const auto camera = numbers_of(lines_of(out / "calib" / (stem + ".txt")).at(2).substr(3));
     ASSERT_EQ(camera.size(), 12U);
+    const std::string transform = lines_of(out / "calib" / (stem + ".txt")).back();
+    const auto to_camera = numbers_of(transform.substr(transform.find(':') + 1));
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::string type = lines[i].substr(0, lines[i].find(' '));
       const auto line = numbers_of(lines[i].substr(type.size()));
@@ -124,11 +126,13 @@ TEST_F(MoreExports, KittiPutsPeopleWhereTheirBoxesAre) {
       ignored += type == "DontCare" ? 1 : 0;
       if (type == "DontCare") continue;
       EXPECT_EQ(type, "Pedestrian");
-      EXPECT_NEAR(line[7], 1.7, 1e-3);
-      // The fixture's box stands on what the scene puts at the middle of the amodal box's edge.
-      const double u = (camera[0] * line[10] + camera[2] * line[12]) / line[12];
+      EXPECT_NEAR(line[7], number(people[i].at("box_3d")[5]), 1e-3);
+      // In the fixture the middle of the box is that of the amodal box.
+      const double x = line[10] + to_camera[2] * line[7] / 2;
+      const double z = line[12] + to_camera[10] * line[7] / 2;
       const json& amodal = people[i].at("bbox_amodal");
-      EXPECT_NEAR(u + 0.5, number(amodal[0]) + number(amodal[2]) / 2, 0.1);
+      EXPECT_NEAR((camera[0] * x + camera[2] * z) / z + 0.5,
+                  number(amodal[0]) + number(amodal[2]) / 2, 0.2);
     }
   }
   EXPECT_GT(ignored, 3);

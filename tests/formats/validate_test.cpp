@@ -116,13 +116,16 @@ TEST_F(Validate, RecordsThatContradictThemselves) {
   expect_change("box-in-image", [](json& r) { r["bbox"][2] = 1000; });
   expect_change("iscrowd", [](json& r) { r["iscrowd"] = 1; });
   expect_change("keypoints", [](json& r) { r["num_keypoints"] = 18; });
-  expect_change("position-in-box", [](json& r) { r["position"][0] = 500; });
+  expect_change("position", [](json& r) { r["position"][0] = 500; });
+  expect_change("box-3d", [](json& r) { r["box_3d"][1] = r["box_3d"][1].get<double>() + 2; });
+  expect_change("box-3d", [](json& r) { r["box_3d"][3] = r["box_3d"][4] = r["box_3d"][5] = 0.01; });
   expect_change("mask-runs", [](json& r) { r["segmentation"]["counts"] = "00"; });
   expect_change("mask-size", [](json& r) { r["segmentation"]["size"][0] = 7; });
   expect_change("category", [](json& r) { r["category_id"] = 2; });
   expect_change("keypoints", [](json& r) { r["keypoints"] = keypoints_at(-5, 3); });
   expect_change("keypoints", [](json& r) { r["keypoints"] = keypoints_at(161, 3); });
   expect_change("ids", [](json& r) { r["track_id"] = 5'000'001; });
+  expect_change("ids", [](json& r) { r["track_id"] = 99; });
   expect_change("ids", [](json& r) { r["id"] = r["id"].get<std::int64_t>() + 7; });
 }
 
