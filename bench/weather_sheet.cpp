@@ -30,6 +30,7 @@ constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
 constexpr std::size_t kColumns = 2;
 constexpr double kTimeS = 26;
+constexpr double kUmbrellas = 0.2;  // of the people, in the rain
 
 std::vector<Environment> panels() {
   const auto panel = [](double azimuth_deg, double elevation_deg, Weather weather,
@@ -46,7 +47,8 @@ std::vector<Environment> panels() {
 render::Frame draw(const Environment& environment, const world::Trace& trace,
                    const skinning::Population& people, const world::Scenario& scenario) {
   render::Renderer renderer(scenario, people, environment, {"software"});
-  const render::Animator animator(trace, people);
+  const bool rains = environment.weather == Weather::rain;
+  const render::Animator animator(trace, people, {.umbrellas = rains ? kUmbrellas : 0});
   const camera::Camera camera{camera::intrinsics_from_hfov(kWidth, kHeight, 70 * kDegree),
                               camera::pose_looking({26, -4, 20}, 178 * kDegree, -36 * kDegree)};
   return renderer.draw(animator.scene_at(kTimeS, 0), camera);
