@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -154,21 +156,36 @@ Opened open(const Candidate& candidate, Kind kind, std::string& reasons) {
           fmt::format("{}, {}, {}", gl_string(GL_VENDOR), renderer, gl_string(GL_VERSION))};
 }
 
-Opened open_first(Kind kind, std::string& reasons) {
-  for (const Candidate& candidate : candidates_of(kind)) {
-    const Opened opened = open(candidate, kind, reasons);
+/// The first that works, or that of this number alone.
+Opened open_first(Kind kind, std::optional<std::size_t> number, std::string& reasons) {
+  const std::vector<Candidate> candidates = candidates_of(kind);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (number && i != *number) continue;
+    const Opened opened = open(candidates[i], kind, reasons);
     if (opened.context != EGL_NO_CONTEXT) return opened;
   }
   return {};
+}
+
+constexpr std::string_view kGpu = "gpu";
+
+/// N of "gpu:N".
+std::optional<std::size_t> number_of_gpu(std::string_view name) {
+  if (name.size() <= kGpu.size() + 1 || !name.starts_with("gpu:")) return std::nullopt;
+  std::size_t number = 0;
+  const auto [end, error] =
+      std::from_chars(name.data() + kGpu.size() + 1, name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return number;
 }
 
 std::string resolved_name(const std::string& device) {
   const char* variable = std::getenv("THRONG_DEVICE");
   const bool override = device == "auto" && variable != nullptr && *variable != '\0';
   const std::string name = override ? variable : device;
-  if (name != "auto" && name != "gpu" && name != "software") {
+  if (name != "auto" && name != kGpu && name != "software" && !number_of_gpu(name)) {
     throw InputError(Problem{override ? "environment variable THRONG_DEVICE" : "device", "",
-                             '"' + name + '"', R"("auto", "gpu" or "software")"});
+                             '"' + name + '"', R"("auto", "gpu", "gpu:N" or "software")"});
   }
   return name;
 }
@@ -180,9 +197,9 @@ Context::Context(const std::string& device) {
   require_libraries();
   std::string reasons;
   Opened opened;
-  if (name != "software") opened = open_first(Kind::gpu, reasons);
-  if (opened.context == EGL_NO_CONTEXT && name != "gpu") {
-    opened = open_first(Kind::software, reasons);
+  if (name != "software") opened = open_first(Kind::gpu, number_of_gpu(name), reasons);
+  if (opened.context == EGL_NO_CONTEXT && !name.starts_with(kGpu)) {
+    opened = open_first(Kind::software, std::nullopt, reasons);
   }
   if (opened.context == EGL_NO_CONTEXT) {
     throw EnvironmentError(fmt::format(

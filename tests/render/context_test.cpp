@@ -48,7 +48,19 @@ TEST(Context, AGpuEitherDrawsOrTheErrorSaysWhatToInstall) {
   }
 }
 
+TEST(Context, AGpuThatIsNotThereIsNotReplacedByAnother) {
+  try {
+    const Context context("gpu:97");
+    FAIL() << context.description();
+  } catch (const EnvironmentError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("gpu:97"));
+  }
+}
+
 TEST(Context, AnUnknownDeviceIsAnInputError) {
+  for (const char* name : {"gpu:", "gpu:x", "gpu:1x", "gpu:-1", "gpus"}) {
+    EXPECT_THROW(Context{name}, InputError) << name;
+  }
   EXPECT_THROW(Context("matrox"), InputError);
   EXPECT_THROW(Context(""), InputError);
 }
