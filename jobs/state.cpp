@@ -17,6 +17,8 @@ constexpr std::array kTransitions = {
     Transition{JobState::running, JobEvent::succeed, JobState::succeeded},
     Transition{JobState::running, JobEvent::fail, JobState::failed},
     Transition{JobState::running, JobEvent::cancel, JobState::cancelled},
+    Transition{JobState::failed, JobEvent::retry, JobState::queued},
+    Transition{JobState::cancelled, JobEvent::retry, JobState::queued},
 };
 
 }  // namespace
@@ -44,6 +46,24 @@ std::string_view name_of(JobState state) {
       break;
   }
   return "cancelled";
+}
+
+std::string_view name_of(JobEvent event) {
+  switch (event) {
+    case JobEvent::start:
+      return "started";
+    case JobEvent::resume:
+      return "resumed";
+    case JobEvent::succeed:
+      return "succeeded";
+    case JobEvent::fail:
+      return "failed";
+    case JobEvent::cancel:
+      return "cancelled";
+    case JobEvent::retry:
+      break;
+  }
+  return "retried";
 }
 
 std::optional<JobState> job_state_named(std::string_view name) {

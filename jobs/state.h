@@ -15,12 +15,13 @@ enum class JobEvent {
   succeed,
   fail,
   cancel,
+  retry,  ///< of a job that did not come to its end: what it has published is kept
 };
 
 inline constexpr std::array kJobStates = {JobState::queued, JobState::running, JobState::succeeded,
                                           JobState::failed, JobState::cancelled};
 inline constexpr std::array kJobEvents = {JobEvent::start, JobEvent::resume, JobEvent::succeed,
-                                          JobEvent::fail, JobEvent::cancel};
+                                          JobEvent::fail,  JobEvent::cancel, JobEvent::retry};
 
 /// The state after the event; nothing when the event cannot happen in this state.
 std::optional<JobState> next_state(JobState state, JobEvent event);
@@ -29,7 +30,9 @@ std::optional<JobState> next_state(JobState state, JobEvent event);
 bool is_active(JobState state);
 
 std::string_view name_of(JobState state);
-/// The reverse; nothing for any other word.
+/// What has happened, as a word: "started", "failed".
+std::string_view name_of(JobEvent event);
+/// The state of this name; nothing for any other word.
 std::optional<JobState> job_state_named(std::string_view name);
 
 }  // namespace throng::jobs

@@ -1,18 +1,19 @@
 #include "jobs/store.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
-#include <unistd.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
-#include <cstring>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "base/error.h"
+#include "jobs/folder_lock.h"
+#include "jobs/group_commit.h"
 #include "jobs/job_id.h"
+#include "jobs/store_schema.h"
 
 namespace throng::jobs {
 
@@ -20,62 +21,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kSchemaVersion = 2;
 constexpr int kBusyTimeoutMs = 5000;
 
-constexpr const char* kTables = R"(
-CREATE TABLE IF NOT EXISTS job (
-  id TEXT PRIMARY KEY,
-  name TEXT NOT NULL,
-  state TEXT NOT NULL CHECK (state IN ('queued', 'running', 'succeeded', 'failed', 'cancelled')),
-  attempt INTEGER NOT NULL DEFAULT 0,
-  spec TEXT NOT NULL,
-  progress TEXT NOT NULL DEFAULT '',
-  error TEXT NOT NULL DEFAULT '',
-  created_ms INTEGER NOT NULL,
-  started_ms INTEGER NOT NULL DEFAULT 0,
-  ended_ms INTEGER NOT NULL DEFAULT 0,
-  kind TEXT NOT NULL DEFAULT 'dataset'
-) WITHOUT ROWID;
-CREATE INDEX IF NOT EXISTS job_by_state ON job (state, id);
-)";
-
-/// Version 1 knew datasets only.
-constexpr const char* kFromVersion1 =
-    "ALTER TABLE job ADD COLUMN kind TEXT NOT NULL DEFAULT 'dataset'";
-
 constexpr const char* kColumns =
-    "id, name, state, attempt, spec, progress, error, created_ms, started_ms, ended_ms, kind";
+    "id, name, state, attempt, spec, progress, error, created_ms, started_ms, ended_ms, kind, "
+    "priority, labels";
 
 std::int64_t system_clock_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
 }
-
-// Held while the store is open, so that no second server works in the same folder.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder) {
-    const fs::path file = folder / "lock";
-    constexpr int kMode = 0644;
-    descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kMode);
-    if (descriptor_ < 0) {
-      throw EnvironmentError(
-          fmt::format("cannot open {}: {}", file.string(), std::strerror(errno)));
-    }
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      ::close(descriptor_);
-      throw EnvironmentError(
-          fmt::format("another server uses the data folder {}", folder.string()));
-    }
-  }
-  ~FolderLock() { ::close(descriptor_); }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_;
-};
 
 fs::path created(const fs::path& folder) {
   std::error_code error;
@@ -102,7 +57,21 @@ JobRow row_of(SQLite::Statement& query) {
   row.ended_ms = query.getColumn(9);
   const bool calibration = query.getColumn(10).getString() == name_of(JobKind::calibration);
   row.kind = calibration ? JobKind::calibration : JobKind::dataset;
+  row.priority = query.getColumn(11);
+  row.labels =
+      nlohmann::json::parse(query.getColumn(12).getString()).get<std::vector<std::string>>();
   return row;
+}
+
+std::vector<JobRow> rows_of(SQLite::Statement& query) {
+  std::vector<JobRow> rows;
+  while (query.executeStep()) rows.push_back(row_of(query));
+  return rows;
+}
+
+std::optional<JobRow> first_of(SQLite::Statement& query) {
+  if (!query.executeStep()) return std::nullopt;
+  return row_of(query);
 }
 
 std::string text(std::string_view view) { return std::string(view); }
@@ -115,7 +84,8 @@ struct Store::Connections {
       : lock(created(folder)),
         writer(folder / "jobs.sqlite", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                kBusyTimeoutMs),
-        reader((prepare(writer), folder / "jobs.sqlite"), SQLite::OPEN_READWRITE, kBusyTimeoutMs) {
+        reader((prepare(writer), folder / "jobs.sqlite"), SQLite::OPEN_READWRITE, kBusyTimeoutMs),
+        commits(writer) {
     reader.exec("PRAGMA query_only = ON");
     SQLite::Statement newest(writer, "SELECT max(id) FROM job");
     newest.executeStep();
@@ -125,40 +95,54 @@ struct Store::Connections {
   static void prepare(SQLite::Database& database) {
     database.exec("PRAGMA journal_mode = WAL");
     database.exec("PRAGMA synchronous = FULL");
-    const int version = database.execAndGet("PRAGMA user_version");
-    if (version > kSchemaVersion) {
-      throw EnvironmentError(fmt::format("the job store has version {}, this program knows {}",
-                                         version, kSchemaVersion));
+    prepare_tables(database);
+  }
+
+  // SQLite's errors are the machine's: disk full, file damaged, locked for too long.
+  template <typename Action>
+  auto read(const Action& action) {
+    const std::lock_guard guard(reader_mutex);
+    try {
+      return action(reader);
+    } catch (const SQLite::Exception& error) {
+      throw EnvironmentError(fmt::format("job store: {}", error.what()));
     }
-    SQLite::Transaction transaction(database);
-    if (version == 1) database.exec(kFromVersion1);
-    database.exec(kTables);
-    database.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
-    transaction.commit();
+  }
+
+  void write(const std::function<void()>& change) {
+    try {
+      commits.run(change);
+    } catch (const SQLite::Exception& error) {
+      throw EnvironmentError(fmt::format("job store: {}", error.what()));
+    }
+  }
+
+  void write_event(const std::string& job, std::int64_t at_ms, const std::string& type,
+                   const std::string& data_json) {
+    SQLite::Statement insert(writer,
+                             "INSERT INTO event (job, at_ms, type, data) VALUES (?, ?, ?, ?)");
+    insert.bind(1, job);
+    insert.bind(2, at_ms);
+    insert.bind(3, type);
+    insert.bind(4, data_json);
+    insert.exec();
+  }
+
+  /// The row as the changes of this commit have left it.
+  std::optional<JobRow> find(const std::string& column, const std::string& value) {
+    SQLite::Statement query(writer,
+                            fmt::format("SELECT {} FROM job WHERE {} = ?", kColumns, column));
+    query.bind(1, value);
+    return first_of(query);
   }
 
   FolderLock lock;
-  std::mutex writer_mutex;
   std::mutex reader_mutex;
-  SQLite::Database writer;
+  SQLite::Database writer;  ///< only within write()
   SQLite::Database reader;
-  std::string last_id;  ///< guarded by writer_mutex
+  GroupCommit commits;
+  std::string last_id;  ///< only within write()
 };
-
-namespace {
-
-// SQLite's errors are the machine's: disk full, file damaged, locked for too long.
-template <typename Action>
-auto with_database(std::mutex& mutex, const Action& action) {
-  const std::lock_guard lock(mutex);
-  try {
-    return action();
-  } catch (const SQLite::Exception& error) {
-    throw EnvironmentError(fmt::format("job store: {}", error.what()));
-  }
-}
-
-}  // namespace
 
 Store::Store(const fs::path& folder, Clock clock)
     : clock_(clock ? std::move(clock) : Clock(&system_clock_ms)) {
@@ -175,63 +159,115 @@ std::string_view name_of(JobKind kind) {
   return kind == JobKind::calibration ? "calibration" : "dataset";
 }
 
-JobRow Store::add(const std::string& name, const std::string& spec_json, JobKind kind) {
-  return with_database(connections_->writer_mutex, [&] {
+namespace {
+
+void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job) {
+  SQLite::Statement insert(
+      database,
+      "INSERT INTO job (id, name, state, spec, created_ms, kind, priority, labels, submission_key, "
+      "submission_hash) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(1, row.id);
+  insert.bind(2, row.name);
+  insert.bind(3, row.spec_json);
+  insert.bind(4, row.created_ms);
+  insert.bind(5, text(name_of(row.kind)));
+  insert.bind(6, row.priority);
+  insert.bind(7, nlohmann::json(row.labels).dump());
+  if (!job.key.empty()) insert.bind(8, job.key);
+  insert.bind(9, job.hash);
+  insert.exec();
+}
+
+std::string hash_of_submission(SQLite::Database& database, const std::string& id) {
+  SQLite::Statement query(database, "SELECT submission_hash FROM job WHERE id = ?");
+  query.bind(1, id);
+  query.executeStep();
+  return query.getColumn(0).getString();
+}
+
+}  // namespace
+
+Added Store::add(const NewJob& job) {
+  Added added;
+  connections_->write([&] {
+    if (!job.key.empty()) {
+      if (auto earlier = connections_->find("submission_key", job.key)) {
+        const std::string hash = hash_of_submission(connections_->writer, earlier->id);
+        added = {std::move(*earlier), false, hash == job.hash};
+        return;
+      }
+    }
     std::random_device random;
     JobRow row;
     row.created_ms = clock_();
     row.id = make_job_id(row.created_ms, connections_->last_id, random());
-    row.kind = kind;
-    row.name = name;
-    row.spec_json = spec_json;
-    SQLite::Statement insert(connections_->writer,
-                             "INSERT INTO job (id, name, state, spec, created_ms, kind) VALUES (?, "
-                             "?, 'queued', ?, ?, ?)");
-    insert.bind(1, row.id);
-    insert.bind(2, name);
-    insert.bind(3, spec_json);
-    insert.bind(4, row.created_ms);
-    insert.bind(5, text(name_of(kind)));
-    insert.exec();
+    row.kind = job.kind;
+    row.name = job.name;
+    row.spec_json = job.spec_json;
+    row.priority = job.priority;
+    row.labels = job.labels;
+    insert_job(connections_->writer, row, job);
+    connections_->write_event(row.id, row.created_ms, "submitted", "{}");
     connections_->last_id = row.id;
-    return row;
+    added = {std::move(row), true, true};
   });
+  return added;
 }
 
 std::optional<JobRow> Store::get(const std::string& id) const {
-  return with_database(connections_->reader_mutex, [&]() -> std::optional<JobRow> {
-    SQLite::Statement query(connections_->reader,
-                            fmt::format("SELECT {} FROM job WHERE id = ?", kColumns));
+  return connections_->read([&](SQLite::Database& database) {
+    SQLite::Statement query(database, fmt::format("SELECT {} FROM job WHERE id = ?", kColumns));
     query.bind(1, id);
-    if (!query.executeStep()) return std::nullopt;
-    return row_of(query);
+    return first_of(query);
   });
 }
 
-std::vector<JobRow> Store::list(int limit, const std::string& after, JobKind kind) const {
-  return with_database(connections_->reader_mutex, [&] {
+std::vector<JobRow> Store::list(const JobFilter& filter) const {
+  std::string where = "kind = :kind";
+  if (!filter.after.empty()) where += filter.oldest_first ? " AND id > :after" : " AND id < :after";
+  if (!filter.states.empty()) {
+    std::vector<std::string> names;
+    for (const JobState state : filter.states) names.push_back(fmt::format("'{}'", name_of(state)));
+    where += fmt::format(" AND state IN ({})", fmt::join(names, ", "));
+  }
+  if (!filter.label.empty()) {
+    where += " AND EXISTS (SELECT 1 FROM json_each(labels) WHERE value = :label)";
+  }
+  if (!filter.name_part.empty()) where += " AND instr(lower(name), lower(:name)) > 0";
+  return connections_->read([&](SQLite::Database& database) {
     SQLite::Statement query(
-        connections_->reader,
-        fmt::format("SELECT {} FROM job WHERE kind = ?3 AND (?1 = '' OR id < ?1) ORDER BY id DESC "
-                    "LIMIT ?2",
-                    kColumns));
-    query.bind(1, after);
-    query.bind(2, limit);
-    query.bind(3, text(name_of(kind)));
-    std::vector<JobRow> rows;
-    while (query.executeStep()) rows.push_back(row_of(query));
-    return rows;
+        database, fmt::format("SELECT {} FROM job WHERE {} ORDER BY id {} LIMIT :limit", kColumns,
+                              where, filter.oldest_first ? "ASC" : "DESC"));
+    query.bind(":kind", text(name_of(filter.kind)));
+    if (!filter.after.empty()) query.bind(":after", filter.after);
+    if (!filter.label.empty()) query.bind(":label", filter.label);
+    if (!filter.name_part.empty()) query.bind(":name", filter.name_part);
+    query.bind(":limit", filter.limit);
+    return rows_of(query);
+  });
+}
+
+std::map<JobState, std::int64_t> Store::count() const {
+  return connections_->read([&](SQLite::Database& database) {
+    std::map<JobState, std::int64_t> counts;
+    for (const JobState state : kJobStates) counts[state] = 0;
+    SQLite::Statement query(database, "SELECT state, count(*) FROM job GROUP BY state");
+    while (query.executeStep()) {
+      counts[job_state_named(query.getColumn(0).getString()).value()] = query.getColumn(1);
+    }
+    return counts;
   });
 }
 
 std::optional<JobRow> Store::next() const {
-  return with_database(connections_->reader_mutex, [&]() -> std::optional<JobRow> {
+  return connections_->read([&](SQLite::Database& database) -> std::optional<JobRow> {
     for (const char* state : {"running", "queued"}) {
       SQLite::Statement query(
-          connections_->reader,
-          fmt::format("SELECT {} FROM job WHERE state = ? ORDER BY id LIMIT 1", kColumns));
+          database, fmt::format("SELECT {} FROM job WHERE state = ? ORDER BY priority DESC, id "
+                                "LIMIT 1",
+                                kColumns));
       query.bind(1, state);
-      if (query.executeStep()) return row_of(query);
+      if (auto row = first_of(query)) return row;
     }
     return std::nullopt;
   });
@@ -241,32 +277,55 @@ std::optional<JobRow> Store::apply(const JobRow& row, JobEvent event,
                                    const std::string& error_json) {
   const std::optional<JobState> next = next_state(row.state, event);
   if (!next) return std::nullopt;
-  const bool begins = event == JobEvent::start || event == JobEvent::resume;
-  return with_database(connections_->writer_mutex, [&]() -> std::optional<JobRow> {
-    JobRow changed = row;
-    changed.state = *next;
-    changed.attempt += begins ? 1 : 0;
-    if (event == JobEvent::start) changed.started_ms = clock_();
-    if (!is_active(*next)) changed.ended_ms = clock_();
-    changed.error_json = error_json;
+  std::optional<JobRow> changed = row;
+  connections_->write([&] {
+    const std::int64_t now_ms = clock_();
+    changed->state = *next;
+    changed->attempt += event == JobEvent::start || event == JobEvent::resume ? 1 : 0;
+    if (event == JobEvent::start) changed->started_ms = now_ms;
+    changed->ended_ms = is_active(*next) ? 0 : now_ms;
+    changed->error_json = error_json;
     SQLite::Statement update(connections_->writer,
                              "UPDATE job SET state = ?, attempt = ?, error = ?, started_ms = ?, "
                              "ended_ms = ? WHERE id = ? AND state = ? AND attempt = ?");
-    update.bind(1, text(name_of(changed.state)));
-    update.bind(2, changed.attempt);
-    update.bind(3, changed.error_json);
-    update.bind(4, changed.started_ms);
-    update.bind(5, changed.ended_ms);
+    update.bind(1, text(name_of(changed->state)));
+    update.bind(2, changed->attempt);
+    update.bind(3, changed->error_json);
+    update.bind(4, changed->started_ms);
+    update.bind(5, changed->ended_ms);
     update.bind(6, row.id);
     update.bind(7, text(name_of(row.state)));
     update.bind(8, row.attempt);
-    if (update.exec() == 0) return std::nullopt;
-    return changed;
+    if (update.exec() == 0) {
+      changed.reset();
+      return;
+    }
+    const nlohmann::json data = {{"state", name_of(*next)}, {"attempt", changed->attempt}};
+    connections_->write_event(row.id, now_ms, text(name_of(event)), data.dump());
   });
+  return changed;
+}
+
+std::optional<JobRow> Store::change(const std::string& id, int priority,
+                                    const std::vector<std::string>& labels) {
+  std::optional<JobRow> changed;
+  connections_->write([&] {
+    const nlohmann::json list = labels;
+    SQLite::Statement update(connections_->writer,
+                             "UPDATE job SET priority = ?, labels = ? WHERE id = ?");
+    update.bind(1, priority);
+    update.bind(2, list.dump());
+    update.bind(3, id);
+    if (update.exec() == 0) return;
+    changed = connections_->find("id", id);
+    const nlohmann::json data = {{"priority", priority}, {"labels", list}};
+    connections_->write_event(id, clock_(), "changed", data.dump());
+  });
+  return changed;
 }
 
 void Store::save_progress(const JobRow& row, const std::string& progress_json) {
-  with_database(connections_->writer_mutex, [&] {
+  connections_->write([&] {
     SQLite::Statement update(
         connections_->writer,
         "UPDATE job SET progress = ? WHERE id = ? AND state = ? AND attempt = ?");
@@ -278,12 +337,54 @@ void Store::save_progress(const JobRow& row, const std::string& progress_json) {
   });
 }
 
-bool Store::remove(const std::string& id) {
-  return with_database(connections_->writer_mutex, [&] {
-    SQLite::Statement statement(connections_->writer, "DELETE FROM job WHERE id = ?");
-    statement.bind(1, id);
-    return statement.exec() > 0;
+void Store::note(const JobRow& row, const std::string& type, const std::string& data_json) {
+  connections_->write([&] {
+    const auto now = connections_->find("id", row.id);
+    if (!now || now->state != row.state || now->attempt != row.attempt) return;
+    connections_->write_event(row.id, clock_(), type, data_json);
   });
+}
+
+std::vector<EventRow> Store::events(const std::string& job, std::int64_t after, int limit) const {
+  return connections_->read([&](SQLite::Database& database) {
+    SQLite::Statement query(
+        database, fmt::format("SELECT seq, job, at_ms, type, data FROM event WHERE seq > :after {} "
+                              "ORDER BY seq LIMIT :limit",
+                              job.empty() ? "" : "AND job = :job"));
+    query.bind(":after", after);
+    query.bind(":limit", limit);
+    if (!job.empty()) query.bind(":job", job);
+    std::vector<EventRow> rows;
+    while (query.executeStep()) {
+      rows.push_back({query.getColumn(0).getInt64(), query.getColumn(1).getString(),
+                      query.getColumn(2).getInt64(), query.getColumn(3).getString(),
+                      query.getColumn(4).getString()});
+    }
+    return rows;
+  });
+}
+
+std::int64_t Store::last_event() const {
+  return connections_->read([&](SQLite::Database& database) -> std::int64_t {
+    SQLite::Statement query(database, "SELECT coalesce(max(seq), 0) FROM event");
+    query.executeStep();
+    return query.getColumn(0);
+  });
+}
+
+bool Store::remove(const std::string& id) {
+  bool was_there = false;
+  connections_->write([&] {
+    SQLite::Statement job(connections_->writer, "DELETE FROM job WHERE id = ?");
+    job.bind(1, id);
+    was_there = job.exec() > 0;
+    if (!was_there) return;
+    SQLite::Statement events(connections_->writer, "DELETE FROM event WHERE job = ?");
+    events.bind(1, id);
+    events.exec();
+    connections_->write_event(id, clock_(), "removed", "{}");
+  });
+  return was_there;
 }
 
 }  // namespace throng::jobs

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,47 @@ struct JobRow {
   std::int64_t created_ms = 0;  ///< Unix time
   std::int64_t started_ms = 0;  ///< 0: not yet
   std::int64_t ended_ms = 0;    ///< 0: not yet
+  int priority = 0;             ///< higher ones are begun first
+  std::vector<std::string> labels = {};
+};
+
+/// What is to be queued.
+struct NewJob {
+  std::string name;
+  std::string spec_json = "{}";
+  JobKind kind = JobKind::dataset;
+  int priority = 0;
+  std::vector<std::string> labels = {};
+  /// A second submission with the same key is the first one's job; "" for none.
+  std::string key = {};
+  /// Of what was sent, to tell a repetition from a key that is used twice.
+  std::string hash = {};
+};
+
+struct Added {
+  JobRow row;
+  bool is_new = true;    ///< else the job of an earlier submission with this key
+  bool is_equal = true;  ///< false: and what was sent then was something else
+};
+
+/// Which jobs to list.
+struct JobFilter {
+  JobKind kind = JobKind::dataset;
+  std::vector<JobState> states = {};  ///< none: any
+  std::string label = {};             ///< "": any
+  std::string name_part = {};         ///< in upper or lower case; "": any
+  bool oldest_first = false;          ///< else newest first
+  std::string after = {};             ///< the id that the last page ended with; "": from the start
+  int limit = 50;
+};
+
+/// Something that happened to a job. Numbers rise over all jobs and are never used twice.
+struct EventRow {
+  std::int64_t seq = 0;
+  std::string job;
+  std::int64_t at_ms = 0;  ///< Unix time
+  std::string type;        ///< "submitted", name_of(JobEvent), "changed", "removed" or note()'s
+  std::string data_json;
 };
 
 /// Safe to use from many threads.
@@ -47,16 +89,15 @@ class Store {
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  /// Queues a job and returns it. Durable.
-  JobRow add(const std::string& name, const std::string& spec_json,
-             JobKind kind = JobKind::dataset);
+  /// Queues a job unless one of its key is there. Durable.
+  Added add(const NewJob& job);
 
   std::optional<JobRow> get(const std::string& id) const;
-  /// At most `limit` jobs of a kind, newest first, older than the job `after` (if not empty).
-  std::vector<JobRow> list(int limit, const std::string& after = "",
-                           JobKind kind = JobKind::dataset) const;
-  /// The job to work on next: one that was running when the last server ended, else the oldest that
-  /// is queued.
+  std::vector<JobRow> list(const JobFilter& filter) const;
+  /// How many jobs of any kind are in each state.
+  std::map<JobState, std::int64_t> count() const;
+  /// The job to work on next: one that was running when the last server ended, else the oldest of
+  /// the highest priority that is queued.
   std::optional<JobRow> next() const;
 
   /// Applies an event if the job is still in the state and attempt of `row`, and the state allows
@@ -64,11 +105,23 @@ class Store {
   std::optional<JobRow> apply(const JobRow& row, JobEvent event,
                               const std::string& error_json = "");
 
+  /// Sets a job's priority and labels; returns the new row, nothing when there is none. Durable.
+  std::optional<JobRow> change(const std::string& id, int priority,
+                               const std::vector<std::string>& labels);
+
   /// Remembers the progress of a running attempt; nothing happens when the job has moved on. Costs
   /// a disk sync: call it at most about once a second.
   void save_progress(const JobRow& row, const std::string& progress_json);
 
-  /// Forgets a job. False when there is none. Durable.
+  /// Records that something happened to a running attempt, likewise.
+  void note(const JobRow& row, const std::string& type, const std::string& data_json);
+
+  /// At most `limit` events after number `after`, in their order: of one job, or of all ("").
+  std::vector<EventRow> events(const std::string& job, std::int64_t after, int limit) const;
+  /// The number of the newest event; 0 for none.
+  std::int64_t last_event() const;
+
+  /// Forgets a job and what happened to it. False when there is none. Durable.
   bool remove(const std::string& id);
 
  private:

@@ -56,6 +56,10 @@ const char* title_of(int status) {
       return "Unsupported Media Type";
     case 416:
       return "Range Not Satisfiable";
+    case 422:
+      return "Unprocessable Content";
+    case 503:
+      return "Service Unavailable";
     case 421:
       return "Misdirected Request";
     case 500:
@@ -71,6 +75,8 @@ json row_json(const jobs::JobRow& row) {
           {"name", row.name},
           {"state", name_of(row.state)},
           {"attempt", row.attempt},
+          {"priority", row.priority},
+          {"labels", row.labels},
           {"created_at", time_json(row.created_ms)},
           {"started_at", time_json(row.started_ms)},
           {"ended_at", time_json(row.ended_ms)},
@@ -99,6 +105,22 @@ json progress_json(const jobs::JobProgress& progress) {
           {"frames_done", done},
           {"frames_total", total},
           {"runs", std::move(runs)}};
+}
+
+json stages_json(const jobs::JobProgress& progress) {
+  json runs = json::object();
+  for (const jobs::RunProgress& run : progress) {
+    runs[jobs::run_name(run.run)] = name_of(run.stage);
+  }
+  return {{"stage", name_of(stage_of(progress))}, {"runs", std::move(runs)}};
+}
+
+json event_json(const jobs::EventRow& event) {
+  return {{"seq", event.seq},
+          {"job", event.job},
+          {"at", time_json(event.at_ms)},
+          {"type", event.type},
+          {"data", json::parse(event.data_json)}};
 }
 
 json problems_json(const std::vector<Problem>& problems) {

@@ -14,6 +14,12 @@ namespace throng::server {
 /// {"stage", "frames_done", "frames_total", "runs": [...]}
 nlohmann::json progress_json(const jobs::JobProgress& progress);
 
+/// What of the progress is worth an event: {"stage", "runs": {"run000": stage}}
+nlohmann::json stages_json(const jobs::JobProgress& progress);
+
+/// {"seq", "job", "at", "type", "data"}
+nlohmann::json event_json(const jobs::EventRow& event);
+
 /// A failed job's "error": {"kind", "message", "problems"}.
 nlohmann::json error_json(const std::string& kind, const std::string& message,
                           const std::vector<Problem>& problems);

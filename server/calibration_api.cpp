@@ -91,8 +91,8 @@ void submit_calibration(JobService& service, const Request& request, Response& r
 
 void list_calibrations(JobService& service, const Request& request, Response& response) {
   const int limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows =
-      service.list(limit, after_of(request), jobs::JobKind::calibration);
+  const std::vector<jobs::JobRow> rows = service.list(
+      {.kind = jobs::JobKind::calibration, .after = after_of(request), .limit = limit});
   json list = json::array();
   for (const jobs::JobRow& row : rows) list.push_back(calibration_json(row));
   const bool more = static_cast<int>(rows.size()) == limit;

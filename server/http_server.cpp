@@ -17,7 +17,7 @@ namespace throng::server {
 
 namespace {
 
-constexpr std::size_t kThreads = 64;  // one per open connection
+constexpr std::size_t kThreads = 256;  // one per open connection; half of them may be streams
 constexpr int kBacklog = 1024;
 constexpr std::size_t kRequestsPerConnection = 1'000'000;
 constexpr time_t kIdleS = 2;  // also bounds how long stop() takes

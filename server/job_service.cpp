@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "calibrate/request.h"
 #include "jobs/calibrations.h"
 #include "jobs/job_id.h"
@@ -46,14 +47,56 @@ JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
 
 JobService::~JobService() = default;
 
-JobRow JobService::submit(std::string_view job_json) {
+jobs::JobSpec JobService::checked(std::string_view job_json) const {
   const std::string text =
       jobs::with_calibrations(job_json, [this](const std::string& id) { return camera_of(id); });
-  const jobs::JobSpec job = jobs::parse_job(text, "", options_.scenarios);
-  JobRow row = store_.add(job.name, text_of(to_json(job)));
-  spdlog::info("job {} queued", row.id);
+  return jobs::parse_job(text, "", options_.scenarios);
+}
+
+jobs::Added JobService::submit(const Submission& submission) {
+  const jobs::JobSpec job = checked(submission.job_json);
+  const json sent = {submission.job_json, submission.priority, submission.labels};
+  const jobs::Added added = store_.add({.name = job.name,
+                                        .spec_json = text_of(to_json(job)),
+                                        .priority = submission.priority,
+                                        .labels = submission.labels,
+                                        .key = submission.key,
+                                        .hash = sha256_hex(text_of(sent))});
+  if (!added.is_new) return added;
+  spdlog::info("job {} queued", added.row.id);
   note_queued();
-  return row;
+  tell();
+  return added;
+}
+
+void JobService::tell() {
+  {
+    const std::lock_guard lock(told_mutex_);
+    ++told_;
+  }
+  told_changed_.notify_all();
+}
+
+std::shared_ptr<void> JobService::begin_watch(int most) {
+  const auto release = [watchers = watchers_](void*) { --*watchers; };
+  std::shared_ptr<void> watch(watchers_.get(), release);
+  return ++*watchers_ > most ? nullptr : std::move(watch);
+}
+
+std::vector<jobs::EventRow> JobService::events(const std::string& job, std::int64_t after,
+                                               int limit,
+                                               std::chrono::milliseconds patience) const {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  std::unique_lock lock(told_mutex_);
+  while (true) {
+    // Counted before looking: what happens in between wakes us.
+    const std::uint64_t told = told_;
+    lock.unlock();
+    std::vector<jobs::EventRow> rows = store_.events(job, after, limit);
+    lock.lock();
+    if (!rows.empty()) return rows;
+    if (!told_changed_.wait_until(lock, end, [&] { return told_ != told; })) return rows;
+  }
 }
 
 void JobService::note_queued() {
@@ -85,11 +128,12 @@ JobRow JobService::submit_calibration(std::string_view request_json,
   {
     // Under the lock, so that it is not begun before its files are in their place.
     const std::lock_guard lock(mutex_);
-    row = store_.add(request.value("name", ""), text_of(request), jobs::JobKind::calibration);
+    row = store_.add({request.value("name", ""), text_of(request), jobs::JobKind::calibration}).row;
     fs::rename(staging.path(), place_of(row));
   }
   spdlog::info("calibration {} queued", row.id);
   note_queued();
+  tell();
   return row;
 }
 
@@ -113,9 +157,8 @@ std::optional<JobRow> JobService::get(const std::string& id) const {
   return row;
 }
 
-std::vector<JobRow> JobService::list(int limit, const std::string& after,
-                                     jobs::JobKind kind) const {
-  std::vector<JobRow> rows = store_.list(limit, after, kind);
+std::vector<JobRow> JobService::list(const jobs::JobFilter& filter) const {
+  std::vector<JobRow> rows = store_.list(filter);
   const std::lock_guard lock(mutex_);
   for (JobRow& row : rows) {
     if (active_ && active_->row.id == row.id && !active_->row.progress_json.empty()) {
@@ -125,21 +168,65 @@ std::vector<JobRow> JobService::list(int limit, const std::string& after,
   return rows;
 }
 
+std::optional<JobRow> JobService::change(const std::string& id, int priority,
+                                         const std::vector<std::string>& labels) {
+  std::optional<JobRow> row = store_.change(id, priority, labels);
+  if (row) tell();
+  return row;
+}
+
+void JobService::end_work_on(const std::string& id) {
+  std::unique_lock lock(mutex_);
+  const auto is_at_work = [&] { return active_ && active_->row.id == id; };
+  if (is_at_work()) active_->stop.request_stop();
+  if (!changed_.wait_for(lock, kLongestEnd, [&] { return !is_at_work(); })) {
+    throw EnvironmentError("the job's workers do not end; the job is cancelled, try again later");
+  }
+}
+
+std::optional<JobRow> JobService::cancel(const std::string& id) {
+  // The state may change between reading and cancelling; then look again.
+  for (std::optional<JobRow> row = store_.get(id); row; row = store_.get(id)) {
+    if (!is_active(row->state)) {
+      throw ConflictError(
+          fmt::format("the job is {}: there is nothing to cancel", name_of(row->state)));
+    }
+    if (!store_.apply(*row, JobEvent::cancel)) continue;
+    tell();
+    end_work_on(id);
+    spdlog::info("job {} cancelled", id);
+    return get(id);
+  }
+  return std::nullopt;
+}
+
+std::optional<JobRow> JobService::retry(const std::string& id) {
+  for (std::optional<JobRow> row = store_.get(id); row; row = store_.get(id)) {
+    if (!next_state(row->state, JobEvent::retry)) {
+      throw ConflictError(
+          fmt::format("the job is {}: only one that failed or was cancelled can be "
+                      "tried again",
+                      name_of(row->state)));
+    }
+    const std::optional<JobRow> queued = store_.apply(*row, JobEvent::retry);
+    if (!queued) continue;
+    spdlog::info("job {} queued again", id);
+    note_queued();
+    tell();
+    return queued;
+  }
+  return std::nullopt;
+}
+
 bool JobService::remove(const std::string& id) {
   // The state may change between reading and cancelling; then look again.
   std::optional<JobRow> row = store_.get(id);
   while (row && is_active(row->state) && !store_.apply(*row, JobEvent::cancel))
     row = store_.get(id);
   if (!row) return false;
-  {
-    std::unique_lock lock(mutex_);
-    const auto is_at_work = [&] { return active_ && active_->row.id == id; };
-    if (is_at_work()) active_->stop.request_stop();
-    if (!changed_.wait_for(lock, kLongestEnd, [&] { return !is_at_work(); })) {
-      throw EnvironmentError("the job's workers do not end; the job is cancelled, try again later");
-    }
-  }
+  end_work_on(id);
   if (!store_.remove(id)) return false;
+  tell();
   // Moved away first, so that a half-removed folder is never taken for a job's.
   const fs::path trash = options_.data / "trash";
   std::error_code error;
@@ -202,6 +289,7 @@ bool JobService::work_on_next(const std::stop_token& stop) {
     active_ = Active{*row, stop_job};
     spdlog::info("job {} {}", row->id, resumed ? "resumed" : "started");
   }
+  tell();
   const std::stop_callback forward(stop, [&] { stop_job.request_stop(); });
   const auto finish = [&] {
     const std::lock_guard lock(mutex_);
@@ -242,6 +330,7 @@ void JobService::run(const JobRow& row, const std::stop_token& stop) {
     error = text_of(error_json("environment", without_paths(failure.what()), {}));
   }
   const std::optional<JobRow> ended = store_.apply(row, event, error);
+  tell();
   spdlog::info("job {} {}", row.id, ended ? name_of(ended->state) : "was cancelled meanwhile");
 }
 
@@ -249,8 +338,13 @@ void JobService::make_dataset(const JobRow& row, const std::stop_token& stop) {
   const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", options_.scenarios);
   const auto folder = jobs::JobFolder::create(folder_of(row.id).path(), job);
   auto last_save = std::chrono::steady_clock::time_point();
+  std::string stages;
   const auto on_progress = [&](const jobs::JobProgress& progress) {
     report(row, text_of(progress_json(progress)));
+    if (const std::string now = text_of(stages_json(progress)); now != stages) {
+      stages = now;
+      note(row, "stage", stages);
+    }
     const auto now = std::chrono::steady_clock::now();
     if (now - last_save < kProgressInterval) return;
     last_save = now;
@@ -266,6 +360,15 @@ void JobService::make_calibration(const JobRow& row, const std::stop_token& stop
   };
   options_.calibrator(folder, say, stop);
   say(1, "finished");
+}
+
+void JobService::note(const JobRow& row, const std::string& type, const std::string& data_json) {
+  try {
+    store_.note(row, type, data_json);
+  } catch (const EnvironmentError& error) {
+    spdlog::warn("job {}: {} not recorded: {}", row.id, type, error.what());
+  }
+  tell();
 }
 
 // Progress is worth no job: when it cannot be saved now, it will be a second later.

@@ -2,11 +2,16 @@
 // nothing of HTTP.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -19,12 +24,30 @@
 #include "jobs/supervisor.h"
 #include "server/calibrator.h"
 
+namespace throng::jobs {
+struct JobSpec;
+}  // namespace throng::jobs
+
 namespace throng::server {
 
 struct JobServiceOptions {
   std::filesystem::path data;       ///< holds the store and a folder per job; one service at a time
   std::filesystem::path scenarios;  ///< the scenarios that jobs may name
   Calibrator calibrator = calibrator_in_process();
+};
+
+/// A job to be queued.
+struct Submission {
+  std::string_view job_json;
+  int priority = 0;
+  std::vector<std::string> labels = {};
+  std::string key = {};  ///< the same key again is the same submission; "" for none
+};
+
+/// What is asked for cannot happen in the state that the job is in. Answered with 409.
+class ConflictError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// A file that came with a calibration's request.
@@ -44,8 +67,11 @@ class JobService {
   JobService(const JobService&) = delete;
   JobService& operator=(const JobService&) = delete;
 
+  /// The job with all defaults, if it can be done. Throws InputError.
+  jobs::JobSpec checked(std::string_view job_json) const;
+
   /// Queues the job if it can be done; durable when it returns. Throws InputError.
-  jobs::JobRow submit(std::string_view job_json);
+  jobs::Added submit(const Submission& submission);
 
   /// Queues a calibration (calibrate/request.h) of the files that came with it; durable when it
   /// returns. Throws InputError.
@@ -53,12 +79,40 @@ class JobService {
 
   /// A job or calibration with its newest progress.
   std::optional<jobs::JobRow> get(const std::string& id) const;
-  /// Newest first, older than `after` (if not empty).
-  std::vector<jobs::JobRow> list(int limit, const std::string& after,
-                                 jobs::JobKind kind = jobs::JobKind::dataset) const;
+  std::vector<jobs::JobRow> list(const jobs::JobFilter& filter) const;
+  std::map<jobs::JobState, std::int64_t> count() const { return store_.count(); }
+
+  /// Sets priority and labels of a job, whatever its state; nothing when there is none.
+  std::optional<jobs::JobRow> change(const std::string& id, int priority,
+                                     const std::vector<std::string>& labels);
+
+  /// Ends an active job and returns when nobody works on it any more; what it has published stays.
+  /// Nothing when there is none. Throws ConflictError when it has ended.
+  std::optional<jobs::JobRow> cancel(const std::string& id);
+
+  /// Queues a job again that failed or was cancelled; what it has published is not done again.
+  /// Nothing when there is none. Throws ConflictError in any other state.
+  std::optional<jobs::JobRow> retry(const std::string& id);
+
+  /// Events after number `after` of a job, or of all (""): at once if there are any, else as soon
+  /// as there are, else none after `patience`.
+  std::vector<jobs::EventRow> events(const std::string& job, std::int64_t after, int limit,
+                                     std::chrono::milliseconds patience) const;
 
   /// Ends the job if it is active and removes it with all its files. False when there is none.
   bool remove(const std::string& id);
+
+  /// The number of the newest event; 0 for none.
+  std::int64_t last_event() const { return store_.last_event(); }
+
+  /// One of at most `most` watchers of events, as long as it is held; null when there are as many.
+  std::shared_ptr<void> begin_watch(int most);
+  int watchers() const { return *watchers_; }
+
+  const std::filesystem::path& data_folder() const { return options_.data; }
+  const std::filesystem::path& scenarios() const { return options_.scenarios; }
+  /// Where everything that belongs to a job lies (jobs/folder.h).
+  std::filesystem::path job_folder(const std::string& id) const { return folder_of(id).path(); }
 
   /// Where a job's dataset lies once it has succeeded.
   std::filesystem::path dataset_of(const std::string& id) const { return folder_of(id).dataset(); }
@@ -79,6 +133,8 @@ class JobService {
   void work(const std::stop_token& stop);
   bool work_on_next(const std::stop_token& stop);
   void run(const jobs::JobRow& row, const std::stop_token& stop);
+  void end_work_on(const std::string& id);
+  void tell();
   void make_dataset(const jobs::JobRow& row, const std::stop_token& stop);
   void make_calibration(const jobs::JobRow& row, const std::stop_token& stop);
   nlohmann::json camera_of(const std::string& calibration_id) const;
@@ -86,6 +142,7 @@ class JobService {
   void note_queued();
   void report(const jobs::JobRow& row, std::string progress_json);
   void save_progress(const jobs::JobRow& row);
+  void note(const jobs::JobRow& row, const std::string& type, const std::string& data_json);
   jobs::JobFolder folder_of(const std::string& id) const;
 
   JobServiceOptions options_;
@@ -95,7 +152,11 @@ class JobService {
   std::condition_variable_any changed_;  ///< something was queued, or the active job has ended
   bool queued_ = true;                   ///< there may be something to do; guarded by mutex_
   std::optional<Active> active_;         ///< guarded by mutex_; its row carries the newest progress
-  std::jthread worker_;                  ///< last: ends before what it uses
+  std::shared_ptr<std::atomic<int>> watchers_ = std::make_shared<std::atomic<int>>(0);
+  mutable std::mutex told_mutex_;
+  mutable std::condition_variable told_changed_;
+  std::uint64_t told_ = 0;  ///< how often something has happened; guarded by told_mutex_
+  std::jthread worker_;     ///< last: ends before what it uses
 };
 
 }  // namespace throng::server

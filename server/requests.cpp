@@ -19,20 +19,33 @@ void write_json(httplib::Response& response, int status, const json& value) {
   response.set_content(text_of(value), "application/json");
 }
 
+std::int64_t number_of(const Request& request, const char* name, std::int64_t least,
+                       std::int64_t most, std::int64_t usual) {
+  if (!request.has_param(name)) return usual;
+  const std::string text = request.get_param_value(name);
+  std::int64_t number = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || number < least ||
+      number > most) {
+    throw HttpError{400,
+                    fmt::format("{} is wrong", name),
+                    {{"", fmt::format("?{}", name), text,
+                      fmt::format("an integer from {} to {}", least, most)}}};
+  }
+  return number;
+}
+
 int limit_of(const Request& request) {
   constexpr int kUsual = 50;
   constexpr int kMost = 500;
-  if (!request.has_param("limit")) return kUsual;
-  const std::string text = request.get_param_value("limit");
-  int limit = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), limit);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || limit < 1 ||
-      limit > kMost) {
-    throw HttpError{400,
-                    "limit is wrong",
-                    {{"", "?limit", text, fmt::format("an integer from 1 to {}", kMost)}}};
+  return static_cast<int>(number_of(request, "limit", 1, kMost, kUsual));
+}
+
+void require_json(const Request& request) {
+  const std::string type = request.get_header_value("Content-Type");
+  if (type.substr(0, type.find(';')) != "application/json") {
+    throw HttpError{415, "this is sent with Content-Type: application/json"};
   }
-  return limit;
 }
 
 std::string after_of(const Request& request) {

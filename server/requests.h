@@ -2,11 +2,11 @@
 // parameters of lists.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
 
-#include "base/error.h"
+#include "server/http_error.h"
 #include "server/job_service.h"
 
 namespace httplib {
@@ -16,19 +16,20 @@ struct Response;
 
 namespace throng::server {
 
-/// What a handler throws to answer with a problem document.
-struct HttpError {
-  int status;
-  std::string detail;
-  std::vector<Problem> problems = {};
-};
-
 void write_json(httplib::Response& response, int status, const nlohmann::json& value);
 
+/// A parameter of the query that is a whole number in [least, most]; `usual` where it is not given.
+/// Throws HttpError 400.
+std::int64_t number_of(const httplib::Request& request, const char* name, std::int64_t least,
+                       std::int64_t most, std::int64_t usual);
 /// ?limit= of a list. Throws HttpError.
 int limit_of(const httplib::Request& request);
 /// ?after= of a list. Throws HttpError.
 std::string after_of(const httplib::Request& request);
+
+/// Throws HttpError 415 unless the body is sent as JSON. Also keeps web pages of others from
+/// submitting: a browser asks before it sends this type.
+void require_json(const httplib::Request& request);
 
 /// The job or calibration that the path names. Throws HttpError 404.
 jobs::JobRow find_row(JobService& service, const httplib::Request& request, jobs::JobKind kind);

@@ -10,14 +10,14 @@ using enum JobEvent;
 
 TEST(State, EveryStateAndEvent) {
   constexpr std::optional<JobState> kNone;
-  // Rows as kJobStates; columns: start, resume, succeed, fail, cancel.
+  // Rows as kJobStates; columns: start, resume, succeed, fail, cancel, retry.
   const std::array<std::array<std::optional<JobState>, kJobEvents.size()>, kJobStates.size()>
       expected = {{
-          {running, kNone, kNone, kNone, cancelled},
-          {kNone, running, succeeded, failed, cancelled},
-          {kNone, kNone, kNone, kNone, kNone},
-          {kNone, kNone, kNone, kNone, kNone},
-          {kNone, kNone, kNone, kNone, kNone},
+          {running, kNone, kNone, kNone, cancelled, kNone},
+          {kNone, running, succeeded, failed, cancelled, kNone},
+          {kNone, kNone, kNone, kNone, kNone, kNone},
+          {kNone, kNone, kNone, kNone, kNone, queued},
+          {kNone, kNone, kNone, kNone, kNone, queued},
       }};
   for (std::size_t s = 0; s < kJobStates.size(); ++s) {
     for (std::size_t e = 0; e < kJobEvents.size(); ++e) {
@@ -26,10 +26,12 @@ TEST(State, EveryStateAndEvent) {
   }
 }
 
-TEST(State, NothingHappensToAJobThatHasEnded) {
+TEST(State, AJobThatHasEndedCanAtMostBeTriedAgain) {
   for (const JobState state : kJobStates) {
     bool moves = false;
-    for (const JobEvent event : kJobEvents) moves |= next_state(state, event).has_value();
+    for (const JobEvent event : kJobEvents) {
+      moves |= event != JobEvent::retry && next_state(state, event).has_value();
+    }
     EXPECT_EQ(moves, is_active(state)) << name_of(state);
   }
 }

@@ -30,7 +30,7 @@ bool reaches(const JobService& service, const std::string& id, JobState state) {
 
 TEST_F(JobServiceTest, AJobRunsToItsDataset) {
   JobService service(options(), executor);
-  const JobRow row = service.submit(kJob);
+  const JobRow row = service.submit({kJob}).row;
   EXPECT_EQ(row.name, "yard");
   ASSERT_TRUE(reaches(service, row.id, JobState::succeeded));
   EXPECT_TRUE(std::filesystem::exists(service.dataset_of(row.id) / "manifest.json"));
@@ -43,8 +43,8 @@ TEST_F(JobServiceTest, AJobRunsToItsDataset) {
 TEST_F(JobServiceTest, JobsRunInTheOrderTheyCame) {
   Gate gate(executor);
   JobService service(options(), executor);
-  const JobRow first = service.submit(kJob);
-  const JobRow second = service.submit(kJob);
+  const JobRow first = service.submit({kJob}).row;
+  const JobRow second = service.submit({kJob}).row;
   ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
   EXPECT_EQ(service.get(first.id)->state, JobState::running);
   EXPECT_EQ(service.get(second.id)->state, JobState::queued);
@@ -61,8 +61,8 @@ TEST_F(JobServiceTest, AFailureIsToldWithoutPathsAndTheNextJobRuns) {
                                  : TaskResult{};
   };
   JobService service(options(), executor);
-  const JobRow bad = service.submit(kJob);
-  const JobRow good = service.submit(kJob);
+  const JobRow bad = service.submit({kJob}).row;
+  const JobRow good = service.submit({kJob}).row;
   ASSERT_TRUE(reaches(service, good.id, JobState::succeeded));
   const JobRow failed = service.get(bad.id).value();
   EXPECT_EQ(failed.state, JobState::failed);
@@ -75,7 +75,7 @@ TEST_F(JobServiceTest, AnInputErrorOfAWorkerKeepsItsPointers) {
     return TaskResult{Outcome::input_error, 1, "m", {{"", "/crowd/agents", "9", "at most 2"}}};
   };
   JobService service(options(), executor);
-  const JobRow row = service.submit(kJob);
+  const JobRow row = service.submit({kJob}).row;
   ASSERT_TRUE(reaches(service, row.id, JobState::failed));
   const json error = json::parse(service.get(row.id)->error_json);
   EXPECT_EQ(error["kind"], "input");
@@ -88,8 +88,8 @@ TEST_F(JobServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
   {
     Gate gate(executor);
     std::optional<JobService> service(std::in_place, options(), executor);
-    running = service->submit(kJob).id;
-    queued = service->submit(kJob).id;
+    running = service->submit({kJob}).row.id;
+    queued = service->submit({kJob}).row.id;
     ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
     const std::jthread ender([&] { service.reset(); });
     // The task ends only after the service has begun to.
@@ -114,23 +114,23 @@ TEST_F(JobServiceTest, RemovingARunningJobEndsItAndItsFiles) {
     return TaskResult{};
   };
   JobService service(options(), executor);
-  const JobRow row = service.submit(kJob);
+  const JobRow row = service.submit({kJob}).row;
   ASSERT_TRUE(wait_until([&] { return !executor.done().empty(); }));
   EXPECT_TRUE(service.remove(row.id));
   EXPECT_FALSE(service.get(row.id));
   EXPECT_FALSE(std::filesystem::exists(data.path() / "jobs" / row.id));
   EXPECT_FALSE(std::filesystem::exists(data.path() / "trash" / row.id));
   EXPECT_FALSE(service.remove(row.id));
-  const JobRow next = service.submit(kJob);
+  const JobRow next = service.submit({kJob}).row;
   EXPECT_TRUE(reaches(service, next.id, JobState::succeeded));
 }
 
 TEST_F(JobServiceTest, RemovingAQueuedJobLeavesTheOthers) {
   Gate gate(executor);
   JobService service(options(), executor);
-  const JobRow first = service.submit(kJob);
-  const JobRow second = service.submit(kJob);
-  const JobRow third = service.submit(kJob);
+  const JobRow first = service.submit({kJob}).row;
+  const JobRow second = service.submit({kJob}).row;
+  const JobRow third = service.submit({kJob}).row;
   EXPECT_TRUE(service.remove(second.id));
   gate.open();
   EXPECT_TRUE(reaches(service, third.id, JobState::succeeded));
@@ -146,8 +146,8 @@ TEST_F(JobServiceTest, ManyClientsAtOnce) {
     for (std::size_t client = 0; client < clients.size(); ++client) {
       clients[client] = std::jthread([&, client] {
         for (int i = 0; i < 5; ++i) {
-          const JobRow row = service.submit(kJob);
-          service.list(10, "");
+          const JobRow row = service.submit({kJob}).row;
+          service.list({.limit = 10});
           if (client % 2 == 0) {
             EXPECT_TRUE(service.remove(row.id));
           } else {
@@ -157,9 +157,9 @@ TEST_F(JobServiceTest, ManyClientsAtOnce) {
       });
     }
   }
-  EXPECT_EQ(service.list(100, "").size(), 10U);
+  EXPECT_EQ(service.list({.limit = 100}).size(), 10U);
   EXPECT_TRUE(wait_until([&] {
-    for (const JobRow& row : service.list(100, "")) {
+    for (const JobRow& row : service.list({.limit = 100})) {
       if (row.state != JobState::succeeded) return false;
     }
     return true;

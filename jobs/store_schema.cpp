@@ -1,0 +1,69 @@
+#include "jobs/store_schema.h"
+
+#include <fmt/core.h>
+
+#include <array>
+
+#include "base/error.h"
+
+namespace throng::jobs {
+
+namespace {
+
+/// Each makes the tables of the next version from those of the one before; the first from nothing.
+constexpr std::array kSteps = {
+    R"(
+CREATE TABLE job (
+  id TEXT PRIMARY KEY,
+  name TEXT NOT NULL,
+  state TEXT NOT NULL CHECK (state IN ('queued', 'running', 'succeeded', 'failed', 'cancelled')),
+  attempt INTEGER NOT NULL DEFAULT 0,
+  spec TEXT NOT NULL,
+  progress TEXT NOT NULL DEFAULT '',
+  error TEXT NOT NULL DEFAULT '',
+  created_ms INTEGER NOT NULL,
+  started_ms INTEGER NOT NULL DEFAULT 0,
+  ended_ms INTEGER NOT NULL DEFAULT 0
+) WITHOUT ROWID;
+CREATE INDEX job_by_state ON job (state, id);
+)",
+    "ALTER TABLE job ADD COLUMN kind TEXT NOT NULL DEFAULT 'dataset'",
+    // Priorities, labels (a JSON list), keys that make a repeated submission one job, and what
+    // happened when.
+    R"(
+ALTER TABLE job ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE job ADD COLUMN labels TEXT NOT NULL DEFAULT '[]';
+ALTER TABLE job ADD COLUMN submission_key TEXT;
+ALTER TABLE job ADD COLUMN submission_hash TEXT NOT NULL DEFAULT '';
+CREATE UNIQUE INDEX job_by_submission_key ON job (submission_key) WHERE submission_key IS NOT NULL;
+DROP INDEX IF EXISTS job_by_state;
+CREATE INDEX job_by_state ON job (state, priority DESC, id);
+CREATE INDEX job_by_kind ON job (kind, id);
+CREATE TABLE event (
+  seq INTEGER PRIMARY KEY AUTOINCREMENT,
+  job TEXT NOT NULL,
+  at_ms INTEGER NOT NULL,
+  type TEXT NOT NULL,
+  data TEXT NOT NULL
+);
+CREATE INDEX event_by_job ON event (job, seq);
+)"};
+
+}  // namespace
+
+void prepare_tables(SQLite::Database& database) {
+  constexpr int kNewest = static_cast<int>(kSteps.size());
+  const int version = database.execAndGet("PRAGMA user_version");
+  if (version > kNewest) {
+    throw EnvironmentError(
+        fmt::format("the job store has version {}, this program knows {}", version, kNewest));
+  }
+  SQLite::Transaction transaction(database);
+  for (int step = version; step < kNewest; ++step) {
+    database.exec(kSteps[static_cast<std::size_t>(step)]);
+  }
+  database.exec(fmt::format("PRAGMA user_version = {}", kNewest));
+  transaction.commit();
+}
+
+}  // namespace throng::jobs

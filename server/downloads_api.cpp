@@ -1,0 +1,211 @@
+#include "server/downloads_api.h"
+
+#include <fmt/core.h>
+#include <httplib.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
+#include "jobs/archive.h"
+#include "jobs/manifest.h"
+#include "server/file_answer.h"
+#include "server/job_service.h"
+#include "server/requests.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+jobs::JobRow find(JobService& service, const Request& request) {
+  return find_row(service, request, jobs::JobKind::dataset);
+}
+
+jobs::JobRow find_succeeded(JobService& service, const Request& request) {
+  jobs::JobRow row = find(service, request);
+  if (row.state != jobs::JobState::succeeded) {
+    throw HttpError{
+        409, fmt::format("the job is {}; this is there once it has succeeded", name_of(row.state))};
+  }
+  return row;
+}
+
+/// The manifest holds the hash of every file.
+std::string etag_of_dataset(const fs::path& dataset) {
+  return fmt::format("\"{}\"", sha256_hex_of_file(dataset / jobs::kManifestName));
+}
+
+/// A file of one run of a dataset; 404 when there is no such run or the job did not ask for it.
+void send_run_file(JobService& service, const Request& request, Response& response,
+                   const char* folder, const char* suffix, const char* type) {
+  const jobs::JobRow row = find_succeeded(service, request);
+  const std::string number = request.matches[2];
+  constexpr std::size_t kMostDigits = 6;
+  fs::path file;
+  if (number.size() <= kMostDigits) {
+    const std::string name = fmt::format("run{:03}{}", std::stoi(number), suffix);
+    file = service.dataset_of(row.id) / folder / name;
+  }
+  if (file.empty() || !fs::exists(file)) {
+    throw HttpError{404, fmt::format("the dataset has no {} of run {}", folder, number)};
+  }
+  response.set_content(read_file(file), type);
+}
+
+/// Files below a folder that have a name of their own, by their path from there.
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator entries(folder, error);
+  for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+    if (entries->is_regular_file(error))
+      files.push_back(entries->path().lexically_relative(folder));
+  }
+  return files;
+}
+
+/// Where a job's previews are by their names in the dataset: there, or in the shards that have been
+/// published so far.
+std::vector<std::pair<std::string, fs::path>> previews_of(const fs::path& job) {
+  std::vector<fs::path> folders;
+  if (fs::exists(job / "dataset")) {
+    folders.push_back(job / "dataset/previews");
+  } else {
+    std::error_code error;
+    for (const auto& run : fs::directory_iterator(job / "work", error)) {
+      for (const auto& shard : fs::directory_iterator(run.path(), error)) {
+        const std::string name = shard.path().filename().string();
+        if (name.starts_with("shard") && name.find('.') == std::string::npos) {
+          folders.push_back(shard.path() / "previews");
+        }
+      }
+    }
+  }
+  std::vector<std::pair<std::string, fs::path>> previews;
+  for (const fs::path& folder : folders) {
+    for (const fs::path& file : files_below(folder)) {
+      previews.emplace_back(file.generic_string(), folder / file);
+    }
+  }
+  std::sort(previews.begin(), previews.end());
+  return previews;
+}
+
+}  // namespace
+
+void send_archive(JobService& service, const Request& request, Response& response) {
+  const jobs::JobRow row = find_succeeded(service, request);
+  const fs::path dataset = service.dataset_of(row.id);
+  const std::string name = jobs::slug(row.name);
+  const auto archive = std::make_shared<const jobs::Archive>(dataset, name);
+  settle_range(request, response, etag_of_dataset(dataset), archive->size());
+  response.set_header("Content-Disposition", fmt::format("attachment; filename=\"{}.tar\"", name));
+  response.set_content_provider(
+      static_cast<std::size_t>(archive->size()), "application/x-tar",
+      [archive, buffer = std::vector<char>(), id = row.id](std::size_t offset, std::size_t length,
+                                                           httplib::DataSink& sink) mutable {
+        constexpr std::size_t kBlock = 1 << 20;
+        buffer.resize(std::min(length, kBlock));
+        try {
+          const std::size_t count = archive->read(static_cast<std::int64_t>(offset), buffer);
+          return sink.write(buffer.data(), count);
+        } catch (const EnvironmentError& error) {
+          // The length has been promised: all that is left is to break off.
+          spdlog::error("archive of job {}: {}", id, error.what());
+          return false;
+        }
+      });
+}
+
+void send_manifest(JobService& service, const Request& request, Response& response) {
+  const fs::path dataset = service.dataset_of(find_succeeded(service, request).id);
+  answer_with_file(request, response, dataset / jobs::kManifestName, "application/json",
+                   etag_of_dataset(dataset));
+}
+
+void send_file(JobService& service, const Request& request, Response& response) {
+  const fs::path dataset = service.dataset_of(find_succeeded(service, request).id);
+  const std::string wanted = request.matches[2];
+  const auto files = jobs::read_manifest_files(dataset);
+  // What is in the manifest is in the dataset: no path leads out of it.
+  const auto file =
+      std::lower_bound(files.begin(), files.end(), wanted,
+                       [](const auto& entry, const auto& path) { return entry.path < path; });
+  if (file == files.end() || file->path != wanted) {
+    throw HttpError{404, "the dataset has no such file"};
+  }
+  answer_with_file(request, response, dataset / wanted, media_type_of(wanted),
+                   fmt::format("\"{}\"", file->sha256));
+}
+
+void send_metrics(JobService& service, const Request& request, Response& response) {
+  const fs::path dataset = service.dataset_of(find_succeeded(service, request).id);
+  response.set_content(read_file(dataset / "metrics.json"), "application/json");
+}
+
+void send_run_metrics(JobService& service, const Request& request, Response& response) {
+  send_run_file(service, request, response, "metrics", ".json", "application/json");
+}
+
+void send_run_metrics_csv(JobService& service, const Request& request, Response& response) {
+  send_run_file(service, request, response, "exits", ".csv", "text/csv");
+}
+
+void list_logs(JobService& service, const Request& request, Response& response) {
+  const jobs::JobRow row = find(service, request);
+  const fs::path folder = service.job_folder(row.id) / "logs";
+  std::vector<fs::path> files = files_below(folder);
+  std::sort(files.begin(), files.end());
+  json logs = json::array();
+  for (const fs::path& file : files) {
+    std::error_code error;
+    const auto bytes = fs::file_size(folder / file, error);
+    if (error) continue;
+    logs.push_back({{"name", file.string()},
+                    {"bytes", bytes},
+                    {"href", fmt::format("/v1/jobs/{}/logs/{}", row.id, file.string())}});
+  }
+  write_json(response, 200, {{"logs", std::move(logs)}});
+}
+
+void send_log(JobService& service, const Request& request, Response& response) {
+  const jobs::JobRow row = find(service, request);
+  const std::string name = request.matches[2];
+  const fs::path file = service.job_folder(row.id) / "logs" / name;
+  if (name == ".." || !fs::is_regular_file(file)) {
+    throw HttpError{404, fmt::format("the job has no log {}", name)};
+  }
+  answer_with_growing_file(request, response, file, "text/plain; charset=utf-8");
+}
+
+void list_previews(JobService& service, const Request& request, Response& response) {
+  const jobs::JobRow row = find(service, request);
+  json previews = json::array();
+  for (const auto& [name, file] : previews_of(service.job_folder(row.id))) {
+    previews.push_back(
+        {{"name", name}, {"href", fmt::format("/v1/jobs/{}/previews/{}", row.id, name)}});
+  }
+  write_json(response, 200, {{"previews", std::move(previews)}});
+}
+
+void send_preview(JobService& service, const Request& request, Response& response) {
+  const jobs::JobRow row = find(service, request);
+  const std::string wanted = request.matches[2];
+  for (const auto& [name, file] : previews_of(service.job_folder(row.id))) {
+    if (name != wanted) continue;
+    return answer_with_growing_file(request, response, file, media_type_of(file));
+  }
+  throw HttpError{404, "there is no such preview (yet)"};
+}
+
+}  // namespace throng::server

@@ -1,0 +1,122 @@
+#include "server/events_api.h"
+
+#include <fmt/core.h>
+#include <httplib.h>
+
+#include <charconv>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "server/answers.h"
+#include "server/job_service.h"
+#include "server/requests.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr int kMostStreams = 128;  // each holds a thread of the server
+constexpr int kPage = 500;
+constexpr auto kBeat = 500ms;  // how often a stream looks for progress, and for its end
+constexpr auto kKeepAlive = 10s;
+constexpr std::int64_t kLastNumber = std::numeric_limits<std::int64_t>::max();
+
+class EventStream {
+ public:
+  EventStream(JobService& service, std::string job, std::int64_t after)
+      : watch_(service.begin_watch(kMostStreams)),
+        service_(service),
+        job_(std::move(job)),
+        after_(after) {
+    if (watch_ != nullptr) return;
+    throw HttpError{503, fmt::format("{} event streams are open: try again later, or use ?wait_s=",
+                                     kMostStreams)};
+  }
+
+  /// Writes what there is, or waits a moment for it; false when the client has gone.
+  bool step(httplib::DataSink& sink) {
+    // Looked at before the events: what ends the job is among them.
+    const auto row = job_.empty() ? std::nullopt : service_.get(job_);
+    const bool may_go_on = job_.empty() || (row && is_active(row->state));
+    const auto events = service_.events(job_, after_, kPage, may_go_on ? kBeat : 0ms);
+    std::string text;
+    for (const jobs::EventRow& event : events) {
+      text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
+                          text_of(event_json(event)));
+      after_ = event.seq;
+    }
+    if (row && row->state == jobs::JobState::running && row->progress_json != progress_) {
+      progress_ = row->progress_json;
+      if (!progress_.empty()) text += fmt::format("event: progress\ndata: {}\n\n", progress_);
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (text.empty() && now - last_write_ > kKeepAlive) text = ": still here\n\n";
+    if (!text.empty()) {
+      last_write_ = now;
+      if (!sink.write(text.data(), text.size())) return false;
+    }
+    if (!may_go_on && events.empty()) sink.done();
+    return true;
+  }
+
+ private:
+  std::shared_ptr<void> watch_;
+  const JobService& service_;
+  std::string job_;
+  std::int64_t after_;
+  std::string progress_;
+  std::chrono::steady_clock::time_point last_write_ = std::chrono::steady_clock::now();
+};
+
+std::int64_t last_event_id(const Request& request) {
+  const std::string text = request.get_header_value("Last-Event-ID");
+  if (text.empty()) return number_of(request, "after", 0, kLastNumber, 0);
+  std::int64_t number = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || number < 0) {
+    throw HttpError{
+        400, "Last-Event-ID is wrong", {{"", "Last-Event-ID", text, "the number of an event"}}};
+  }
+  return number;
+}
+
+void send_page(JobService& service, const Request& request, Response& response,
+               const std::string& job) {
+  constexpr std::int64_t kLongestWaitS = 60;
+  const std::int64_t after = number_of(request, "after", 0, kLastNumber, 0);
+  const auto limit = static_cast<int>(number_of(request, "limit", 1, kPage, kPage));
+  const std::chrono::seconds patience(number_of(request, "wait_s", 0, kLongestWaitS, 0));
+  json list = json::array();
+  std::int64_t next = after;
+  for (const jobs::EventRow& event : service.events(job, after, limit, patience)) {
+    list.push_back(event_json(event));
+    next = event.seq;
+  }
+  write_json(response, 200, {{"events", std::move(list)}, {"next", next}});
+}
+
+}  // namespace
+
+void send_events(JobService& service, const Request& request, Response& response) {
+  const std::string job = request.matches.size() > 1
+                              ? find_row(service, request, jobs::JobKind::dataset).id
+                              : std::string();
+  if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
+    return send_page(service, request, response, job);
+  }
+  const auto stream = std::make_shared<EventStream>(service, job, last_event_id(request));
+  response.set_header("Cache-Control", "no-store");
+  response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [stream](std::size_t, httplib::DataSink& sink) { return stream->step(sink); });
+}
+
+}  // namespace throng::server

@@ -1,0 +1,218 @@
+#include "server/jobs_api.h"
+
+#include <fmt/core.h>
+#include <httplib.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "jobs/plan.h"
+#include "jobs/spec.h"
+#include "server/answers.h"
+#include "server/job_service.h"
+#include "server/requests.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+namespace {
+
+constexpr int kHighestPriority = 100;
+constexpr std::size_t kMostLabels = 20;
+constexpr std::size_t kLongestLabel = 60;
+constexpr std::size_t kLongestKey = 200;
+
+jobs::JobRow find(JobService& service, const Request& request) {
+  return find_row(service, request, jobs::JobKind::dataset);
+}
+
+/// The value of every ?name= in the query.
+std::vector<std::string> all_of(const Request& request, const char* name) {
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < request.get_param_value_count(name); ++i) {
+    values.push_back(request.get_param_value(name, i));
+  }
+  return values;
+}
+
+void check_labels(const std::vector<std::string>& labels, const std::string& pointer) {
+  const auto is_wrong = [](const std::string& label) {
+    return label.empty() || label.size() > kLongestLabel ||
+           std::any_of(label.begin(), label.end(),
+                       [](unsigned char c) { return c < ' ' || c == 127; });
+  };
+  const auto wrong = std::find_if(labels.begin(), labels.end(), is_wrong);
+  if (wrong == labels.end() && labels.size() <= kMostLabels) return;
+  const std::string found =
+      wrong == labels.end() ? fmt::format("{} labels", labels.size()) : '"' + *wrong + '"';
+  throw HttpError{400,
+                  "labels are wrong",
+                  {{"", pointer, found,
+                    fmt::format("at most {} labels of 1 to {} printable characters", kMostLabels,
+                                kLongestLabel)}}};
+}
+
+std::string key_of(const Request& request) {
+  std::string key = request.get_header_value("Idempotency-Key");
+  if (key.size() > kLongestKey) {
+    throw HttpError{400, fmt::format("an Idempotency-Key has at most {} characters", kLongestKey)};
+  }
+  return key;
+}
+
+bool is_asked(const Request& request, const char* name) {
+  if (!request.has_param(name)) return false;
+  const std::string value = request.get_param_value(name);
+  if (value.empty() || value == "1" || value == "true") return true;
+  if (value == "0" || value == "false") return false;
+  throw HttpError{400,
+                  fmt::format("{} is wrong", name),
+                  {{"", fmt::format("?{}", name), value, "true or false"}}};
+}
+
+void queue(JobService& service, const Submission& submission, Response& response) {
+  const jobs::Added added = service.submit(submission);
+  if (!added.is_equal) {
+    throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and what was sent "
+                                     "with it then was something else",
+                                     added.row.id)};
+  }
+  response.set_header("Location", fmt::format("/v1/jobs/{}", added.row.id));
+  if (!added.is_new) response.set_header("Idempotent-Replayed", "true");
+  write_json(response, added.is_new ? 201 : 200, job_json(added.row));
+}
+
+/// What a job would be, without queueing it.
+void answer_dry_run(const jobs::JobSpec& job, Response& response) {
+  const auto cameras = static_cast<std::int64_t>(job.drones.size());
+  std::size_t shards = 0;
+  for (int run = 0; run < job.runs; ++run) shards += jobs::plan_shards(job, run).size();
+  write_json(response, 200,
+             {{"valid", true},
+              {"runs", job.runs},
+              {"shards", shards},
+              {"frames", job.runs * job.frames_per_camera() * cameras},
+              {"job", to_json(job)}});
+}
+
+std::vector<jobs::JobState> states_of(const Request& request) {
+  std::vector<jobs::JobState> states;
+  for (const std::string& name : all_of(request, "state")) {
+    const auto state = jobs::job_state_named(name);
+    if (!state) {
+      throw HttpError{400,
+                      "state is wrong",
+                      {{"", "?state", name, "queued, running, succeeded, failed or cancelled"}}};
+    }
+    states.push_back(*state);
+  }
+  return states;
+}
+
+}  // namespace
+
+void submit_job(JobService& service, const Request& request, Response& response) {
+  require_json(request);
+  if (is_asked(request, "dry_run")) {
+    return answer_dry_run(service.checked(request.body), response);
+  }
+  Submission submission{request.body};
+  submission.priority =
+      static_cast<int>(number_of(request, "priority", -kHighestPriority, kHighestPriority, 0));
+  submission.labels = all_of(request, "label");
+  check_labels(submission.labels, "?label");
+  submission.key = key_of(request);
+  queue(service, submission, response);
+}
+
+void list_jobs(JobService& service, const Request& request, Response& response) {
+  jobs::JobFilter filter;
+  filter.states = states_of(request);
+  filter.label = request.get_param_value("label");
+  filter.name_part = request.get_param_value("name");
+  const std::string sort = request.has_param("sort") ? request.get_param_value("sort") : "newest";
+  if (sort != "newest" && sort != "oldest") {
+    throw HttpError{400, "sort is wrong", {{"", "?sort", sort, "newest or oldest"}}};
+  }
+  filter.oldest_first = sort == "oldest";
+  filter.after = after_of(request);
+  filter.limit = limit_of(request);
+  const std::vector<jobs::JobRow> rows = service.list(filter);
+  json jobs = json::array();
+  for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row));
+  const bool more = static_cast<int>(rows.size()) == filter.limit;
+  write_json(response, 200,
+             {{"jobs", std::move(jobs)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
+}
+
+void send_job(JobService& service, const Request& request, Response& response) {
+  write_json(response, 200, job_json(find(service, request)));
+}
+
+void change_job(JobService& service, const Request& request, Response& response) {
+  require_json(request);
+  const jobs::JobRow row = find(service, request);
+  const json change = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
+  const auto wrong = [](const std::string& pointer, const std::string& found,
+                        const std::string& expected) {
+    return HttpError{400, "the change is wrong", {{"", pointer, found, expected}}};
+  };
+  if (!change.is_object()) throw wrong("", "no JSON object", "priority, labels or both");
+  int priority = row.priority;
+  std::vector<std::string> labels = row.labels;
+  for (const auto& [name, value] : change.items()) {
+    if (name == "priority") {
+      if (!value.is_number_integer() || value < -kHighestPriority || value > kHighestPriority) {
+        throw wrong("/priority", value.dump(), "an integer from -100 to 100");
+      }
+      priority = value;
+    } else if (name == "labels") {
+      const bool is_list =
+          value.is_array() && std::all_of(value.begin(), value.end(),
+                                          [](const json& label) { return label.is_string(); });
+      if (!is_list) throw wrong("/labels", value.dump(), "a list of texts");
+      labels = value.get<std::vector<std::string>>();
+      check_labels(labels, "/labels");
+    } else {
+      throw wrong("/" + name, "an unknown field", "priority or labels");
+    }
+  }
+  const auto changed = service.change(row.id, priority, labels);
+  if (!changed) throw HttpError{404, "the job has been removed"};
+  write_json(response, 200, job_json(*changed));
+}
+
+void cancel_job(JobService& service, const Request& request, Response& response) {
+  const auto row = service.cancel(find(service, request).id);
+  if (!row) throw HttpError{404, "the job has been removed"};
+  write_json(response, 200, job_json(*row));
+}
+
+void retry_job(JobService& service, const Request& request, Response& response) {
+  const auto row = service.retry(find(service, request).id);
+  if (!row) throw HttpError{404, "the job has been removed"};
+  write_json(response, 200, job_json(*row));
+}
+
+void clone_job(JobService& service, const Request& request, Response& response) {
+  const jobs::JobRow row = find(service, request);
+  json job = json::parse(row.spec_json);
+  if (!request.body.empty()) {
+    require_json(request);
+    const json patch = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
+    if (!patch.is_object()) throw HttpError{400, "a change of the job is a JSON object"};
+    job.merge_patch(patch);
+  }
+  const std::string text = text_of(job);
+  queue(service, {text, row.priority, row.labels, key_of(request)}, response);
+}
+
+void remove_job(JobService& service, const Request& request, Response& response) {
+  if (!service.remove(find(service, request).id)) throw HttpError{404, "already removed"};
+  response.status = 204;
+}
+
+}  // namespace throng::server

@@ -1,0 +1,172 @@
+#include "server/service_api.h"
+
+#include <fmt/core.h>
+#include <httplib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "formats/exporter.h"
+#include "jobs/spec.h"
+#include "server/answers.h"
+#include "server/job_service.h"
+#include "server/requests.h"
+#include "sim/airframe.h"
+#include "sim/battery.h"
+#include "sim/policy.h"
+#include "world/scenario.h"
+
+namespace throng::embedded {
+extern const std::string_view kOpenApi;
+}  // namespace throng::embedded
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Below this nothing can be written that is worth beginning.
+constexpr std::uintmax_t kLeastFreeBytes = 256ULL << 20U;
+
+/// Memory of this process that is in RAM; 0 where the kernel does not say.
+std::int64_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::int64_t total = 0;
+  std::int64_t resident = 0;
+  file >> total >> resident;
+  return resident * ::sysconf(_SC_PAGESIZE);
+}
+
+std::uintmax_t free_bytes(const JobService& service) {
+  return fs::space(service.data_folder()).available;
+}
+
+json scenario_json(const fs::path& folder, const std::string& id) {
+  const world::Scenario scenario = world::find_scenario(folder, id);
+  json exits = json::array();
+  for (const world::Exit& exit : scenario.exits) {
+    exits.push_back({{"id", exit.id}, {"width_m", exit.width_m()}, {"open", exit.open}});
+  }
+  json drones = json::array();
+  for (const world::DroneStart& drone : scenario.drones) {
+    drones.push_back({{"id", drone.id},
+                      {"start_m", {drone.position.x(), drone.position.y(), drone.position.z()}}});
+  }
+  const world::Rectangle& ground = scenario.ground;
+  return {
+      {"id", id},
+      {"name", scenario.name},
+      {"description", scenario.description},
+      {"crowd_model", scenario.crowd_model.empty() ? json(nullptr) : json(scenario.crowd_model)},
+      {"ground_m", {ground.min.x(), ground.min.y(), ground.max.x(), ground.max.y()}},
+      {"exits", std::move(exits)},
+      {"drones", std::move(drones)},
+      {"buildings", scenario.buildings.size()},
+      {"props", scenario.props.size()}};
+}
+
+}  // namespace
+
+void send_health(JobService&, const Request&, Response& response) {
+  write_json(response, 200, {{"status", "ok"}});
+}
+
+void send_readiness(JobService& service, const Request&, Response& response) {
+  static_cast<void>(service.count());  // throws when the store cannot be read
+  const std::uintmax_t free = free_bytes(service);
+  if (free < kLeastFreeBytes) {
+    throw HttpError{503, fmt::format("the data folder's disk has {} bytes free, {} are needed",
+                                     free, kLeastFreeBytes)};
+  }
+  write_json(response, 200, {{"status", "ready"}, {"free_bytes", free}});
+}
+
+void send_figures(JobService& service, const Request&, Response& response) {
+  std::string text =
+      "# HELP throng_jobs Jobs and calibrations by state.\n# TYPE throng_jobs gauge\n";
+  for (const auto& [state, count] : service.count()) {
+    text += fmt::format("throng_jobs{{state=\"{}\"}} {}\n", name_of(state), count);
+  }
+  const auto add = [&](const char* name, const char* type, const char* help, auto value) {
+    text += fmt::format("# HELP {0} {1}\n# TYPE {0} {2}\n{0} {3}\n", name, help, type, value);
+  };
+  add("throng_events_total", "counter", "Events of jobs since the store was made.",
+      service.last_event());
+  add("throng_event_streams", "gauge", "Clients that watch events.", service.watchers());
+  add("throng_disk_free_bytes", "gauge", "Free bytes where the data folder lies.",
+      free_bytes(service));
+  add("process_resident_memory_bytes", "gauge", "Memory of the server in RAM.", resident_bytes());
+  response.set_content(text, "text/plain; version=0.0.4; charset=utf-8");
+}
+
+void send_version(JobService&, const Request&, Response& response) {
+  write_json(response, 200, {{"name", "throng"}, {"version", THRONG_VERSION}, {"api", "v1"}});
+}
+
+void send_schema(JobService&, const Request&, Response& response) {
+  response.set_content(std::string(jobs::job_schema()), "application/schema+json");
+}
+
+void send_openapi(JobService&, const Request&, Response& response) {
+  response.set_content(std::string(embedded::kOpenApi), "application/json");
+}
+
+void list_scenarios(JobService& service, const Request&, Response& response) {
+  json list = json::array();
+  for (const std::string& id : world::list_scenarios(service.scenarios())) {
+    try {
+      list.push_back(scenario_json(service.scenarios(), id));
+    } catch (const InputError& error) {
+      // One that is damaged hides no other.
+      list.push_back({{"id", id}, {"error", service.without_paths(error.what())}});
+    }
+  }
+  write_json(response, 200, {{"scenarios", std::move(list)}});
+}
+
+void send_scenario(JobService& service, const Request& request, Response& response) {
+  const std::string id = request.matches[1];
+  const auto all = world::list_scenarios(service.scenarios());
+  if (std::find(all.begin(), all.end(), id) == all.end()) {
+    throw HttpError{404, "there is no such scenario; GET /v1/scenarios lists them"};
+  }
+  write_json(response, 200, scenario_json(service.scenarios(), id));
+}
+
+void list_airframes(JobService&, const Request&, Response& response) {
+  json list = json::array();
+  for (const sim::Airframe& airframe : sim::shipped_airframes()) {
+    json entry = to_json(airframe);
+    entry["name"] = airframe.name;
+    entry["derived"] = {{"top_speed_mps", airframe.top_speed_mps()},
+                        {"endurance_s", airframe.endurance_s()},
+                        {"hover_power_w", sim::hover_power_w(airframe)}};
+    list.push_back(std::move(entry));
+  }
+  write_json(response, 200, {{"airframes", std::move(list)}});
+}
+
+void list_formats(JobService&, const Request&, Response& response) {
+  json list = json::array();
+  for (const formats::Format& format : formats::all_formats()) {
+    list.push_back({{"name", format.name}, {"summary", format.summary}, {"needs", format.needs}});
+  }
+  write_json(response, 200, {{"formats", std::move(list)}});
+}
+
+void list_policies(JobService&, const Request&, Response& response) {
+  json list = json::array();
+  for (const sim::PolicyEntry& policy : sim::policies()) {
+    list.push_back({{"name", policy.name}, {"flies_free", policy.flies_free}});
+  }
+  write_json(response, 200, {{"policies", std::move(list)}});
+}
+
+}  // namespace throng::server

@@ -1,0 +1,206 @@
+// What can be done with jobs over HTTP, and the stream of what happens to them.
+#include <gmock/gmock.h>
+
+#include "tests/server/api_fixture.h"
+
+namespace throng::server {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class JobsApi : public ApiTest {
+ protected:
+  json post(const std::string& path, int status, const std::string& body = "") const {
+    const httplib::Result answer = client().Post(path, body, "application/json");
+    EXPECT_EQ(answer->status, status) << path << ": " << answer->body;
+    return json::parse(answer->body);
+  }
+
+  json submit_with(const std::string& query, int status = 201) const {
+    return post("/v1/jobs" + query, status, kJob);
+  }
+
+  std::vector<std::string> types_of(const std::string& id) const {
+    std::vector<std::string> types;
+    const json page = get_json("/v1/jobs/" + id + "/events");
+    for (const json& event : page["events"]) types.push_back(event["type"]);
+    return types;
+  }
+};
+
+TEST_F(JobsApi, ADryRunQueuesNothing) {
+  const json answer = submit_with("?dry_run=true", 200);
+  EXPECT_EQ(answer["valid"], true);
+  EXPECT_EQ(answer["frames"], 3);
+  EXPECT_EQ(answer["job"]["scenario"], "yard");
+  EXPECT_EQ(post("/v1/jobs?dry_run", 400, R"({"scenario": "moon"})")["errors"][0]["pointer"],
+            "/scenario");
+  EXPECT_TRUE(get_json("/v1/jobs")["jobs"].empty());
+  expect_problem(client().Post("/v1/jobs?dry_run=maybe", kJob, "application/json"), 400);
+}
+
+TEST_F(JobsApi, ASubmissionThatIsRepeatedIsOneJob) {
+  const httplib::Headers key = {{"Idempotency-Key", "4f0c"}};
+  const httplib::Result first = client().Post("/v1/jobs", key, kJob, "application/json");
+  const httplib::Result again = client().Post("/v1/jobs", key, kJob, "application/json");
+  ASSERT_EQ(first->status, 201);
+  ASSERT_EQ(again->status, 200);
+  EXPECT_EQ(again->get_header_value("Idempotent-Replayed"), "true");
+  EXPECT_EQ(json::parse(first->body)["id"], json::parse(again->body)["id"]);
+  expect_problem(client().Post("/v1/jobs?priority=3", key, kJob, "application/json"), 422);
+  EXPECT_EQ(get_json("/v1/jobs")["jobs"].size(), 1U);
+}
+
+TEST_F(JobsApi, CancelEndsTheWorkAndRetryGoesOnWithIt) {
+  std::string id;
+  std::string other;
+  {
+    Gate gate(executor);
+    id = submit();
+    other = submit();
+    ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+    EXPECT_EQ(post("/v1/jobs/" + other + "/cancel", 200)["state"], "cancelled");
+    expect_problem(client().Post("/v1/jobs/" + id + "/retry", "", "application/json"), 409);
+    const std::jthread canceller([&] {
+      const json cancelled = post("/v1/jobs/" + id + "/cancel", 200);
+      EXPECT_EQ(cancelled["state"], "cancelled");
+      EXPECT_NE(cancelled["ended_at"], nullptr);
+    });
+    ASSERT_TRUE(wait_until([&] { return get_json("/v1/jobs/" + id)["state"] == "cancelled"; }));
+    gate.open();
+  }
+  expect_problem(client().Post("/v1/jobs/" + id + "/cancel", "", "application/json"), 409);
+  EXPECT_EQ(post("/v1/jobs/" + id + "/retry", 200)["state"], "queued");
+  ASSERT_TRUE(wait_until([&] { return get_json("/v1/jobs/" + id)["state"] == "succeeded"; }))
+      << get("/v1/jobs/" + id)->body;
+  EXPECT_EQ(get_json("/v1/jobs/" + id)["attempt"], 2);
+  expect_problem(client().Post("/v1/jobs/" + id + "/retry", "", "application/json"), 409);
+  EXPECT_THAT(types_of(other), ElementsAre("submitted", "cancelled"));
+}
+
+TEST_F(JobsApi, ACloneIsTheSameJobButForWhatIsChanged) {
+  Gate gate(executor);
+  const json job = submit_with("?priority=7&label=paper&label=night");
+  EXPECT_EQ(job["labels"], json({"paper", "night"}));
+  const std::string path = "/v1/jobs/" + job["id"].get<std::string>() + "/clone";
+  const json clone = post(path, 201, R"({"seed": 77, "name": "again"})");
+  EXPECT_NE(clone["id"], job["id"]);
+  EXPECT_EQ(clone["priority"], 7);
+  EXPECT_EQ(clone["labels"], job["labels"]);
+  EXPECT_EQ(clone["job"]["seed"], 77);
+  EXPECT_EQ(clone["job"]["capture"], job["job"]["capture"]);
+  expect_problem(client().Post(path, R"({"runs": 0})", "application/json"), 400);
+  expect_problem(client().Post(path, "[]", "application/json"), 400);
+  gate.open();
+}
+
+TEST_F(JobsApi, PriorityAndLabelsChange) {
+  Gate gate(executor);
+  const std::string path = "/v1/jobs/" + submit();
+  const httplib::Result changed =
+      client().Patch(path, R"({"priority": 9, "labels": ["x"]})", "application/json");
+  ASSERT_EQ(changed->status, 200);
+  EXPECT_EQ(json::parse(changed->body)["priority"], 9);
+  EXPECT_EQ(get_json(path)["labels"], json({"x"}));
+  for (const char* wrong :
+       {"[]", "{", R"({"priority": "high"})", R"({"priority": 101})", R"({"labels": "x"})",
+        R"({"labels": [1]})", R"({"labels": [""]})", R"({"state": "succeeded"})"}) {
+    expect_problem(client().Patch(path, wrong, "application/json"), 400);
+  }
+  expect_problem(client().Post("/v1/jobs?priority=high", kJob, "application/json"), 400);
+  expect_problem(client().Post("/v1/jobs?label=", kJob, "application/json"), 400);
+  gate.open();
+}
+
+TEST_F(JobsApi, ListsAreFilteredAndSorted) {
+  Gate gate(executor);
+  const json first = submit_with("?label=a");
+  const json second = submit_with("?label=b");
+  post("/v1/jobs/" + second["id"].get<std::string>() + "/cancel", 200);
+  const auto ids = [&](const std::string& query) {
+    std::vector<std::string> found;
+    const json page = get_json("/v1/jobs?" + query);
+    for (const json& job : page["jobs"]) found.push_back(job["id"]);
+    return found;
+  };
+  EXPECT_THAT(ids("state=cancelled"), ElementsAre(second["id"]));
+  EXPECT_THAT(ids("state=cancelled&state=queued&state=running&sort=oldest"),
+              ElementsAre(first["id"], second["id"]));
+  EXPECT_THAT(ids("label=a"), ElementsAre(first["id"]));
+  EXPECT_THAT(ids("name=YAR"), ElementsAre(second["id"], first["id"]));
+  EXPECT_THAT(ids("name=moon"), ElementsAre());
+  expect_problem(get("/v1/jobs?state=lost"), 400);
+  expect_problem(get("/v1/jobs?sort=random"), 400);
+  gate.open();
+}
+
+TEST_F(JobsApi, EventsArePagedAndWaitedFor) {
+  const std::string id = submit_and_wait();
+  const std::string path = "/v1/jobs/" + id + "/events";
+  const json all = get_json(path);
+  EXPECT_EQ(all["events"][0]["type"], "submitted");
+  EXPECT_EQ(all["events"][1]["type"], "started");
+  EXPECT_EQ(all["events"].back()["type"], "succeeded");
+  EXPECT_EQ(all["events"].back()["data"]["state"], "succeeded");
+  EXPECT_EQ(all["next"], all["events"].back()["seq"]);
+  const json page = get_json(path + "?limit=2");
+  EXPECT_EQ(page["events"].size(), 2U);
+  const json rest = get_json(fmt::format("{}?after={}", path, page["next"].dump()));
+  EXPECT_EQ(rest["events"].size() + 2, all["events"].size());
+  // Whoever waits is told at once of what happens then.
+  json waited;
+  const std::string query = fmt::format("/v1/events?wait_s=30&after={}", all["next"].dump());
+  std::jthread waiter([&] { waited = get_json(query); });
+  const std::string next = submit();
+  waiter.join();
+  ASSERT_FALSE(waited["events"].empty());
+  EXPECT_EQ(waited["events"][0]["job"], next);
+  EXPECT_TRUE(get_json(fmt::format("/v1/events?wait_s=0&after={}", 1 << 30))["events"].empty());
+  for (const char* query_part : {"after=-1", "after=x", "wait_s=61", "limit=0"}) {
+    expect_problem(get(path + "?" + query_part), 400);
+  }
+}
+
+TEST_F(JobsApi, AStreamTellsAllAndEndsWithTheJob) {
+  Gate gate(executor);
+  const std::string id = submit();
+  std::string text;
+  std::jthread reader([&] {
+    client().Get("/v1/jobs/" + id + "/events", {{"Accept", "text/event-stream"}},
+                 [&](const char* block, std::size_t count) {
+                   text.append(block, count);
+                   return true;
+                 });
+  });
+  ASSERT_TRUE(wait_until([&] { return service.watchers() == 1; }));
+  gate.open();
+  reader.join();
+  EXPECT_THAT(text, HasSubstr("event: submitted\ndata: {"));
+  EXPECT_THAT(text, HasSubstr("event: stage\n"));
+  EXPECT_THAT(text, HasSubstr("event: succeeded\n"));
+  EXPECT_TRUE(wait_until([&] { return service.watchers() == 0; }));
+  // A client that was cut off goes on behind the last event that it has seen.
+  const std::string last = get_json("/v1/jobs/" + id + "/events?limit=2")["next"].dump();
+  const httplib::Result rest =
+      get("/v1/jobs/" + id + "/events", {{"Accept", "text/event-stream"}, {"Last-Event-ID", last}});
+  EXPECT_EQ(rest->body.find("event: submitted"), std::string::npos);
+  EXPECT_THAT(rest->body, HasSubstr("event: succeeded\n"));
+  expect_problem(
+      get("/v1/jobs/" + id + "/events", {{"Accept", "text/event-stream"}, {"Last-Event-ID", "x"}}),
+      400);
+}
+
+TEST_F(JobsApi, TooManyStreamsAreRefusedAndOthersServed) {
+  Gate gate(executor);
+  const std::string id = submit();
+  std::vector<std::shared_ptr<void>> watches;
+  while (auto watch = service.begin_watch(128)) watches.push_back(watch);
+  EXPECT_EQ(watches.size(), 128U);
+  expect_problem(get("/v1/jobs/" + id + "/events", {{"Accept", "text/event-stream"}}), 503);
+  EXPECT_EQ(get("/v1/jobs/" + id)->status, 200);
+  gate.open();
+}
+
+}  // namespace
+}  // namespace throng::server

@@ -1,0 +1,171 @@
+// The document that describes the API, against its routes and its answers.
+#include <gmock/gmock.h>
+
+#include <regex>
+#include <set>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "base/files.h"
+#include "tests/server/api_fixture.h"
+
+namespace throng::server {
+namespace {
+
+class OpenApi : public ApiTest {
+ protected:
+  OpenApi() : document_(get_json("/openapi.json")) {}
+
+  const json& operation(const std::string& method, const std::string& path) const {
+    return document_["paths"][path][method];
+  }
+
+  /// Whether the answer is one that the operation may give, and its body what that says.
+  void expect_described(const std::string& method, const std::string& path,
+                        const httplib::Result& answer) {
+    SCOPED_TRACE(fmt::format("{} {}: {} {}", method, path, answer->status, answer->body));
+    const json& responses = operation(method, path)["responses"];
+    const std::string status = std::to_string(answer->status);
+    ASSERT_TRUE(responses.contains(status));
+    json response = responses[status];
+    if (response.contains("$ref")) response = document_["components"]["responses"]["Problem"];
+    described_.insert(fmt::format("{} {} {}", method, path, status));
+    if (!response.contains("content")) return;
+    std::string type = answer->get_header_value("Content-Type");
+    type.resize(std::min(type.find(';'), type.size()));
+    ASSERT_TRUE(response["content"].contains(type) ||
+                response["content"].contains("application/octet-stream"))
+        << type;
+    const json schema = response["content"].value(type, json::object()).value("schema", json());
+    if (schema.is_null()) return;
+    expect_valid(schema, json::parse(answer->body));
+  }
+
+  std::set<std::string> described_;
+
+ private:
+  void expect_valid(json schema, const json& value) const {
+    schema["components"] = document_["components"];
+    valijson::Schema parsed;
+    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema),
+                                            parsed);
+    valijson::ValidationResults results;
+    const bool valid = valijson::Validator(valijson::Validator::kStrongTypes).validate(
+        parsed, valijson::adapters::NlohmannJsonAdapter(value), &results);
+    std::string reasons;
+    for (valijson::ValidationResults::Error error; results.popError(error);) {
+      for (const std::string& place : error.context) reasons += place;
+      reasons += ": " + error.description + "\n";
+    }
+    EXPECT_TRUE(valid) << reasons;
+  }
+
+  json document_;
+};
+
+std::string lower(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return small;
+}
+
+TEST_F(OpenApi, DescribesEveryRouteAndNoOther) {
+  std::set<std::string> served;
+  for (const Route& route : routes()) {
+    served.insert(fmt::format("{} {}", lower(name_of(route.method)), route.path));
+  }
+  const json document = get_json("/openapi.json");
+  EXPECT_EQ(document["openapi"], "3.1.0");
+  std::set<std::string> described;
+  for (const auto& [path, operations] : document["paths"].items()) {
+    for (const auto& [method, operation] : operations.items()) {
+      described.insert(fmt::format("{} {}", method, path));
+      EXPECT_FALSE(operation["summary"].get<std::string>().empty()) << path;
+      // Each parameter in the path, and no other.
+      std::set<std::string> named;
+      for (const json& parameter : operation.value("parameters", json::array())) {
+        if (parameter["in"] == "path") named.insert(parameter["name"]);
+      }
+      std::set<std::string> in_path;
+      static const std::regex kParameter(R"(\{(\w+)\})");
+      for (std::sregex_iterator at(path.begin(), path.end(), kParameter), end; at != end; ++at) {
+        in_path.insert((*at)[1]);
+      }
+      EXPECT_EQ(named, in_path) << path;
+    }
+  }
+  EXPECT_EQ(described, served);
+}
+
+TEST_F(OpenApi, AnswersAreAsDescribed) {
+  const auto posted = [&](const std::string& path, const std::string& body) {
+    return client().Post(path, body, "application/json");
+  };
+  expect_described("post", "/v1/jobs", posted("/v1/jobs", kJob));
+  expect_described("post", "/v1/jobs", posted("/v1/jobs?dry_run", kJob));
+  expect_described("post", "/v1/jobs", posted("/v1/jobs", R"({"runs": 0})"));
+  expect_described("post", "/v1/jobs", client().Post("/v1/jobs", "x", "text/plain"));
+  const std::string id = submit_and_wait();
+  const std::string self = "/v1/jobs/" + id;
+  write_file_atomically(service.dataset_of(id) / "metrics/run000.json", "{}");
+  write_file_atomically(service.dataset_of(id) / "exits/run000.csv", "frame\n");
+  write_file_atomically(service.dataset_of(id) / "previews/run000/d1/000000.jpg", "picture");
+  write_file_atomically(service.job_folder(id) / "logs/run000_trace.log", "hello\n");
+  for (const auto& [path, tail] : std::map<std::string, std::string>{
+           {"/v1/jobs/{id}", ""},
+           {"/v1/jobs/{id}/events", "/events"},
+           {"/v1/jobs/{id}/logs", "/logs"},
+           {"/v1/jobs/{id}/logs/{name}", "/logs/run000_trace.log"},
+           {"/v1/jobs/{id}/previews", "/previews"},
+           {"/v1/jobs/{id}/previews/{path}", "/previews/run000/d1/000000.jpg"},
+           {"/v1/jobs/{id}/archive", "/archive"},
+           {"/v1/jobs/{id}/manifest", "/manifest"},
+           {"/v1/jobs/{id}/files/{path}", "/files/metrics.json"},
+           {"/v1/jobs/{id}/metrics", "/metrics"},
+           {"/v1/jobs/{id}/runs/{n}/metrics", "/runs/0/metrics"},
+           {"/v1/jobs/{id}/runs/{n}/metrics.csv", "/runs/0/metrics.csv"}}) {
+    expect_described("get", path, get(self + tail));
+    expect_described("get", path, get("/v1/jobs/jnosuchjob00000" + tail));
+  }
+  for (const std::string path :
+       {"/v1/jobs", "/v1/events", "/v1/calibrations", "/v1/scenarios", "/v1/airframes",
+        "/v1/policies", "/v1/formats", "/v1/schema", "/v1/version", "/openapi.json", "/metrics",
+        "/healthz", "/readyz"}) {
+    expect_described("get", path, get(path));
+    EXPECT_EQ(get(path)->status, 200) << path;
+  }
+  expect_described("get", "/v1/scenarios/{path}", get("/v1/scenarios/yard"));
+  expect_described("get", "/v1/scenarios/{path}", get("/v1/scenarios/../../etc/passwd"));
+  expect_described("patch", "/v1/jobs/{id}",
+                   client().Patch(self, R"({"priority": 2})", "application/json"));
+  expect_described("patch", "/v1/jobs/{id}", client().Patch(self, "[]", "application/json"));
+  expect_described("post", "/v1/jobs/{id}/cancel", posted(self + "/cancel", ""));
+  expect_described("post", "/v1/jobs/{id}/retry", posted(self + "/retry", ""));
+  expect_described("post", "/v1/jobs/{id}/clone", posted(self + "/clone", R"({"seed": 2})"));
+  expect_described("delete", "/v1/jobs/{id}", client().Delete(self));
+  expect_described("delete", "/v1/jobs/{id}", client().Delete(self));
+  EXPECT_GT(described_.size(), 45U);
+}
+
+TEST_F(OpenApi, FilesAreThoseOfTheManifestInParts) {
+  const std::string self = "/v1/jobs/" + submit_and_wait();
+  const httplib::Result file = get(self + "/files/metrics.json");
+  ASSERT_EQ(file->status, 200);
+  EXPECT_EQ(file->body, R"({"runs":[]})");
+  const std::string tag = file->get_header_value("ETag");
+  EXPECT_EQ(get(self + "/files/metrics.json", {{"If-None-Match", tag}})->status, 304);
+  const httplib::Result part = get(self + "/files/metrics.json", {{"Range", "bytes=2-5"}});
+  EXPECT_EQ(part->status, 206);
+  EXPECT_EQ(part->body, "runs");
+  expect_problem(get(self + "/files/manifest.json"), 404);
+  for (const char* path : {"/files/../job.json", "/files/%2e%2e/job.json", "/files//etc/passwd",
+                           "/logs/..", "/logs/%2e%2e", "/previews/../../job.json"}) {
+    expect_problem(get(self + path), 404);
+  }
+}
+
+}  // namespace
+}  // namespace throng::server
