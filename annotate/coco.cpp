@@ -171,10 +171,12 @@ class CocoShardWriter::Files {
     images_.write(text_);
     text_.clear();
     for (const PersonLabel& label : labels.people) append_annotation_record(text_, image, label);
+    for (const DroneLabel& label : labels.drones) append_drone_record(text_, image, label);
     annotations_.write(text_);
     for (const PersonLabel& label : labels.people) add_track(image, label.agent);
+    for (const DroneLabel& label : labels.drones) add_drone(image, label.drone.drone);
     ++counts_.images;
-    counts_.annotations += labels.people.size();
+    counts_.annotations += labels.people.size() + labels.drones.size();
   }
 
   void finish() {
@@ -191,6 +193,11 @@ class CocoShardWriter::Files {
   void add_track(const CocoImage& image, std::uint32_t agent) {
     const auto [track, is_new] = tracks_.try_emplace(track_id(image, agent));
     if (is_new) append_track_record(track->second, image, agent);
+  }
+
+  void add_drone(const CocoImage& image, std::uint32_t drone) {
+    const auto [track, is_new] = tracks_.try_emplace(track_id(image, number_of_drone(drone)));
+    if (is_new) append_drone_track_record(track->second, image, drone);
   }
 
   fs::path folder_;
@@ -227,7 +234,7 @@ void CocoShardWriter::finish() {
 }
 
 void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& output,
-                const std::string& description, bool keypoints) {
+                const std::string& description, const CocoCategories& wanted) {
   std::vector<ShardCounts> counts;
   counts.reserve(shard_folders.size());
   for (const fs::path& folder : shard_folders) counts.push_back(read_counts(folder));
@@ -235,14 +242,17 @@ void merge_coco(const std::vector<fs::path>& shard_folders, const fs::path& outp
   const fs::path file = staging.path() / "merged.json";
   Output merged(file);
   const nlohmann::json info = {{"description", description}, {"version", "1"}};
-  nlohmann::json category = {
-      {"id", kPersonCategory}, {"name", "person"}, {"supercategory", "person"}};
-  if (keypoints) {
-    category["keypoints"] = skinning::kKeypointNames;
-    category["skeleton"] = kSkeleton;
+  nlohmann::json categories = {
+      {{"id", kPersonCategory}, {"name", "person"}, {"supercategory", "person"}}};
+  if (wanted.keypoints) {
+    categories[0]["keypoints"] = skinning::kKeypointNames;
+    categories[0]["skeleton"] = kSkeleton;
   }
-  merged.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":[{}],\n\"tracks\":[",
-                           info.dump(), category.dump()));
+  if (wanted.drones) {
+    categories.push_back({{"id", kDroneCategory}, {"name", "drone"}, {"supercategory", "vehicle"}});
+  }
+  merged.write(fmt::format("{{\"info\":{},\n\"licenses\":[],\n\"categories\":{},\n\"tracks\":[",
+                           info.dump(), categories.dump()));
   merge_tracks(merged, shard_folders, counts);
   merged.write("\n],\n\"images\":[");
   merge_array(merged, shard_folders, counts, kImagesFile, &ShardCounts::images);

@@ -31,11 +31,21 @@ struct CocoImage {
   std::string density_file;  ///< like file_name; "" when the frame has no density map
   std::int64_t density_count = 0;      ///< heads that the density map sums to
   const PersonFacts* facts = nullptr;  ///< of the run's people; null when not known
+  /// Ids of the run's drones, by number; null when there are none to be seen.
+  const std::vector<std::string>* drone_ids = nullptr;
+  bool whole_drone_masks = false;  ///< write drones' whole masks, too
 };
+
+/// Ids of the categories.
+inline constexpr int kPersonCategory = 1;
+inline constexpr int kDroneCategory = 2;
 
 /// Agents that one run may have, so that ids stay unique: annotation id = image id *
 /// kMaxAgentsPerRun + agent id + 1.
 inline constexpr std::int64_t kMaxAgentsPerRun = 100'000;
+/// The last of these numbers are drones': drone i is counted as agent kFirstDroneNumber + i.
+inline constexpr std::int64_t kMaxDronesPerRun = 16;
+inline constexpr std::int64_t kFirstDroneNumber = kMaxAgentsPerRun - kMaxDronesPerRun;
 /// Ids are exact in readers whose numbers are doubles (JavaScript).
 inline constexpr std::int64_t kMaxImageId = (std::int64_t{1} << 53) / kMaxAgentsPerRun - 1;
 /// A person's track_id, equal in all frames and cameras of a run: agent id + 1 + run_index *
@@ -64,12 +74,16 @@ class CocoShardWriter {
   std::unique_ptr<Files> files_;
 };
 
+struct CocoCategories {
+  bool keypoints = false;  ///< that of people names theirs
+  bool drones = false;     ///< there is one of drones
+};
+
 /// One linear pass over shard folders, in the given order, which is by run, into one COCO file
-/// (written beside and renamed). `description` becomes info.description; with `keypoints`, the
-/// category names them. Throws EnvironmentError naming file and line when a shard is unfinished,
-/// truncated or damaged, or when the disk refuses.
+/// (written beside and renamed). `description` becomes info.description. Throws EnvironmentError
+/// naming file and line when a shard is unfinished, truncated or damaged, or when the disk refuses.
 void merge_coco(const std::vector<std::filesystem::path>& shard_folders,
                 const std::filesystem::path& output, const std::string& description,
-                bool keypoints = false);
+                const CocoCategories& categories = {});
 
 }  // namespace throng::annotate

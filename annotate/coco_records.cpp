@@ -97,6 +97,7 @@ void append_people(std::string& text, const CocoImage& image, const FrameLabels&
       });
   append(text, R"(,"counts":{{"all":{},"visible":{},"truncated":{}}})",
          labels.people.size() + labels.hidden.size(), labels.people.size(), truncated);
+  if (!labels.drones.empty()) append(text, R"(,"drones":{})", labels.drones.size());
   if (labels.hidden.empty()) return;
   text += R"(,"hidden":[)";
   for (const HiddenPerson& person : labels.hidden) {
@@ -114,6 +115,43 @@ void append_counts(std::string& text, const RunLengths& mask) {
     if (c == '\\') text.push_back('\\');
     text.push_back(c);
   }
+}
+
+/// What the picture shows of somebody or something.
+struct Shown {
+  int category;
+  std::uint32_t number;  ///< agent, or number_of_drone()
+  const PixelBox* box;
+  const RunLengths* mask;
+  std::uint64_t area_px;
+};
+
+// From the record's beginning to the end of its visible mask.
+void append_shown(std::string& text, const CocoImage& image, const Shown& shown) {
+  const PixelBox& box = *shown.box;
+  append(text, R"({{"id":{},"image_id":{},"category_id":{},)",
+         image.id * kMaxAgentsPerRun + shown.number + 1, image.id, shown.category);
+  append(text, R"("bbox":[{}.0,{}.0,{}.0,{}.0],"area":{},"iscrowd":0,)", box.x, box.y, box.width,
+         box.height, shown.area_px);
+  append(text, R"("segmentation":{{"size":[{},{}],"counts":")", image.camera.intrinsics.height,
+         image.camera.intrinsics.width);
+  append_counts(text, *shown.mask);
+  text += R"("})";
+}
+
+void append_whole_mask(std::string& text, const CocoImage& image, const render::PixelMask& mask) {
+  const camera::Intrinsics& k = image.camera.intrinsics;
+  append(text, R"(,"amodal_segmentation":{{"size":[{},{}],"counts":")", k.height, k.width);
+  append_counts(text, run_lengths(mask, k.width, k.height));
+  text += R"("})";
+}
+
+// From the track to the name of the position.
+void append_whole(std::string& text, const CocoImage& image, std::uint32_t number,
+                  const Eigen::AlignedBox2d& box, std::uint64_t area_px, double visibility) {
+  append(text, R"(,"track_id":{},"bbox_amodal":)", track_id(image, number));
+  append_box(text, box);
+  append(text, R"(,"area_amodal":{},"visibility":{:.3g},"position":)", area_px, finite(visibility));
 }
 
 }  // namespace
@@ -158,31 +196,48 @@ void append_image_record(std::string& text, const CocoImage& image, const FrameL
 }
 
 void append_annotation_record(std::string& text, const CocoImage& image, const PersonLabel& label) {
-  check(label.agent < kMaxAgentsPerRun, "a run has at most kMaxAgentsPerRun agents");
-  const PixelBox& box = label.box;
-  append(text, R"({{"id":{},"image_id":{},"category_id":{},)",
-         image.id * kMaxAgentsPerRun + label.agent + 1, image.id, kPersonCategory);
-  append(text, R"("bbox":[{}.0,{}.0,{}.0,{}.0],"area":{},"iscrowd":0,)", box.x, box.y, box.width,
-         box.height, label.area_px);
-  append(text, R"("segmentation":{{"size":[{},{}],"counts":")", image.camera.intrinsics.height,
-         image.camera.intrinsics.width);
-  append_counts(text, label.mask);
-  if (label.person.whole_mask != nullptr) {
-    append(text, R"("}},"amodal_segmentation":{{"size":[{},{}],"counts":")",
-           image.camera.intrinsics.height, image.camera.intrinsics.width);
-    append_counts(text, run_lengths(*label.person.whole_mask, image.camera.intrinsics.width,
-                                    image.camera.intrinsics.height));
-  }
-  append(text, R"("}},"track_id":{},"bbox_amodal":)", track_id(image, label.agent));
-  append_box(text, label.person.amodal_box);
-  append(text, R"(,"area_amodal":{},"visibility":{:.3g},"position":)", label.person.amodal_area_px,
-         finite(label.visibility));
-  append_decimals(text, label.person.position, kMetreDecimals);
+  check(label.agent < kFirstDroneNumber, "a run has fewer agents than kFirstDroneNumber");
+  const render::PersonInView& person = label.person;
+  append_shown(text, image, {kPersonCategory, label.agent, &label.box, &label.mask, label.area_px});
+  if (person.whole_mask != nullptr) append_whole_mask(text, image, *person.whole_mask);
+  append_whole(text, image, label.agent, person.amodal_box, person.amodal_area_px,
+               label.visibility);
+  append_decimals(text, person.position, kMetreDecimals);
   text += R"(,"velocity":)";
-  append_decimals(text, label.person.velocity, kBodyDecimals);
+  append_decimals(text, person.velocity, kBodyDecimals);
   text.push_back(',');
-  append_head(text, label.person, image.camera);
+  append_head(text, person, image.camera);
   append_person_members(text, image, label);
+  text += "}\n";
+}
+
+std::uint32_t number_of_drone(std::uint32_t drone) {
+  check(drone < kMaxDronesPerRun, "a run has at most kMaxDronesPerRun drones");
+  return static_cast<std::uint32_t>(kFirstDroneNumber) + drone;
+}
+
+void append_drone_track_record(std::string& text, const CocoImage& image, std::uint32_t drone) {
+  check(image.drone_ids != nullptr && drone < image.drone_ids->size(),
+        "drones that are seen are drones of the run");
+  append(text, R"({{"id":{},"run":{},"drone":{}}})", track_id(image, number_of_drone(drone)),
+         quoted(image.run), quoted((*image.drone_ids)[drone]));
+  text.push_back('\n');
+}
+
+void append_drone_record(std::string& text, const CocoImage& image, const DroneLabel& label) {
+  const render::DroneInView& drone = label.drone;
+  const std::uint32_t number = number_of_drone(drone.drone);
+  append_shown(text, image, {kDroneCategory, number, &label.box, &label.mask, label.area_px});
+  if (image.whole_drone_masks) append_whole_mask(text, image, *drone.whole_mask);
+  append_whole(text, image, number, drone.amodal_box, drone.amodal_area_px, label.visibility);
+  append_decimals(text, drone.position, kMetreDecimals);
+  text += R"(,"velocity":)";
+  append_decimals(text, drone.velocity, kBodyDecimals);
+  const Eigen::Quaterniond& q = drone.orientation;
+  text += R"(,"orientation_wxyz":)";
+  append_exact(text, Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
+  append_pose_members(text, image,
+                      {drone.amodal_box, drone.yaw_rad, drone.box_middle, drone.box_size});
   text += "}\n";
 }
 

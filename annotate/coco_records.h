@@ -9,9 +9,6 @@
 
 namespace throng::annotate {
 
-/// Id of the one category, "person".
-inline constexpr int kPersonCategory = 1;
-
 /// Appends the record of an image with these labels and a line break.
 void append_image_record(std::string& text, const CocoImage& image, const FrameLabels& labels);
 
@@ -20,6 +17,13 @@ std::int64_t track_id(const CocoImage& image, std::uint32_t agent);
 
 /// Appends what is true of a person all run long, and a line break.
 void append_track_record(std::string& text, const CocoImage& image, std::uint32_t agent);
+
+/// What stands for a drone where people have the number of their agent.
+std::uint32_t number_of_drone(std::uint32_t drone);
+
+/// The like for a drone.
+void append_drone_track_record(std::string& text, const CocoImage& image, std::uint32_t drone);
+void append_drone_record(std::string& text, const CocoImage& image, const DroneLabel& label);
 
 /// Appends the record of a person in that image and a line break.
 void append_annotation_record(std::string& text, const CocoImage& image, const PersonLabel& label);

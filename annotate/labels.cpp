@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "annotate/drone_labels.h"
 #include "base/error.h"
 
 namespace throng::annotate {
@@ -209,7 +210,7 @@ FrameLabels label_people(const render::Frame& frame) {
   check(frame.id.size() == pixels, "the id buffer has the camera's size");
   const RunsByPerson grouped = group(scan(frame), frame.people.size());
   ColumnRuns column_runs;
-  FrameLabels labels{frame.index, frame.time_s, {}, {}};
+  FrameLabels labels{frame.index, frame.time_s, {}, {}, label_drones(frame)};
   const Eigen::AlignedBox2d image(Eigen::Vector2d(0, 0),
                                   Eigen::Vector2d(frame.width(), frame.height()));
   for (std::size_t p = 0; p < frame.people.size(); ++p) {

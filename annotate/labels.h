@@ -47,11 +47,21 @@ struct HiddenPerson {
   Eigen::AlignedBox2d amodal_box;  ///< box coordinates; reaches into the image
 };
 
+/// Another drone in the picture.
+struct DroneLabel {
+  PixelBox box;               ///< tight bounds of the visible mask
+  RunLengths mask;            ///< visible mask
+  std::uint64_t area_px = 0;  ///< visible pixels
+  double visibility = 0;      ///< area_px / amodal area, in (0, 1]
+  render::DroneInView drone;
+};
+
 struct FrameLabels {
   std::int64_t frame_index = 0;
   double time_s = 0;
   std::vector<PersonLabel> people;   ///< visible ones (at least one pixel), by agent id
   std::vector<HiddenPerson> hidden;  ///< the others whose amodal box reaches into the image
+  std::vector<DroneLabel> drones;    ///< other drones, as far as a pixel shows them
 };
 
 /// One pass over the id buffer. Everybody who shows there must be in Frame::people (else check()).

@@ -38,19 +38,25 @@ void append_keypoints(std::string& text, const PersonLabel& label) {
 
 }  // namespace
 
-void append_person_members(std::string& text, const CocoImage& image, const PersonLabel& label) {
-  const render::PersonInView& person = label.person;
-  const double truncation = truncation_of(person.amodal_box, image.camera.intrinsics);
+void append_pose_members(std::string& text, const CocoImage& image, const Placed& placed) {
+  const double truncation = truncation_of(placed.amodal_box, image.camera.intrinsics);
   if (truncation > 0) {
     text += R"(,"truncation":)";
     append_decimal(text, truncation, kShareDecimals);
   }
   text += R"(,"heading":)";
-  append_decimal(text, person.yaw_rad, kBodyDecimals);
-  Eigen::Matrix<float, 6, 1> box;
-  box << person.box_middle, person.box_size;
+  append_decimal(text, placed.yaw_rad, kBodyDecimals);
+  Eigen::Matrix<double, 6, 1> box;
+  box << placed.box_middle, placed.box_size;
   text += R"(,"box_3d":)";
   append_decimals(text, box, kBodyDecimals);
+}
+
+void append_person_members(std::string& text, const CocoImage& image, const PersonLabel& label) {
+  const render::PersonInView& person = label.person;
+  append_pose_members(text, image,
+                      {person.amodal_box, person.yaw_rad, person.box_middle.cast<double>(),
+                       person.box_size.cast<double>()});
   if (!label.keypoints.empty()) append_keypoints(text, label);
   if (image.facts != nullptr) {
     image.facts->append(text, label.agent, image.time_s, person.velocity.norm());

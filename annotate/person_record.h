@@ -12,6 +12,17 @@ namespace throng::annotate {
 /// Share of a box that is outside of the image.
 double truncation_of(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k);
 
+/// How something lies in the picture and in the world.
+struct Placed {
+  Eigen::AlignedBox2d amodal_box;
+  double yaw_rad = 0;
+  Eigen::Vector3d box_middle;
+  Eigen::Vector3d box_size;
+};
+
+/// Appends truncation, heading and upright box, each after a comma.
+void append_pose_members(std::string& text, const CocoImage& image, const Placed& placed);
+
 /// Appends the members, each after a comma.
 void append_person_members(std::string& text, const CocoImage& image, const PersonLabel& label);
 

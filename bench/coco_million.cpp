@@ -128,7 +128,7 @@ void run(const fs::path& folder, bool keypoints) {
   fs::create_directories(root / "annotations");
   {
     const Stage stage("merging");
-    annotate::merge_coco(shards, root / formats::kCocoFile, "a million", keypoints);
+    annotate::merge_coco(shards, root / formats::kCocoFile, "a million", {keypoints, false});
   }
   const auto bytes = static_cast<double>(fs::file_size(root / formats::kCocoFile));
   fmt::print("{:.0f} MB, {:.0f} bytes an annotation\n", bytes / 1e6,

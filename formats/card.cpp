@@ -132,6 +132,7 @@ void DatasetCard::add(const Image& image) {
   ++by_light_[light_of(image.record)];
   ++by_weather_[weather_of(image.record)];
   ++by_split_[std::string(name_of(image.split))];
+  drones_ += static_cast<std::int64_t>(image.drones.size());
   for (const Person& person : image.people) {
     ++by_height_[band_of(person.amodal.height, kHeights)];
     ++by_visibility_[band_of(kPercent * person.visibility, kShares)];
@@ -144,6 +145,7 @@ void DatasetCard::add(const Image& image) {
 json DatasetCard::statistics() const {
   return {{"images", images_},
           {"annotations", people_},
+          {"annotations_of_drones", drones_},
           {"most_people_in_an_image", most_in_image_},
           {"truncated", truncated_},
           {"fail_the_filters", ignored_},
@@ -183,6 +185,8 @@ json DatasetCard::description() const {
       {"generator", info_.generator},
       {"schema_versions", {{"manifest", manifest_.at("schema_version")}, {"coco", "1"}}},
       {"files", places_here},
+      {"classes",
+       info_.sees_drones ? json{{"1", "person"}, {"2", kDroneClass}} : json{{"1", "person"}}},
       {"formats", formats},
       {"splits", splits},
       {"seeds", seeds},

@@ -29,6 +29,7 @@ class DatasetCard : public Exporter {
   Output output_;
   std::int64_t images_ = 0;
   std::int64_t people_ = 0;
+  std::int64_t drones_ = 0;
   std::int64_t truncated_ = 0;
   std::int64_t ignored_ = 0;
   std::int64_t most_in_image_ = 0;

@@ -100,13 +100,20 @@ json categories_of(const DatasetInfo& info, bool keypoints) {
     category["keypoints"] = skinning::kKeypointNames;
     category["skeleton"] = annotate::kSkeleton;
   }
+  if (info.sees_drones && !keypoints) {
+    categories.push_back(
+        {{"id", info.categories.size() + 1}, {"name", kDroneClass}, {"supercategory", "vehicle"}});
+  }
   return categories;
 }
 
 class CocoExporter : public Exporter {
  public:
   CocoExporter(const DatasetInfo& info, Output output, bool keypoints)
-      : root_(info.root), output_(std::move(output)), keypoints_(keypoints) {
+      : root_(info.root),
+        output_(std::move(output)),
+        keypoints_(keypoints),
+        drone_category_(info.categories.size()) {
     const std::string kind = keypoints ? "person_keypoints" : "instances";
     for (const Split split : info.splits()) {
       CocoFile& file = files_
@@ -124,22 +131,9 @@ class CocoExporter : public Exporter {
     json record = image.record;
     record["file_name"] = name;
     file.add_image(record);
-    for (const Person& person : image.people) {
-      record = person.record;
-      record["category_id"] = person.category + 1;
-      if (person.is_ignored) {
-        record["iscrowd"] = 1;
-        // COCO has run lengths of regions as plain numbers.
-        record["segmentation"]["counts"] =
-            runs_of(person.mask, static_cast<std::uint64_t>(image.width) *
-                                     static_cast<std::uint64_t>(image.height));
-      }
-      if (!keypoints_) {
-        for (const char* key : {"keypoints", "num_keypoints", "keypoints_3d"}) record.erase(key);
-      }
-      file.add_annotation(record);
-      file.add_track(*person.track, image.run);
-    }
+    for (const Person& person : image.people) add(image, person, person.category, file);
+    if (keypoints_) return;
+    for (const Person& drone : image.drones) add(image, drone, drone_category_, file);
   }
 
   void finish() override {
@@ -147,9 +141,27 @@ class CocoExporter : public Exporter {
   }
 
  private:
+  void add(const Image& image, const Person& thing, std::size_t category, CocoFile& file) const {
+    json record = thing.record;
+    record["category_id"] = category + 1;
+    if (thing.is_ignored) {
+      record["iscrowd"] = 1;
+      // COCO has run lengths of regions as plain numbers.
+      record["segmentation"]["counts"] =
+          runs_of(thing.mask, static_cast<std::uint64_t>(image.width) *
+                                  static_cast<std::uint64_t>(image.height));
+    }
+    if (!keypoints_) {
+      for (const char* key : {"keypoints", "num_keypoints", "keypoints_3d"}) record.erase(key);
+    }
+    file.add_annotation(record);
+    file.add_track(*thing.track, image.run);
+  }
+
   fs::path root_;
   Output output_;
   bool keypoints_;
+  std::size_t drone_category_;
   std::map<Split, CocoFile> files_;
 };
 

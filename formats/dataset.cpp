@@ -66,7 +66,8 @@ std::size_t category_of(const json& record, const json& track, const ClassOption
   return static_cast<std::size_t>(found - values.begin());
 }
 
-Person person_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
+/// What people and drones have in common.
+Person thing_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
   Person person;
   record.at("id").get_to(person.id);
   record.at("track_id").get_to(person.track_id);
@@ -76,18 +77,23 @@ Person person_of(json record, std::shared_ptr<const json> track, const ExportOpt
   record.at("area").get_to(person.area);
   record.at("visibility").get_to(person.visibility);
   person.truncation = record.value("truncation", 0.0);
-  if (const json& head = record.at("head"); !head.is_null()) {
-    person.head = vector_of<Eigen::Vector2d>(head);
-  }
   person.position = vector_of<Eigen::Vector3d>(record.at("position"));
   person.velocity = vector_of<Eigen::Vector2d>(record.at("velocity"));
-  person.state = record.value("state", "");
   read_pose(record, person);
-  person.category = category_of(record, *track, options.classes);
   person.is_ignored = person.visibility < options.filters.min_visibility ||
                       person.amodal.height < options.filters.min_height_px;
   person.record = std::move(record);
   person.track = std::move(track);
+  return person;
+}
+
+Person person_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
+  Person person = thing_of(std::move(record), std::move(track), options);
+  if (const json& head = person.record.at("head"); !head.is_null()) {
+    person.head = vector_of<Eigen::Vector2d>(head);
+  }
+  person.state = person.record.value("state", "");
+  person.category = category_of(person.record, *person.track, options.classes);
   return person;
 }
 
@@ -117,6 +123,7 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
   image.t = vector_of<Eigen::Vector3d>(camera.at("t"));
   image.split = info.split_of(image.run);
   image.people.clear();
+  image.drones.clear();
   read_hidden(record, info.options.filters, image);
   image.record = std::move(record);
 }
@@ -126,13 +133,15 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
 json sample_of(const Image& image, const DatasetInfo& info) {
   json sample = image.record;
   sample["annotations"] = json::array();
-  for (const Person& person : image.people) {
-    json& record = sample["annotations"].emplace_back(*person.track);
+  const auto add = [&](const Person& thing, const std::string& category) {
+    json& record = sample["annotations"].emplace_back(*thing.track);
     record.erase("run");
-    record.update(person.record);
-    record["category"] = info.categories[person.category];
-    if (person.is_ignored) record["ignored"] = true;
-  }
+    record.update(thing.record);
+    record["category"] = category;
+    if (thing.is_ignored) record["ignored"] = true;
+  };
+  for (const Person& person : image.people) add(person, info.categories[person.category]);
+  for (const Person& drone : image.drones) add(drone, kDroneClass);
   return sample;
 }
 
@@ -205,6 +214,7 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
     for (const json& run : manifest.at("runs")) info.runs.push_back(run.at("run"));
     const json& outputs = job.at("outputs");
     outputs.at("annotations").get_to(info.annotations);
+    info.sees_drones = job.value("drones", json::array()).size() > 1;
     info.formats = outputs.value("formats", info.formats);
     info.density_sigma_px =
         outputs.value("density", json::object()).value("sigma_px", info.density_sigma_px);
@@ -330,7 +340,10 @@ bool DatasetReader::next(Image& image) {
     tracks_->enter(image.run, info_->runs);
     while (!waiting_.is_null() && waiting_.at("image_id") == image.id) {
       std::shared_ptr<const json> track = tracks_->find(waiting_.at("track_id"));
-      image.people.push_back(person_of(std::move(waiting_), std::move(track), info_->options));
+      const bool is_drone = waiting_.at("category_id") == annotate::kDroneCategory;
+      (is_drone ? image.drones : image.people)
+          .push_back((is_drone ? thing_of : person_of)(std::move(waiting_), std::move(track),
+                                                       info_->options));
       waiting_ = annotations_->next();
     }
   } catch (const json::exception& error) {

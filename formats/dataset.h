@@ -32,7 +32,7 @@ struct Keypoint {
   int visibility = 0;
 };
 
-/// Somebody in a picture; docs/formats.md says what the values mean.
+/// Somebody in a picture, or another drone; docs/formats.md says what the values mean.
 struct Person {
   nlohmann::json record;  ///< the annotation as it stands in the COCO file
   /// That of `tracks`: what stays the same all run long. Empty if it has none; never null.
@@ -79,6 +79,7 @@ struct Image {
   double time_s = 0;
   Split split = Split::train;
   std::vector<Person> people;
+  std::vector<Person> drones;  ///< others that it shows: what people and drones have in common
   std::vector<HiddenPerson> hidden;
   Eigen::Matrix3d camera_matrix = Eigen::Matrix3d::Identity();  ///< OpenCV's pixels
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();              ///< world to camera
@@ -101,7 +102,8 @@ struct DatasetInfo {
   std::vector<std::string> runs;
   std::vector<std::string> annotations;  ///< kinds of ground truth that the dataset has
   std::vector<std::string> formats;      ///< that it has below formats/
-  std::vector<std::string> categories;   ///< names of the classes to write
+  std::vector<std::string> categories;   ///< names of people's classes to write
+  bool sees_drones = false;              ///< drones may show each other: a class after people's
   ExportOptions options;
 
   bool has(std::string_view annotation) const;
@@ -110,9 +112,9 @@ struct DatasetInfo {
   Split split_of(const std::string& run) const;
 };
 
-/// The image's record with `annotations`, its people's records with what their tracks say, in which
-/// `category` names their class and `ignored` is true of who fails the filters: everything about a
-/// picture in one object.
+/// The image's record with `annotations`, its people's and drones' records with what their tracks
+/// say, in which `category` names their class and `ignored` is true of who fails the filters:
+/// everything about a picture in one object.
 nlohmann::json sample_of(const Image& image, const DatasetInfo& info);
 
 /// What a dataset's manifest says. Throws InputError when it has no COCO annotations, or when the
@@ -125,6 +127,9 @@ nlohmann::json read_manifest(const std::filesystem::path& root);
 
 /// Where a dataset's COCO file is, below its root.
 inline constexpr const char* kCocoFile = "annotations/instances.json";
+
+/// The class of drones.
+inline constexpr const char* kDroneClass = "drone";
 
 class DatasetReader {
  public:

@@ -32,6 +32,16 @@ class Findings {
   Validation* validation_;
 };
 
+/// People and drones.
+inline std::vector<Person> things_of(const Image& image) {
+  std::vector<Person> things = image.people;
+  things.insert(things.end(), image.drones.begin(), image.drones.end());
+  return things;
+}
+
+/// What stands for somebody, or a drone, in pictures of instances.
+std::uint32_t instance_of(const Person& thing);
+
 /// One picture's annotations by themselves: boxes, masks, visibility, keypoints.
 void check_people(const Image& image, Findings& findings);
 
@@ -66,7 +76,7 @@ class FormatCheck {
   static void compare(const std::string& file, const Image& image, std::istream& text,
                       const std::vector<std::vector<double>>& expected, Findings& findings);
   static void check_yolo(const DatasetInfo& info, const Image& image,
-                         const std::filesystem::path& folder, Findings& findings);
+                         const std::filesystem::path& folder, bool with_drones, Findings& findings);
 
   std::map<std::string, std::ifstream> texts_;  ///< of sequences, read as far as their images
 };

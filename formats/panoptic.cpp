@@ -21,6 +21,7 @@ namespace {
 constexpr std::uint32_t kFirstUmbrella = 0x400000;
 constexpr std::uint32_t kFirstBuilding = 0x800000;
 constexpr std::uint32_t kFirstProp = 0xC00000;
+constexpr std::uint32_t kFirstDrone = 0xE00000;
 constexpr std::uint32_t kGround = 0xFF0000;
 
 struct Segment {
@@ -121,7 +122,8 @@ class PanopticExporter : public Exporter {
     for (const auto& [name, group, kind] : {std::tuple{"building", "place", 1},
                                             {"prop", "place", 1},
                                             {"ground", "place", 0},
-                                            {"umbrella", "accessory", 1}}) {
+                                            {"umbrella", "accessory", 1},
+                                            {kDroneClass, "vehicle", 1}}) {
       list.push_back(
           {{"id", list.size() + 1}, {"name", name}, {"supercategory", group}, {"isthing", kind}});
     }
@@ -132,6 +134,7 @@ class PanopticExporter : public Exporter {
   static std::size_t place_of(std::uint32_t number) {
     if (number < kFirstBuilding) return 3;
     if (number == kGround) return 2;
+    if (number >= kFirstDrone) return 4;
     return number >= kFirstProp ? 1 : 0;
   }
 

@@ -97,7 +97,7 @@ class IdCheck {
     }
     const std::int64_t first_track = (run - info.runs.begin()) * annotate::kTrackIdsPerRun;
     std::set<std::int64_t> tracks;
-    for (const Person& person : image.people) {
+    for (const Person& person : things_of(image)) {
       const std::int64_t agent = person.track_id - first_track - 1;
       if (agent < 0 || agent >= annotate::kMaxAgentsPerRun) {
         findings.add("ids", person,
@@ -134,7 +134,7 @@ Validation validate_dataset(const fs::path& root) {
     Image image;
     while (reader.next(image)) {
       ++validation.images;
-      validation.annotations += image.people.size();
+      validation.annotations += image.people.size() + image.drones.size();
       ids.add(info, image, findings);
       check_time(info, image, findings);
       check_camera(image, findings);

@@ -25,6 +25,13 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint32_t kFirstThing = 0x400000;
+constexpr std::uint32_t kFirstDrone = 0xE00000;
+constexpr std::uint32_t kGround = 0xFF0000;
+
+/// Whether a pixel of the picture of instances shows what has an annotation.
+bool is_labelled(std::uint32_t id) {
+  return (id > 0 && id < kFirstThing) || (id >= kFirstDrone && id < kGround);
+}
 
 std::string relative(const DatasetInfo& info, const fs::path& path) {
   return path.lexically_relative(info.root).string();
@@ -91,12 +98,12 @@ void check_instances(const DatasetInfo& info, const Image& image,
   const std::string path = relative(info, raster_path(info.root, "instances", image.file));
   std::map<std::uint32_t, std::uint64_t> areas;
   for (const std::uint32_t id : ids) {
-    if (id > 0 && id < kFirstThing) ++areas[id];
+    if (is_labelled(id)) ++areas[id];
   }
   const auto pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-  for (const Person& person : image.people) {
-    const auto id = static_cast<std::uint32_t>(person.number_in_run());
+  for (const Person& person : things_of(image)) {
+    const std::uint32_t id = instance_of(person);
     const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
     std::size_t wrong = 0;
     for (int y = mask.y; y < mask.y + mask.height; ++y) {
@@ -133,7 +140,7 @@ void check_depth(const DatasetInfo& info, const Image& image, const std::vector<
   }
   std::map<std::uint32_t, std::pair<double, double>> range;  // nearest and farthest, m
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (ids[i] == 0 || ids[i] >= kFirstThing) continue;
+    if (!is_labelled(ids[i])) continue;
     const double z = depth.samples[i] / 100.0;
     auto& [low, high] =
         range.try_emplace(ids[i], std::numeric_limits<double>::infinity(), 0.0).first->second;
@@ -142,8 +149,8 @@ void check_depth(const DatasetInfo& info, const Image& image, const std::vector<
   }
   // Rounding of depth and boxes; a rolling shutter sees a person at several times.
   const double slack_m = is_shot_at_once(image) ? 0.03 : 1;
-  for (const Person& person : image.people) {
-    const auto found = range.find(static_cast<std::uint32_t>(person.number_in_run()));
+  for (const Person& person : things_of(image)) {
+    const auto found = range.find(instance_of(person));
     if (found == range.end()) continue;  // a finding of another rule
     const Eigen::RowVectorXd z = corners_in_camera(image, person).row(2);
     const auto& [low, high] = found->second;
@@ -186,6 +193,13 @@ void guarded(const Check& check_it, const char* rule, const DatasetInfo& info, F
 }
 
 }  // namespace
+
+std::uint32_t instance_of(const Person& thing) {
+  const auto number = thing.number_in_run();
+  const bool is_drone = number > annotate::kFirstDroneNumber;
+  return static_cast<std::uint32_t>(
+      is_drone ? kFirstDrone + number - annotate::kFirstDroneNumber - 1 : number);
+}
 
 void check_files(const DatasetInfo& info, const Image& image, Findings& findings) {
   guarded([&] { check_picture(info, image, findings); }, "picture", info, findings);

@@ -61,7 +61,7 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
   for (const std::string& format : info.formats) {
     const fs::path folder = info.root / "formats" / format;
     if (format == "yolo-detect" || format == "yolo-pose") {
-      check_yolo(info, image, folder, findings);
+      check_yolo(info, image, folder, format == "yolo-detect", findings);
     } else if (format == "visdrone-det") {
       const fs::path file = in_a_split(folder, fs::path("annotations") / (image.stem() + ".txt"));
       std::ifstream text(file);
@@ -133,7 +133,7 @@ void FormatCheck::compare(const std::string& file, const Image& image, std::istr
 }
 
 void FormatCheck::check_yolo(const DatasetInfo& info, const Image& image, const fs::path& folder,
-                             Findings& findings) {
+                             bool with_drones, Findings& findings) {
   const fs::path file = in_a_split(folder / "labels", image.stem() + ".txt");
   const std::string name = file.lexically_relative(info.root).string();
   std::vector<std::vector<double>> lines;
@@ -146,11 +146,17 @@ void FormatCheck::check_yolo(const DatasetInfo& info, const Image& image, const 
     const Box& box = person.box;
     if (!person.is_ignored) expected.push_back({box.x, box.y, box.width, box.height});
   }
+  if (with_drones) {
+    for (const Person& drone : image.drones) {
+      const Box& box = drone.box;
+      if (!drone.is_ignored) expected.push_back({box.x, box.y, box.width, box.height});
+    }
+  }
   const std::string record = fmt::format("image {}", image.id);
   if (lines.size() != expected.size()) {
-    findings.add(
-        "formats", name, record,
-        fmt::format("{} lines, but {} people are labelled", lines.size(), expected.size()));
+    findings.add("formats", name, record,
+                 fmt::format("{} lines, but {} people and drones are labelled", lines.size(),
+                             expected.size()));
     return;
   }
   for (std::size_t i = 0; i < lines.size(); ++i) {

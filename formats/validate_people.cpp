@@ -119,11 +119,16 @@ void check_visibility(const Person& person, Findings& findings) {
                  fmt::format("visibility {}, but area / area_amodal is {}", person.visibility,
                              person.area / whole));
   }
-  if (person.record.at("category_id") != 1) {
-    findings.add("category", person, "another category than that of people, 1");
-  }
   if (person.record.at("iscrowd") != 0) {
     findings.add("iscrowd", person, "iscrowd of an individual is not 0");
+  }
+}
+
+void check_category(const Person& thing, Findings& findings) {
+  const bool is_drone = thing.number_in_run() > annotate::kFirstDroneNumber;
+  if (thing.record.at("category_id") !=
+      (is_drone ? annotate::kDroneCategory : annotate::kPersonCategory)) {
+    findings.add("category", thing, "another category than that of people, 1, or drones, 2");
   }
 }
 
@@ -224,7 +229,7 @@ Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& 
 
 void check_bodies(const Image& image, Findings& findings) {
   const bool plain = is_plain(image);
-  for (const Person& person : image.people) {
+  for (const Person& person : things_of(image)) {
     check_position(person, findings);
     if (plain) check_projection(image, person, findings);
   }
@@ -240,10 +245,11 @@ bool is_shot_at_once(const Image& image) {
 }
 
 void check_people(const Image& image, Findings& findings) {
-  for (const Person& person : image.people) {
+  for (const Person& person : things_of(image)) {
     check_box(image, person, findings);
     const bool is_whole = check_mask(image, person, findings);
     check_visibility(person, findings);
+    check_category(person, findings);
     check_keypoints(image, person, findings);
     if (is_whole) {
       check_visible_keypoints(image, person, findings);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTruncated = 0.005;
 
-std::string object_xml(const DatasetInfo& info, const Person& person) {
+std::string object_xml(const std::string& name, const Person& person) {
   const Box& box = person.box;
   return fmt::format(
       "  <object>\n    <name>{}</name>\n    <pose>Unspecified</pose>\n    "
@@ -21,7 +21,7 @@ std::string object_xml(const DatasetInfo& info, const Person& person) {
       "    <occluded>{}</occluded>\n    <difficult>{}</difficult>\n    <bndbox>\n"
       "      <xmin>{:.0f}</xmin>\n      <ymin>{:.0f}</ymin>\n      <xmax>{:.0f}</xmax>\n"
       "      <ymax>{:.0f}</ymax>\n    </bndbox>\n  </object>\n",
-      xml_text(info.categories[person.category]), person.truncation >= kTruncated ? 1 : 0,
+      xml_text(name), person.truncation >= kTruncated ? 1 : 0,
       person.visibility < 1 - kTruncated ? 1 : 0, person.is_ignored ? 1 : 0, box.x + 1, box.y + 1,
       box.x + box.width, box.y + box.height);
 }
@@ -44,7 +44,10 @@ class VocExporter : public Exporter {
         "</size>\n"
         "  <segmented>0</segmented>\n",
         stem, xml_text(info_.name), image.width, image.height);
-    for (const Person& person : image.people) xml += object_xml(info_, person);
+    for (const Person& person : image.people) {
+      xml += object_xml(info_.categories[person.category], person);
+    }
+    for (const Person& drone : image.drones) xml += object_xml(kDroneClass, drone);
     output_.write("Annotations/" + stem + ".xml", xml + "</annotation>\n");
     sets_.at(image.split).write(stem + "\n");
   }

@@ -34,7 +34,12 @@ class YoloExporter : public Exporter {
     output_.link("images" / fs::path(place.string() + ".jpg"), info_.root / image.file);
     std::string text;
     for (const Person& person : image.people) {
-      if (!person.is_ignored) append(text, image, person);
+      if (!person.is_ignored) append(text, image, person, person.category);
+    }
+    if (task_ != Task::pose) {
+      for (const Person& drone : image.drones) {
+        if (!drone.is_ignored) append(text, image, drone, info_.categories.size());
+      }
     }
     output_.write("labels" / fs::path(place.string() + ".txt"), text);
   }
@@ -49,9 +54,11 @@ class YoloExporter : public Exporter {
     std::string yaml =
         fmt::format("train: {}\nval: {}\n", folder_of(Split::train), folder_of(Split::val));
     if (splits.back() == Split::test) yaml += "test: images/test\n";
-    yaml += fmt::format("nc: {}\nnames:\n", info_.categories.size());
-    for (std::size_t i = 0; i < info_.categories.size(); ++i) {
-      yaml += fmt::format("  {}: {}\n", i, nlohmann::json(info_.categories[i]).dump());
+    std::vector<std::string> names = info_.categories;
+    if (info_.sees_drones && task_ != Task::pose) names.emplace_back(kDroneClass);
+    yaml += fmt::format("nc: {}\nnames:\n", names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      yaml += fmt::format("  {}: {}\n", i, nlohmann::json(names[i]).dump());
     }
     if (task_ == Task::pose) {
       yaml += fmt::format("kpt_shape: [{}, 3]\nflip_idx: {}\n", skinning::kKeypointCount,
@@ -61,9 +68,10 @@ class YoloExporter : public Exporter {
   }
 
  private:
-  void append(std::string& text, const Image& image, const Person& person) const {
+  void append(std::string& text, const Image& image, const Person& person,
+              std::size_t category) const {
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "{}", person.category);
+    fmt::format_to(out, "{}", category);
     if (task_ == Task::segment) {
       const auto pixels =
           static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);

@@ -57,7 +57,7 @@ class Collector {
       const std::string path = "annotations/instances.json";
       fs::create_directories((staging_.path() / path).parent_path());
       annotate::merge_coco(coco_shards_, staging_.path() / path, job_.name,
-                           wants(job_, "keypoints"));
+                           {wants(job_, "keypoints"), job_.drones.size() > 1});
       list(path);
     }
     json manifest = manifest_of(std::move(runs));

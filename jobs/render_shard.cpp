@@ -52,11 +52,13 @@ class ShardOutput {
  public:
   ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
               std::string environment, nlohmann::json drawn, const annotate::PersonFacts& facts,
-              const annotate::ExitView* exits, StageClock* clock)
+              const annotate::ExitView* exits, const std::vector<std::string>& drone_ids,
+              StageClock* clock)
       : job_(job),
         shard_(shard),
         facts_(facts),
         exits_(exits),
+        drone_ids_(drone_ids),
         environment_(std::move(environment)),
         drawn_(std::move(drawn)),
         clock_(clock),
@@ -87,6 +89,8 @@ class ShardOutput {
     image.sensor = picture.sensor;
     image.flight = picture.flight;
     image.facts = &facts_;
+    image.drone_ids = &drone_ids_;
+    image.whole_drone_masks = wants(job_, "amodal");
     if (exits_ != nullptr) image.exits = exits_->json(frame.camera, frame.time_s);
     const std::string jpeg =
         annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
@@ -107,7 +111,7 @@ class ShardOutput {
     add_rasters(place, frame);
     if (coco_) coco_->add(image, labels);
     lap("write");
-    annotations_ += static_cast<std::int64_t>(labels.people.size());
+    annotations_ += static_cast<std::int64_t>(labels.people.size() + labels.drones.size());
     for (const annotate::PersonLabel& label : labels.people) agents_.insert(label.agent);
     ++images_;
   }
@@ -163,8 +167,9 @@ class ShardOutput {
   const Shard& shard_;
   const annotate::PersonFacts& facts_;
   const annotate::ExitView* exits_;  ///< null unless exits are asked for
-  std::string environment_;          ///< JSON
-  nlohmann::json drawn_;             ///< for the run
+  const std::vector<std::string>& drone_ids_;
+  std::string environment_;  ///< JSON
+  nlohmann::json drawn_;     ///< for the run
   StageClock* clock_;
   Publication publication_;
   std::optional<annotate::CocoShardWriter> coco_;
@@ -207,7 +212,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
     exits.emplace(scenario, metrics::exit_series(trace, scenario), trace.time_s);
   }
   ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(), drawn, facts,
-                     exits ? &*exits : nullptr, options.clock);
+                     exits ? &*exits : nullptr, trace.header.drone_ids, options.clock);
   const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
                                             static_cast<std::int64_t>(job.drones.size()));
   double done = 0;

@@ -11,6 +11,7 @@
 #include "jobs/gimbal.h"
 #include "jobs/pipeline.h"
 #include "render/sensor.h"
+#include "sim/airframe.h"
 
 namespace throng::jobs {
 
@@ -21,6 +22,21 @@ std::size_t drone_index(const world::Trace& trace, const std::string& id) {
   const auto found = std::find(ids.begin(), ids.end(), id);
   check(found != ids.end(), "a trace holds the drones of its job");
   return static_cast<std::size_t>(found - ids.begin());
+}
+
+render::AirframeShape shape_of(const sim::DroneMission& mission) {
+  sim::Airframe airframe;
+  if (mission.own_airframe) {
+    airframe = *mission.own_airframe;
+  } else {
+    const std::vector<sim::Airframe> shipped = sim::shipped_airframes();
+    const auto named = std::find_if(shipped.begin(), shipped.end(), [&](const auto& each) {
+      return each.name == mission.airframe;
+    });
+    check(named != shipped.end(), "airframes are checked when a job is read");
+    airframe = *named;
+  }
+  return {airframe.arm_m, airframe.height_m, airframe.propeller_radius_m};
 }
 
 }  // namespace
@@ -36,6 +52,7 @@ Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& tra
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     cameras_.push_back(camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i)));
     drones_.push_back(drone_index(trace, job.drones[i].mission.id));
+    shapes_.push_back(shape_of(job.drones[i].mission));
     const std::vector<world::DroneSample>& samples = trace.drones[drones_[i]];
     gimbals_.emplace_back(samples, command_of(cameras_[i]), cameras_[i].gimbal, run_seed, i);
     sensors_.push_back(sensors_of(job, run_seed, samples, i));
@@ -47,13 +64,25 @@ render::ShutterMoment Shoot::moment_at(std::size_t drone, std::int64_t frame, st
   if (clock_ != nullptr) clock_->lap("light and rows");
   std::shared_ptr<const render::Scene> scene = scene_;
   if (!scene || scene->index != index || scene->time_s != time_s) {
-    scene = std::make_shared<const render::Scene>(animator_.scene_at(time_s, index));
+    render::Scene now = animator_.scene_at(time_s, index);
+    now.drones = drones_at(time_s);
+    scene = std::make_shared<const render::Scene>(std::move(now));
     // The moments around a frame's own time are needed by one camera only.
     if (time_s == job_->frame_time_s(index)) scene_ = scene;
   }
   if (clock_ != nullptr) clock_->lap("scene");
   const world::DroneSample sample = trace_->drone_at(drones_[drone], time_s);
   return {std::move(scene), camera_on(sample, cameras_[drone], view_at(drone, frame, sample))};
+}
+
+std::vector<render::DroneInstance> Shoot::drones_at(double time_s) const {
+  std::vector<render::DroneInstance> drones;
+  for (std::size_t i = 0; i < drones_.size(); ++i) {
+    const world::DroneSample sample = trace_->drone_at(drones_[i], time_s);
+    drones.push_back({static_cast<std::uint32_t>(drones_[i]), sample.position, sample.velocity,
+                      sample.orientation, shapes_[i]});
+  }
+  return drones;
 }
 
 sim::ViewAngles Shoot::view_at(std::size_t drone, std::int64_t frame,

@@ -42,6 +42,8 @@ class Shoot {
                                   double time_s);
   sim::ViewAngles view_at(std::size_t drone, std::int64_t frame,
                           const world::DroneSample& sample) const;
+  /// All drones of the run.
+  std::vector<render::DroneInstance> drones_at(double time_s) const;
   std::string flight_at(std::size_t drone, std::int64_t frame) const;
 
   const JobSpec* job_;
@@ -54,6 +56,7 @@ class Shoot {
   std::vector<sim::GimbalLog> gimbals_;         ///< one per camera
   std::vector<sim::SensorLog> sensors_;         ///< one per camera: its drone's
   std::vector<std::size_t> drones_;             ///< index in the trace
+  std::vector<render::AirframeShape> shapes_;   ///< of the drones
   std::shared_ptr<const render::Scene> scene_;  ///< of the frame that was taken last
 };
 

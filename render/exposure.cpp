@@ -196,6 +196,41 @@ class PeopleInStrips {
   std::map<std::uint32_t, Known> people_;
 };
 
+/// Drones of strips put together.
+class DronesInStrips {
+ public:
+  void add(const Frame& strip) {
+    for (const DroneInView& drone : strip.drones) {
+      const auto [entry, is_new] = drones_.try_emplace(drone.drone, Known{drone, 0});
+      Known& known = entry->second;
+      if (is_new) {
+        known.largest_px = drone.amodal_area_px;
+        continue;
+      }
+      DroneInView sum = drone.amodal_area_px > known.largest_px ? drone : known.drone;
+      known.largest_px = std::max(known.largest_px, drone.amodal_area_px);
+      sum.amodal_area_px = known.drone.amodal_area_px + drone.amodal_area_px;
+      sum.amodal_box = known.drone.amodal_box.merged(drone.amodal_box);
+      sum.whole_mask =
+          std::make_shared<PixelMask>(union_of(*known.drone.whole_mask, *drone.whole_mask));
+      known.drone = std::move(sum);
+    }
+  }
+
+  std::vector<DroneInView> take() const {
+    std::vector<DroneInView> drones;
+    for (const auto& [number, known] : drones_) drones.push_back(known.drone);
+    return drones;
+  }
+
+ private:
+  struct Known {
+    DroneInView drone;  ///< in the strip that has most of it
+    std::uint64_t largest_px = 0;
+  };
+  std::map<std::uint32_t, Known> drones_;
+};
+
 }  // namespace
 
 double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
@@ -207,6 +242,13 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
     if (found == later.end()) continue;
     most = std::max(most, moved_px(from.camera, person.position.cast<double>(), to.camera,
                                    found->second->position.cast<double>()));
+  }
+  for (const DroneInstance& drone : from.scene->drones) {
+    if (carries(drone, from.camera.pose.centre())) continue;
+    for (const DroneInstance& after : to.scene->drones) {
+      if (after.drone != drone.drone) continue;
+      most = std::max(most, moved_px(from.camera, drone.position, to.camera, after.position));
+    }
   }
   return most;
 }
@@ -223,6 +265,7 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Expos
   const int strip_rows = (height + strips - 1) / strips;
   Frame& frame = exposed.frame;
   PeopleInStrips people;
+  DronesInStrips drones;
   exposed.strips = 0;
   for (int first = 0; first < height; first += strip_rows, ++exposed.strips) {
     const Rows rows{first, std::min(first + strip_rows, height)};
@@ -238,6 +281,7 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Expos
       return exposed;
     }
     people.add(strip, rows);
+    drones.add(strip);
     frame.index = strip.index;
     append(frame.rgb, strip.rgb);
     append(frame.id, strip.id);
@@ -249,6 +293,7 @@ Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Expos
   frame.time_s = time_s;
   frame.camera = camera;
   frame.people = people.take();
+  frame.drones = drones.take();
   return exposed;
 }
 

@@ -22,6 +22,7 @@ inline constexpr std::uint32_t kIdUmbrella = 0x40000000;  ///< + id of who holds
 inline constexpr std::uint32_t kIdGround = 0xFFFF0000;    ///< the ground
 inline constexpr std::uint32_t kIdBuilding = 0x80000000;  ///< + index of the building
 inline constexpr std::uint32_t kIdProp = 0xC0000000;      ///< + index of the prop; then meshes
+inline constexpr std::uint32_t kIdDrone = 0xE0000000;     ///< + number of the drone
 inline constexpr std::uint32_t id_of_agent(std::uint32_t agent) { return agent + 1; }
 inline constexpr bool is_agent(std::uint32_t id) { return id > 0 && id < kIdUmbrella; }
 inline constexpr std::uint32_t id_of_umbrella(std::uint32_t agent) {
@@ -30,6 +31,7 @@ inline constexpr std::uint32_t id_of_umbrella(std::uint32_t agent) {
 inline constexpr bool is_umbrella(std::uint32_t id) {
   return id >= kIdUmbrella && id < kIdBuilding;
 }
+inline constexpr bool is_drone(std::uint32_t id) { return id >= kIdDrone && id < kIdGround; }
 /// Whether it is posed anew in every frame: people and what they hold above themselves.
 inline constexpr bool is_posed(std::uint32_t id) { return is_agent(id) || is_umbrella(id); }
 inline constexpr std::uint32_t agent_of_id(std::uint32_t id) { return id - 1; }
@@ -80,6 +82,21 @@ struct PersonInView {
   std::shared_ptr<const PixelMask> whole_mask = nullptr;
 };
 
+/// Ground truth of another drone that the camera sees, or would were nothing in front of it.
+struct DroneInView {
+  std::uint32_t drone = 0;                                          ///< number in the run's trace
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< of its middle, m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< m/s
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to world
+  double yaw_rad = 0;
+  /// As of people; areas beyond the image count as far as it is wide and high.
+  Eigen::AlignedBox2d amodal_box;
+  std::uint64_t amodal_area_px = 0;
+  std::shared_ptr<const PixelMask> whole_mask = nullptr;
+  Eigen::Vector3d box_middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d box_size = Eigen::Vector3d::Zero();
+};
+
 /// The middle of a person's head in a frame of this camera, in box coordinates, also if hidden;
 /// nothing if the camera cannot see there.
 inline std::optional<Eigen::Vector2d> head_in(const PersonInView& person,
@@ -112,6 +129,7 @@ struct Frame {
   std::vector<std::uint32_t> id;     ///< width * height
   std::vector<float> depth_m;        ///< camera z; +infinity for sky
   std::vector<PersonInView> people;  ///< by agent id
+  std::vector<DroneInView> drones;   ///< by number; only where Lens draws
   // Only as asked for in RenderOptions, else empty.
   /// width * height * 3: world x, y, z of the surface's normal n as round(128 + 127 n); 0 for sky.
   std::vector<std::uint8_t> normal;

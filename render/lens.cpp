@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "render/drones_in_view.h"
 
 namespace throng::render {
 
@@ -210,7 +211,9 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
   const camera::Intrinsics& lens = camera.intrinsics;
   const LensMap* map = lens.distortion ? &map_of(lens, rows) : nullptr;
   if (map == nullptr && is_whole(rows, lens)) {
-    return renderer_->draw(scene, camera, next, {nullptr, truth});
+    Frame frame = renderer_->draw(scene, camera, next, {nullptr, truth});
+    if (truth) measure_drones(scene, rows, frame);
+    return frame;
   }
   const camera::Intrinsics drawn = map == nullptr ? cropped(lens, rows) : map->wide;
   const PixelWeights weights = map == nullptr ? cropped_weights(lens, rows) : PixelWeights();
@@ -226,6 +229,7 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
   }
   frame.camera = camera;
   measure_boxes(scene, rows, frame);
+  if (truth) measure_drones(scene, rows, frame);
   for (PersonInView& person : frame.people) {
     if (person.whole_mask == nullptr) continue;
     person.whole_mask = std::make_shared<PixelMask>(seen_through(map, lens, rows, person));

@@ -4,9 +4,11 @@
 #include <optional>
 
 #include "base/error.h"
+#include "render/airframe_pass.h"
 #include "render/contact_pass.h"
 #include "render/context.h"
 #include "render/coverage.h"
+#include "render/drones_in_view.h"
 #include "render/gl_objects.h"
 #include "render/lamps.h"
 #include "render/lighting.h"
@@ -134,6 +136,7 @@ struct Renderer::State {
   double tallest;
   PlacePass place;
   PropPass props;
+  AirframePass airframes;
   ContactPass contacts;
   PeoplePass people_pass;
   SkyPass sky;
@@ -167,6 +170,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       tallest(tallest_m(scenario)),
       place(scenario, environment, quality),
       props(scenario, light_words(environment), quality),
+      airframes(light_words(environment), quality),
       contacts(scenario, daylight),
       people_pass(people, quality, light_words(environment)),
       sky(environment),
@@ -286,6 +290,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   // People first: they are many small triangles, and hide ground that then costs nothing.
   people_pass.draw(purpose, scene.people, draws_of(seen));
   props.draw(clip_planes(camera));
+  airframes.draw(scene.drones, camera);
   place.draw();
   if (quality.textured) contacts.draw(scene.people, camera);
   sky.draw_sky(camera);
@@ -312,7 +317,10 @@ void Renderer::State::draw_surfaces(const Scene& scene, const NextFrame* next,
   surface_target->end();
   surface_target->read(options.normals, options.flow, options.parts, frame);
   if (options.normals) fill_still_normals(frame);
-  if (options.flow && next != nullptr) fill_still_flow(next->camera, frame);
+  if (options.flow && next != nullptr) {
+    fill_still_flow(next->camera, frame);
+    fill_drone_flow(scene, *next, frame);
+  }
 }
 
 void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
@@ -375,6 +383,7 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   frame.time_s = scene.time_s;
   frame.camera = camera;
   frame.people.clear();
+  frame.drones.clear();
   std::vector<Seen> seen = state.finder.find(scene, camera);
   state.lap("cull");
   state.draw_picture(scene, camera, choice.truth, seen, frame);

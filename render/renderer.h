@@ -8,6 +8,7 @@
 
 #include "base/stage_clock.h"
 #include "camera/camera.h"
+#include "render/airframe_mesh.h"
 #include "render/environment.h"
 #include "render/frame.h"
 #include "render/pixel_weights.h"
@@ -54,6 +55,8 @@ struct Scene {
   double time_s = 0;
   std::vector<PersonInstance> people;
   std::vector<Eigen::Vector2f> dangers;  ///< where what people run from is (m)
+  /// Also that of the camera, which does not see itself.
+  std::vector<DroneInstance> drones = {};
 };
 
 /// The next frame of the same camera: what flow leads to.

@@ -249,6 +249,41 @@ TEST_F(Coco, TracksSayOnceWhatStaysTheSame) {
   EXPECT_FALSE(coco["annotations"][0].contains("attributes"));
 }
 
+TEST_F(Coco, DronesHaveACategoryAndTracksOfTheirOwn) {
+  render::Frame& frame = frames[0];
+  render::DroneInView drone;
+  drone.drone = 1;
+  drone.position = {1, 2, 3};
+  drone.amodal_box = {Eigen::Vector2d(20, 30), Eigen::Vector2d(24, 33)};
+  drone.amodal_area_px = 12;
+  for (int y = 30; y < 33; ++y) {
+    for (int x = 20; x < 24; ++x) {
+      if (x != 20) frame.id[static_cast<std::size_t>(y * frame.width() + x)] = render::kIdDrone + 1;
+    }
+  }
+  frame.drones.push_back(drone);
+  const std::vector<std::string> ids = {"camera", "other"};
+  CocoImage image = image_of(0);
+  image.drone_ids = &ids;
+  const FrameLabels labels = label_people(frame);
+  CocoShardWriter writer(folder / "drones");
+  writer.add(image, labels);
+  writer.finish();
+  merge_coco({folder / "drones"}, folder / "coco.json", "a test", {false, true});
+  const json coco = json::parse(read_file(folder / "coco.json"));
+  EXPECT_EQ(coco["categories"][1]["name"], "drone");
+  EXPECT_EQ(coco["images"][0]["counts"]["drones"], 1);
+  EXPECT_EQ(coco["images"][0]["counts"]["visible"], labels.people.size());
+  const json& record = coco["annotations"].back();
+  EXPECT_EQ(record["category_id"], 2);
+  EXPECT_EQ(record["bbox"], json({21, 30, 3, 3}));
+  EXPECT_EQ(record["area"], 9);
+  EXPECT_EQ(record["visibility"], 0.75);
+  EXPECT_EQ(record["position"], json({1, 2, 3}));
+  EXPECT_EQ(coco["tracks"].back()["id"], record["track_id"]);
+  EXPECT_EQ(coco["tracks"].back()["drone"], "other");
+}
+
 TEST_F(Coco, AHeadBehindTheCameraIsNull) {
   render::Frame& frame = frames[0];
   for (render::PersonInView& person : frame.people) person.head = {0, 0, 1000};
@@ -273,7 +308,7 @@ TEST_F(Coco, IdsStayExactInDoubles) {
   CocoImage image = image_of(0);
   image.id = kMaxImageId;
   FrameLabels labels = label_people(frames[0]);
-  labels.people[0].agent = kMaxAgentsPerRun - 1;
+  labels.people[0].agent = kFirstDroneNumber - 1;
   CocoShardWriter writer(folder / "big");
   writer.add(image, labels);
   writer.finish();

@@ -51,7 +51,7 @@ class SmallDataset : public testing::Test {
       writer.finish();
     }
     std::filesystem::create_directories(root_ / "annotations");
-    annotate::merge_coco({folder_ / "shard"}, root_ / kCocoFile, "small", true);
+    annotate::merge_coco({folder_ / "shard"}, root_ / kCocoFile, "small", {true, false});
     write_manifest();
   }
 
