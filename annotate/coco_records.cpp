@@ -95,9 +95,10 @@ void append_people(std::string& text, const CocoImage& image, const FrameLabels&
       std::count_if(labels.people.begin(), labels.people.end(), [&](const PersonLabel& label) {
         return truncation_of(label.person.amodal_box, image.camera.intrinsics) > 0;
       });
-  append(text, R"(,"counts":{{"all":{},"visible":{},"truncated":{}}})",
+  append(text, R"(,"counts":{{"all":{},"visible":{},"truncated":{})",
          labels.people.size() + labels.hidden.size(), labels.people.size(), truncated);
   if (!labels.drones.empty()) append(text, R"(,"drones":{})", labels.drones.size());
+  text.push_back('}');
   if (labels.hidden.empty()) return;
   text += R"(,"hidden":[)";
   for (const HiddenPerson& person : labels.hidden) {
