@@ -17,6 +17,7 @@ void add_crowd(CLI::App& app);
 void add_serve(CLI::App& app);
 void add_worker(CLI::App& app);
 void add_people(CLI::App& app);
+void add_keys(CLI::App& app);
 void add_scenarios(CLI::App& app);
 void add_airframes(CLI::App& app);
 void add_metrics(CLI::App& app);

@@ -25,8 +25,10 @@ void add_serve(CLI::App& app) {
   command->add_option("--workers", options->workers, "Processes at work at once (0: one per core)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_flag("--insecure", options->insecure,
-                    "Listen on addresses that other machines can reach, without keys");
+  command->add_flag(
+      "--insecure", options->insecure,
+      "Listen on addresses that other machines can reach while there are no keys: whoever "
+      "reaches them may do everything");
   command->callback([options] {
     options->scenarios = world::scenarios_folder();
     server::serve(*options);

@@ -25,7 +25,7 @@ constexpr int kBusyTimeoutMs = 5000;
 
 constexpr const char* kColumns =
     "id, name, state, attempt, spec, progress, error, created_ms, started_ms, ended_ms, kind, "
-    "priority, labels";
+    "priority, labels, owner";
 
 std::int64_t system_clock_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -60,6 +60,7 @@ JobRow row_of(SQLite::Statement& query) {
   row.priority = query.getColumn(11);
   row.labels =
       nlohmann::json::parse(query.getColumn(12).getString()).get<std::vector<std::string>>();
+  row.owner = query.getColumn(13).getString();
   return row;
 }
 
@@ -129,10 +130,17 @@ struct Store::Connections {
   }
 
   /// The row as the changes of this commit have left it.
-  std::optional<JobRow> find(const std::string& column, const std::string& value) {
-    SQLite::Statement query(writer,
-                            fmt::format("SELECT {} FROM job WHERE {} = ?", kColumns, column));
-    query.bind(1, value);
+  std::optional<JobRow> find(const std::string& id) {
+    SQLite::Statement query(writer, fmt::format("SELECT {} FROM job WHERE id = ?", kColumns));
+    query.bind(1, id);
+    return first_of(query);
+  }
+
+  std::optional<JobRow> find_submission(const std::string& owner, const std::string& key) {
+    SQLite::Statement query(
+        writer, fmt::format("SELECT {} FROM job WHERE owner = ? AND submission_key = ?", kColumns));
+    query.bind(1, owner);
+    query.bind(2, key);
     return first_of(query);
   }
 
@@ -165,7 +173,7 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   SQLite::Statement insert(
       database,
       "INSERT INTO job (id, name, state, spec, created_ms, kind, priority, labels, submission_key, "
-      "submission_hash) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?)");
+      "submission_hash, owner) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, row.id);
   insert.bind(2, row.name);
   insert.bind(3, row.spec_json);
@@ -175,6 +183,7 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   insert.bind(7, nlohmann::json(row.labels).dump());
   if (!job.key.empty()) insert.bind(8, job.key);
   insert.bind(9, job.hash);
+  insert.bind(10, row.owner);
   insert.exec();
 }
 
@@ -191,7 +200,7 @@ Added Store::add(const NewJob& job) {
   Added added;
   connections_->write([&] {
     if (!job.key.empty()) {
-      if (auto earlier = connections_->find("submission_key", job.key)) {
+      if (auto earlier = connections_->find_submission(job.owner, job.key)) {
         const std::string hash = hash_of_submission(connections_->writer, earlier->id);
         added = {std::move(*earlier), false, hash == job.hash};
         return;
@@ -206,6 +215,7 @@ Added Store::add(const NewJob& job) {
     row.spec_json = job.spec_json;
     row.priority = job.priority;
     row.labels = job.labels;
+    row.owner = job.owner;
     insert_job(connections_->writer, row, job);
     connections_->write_event(row.id, row.created_ms, "submitted", "{}");
     connections_->last_id = row.id;
@@ -256,6 +266,16 @@ std::map<JobState, std::int64_t> Store::count() const {
       counts[job_state_named(query.getColumn(0).getString()).value()] = query.getColumn(1);
     }
     return counts;
+  });
+}
+
+std::int64_t Store::active_of(const std::string& owner) const {
+  return connections_->read([&](SQLite::Database& database) -> std::int64_t {
+    SQLite::Statement query(
+        database, "SELECT count(*) FROM job WHERE owner = ? AND state IN ('queued', 'running')");
+    query.bind(1, owner);
+    query.executeStep();
+    return query.getColumn(0);
   });
 }
 
@@ -317,7 +337,7 @@ std::optional<JobRow> Store::change(const std::string& id, int priority,
     update.bind(2, list.dump());
     update.bind(3, id);
     if (update.exec() == 0) return;
-    changed = connections_->find("id", id);
+    changed = connections_->find(id);
     const nlohmann::json data = {{"priority", priority}, {"labels", list}};
     connections_->write_event(id, clock_(), "changed", data.dump());
   });
@@ -339,7 +359,7 @@ void Store::save_progress(const JobRow& row, const std::string& progress_json) {
 
 void Store::note(const JobRow& row, const std::string& type, const std::string& data_json) {
   connections_->write([&] {
-    const auto now = connections_->find("id", row.id);
+    const auto now = connections_->find(row.id);
     if (!now || now->state != row.state || now->attempt != row.attempt) return;
     connections_->write_event(row.id, clock_(), type, data_json);
   });

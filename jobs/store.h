@@ -35,6 +35,7 @@ struct JobRow {
   std::int64_t ended_ms = 0;    ///< 0: not yet
   int priority = 0;             ///< higher ones are begun first
   std::vector<std::string> labels = {};
+  std::string owner = {};  ///< of whom it is; "" for nobody in particular
 };
 
 /// What is to be queued.
@@ -44,7 +45,8 @@ struct NewJob {
   JobKind kind = JobKind::dataset;
   int priority = 0;
   std::vector<std::string> labels = {};
-  /// A second submission with the same key is the first one's job; "" for none.
+  std::string owner = {};
+  /// A second submission of an owner with the same key is the first one's job; "" for none.
   std::string key = {};
   /// Of what was sent, to tell a repetition from a key that is used twice.
   std::string hash = {};
@@ -96,6 +98,8 @@ class Store {
   std::vector<JobRow> list(const JobFilter& filter) const;
   /// How many jobs of any kind are in each state.
   std::map<JobState, std::int64_t> count() const;
+  /// How many jobs of an owner wait or run.
+  std::int64_t active_of(const std::string& owner) const;
   /// The job to work on next: one that was running when the last server ended, else the oldest of
   /// the highest priority that is queued.
   std::optional<JobRow> next() const;

@@ -47,6 +47,14 @@ CREATE TABLE event (
   data TEXT NOT NULL
 );
 CREATE INDEX event_by_job ON event (job, seq);
+)",
+    // Whose jobs they are; keys of submissions are each owner's own.
+    R"(
+ALTER TABLE job ADD COLUMN owner TEXT NOT NULL DEFAULT '';
+DROP INDEX job_by_submission_key;
+CREATE UNIQUE INDEX job_by_submission_key ON job (owner, submission_key)
+  WHERE submission_key IS NOT NULL;
+CREATE INDEX job_by_owner ON job (owner, state);
 )"};
 
 }  // namespace

@@ -40,6 +40,8 @@ const char* title_of(int status) {
   switch (status) {
     case 400:
       return "Bad Request";
+    case 401:
+      return "Unauthorized";
     case 403:
       return "Forbidden";
     case 404:
@@ -58,6 +60,8 @@ const char* title_of(int status) {
       return "Range Not Satisfiable";
     case 422:
       return "Unprocessable Content";
+    case 429:
+      return "Too Many Requests";
     case 503:
       return "Service Unavailable";
     case 421:
@@ -77,6 +81,7 @@ json row_json(const jobs::JobRow& row) {
           {"attempt", row.attempt},
           {"priority", row.priority},
           {"labels", row.labels},
+          {"owner", row.owner.empty() ? json(nullptr) : json(row.owner)},
           {"created_at", time_json(row.created_ms)},
           {"started_at", time_json(row.started_ms)},
           {"ended_at", time_json(row.ended_ms)},

@@ -27,6 +27,7 @@ namespace {
 
 void write_problem(Response& response, const HttpError& error) {
   response.status = error.status;
+  if (error.status == 401) response.set_header("WWW-Authenticate", "Bearer");
   response.set_content(text_of(problem_document(error.status, error.detail, error.problems)),
                        "application/problem+json");
 }
@@ -37,42 +38,42 @@ constexpr const char* kCalibrations = "/v1/calibrations";
 
 std::span<const Route> routes() {
   static constexpr std::array kRoutes = {
-      Route{Method::post, "/v1/jobs", &submit_job},
-      Route{Method::get, "/v1/jobs", &list_jobs},
-      Route{Method::get, "/v1/jobs/{id}", &send_job},
-      Route{Method::patch, "/v1/jobs/{id}", &change_job},
-      Route{Method::remove, "/v1/jobs/{id}", &remove_job},
-      Route{Method::post, "/v1/jobs/{id}/cancel", &cancel_job},
-      Route{Method::post, "/v1/jobs/{id}/retry", &retry_job},
-      Route{Method::post, "/v1/jobs/{id}/clone", &clone_job},
-      Route{Method::get, "/v1/jobs/{id}/events", &send_events},
-      Route{Method::get, "/v1/jobs/{id}/logs", &list_logs},
-      Route{Method::get, "/v1/jobs/{id}/logs/{name}", &send_log},
-      Route{Method::get, "/v1/jobs/{id}/previews", &list_previews},
-      Route{Method::get, "/v1/jobs/{id}/previews/{path}", &send_preview},
-      Route{Method::get, "/v1/jobs/{id}/archive", &send_archive},
-      Route{Method::get, "/v1/jobs/{id}/manifest", &send_manifest},
-      Route{Method::get, "/v1/jobs/{id}/files/{path}", &send_file},
-      Route{Method::get, "/v1/jobs/{id}/metrics", &send_metrics},
-      Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", &send_run_metrics},
-      Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", &send_run_metrics_csv},
-      Route{Method::get, "/v1/events", &send_events},
-      Route{Method::post, kCalibrations, &submit_calibration},
-      Route{Method::get, kCalibrations, &list_calibrations},
-      Route{Method::get, "/v1/calibrations/{id}", &send_calibration},
-      Route{Method::remove, "/v1/calibrations/{id}", &remove_calibration},
-      Route{Method::get, "/v1/calibrations/{id}/{name}", &send_calibration_result},
-      Route{Method::get, "/v1/scenarios", &list_scenarios},
-      Route{Method::get, "/v1/scenarios/{path}", &send_scenario},
-      Route{Method::get, "/v1/airframes", &list_airframes},
-      Route{Method::get, "/v1/policies", &list_policies},
-      Route{Method::get, "/v1/formats", &list_formats},
-      Route{Method::get, "/v1/schema", &send_schema},
-      Route{Method::get, "/v1/version", &send_version},
-      Route{Method::get, "/openapi.json", &send_openapi},
-      Route{Method::get, "/metrics", &send_figures},
-      Route{Method::get, "/healthz", &send_health},
-      Route{Method::get, "/readyz", &send_readiness},
+      Route{Method::post, "/v1/jobs", Scope::submit, &submit_job},
+      Route{Method::get, "/v1/jobs", Scope::read, &list_jobs},
+      Route{Method::get, "/v1/jobs/{id}", Scope::read, &send_job},
+      Route{Method::patch, "/v1/jobs/{id}", Scope::submit, &change_job},
+      Route{Method::remove, "/v1/jobs/{id}", Scope::submit, &remove_job},
+      Route{Method::post, "/v1/jobs/{id}/cancel", Scope::submit, &cancel_job},
+      Route{Method::post, "/v1/jobs/{id}/retry", Scope::submit, &retry_job},
+      Route{Method::post, "/v1/jobs/{id}/clone", Scope::submit, &clone_job},
+      Route{Method::get, "/v1/jobs/{id}/events", Scope::read, &send_events},
+      Route{Method::get, "/v1/jobs/{id}/logs", Scope::read, &list_logs},
+      Route{Method::get, "/v1/jobs/{id}/logs/{name}", Scope::read, &send_log},
+      Route{Method::get, "/v1/jobs/{id}/previews", Scope::read, &list_previews},
+      Route{Method::get, "/v1/jobs/{id}/previews/{path}", Scope::read, &send_preview},
+      Route{Method::get, "/v1/jobs/{id}/archive", Scope::read, &send_archive},
+      Route{Method::get, "/v1/jobs/{id}/manifest", Scope::read, &send_manifest},
+      Route{Method::get, "/v1/jobs/{id}/files/{path}", Scope::read, &send_file},
+      Route{Method::get, "/v1/jobs/{id}/metrics", Scope::read, &send_metrics},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics},
+      Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", Scope::read, &send_run_metrics_csv},
+      Route{Method::get, "/v1/events", Scope::read, &send_events},
+      Route{Method::post, kCalibrations, Scope::submit, &submit_calibration},
+      Route{Method::get, kCalibrations, Scope::read, &list_calibrations},
+      Route{Method::get, "/v1/calibrations/{id}", Scope::read, &send_calibration},
+      Route{Method::remove, "/v1/calibrations/{id}", Scope::submit, &remove_calibration},
+      Route{Method::get, "/v1/calibrations/{id}/{name}", Scope::read, &send_calibration_result},
+      Route{Method::get, "/v1/scenarios", Scope::read, &list_scenarios},
+      Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},
+      Route{Method::get, "/v1/airframes", Scope::read, &list_airframes},
+      Route{Method::get, "/v1/policies", Scope::read, &list_policies},
+      Route{Method::get, "/v1/formats", Scope::read, &list_formats},
+      Route{Method::get, "/v1/schema", Scope::read, &send_schema},
+      Route{Method::get, "/v1/version", Scope::anybody, &send_version},
+      Route{Method::get, "/openapi.json", Scope::anybody, &send_openapi},
+      Route{Method::get, "/metrics", Scope::read, &send_figures},
+      Route{Method::get, "/healthz", Scope::anybody, &send_health},
+      Route{Method::get, "/readyz", Scope::anybody, &send_readiness},
   };
   return kRoutes;
 }
@@ -104,6 +105,9 @@ void guarded(const JobService& service, const Request& request, Response& respon
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) problem.source = service.without_paths(problem.source);
     write_problem(response, {400, "the job cannot be done as it stands", problems});
+  } catch (const QuotaError& error) {
+    response.set_header("Retry-After", "60");
+    write_problem(response, {429, error.what()});
   } catch (const ConflictError& error) {
     write_problem(response, {409, error.what()});
   } catch (const std::exception& error) {
@@ -130,21 +134,49 @@ HttpOptions with_uploads(HttpOptions options) {
   return options;
 }
 
+// A browser sends forms of other sites' pages without asking, and says where they are from.
+void refuse_other_sites(const Request& request) {
+  const std::string origin = request.get_header_value("Origin");
+  const std::string host = request.get_header_value("Host");
+  if (origin.empty() || origin == "http://" + host || origin == "https://" + host) return;
+  throw HttpError{403, "pages of other sites may not ask for this"};
+}
+
+// Who calls, if they may do what the route does.
+Caller admitted(const Keys& keys, const Request& request, Scope needed) {
+  if (needed == Scope::anybody) return {};
+  constexpr std::string_view kBearer = "Bearer ";
+  const std::string header = request.get_header_value("Authorization");
+  const auto caller =
+      keys.caller_of(header.starts_with(kBearer) ? header.substr(kBearer.size()) : std::string());
+  if (!caller) {
+    throw HttpError{401, header.empty() ? "this service needs a key: Authorization: Bearer KEY"
+                                        : "this key is not known, or was revoked"};
+  }
+  if (caller->scope < needed) {
+    throw HttpError{403, fmt::format("the key's scope is {}, this needs {}", name_of(caller->scope),
+                                     name_of(needed))};
+  }
+  return *caller;
+}
+
 }  // namespace
 
-Api::Api(JobService& service, const HttpOptions& options)
+Api::Api(JobService& service, const Keys& keys, const HttpOptions& options)
     : server_(with_uploads(options), &write_library_error) {
   const bool loopback = is_loopback(options.host);
-  const auto route = [&service, loopback](void (*handler)(JobService&, const Request&, Response&)) {
-    return [&service, loopback, handler](const Request& request, Response& response) {
+  const auto route = [&service, &keys, loopback](const Route& entry) {
+    return [&service, &keys, loopback, entry](const Request& request, Response& response) {
       guarded(service, request, response, [&] {
         if (loopback && !names_this_machine(request)) {
           throw HttpError{421, "this service is for its own machine"};
         }
+        if (entry.method != Method::get) refuse_other_sites(request);
+        const Caller caller = admitted(keys, request, entry.scope);
         if (request.path != kCalibrations && request.body.size() > kLargestText) {
           throw HttpError{413, fmt::format("a body may have {} bytes here", kLargestText)};
         }
-        handler(service, request, response);
+        entry.handler({service, caller}, request, response);
       });
     };
   };
@@ -153,16 +185,16 @@ Api::Api(JobService& service, const HttpOptions& options)
     const std::string pattern = pattern_of(entry.path);
     switch (entry.method) {
       case Method::get:
-        server.Get(pattern, route(entry.handler));
+        server.Get(pattern, route(entry));
         break;
       case Method::post:
-        server.Post(pattern, route(entry.handler));
+        server.Post(pattern, route(entry));
         break;
       case Method::patch:
-        server.Patch(pattern, route(entry.handler));
+        server.Patch(pattern, route(entry));
         break;
       case Method::remove:
-        server.Delete(pattern, route(entry.handler));
+        server.Delete(pattern, route(entry));
         break;
     }
   }

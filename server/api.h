@@ -9,6 +9,7 @@
 
 #include "server/http_server.h"
 #include "server/job_service.h"
+#include "server/keys.h"
 #include "server/routes.h"
 
 namespace throng::server {
@@ -16,12 +17,12 @@ namespace throng::server {
 /// Every operation there is.
 std::span<const Route> routes();
 
-/// Serves the API on a port of its own. The service must outlive it.
+/// Serves the API on a port of its own. The service and the keys must outlive it.
 class Api {
  public:
   /// Binds at once; `options` says where. Unless the address is loopback, requests may name any
   /// Host. Throws EnvironmentError.
-  Api(JobService& service, const HttpOptions& options);
+  Api(JobService& service, const Keys& keys, const HttpOptions& options);
 
   int port() const { return server_.port(); }
   /// Serves until stop().

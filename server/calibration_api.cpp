@@ -30,14 +30,6 @@ constexpr std::array kResults = {Result{"camera", calibrate::kCameraName, "appli
                                  Result{"ros", calibrate::kRosName, "application/yaml"},
                                  Result{"residuals", calibrate::kPictureName, "image/svg+xml"}};
 
-// A browser sends forms of other sites' pages without asking, and says where they are from.
-void refuse_other_sites(const Request& request) {
-  const std::string origin = request.get_header_value("Origin");
-  const std::string host = request.get_header_value("Host");
-  if (origin.empty() || origin == "http://" + host || origin == "https://" + host) return;
-  throw HttpError{403, "pages of other sites may not send calibrations"};
-}
-
 struct Sent {
   std::string request;
   std::vector<Upload> files;
@@ -76,22 +68,21 @@ Sent sent_as_json(const Request& request) {
 
 }  // namespace
 
-void submit_calibration(JobService& service, const Request& request, Response& response) {
-  refuse_other_sites(request);
+void submit_calibration(const Call& call, const Request& request, Response& response) {
   const std::string header = request.get_header_value("Content-Type");
   const std::string type = header.substr(0, header.find(';'));
   if (type != "application/json" && type != "multipart/form-data") {
     throw HttpError{415, "a calibration is sent as multipart/form-data or application/json"};
   }
   const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
-  const jobs::JobRow row = service.submit_calibration(sent.request, sent.files);
+  const jobs::JobRow row = call.service.submit_calibration(sent.request, sent.files);
   response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
   write_json(response, 201, calibration_json(row));
 }
 
-void list_calibrations(JobService& service, const Request& request, Response& response) {
+void list_calibrations(const Call& call, const Request& request, Response& response) {
   const int limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows = service.list(
+  const std::vector<jobs::JobRow> rows = call.service.list(
       {.kind = jobs::JobKind::calibration, .after = after_of(request), .limit = limit});
   json list = json::array();
   for (const jobs::JobRow& row : rows) list.push_back(calibration_json(row));
@@ -101,25 +92,25 @@ void list_calibrations(JobService& service, const Request& request, Response& re
       {{"calibrations", std::move(list)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
 }
 
-void send_calibration(JobService& service, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(service, request, jobs::JobKind::calibration);
+void send_calibration(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(call.service, request, jobs::JobKind::calibration);
   json value = calibration_json(row);
   if (row.state == jobs::JobState::succeeded) {
     value["camera"] =
-        json::parse(read_file(service.calibration_folder(row.id) / calibrate::kCameraName));
+        json::parse(read_file(call.service.calibration_folder(row.id) / calibrate::kCameraName));
   }
   write_json(response, 200, value);
 }
 
-void remove_calibration(JobService& service, const Request& request, Response& response) {
-  if (!service.remove(find_row(service, request, jobs::JobKind::calibration).id)) {
+void remove_calibration(const Call& call, const Request& request, Response& response) {
+  if (!call.service.remove(find_row(call.service, request, jobs::JobKind::calibration).id)) {
     throw HttpError{404, "already removed"};
   }
   response.status = 204;
 }
 
-void send_calibration_result(JobService& service, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(service, request, jobs::JobKind::calibration);
+void send_calibration_result(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_row(call.service, request, jobs::JobKind::calibration);
   const std::string name = request.matches[2];
   const auto* result = std::find_if(kResults.begin(), kResults.end(),
                                     [&](const Result& entry) { return name == entry.name; });
@@ -130,7 +121,8 @@ void send_calibration_result(JobService& service, const Request& request, Respon
     throw HttpError{409, fmt::format("the calibration is {}; this is there once it has succeeded",
                                      name_of(row.state))};
   }
-  response.set_content(read_file(service.calibration_folder(row.id) / result->file), result->type);
+  response.set_content(read_file(call.service.calibration_folder(row.id) / result->file),
+                       result->type);
 }
 
 }  // namespace throng::server

@@ -2,7 +2,7 @@
 // like a job.
 #pragma once
 
-#include "server/job_service.h"
+#include "server/call.h"
 
 namespace httplib {
 struct Request;
@@ -15,16 +15,16 @@ namespace throng::server {
 
 /// A request as multipart/form-data (a part "request" with JSON, and one per file, each with its
 /// file name), or as JSON whose "files" hold texts by their names.
-void submit_calibration(JobService& service, const httplib::Request& request,
+void submit_calibration(const Call& call, const httplib::Request& request,
                         httplib::Response& response);
-void list_calibrations(JobService& service, const httplib::Request& request,
+void list_calibrations(const Call& call, const httplib::Request& request,
                        httplib::Response& response);
-void send_calibration(JobService& service, const httplib::Request& request,
+void send_calibration(const Call& call, const httplib::Request& request,
                       httplib::Response& response);
-void remove_calibration(JobService& service, const httplib::Request& request,
+void remove_calibration(const Call& call, const httplib::Request& request,
                         httplib::Response& response);
 /// camera, opencv, ros or residuals.
-void send_calibration_result(JobService& service, const httplib::Request& request,
+void send_calibration_result(const Call& call, const httplib::Request& request,
                              httplib::Response& response);
 
 }  // namespace throng::server

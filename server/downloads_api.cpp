@@ -15,7 +15,6 @@
 #include "jobs/archive.h"
 #include "jobs/manifest.h"
 #include "server/file_answer.h"
-#include "server/job_service.h"
 #include "server/requests.h"
 
 namespace throng::server {
@@ -27,12 +26,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-jobs::JobRow find(JobService& service, const Request& request) {
-  return find_row(service, request, jobs::JobKind::dataset);
+jobs::JobRow find(const Call& call, const Request& request) {
+  return find_row(call.service, request, jobs::JobKind::dataset);
 }
 
-jobs::JobRow find_succeeded(JobService& service, const Request& request) {
-  jobs::JobRow row = find(service, request);
+jobs::JobRow find_succeeded(const Call& call, const Request& request) {
+  jobs::JobRow row = find(call, request);
   if (row.state != jobs::JobState::succeeded) {
     throw HttpError{
         409, fmt::format("the job is {}; this is there once it has succeeded", name_of(row.state))};
@@ -46,15 +45,15 @@ std::string etag_of_dataset(const fs::path& dataset) {
 }
 
 /// A file of one run of a dataset; 404 when there is no such run or the job did not ask for it.
-void send_run_file(JobService& service, const Request& request, Response& response,
-                   const char* folder, const char* suffix, const char* type) {
-  const jobs::JobRow row = find_succeeded(service, request);
+void send_run_file(const Call& call, const Request& request, Response& response, const char* folder,
+                   const char* suffix, const char* type) {
+  const jobs::JobRow row = find_succeeded(call, request);
   const std::string number = request.matches[2];
   constexpr std::size_t kMostDigits = 6;
   fs::path file;
   if (number.size() <= kMostDigits) {
     const std::string name = fmt::format("run{:03}{}", std::stoi(number), suffix);
-    file = service.dataset_of(row.id) / folder / name;
+    file = call.service.dataset_of(row.id) / folder / name;
   }
   if (file.empty() || !fs::exists(file)) {
     throw HttpError{404, fmt::format("the dataset has no {} of run {}", folder, number)};
@@ -103,9 +102,9 @@ std::vector<std::pair<std::string, fs::path>> previews_of(const fs::path& job) {
 
 }  // namespace
 
-void send_archive(JobService& service, const Request& request, Response& response) {
-  const jobs::JobRow row = find_succeeded(service, request);
-  const fs::path dataset = service.dataset_of(row.id);
+void send_archive(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_succeeded(call, request);
+  const fs::path dataset = call.service.dataset_of(row.id);
   const std::string name = jobs::slug(row.name);
   const auto archive = std::make_shared<const jobs::Archive>(dataset, name);
   settle_range(request, response, etag_of_dataset(dataset), archive->size());
@@ -127,14 +126,14 @@ void send_archive(JobService& service, const Request& request, Response& respons
       });
 }
 
-void send_manifest(JobService& service, const Request& request, Response& response) {
-  const fs::path dataset = service.dataset_of(find_succeeded(service, request).id);
+void send_manifest(const Call& call, const Request& request, Response& response) {
+  const fs::path dataset = call.service.dataset_of(find_succeeded(call, request).id);
   answer_with_file(request, response, dataset / jobs::kManifestName, "application/json",
                    etag_of_dataset(dataset));
 }
 
-void send_file(JobService& service, const Request& request, Response& response) {
-  const fs::path dataset = service.dataset_of(find_succeeded(service, request).id);
+void send_file(const Call& call, const Request& request, Response& response) {
+  const fs::path dataset = call.service.dataset_of(find_succeeded(call, request).id);
   const std::string wanted = request.matches[2];
   const auto files = jobs::read_manifest_files(dataset);
   // What is in the manifest is in the dataset: no path leads out of it.
@@ -148,22 +147,22 @@ void send_file(JobService& service, const Request& request, Response& response) 
                    fmt::format("\"{}\"", file->sha256));
 }
 
-void send_metrics(JobService& service, const Request& request, Response& response) {
-  const fs::path dataset = service.dataset_of(find_succeeded(service, request).id);
+void send_metrics(const Call& call, const Request& request, Response& response) {
+  const fs::path dataset = call.service.dataset_of(find_succeeded(call, request).id);
   response.set_content(read_file(dataset / "metrics.json"), "application/json");
 }
 
-void send_run_metrics(JobService& service, const Request& request, Response& response) {
-  send_run_file(service, request, response, "metrics", ".json", "application/json");
+void send_run_metrics(const Call& call, const Request& request, Response& response) {
+  send_run_file(call, request, response, "metrics", ".json", "application/json");
 }
 
-void send_run_metrics_csv(JobService& service, const Request& request, Response& response) {
-  send_run_file(service, request, response, "exits", ".csv", "text/csv");
+void send_run_metrics_csv(const Call& call, const Request& request, Response& response) {
+  send_run_file(call, request, response, "exits", ".csv", "text/csv");
 }
 
-void list_logs(JobService& service, const Request& request, Response& response) {
-  const jobs::JobRow row = find(service, request);
-  const fs::path folder = service.job_folder(row.id) / "logs";
+void list_logs(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find(call, request);
+  const fs::path folder = call.service.job_folder(row.id) / "logs";
   std::vector<fs::path> files = files_below(folder);
   std::sort(files.begin(), files.end());
   json logs = json::array();
@@ -178,30 +177,30 @@ void list_logs(JobService& service, const Request& request, Response& response) 
   write_json(response, 200, {{"logs", std::move(logs)}});
 }
 
-void send_log(JobService& service, const Request& request, Response& response) {
-  const jobs::JobRow row = find(service, request);
+void send_log(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find(call, request);
   const std::string name = request.matches[2];
-  const fs::path file = service.job_folder(row.id) / "logs" / name;
+  const fs::path file = call.service.job_folder(row.id) / "logs" / name;
   if (name == ".." || !fs::is_regular_file(file)) {
     throw HttpError{404, fmt::format("the job has no log {}", name)};
   }
   answer_with_growing_file(request, response, file, "text/plain; charset=utf-8");
 }
 
-void list_previews(JobService& service, const Request& request, Response& response) {
-  const jobs::JobRow row = find(service, request);
+void list_previews(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find(call, request);
   json previews = json::array();
-  for (const auto& [name, file] : previews_of(service.job_folder(row.id))) {
+  for (const auto& [name, file] : previews_of(call.service.job_folder(row.id))) {
     previews.push_back(
         {{"name", name}, {"href", fmt::format("/v1/jobs/{}/previews/{}", row.id, name)}});
   }
   write_json(response, 200, {{"previews", std::move(previews)}});
 }
 
-void send_preview(JobService& service, const Request& request, Response& response) {
-  const jobs::JobRow row = find(service, request);
+void send_preview(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find(call, request);
   const std::string wanted = request.matches[2];
-  for (const auto& [name, file] : previews_of(service.job_folder(row.id))) {
+  for (const auto& [name, file] : previews_of(call.service.job_folder(row.id))) {
     if (name != wanted) continue;
     return answer_with_growing_file(request, response, file, media_type_of(file));
   }

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "server/answers.h"
-#include "server/job_service.h"
 #include "server/requests.h"
 
 namespace throng::server {
@@ -87,7 +86,7 @@ std::int64_t last_event_id(const Request& request) {
   return number;
 }
 
-void send_page(JobService& service, const Request& request, Response& response,
+void send_page(const Call& call, const Request& request, Response& response,
                const std::string& job) {
   constexpr std::int64_t kLongestWaitS = 60;
   const std::int64_t after = number_of(request, "after", 0, kLastNumber, 0);
@@ -95,7 +94,7 @@ void send_page(JobService& service, const Request& request, Response& response,
   const std::chrono::seconds patience(number_of(request, "wait_s", 0, kLongestWaitS, 0));
   json list = json::array();
   std::int64_t next = after;
-  for (const jobs::EventRow& event : service.events(job, after, limit, patience)) {
+  for (const jobs::EventRow& event : call.service.events(job, after, limit, patience)) {
     list.push_back(event_json(event));
     next = event.seq;
   }
@@ -104,14 +103,14 @@ void send_page(JobService& service, const Request& request, Response& response,
 
 }  // namespace
 
-void send_events(JobService& service, const Request& request, Response& response) {
+void send_events(const Call& call, const Request& request, Response& response) {
   const std::string job = request.matches.size() > 1
-                              ? find_row(service, request, jobs::JobKind::dataset).id
+                              ? find_row(call.service, request, jobs::JobKind::dataset).id
                               : std::string();
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
-    return send_page(service, request, response, job);
+    return send_page(call, request, response, job);
   }
-  const auto stream = std::make_shared<EventStream>(service, job, last_event_id(request));
+  const auto stream = std::make_shared<EventStream>(call.service, job, last_event_id(request));
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
   response.set_chunked_content_provider(

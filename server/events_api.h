@@ -1,7 +1,7 @@
 // What happens to jobs, as it happens.
 #pragma once
 
-#include "server/job_service.h"
+#include "server/call.h"
 
 namespace httplib {
 struct Request;
@@ -13,6 +13,6 @@ namespace throng::server {
 /// GET /v1/jobs/{id}/events and GET /v1/events. With "Accept: text/event-stream" Server-Sent Events
 /// that begin after Last-Event-ID (or ?after=), with the job's progress in between; they end when
 /// the job has ended. Else at most ?limit= events after ?after= as JSON, for which ?wait_s= waits.
-void send_events(JobService& service, const httplib::Request& request, httplib::Response& response);
+void send_events(const Call& call, const httplib::Request& request, httplib::Response& response);
 
 }  // namespace throng::server

@@ -41,7 +41,15 @@ struct Submission {
   std::string_view job_json;
   int priority = 0;
   std::vector<std::string> labels = {};
-  std::string key = {};  ///< the same key again is the same submission; "" for none
+  std::string key = {};    ///< the same key again is the same submission; "" for none
+  std::string owner = {};  ///< the id of the caller's key
+  int most_active = 0;     ///< jobs that the owner may have waiting or running; 0: any number
+};
+
+/// Somebody has as many jobs as they may have. Answered with 429.
+class QuotaError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// What is asked for cannot happen in the state that the job is in. Answered with 409.

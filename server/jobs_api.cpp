@@ -9,7 +9,6 @@
 #include "jobs/plan.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
-#include "server/job_service.h"
 #include "server/requests.h"
 
 namespace throng::server {
@@ -25,8 +24,17 @@ constexpr std::size_t kMostLabels = 20;
 constexpr std::size_t kLongestLabel = 60;
 constexpr std::size_t kLongestKey = 200;
 
-jobs::JobRow find(JobService& service, const Request& request) {
-  return find_row(service, request, jobs::JobKind::dataset);
+jobs::JobRow find(const Call& call, const Request& request) {
+  return find_row(call.service, request, jobs::JobKind::dataset);
+}
+
+/// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
+jobs::JobRow find_own(const Call& call, const Request& request) {
+  jobs::JobRow row = find(call, request);
+  if (call.caller.scope < Scope::admin && row.owner != call.caller.key_id) {
+    throw HttpError{403, "the job is another's: only its owner and administrators may change it"};
+  }
+  return row;
 }
 
 /// The value of every ?name= in the query.
@@ -73,8 +81,8 @@ bool is_asked(const Request& request, const char* name) {
                   {{"", fmt::format("?{}", name), value, "true or false"}}};
 }
 
-void queue(JobService& service, const Submission& submission, Response& response) {
-  const jobs::Added added = service.submit(submission);
+void queue(const Call& call, const Submission& submission, Response& response) {
+  const jobs::Added added = call.service.submit(submission);
   if (!added.is_equal) {
     throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and what was sent "
                                      "with it then was something else",
@@ -114,10 +122,10 @@ std::vector<jobs::JobState> states_of(const Request& request) {
 
 }  // namespace
 
-void submit_job(JobService& service, const Request& request, Response& response) {
+void submit_job(const Call& call, const Request& request, Response& response) {
   require_json(request);
   if (is_asked(request, "dry_run")) {
-    return answer_dry_run(service.checked(request.body), response);
+    return answer_dry_run(call.service.checked(request.body), response);
   }
   Submission submission{request.body};
   submission.priority =
@@ -125,10 +133,12 @@ void submit_job(JobService& service, const Request& request, Response& response)
   submission.labels = all_of(request, "label");
   check_labels(submission.labels, "?label");
   submission.key = key_of(request);
-  queue(service, submission, response);
+  submission.owner = call.caller.key_id;
+  submission.most_active = call.caller.most_active;
+  queue(call, submission, response);
 }
 
-void list_jobs(JobService& service, const Request& request, Response& response) {
+void list_jobs(const Call& call, const Request& request, Response& response) {
   jobs::JobFilter filter;
   filter.states = states_of(request);
   filter.label = request.get_param_value("label");
@@ -140,7 +150,7 @@ void list_jobs(JobService& service, const Request& request, Response& response) 
   filter.oldest_first = sort == "oldest";
   filter.after = after_of(request);
   filter.limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows = service.list(filter);
+  const std::vector<jobs::JobRow> rows = call.service.list(filter);
   json jobs = json::array();
   for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row));
   const bool more = static_cast<int>(rows.size()) == filter.limit;
@@ -148,13 +158,13 @@ void list_jobs(JobService& service, const Request& request, Response& response) 
              {{"jobs", std::move(jobs)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
 }
 
-void send_job(JobService& service, const Request& request, Response& response) {
-  write_json(response, 200, job_json(find(service, request)));
+void send_job(const Call& call, const Request& request, Response& response) {
+  write_json(response, 200, job_json(find(call, request)));
 }
 
-void change_job(JobService& service, const Request& request, Response& response) {
+void change_job(const Call& call, const Request& request, Response& response) {
   require_json(request);
-  const jobs::JobRow row = find(service, request);
+  const jobs::JobRow row = find_own(call, request);
   const json change = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
   const auto wrong = [](const std::string& pointer, const std::string& found,
                         const std::string& expected) {
@@ -180,25 +190,25 @@ void change_job(JobService& service, const Request& request, Response& response)
       throw wrong("/" + name, "an unknown field", "priority or labels");
     }
   }
-  const auto changed = service.change(row.id, priority, labels);
+  const auto changed = call.service.change(row.id, priority, labels);
   if (!changed) throw HttpError{404, "the job has been removed"};
   write_json(response, 200, job_json(*changed));
 }
 
-void cancel_job(JobService& service, const Request& request, Response& response) {
-  const auto row = service.cancel(find(service, request).id);
+void cancel_job(const Call& call, const Request& request, Response& response) {
+  const auto row = call.service.cancel(find_own(call, request).id);
   if (!row) throw HttpError{404, "the job has been removed"};
   write_json(response, 200, job_json(*row));
 }
 
-void retry_job(JobService& service, const Request& request, Response& response) {
-  const auto row = service.retry(find(service, request).id);
+void retry_job(const Call& call, const Request& request, Response& response) {
+  const auto row = call.service.retry(find_own(call, request).id);
   if (!row) throw HttpError{404, "the job has been removed"};
   write_json(response, 200, job_json(*row));
 }
 
-void clone_job(JobService& service, const Request& request, Response& response) {
-  const jobs::JobRow row = find(service, request);
+void clone_job(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find(call, request);
   json job = json::parse(row.spec_json);
   if (!request.body.empty()) {
     require_json(request);
@@ -207,11 +217,14 @@ void clone_job(JobService& service, const Request& request, Response& response) 
     job.merge_patch(patch);
   }
   const std::string text = text_of(job);
-  queue(service, {text, row.priority, row.labels, key_of(request)}, response);
+  queue(call,
+        {text, row.priority, row.labels, key_of(request), call.caller.key_id,
+         call.caller.most_active},
+        response);
 }
 
-void remove_job(JobService& service, const Request& request, Response& response) {
-  if (!service.remove(find(service, request).id)) throw HttpError{404, "already removed"};
+void remove_job(const Call& call, const Request& request, Response& response) {
+  if (!call.service.remove(find_own(call, request).id)) throw HttpError{404, "already removed"};
   response.status = 204;
 }
 

@@ -1,7 +1,7 @@
 // Jobs over HTTP: submit, list, look at, change, cancel, try again, copy, remove.
 #pragma once
 
-#include "server/job_service.h"
+#include "server/call.h"
 
 namespace httplib {
 struct Request;
@@ -11,16 +11,16 @@ struct Response;
 namespace throng::server {
 
 /// POST /v1/jobs?priority=&label=&label=, Idempotency-Key; with ?dry_run only checked.
-void submit_job(JobService& service, const httplib::Request& request, httplib::Response& response);
+void submit_job(const Call& call, const httplib::Request& request, httplib::Response& response);
 /// GET /v1/jobs?state=&label=&name=&sort=&limit=&after=
-void list_jobs(JobService& service, const httplib::Request& request, httplib::Response& response);
-void send_job(JobService& service, const httplib::Request& request, httplib::Response& response);
+void list_jobs(const Call& call, const httplib::Request& request, httplib::Response& response);
+void send_job(const Call& call, const httplib::Request& request, httplib::Response& response);
 /// PATCH with {"priority", "labels"}
-void change_job(JobService& service, const httplib::Request& request, httplib::Response& response);
-void cancel_job(JobService& service, const httplib::Request& request, httplib::Response& response);
-void retry_job(JobService& service, const httplib::Request& request, httplib::Response& response);
+void change_job(const Call& call, const httplib::Request& request, httplib::Response& response);
+void cancel_job(const Call& call, const httplib::Request& request, httplib::Response& response);
+void retry_job(const Call& call, const httplib::Request& request, httplib::Response& response);
 /// A new job like this one, changed by a JSON merge patch (RFC 7396) in the body.
-void clone_job(JobService& service, const httplib::Request& request, httplib::Response& response);
-void remove_job(JobService& service, const httplib::Request& request, httplib::Response& response);
+void clone_job(const Call& call, const httplib::Request& request, httplib::Response& response);
+void remove_job(const Call& call, const httplib::Request& request, httplib::Response& response);
 
 }  // namespace throng::server

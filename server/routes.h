@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "server/keys.h"
+
 namespace httplib {
 struct Request;
 struct Response;
@@ -13,7 +15,7 @@ struct Response;
 
 namespace throng::server {
 
-class JobService;
+struct Call;
 
 enum class Method { get, post, patch, remove };
 
@@ -25,7 +27,8 @@ std::string_view name_of(Method method);
 struct Route {
   Method method;
   const char* path;
-  void (*handler)(JobService&, const httplib::Request&, httplib::Response&);
+  Scope scope;  ///< that a caller must have
+  void (*handler)(const Call&, const httplib::Request&, httplib::Response&);
 };
 
 /// The path as the library's pattern: Request::matches holds the parameters from 1 on.

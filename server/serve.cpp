@@ -15,6 +15,7 @@
 #include "jobs/local_processes.h"
 #include "server/api.h"
 #include "server/job_service.h"
+#include "server/keys.h"
 
 namespace throng::server {
 
@@ -54,10 +55,11 @@ std::string url_of(const std::string& host, int port) {
 }  // namespace
 
 int serve(const ServeOptions& options) {
-  if (!options.insecure && !is_loopback(options.host)) {
+  const Keys keys(options.data);
+  if (!options.insecure && !is_loopback(options.host) && !keys.are_needed()) {
     throw InputError(Problem{"--host", "", options.host,
-                             "a loopback address such as 127.0.0.1; other addresses need "
-                             "--insecure, since whoever reaches them may do everything"});
+                             "a loopback address such as 127.0.0.1; other addresses need keys "
+                             "(throng keys create), or --insecure where the network is a fence"});
   }
   spdlog::set_default_logger(spdlog::stderr_logger_mt("throng"));
   std::signal(SIGPIPE, SIG_IGN);
@@ -68,7 +70,7 @@ int serve(const ServeOptions& options) {
   JobService service({options.data, options.scenarios,
                       calibrator_in_child({"/proc/self/exe", "calibrate", "request"})},
                      executor);
-  Api api(service, {options.host, options.port});
+  Api api(service, keys, {options.host, options.port});
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
   }

@@ -12,13 +12,13 @@ struct ServeOptions {
   std::string host = "127.0.0.1";
   int port = 8080;                  ///< 0: any that is free
   std::filesystem::path port_file;  ///< gets the port's number once it is served; "" for none
-  bool insecure = false;            ///< listen on addresses that other machines can reach
-  int workers = 0;                  ///< processes at once; 0: one per core
+  bool insecure = false;  ///< listen on addresses that other machines can reach without a key
+  int workers = 0;        ///< processes at once; 0: one per core
 };
 
 /// Prints "throng serving on URL" to stdout and serves until SIGTERM or SIGINT, then ends the
 /// workers and returns 0; the job they were at goes on at the next start. Throws InputError for an
-/// address that is not loopback without `insecure`, EnvironmentError when the port or the data
+/// address that is not loopback while there is no key, EnvironmentError when the port or the data
 /// folder is taken. Call it before any other thread is started: it blocks signals for all threads.
 int serve(const ServeOptions& options);
 

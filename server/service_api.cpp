@@ -12,7 +12,6 @@
 #include "formats/exporter.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
-#include "server/job_service.h"
 #include "server/requests.h"
 #include "sim/airframe.h"
 #include "sim/battery.h"
@@ -44,8 +43,8 @@ std::int64_t resident_bytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-std::uintmax_t free_bytes(const JobService& service) {
-  return fs::space(service.data_folder()).available;
+std::uintmax_t free_bytes(const Call& call) {
+  return fs::space(call.service.data_folder()).available;
 }
 
 json scenario_json(const fs::path& folder, const std::string& id) {
@@ -74,13 +73,13 @@ json scenario_json(const fs::path& folder, const std::string& id) {
 
 }  // namespace
 
-void send_health(JobService&, const Request&, Response& response) {
+void send_health(const Call&, const Request&, Response& response) {
   write_json(response, 200, {{"status", "ok"}});
 }
 
-void send_readiness(JobService& service, const Request&, Response& response) {
-  static_cast<void>(service.count());  // throws when the store cannot be read
-  const std::uintmax_t free = free_bytes(service);
+void send_readiness(const Call& call, const Request&, Response& response) {
+  static_cast<void>(call.service.count());  // throws when the store cannot be read
+  const std::uintmax_t free = free_bytes(call);
   if (free < kLeastFreeBytes) {
     throw HttpError{503, fmt::format("the data folder's disk has {} bytes free, {} are needed",
                                      free, kLeastFreeBytes)};
@@ -88,59 +87,59 @@ void send_readiness(JobService& service, const Request&, Response& response) {
   write_json(response, 200, {{"status", "ready"}, {"free_bytes", free}});
 }
 
-void send_figures(JobService& service, const Request&, Response& response) {
+void send_figures(const Call& call, const Request&, Response& response) {
   std::string text =
       "# HELP throng_jobs Jobs and calibrations by state.\n# TYPE throng_jobs gauge\n";
-  for (const auto& [state, count] : service.count()) {
+  for (const auto& [state, count] : call.service.count()) {
     text += fmt::format("throng_jobs{{state=\"{}\"}} {}\n", name_of(state), count);
   }
   const auto add = [&](const char* name, const char* type, const char* help, auto value) {
     text += fmt::format("# HELP {0} {1}\n# TYPE {0} {2}\n{0} {3}\n", name, help, type, value);
   };
   add("throng_events_total", "counter", "Events of jobs since the store was made.",
-      service.last_event());
-  add("throng_event_streams", "gauge", "Clients that watch events.", service.watchers());
+      call.service.last_event());
+  add("throng_event_streams", "gauge", "Clients that watch events.", call.service.watchers());
   add("throng_disk_free_bytes", "gauge", "Free bytes where the data folder lies.",
-      free_bytes(service));
+      free_bytes(call));
   add("process_resident_memory_bytes", "gauge", "Memory of the server in RAM.", resident_bytes());
   response.set_content(text, "text/plain; version=0.0.4; charset=utf-8");
 }
 
-void send_version(JobService&, const Request&, Response& response) {
+void send_version(const Call&, const Request&, Response& response) {
   write_json(response, 200, {{"name", "throng"}, {"version", THRONG_VERSION}, {"api", "v1"}});
 }
 
-void send_schema(JobService&, const Request&, Response& response) {
+void send_schema(const Call&, const Request&, Response& response) {
   response.set_content(std::string(jobs::job_schema()), "application/schema+json");
 }
 
-void send_openapi(JobService&, const Request&, Response& response) {
+void send_openapi(const Call&, const Request&, Response& response) {
   response.set_content(std::string(embedded::kOpenApi), "application/json");
 }
 
-void list_scenarios(JobService& service, const Request&, Response& response) {
+void list_scenarios(const Call& call, const Request&, Response& response) {
   json list = json::array();
-  for (const std::string& id : world::list_scenarios(service.scenarios())) {
+  for (const std::string& id : world::list_scenarios(call.service.scenarios())) {
     try {
-      list.push_back(scenario_json(service.scenarios(), id));
+      list.push_back(scenario_json(call.service.scenarios(), id));
     } catch (const InputError& error) {
       // One that is damaged hides no other.
-      list.push_back({{"id", id}, {"error", service.without_paths(error.what())}});
+      list.push_back({{"id", id}, {"error", call.service.without_paths(error.what())}});
     }
   }
   write_json(response, 200, {{"scenarios", std::move(list)}});
 }
 
-void send_scenario(JobService& service, const Request& request, Response& response) {
+void send_scenario(const Call& call, const Request& request, Response& response) {
   const std::string id = request.matches[1];
-  const auto all = world::list_scenarios(service.scenarios());
+  const auto all = world::list_scenarios(call.service.scenarios());
   if (std::find(all.begin(), all.end(), id) == all.end()) {
     throw HttpError{404, "there is no such scenario; GET /v1/scenarios lists them"};
   }
-  write_json(response, 200, scenario_json(service.scenarios(), id));
+  write_json(response, 200, scenario_json(call.service.scenarios(), id));
 }
 
-void list_airframes(JobService&, const Request&, Response& response) {
+void list_airframes(const Call&, const Request&, Response& response) {
   json list = json::array();
   for (const sim::Airframe& airframe : sim::shipped_airframes()) {
     json entry = to_json(airframe);
@@ -153,7 +152,7 @@ void list_airframes(JobService&, const Request&, Response& response) {
   write_json(response, 200, {{"airframes", std::move(list)}});
 }
 
-void list_formats(JobService&, const Request&, Response& response) {
+void list_formats(const Call&, const Request&, Response& response) {
   json list = json::array();
   for (const formats::Format& format : formats::all_formats()) {
     list.push_back({{"name", format.name}, {"summary", format.summary}, {"needs", format.needs}});
@@ -161,7 +160,7 @@ void list_formats(JobService&, const Request&, Response& response) {
   write_json(response, 200, {{"formats", std::move(list)}});
 }
 
-void list_policies(JobService&, const Request&, Response& response) {
+void list_policies(const Call&, const Request&, Response& response) {
   json list = json::array();
   for (const sim::PolicyEntry& policy : sim::policies()) {
     list.push_back({{"name", policy.name}, {"flies_free", policy.flies_free}});

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 class ApiTest : public ServiceFixture {
  protected:
-  ApiTest() : service(options(), executor), api(service, {}), thread([this] { api.run(); }) {}
+  ApiTest() : service(options(), executor), api(service, keys, {}), thread([this] { api.run(); }) {}
   ~ApiTest() override { api.stop(); }
 
   httplib::Client client() const { return httplib::Client("127.0.0.1", api.port()); }
@@ -72,6 +72,7 @@ class ApiTest : public ServiceFixture {
   }
 
   JobService service;
+  Keys keys{data.path()};
   Api api;
   std::jthread thread;
 };

@@ -53,8 +53,9 @@ class OpenApi : public ApiTest {
     valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema),
                                             parsed);
     valijson::ValidationResults results;
-    const bool valid = valijson::Validator(valijson::Validator::kStrongTypes).validate(
-        parsed, valijson::adapters::NlohmannJsonAdapter(value), &results);
+    const bool valid =
+        valijson::Validator(valijson::Validator::kStrongTypes)
+            .validate(parsed, valijson::adapters::NlohmannJsonAdapter(value), &results);
     std::string reasons;
     for (valijson::ValidationResults::Error error; results.popError(error);) {
       for (const std::string& place : error.context) reasons += place;

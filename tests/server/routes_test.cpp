@@ -29,9 +29,9 @@ TEST(Routes, PatternsCaptureTheParameters) {
 }
 
 TEST(Routes, AllowedMethodsAreThoseOfThePath) {
-  const std::array routes = {Route{Method::post, "/v1/jobs", nullptr},
-                             Route{Method::get, "/v1/jobs", nullptr},
-                             Route{Method::remove, "/v1/jobs/{id}", nullptr}};
+  const std::array routes = {Route{Method::post, "/v1/jobs", Scope::read, nullptr},
+                             Route{Method::get, "/v1/jobs", Scope::read, nullptr},
+                             Route{Method::remove, "/v1/jobs/{id}", Scope::read, nullptr}};
   EXPECT_EQ(allowed_methods(routes, "/v1/jobs"), "POST, GET, HEAD");
   EXPECT_EQ(allowed_methods(routes, "/v1/jobs/j1"), "DELETE");
   EXPECT_EQ(allowed_methods(routes, "/v1"), "");

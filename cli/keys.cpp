@@ -1,0 +1,76 @@
+// throng keys: who may use the service over HTTP.
+#include "server/keys.h"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/commands.h"
+
+namespace throng::cli {
+
+namespace {
+
+std::string day_of(std::int64_t unix_ms) {
+  constexpr std::int64_t kMsPerS = 1000;
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(unix_ms / kMsPerS)));
+}
+
+void print_keys(const std::vector<server::KeyRow>& keys) {
+  fmt::print("{:<10}{:<8}{:>10}  {:<12}{:<12}{}\n", "id", "scope", "most jobs", "made", "revoked",
+             "name");
+  for (const server::KeyRow& key : keys) {
+    fmt::print("{:<10}{:<8}{:>10}  {:<12}{:<12}{}\n", key.id, server::name_of(key.scope),
+               key.most_active == 0 ? "any" : std::to_string(key.most_active),
+               day_of(key.created_ms), key.revoked_ms == 0 ? "" : day_of(key.revoked_ms), key.name);
+  }
+}
+
+}  // namespace
+
+void add_keys(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "keys", "Keys for the HTTP service: once there is one, every caller needs one");
+  command->require_subcommand(1);
+  const auto data = std::make_shared<std::string>("throng-data");
+  const auto add_data = [data](CLI::App* to) {
+    to->add_option("--data", *data, "Folder of the service")->capture_default_str();
+  };
+
+  auto* create = command->add_subcommand("create", "Make a key and print it, once and never again");
+  const auto name = std::make_shared<std::string>();
+  const auto scope = std::make_shared<std::string>("submit");
+  const auto most = std::make_shared<int>(0);
+  create->add_option("name", *name, "Whose it is, for lists")->required();
+  create
+      ->add_option("--scope", *scope,
+                   "read: look at everything; submit: also queue jobs and change one's own; admin: "
+                   "change everybody's")
+      ->check(CLI::IsMember({"read", "submit", "admin"}))
+      ->capture_default_str();
+  create->add_option("--most-jobs", *most, "Jobs that may wait or run at once (0: any number)")
+      ->check(CLI::NonNegativeNumber);
+  add_data(create);
+  create->callback([=] {
+    fmt::print("{}\n", server::Keys(*data).create(*name, *server::scope_named(*scope), *most));
+  });
+
+  auto* list = command->add_subcommand("list", "List the keys");
+  add_data(list);
+  list->callback([=] { print_keys(server::Keys(*data).list()); });
+
+  auto* revoke = command->add_subcommand("revoke", "Let a key be good no more, at once");
+  const auto id = std::make_shared<std::string>();
+  revoke->add_option("id", *id, "Its id, from the list")->required();
+  add_data(revoke);
+  revoke->callback([=] {
+    if (!server::Keys(*data).revoke(*id)) {
+      throw InputError(Problem{"throng keys revoke", "id", *id, "the id of a key that is good"});
+    }
+  });
+}
+
+}  // namespace throng::cli

@@ -1,0 +1,184 @@
+#include "server/keys.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/core.h>
+#include <openssl/crypto.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <chrono>
+#include <mutex>
+#include <random>
+
+#include "base/error.h"
+#include "base/hash.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kBusyTimeoutMs = 5000;
+constexpr std::string_view kPrefix = "throng_";
+constexpr std::size_t kIdLength = 8;
+constexpr std::size_t kSecretLength = 32;  // of 5 bits each
+
+constexpr const char* kTable = R"(
+CREATE TABLE IF NOT EXISTS key (
+  id TEXT PRIMARY KEY,
+  name TEXT NOT NULL,
+  hash TEXT NOT NULL,
+  scope TEXT NOT NULL,
+  most_active INTEGER NOT NULL DEFAULT 0,
+  created_ms INTEGER NOT NULL,
+  revoked_ms INTEGER NOT NULL DEFAULT 0
+) WITHOUT ROWID
+)";
+
+std::string random_text(std::size_t length) {
+  constexpr std::string_view kLetters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32, none alike
+  std::random_device random;
+  std::string text;
+  for (std::size_t i = 0; i < length; ++i) text += kLetters[random() % kLetters.size()];
+  return text;
+}
+
+std::int64_t now_ms() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+}
+
+/// Takes as long whatever the difference.
+bool are_equal(const std::string& a, const std::string& b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+Scope scope_of(const std::string& name) {
+  const auto scope = scope_named(name);
+  check(scope.has_value(), "the table holds known scopes only");
+  return *scope;
+}
+
+fs::path prepared(const fs::path& data) {
+  std::error_code error;
+  fs::create_directories(data, error);
+  return data / "keys.sqlite";
+}
+
+}  // namespace
+
+struct Keys::File {
+  explicit File(const fs::path& path)
+      : database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs) {
+    constexpr mode_t kOwnerOnly = 0600;
+    ::chmod(path.c_str(), kOwnerOnly);
+    database.exec(kTable);
+  }
+
+  template <typename Action>
+  auto with(const Action& action) {
+    const std::lock_guard lock(mutex);
+    try {
+      return action(database);
+    } catch (const SQLite::Exception& error) {
+      throw EnvironmentError(fmt::format("API keys: {}", error.what()));
+    }
+  }
+
+  std::mutex mutex;
+  SQLite::Database database;
+};
+
+std::string_view name_of(Scope scope) {
+  constexpr std::array<std::string_view, 4> kNames = {"anybody", "read", "submit", "admin"};
+  return kNames[static_cast<std::size_t>(scope)];
+}
+
+std::optional<Scope> scope_named(std::string_view name) {
+  for (const Scope scope : {Scope::read, Scope::submit, Scope::admin}) {
+    if (name_of(scope) == name) return scope;
+  }
+  return std::nullopt;
+}
+
+Keys::Keys(const fs::path& data) {
+  const fs::path path = prepared(data);
+  try {
+    file_ = std::make_unique<File>(path);
+  } catch (const SQLite::Exception& error) {
+    throw EnvironmentError(fmt::format("API keys in {}: {}", path.string(), error.what()));
+  }
+}
+
+Keys::~Keys() = default;
+
+std::string Keys::create(const std::string& name, Scope scope, int most_active) {
+  const std::string id = random_text(kIdLength);
+  std::string token = fmt::format("{}{}_{}", kPrefix, id, random_text(kSecretLength));
+  file_->with([&](SQLite::Database& database) {
+    SQLite::Statement insert(database,
+                             "INSERT INTO key (id, name, hash, scope, most_active, created_ms) "
+                             "VALUES (?, ?, ?, ?, ?, ?)");
+    insert.bind(1, id);
+    insert.bind(2, name);
+    insert.bind(3, sha256_hex(token));
+    insert.bind(4, std::string(name_of(scope)));
+    insert.bind(5, most_active);
+    insert.bind(6, now_ms());
+    insert.exec();
+  });
+  return token;
+}
+
+std::vector<KeyRow> Keys::list() const {
+  return file_->with([](SQLite::Database& database) {
+    SQLite::Statement query(database,
+                            "SELECT id, name, scope, most_active, created_ms, revoked_ms FROM key "
+                            "ORDER BY created_ms, id");
+    std::vector<KeyRow> rows;
+    while (query.executeStep()) {
+      rows.push_back({query.getColumn(0).getString(), query.getColumn(1).getString(),
+                      scope_of(query.getColumn(2).getString()), query.getColumn(3).getInt(),
+                      query.getColumn(4).getInt64(), query.getColumn(5).getInt64()});
+    }
+    return rows;
+  });
+}
+
+bool Keys::revoke(const std::string& id) {
+  return file_->with([&](SQLite::Database& database) {
+    SQLite::Statement update(database,
+                             "UPDATE key SET revoked_ms = ? WHERE id = ? AND revoked_ms = 0");
+    update.bind(1, now_ms());
+    update.bind(2, id);
+    return update.exec() > 0;
+  });
+}
+
+bool Keys::are_needed() const {
+  return file_->with([](SQLite::Database& database) {
+    return database.execAndGet("SELECT EXISTS (SELECT 1 FROM key)").getInt() != 0;
+  });
+}
+
+std::optional<Caller> Keys::caller_of(std::string_view token) const {
+  if (!are_needed()) return Caller{"", Scope::admin, 0};
+  if (!token.starts_with(kPrefix) ||
+      token.size() != kPrefix.size() + kIdLength + 1 + kSecretLength) {
+    return std::nullopt;
+  }
+  const std::string hash = sha256_hex(token);
+  return file_->with([&](SQLite::Database& database) -> std::optional<Caller> {
+    SQLite::Statement query(
+        database, "SELECT id, hash, scope, most_active FROM key WHERE id = ? AND revoked_ms = 0");
+    query.bind(1, std::string(token.substr(kPrefix.size(), kIdLength)));
+    if (!query.executeStep() || !are_equal(query.getColumn(1).getString(), hash)) {
+      return std::nullopt;
+    }
+    return Caller{query.getColumn(0).getString(), scope_of(query.getColumn(2).getString()),
+                  query.getColumn(3).getInt()};
+  });
+}
+
+}  // namespace throng::server

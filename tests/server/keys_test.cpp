@@ -1,0 +1,107 @@
+#include "server/keys.h"
+
+#include <gmock/gmock.h>
+
+#include "base/files.h"
+#include "tests/server/api_fixture.h"
+
+namespace throng::server {
+namespace {
+
+class KeysTest : public ApiTest {
+ protected:
+  httplib::Headers with(const std::string& token) const {
+    return {{"Authorization", "Bearer " + token}};
+  }
+
+  int posted(const std::string& path, const std::string& token, const char* body = "") const {
+    return client().Post(path, with(token), body, "application/json")->status;
+  }
+};
+
+TEST_F(KeysTest, WithoutKeysEverybodyMayAndFromTheFirstOnNobodyWithout) {
+  EXPECT_EQ(get("/v1/jobs")->status, 200);
+  const std::string token = keys.create("me", Scope::read);
+  const httplib::Result refused = get("/v1/jobs");
+  expect_problem(refused, 401);
+  EXPECT_EQ(refused->get_header_value("WWW-Authenticate"), "Bearer");
+  EXPECT_EQ(get("/v1/jobs", with(token))->status, 200);
+  for (const std::string& wrong :
+       {std::string("x"), token + "x", token.substr(0, token.size() - 1) + "!", std::string()}) {
+    expect_problem(get("/v1/jobs", with(wrong)), 401);
+  }
+  for (const char* open : {"/healthz", "/readyz", "/v1/version", "/openapi.json"}) {
+    EXPECT_EQ(get(open)->status, 200) << open;
+  }
+  ASSERT_EQ(keys.list().size(), 1U);
+  EXPECT_TRUE(keys.revoke(keys.list()[0].id));
+  EXPECT_FALSE(keys.revoke(keys.list()[0].id));
+  expect_problem(get("/v1/jobs", with(token)), 401);
+  EXPECT_TRUE(keys.are_needed()) << "the last key's end opens nothing";
+}
+
+TEST_F(KeysTest, ScopesSayWhatAKeyMayDo) {
+  const std::string reader = keys.create("reader", Scope::read);
+  const std::string one = keys.create("one", Scope::submit);
+  const std::string other = keys.create("other", Scope::submit);
+  const std::string admin = keys.create("admin", Scope::admin);
+  Gate gate(executor);
+  expect_problem(client().Post("/v1/jobs", with(reader), kJob, "application/json"), 403);
+  const httplib::Result answer = client().Post("/v1/jobs", with(one), kJob, "application/json");
+  ASSERT_EQ(answer->status, 201);
+  const json job = json::parse(answer->body);
+  EXPECT_EQ(job["owner"], one.substr(7, 8));
+  const std::string path = "/v1/jobs/" + job["id"].get<std::string>();
+  EXPECT_EQ(get(path, with(other))->status, 200);
+  EXPECT_EQ(posted(path + "/cancel", other), 403);
+  EXPECT_EQ(client().Delete(path, with(other))->status, 403);
+  EXPECT_EQ(client().Patch(path, with(other), "{}", "application/json")->status, 403);
+  EXPECT_EQ(client().Patch(path, with(one), "{}", "application/json")->status, 200);
+  gate.open();
+  EXPECT_EQ(client().Delete(path, with(admin))->status, 204);
+}
+
+TEST_F(KeysTest, AKeyMayHaveSoManyJobs) {
+  const std::string token = keys.create("few", Scope::submit, 2);
+  Gate gate(executor);
+  EXPECT_EQ(posted("/v1/jobs", token, kJob), 201);
+  EXPECT_EQ(posted("/v1/jobs", token, kJob), 201);
+  const httplib::Result refused = client().Post("/v1/jobs", with(token), kJob, "application/json");
+  expect_problem(refused, 429);
+  EXPECT_EQ(refused->get_header_value("Retry-After"), "60");
+  EXPECT_EQ(posted("/v1/jobs", keys.create("many", Scope::submit), kJob), 201);
+  gate.open();
+}
+
+TEST_F(KeysTest, KeysOfSubmissionsAreEachOwnersOwn) {
+  Gate gate(executor);
+  std::vector<std::string> ids;
+  for (const char* name : {"one", "other"}) {
+    httplib::Headers headers = with(keys.create(name, Scope::submit));
+    headers.emplace("Idempotency-Key", "1");
+    const httplib::Result answer = client().Post("/v1/jobs", headers, kJob, "application/json");
+    ASSERT_EQ(answer->status, 201);
+    ids.push_back(json::parse(answer->body)["id"]);
+  }
+  EXPECT_NE(ids[0], ids[1]);
+  gate.open();
+}
+
+TEST_F(KeysTest, OnlyAHashIsKeptAndOnlyForItsOwner) {
+  const std::string token = keys.create("me", Scope::admin);
+  const std::filesystem::path file = data.path() / "keys.sqlite";
+  EXPECT_EQ(read_file(file).find(token.substr(16)), std::string::npos);
+  EXPECT_EQ(std::filesystem::status(file).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+TEST_F(KeysTest, PagesOfOtherSitesMayChangeNothing) {
+  Gate gate(executor);
+  const std::string path = "/v1/jobs/" + submit() + "/cancel";
+  const httplib::Headers origin = {{"Origin", "https://evil.example"}};
+  expect_problem(client().Post(path, origin, "", "text/plain"), 403);
+  gate.open();
+}
+
+}  // namespace
+}  // namespace throng::server
