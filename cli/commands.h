@@ -18,6 +18,7 @@ void add_serve(CLI::App& app);
 void add_worker(CLI::App& app);
 void add_people(CLI::App& app);
 void add_keys(CLI::App& app);
+void add_remote_jobs(CLI::App& app);  // submit, jobs, watch, cancel, retry, remove, logs, fetch
 void add_scenarios(CLI::App& app);
 void add_airframes(CLI::App& app);
 void add_metrics(CLI::App& app);

@@ -1,0 +1,170 @@
+#include "cli/api_client.h"
+
+#include <fmt/core.h>
+#include <httplib.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::cli {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kUsualUrl = "http://127.0.0.1:8080";
+constexpr time_t kConnectS = 10;
+constexpr time_t kReadS = 90;  // longer than the longest ?wait_s=
+
+std::string variable(const char* name, const char* otherwise) {
+  const char* value = std::getenv(name);
+  return value == nullptr || *value == '\0' ? otherwise : value;
+}
+
+/// What a problem document says, with every mistake in a line of its own.
+std::vector<Problem> problems_of(const httplib::Response& response, const std::string& path) {
+  const json document = json::parse(response.body, nullptr, /*allow_exceptions=*/false);
+  std::vector<Problem> problems;
+  if (document.is_object()) {
+    for (const json& error : document.value("errors", json::array())) {
+      problems.push_back({error.value("source", ""), error.value("pointer", ""),
+                          error.value("found", ""), error.value("expected", "")});
+    }
+  }
+  if (problems.empty()) {
+    const std::string detail = document.is_object() ? document.value("detail", "") : "";
+    problems.push_back({path, "", fmt::format("answer {}", response.status),
+                        detail.empty() ? "another request" : detail});
+  }
+  return problems;
+}
+
+bool is_success(int status) { return status >= 200 && status < 300; }
+
+}  // namespace
+
+struct ApiClient::Connection {
+  explicit Connection(const std::string& url) : client(url) {
+    client.set_connection_timeout(kConnectS);
+    client.set_read_timeout(kReadS);
+    client.set_keep_alive(true);
+    client.set_tcp_nodelay(true);
+    const std::string key = variable("THRONG_KEY", "");
+    if (!key.empty()) headers.emplace("Authorization", "Bearer " + key);
+  }
+
+  httplib::Client client;
+  httplib::Headers headers;
+};
+
+ApiClient::ApiClient() : url_(variable("THRONG_URL", kUsualUrl)) {
+  while (url_.ends_with('/')) url_.pop_back();
+  static const std::regex kUrl(R"(https?://[^/\s]+)");
+  if (!std::regex_match(url_, kUrl)) {
+    throw InputError(Problem{"environment variable THRONG_URL", "", '"' + url_ + '"',
+                             fmt::format("an http or https URL such as {}", kUsualUrl)});
+  }
+  connection_ = std::make_unique<Connection>(url_);
+}
+
+ApiClient::~ApiClient() = default;
+
+namespace {
+
+const httplib::Response& checked(const httplib::Result& result, const std::string& url,
+                                 const std::string& path) {
+  if (!result) {
+    throw EnvironmentError(
+        fmt::format("cannot reach {}: {} (is `throng serve` running? "
+                    "THRONG_URL says where)",
+                    url, httplib::to_string(result.error())));
+  }
+  if (is_success(result->status)) return *result;
+  constexpr int kServersFault = 500;
+  if (result->status >= kServersFault) {
+    throw EnvironmentError(
+        fmt::format("{}{}: {}", url, path, problems_of(*result, path).front().expected));
+  }
+  throw InputError(problems_of(*result, path));
+}
+
+}  // namespace
+
+json ApiClient::get(const std::string& path) { return json::parse(get_text(path)); }
+
+std::string ApiClient::get_text(const std::string& path) {
+  return checked(connection_->client.Get(path, connection_->headers), url_, path).body;
+}
+
+json ApiClient::post(const std::string& path, const std::string& body,
+                     const std::pair<std::string, std::string>& header) {
+  httplib::Headers headers = connection_->headers;
+  if (!header.first.empty()) headers.insert(header);
+  return json::parse(
+      checked(connection_->client.Post(path, headers, body, "application/json"), url_, path).body);
+}
+
+void ApiClient::remove(const std::string& path) {
+  checked(connection_->client.Delete(path, connection_->headers), url_, path);
+}
+
+bool ApiClient::download(const std::string& path, const fs::path& file, const OnBytes& on_bytes) {
+  const fs::path part = file.string() + ".part";
+  const fs::path tag_file = file.string() + ".part.etag";  // of what the part is a part of
+  std::int64_t done = 0;
+  httplib::Headers headers = connection_->headers;
+  if (fs::exists(part) && fs::exists(tag_file) && fs::file_size(part) > 0) {
+    done = static_cast<std::int64_t>(fs::file_size(part));
+    headers.emplace("Range", fmt::format("bytes={}-", done));
+    headers.emplace("If-Range", read_file(tag_file));
+  }
+  std::ofstream out;
+  std::int64_t total = 0;
+  bool goes_on = true;
+  std::string refusal;
+  const auto begin = [&](const httplib::Response& response) {
+    if (!is_success(response.status)) return true;  // the body says why
+    if (response.status != 206) done = 0;
+    total = done + std::stoll(response.get_header_value("Content-Length"));
+    write_file_atomically(tag_file, response.get_header_value("ETag"));
+    out.open(part, std::ios::binary | (done > 0 ? std::ios::app : std::ios::trunc));
+    if (!out) throw EnvironmentError(fmt::format("cannot write {}", part.string()));
+    return true;
+  };
+  const auto add = [&](const char* data, std::size_t count) {
+    if (!out.is_open()) {
+      refusal.append(data, count);
+      return true;
+    }
+    out.write(data, static_cast<std::streamsize>(count));
+    if (!out)
+      throw EnvironmentError(fmt::format("cannot write {}: is the disk full?", part.string()));
+    done += static_cast<std::int64_t>(count);
+    goes_on = on_bytes(done, total);
+    return goes_on;
+  };
+  httplib::Result result = connection_->client.Get(path, headers, begin, add);
+  out.close();
+  if (!goes_on) return false;
+  if (result && result->status == 416) {
+    // The part is all there is, or of something else: begin anew.
+    fs::remove(part);
+    fs::remove(tag_file);
+    return download(path, file, on_bytes);
+  }
+  if (result) result->body = refusal;
+  checked(result, url_, path);
+  if (done != total) {
+    throw EnvironmentError(fmt::format("{} of {} bytes came; the same again goes on", done, total));
+  }
+  fs::rename(part, file);
+  fs::remove(tag_file);
+  return true;
+}
+
+}  // namespace throng::cli

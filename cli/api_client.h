@@ -1,0 +1,48 @@
+// The HTTP API as the command line's clients use it: $THRONG_URL says where, $THRONG_KEY with which
+// key.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace throng::cli {
+
+/// Answers that are no success are thrown: InputError for what the server says is wrong with the
+/// request, EnvironmentError when the server cannot be reached or has failed.
+class ApiClient {
+ public:
+  /// Throws InputError when $THRONG_URL is no http or https URL.
+  ApiClient();
+  ~ApiClient();
+  ApiClient(const ApiClient&) = delete;
+  ApiClient& operator=(const ApiClient&) = delete;
+
+  const std::string& url() const { return url_; }
+
+  nlohmann::json get(const std::string& path);
+  std::string get_text(const std::string& path);
+  /// `headers` besides the usual ones, as name and value.
+  nlohmann::json post(const std::string& path, const std::string& body = "",
+                      const std::pair<std::string, std::string>& header = {});
+  void remove(const std::string& path);
+
+  /// Called with the bytes that are there and those there will be; false ends the download.
+  using OnBytes = std::function<bool(std::int64_t done, std::int64_t total)>;
+
+  /// Downloads into a file that appears when it is complete. What an earlier attempt has left
+  /// beside it ("FILE.part") is taken up, if the server still has the same. False when `on_bytes`
+  /// has ended it.
+  bool download(const std::string& path, const std::filesystem::path& file,
+                const OnBytes& on_bytes);
+
+ private:
+  struct Connection;
+  std::string url_;
+  std::unique_ptr<Connection> connection_;
+};
+
+}  // namespace throng::cli

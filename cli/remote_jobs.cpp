@@ -1,0 +1,263 @@
+// throng submit, jobs, watch, cancel, retry, remove, logs, fetch: the HTTP API from the command
+// line.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/api_client.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/progress_bar.h"
+
+namespace throng::cli {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Text as a value in a query.
+std::string encoded(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = std::isalnum(byte) != 0 || c == '-' || c == '_' || c == '.' || c == '~';
+    out += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return out;
+}
+
+std::string path_of(const std::string& id) { return "/v1/jobs/" + encoded(id); }
+
+bool has_ended(const json& job) { return job["state"] != "queued" && job["state"] != "running"; }
+
+void show(ProgressBar& bar, const json& job) {
+  const json& progress = job["progress"];
+  const std::int64_t done = progress.value("frames_done", std::int64_t{0});
+  const std::int64_t total = progress.value("frames_total", std::int64_t{0});
+  const double fraction = job["state"] == "succeeded" ? 1.0
+                          : total > 0                 ? static_cast<double>(done) / total
+                                                      : 0.0;
+  const std::string stage = progress.value("stage", job["state"].get<std::string>());
+  bar.show(fraction, total == 0 ? stage : fmt::format("{}, {} of {} frames", stage, done, total));
+}
+
+/// Follows a job until it has ended. A server that restarts is waited for.
+json watched(ApiClient& api, const std::string& id) {
+  constexpr auto kPatience = 60s;
+  constexpr auto kPause = 1s;
+  const Interrupt interrupt;
+  ProgressBar bar(id);
+  std::int64_t seen = 0;
+  auto last_answer = std::chrono::steady_clock::now();
+  while (true) {
+    if (interrupt.token().stop_requested()) throw Cancelled();
+    try {
+      json job = api.get(path_of(id));
+      last_answer = std::chrono::steady_clock::now();
+      show(bar, job);
+      if (has_ended(job)) return job;
+      const json news = api.get(fmt::format("{}/events?after={}&wait_s=1", path_of(id), seen));
+      seen = news["next"];
+    } catch (const EnvironmentError&) {
+      if (std::chrono::steady_clock::now() - last_answer > kPatience) throw;
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+}
+
+/// Throws what a job that did not succeed means for the exit code.
+void require_success(const json& job) {
+  if (job["state"] == "succeeded") return;
+  if (job["state"] == "cancelled") throw Cancelled();
+  const json& error = job["error"];
+  std::vector<Problem> problems;
+  for (const json& entry : error["problems"]) {
+    problems.push_back({entry.value("source", ""), entry.value("pointer", ""),
+                        entry.value("found", ""), entry.value("expected", "")});
+  }
+  if (error["kind"] == "input" && !problems.empty()) throw InputError(problems);
+  throw EnvironmentError("the job failed: " + error["message"].get<std::string>());
+}
+
+void fetch(ApiClient& api, const std::string& id, fs::path file) {
+  constexpr int kMostAttempts = 20;
+  const json job = api.get(path_of(id));
+  if (file.empty()) file = job["name"].get<std::string>() + ".tar";
+  if (fs::is_directory(file)) file /= id + ".tar";
+  const Interrupt interrupt;
+  ProgressBar bar(file.filename().string());
+  constexpr double kMegabyte = 1e6;
+  const auto on_bytes = [&](std::int64_t done, std::int64_t total) {
+    bar.show(static_cast<double>(done) / static_cast<double>(std::max<std::int64_t>(total, 1)),
+             fmt::format("{:.1f} of {:.1f} MB", static_cast<double>(done) / kMegabyte,
+                         static_cast<double>(total) / kMegabyte));
+    return !interrupt.token().stop_requested();
+  };
+  for (int attempt = 1;; ++attempt) {
+    try {
+      if (!api.download(path_of(id) + "/archive", file, on_bytes)) throw Cancelled();
+      break;
+    } catch (const EnvironmentError&) {
+      if (attempt == kMostAttempts) throw;
+      std::this_thread::sleep_for(1s);  // and on from where it broke off
+    }
+  }
+  fmt::print("{}\n", file.string());
+}
+
+struct SubmitArguments {
+  std::string job_file;
+  int priority = 0;
+  std::vector<std::string> labels;
+  std::string key;
+  bool dry_run = false;
+  bool watch = false;
+  std::string fetch_to;
+};
+
+void submit(const SubmitArguments& arguments) {
+  ApiClient api;
+  std::string text;
+  try {
+    text = read_file(arguments.job_file);
+  } catch (const EnvironmentError&) {
+    throw InputError({arguments.job_file, "", "no readable file", "a job file"});
+  }
+  std::string query = fmt::format("?priority={}", arguments.priority);
+  for (const std::string& label : arguments.labels) query += "&label=" + encoded(label);
+  if (arguments.dry_run) {
+    const json answer = api.post("/v1/jobs?dry_run", text);
+    fmt::print("valid: {} runs, {} shards, {} frames\n", answer["runs"].dump(),
+               answer["shards"].dump(), answer["frames"].dump());
+    return;
+  }
+  const std::pair<std::string, std::string> header =
+      arguments.key.empty() ? std::pair<std::string, std::string>()
+                            : std::pair<std::string, std::string>("Idempotency-Key", arguments.key);
+  const std::string id = api.post("/v1/jobs" + query, text, header)["id"];
+  fmt::print("{}\n", id);
+  std::fflush(stdout);
+  if (!arguments.watch && arguments.fetch_to.empty()) return;
+  require_success(watched(api, id));
+  if (!arguments.fetch_to.empty()) fetch(api, id, arguments.fetch_to);
+}
+
+void print_jobs(const json& list) {
+  fmt::print("{:<18}{:<11}{:>5}  {:<26}{}\n", "id", "state", "done", "submitted", "name");
+  for (const json& job : list["jobs"]) {
+    const std::int64_t total = job["progress"].value("frames_total", std::int64_t{0});
+    const std::int64_t done = job["progress"].value("frames_done", std::int64_t{0});
+    constexpr int kPercent = 100;
+    fmt::print("{:<18}{:<11}{:>4}%  {:<26}{}\n", job["id"].get<std::string>(),
+               job["state"].get<std::string>(), total > 0 ? kPercent * done / total : 0,
+               job["created_at"].get<std::string>(), job["name"].get<std::string>());
+  }
+}
+
+struct ListArguments {
+  std::vector<std::string> states;
+  std::string label;
+  std::string name;
+  int limit = 50;
+};
+
+void list(const ListArguments& arguments) {
+  std::string query = fmt::format("?limit={}", arguments.limit);
+  for (const std::string& state : arguments.states) query += "&state=" + encoded(state);
+  if (!arguments.label.empty()) query += "&label=" + encoded(arguments.label);
+  if (!arguments.name.empty()) query += "&name=" + encoded(arguments.name);
+  print_jobs(ApiClient().get("/v1/jobs" + query));
+}
+
+void logs(const std::string& id, const std::string& name) {
+  ApiClient api;
+  if (!name.empty()) {
+    std::cout << api.get_text(path_of(id) + "/logs/" + encoded(name));
+    return;
+  }
+  const json all = api.get(path_of(id) + "/logs");
+  for (const json& log : all["logs"]) {
+    fmt::print("{:>10}  {}\n", log["bytes"].dump(), log["name"].get<std::string>());
+  }
+}
+
+/// A subcommand whose one argument is a job's id.
+CLI::App* add_for_id(CLI::App& app, const char* name, const char* what,
+                     const std::shared_ptr<std::string>& id) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("id", *id, "The job's id (throng jobs)")->required();
+  return command;
+}
+
+void add_submit(CLI::App& app) {
+  auto* command = app.add_subcommand("submit", "Send a job to a server ($THRONG_URL, $THRONG_KEY)");
+  const auto arguments = std::make_shared<SubmitArguments>();
+  command->add_option("job", arguments->job_file, "Job file (JSON; see docs/job.md)")->required();
+  command->add_option("--priority", arguments->priority, "Higher ones are begun first")
+      ->check(CLI::Range(-100, 100))
+      ->capture_default_str();
+  command->add_option("--label", arguments->labels, "Words to find it by; may be given again");
+  command->add_option("--key", arguments->key,
+                      "The same key again is the same submission (Idempotency-Key)");
+  command->add_flag("--dry-run", arguments->dry_run, "Only check it");
+  command->add_flag("--watch", arguments->watch, "Follow it to its end");
+  command->add_option("--fetch", arguments->fetch_to, "Then download its archive to this file");
+  command->callback([arguments] { submit(*arguments); });
+}
+
+void add_list(CLI::App& app) {
+  auto* command = app.add_subcommand("jobs", "List a server's jobs, the newest first");
+  const auto arguments = std::make_shared<ListArguments>();
+  command->add_option("--state", arguments->states, "Only these")
+      ->check(CLI::IsMember({"queued", "running", "succeeded", "failed", "cancelled"}));
+  command->add_option("--label", arguments->label, "Only those that have it");
+  command->add_option("--name", arguments->name, "Only those whose name contains it");
+  command->add_option("--limit", arguments->limit, "So many at most")
+      ->check(CLI::Range(1, 500))
+      ->capture_default_str();
+  command->callback([arguments] { list(*arguments); });
+}
+
+}  // namespace
+
+void add_remote_jobs(CLI::App& app) {
+  add_submit(app);
+  add_list(app);
+  const auto id = std::make_shared<std::string>();
+  add_for_id(app, "watch", "Follow a job to its end", id)->callback([id] {
+    ApiClient api;
+    require_success(watched(api, *id));
+  });
+  add_for_id(app, "cancel", "End a job; what it has done is kept for a retry", id)->callback([id] {
+    ApiClient().post(path_of(*id) + "/cancel");
+  });
+  add_for_id(app, "retry", "Queue a job again that failed or was cancelled", id)->callback([id] {
+    ApiClient().post(path_of(*id) + "/retry");
+  });
+  add_for_id(app, "remove", "End a job and remove its files", id)->callback([id] {
+    ApiClient().remove(path_of(*id));
+  });
+  auto* show_logs = add_for_id(app, "logs", "What a job's workers said", id);
+  const auto name = std::make_shared<std::string>();
+  show_logs->add_option("name", *name, "Which of them; without it their names");
+  show_logs->callback([id, name] { logs(*id, *name); });
+  auto* download = add_for_id(app, "fetch", "Download a job's dataset; the same again resumes", id);
+  const auto file = std::make_shared<std::string>();
+  download->add_option("-o,--output", *file, "File, or folder for it (else the job's name)");
+  download->callback([id, file] {
+    ApiClient api;
+    fetch(api, *id, *file);
+  });
+}
+
+}  // namespace throng::cli

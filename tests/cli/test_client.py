@@ -1,0 +1,147 @@
+"""The command line's clients of the HTTP API against the real server, and keys."""
+import hashlib
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tarfile
+import tempfile
+import time
+import unittest
+
+THRONG = sys.argv.pop(1)
+
+JOB = {
+    "name": "client",
+    "scenario": "city_square/nearest_exit",
+    "drones": [{"id": "d1", "start": [-24, -6, 20], "camera": {"width": 160, "height": 120, "pitch_deg": -60}}],
+    "capture": {"rate_hz": 1, "from_s": 1, "to_s": 4},
+}
+
+
+def wait_until(condition, seconds=120):
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError("waited in vain")
+        time.sleep(0.05)
+
+
+class Client(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.base = pathlib.Path(folder.name)
+        self.job = self.base / "job.json"
+        self.job.write_text(json.dumps(JOB))
+        self.environment = dict(os.environ)
+        self.port = 0
+        self.start()
+        self.addCleanup(self.stop)
+
+    def start(self):
+        port_file = self.base / "port"
+        port_file.unlink(missing_ok=True)
+        self.server = subprocess.Popen(
+            [THRONG, "serve", "--data", str(self.base / "data"), "--port", str(self.port), "--port-file", str(port_file)],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_until(lambda: port_file.exists() and port_file.read_text().strip())
+        self.port = int(port_file.read_text())
+        self.environment["THRONG_URL"] = f"http://127.0.0.1:{self.port}"
+
+    def stop(self):
+        self.server.terminate()
+        self.server.wait(20)
+
+    def throng(self, *arguments, code=0):
+        done = subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=240,
+                              env=self.environment)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout if code == 0 else done.stderr
+
+    def test_submit_watch_and_fetch(self):
+        self.assertIn("1 runs", self.throng("submit", self.job, "--dry-run"))
+        archive = self.base / "out.tar"
+        id_ = self.throng("submit", self.job, "--label", "a b", "--key", "k", "--fetch", archive).split()[0]
+        with tarfile.open(archive) as tar:
+            names = tar.getnames()
+        self.assertTrue(any(name.endswith("annotations/instances.json") for name in names), names)
+        self.assertEqual(self.throng("submit", self.job, "--label", "a b", "--key", "k").strip(), id_)
+        self.assertIn(id_, self.throng("jobs", "--label", "a b", "--state", "succeeded"))
+        self.assertNotIn(id_, self.throng("jobs", "--label", "other"))
+        self.assertIn("run000_trace.log", self.throng("logs", id_))
+        self.throng("logs", id_, "run000_trace.log")
+        self.assertEqual(self.throng("watch", id_), "")
+        # A download that broke off goes on, and one of something else begins anew.
+        whole = archive.read_bytes()
+        again = self.base / "again.tar"
+        self.throng("fetch", id_, "-o", again)
+        self.assertEqual(again.read_bytes(), whole)
+        part = self.base / "again.tar.part"
+        tag = self.base / "again.tar.part.etag"
+        manifest = [name for name in names if name.endswith("/manifest.json")][0]
+        with tarfile.open(archive) as tar:
+            etag = '"' + hashlib.sha256(tar.extractfile(manifest).read()).hexdigest() + '"'
+        for tag_text, begin in ((etag, whole[:5000]), ('"other"', b"x" * 5000), (etag, whole)):
+            again.unlink()
+            part.write_bytes(begin)
+            tag.write_text(tag_text)
+            self.throng("fetch", id_, "-o", again)
+            self.assertEqual(again.read_bytes(), whole)
+            self.assertFalse(part.exists() or tag.exists())
+        self.throng("remove", id_)
+        self.assertIn(id_, self.throng("watch", id_, code=2))
+
+    def test_mistakes_and_missing_servers_have_their_exit_codes(self):
+        self.job.write_text(json.dumps({**JOB, "runs": 0}))
+        self.assertIn("/runs", self.throng("submit", self.job, code=2))
+        self.assertIn("no readable file", self.throng("submit", self.base / "none.json", code=2))
+        self.assertIn("jnosuchjob000000", self.throng("cancel", "jnosuchjob000000", code=2))
+        self.environment["THRONG_URL"] = "127.0.0.1"
+        self.assertIn("THRONG_URL", self.throng("jobs", code=2))
+        self.environment["THRONG_URL"] = "http://127.0.0.1:9"
+        self.assertIn("cannot reach", self.throng("jobs", code=3))
+
+    def test_cancel_and_retry(self):
+        self.job.write_text(json.dumps({**JOB, "runs": 20}))
+        id_ = self.throng("submit", self.job).strip()
+        wait_until(lambda: "running" in self.throng("jobs"))
+        self.throng("cancel", id_)
+        self.assertIn("cancelled", self.throng("jobs"))
+        workers = subprocess.run(["pgrep", "-f", f"throng worker.*{id_}"], capture_output=True, text=True)
+        self.assertEqual(workers.stdout, "", "nobody works on it any more")
+        self.throng("cancel", id_, code=2)
+        self.throng("watch", id_, code=130)
+        self.throng("retry", id_)
+        wait_until(lambda: "running" in self.throng("jobs"))
+        self.throng("remove", id_)
+
+    def test_watch_goes_on_when_the_server_is_restarted(self):
+        self.job.write_text(json.dumps({**JOB, "runs": 3}))
+        id_ = self.throng("submit", self.job).strip()
+        watcher = subprocess.Popen([THRONG, "watch", id_], env=self.environment, stderr=subprocess.DEVNULL)
+        self.addCleanup(watcher.kill)
+        wait_until(lambda: "running" in self.throng("jobs"))
+        self.server.kill()
+        self.server.wait()
+        self.start()
+        self.assertEqual(watcher.wait(120), 0)
+
+    def test_keys(self):
+        data = self.base / "data"
+        key = self.throng("keys", "create", "alice", "--scope", "read", "--data", data).strip()
+        self.assertIn("needs a key", self.throng("jobs", code=2))
+        self.environment["THRONG_KEY"] = key
+        self.throng("jobs")
+        self.assertIn("scope", self.throng("submit", self.job, code=2))
+        listed = self.throng("keys", "list", "--data", data)
+        self.assertIn("alice", listed)
+        self.assertNotIn(key, listed)
+        self.throng("keys", "revoke", key.split("_")[1], "--data", data)
+        self.assertIn("revoked", self.throng("jobs", code=2))
+        self.throng("keys", "revoke", "nobody00", "--data", data, code=2)
+
+
+if __name__ == "__main__":
+    unittest.main()
