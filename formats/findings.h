@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "camera/camera.h"
 #include "formats/dataset.h"
 #include "formats/npy.h"
 #include "formats/validate.h"
@@ -51,8 +52,25 @@ void check_bodies(const Image& image, Findings& findings);
 /// One picture's files: its size, its density map and its values per pixel, against its people.
 void check_files(const DatasetInfo& info, const Image& image, Findings& findings);
 
+/// Everything below formats/, dataset.json and README.md, made again from the annotations and
+/// compared byte by byte; of a dataset that this version of the program wrote.
+void check_exports(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
+
 /// R is a rotation, and the centre is where R and t put it.
 void check_camera(const Image& image, Findings& findings);
+
+/// The image's camera, with its lens.
+camera::Camera camera_of(const Image& image);
+
+/// The run's calibration files against the image's lens.
+void check_camera_files(const DatasetInfo& info, const Image& image, Findings& findings);
+
+/// Parts are where people are, and normals have length 1.
+void check_parts_and_normals(const DatasetInfo& info, const Image& image,
+                             const std::vector<std::uint32_t>& ids, Findings& findings);
+
+/// Densities on the ground against how many people there are.
+void check_fields(const DatasetInfo& info, Findings& findings);
 
 /// A density map against the heads of the records.
 void check_density_is_heads(const Image& image, const std::string& path, const FloatMap& map,

@@ -93,7 +93,9 @@ class PanopticExporter : public Exporter {
   }
 
   OutputStream& stream_of(Split split, std::map<Split, Aside>& asides, const char* suffix) {
-    return asides.try_emplace(split, Aside{output_.open(annotations_path(split) + suffix)})
+    return asides
+        .try_emplace(split,
+                     Aside{OutputStream(output_.folder() / (annotations_path(split) + suffix))})
         .first->second.stream;
   }
 

@@ -120,6 +120,7 @@ class PointsExporter : public Exporter {
         heads.place, sigmas_of(kernel_, heads, image), image.width, image.height);
     output_.write(truth + name + ".npy", annotate::npy_bytes(map));
     write_h5(output_.folder() / (truth + name + ".h5"), map);
+    output_.written(truth + name + ".h5");
   }
   void finish() override {}
 

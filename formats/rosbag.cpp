@@ -200,15 +200,18 @@ class RosbagExporter : public Exporter {
     if (image.run == run_) return;
     close();
     run_ = image.run;
-    const fs::path path =
-        output_.folder() / fmt::format("{}/{}.bag", name_of(image.split), image.run);
+    place_ = fmt::format("{}/{}.bag", name_of(image.split), image.run);
+    const fs::path path = output_.folder() / place_;
     fs::create_directories(path.parent_path());
     bag_ = std::make_unique<BagFile>(path, is_compressed_);
   }
 
   void close() {
-    if (bag_ != nullptr) bag_->close();
-    bag_.reset();
+    if (bag_ != nullptr) {
+      bag_->close();
+      bag_.reset();
+      output_.written(place_);
+    }
     tables_.clear();
     names_.clear();
   }
@@ -280,6 +283,7 @@ class RosbagExporter : public Exporter {
   bool is_compressed_;
   std::string run_;
   std::unique_ptr<BagFile> bag_;
+  std::string place_;                          ///< of the bag, below the format's folder
   std::map<std::string, SensorTable> tables_;  ///< of the run, by camera
   std::map<std::string, std::string> names_;   ///< cameras of the run, by their names in ROS
 };

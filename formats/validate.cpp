@@ -73,12 +73,26 @@ void check_counts(const json& manifest, const Validation& validation, Findings& 
   }
 }
 
-/// The filters that the dataset's other formats were written with.
+/// The splits, filters and classes that the dataset's other formats were written with.
 ExportOptions options_of(const json& manifest) {
   ExportOptions options;
-  const json filters = manifest.at("job").at("outputs").value("filters", json::object());
+  const json& outputs = manifest.at("job").at("outputs");
+  const json filters = outputs.value("filters", json::object());
   options.filters.min_visibility = filters.value("min_visibility", 0.0);
   options.filters.min_height_px = filters.value("min_height_px", 0.0);
+  const json splits = outputs.value("splits", json::object());
+  for (std::size_t i = 0; i < kSplitNames.size(); ++i) {
+    const std::string name(kSplitNames.at(i));
+    options.splits.share.at(i) = splits.value(name, options.splits.share.at(i));
+    for (const int run : splits.value(name + "_runs", std::vector<int>{})) {
+      options.splits.runs[fmt::format("run{:03}", run)] = static_cast<Split>(i);
+    }
+  }
+  const json classes = outputs.value("classes", json::object());
+  options.classes.by = classes.value("by", options.classes.by);
+  for (const std::string& name : classes.value("names", std::vector<std::string>{})) {
+    add_class_name(name, "", options.classes);
+  }
   return options;
 }
 
@@ -138,6 +152,7 @@ Validation validate_dataset(const fs::path& root) {
       ids.add(info, image, findings);
       check_time(info, image, findings);
       check_camera(image, findings);
+      check_camera_files(info, image, findings);
       other_formats.add(info, image, findings);
       check_bodies(image, findings);
       const std::size_t before = validation.found;
@@ -151,6 +166,8 @@ Validation validate_dataset(const fs::path& root) {
     }
     other_formats.finish(findings);
     check_counts(manifest, validation, findings);
+    check_fields(info, findings);
+    check_exports(info, manifest, findings);
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();
     findings.add("schema", fs::path(problem.source).lexically_relative(root).string(),

@@ -220,6 +220,7 @@ void check_files(const DatasetInfo& info, const Image& image, Findings& findings
         }
         check_instances(info, image, ids, findings);
         if (info.has("depth")) check_depth(info, image, ids, findings);
+        check_parts_and_normals(info, image, ids, findings);
       },
       "instances-are-masks", info, findings);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "annotate/person_record.h"
 #include "base/error.h"
 #include "formats/findings.h"
 #include "formats/mask.h"
@@ -203,6 +204,52 @@ void check_projection(const Image& image, const Person& person, Findings& findin
   }
 }
 
+/// Keypoints in the picture are those in the world, seen by the camera.
+void check_keypoints_3d(const camera::Camera& camera, const Person& person, Findings& findings) {
+  const auto places = person.record.find("keypoints_3d");
+  if (places == person.record.end()) return;
+  for (std::size_t i = 0; i < person.keypoints.size(); ++i) {
+    const Keypoint& point = person.keypoints[i];
+    if (point.visibility == 0) continue;
+    const nlohmann::json& at = places->at(i);
+    const auto seen =
+        camera.project({at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>()});
+    // Places are written to a millimetre, pixels to a hundredth; the truth is in float.
+    const double slack = 0.03 + 2e-3 * camera.intrinsics.fx_px / std::max(seen.depth_m, 0.1);
+    if (seen.visible &&
+        std::hypot(seen.pixel.x() + 0.5 - point.x, seen.pixel.y() + 0.5 - point.y) <= slack) {
+      continue;
+    }
+    findings.add("keypoints", person,
+                 fmt::format("keypoint {} is not where keypoints_3d is seen", i + 1));
+    return;
+  }
+}
+
+void check_state(const Person& person, Findings& findings) {
+  const std::vector<std::string> states = class_values("state");
+  if (!person.state.empty() &&
+      std::find(states.begin(), states.end(), person.state) == states.end()) {
+    findings.add("state", person, "a state that nobody can be in: " + person.state);
+  }
+}
+
+void check_truncation(const Image& image, const Person& person, Findings& findings) {
+  const Box& box = person.amodal;
+  const Eigen::AlignedBox2d bounds(Eigen::Vector2d(box.x, box.y),
+                                   Eigen::Vector2d(box.x + box.width, box.y + box.height));
+  camera::Intrinsics size;
+  size.width = image.width;
+  size.height = image.height;
+  constexpr double kRounding = 0.01;  // of boxes a few pixels small
+  const double expected = annotate::truncation_of(bounds, size);
+  if (!(std::abs(person.truncation - expected) <= kRounding)) {
+    findings.add(
+        "truncation", person,
+        fmt::format("truncation {}, but bbox_amodal says {:.4f}", person.truncation, expected));
+  }
+}
+
 /// Somebody's place on the ground is below their body, or beside it when they lie.
 void check_position(const Person& person, Findings& findings) {
   constexpr double kReach_m = 1.6;
@@ -229,9 +276,14 @@ Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& 
 
 void check_bodies(const Image& image, Findings& findings) {
   const bool plain = is_plain(image);
+  const bool at_once = is_shot_at_once(image);
+  const camera::Camera camera = camera_of(image);
   for (const Person& person : things_of(image)) {
     check_position(person, findings);
+    check_state(person, findings);
+    check_truncation(image, person, findings);
     if (plain) check_projection(image, person, findings);
+    if (at_once) check_keypoints_3d(camera, person, findings);
   }
 }
 
@@ -257,11 +309,17 @@ void check_people(const Image& image, Findings& findings) {
     }
   }
   if (const auto counts = image.record.find("counts"); counts != image.record.end()) {
+    const auto truncated =
+        std::count_if(image.people.begin(), image.people.end(),
+                      [](const Person& person) { return person.record.contains("truncation"); });
     if (counts->at("visible") != image.people.size() ||
-        counts->at("all") != image.people.size() + image.hidden.size()) {
-      findings.add("counts", kCocoFile, fmt::format("image {}", image.id),
-                   fmt::format("counts {}, but {} have annotations and {} are hidden",
-                               counts->dump(), image.people.size(), image.hidden.size()));
+        counts->at("all") != image.people.size() + image.hidden.size() ||
+        counts->at("truncated") != truncated ||
+        counts->value("drones", 0U) != image.drones.size()) {
+      findings.add(
+          "counts", kCocoFile, fmt::format("image {}", image.id),
+          fmt::format("counts {}, but {} have annotations and {} are hidden, {} are truncated",
+                      counts->dump(), image.people.size(), image.hidden.size(), truncated));
     }
   }
 }

@@ -73,10 +73,10 @@ class WebDatasetExporter : public Exporter {
   void add(const Image& image) override {
     Shards& shards = shards_[image.split];
     if (shards.samples % kSamplesPerShard == 0) {
-      if (shards.open) shards.open->close();
-      shards.open = std::make_unique<TarFile>(
-          output_.folder() /
-          fmt::format("{}-{:06}.tar", name_of(image.split), shards.samples / kSamplesPerShard));
+      close(shards);
+      shards.place =
+          fmt::format("{}-{:06}.tar", name_of(image.split), shards.samples / kSamplesPerShard);
+      shards.open = std::make_unique<TarFile>(output_.folder() / shards.place);
     }
     ++shards.samples;
     // Keys end at the first dot, and have none.
@@ -85,14 +85,22 @@ class WebDatasetExporter : public Exporter {
   }
 
   void finish() override {
-    for (auto& [split, shards] : shards_) shards.open->close();
+    for (auto& [split, shards] : shards_) close(shards);
   }
 
  private:
   struct Shards {
     std::unique_ptr<TarFile> open;
+    std::string place;
     std::int64_t samples = 0;
   };
+
+  void close(Shards& shards) const {
+    if (!shards.open) return;
+    shards.open->close();
+    shards.open.reset();
+    output_.written(shards.place);
+  }
 
   const DatasetInfo& info_;
   Output output_;

@@ -17,6 +17,7 @@
 #include "annotate/preview.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/version.h"
 #include "formats/exporter.h"
 #include "tests/annotate/synthetic_frame.h"
 
@@ -141,7 +142,7 @@ class SmallDataset : public testing::Test {
     }
     const nlohmann::json manifest = {
         {"schema_version", 1},
-        {"generator", "throng test"},
+        {"generator", kGenerator},
         {"job",
          {{"name", "small"},
           {"capture", {{"rate_hz", 2}, {"from_s", 0}, {"to_s", 1}}},

@@ -129,6 +129,46 @@ TEST_F(Validate, RecordsThatContradictThemselves) {
   expect_change("ids", [](json& r) { r["id"] = r["id"].get<std::int64_t>() + 7; });
 }
 
+TEST_F(Validate, PlacesThatThePictureDoesNotShow) {
+  expect_change("keypoints", [](json& r) {
+    for (json& place : r["keypoints_3d"]) place[0] = place[0].get<double>() + 0.3;
+  });
+  expect_change("truncation", [](json& r) { r["truncation"] = 0.7; });
+  const std::string whole = read_file(root_ / kCocoFile);
+  change_image(
+      [](json& r) { r["camera"]["K"][0][0] = 1.05 * r["camera"]["K"][0][0].get<double>(); });
+  expect("keypoints", kCocoFile, "annotation ");
+  write_file_atomically(root_ / kCocoFile, whole);
+  change_image([](json& r) { r["counts"]["truncated"] = 77; });
+  expect("counts", kCocoFile, "image 1");
+}
+
+TEST_F(Validate, ExportsThatWereTouched) {
+  formats_ = {"voc", "mot", "webdataset", "shanghaitech", "coco", "table"};
+  export_dataset(info(), choose_formats(formats_, annotations_, ""), root_ / "formats");
+  write_manifest();
+  EXPECT_EQ(validate_dataset(root_).found, 0U);
+  const auto touched = [&](const std::string& path, const std::string& from,
+                           const std::string& to) {
+    SCOPED_TRACE(path);
+    const std::string whole = read_file(root_ / path);
+    std::string text = whole;
+    ASSERT_NE(text.find(from), std::string::npos);
+    write(path, text.replace(text.find(from), from.size(), to));
+    expect("formats", path, "");
+    write(path, whole);
+  };
+  touched("formats/voc/Annotations/run000-d1-000000.xml", "<xmin>", "<xmin>1");
+  touched("formats/mot/train/run000-d1/seqinfo.ini", "seqLength=3", "seqLength=4");
+  touched("formats/coco/annotations/instances_train.json", "\"area\":", "\"area\":1");
+  touched("formats/webdataset/train-000000.tar", "\"area\":", "\"aera\":");
+  touched("formats/table/people.csv", "run000", "run009");
+  fs::copy_file(root_ / "formats/voc/Annotations/run000-d1-000000.xml",
+                root_ / "formats/voc/Annotations/leak.xml");
+  write_manifest();
+  expect("formats", "formats/voc/Annotations/leak.xml", "");
+}
+
 TEST_F(Validate, FilesThatAreMissingCutOffOrTooMany) {
   const fs::path image = root_ / "images/run000/d1/000001.jpg";
   fs::resize_file(image, 10);
