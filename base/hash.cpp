@@ -1,6 +1,7 @@
 #include "base/hash.h"
 
 #include <fmt/format.h>
+#include <isa-l/crc.h>
 #include <openssl/evp.h>
 
 #include <array>
@@ -41,17 +42,29 @@ std::string sha256_hex(std::string_view bytes) {
   return hash.hex();
 }
 
-std::string sha256_hex_of_file(const std::filesystem::path& path) {
+std::uint32_t crc32_of(std::string_view bytes) {
+  return crc32_gzip_refl(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+}
+
+FileHashes hashes_of_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw EnvironmentError(fmt::format("cannot read {}", path.string()));
   Sha256 hash;
-  std::vector<char> block(1 << 20);
+  FileHashes hashes;
+  std::vector<unsigned char> block(1 << 20);
   while (file) {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    hash.add(block.data(), static_cast<std::size_t>(file.gcount()));
+    file.read(reinterpret_cast<char*>(block.data()), static_cast<std::streamsize>(block.size()));
+    const auto count = static_cast<std::size_t>(file.gcount());
+    hash.add(block.data(), count);
+    hashes.crc32 = crc32_gzip_refl(hashes.crc32, block.data(), count);
   }
   if (file.bad()) throw EnvironmentError(fmt::format("cannot read {}", path.string()));
-  return hash.hex();
+  hashes.sha256_hex = hash.hex();
+  return hashes;
+}
+
+std::string sha256_hex_of_file(const std::filesystem::path& path) {
+  return hashes_of_file(path).sha256_hex;
 }
 
 }  // namespace throng

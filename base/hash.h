@@ -1,6 +1,7 @@
-// SHA-256 of bytes and files, as lower-case hex.
+// SHA-256 of bytes and files, as lower-case hex, and CRC-32.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -9,6 +10,16 @@
 namespace throng {
 
 std::string sha256_hex(std::string_view bytes);
+
+/// The checksum of zip files and gzip (CRC-32 of ISO 3309).
+std::uint32_t crc32_of(std::string_view bytes);
+
+/// Both of a file, which is read once, in blocks. Throws EnvironmentError when it cannot be read.
+struct FileHashes {
+  std::string sha256_hex;
+  std::uint32_t crc32 = 0;
+};
+FileHashes hashes_of_file(const std::filesystem::path& path);
 
 /// Reads the file in blocks. Throws EnvironmentError when it cannot be read.
 std::string sha256_hex_of_file(const std::filesystem::path& path);

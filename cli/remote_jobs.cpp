@@ -89,11 +89,35 @@ void require_success(const json& job) {
   throw EnvironmentError("the job failed: " + error["message"].get<std::string>());
 }
 
-void fetch(ApiClient& api, const std::string& id, fs::path file) {
+struct FetchArguments {
+  std::string id;
+  std::string file;
+  bool zip = false;
+  std::string include;
+  std::string runs;
+  std::string split;
+};
+
+std::string archive_path(const FetchArguments& arguments) {
+  std::string path = path_of(arguments.id) + "/archive";
+  char before = '?';
+  const auto add = [&](const char* name, const std::string& value) {
+    if (value.empty()) return;
+    path += fmt::format("{}{}={}", before, name, encoded(value));
+    before = '&';
+  };
+  add("format", arguments.zip ? "zip" : "");
+  add("include", arguments.include);
+  add("runs", arguments.runs);
+  add("split", arguments.split);
+  return path;
+}
+
+void fetch(ApiClient& api, const FetchArguments& arguments) {
   constexpr int kMostAttempts = 20;
-  const json job = api.get(path_of(id));
-  if (file.empty()) file = job["name"].get<std::string>() + ".tar";
-  if (fs::is_directory(file)) file /= id + ".tar";
+  const char* suffix = arguments.zip ? ".zip" : ".tar";
+  fs::path file = arguments.file;
+  if (file.empty() || fs::is_directory(file)) file /= arguments.id + suffix;
   const Interrupt interrupt;
   ProgressBar bar(file.filename().string());
   constexpr double kMegabyte = 1e6;
@@ -105,7 +129,7 @@ void fetch(ApiClient& api, const std::string& id, fs::path file) {
   };
   for (int attempt = 1;; ++attempt) {
     try {
-      if (!api.download(path_of(id) + "/archive", file, on_bytes)) throw Cancelled();
+      if (!api.download(archive_path(arguments), file, on_bytes)) throw Cancelled();
       break;
     } catch (const EnvironmentError&) {
       if (attempt == kMostAttempts) throw;
@@ -149,7 +173,7 @@ void submit(const SubmitArguments& arguments) {
   std::fflush(stdout);
   if (!arguments.watch && arguments.fetch_to.empty()) return;
   require_success(watched(api, id));
-  if (!arguments.fetch_to.empty()) fetch(api, id, arguments.fetch_to);
+  if (!arguments.fetch_to.empty()) fetch(api, {id, arguments.fetch_to});
 }
 
 void print_jobs(const json& list) {
@@ -228,6 +252,23 @@ void add_list(CLI::App& app) {
   command->callback([arguments] { list(*arguments); });
 }
 
+void add_fetch(CLI::App& app) {
+  auto* command = app.add_subcommand("fetch", "Download a job's dataset; the same again resumes");
+  const auto arguments = std::make_shared<FetchArguments>();
+  command->add_option("id", arguments->id, "The job's id (throng jobs)")->required();
+  command->add_option("-o,--output", arguments->file,
+                      "File, or folder for it (else named by the id)");
+  command->add_flag("--zip", arguments->zip, "As a zip file instead of a tar file");
+  command->add_option("--include", arguments->include,
+                      "Only these: folders and files at the dataset's top, formats, coco");
+  command->add_option("--runs", arguments->runs, "Only these runs' own files: 0-3,7");
+  command->add_option("--split", arguments->split, "Only the files of this split's runs");
+  command->callback([arguments] {
+    ApiClient api;
+    fetch(api, *arguments);
+  });
+}
+
 }  // namespace
 
 void add_remote_jobs(CLI::App& app) {
@@ -251,13 +292,7 @@ void add_remote_jobs(CLI::App& app) {
   const auto name = std::make_shared<std::string>();
   show_logs->add_option("name", *name, "Which of them; without it their names");
   show_logs->callback([id, name] { logs(*id, *name); });
-  auto* download = add_for_id(app, "fetch", "Download a job's dataset; the same again resumes", id);
-  const auto file = std::make_shared<std::string>();
-  download->add_option("-o,--output", *file, "File, or folder for it (else the job's name)");
-  download->callback([id, file] {
-    ApiClient api;
-    fetch(api, *id, *file);
-  });
+  add_fetch(app);
 }
 
 }  // namespace throng::cli

@@ -5,12 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <unordered_map>
 
 #include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
 #include "jobs/manifest.h"
 
 namespace throng::jobs {
@@ -19,77 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t kBlock = 512;
-constexpr std::int64_t kEndBytes = 2 * kBlock;  // two blocks of zeros end a tar file
-using Header = std::array<char, kBlock>;
-
-// Places of the fields of a ustar header (POSIX.1-1988).
-struct Field {
-  std::size_t offset;
-  std::size_t length;
-};
-constexpr Field kName{0, 100};
-constexpr Field kMode{100, 8};
-constexpr Field kOwner{108, 8};
-constexpr Field kGroup{116, 8};
-constexpr Field kSize{124, 12};
-constexpr Field kTime{136, 12};
-constexpr Field kChecksum{148, 8};
-constexpr Field kType{156, 1};
-constexpr Field kLink{157, 100};
-constexpr Field kMagic{257, 8};
-constexpr Field kPrefix{345, 155};
-
-std::int64_t padded(std::int64_t bytes) { return (bytes + kBlock - 1) / kBlock * kBlock; }
-
-void put(Header& header, Field field, std::string_view text) {
-  check(text.size() <= field.length, "a tar field holds its text");
-  std::copy(text.begin(), text.end(), header.begin() + static_cast<std::ptrdiff_t>(field.offset));
-}
-
-// Octal digits with a closing zero byte; sizes of 8 GiB and more in the binary form that all
-// readers know.
-void put_number(Header& header, Field field, std::int64_t value) {
-  const std::string digits = fmt::format("{:0{}o}", value, field.length - 1);
-  if (digits.size() < field.length) return put(header, field, digits);
-  for (std::size_t i = field.length; i-- > 0; value >>= 8) {
-    header[field.offset + i] = static_cast<char>(value & 0xFF);
-  }
-  header[field.offset] = static_cast<char>(0x80);
-}
-
-// A path longer than the name field is split at a '/' between the two fields.
-void put_path(Header& header, const std::string& path) {
-  if (path.size() <= kName.length) return put(header, kName, path);
-  const auto slash = path.find('/', path.size() - kName.length - 1);
-  check(slash != std::string::npos && slash <= kPrefix.length, "paths in a dataset are short");
-  put(header, kPrefix, path.substr(0, slash));
-  put(header, kName, path.substr(slash + 1));
-}
-
-// `same_as`: the path of an earlier member that this one is a hard link to, or "".
-Header header_of(const std::string& path, std::int64_t bytes, const std::string& same_as) {
-  Header header{};
-  put_path(header, path);
-  put(header, kMode, "0000644");
-  put_number(header, kOwner, 0);
-  put_number(header, kGroup, 0);
-  put_number(header, kSize, bytes);
-  put_number(header, kTime, 0);
-  put(header, kType, same_as.empty() ? "0" : "1");
-  put(header, kLink, same_as);
-  put(header, kMagic,
-      std::string_view("ustar\0"
-                       "00",
-                       kMagic.length));
-  // The sum counts the checksum's own field as spaces.
-  put(header, kChecksum, "        ");
-  unsigned sum = 0;
-  for (const char c : header) sum += static_cast<unsigned char>(c);
-  put(header, kChecksum, fmt::format("{:06o}", sum));
-  header[kChecksum.offset + 6] = '\0';
-  return header;
-}
+std::int64_t padding_of(std::int64_t bytes) { return (kTarBlock - bytes % kTarBlock) % kTarBlock; }
 
 class OpenFile {
  public:
@@ -124,79 +55,117 @@ void read_exactly(const fs::path& path, std::int64_t offset, std::span<char> buf
 
 }  // namespace
 
-Archive::Archive(fs::path dataset, std::string root)
-    : dataset_(std::move(dataset)), root_(std::move(root)) {
-  // Other formats hold the same pictures under other names.
-  std::unordered_map<std::string, std::string> first_of;
+Archive::Archive(fs::path dataset, const std::string& root, ArchiveFormat format,
+                 const Selection& selection)
+    : dataset_(std::move(dataset)), root_(root + "/"), format_(format) {
+  choose(selection);
+  if (format_ == ArchiveFormat::tar) {
+    link_equal_files();
+    lay_out_tar();
+  } else {
+    lay_out_zip();
+  }
+}
+
+void Archive::choose(const Selection& selection) {
   for (FileEntry& file : read_manifest_files(dataset_)) {
-    const auto [first, is_new] = first_of.try_emplace(file.sha256, file.path);
-    const std::string target = is_new ? "" : root_ + "/" + first->second;
-    if (is_new || file.bytes <= kBlock || target.size() > kLink.length) {
-      members_.push_back({std::move(file.path), file.bytes, 0, ""});
-    } else {
-      members_.push_back({std::move(file.path), 0, 0, target});
+    if (!selection.holds(file.path)) continue;
+    if (format_ == ArchiveFormat::zip && !file.crc32) {
+      throw EnvironmentError(
+          "the dataset was made before checksums for zip were kept; ask for tar");
     }
+    files_.push_back(std::move(file));
   }
-  std::error_code error;
-  const auto manifest_bytes = fs::file_size(dataset_ / kManifestName, error);
-  if (error) throw EnvironmentError(fmt::format("cannot read {}", kManifestName));
-  members_.push_back({kManifestName, static_cast<std::int64_t>(manifest_bytes), 0, ""});
-  std::sort(members_.begin(), members_.end(),
-            [](const Member& a, const Member& b) { return a.path < b.path; });
-  for (Member& member : members_) {
-    member.offset = size_;
-    size_ += kBlock + padded(member.bytes);
+  const std::string manifest = read_file(dataset_ / kManifestName);
+  files_.push_back({kManifestName, static_cast<std::int64_t>(manifest.size()), sha256_hex(manifest),
+                    crc32_of(manifest)});
+  std::sort(files_.begin(), files_.end(),
+            [](const FileEntry& a, const FileEntry& b) { return a.path < b.path; });
+  for (const FileEntry& file : files_) {
+    members_.push_back({root_ + file.path, file.bytes, 0, "", file.crc32.value_or(0)});
   }
-  size_ += kEndBytes;
+}
+
+// Other formats hold the same pictures under other names.
+void Archive::link_equal_files() {
+  constexpr std::size_t kLongestLink = 100;
+  std::unordered_map<std::string, std::string> first_of;
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    const auto [first, is_new] = first_of.try_emplace(files_[i].sha256, members_[i].path);
+    if (is_new || files_[i].bytes <= kTarBlock || first->second.size() > kLongestLink) continue;
+    members_[i].same_as = first->second;
+    members_[i].bytes = 0;
+  }
+}
+
+void Archive::add_part(PartKind kind, std::size_t member, std::int64_t bytes) {
+  if (bytes == 0) return;
+  parts_.push_back({size_, kind, static_cast<std::uint32_t>(member)});
+  size_ += bytes;
+}
+
+void Archive::lay_out_tar() {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    members_[i].offset = size_;
+    add_part(PartKind::header, i, kTarBlock);
+    add_part(PartKind::content, i, members_[i].bytes);
+    add_part(PartKind::zeros, i, padding_of(members_[i].bytes));
+  }
+  add_part(PartKind::zeros, 0, kTarEndBytes);
+}
+
+void Archive::lay_out_zip() {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    members_[i].offset = size_;
+    add_part(PartKind::header, i, static_cast<std::int64_t>(zip_header(members_[i]).size()));
+    add_part(PartKind::content, i, members_[i].bytes);
+  }
+  const std::int64_t directory = size_;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    add_part(PartKind::entry, i, static_cast<std::int64_t>(zip_entry(members_[i]).size()));
+  }
+  end_ = zip_end(members_.size(), directory, size_ - directory);
+  add_part(PartKind::end, 0, static_cast<std::int64_t>(end_.size()));
 }
 
 std::size_t Archive::read(std::int64_t offset, std::span<char> buffer) const {
   if (offset < 0 || offset >= size_) return 0;
   buffer = buffer.first(
       static_cast<std::size_t>(std::min(static_cast<std::int64_t>(buffer.size()), size_ - offset)));
-  auto member = std::upper_bound(
-      members_.begin(), members_.end(), offset,
-      [](std::int64_t place, const Member& candidate) { return place < candidate.offset; });
-  if (member != members_.begin()) --member;
+  auto part = std::upper_bound(
+      parts_.begin(), parts_.end(), offset,
+      [](std::int64_t place, const Part& candidate) { return place < candidate.offset; });
+  --part;  // the first begins at 0
   std::size_t filled = 0;
-  while (filled < buffer.size()) {
+  for (; filled < buffer.size(); ++part) {
     const std::int64_t place = offset + static_cast<std::int64_t>(filled);
-    if (member == members_.end()) {
-      std::fill(buffer.begin() + static_cast<std::ptrdiff_t>(filled), buffer.end(), '\0');
-      break;
-    }
-    filled += read_member(*member, place - member->offset, buffer.subspan(filled));
-    ++member;
+    const std::int64_t end = part + 1 == parts_.end() ? size_ : (part + 1)->offset;
+    const auto count = static_cast<std::size_t>(
+        std::min(end - place, static_cast<std::int64_t>(buffer.size() - filled)));
+    read_part(*part, place - part->offset, buffer.subspan(filled, count));
+    filled += count;
   }
   return buffer.size();
 }
 
-// Reads header, content and padding of one member, from `offset` in it on.
-std::size_t Archive::read_member(const Member& member, std::int64_t offset,
-                                 std::span<char> buffer) const {
-  const std::int64_t end = kBlock + padded(member.bytes);
-  buffer = buffer.first(static_cast<std::size_t>(
-      std::clamp<std::int64_t>(end - offset, 0, static_cast<std::int64_t>(buffer.size()))));
-  const std::size_t total = buffer.size();
-  const auto take = [&](std::int64_t part_end) {
-    const auto count =
-        std::clamp<std::int64_t>(part_end - offset, 0, static_cast<std::int64_t>(buffer.size()));
-    const std::span<char> part = buffer.first(static_cast<std::size_t>(count));
-    buffer = buffer.subspan(part.size());
-    offset += count;
-    return part;
+void Archive::read_part(const Part& part, std::int64_t from, std::span<char> buffer) const {
+  const ArchiveMember& member = members_[part.member];
+  const auto copy = [&](const std::string& text) {
+    std::copy_n(text.begin() + from, buffer.size(), buffer.begin());
   };
-  if (offset < kBlock) {
-    const Header header = header_of(root_ + "/" + member.path, member.bytes, member.same_as);
-    const std::int64_t from = offset;
-    const std::span<char> part = take(kBlock);
-    std::copy_n(header.begin() + from, part.size(), part.begin());
+  switch (part.kind) {
+    case PartKind::header:
+      return copy(format_ == ArchiveFormat::tar ? tar_header(member) : zip_header(member));
+    case PartKind::content:
+      return read_exactly(dataset_ / files_[part.member].path, from, buffer);
+    case PartKind::zeros:
+      std::fill(buffer.begin(), buffer.end(), '\0');
+      return;
+    case PartKind::entry:
+      return copy(zip_entry(member));
+    case PartKind::end:
+      return copy(end_);
   }
-  const std::int64_t from = offset - kBlock;
-  const std::span<char> content = take(kBlock + member.bytes);
-  if (!content.empty()) read_exactly(dataset_ / member.path, from, content);
-  std::fill(buffer.begin(), buffer.end(), '\0');
-  return total;
 }
 
 std::string slug(const std::string& name) {

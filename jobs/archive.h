@@ -1,7 +1,7 @@
-// A dataset as one tar file that exists only while it is read: every byte's place follows from the
-// manifest, so the length is known before the first byte, any part can be read on its own, and
-// nothing is copied. (libarchive writes archives front to back only; reading them is tested with
-// it.)
+// A dataset as one tar or zip file that exists only while it is read: every byte's place follows
+// from the manifest, so the length is known before the first byte, any part can be read on its own,
+// and nothing is copied. (libarchive writes archives front to back only; reading them is tested
+// with it.)
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,21 @@
 #include <string>
 #include <vector>
 
+#include "jobs/archive_format.h"
+#include "jobs/publication.h"
+#include "jobs/selection.h"
+
 namespace throng::jobs {
 
-/// A ustar archive of the files in the manifest and the manifest itself, sorted by path, below one
-/// folder; owner 0, time 0: equal datasets give equal bytes. Of files with equal bytes the first is
-/// there and the others are hard links to it.
+/// An archive of the chosen files of the manifest and of the manifest itself, sorted by path, below
+/// one folder: equal datasets give equal bytes. In a tar file the first of several files with equal
+/// bytes is there and the others are hard links to it.
 class Archive {
  public:
   /// Reads the dataset's manifest. `root` names the folder inside the archive: at most 100
   /// characters of [A-Za-z0-9._-]. Throws EnvironmentError.
-  Archive(std::filesystem::path dataset, std::string root);
+  Archive(std::filesystem::path dataset, const std::string& root,
+          ArchiveFormat format = ArchiveFormat::tar, const Selection& selection = {});
 
   std::int64_t size() const { return size_; }
 
@@ -28,18 +33,28 @@ class Archive {
   std::size_t read(std::int64_t offset, std::span<char> buffer) const;
 
  private:
-  struct Member {
-    std::string path;  ///< relative to the dataset
-    std::int64_t bytes = 0;
-    std::int64_t offset = 0;  ///< of its header
-    std::string same_as;      ///< path in the archive of the member that has its bytes, or ""
+  enum class PartKind : std::uint8_t { header, content, zeros, entry, end };
+  /// A run of bytes up to where the next part begins.
+  struct Part {
+    std::int64_t offset;
+    PartKind kind;
+    std::uint32_t member;
   };
 
-  std::size_t read_member(const Member& member, std::int64_t offset, std::span<char> buffer) const;
+  void choose(const Selection& selection);
+  void link_equal_files();
+  void lay_out_tar();
+  void lay_out_zip();
+  void add_part(PartKind kind, std::size_t member, std::int64_t bytes);
+  void read_part(const Part& part, std::int64_t from, std::span<char> buffer) const;
 
   std::filesystem::path dataset_;
   std::string root_;
-  std::vector<Member> members_;
+  ArchiveFormat format_;
+  std::vector<FileEntry> files_;        ///< sorted by path
+  std::vector<ArchiveMember> members_;  ///< of the same files
+  std::vector<Part> parts_;
+  std::string end_;  ///< of a zip file
   std::int64_t size_ = 0;
 };
 

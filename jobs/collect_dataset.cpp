@@ -107,8 +107,9 @@ class Collector {
 
   void list(const std::string& path) {
     const fs::path file = staging_.path() / path;
-    files_.push_back(
-        {path, static_cast<std::int64_t>(fs::file_size(file)), sha256_hex_of_file(file)});
+    FileHashes hashes = hashes_of_file(file);
+    files_.push_back({path, static_cast<std::int64_t>(fs::file_size(file)),
+                      std::move(hashes.sha256_hex), hashes.crc32});
   }
 
   json manifest_of(json runs) const {

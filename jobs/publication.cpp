@@ -21,10 +21,16 @@ constexpr const char* kRecord = "record.json";
 
 void to_json(json& value, const FileEntry& file) {
   value = {{"path", file.path}, {"bytes", file.bytes}, {"sha256", file.sha256}};
+  if (file.crc32) value["crc32"] = fmt::format("{:08x}", *file.crc32);
 }
 
 void from_json(const json& value, FileEntry& file) {
   file = {value.at("path"), value.at("bytes"), value.at("sha256")};
+  if (value.contains("crc32")) {
+    constexpr int kHex = 16;
+    file.crc32 =
+        static_cast<std::uint32_t>(std::stoul(value.at("crc32").get<std::string>(), nullptr, kHex));
+  }
 }
 
 void write_new_file(const fs::path& path, std::string_view bytes) {
@@ -40,7 +46,8 @@ Publication::Publication(const fs::path& output) : staging_(output) {}
 
 void Publication::add(std::string path, std::string_view bytes) {
   write_new_file(published_file(staging_.path(), path), bytes);
-  files_.push_back({std::move(path), static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes)});
+  files_.push_back({std::move(path), static_cast<std::int64_t>(bytes.size()), sha256_hex(bytes),
+                    crc32_of(bytes)});
 }
 
 void Publication::publish(json record) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct FileEntry {
   std::string path;  ///< relative to the dataset, forward slashes
   std::int64_t bytes = 0;
   std::string sha256;
+  std::optional<std::uint32_t> crc32 =
+      std::nullopt;  ///< not there in what older versions published
 };
 
 void to_json(nlohmann::json& value, const FileEntry& file);

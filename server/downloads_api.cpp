@@ -1,12 +1,14 @@
 #include "server/downloads_api.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <httplib.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "base/error.h"
@@ -61,6 +63,53 @@ void send_run_file(const Call& call, const Request& request, Response& response,
   response.set_content(read_file(file), type);
 }
 
+jobs::ArchiveFormat format_of(const Request& request) {
+  const std::string format =
+      request.has_param("format") ? request.get_param_value("format") : "tar";
+  if (format == "tar") return jobs::ArchiveFormat::tar;
+  if (format == "zip") return jobs::ArchiveFormat::zip;
+  throw HttpError{400, "format is wrong", {{"", "?format", format, "tar or zip"}}};
+}
+
+/// Numbers of the runs that are in a split, as dataset.json says.
+std::vector<int> runs_of_split(const fs::path& dataset, const std::string& split) {
+  const fs::path card = dataset / "dataset.json";
+  const json splits = fs::exists(card)
+                          ? json::parse(read_file(card)).value("splits", json::object())
+                          : json::object();
+  if (!splits.contains(split)) {
+    std::vector<std::string> names;
+    for (const auto& [name, runs] : splits.items()) names.push_back(name);
+    throw HttpError{400,
+                    "split is wrong",
+                    {{"", "?split", split, fmt::format("one of: {}", fmt::join(names, ", "))}}};
+  }
+  std::vector<int> numbers;
+  for (const std::string run : splits.at(split)) {
+    numbers.push_back(std::stoi(run.substr(std::string_view("run").size())));
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+/// What ?include=, ?runs= and ?split= ask for. Throws HttpError and InputError.
+jobs::Selection selection_of(const Request& request, const fs::path& dataset, const json& job) {
+  jobs::Selection selection;
+  std::istringstream names(request.get_param_value("include"));
+  for (std::string name; std::getline(names, name, ',');) selection.include.push_back(name);
+  if (request.has_param("runs") && request.has_param("split")) {
+    throw HttpError{400, "runs are asked for by their numbers or by their split, not by both"};
+  }
+  if (request.has_param("runs")) {
+    selection.runs =
+        jobs::parse_runs(request.get_param_value("runs"), job.at("runs").get<int>(), "?runs");
+  }
+  if (request.has_param("split")) {
+    selection.runs = runs_of_split(dataset, request.get_param_value("split"));
+  }
+  return selection;
+}
+
 /// Files below a folder that have a name of their own, by their path from there.
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -106,11 +155,21 @@ void send_archive(const Call& call, const Request& request, Response& response) 
   const jobs::JobRow row = find_succeeded(call, request);
   const fs::path dataset = call.service.dataset_of(row.id);
   const std::string name = jobs::slug(row.name);
-  const auto archive = std::make_shared<const jobs::Archive>(dataset, name);
-  settle_range(request, response, etag_of_dataset(dataset), archive->size());
-  response.set_header("Content-Disposition", fmt::format("attachment; filename=\"{}.tar\"", name));
+  const jobs::ArchiveFormat format = format_of(request);
+  const auto archive = std::make_shared<const jobs::Archive>(
+      dataset, name, format, selection_of(request, dataset, json::parse(row.spec_json)));
+  // The manifest holds the hash of every file; what was chosen of them is in the query.
+  const std::string chosen =
+      request.target.substr(std::min(request.target.find('?'), request.target.size()));
+  const std::string manifest = sha256_hex_of_file(dataset / jobs::kManifestName);
+  settle_range(request, response,
+               fmt::format("\"{}\"", chosen.empty() ? manifest : sha256_hex(manifest + chosen)),
+               archive->size());
+  const bool zip = format == jobs::ArchiveFormat::zip;
+  response.set_header("Content-Disposition",
+                      fmt::format("attachment; filename=\"{}.{}\"", name, zip ? "zip" : "tar"));
   response.set_content_provider(
-      static_cast<std::size_t>(archive->size()), "application/x-tar",
+      static_cast<std::size_t>(archive->size()), zip ? "application/zip" : "application/x-tar",
       [archive, buffer = std::vector<char>(), id = row.id](std::size_t offset, std::size_t length,
                                                            httplib::DataSink& sink) mutable {
         constexpr std::size_t kBlock = 1 << 20;

@@ -9,6 +9,7 @@ import tarfile
 import tempfile
 import time
 import unittest
+import zipfile
 
 THRONG = sys.argv.pop(1)
 
@@ -90,6 +91,13 @@ class Client(unittest.TestCase):
             self.throng("fetch", id_, "-o", again)
             self.assertEqual(again.read_bytes(), whole)
             self.assertFalse(part.exists() or tag.exists())
+        zipped = self.base / "part.zip"
+        self.throng("fetch", id_, "-o", zipped, "--zip", "--include", "images,coco", "--runs", "0")
+        with zipfile.ZipFile(zipped) as part_zip:
+            self.assertIsNone(part_zip.testzip())
+            tops = {name.split("/")[1] for name in part_zip.namelist()}
+        self.assertEqual(tops, {"images", "annotations", "manifest.json"})
+        self.assertIn("?runs", self.throng("fetch", id_, "-o", zipped, "--runs", "7", code=2))
         self.throng("remove", id_)
         self.assertIn(id_, self.throng("watch", id_, code=2))
 
