@@ -93,9 +93,9 @@ struct FetchArguments {
   std::string id;
   std::string file;
   bool zip = false;
-  std::string include;
-  std::string runs;
-  std::string split;
+  std::string include = {};
+  std::string runs = {};
+  std::string split = {};
 };
 
 std::string archive_path(const FetchArguments& arguments) {
