@@ -78,15 +78,16 @@ class Orca : public Model {
     }
     float speed = agents.preferred_speed[id];
     float horizon_s = agents.model_parameters[tau][id];
+    Eigen::Vector2f direction = agents.preferred_direction[id];
     if (pace_) {
-      const float share = pace_->share(crowd, grid, around);
-      speed = std::min(speed, share * agents[Property::pref_speed][id]);
-      // Who is slow need not look as far; and at a door nobody waits for those beside them.
-      horizon_s *= share;
+      const Gait gait = pace_->gait(crowd, grid, around);
+      speed = std::min(speed, gait.share * agents[Property::pref_speed][id]);
+      horizon_s *= gait.horizon_share;
+      direction = gait.direction;
     }
-    workspace.batch.add({around.slot, horizon_s, speed * agents.preferred_direction[id],
-                         agents[Property::max_speed][id]},
-                        workspace.walls, around.neighbors);
+    workspace.batch.add(
+        {around.slot, horizon_s, speed * direction, agents[Property::max_speed][id]},
+        workspace.walls, around.neighbors);
   }
 
   std::optional<Pace> pace_;  // of those who slow down where it is crowded
@@ -101,7 +102,7 @@ std::unique_ptr<Model> make_orca(const Crowd& crowd) {
 
 std::unique_ptr<Model> make_weidmann(const Crowd& crowd) {
   const std::vector<float>& c = crowd.model_constants;
-  return std::make_unique<Orca>(crowd, Pace({c[0], c[1], c[2], c[3]}));
+  return std::make_unique<Orca>(crowd, Pace({c[0], c[1], c[2], c[3], c[4], c[5]}));
 }
 
 }  // namespace
@@ -118,19 +119,22 @@ ModelEntry orca_model() {
 
 ModelEntry weidmann_model() {
   const PaceSpec pace;
-  return {
-      "weidmann",
-      "Weidmann",
-      "orca, slower where it is crowded ahead: calibrated to the fundamental diagram of Weidmann "
-      "(1993) and the flow through doors",
-      {{"tau", 0.51F, 1e-3F, 1000,
-        "how long moves stay free of others, in s; less where speed is less"},
-       {"tauObst", 0.15F, 1e-3F, 1000, "how long moves stay free of walls, in s"}},
-      {{"reach", pace.reach_m, 0.1F, 100, "how far ahead others count, in m"},
-       {"jam_density", pace.jam_density, 0.1F, 100, "at which nobody would walk, per m^2"},
-       {"decline", pace.decline, 0.01F, 100, "how late speed falls with density, per m^2"},
-       {"least", pace.least, 0, 1, "share of the free speed that is left in a jam"}},
-      make_weidmann};
+  return {"weidmann",
+          "Weidmann",
+          "orca, slower where it is crowded ahead, keeping right in counter-flow: calibrated to "
+          "the fundamental diagram of Weidmann "
+          "(1993) and the flow through doors",
+          {{"tau", 0.51F, 1e-3F, 1000,
+            "how long moves stay free of others, in s; less where speed is less"},
+           {"tauObst", 0.15F, 1e-3F, 1000, "how long moves stay free of walls, in s"}},
+          {{"reach", pace.reach_m, 0.1F, 100, "how far ahead others count, in m"},
+           {"jam_density", pace.jam_density, 0.1F, 100, "at which nobody would walk, per m^2"},
+           {"decline", pace.decline, 0.01F, 100, "how late speed falls with density, per m^2"},
+           {"least", pace.least, 0, 1, "share of the free speed that is left in a jam"},
+           {"headway", pace.headway_s, 0.01F, 100, "time to the one ahead in single file, in s"},
+           {"keep_right", pace.keep_right, 0, 100,
+            "how far one turns right from those who come towards one, in rad m^2"}},
+          make_weidmann};
 }
 
 }  // namespace throng::crowd

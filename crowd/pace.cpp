@@ -2,10 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace throng::crowd {
 
-float Pace::density_ahead(const Crowd& crowd, const Grid& grid, const Surroundings& around) const {
+namespace {
+
+constexpr float kOpposed = -0.3F;  // cosine between the ways of two who meet
+
+/// 1 where walls at both sides leave room for one only, 0 where two can pass each other, and
+/// between these in between.
+float singleness(const Crowd& crowd, const Grid& grid, const Surroundings& around) {
+  constexpr float kTwo = 5.5F;     // radii: what two need who pass each other
+  constexpr float kOne = 4.5F;     // radii: with less, there is one after the other
+  constexpr float kBeside = 0.7F;  // sine of the least angle between the way and what is beside it
+  const float radius = grid.radius(around.slot);
+  const float far_sq = (kTwo * radius) * (kTwo * radius);
+  const Eigen::Vector2f& position = grid.position(around.slot);
+  const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
+  const std::vector<Segment>& segments = crowd.obstacles.segments();
+  float left = kTwo * radius;
+  float right = kTwo * radius;
+  for (const Obstacles::Near& near : around.walls) {
+    if (near.distance_sq >= far_sq) break;
+    const Segment& wall = segments[near.segment];
+    const Eigen::Vector2f offset = nearest_on_segment(wall.begin, wall.end, position) - position;
+    const float distance = std::sqrt(near.distance_sq);
+    const float side = cross(direction, offset);
+    if (std::abs(side) < kBeside * distance) continue;
+    float& beside = side > 0 ? left : right;
+    beside = std::min(beside, distance);
+  }
+  return std::clamp((kTwo * radius - left - right) / ((kTwo - kOne) * radius), 0.0F, 1.0F);
+}
+
+}  // namespace
+
+Pace::Ahead Pace::ahead(const Crowd& crowd, const Grid& grid, const Surroundings& around) const {
+  constexpr float kLeastSq = 1e-12F;  // m^2
   const std::size_t id = around.agent;
   const auto& neighbors = around.neighbors;
   float reach_sq = std::min(spec_.reach_m, crowd.agents[Property::neighbor_dist][id]);
@@ -16,21 +50,71 @@ float Pace::density_ahead(const Crowd& crowd, const Grid& grid, const Surroundin
   }
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f& direction = crowd.agents.preferred_direction[id];
-  float sum = 0;
+  Ahead found;
+  // Without branches that nobody could foresee: who is behind gets weight 0.
   for (const Grid::Neighbor& other : neighbors) {
     if (other.distance_sq >= reach_sq) break;
-    const float ahead = direction.dot(grid.position(other.slot) - position);
-    if (ahead > 0) sum += ahead / std::sqrt(other.distance_sq) * (reach_sq - other.distance_sq);
+    const float along = std::max(0.0F, direction.dot(grid.position(other.slot) - position));
+    const float distance = std::sqrt(std::max(other.distance_sq, kLeastSq));
+    const float weight = along / distance * (reach_sq - other.distance_sq);
+    const float cosine = crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction);
+    const float opposed = cosine < kOpposed ? weight : 0;
+    found.against += opposed;
+    found.along += weight - opposed;
   }
   // What the weights would be in a crowd of density 1.
-  return sum / reach_sq * 2 / reach_sq;
+  if (reach_sq > 0) {
+    const float inverse = 2 / (reach_sq * reach_sq);
+    found.along *= inverse;
+    found.against *= inverse;
+  }
+  return found;
 }
 
-float Pace::share(const Crowd& crowd, const Grid& grid, const Surroundings& around) const {
-  const float density = density_ahead(crowd, grid, around);
-  if (density <= 0) return 1;
-  const float share = 1 - std::exp(-spec_.decline * (1 / density - 1 / spec_.jam_density));
-  return std::max(share, spec_.least);
+float Pace::gap_m(const Crowd& crowd, const Grid& grid, const Surroundings& around) {
+  constexpr float kLane = 0.5F;  // of where two touch: farther aside one zips in
+  const Eigen::Vector2f& position = grid.position(around.slot);
+  const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
+  float gap = std::numeric_limits<float>::infinity();
+  for (const Grid::Neighbor& other : around.neighbors) {
+    const Eigen::Vector2f offset = grid.position(other.slot) - position;
+    const float along = direction.dot(offset);
+    const float aside = cross(direction, offset);
+    const float touch = grid.radius(around.slot) + grid.radius(other.slot);
+    if (along <= 0 || std::abs(aside) >= kLane * touch) continue;
+    if (crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction) < kOpposed) continue;
+    gap = std::min(gap, along - std::sqrt(touch * touch - aside * aside));
+  }
+  return gap;
+}
+
+Gait Pace::gait(const Crowd& crowd, const Grid& grid, const Surroundings& around) const {
+  const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
+  const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
+  const Ahead others = ahead(crowd, grid, around);
+  Gait gait{1, 1, direction};
+  if (others.along > 0) {
+    const float share = 1 - std::exp(-spec_.decline * (1 / others.along - 1 / spec_.jam_density));
+    gait.share = std::clamp(share, spec_.least, 1.0F);
+  }
+  // Who is slow need not look as far; and at a door nobody waits for those beside them.
+  gait.horizon_share = gait.share;
+  const float free_speed = crowd.agents[Property::pref_speed][around.agent];
+  if (file > 0 && free_speed > 0) {
+    const float share =
+        std::clamp(gap_m(crowd, grid, around) / (spec_.headway_s * free_speed), spec_.least, 1.0F);
+    gait.share = std::min(gait.share, 1 - file * (1 - share));
+  }
+  if (others.against > 0) {
+    const float farther = 2 * others.against / std::max(others.along, others.against);
+    gait.horizon_share = std::max(gait.horizon_share, std::min(1.0F, farther));
+    // By the tangent of half the angle.
+    const float t = std::min(spec_.keep_right * others.against / 2, kMostHalfTurn);
+    const float c = (1 - t * t) / (1 + t * t);
+    const float s = 2 * t / (1 + t * t);
+    gait.direction = {c * direction.x() + s * direction.y(), c * direction.y() - s * direction.x()};
+  }
+  return gait;
 }
 
 }  // namespace throng::crowd

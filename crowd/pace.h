@@ -1,34 +1,58 @@
-// How fast people walk where it is crowded ahead of them.
+// How people of the model `weidmann` walk where it is crowded ahead of them.
 #pragma once
 
 #include "crowd/neighborhood.h"
 
 namespace throng::crowd {
 
-/// Parameters of Pace. The values are those that bench/calibrate_crowd finds (docs/crowd.md).
+/// Parameters of Pace. How they came about: docs/crowd.md.
 struct PaceSpec {
   float reach_m = 1.7F;       ///< how far ahead others count
   float jam_density = 4.82F;  ///< 1/m^2
   float decline = 1.56F;      ///< 1/m^2
-  float least = 0.145F;       ///< share of the free speed that is left in a jam
+  float least = 0.17F;        ///< share of the free speed that is left in a jam
+  float headway_s = 0.85F;    ///< from touching the one ahead, in single file
+  float keep_right = 6;       ///< rad m^2: turn by the density of those who come towards one
+};
+
+/// What somebody does about those ahead.
+struct Gait {
+  float share = 1;            ///< of the free speed, at most 1
+  float horizon_share = 1;    ///< of how far ahead one looks in time
+  Eigen::Vector2f direction;  ///< unit: where to go instead of straight to the goal
 };
 
 /// Limits the preferred speed by the density ahead as Weidmann's fundamental diagram has it (1993,
 /// Schriftenreihe des IVT 90): v0 (1 - exp(-decline (1/density - 1/jam_density))), but never below
 /// least v0, so that no crowd locks. v0 is the agent's free speed.
+///
+/// Where walls leave no room to walk abreast, speed also is at most the gap to the one ahead by
+/// headway_s: the relation in single file is linear (Seyfried et al. 2005, J. Stat. Mech. P10002).
+///
+/// Those who want to go the other way do not slow one down: one turns right by
+/// 2 atan(keep_right density / 2), at most by 1 rad, and looks ahead farther, which is how lanes
+/// form.
 class Pace {
  public:
+  static constexpr float kMostHalfTurn = 0.5463F;  ///< tangent of half of the greatest turn
+
   explicit Pace(const PaceSpec& spec) : spec_(spec) {}
 
-  /// Of the free speed, at most 1.
-  float share(const Crowd& crowd, const Grid& grid, const Surroundings& around) const;
+  Gait gait(const Crowd& crowd, const Grid& grid, const Surroundings& around) const;
 
   /// People per m^2 in the half disc ahead. Those straight ahead and near count most: by
   /// (1 - d^2/R^2) cos(angle) for the distance d, where R is the reach, or the distance of the
   /// farthest whom the agent minds if it minds as many as it can.
-  float density_ahead(const Crowd& crowd, const Grid& grid, const Surroundings& around) const;
+  struct Ahead {
+    float along = 0;    ///< without those who come towards one, 1/m^2
+    float against = 0;  ///< those who do, 1/m^2
+  };
+  Ahead ahead(const Crowd& crowd, const Grid& grid, const Surroundings& around) const;
 
  private:
+  /// How far straight on until one touches somebody who does not come towards one, m.
+  static float gap_m(const Crowd& crowd, const Grid& grid, const Surroundings& around);
+
   PaceSpec spec_;
 };
 

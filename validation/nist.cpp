@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "validation/floors.h"
@@ -36,7 +37,7 @@ Verdict demographics(const Tested& tested, Effort) {
 
 /// How many of 100 people have crossed a corridor of 10 m x 2 m after two minutes, with so many
 /// who come the other way.
-int crossed(const Tested& tested, std::size_t others) {
+int crossed(const Tested& tested, std::size_t others, std::uint64_t seed) {
   Scene scene;
   scene.walls = {box(-11, -6, -10, 6), box(20, -6, 21, 6), box(-10, -6, 20, -5),
                  box(-10, 5, 20, 6),   box(0, -5, 10, -1), box(0, 1, 10, 5)};
@@ -50,7 +51,7 @@ int crossed(const Tested& tested, std::size_t others) {
   if (others > 0) scene.groups.push_back(back);
   scene.behavior = goal_box(0, 17, -4.5, 19.5, 4.5) + goal_box(1, -9.5, -4.5, -7, 4.5) +
                    walk_to(0, "There") + walk_to(1, "Back") + leave_at_goal("There,Back");
-  crowd::Simulation crowd = load(scene, tested, kNistSeed);
+  crowd::Simulation crowd = load(scene, tested, seed);
   constexpr double kUntil = 120;  // s
   while (crowd.time_s() < kUntil) crowd.step();
   const auto present = crowd.present();
@@ -66,7 +67,13 @@ Verdict counter_flow(const Tested& tested, Effort effort) {
   bool falls = true;
   int last = 100;
   for (const std::size_t others : numbers) {
-    const int done = crossed(tested, others);
+    constexpr std::size_t kRuns = 5;  // who blocks whom is a matter of chance
+    std::array<int, kRuns> of_runs{};
+    for (std::size_t run = 0; run < kRuns; ++run) {
+      of_runs[run] = crossed(tested, others, run + 1);
+    }
+    std::nth_element(of_runs.begin(), of_runs.begin() + kRuns / 2, of_runs.end());
+    const int done = of_runs[kRuns / 2];
     falls = falls && done <= last;
     last = done;
     values += fmt::format("{}{}", values.empty() ? "" : ", ", done);
@@ -151,8 +158,9 @@ std::vector<Test> nist_tests() {
       {"nist_2_4", "NIST 2.4", "100 people alone on a plain, free speeds N(1.2, 0.2)",
        "mean and deviation of their speeds within three standard errors", demographics},
       {"nist_2_8", "NIST 2.8",
-       "100 people through a corridor of 10 m x 2 m against 0, 10, 50, 100 others, for 120 s",
-       "no more get across than against fewer", counter_flow},
+       "100 people through a corridor of 10 m x 2 m against 0, 10, 50, 100 others, for 120 s; "
+       "medians of 5 runs",
+       "no more get across than against fewer (nothing is asked of how many)", counter_flow},
       {"nist_3_1", "NIST 3.1", "12 rooms, 23 people, each told one of two exits",
        "all take the exit they were told", assigned_exits},
       {"nist_4_1", "NIST 4.1", "60 people, two exits; the nearer closes after 10 s",

@@ -98,7 +98,8 @@ std::string markdown(const Results& results) {
   std::string page =
       "# How the pedestrian models do in standard tests\n\n"
       "Printed by `throng validate-crowd`. The model `weidmann` is what a job gets that names none "
-      "([crowd.md](crowd.md)). **+** passed, **-** failed, with what was measured. Tests of RiMEA "
+      "([crowd.md](crowd.md)). **+** passed, **-** failed, **o** reported (the source "
+      "sets no criterion, and the test counts for nothing), with what was measured. Tests of RiMEA "
       "and NIST TN 1822 that need stairs, smoke, lifts or groups are left out, since a crowd in a "
       "plane has none; criteria are those of published implementations (JuPedSim, Vadere).\n\n";
   if (results.effort == Effort::reduced) {
@@ -113,14 +114,16 @@ std::string markdown(const Results& results) {
     page += fmt::format("| {} |", results.tests[t].title);
     for (std::size_t m = 0; m < results.models.size(); ++m) {
       const Verdict& verdict = results.verdicts[t][m];
-      page += fmt::format(" **{}** {} |", verdict.passed ? "+" : "-", verdict.measured);
-      passed[m] += verdict.passed ? 1 : 0;
+      const char* sign = !results.tests[t].demanded ? "o" : verdict.passed ? "+" : "-";
+      page += fmt::format(" **{}** {} |", sign, verdict.measured);
+      passed[m] += results.tests[t].demanded && verdict.passed ? 1 : 0;
     }
     page += "\n";
   }
   page += "| passed |";
-  for (const std::size_t count : passed)
-    page += fmt::format(" {} of {} |", count, results.tests.size());
+  const auto demanded = std::count_if(results.tests.begin(), results.tests.end(),
+                                      [](const Test& test) { return test.demanded; });
+  for (const std::size_t count : passed) page += fmt::format(" {} of {} |", count, demanded);
   page += "\n\n## The tests\n\n| test | `--tests` | set-up | passed when |\n|---|---|---|---|\n";
   for (const Test& test : results.tests) {
     page +=

@@ -24,6 +24,8 @@ struct Test {
   std::string set_up;     ///< what is simulated
   std::string criterion;  ///< when it passes
   std::function<Verdict(const Tested&, Effort)> run;
+  bool demanded =
+      true;  ///< false: the source asks for a report and sets no criterion; ours is shown
 };
 
 std::vector<Test> rimea_tests();

@@ -1,9 +1,11 @@
 // How people of the model `weidmann` slow down where it is crowded ahead.
 #include "crowd/pace.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <type_traits>
 
 #include "crowd/grid.h"
 #include "crowd_files.h"
@@ -30,15 +32,21 @@ class PaceOf {
 
   float density() {
     return look(
-        [this](const Surroundings& around) { return pace_.density_ahead(crowd_, grid_, around); });
+        [this](const Surroundings& around) { return pace_.ahead(crowd_, grid_, around).along; });
+  }
+  /// Has somebody's way be along -x.
+  void turn_round(std::size_t other) { crowd_.agents.preferred_direction[other] = {-1, 0}; }
+  Gait gait() {
+    return look([this](const Surroundings& around) { return pace_.gait(crowd_, grid_, around); });
   }
   float share() {
-    return look([this](const Surroundings& around) { return pace_.share(crowd_, grid_, around); });
+    return look(
+        [this](const Surroundings& around) { return pace_.gait(crowd_, grid_, around).share; });
   }
 
  private:
   template <typename Measure>
-  float look(const Measure& measure) {
+  std::invoke_result_t<const Measure&, const Surroundings&> look(const Measure& measure) {
     Neighborhood neighborhood(crowd_);
     neighborhood.prepare(crowd_, grid_);
     std::size_t slot = 0;
@@ -89,6 +97,43 @@ TEST(Pace, LeavesALittleInAJam) {
   const float share = PaceOf(crowd_on_lattice(0.3F), 60).share();
   EXPECT_EQ(share, PaceSpec{}.least);
   EXPECT_GT(share, 0);
+}
+
+TEST(Pace, KeepsRightOfThoseWhoComeAndLooksFartherAhead) {
+  PaceOf meeting({{1, 0}});
+  const Gait behind = meeting.gait();
+  EXPECT_EQ(behind.direction.y(), 0);
+  EXPECT_LT(behind.horizon_share, 1);
+  meeting.turn_round(1);
+  const Gait gait = meeting.gait();
+  EXPECT_EQ(gait.share, 1) << "nobody goes the same way";
+  EXPECT_EQ(gait.horizon_share, 1);
+  EXPECT_LT(gait.direction.y(), -0.1F);
+  EXPECT_NEAR(gait.direction.norm(), 1, 1e-6);
+  EXPECT_GE(gait.direction.x(), std::cos(1.0F) - 1e-3F);
+}
+
+TEST(Pace, KeepsItsHeadwayInSingleFileOnly) {
+  // Two in file, 0.8 m apart; the free speed is 1.3 m/s.
+  const auto second_speed = [](double corridor_m) {
+    const double half = corridor_m / 2;
+    const auto wall = [](double low, double high) {
+      return fmt::format(
+          R"(<Obstacle closed="1"><Vertex p_x="-5" p_y="{0}"/><Vertex p_x="9" p_y="{0}"/><Vertex p_x="9" p_y="{1}"/><Vertex p_x="-5" p_y="{1}"/></Obstacle>)",
+          low, high);
+    };
+    Simulation crowd = test::load(
+        test::scene_with(test::agent_at(0.8, 0) + test::agent_at(0, 0), R"(pref_speed="1.3")",
+                         "Start",
+                         R"(<ObstacleSet type="explicit" class="1">)" + wall(-half - 1, -half) +
+                             wall(half, half + 1) + "</ObstacleSet>"),
+        R"(<BFSM><State name="Start" final="0"><VelComponent type="const_dir" x="1" y="0"/></State></BFSM>)",
+        {.model = "weidmann"});
+    for (int i = 0; i < 3; ++i) crowd.step();
+    return crowd.velocities()[1].x();
+  };
+  EXPECT_LT(second_speed(0.8), second_speed(1.6) - 0.1F);
+  EXPECT_EQ(second_speed(1.6), second_speed(3));
 }
 
 TEST(Pace, HoldsForTheModelOnly) {
