@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector2d;
 
 /// Rows that one task of a loop takes.
-constexpr std::size_t kGrain = 16;
+constexpr std::size_t kRowsOfTask = 16;
 bool is_whole(const Rows& rows, const camera::Intrinsics& lens) {
   return rows.first == 0 && rows.end == lens.height;
 }
@@ -110,7 +110,7 @@ Frame looked_up(const LensMap& map, const camera::Intrinsics& lens, const Frame&
   if (!wide.flow.empty()) image.flow.resize(pixels * 2);
   if (!wide.part.empty()) image.part.resize(pixels);
   parallel_ranges(
-      pixels, kGrain * static_cast<std::size_t>(lens.width),
+      pixels, kRowsOfTask * static_cast<std::size_t>(lens.width),
       [&](std::size_t begin, std::size_t end) { look_up(map, lens, wide, begin, end, image); });
   return image;
 }
