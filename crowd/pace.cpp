@@ -8,7 +8,7 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr float kOpposed = -0.3F;  // cosine between the ways of two who meet
+constexpr float kTowards = -0.3F;  // cosine between the ways of two who meet
 
 /// 1 where walls at both sides leave room for one only, 0 where two can pass each other, and
 /// between these in between.
@@ -58,7 +58,7 @@ Pace::Ahead Pace::ahead(const Crowd& crowd, const Grid& grid, const Surroundings
     const float distance = std::sqrt(std::max(other.distance_sq, kLeastSq));
     const float weight = along / distance * (reach_sq - other.distance_sq);
     const float cosine = crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction);
-    const float opposed = cosine < kOpposed ? weight : 0;
+    const float opposed = cosine < kTowards ? weight : 0;
     found.against += opposed;
     found.along += weight - opposed;
   }
@@ -82,7 +82,7 @@ float Pace::gap_m(const Crowd& crowd, const Grid& grid, const Surroundings& arou
     const float aside = cross(direction, offset);
     const float touch = grid.radius(around.slot) + grid.radius(other.slot);
     if (along <= 0 || std::abs(aside) >= kLane * touch) continue;
-    if (crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction) < kOpposed) continue;
+    if (crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction) < kTowards) continue;
     gap = std::min(gap, along - std::sqrt(touch * touch - aside * aside));
   }
   return gap;
