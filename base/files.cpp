@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "base/error.h"
 
@@ -138,6 +139,22 @@ void StagingFolder::commit() {
     throw EnvironmentError(fmt::format("cannot publish {}: {}", final_.string(), error.message()));
   }
   sync_path(parent_of(final_));
+}
+
+void remove_temporaries(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().filename().string().find(".tmp.") != std::string::npos) {
+      leftovers.push_back(entry.path());
+    }
+  }
+  for (const fs::path& leftover : leftovers) {
+    if (fs::remove_all(leftover, error); error) {
+      throw EnvironmentError(
+          fmt::format("cannot remove {}: {}", leftover.string(), error.message()));
+    }
+  }
 }
 
 }  // namespace throng

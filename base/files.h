@@ -38,6 +38,10 @@ class StagedFile {
   std::ofstream file_;
 };
 
+/// Removes what processes that died have left half-written in a folder (not below it): files and
+/// folders under construction. Only while nobody writes there.
+void remove_temporaries(const std::filesystem::path& folder);
+
 /// A folder under construction. commit() renames it to its final place (replacing nothing: an
 /// existing final folder is kept, since what is published is complete); otherwise the destructor
 /// removes it.

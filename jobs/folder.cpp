@@ -13,27 +13,6 @@ namespace throng::jobs {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// Files and folders are written as "<name>.tmp.<pid>.<n>" before they are renamed (base/files.h).
-void remove_temporaries(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> leftovers;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().filename().string().find(".tmp.") != std::string::npos) {
-      leftovers.push_back(entry.path());
-    }
-  }
-  for (const fs::path& leftover : leftovers) {
-    if (fs::remove_all(leftover, error); error) {
-      throw EnvironmentError(
-          fmt::format("cannot remove {}: {}", leftover.string(), error.message()));
-    }
-  }
-}
-
-}  // namespace
-
 JobFolder JobFolder::create(fs::path path, const JobSpec& job) {
   JobFolder folder(std::move(path));
   const std::string text = to_json(job).dump(kJsonIndent) + "\n";

@@ -14,6 +14,7 @@
 #include "jobs/job_id.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
+#include "server/data_folder.h"
 
 namespace throng::server {
 
@@ -42,8 +43,10 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
     : options_(std::move(options)),
       executor_(executor),
-      store_(options_.data),
-      worker_([this](const std::stop_token& stop) { work(stop); }) {}
+      store_(options_.data) {
+  tidy_data_folder(options_.data, store_);
+  worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
 
 JobService::~JobService() = default;
 

@@ -1,0 +1,65 @@
+#include "server/data_folder.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <vector>
+
+#include "base/files.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr auto kQuarantine = std::chrono::hours(24 * 30);
+
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) entries.push_back(entry.path());
+  return entries;
+}
+
+void quarantine_strangers(const fs::path& data, const char* kind, const jobs::Store& store) {
+  for (const fs::path& folder : entries_of(data / kind)) {
+    if (store.get(folder.filename().string())) continue;
+    const fs::path place = data / "quarantine" / kind / folder.filename();
+    fs::create_directories(place.parent_path());
+    std::error_code error;
+    fs::rename(folder, place, error);
+    if (error) {
+      spdlog::warn("{} {}: unknown, and cannot be moved: {}", kind, folder.filename().string(),
+                   error.message());
+      continue;
+    }
+    fs::last_write_time(place, fs::file_time_type::clock::now(), error);
+    spdlog::warn("{} {}: not in the store, moved to quarantine", kind, folder.filename().string());
+  }
+}
+
+void remove_old(const fs::path& quarantine) {
+  for (const fs::path& kind : entries_of(quarantine)) {
+    for (const fs::path& folder : entries_of(kind)) {
+      std::error_code error;
+      const auto since = fs::last_write_time(folder, error);
+      if (error || fs::file_time_type::clock::now() - since < kQuarantine) continue;
+      fs::remove_all(folder, error);
+      spdlog::info("{}: removed from quarantine", folder.filename().string());
+    }
+  }
+}
+
+}  // namespace
+
+void tidy_data_folder(const fs::path& data, const jobs::Store& store) {
+  std::error_code error;
+  fs::remove_all(data / "trash", error);
+  remove_temporaries(data / "calibrations");
+  quarantine_strangers(data, "jobs", store);
+  quarantine_strangers(data, "calibrations", store);
+  remove_old(data / "quarantine");
+}
+
+}  // namespace throng::server

@@ -1,0 +1,15 @@
+// What a server finds in its data folder when it starts.
+#pragma once
+
+#include <filesystem>
+
+#include "jobs/store.h"
+
+namespace throng::server {
+
+/// Folders of jobs and calibrations that the store knows nothing of are moved to DATA/quarantine,
+/// never deleted: somebody may have put an older store back. What has lain there for a month, and
+/// what half-finished uploads and removals have left, is removed. Throws EnvironmentError.
+void tidy_data_folder(const std::filesystem::path& data, const jobs::Store& store);
+
+}  // namespace throng::server
