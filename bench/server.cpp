@@ -41,8 +41,9 @@ class RunningService {
   RunningService()
       : data_(make_folder()),
         service_({data_, fs::path(THRONG_SOURCE_DIR) / "scenarios"}, executor_),
-        api_(service_, {}),
-        job_(service_.submit(kJobText).id),
+        keys_(data_),
+        api_(service_, keys_, {}),
+        job_(service_.submit({kJobText}).row.id),
         thread_([this] { api_.run(); }) {}
   ~RunningService() {
     api_.stop();
@@ -65,6 +66,7 @@ class RunningService {
   fs::path data_;
   IdleExecutor executor_;
   JobService service_;
+  Keys keys_;
   Api api_;
   std::string job_;
   std::jthread thread_;
