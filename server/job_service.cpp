@@ -41,9 +41,7 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 }  // namespace
 
 JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
-    : options_(std::move(options)),
-      executor_(executor),
-      store_(options_.data) {
+    : options_(std::move(options)), executor_(executor), store_(options_.data) {
   tidy_data_folder(options_.data, store_);
   worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
@@ -83,6 +81,7 @@ void JobService::tell() {
     const std::lock_guard lock(told_mutex_);
     ++told_;
   }
+  ++revision_;
   told_changed_.notify_all();
 }
 
@@ -166,6 +165,29 @@ std::optional<JobRow> JobService::get(const std::string& id) const {
   return row;
 }
 
+std::shared_ptr<const std::string> JobService::text_of_job(
+    const std::string& id, const std::function<std::string(const JobRow&)>& write) const {
+  constexpr std::size_t kMostTexts = 1000;
+  // Taken before looking: what changes in between makes the text one of the past.
+  const std::uint64_t revision = revision_;
+  {
+    const std::lock_guard lock(texts_mutex_);
+    if (texts_revision_ == revision) {
+      if (const auto found = texts_.find(id); found != texts_.end()) return found->second;
+    }
+  }
+  const std::optional<JobRow> row = get(id);
+  if (!row || row->kind != jobs::JobKind::dataset) return nullptr;
+  auto text = std::make_shared<const std::string>(write(*row));
+  const std::lock_guard lock(texts_mutex_);
+  if (texts_revision_ != revision || texts_.size() >= kMostTexts) {
+    texts_.clear();
+    texts_revision_ = revision;
+  }
+  texts_[id] = text;
+  return text;
+}
+
 std::vector<JobRow> JobService::list(const jobs::JobFilter& filter) const {
   std::vector<JobRow> rows = store_.list(filter);
   const std::lock_guard lock(mutex_);
@@ -233,6 +255,7 @@ bool JobService::remove(const std::string& id) {
   while (row && is_active(row->state) && !store_.apply(*row, JobEvent::cancel))
     row = store_.get(id);
   if (!row) return false;
+  tell();
   end_work_on(id);
   if (!store_.remove(id)) return false;
   tell();
@@ -392,6 +415,7 @@ void JobService::save_progress(const JobRow& row) {
 void JobService::report(const JobRow& row, std::string progress_json) {
   const std::lock_guard lock(mutex_);
   if (active_ && active_->row.id == row.id) active_->row.progress_json = std::move(progress_json);
+  ++revision_;
 }
 
 }  // namespace throng::server

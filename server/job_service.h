@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -16,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "jobs/executor.h"
@@ -87,6 +89,10 @@ class JobService {
 
   /// A job or calibration with its newest progress.
   std::optional<jobs::JobRow> get(const std::string& id) const;
+  /// What `write` makes of a job, as it was made the last time if nothing has happened to any job
+  /// since: many clients ask for the same. Nothing when there is none.
+  std::shared_ptr<const std::string> text_of_job(
+      const std::string& id, const std::function<std::string(const jobs::JobRow&)>& write) const;
   std::vector<jobs::JobRow> list(const jobs::JobFilter& filter) const;
   std::map<jobs::JobState, std::int64_t> count() const { return store_.count(); }
 
@@ -164,7 +170,11 @@ class JobService {
   mutable std::mutex told_mutex_;
   mutable std::condition_variable told_changed_;
   std::uint64_t told_ = 0;  ///< how often something has happened; guarded by told_mutex_
-  std::jthread worker_;     ///< last: ends before what it uses
+  std::atomic<std::uint64_t> revision_ = 0;  ///< changes with told_ and with progress
+  mutable std::mutex texts_mutex_;
+  mutable std::uint64_t texts_revision_ = 0;  ///< that texts_ are of; guarded by texts_mutex_
+  mutable std::unordered_map<std::string, std::shared_ptr<const std::string>> texts_;  ///< likewise
+  std::jthread worker_;  ///< last: ends before what it uses
 };
 
 }  // namespace throng::server

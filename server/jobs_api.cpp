@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "jobs/job_id.h"
 #include "jobs/plan.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
@@ -159,7 +160,13 @@ void list_jobs(const Call& call, const Request& request, Response& response) {
 }
 
 void send_job(const Call& call, const Request& request, Response& response) {
-  write_json(response, 200, job_json(find(call, request)));
+  const std::string id = request.matches[1];
+  const auto text = jobs::is_job_id(id)
+                        ? call.service.text_of_job(
+                              id, [](const jobs::JobRow& row) { return text_of(job_json(row)); })
+                        : nullptr;
+  if (text == nullptr) throw HttpError{404, fmt::format("there is no job {}", id)};
+  response.set_content(*text, "application/json");
 }
 
 void change_job(const Call& call, const Request& request, Response& response) {
