@@ -1,7 +1,6 @@
 #include "cli/api_client.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -9,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "server/http.h"
 
 namespace throng::cli {
 

@@ -1,7 +1,6 @@
 #include "server/api.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
 #include <spdlog/spdlog.h>
 
 #include <array>
@@ -14,6 +13,7 @@
 #include "server/calibration_api.h"
 #include "server/downloads_api.h"
 #include "server/events_api.h"
+#include "server/http.h"
 #include "server/jobs_api.h"
 #include "server/requests.h"
 #include "server/service_api.h"

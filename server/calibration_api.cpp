@@ -1,7 +1,6 @@
 #include "server/calibration_api.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include "base/files.h"
 #include "calibrate/request.h"
 #include "server/answers.h"
+#include "server/http.h"
 #include "server/requests.h"
 
 namespace throng::server {

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
-#include <httplib.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include "jobs/archive.h"
 #include "jobs/manifest.h"
 #include "server/file_answer.h"
+#include "server/http.h"
 #include "server/requests.h"
 
 namespace throng::server {
@@ -28,12 +28,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-jobs::JobRow find(const Call& call, const Request& request) {
-  return find_row(call.service, request, jobs::JobKind::dataset);
-}
-
 jobs::JobRow find_succeeded(const Call& call, const Request& request) {
-  jobs::JobRow row = find(call, request);
+  jobs::JobRow row = find_job(call, request);
   if (row.state != jobs::JobState::succeeded) {
     throw HttpError{
         409, fmt::format("the job is {}; this is there once it has succeeded", name_of(row.state))};
@@ -220,7 +216,7 @@ void send_run_metrics_csv(const Call& call, const Request& request, Response& re
 }
 
 void list_logs(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find(call, request);
+  const jobs::JobRow row = find_job(call, request);
   const fs::path folder = call.service.job_folder(row.id) / "logs";
   std::vector<fs::path> files = files_below(folder);
   std::sort(files.begin(), files.end());
@@ -237,7 +233,7 @@ void list_logs(const Call& call, const Request& request, Response& response) {
 }
 
 void send_log(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find(call, request);
+  const jobs::JobRow row = find_job(call, request);
   const std::string name = request.matches[2];
   const fs::path file = call.service.job_folder(row.id) / "logs" / name;
   if (name == ".." || !fs::is_regular_file(file)) {
@@ -247,7 +243,7 @@ void send_log(const Call& call, const Request& request, Response& response) {
 }
 
 void list_previews(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find(call, request);
+  const jobs::JobRow row = find_job(call, request);
   json previews = json::array();
   for (const auto& [name, file] : previews_of(call.service.job_folder(row.id))) {
     previews.push_back(
@@ -257,7 +253,7 @@ void list_previews(const Call& call, const Request& request, Response& response)
 }
 
 void send_preview(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find(call, request);
+  const jobs::JobRow row = find_job(call, request);
   const std::string wanted = request.matches[2];
   for (const auto& [name, file] : previews_of(call.service.job_folder(row.id))) {
     if (name != wanted) continue;

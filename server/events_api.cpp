@@ -1,7 +1,6 @@
 #include "server/events_api.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
 
 #include <charconv>
 #include <chrono>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/answers.h"
+#include "server/http.h"
 #include "server/requests.h"
 
 namespace throng::server {

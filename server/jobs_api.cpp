@@ -1,7 +1,6 @@
 #include "server/jobs_api.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "jobs/plan.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
+#include "server/http.h"
 #include "server/requests.h"
 
 namespace throng::server {
@@ -25,13 +25,9 @@ constexpr std::size_t kMostLabels = 20;
 constexpr std::size_t kLongestLabel = 60;
 constexpr std::size_t kLongestKey = 200;
 
-jobs::JobRow find(const Call& call, const Request& request) {
-  return find_row(call.service, request, jobs::JobKind::dataset);
-}
-
 /// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
 jobs::JobRow find_own(const Call& call, const Request& request) {
-  jobs::JobRow row = find(call, request);
+  jobs::JobRow row = find_job(call, request);
   if (call.caller.scope < Scope::admin && row.owner != call.caller.key_id) {
     throw HttpError{403, "the job is another's: only its owner and administrators may change it"};
   }
@@ -215,7 +211,7 @@ void retry_job(const Call& call, const Request& request, Response& response) {
 }
 
 void clone_job(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find(call, request);
+  const jobs::JobRow row = find_job(call, request);
   json job = json::parse(row.spec_json);
   if (!request.body.empty()) {
     require_json(request);

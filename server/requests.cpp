@@ -1,13 +1,13 @@
 #include "server/requests.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
 
 #include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "jobs/job_id.h"
 #include "server/answers.h"
+#include "server/http.h"
 
 namespace throng::server {
 
@@ -54,6 +54,10 @@ std::string after_of(const Request& request) {
     throw HttpError{400, "after is wrong", {{"", "?after", after, "the id of a job"}}};
   }
   return after;
+}
+
+jobs::JobRow find_job(const Call& call, const Request& request) {
+  return find_row(call.service, request, jobs::JobKind::dataset);
 }
 
 jobs::JobRow find_row(JobService& service, const Request& request, jobs::JobKind kind) {

@@ -6,8 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "server/call.h"
 #include "server/http_error.h"
-#include "server/job_service.h"
 
 namespace httplib {
 struct Request;
@@ -30,6 +30,9 @@ std::string after_of(const httplib::Request& request);
 /// Throws HttpError 415 unless the body is sent as JSON. Also keeps web pages of others from
 /// submitting: a browser asks before it sends this type.
 void require_json(const httplib::Request& request);
+
+/// The job that the path names. Throws HttpError 404.
+jobs::JobRow find_job(const Call& call, const httplib::Request& request);
 
 /// The job or calibration that the path names. Throws HttpError 404.
 jobs::JobRow find_row(JobService& service, const httplib::Request& request, jobs::JobKind kind);

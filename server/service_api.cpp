@@ -1,7 +1,6 @@
 #include "server/service_api.h"
 
 #include <fmt/core.h>
-#include <httplib.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "formats/exporter.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
+#include "server/http.h"
 #include "server/requests.h"
 #include "sim/airframe.h"
 #include "sim/battery.h"

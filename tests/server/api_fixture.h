@@ -10,9 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/api.h"
-// After what has Eigen in it: the library brings a macro _res along.
-#include <httplib.h>
-
+#include "server/http.h"
 #include "tests/server/service_fixture.h"
 
 namespace throng::server {

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <httplib.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "calibrate/request.h"
+#include "server/http.h"
 #include "tests/server/service_fixture.h"
 
 namespace throng::server {
