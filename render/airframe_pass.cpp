@@ -1,7 +1,7 @@
 #include "render/airframe_pass.h"
 
-#include <cstddef>
 
+#include "render/prop_pass.h"
 #include "render/shaders.h"
 
 namespace throng::render {
@@ -14,14 +14,7 @@ void AirframePass::prepare() {
   is_prepared_ = true;
   vertices_ = make_buffer();
   indices_ = make_buffer();
-  array_ = make_vertex_array();
-  describe_vertices(array_, 0, vertices_, sizeof(PropVertex), 0,
-                    {{0, 3, GL_FLOAT, false, offsetof(PropVertex, position)},
-                     {1, 3, GL_FLOAT, false, offsetof(PropVertex, normal)},
-                     {2, 2, GL_FLOAT, false, offsetof(PropVertex, card)},
-                     {3, 4, GL_UNSIGNED_BYTE, true, offsetof(PropVertex, paint)},
-                     {4, 1, GL_UNSIGNED_INT, false, offsetof(PropVertex, id)}});
-  glVertexArrayElementBuffer(array_.name(), indices_.name());
+  array_ = make_prop_array(vertices_, indices_);
   program_ =
       make_program({embedded::shader_view, embedded::shader_prop_vert},
                    {words_, has_shadows_ ? "" : "#define NO_SHADOWS\n", embedded::shader_light,

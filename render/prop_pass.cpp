@@ -48,6 +48,18 @@ void PropPass::add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& v
   vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
 }
 
+VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
+  VertexArray array = make_vertex_array();
+  describe_vertices(array, 0, vertices, sizeof(PropVertex), 0,
+                    {{0, 3, GL_FLOAT, false, offsetof(PropVertex, position)},
+                     {1, 3, GL_FLOAT, false, offsetof(PropVertex, normal)},
+                     {2, 2, GL_FLOAT, false, offsetof(PropVertex, card)},
+                     {3, 4, GL_UNSIGNED_BYTE, true, offsetof(PropVertex, paint)},
+                     {4, 1, GL_UNSIGNED_INT, false, offsetof(PropVertex, id)}});
+  glVertexArrayElementBuffer(array.name(), indices.name());
+  return array;
+}
+
 PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
                    const QualitySettings& quality)
     : array_(make_vertex_array()) {
@@ -63,13 +75,7 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
   if (items_.empty()) return;
   vertices_ = make_buffer(vertices);
   indices_ = make_buffer(indices);
-  describe_vertices(array_, 0, vertices_, sizeof(PropVertex), 0,
-                    {{0, 3, GL_FLOAT, false, offsetof(PropVertex, position)},
-                     {1, 3, GL_FLOAT, false, offsetof(PropVertex, normal)},
-                     {2, 2, GL_FLOAT, false, offsetof(PropVertex, card)},
-                     {3, 4, GL_UNSIGNED_BYTE, true, offsetof(PropVertex, paint)},
-                     {4, 1, GL_UNSIGNED_INT, false, offsetof(PropVertex, id)}});
-  glVertexArrayElementBuffer(array_.name(), indices_.name());
+  array_ = make_prop_array(vertices_, indices_);
   const auto camera_program = [&](std::string_view kind) {
     return make_program({embedded::shader_view, embedded::shader_prop_vert},
                         {words, quality.shadow_texels > 0 ? "" : kNoShadows, kind, shader_light,

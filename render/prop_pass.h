@@ -15,6 +15,9 @@
 
 namespace throng::render {
 
+/// How the device reads PropVertex from these buffers.
+VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices);
+
 class PropPass {
  public:
   /// `words` are the environment's of render/lighting.h. Throws InputError for a mesh file that

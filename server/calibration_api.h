@@ -3,11 +3,7 @@
 #pragma once
 
 #include "server/call.h"
-
-namespace httplib {
-struct Request;
-struct Response;
-}  // namespace httplib
+#include "server/http_fwd.h"
 
 namespace throng::server {
 

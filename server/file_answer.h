@@ -5,10 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace httplib {
-struct Request;
-struct Response;
-}  // namespace httplib
+#include "server/http_fwd.h"
 
 namespace throng::server {
 

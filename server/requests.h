@@ -8,11 +8,7 @@
 
 #include "server/call.h"
 #include "server/http_error.h"
-
-namespace httplib {
-struct Request;
-struct Response;
-}  // namespace httplib
+#include "server/http_fwd.h"
 
 namespace throng::server {
 

@@ -6,12 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "server/http_fwd.h"
 #include "server/keys.h"
-
-namespace httplib {
-struct Request;
-struct Response;
-}  // namespace httplib
 
 namespace throng::server {
 
