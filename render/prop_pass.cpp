@@ -61,8 +61,7 @@ VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
 }
 
 PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
-                   const QualitySettings& quality)
-    : array_(make_vertex_array()) {
+                   const QualitySettings& quality) {
   std::vector<PropVertex> vertices;
   std::vector<std::uint32_t> indices;
   std::uint32_t id = kIdProp;
