@@ -27,15 +27,10 @@ std::string variable(const char* name, const char* otherwise) {
 }
 
 /// What a problem document says, with every mistake in a line of its own.
-std::vector<Problem> problems_of(const httplib::Response& response, const std::string& path) {
+std::vector<Problem> problems_in(const httplib::Response& response, const std::string& path) {
   const json document = json::parse(response.body, nullptr, /*allow_exceptions=*/false);
   std::vector<Problem> problems;
-  if (document.is_object()) {
-    for (const json& error : document.value("errors", json::array())) {
-      problems.push_back({error.value("source", ""), error.value("pointer", ""),
-                          error.value("found", ""), error.value("expected", "")});
-    }
-  }
+  if (document.is_object()) problems = problems_of(document.value("errors", json::array()));
   if (problems.empty()) {
     const std::string detail = document.is_object() ? document.value("detail", "") : "";
     problems.push_back({path, "", fmt::format("answer {}", response.status),
@@ -47,6 +42,15 @@ std::vector<Problem> problems_of(const httplib::Response& response, const std::s
 bool is_success(int status) { return status >= 200 && status < 300; }
 
 }  // namespace
+
+std::vector<Problem> problems_of(const json& list) {
+  std::vector<Problem> problems;
+  for (const json& error : list) {
+    problems.push_back({error.value("source", ""), error.value("pointer", ""),
+                        error.value("found", ""), error.value("expected", "")});
+  }
+  return problems;
+}
 
 struct ApiClient::Connection {
   explicit Connection(const std::string& url) : client(url) {
@@ -88,9 +92,9 @@ const httplib::Response& checked(const httplib::Result& result, const std::strin
   constexpr int kServersFault = 500;
   if (result->status >= kServersFault) {
     throw EnvironmentError(
-        fmt::format("{}{}: {}", url, path, problems_of(*result, path).front().expected));
+        fmt::format("{}{}: {}", url, path, problems_in(*result, path).front().expected));
   }
-  throw InputError(problems_of(*result, path));
+  throw InputError(problems_in(*result, path));
 }
 
 }  // namespace

@@ -8,8 +8,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
+
+#include "base/error.h"
 
 namespace throng::cli {
+
+/// Mistakes as the API lists them: [{"pointer", "found", "expected", "source"?}].
+std::vector<Problem> problems_of(const nlohmann::json& list);
 
 /// Answers that are no success are thrown: InputError for what the server says is wrong with the
 /// request, EnvironmentError when the server cannot be reached or has failed.

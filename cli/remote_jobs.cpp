@@ -80,11 +80,7 @@ void require_success(const json& job) {
   if (job["state"] == "succeeded") return;
   if (job["state"] == "cancelled") throw Cancelled();
   const json& error = job["error"];
-  std::vector<Problem> problems;
-  for (const json& entry : error["problems"]) {
-    problems.push_back({entry.value("source", ""), entry.value("pointer", ""),
-                        entry.value("found", ""), entry.value("expected", "")});
-  }
+  const std::vector<Problem> problems = problems_of(error["problems"]);
   if (error["kind"] == "input" && !problems.empty()) throw InputError(problems);
   throw EnvironmentError("the job failed: " + error["message"].get<std::string>());
 }

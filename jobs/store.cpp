@@ -187,6 +187,15 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   insert.exec();
 }
 
+/// How many jobs of an owner wait or run.
+std::int64_t active_of(SQLite::Database& database, const std::string& owner) {
+  SQLite::Statement query(
+      database, "SELECT count(*) FROM job WHERE owner = ? AND state IN ('queued', 'running')");
+  query.bind(1, owner);
+  query.executeStep();
+  return query.getColumn(0);
+}
+
 std::string hash_of_submission(SQLite::Database& database, const std::string& id) {
   SQLite::Statement query(database, "SELECT submission_hash FROM job WHERE id = ?");
   query.bind(1, id);
@@ -205,6 +214,10 @@ Added Store::add(const NewJob& job) {
         added = {std::move(*earlier), false, hash == job.hash};
         return;
       }
+    }
+    if (job.most_active > 0 && active_of(connections_->writer, job.owner) >= job.most_active) {
+      added.is_over_quota = true;
+      return;
     }
     std::random_device random;
     JobRow row;
@@ -266,16 +279,6 @@ std::map<JobState, std::int64_t> Store::count() const {
       counts[job_state_named(query.getColumn(0).getString()).value()] = query.getColumn(1);
     }
     return counts;
-  });
-}
-
-std::int64_t Store::active_of(const std::string& owner) const {
-  return connections_->read([&](SQLite::Database& database) -> std::int64_t {
-    SQLite::Statement query(
-        database, "SELECT count(*) FROM job WHERE owner = ? AND state IN ('queued', 'running')");
-    query.bind(1, owner);
-    query.executeStep();
-    return query.getColumn(0);
   });
 }
 

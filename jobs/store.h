@@ -50,12 +50,14 @@ struct NewJob {
   std::string key = {};
   /// Of what was sent, to tell a repetition from a key that is used twice.
   std::string hash = {};
+  int most_active = 0;  ///< jobs that the owner may have waiting or running; 0: any number
 };
 
 struct Added {
   JobRow row;
-  bool is_new = true;    ///< else the job of an earlier submission with this key
-  bool is_equal = true;  ///< false: and what was sent then was something else
+  bool is_new = true;          ///< else the job of an earlier submission with this key
+  bool is_equal = true;        ///< false: and what was sent then was something else
+  bool is_over_quota = false;  ///< nothing was queued: the owner has as many as they may
 };
 
 /// Which jobs to list.
@@ -98,8 +100,6 @@ class Store {
   std::vector<JobRow> list(const JobFilter& filter) const;
   /// How many jobs of any kind are in each state.
   std::map<JobState, std::int64_t> count() const;
-  /// How many jobs of an owner wait or run.
-  std::int64_t active_of(const std::string& owner) const;
   /// The job to work on next: one that was running when the last server ended, else the oldest of
   /// the highest priority that is queued.
   std::optional<JobRow> next() const;

@@ -56,11 +56,6 @@ jobs::JobSpec JobService::checked(std::string_view job_json) const {
 
 jobs::Added JobService::submit(const Submission& submission) {
   const jobs::JobSpec job = checked(submission.job_json);
-  if (submission.most_active > 0 && store_.active_of(submission.owner) >= submission.most_active) {
-    throw QuotaError(
-        fmt::format("{} of your jobs wait or run, which is as many as this key may have",
-                    submission.most_active));
-  }
   const json sent = {submission.job_json, submission.priority, submission.labels};
   const jobs::Added added = store_.add({.name = job.name,
                                         .spec_json = text_of(to_json(job)),
@@ -68,7 +63,13 @@ jobs::Added JobService::submit(const Submission& submission) {
                                         .labels = submission.labels,
                                         .owner = submission.owner,
                                         .key = submission.key,
-                                        .hash = sha256_hex(text_of(sent))});
+                                        .hash = sha256_hex(text_of(sent)),
+                                        .most_active = submission.most_active});
+  if (added.is_over_quota) {
+    throw QuotaError(
+        fmt::format("{} of your jobs wait or run, which is as many as this key may have",
+                    submission.most_active));
+  }
   if (!added.is_new) return added;
   spdlog::info("job {} queued", added.row.id);
   note_queued();

@@ -65,7 +65,11 @@ TEST_F(KeysTest, AKeyMayHaveSoManyJobs) {
   const std::string token = keys.create("few", Scope::submit, 2);
   Gate gate(executor);
   EXPECT_EQ(posted("/v1/jobs", token, kJob), 201);
-  EXPECT_EQ(posted("/v1/jobs", token, kJob), 201);
+  httplib::Headers repeated = with(token);
+  repeated.emplace("Idempotency-Key", "k");
+  EXPECT_EQ(client().Post("/v1/jobs", repeated, kJob, "application/json")->status, 201);
+  EXPECT_EQ(client().Post("/v1/jobs", repeated, kJob, "application/json")->status, 200)
+      << "a repetition is no job more";
   const httplib::Result refused = client().Post("/v1/jobs", with(token), kJob, "application/json");
   expect_problem(refused, 429);
   EXPECT_EQ(refused->get_header_value("Retry-After"), "60");
