@@ -1,6 +1,5 @@
 #include "render/airframe_pass.h"
 
-
 #include "render/prop_pass.h"
 #include "render/shaders.h"
 
