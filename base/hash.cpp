@@ -17,20 +17,32 @@ namespace {
 
 class Sha256 {
  public:
+  static constexpr std::size_t kBytes = 32;
+  using Digest = std::array<unsigned char, kBytes>;
+
   Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
     EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
   }
   void add(const void* data, std::size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
   std::string hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned size = 0;
-    EVP_DigestFinal_ex(context_.get(), digest.data(), &size);
     std::string text;
-    for (unsigned i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+    for (const unsigned char byte : digest()) text += fmt::format("{:02x}", byte);
     return text;
+  }
+  std::string base64() {
+    const Digest bytes = digest();
+    std::array<unsigned char, 4 * ((kBytes + 2) / 3) + 1> text{};
+    const int length = EVP_EncodeBlock(text.data(), bytes.data(), static_cast<int>(kBytes));
+    return {text.begin(), text.begin() + length};
   }
 
  private:
+  Digest digest() {
+    Digest digest{};
+    EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr);
+    return digest;
+  }
+
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
@@ -40,6 +52,12 @@ std::string sha256_hex(std::string_view bytes) {
   Sha256 hash;
   hash.add(bytes.data(), bytes.size());
   return hash.hex();
+}
+
+std::string sha256_base64(std::string_view bytes) {
+  Sha256 hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.base64();
 }
 
 std::uint32_t crc32_of(std::string_view bytes) {

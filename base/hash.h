@@ -1,4 +1,4 @@
-// SHA-256 of bytes and files, as lower-case hex, and CRC-32.
+// SHA-256 of bytes and files, as lower-case hex or in base 64, and CRC-32.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,8 @@
 namespace throng {
 
 std::string sha256_hex(std::string_view bytes);
+/// In base 64 with padding, as browsers compare scripts (Content Security Policy level 3).
+std::string sha256_base64(std::string_view bytes);
 
 /// The checksum of zip files and gzip (CRC-32 of ISO 3309).
 std::uint32_t crc32_of(std::string_view bytes);

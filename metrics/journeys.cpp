@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kStandsMps = 0.1;
 constexpr double kStopS = 1.0;
-constexpr double kNoWayM = 0.5;  // nearer to a door than this there is no detour to speak of
 
 // Walks through the steps of a journey.
 void follow(const world::Trace& trace, std::size_t first_step, Journey& journey) {
@@ -44,9 +43,8 @@ json spread_json(std::vector<double> values) {
 }
 
 // Where somebody sets out inside a door's cells, the ratio means nothing.
-void add_detour(double walked_m, const std::optional<double>& shortest_m,
-                std::vector<double>& detours) {
-  if (shortest_m && *shortest_m > kNoWayM) detours.push_back(walked_m / *shortest_m);
+void add_detour(const std::optional<double>& detour, std::vector<double>& detours) {
+  if (detour) detours.push_back(*detour);
 }
 
 }  // namespace
@@ -104,8 +102,8 @@ json to_json(const std::vector<Journey>& journeys) {
   std::vector<double> walked_m, to_used, to_nearest, speed_ratios, stops;
   for (const Journey& journey : journeys) {
     walked_m.push_back(journey.walked_m);
-    add_detour(journey.walked_m, journey.to_used_m, to_used);
-    add_detour(journey.walked_m, journey.to_nearest_m, to_nearest);
+    add_detour(journey.detour(journey.to_used_m), to_used);
+    add_detour(journey.detour(journey.to_nearest_m), to_nearest);
     speed_ratios.push_back(journey.speed_ratio);
     stops.push_back(journey.stops);
   }

@@ -21,6 +21,13 @@ struct Journey {
   std::optional<double> to_nearest_m;  ///< to the open door that is nearest on foot
   double speed_ratio = 0;              ///< mean speed over mean desired speed; 0 if nothing desired
   int stops = 0;                       ///< times slower than 0.1 m/s for more than 1 s
+
+  /// Way walked over a shortest one; empty within 0.5 m of the door, where none is to speak of.
+  std::optional<double> detour(const std::optional<double>& shortest_m) const {
+    constexpr double kNoWayM = 0.5;
+    if (!shortest_m || *shortest_m <= kNoWayM) return std::nullopt;
+    return walked_m / *shortest_m;
+  }
 };
 
 /// Of those who went out through a door; by number of the agent.

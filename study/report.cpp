@@ -8,7 +8,7 @@
 
 #include "base/files.h"
 #include "base/version.h"
-#include "study/chart.h"
+#include "study/page.h"
 
 namespace throng::study {
 
@@ -180,9 +180,9 @@ json json_of(const Study& study, const std::vector<SummaryRow>& rows) {
           {"rows", std::move(list)}};
 }
 
-// Share of people out at each second, mean over the runs.
-Curve curve_of(const std::string& name, const std::vector<Outcome>& runs, double until_s) {
-  Curve curve{name, {}};
+// Share of people out at each second in per cent, mean over the runs.
+json curve_of(const std::string& name, const std::vector<Outcome>& runs, double until_s) {
+  json share = json::array();
   for (double time_s = 0; time_s <= until_s; time_s += 1) {
     double out = 0;
     for (const Outcome& run : runs) {
@@ -190,9 +190,9 @@ Curve curve_of(const std::string& name, const std::vector<Outcome>& runs, double
           std::upper_bound(run.escape_s.begin(), run.escape_s.end(), time_s) - run.escape_s.begin();
       out += static_cast<double>(count) / std::max(1, run.people);
     }
-    curve.points.emplace_back(time_s, 100 * out / static_cast<double>(runs.size()));
+    share.push_back(rounded(100 * out / static_cast<double>(runs.size())));
   }
-  return curve;
+  return {{"name", name}, {"share", std::move(share)}};
 }
 
 // Until nearly everybody is out under most policies.
@@ -204,6 +204,57 @@ double shown_time_s(const std::vector<std::vector<Outcome>>& policies) {
     longest = std::max(longest, std::isfinite(t95) ? t95 : runs.front().duration_s);
   }
   return kRoundTo * std::ceil(1.15 * longest / kRoundTo);
+}
+
+std::string html_table(const Study& study, const std::vector<SummaryRow>& rows,
+                       std::size_t one_case) {
+  std::string html = "<table><tr><th>policy</th>";
+  for (const int percent : kSummaryPercents) html += fmt::format("<th>T{} (s)</th>", percent);
+  html +=
+      "<th>all out (runs)</th><th>mean escape (s)</th><th>ratio</th><th>difference (s)</th>"
+      "<th>p</th><th>T90/bound</th><th>exits</th></tr>\n";
+  for (const SummaryRow& row : rows) {
+    if (row.one_case != one_case) continue;
+    html += fmt::format("<tr><td>{}</td>", escaped_markup(study.policies[row.policy].title));
+    for (const Spread& time : row.percentiles)
+      html += fmt::format("<td>{}</td>", spread_text(time));
+    html += fmt::format("<td>{}/{}</td><td>{:.1f} [{:.1f}-{:.1f}]</td>", row.all_out, row.runs,
+                        row.mean_escape.median, row.mean_escape.low, row.mean_escape.high);
+    html += row.policy == study.baseline
+                ? std::string("<td></td><td></td><td></td>")
+                : fmt::format("<td>{:.2f}</td><td>{:+.1f} [{:+.1f}, {:+.1f}]</td><td>{:.2g}</td>",
+                              row.ratio_to_baseline, row.difference, row.difference_95.low,
+                              row.difference_95.high, row.test.p_value);
+    html += fmt::format("<td>{:.2f}</td><td>{}</td></tr>\n", row.t90_to_bound, exits_text(row));
+  }
+  return html + "</table>\n";
+}
+
+std::string html_of_study(const Study& study, const Outcomes& outcomes,
+                          const std::vector<SummaryRow>& rows) {
+  Page page;
+  page.title = study.name;
+  page.body = fmt::format(
+      "<h1>{}</h1>\n<p>{} paired runs of each policy, {}. Times in s from the alarm: medians "
+      "[quartiles]; who is not out at the end counts with the end in the mean escape. Ratio, "
+      "difference [95 % bootstrap interval] and p (Wilcoxon): of the mean escape to \"{}\". "
+      "Bound: docs/guidance.md. Exits: people per exit, mean. Curves: mean over the runs.</p>\n",
+      escaped_markup(study.name), study.runs, kGenerator,
+      escaped_markup(study.policies[study.baseline].title));
+  json cases = json::array();
+  for (std::size_t c = 0; c < study.cases.size(); ++c) {
+    json curves = json::array();
+    const double until_s = shown_time_s(outcomes[c]);
+    for (std::size_t p = 0; p < study.policies.size(); ++p) {
+      curves.push_back(curve_of(study.policies[p].title, outcomes[c][p], until_s));
+    }
+    cases.push_back({{"curves", std::move(curves)}});
+    page.body +=
+        fmt::format("<h2>{}</h2>\n", escaped_markup(study.cases[c].title)) +
+        html_table(study, rows, c) +
+        chart_frame("People out", fmt::format("data-chart=\"policies\" data-case=\"{}\"", c));
+  }
+  return html_of(page, {{"cases", std::move(cases)}});
 }
 
 }  // namespace
@@ -223,14 +274,7 @@ std::vector<SummaryRow> summarise(const Study& study, const Outcomes& outcomes) 
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder) {
   const std::vector<SummaryRow> rows = summarise(study, outcomes);
-  for (std::size_t c = 0; c < study.cases.size(); ++c) {
-    Chart chart{study.cases[c].title, "time since the alarm (s)", "people out (%)", {}};
-    const double until_s = shown_time_s(outcomes[c]);
-    for (std::size_t p = 0; p < study.policies.size(); ++p) {
-      chart.curves.push_back(curve_of(study.policies[p].title, outcomes[c][p], until_s));
-    }
-    write_file_atomically(folder / (study.cases[c].id + ".svg"), svg_of(chart));
-  }
+  write_file_atomically(folder / "report.html", html_of_study(study, outcomes, rows));
   write_file_atomically(folder / "summary.csv", csv_of(study, rows));
   write_file_atomically(folder / "summary.json", json_of(study, rows).dump(2) + "\n");
   write_file_atomically(folder / "summary.md", markdown_of(study, rows));

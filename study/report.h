@@ -40,8 +40,8 @@ inline constexpr int kSummaryPercents[] = {25, 50, 75, 90, 95, 99};
 
 std::vector<SummaryRow> summarise(const Study& study, const Outcomes& outcomes);
 
-/// Writes summary.csv, summary.json, summary.md and one escape-curve chart per case (CASE.svg) into
-/// the folder. Equal outcomes give equal bytes.
+/// Writes summary.csv, summary.json, summary.md and report.html, which has the tables and the
+/// escape curves of each case as charts, into the folder. Equal outcomes give equal bytes.
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder);
 

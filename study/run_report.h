@@ -21,10 +21,10 @@ struct MeasuredRun {
 
 MeasuredRun measured(std::string name, world::Trace trace, const world::Scenario& scenario);
 
-/// Escape curves and a table of all runs, with median and quartiles; of the run that the reader
+/// Escape curves and tables of all runs, with median and quartiles; of the run that the reader
 /// chooses the exits' states over time, maps of density and pressure, the fundamental diagram and
-/// everybody's way. Charts are SVG; there are no scripts. Equal runs give equal bytes. At least one
-/// run.
+/// everybody's way. Charts are drawn by the page's own script, the rest needs none. Equal runs give
+/// equal bytes. At least one run.
 std::string html_report(const world::Scenario& scenario, const std::vector<MeasuredRun>& runs);
 
 }  // namespace throng::study

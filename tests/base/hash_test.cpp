@@ -23,6 +23,12 @@ TEST(Sha256, AgreesWithTheStandard) {
   EXPECT_EQ(sha256_hex(std::string(1'000'000, 'a')), kOfAMillionAs);
 }
 
+TEST(Sha256, InBase64AsPagesNameTheirScripts) {
+  // As `openssl dgst -sha256 -binary | base64` has it.
+  EXPECT_EQ(sha256_base64(""), "47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=");
+  EXPECT_EQ(sha256_base64("abc"), "ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
+}
+
 TEST(Sha256, OfAFileIsThatOfItsBytes) {
   const testing::TemporaryFolder folder;
   EXPECT_EQ(sha256_hex_of_file(folder.write("empty", "")), kOfNothing);

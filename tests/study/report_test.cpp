@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
-#include "study/chart.h"
 #include "tests/world/temporary_folder.h"
 
 namespace throng::study {
@@ -74,10 +73,11 @@ TEST(Report, WritesTableAndCharts) {
   EXPECT_THAT(read_file(folder.path() / "summary.csv"), HasSubstr("yard,quick,8,"));
   const auto summary = nlohmann::json::parse(read_file(folder.path() / "summary.json"));
   EXPECT_EQ(summary["rows"][1]["exit_use"]["door"], 2);
-  const std::string chart = read_file(folder.path() / "yard.svg");
-  EXPECT_THAT(chart, HasSubstr("a &lt; b"));
-  EXPECT_THAT(chart, HasSubstr("no drone"));
-  EXPECT_THAT(chart, Not(HasSubstr("nan")));
+  const std::string page = read_file(folder.path() / "report.html");
+  EXPECT_THAT(page, HasSubstr("<h2>a &lt; b</h2>"));
+  EXPECT_THAT(page, HasSubstr("data-chart=\"policies\" data-case=\"0\""));
+  EXPECT_THAT(page, HasSubstr("{\"name\":\"no drone\",\"share\":[0.0,"));
+  EXPECT_THAT(page.substr(0, page.find("<script")), Not(HasSubstr("nan")));
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+# What throng shows in a browser: scripts of web/, bundled by esbuild while CMake configures, embedded in the program.
+
+# Installs the packages of web/package-lock.json, once for all builds of this tree; needs npm's registry then only.
+function(throng_web_packages)
+  set(folder "${PROJECT_SOURCE_DIR}/build/web")
+  set(lock "${PROJECT_SOURCE_DIR}/web/package-lock.json")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${lock}")
+  file(SHA256 "${lock}" wanted)
+  set(installed "")
+  if(EXISTS "${folder}/installed.sha256")
+    file(READ "${folder}/installed.sha256" installed)
+  endif()
+  if(installed STREQUAL wanted)
+    return()
+  endif()
+  find_program(NPM_PROGRAM npm)
+  if(NOT NPM_PROGRAM)
+    message(FATAL_ERROR "npm is missing, which fetches the chart library of reports (Debian package npm; scripts/setup.sh installs it)")
+  endif()
+  message(STATUS "Fetching the packages of web/package-lock.json")
+  file(COPY "${PROJECT_SOURCE_DIR}/web/package.json" "${lock}" DESTINATION "${folder}")
+  execute_process(COMMAND "${NPM_PROGRAM}" ci --ignore-scripts --no-audit --no-fund --loglevel=error
+    WORKING_DIRECTORY "${folder}" RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "npm could not install the packages of web/package-lock.json (a first build needs npm's registry):\n${output}")
+  endif()
+  file(WRITE "${folder}/installed.sha256" "${wanted}")
+endfunction()
+
+# throng_bundle(TARGET SYMBOL FILE): FILE of web/ and all that it imports as one script, embedded like throng_embed's text.
+function(throng_bundle target symbol file)
+  throng_web_packages()
+  find_program(NODE_PROGRAM NAMES node nodejs REQUIRED)
+  set(packages "${PROJECT_SOURCE_DIR}/build/web/node_modules")
+  set(bundle "${CMAKE_CURRENT_BINARY_DIR}/${symbol}.js")
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/web/*.js")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
+  execute_process(
+    COMMAND "${CMAKE_COMMAND}" -E env "NODE_PATH=${packages}" "${NODE_PROGRAM}" "${packages}/esbuild/bin/esbuild"
+      "${PROJECT_SOURCE_DIR}/web/${file}" --bundle --minify --format=iife --target=es2020 --charset=ascii
+      --log-level=warning "--banner:js=/*! Apache ECharts (Apache License 2.0) with zrender (BSD 3-Clause) and throng */"
+      "--outfile=${bundle}"
+    RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "esbuild could not bundle web/${file}:\n${output}")
+  endif()
+  throng_embed(${target} ${symbol} "${bundle}")
+endfunction()

@@ -1,0 +1,140 @@
+#include "study/metric_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "study/page.h"
+#include "study/statistics.h"
+
+namespace throng::study {
+
+namespace {
+
+using metrics::RunMetrics;
+using Value = std::optional<double>;
+
+struct MetricRow {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  std::function<Value(const RunMetrics&)> value;
+};
+
+void add_escape_rows(const RunMetrics& example, std::vector<MetricRow>& rows) {
+  rows.push_back(
+      {"people", "1", "who took part", [](const RunMetrics& run) { return run.people; }});
+  rows.push_back({"not escaped", "1", "still inside when the run ended",
+                  [](const RunMetrics& run) { return run.not_escaped; }});
+  rows.push_back({"mean escape time", "s",
+                  "until a person left the place; who did not counts with the run's duration",
+                  [](const RunMetrics& run) { return run.mean_escape_time_s; }});
+  for (std::size_t i = 0; i < example.percentiles.size(); ++i) {
+    rows.push_back(
+        {fmt::format("T{}", example.percentiles[i].percent), "s",
+         fmt::format("when {} % of the people had escaped", example.percentiles[i].percent),
+         [i](const RunMetrics& run) { return run.percentiles[i].time_s; }});
+  }
+  rows.push_back({"T90 / lower bound", "1",
+                  "from the first notification; bound: everybody knows at once, doors pass 1.3 "
+                  "people per metre and second",
+                  [](const RunMetrics& run) -> Value {
+                    for (const RunMetrics::Percentile& at : run.percentiles) {
+                      if (at.percent != 90 || !at.time_s || !run.bound || run.bound->t90_s <= 0) {
+                        continue;
+                      }
+                      return (*at.time_s - *run.notification.first_s) / run.bound->t90_s;
+                    }
+                    return std::nullopt;
+                  }});
+  rows.push_back({"notified after, median", "s",
+                  "from arrival until a person first headed for an exit or followed a guide",
+                  [](const RunMetrics& run) -> Value {
+                    if (run.notification.times_s.empty()) return std::nullopt;
+                    return median(run.notification.times_s);
+                  }});
+}
+
+void add_exit_rows(std::vector<MetricRow>& rows) {
+  rows.push_back({"balance of the exits", "1",
+                  "1: used in proportion to their capacities; 0: only exits without capacity",
+                  [](const RunMetrics& run) -> Value {
+                    if (!run.balance) return std::nullopt;
+                    return run.balance->balance;
+                  }});
+  rows.push_back({"clogged", "s",
+                  "over all exits: congested, and nobody out for max(2 s, 3 / capacity)",
+                  [](const RunMetrics& run) {
+                    double sum_s = 0;
+                    for (const metrics::ExitTotals& exit : run.exits) sum_s += exit.clogged_s;
+                    return sum_s;
+                  }});
+  rows.push_back({"congested", "s",
+                  "over all exits: at least 0.35 of close packing, approached at less than 0.3 of "
+                  "the desired speed; clogs count too",
+                  [](const RunMetrics& run) {
+                    double sum_s = 0;
+                    for (const metrics::ExitTotals& exit : run.exits) sum_s += exit.congested_s;
+                    return sum_s;
+                  }});
+  rows.push_back({"detour, median", "1", "way walked / shortest way to the door that was used",
+                  [](const RunMetrics& run) -> Value {
+                    std::vector<double> detours;
+                    for (const metrics::Journey& journey : run.journeys) {
+                      const Value detour = journey.detour(journey.to_used_m);
+                      if (detour) detours.push_back(*detour);
+                    }
+                    if (detours.empty()) return std::nullopt;
+                    return median(detours);
+                  }});
+}
+
+void add_exposure_rows(std::vector<MetricRow>& rows) {
+  for (std::size_t i = 0; i < metrics::kExposureDensities.size(); ++i) {
+    rows.push_back({fmt::format("above {} /m²", metrics::kExposureDensities[i]), "person s",
+                    "time that people were in so dense a crowd, by their own Voronoi cells",
+                    [i](const RunMetrics& run) { return run.exposure.above_person_s[i]; }});
+  }
+  rows.push_back({"greatest density", "1/m²", "mean Voronoi density of a square of 2 m²",
+                  [](const RunMetrics& run) { return run.exposure.max_density_per_m2; }});
+  rows.push_back({"crush proxy", "person s",
+                  "above 0.85 of close packing and below 0.1 of the desired speed: a proxy, as "
+                  "there are no contact forces",
+                  [](const RunMetrics& run) { return run.exposure.crush_proxy_person_s; }});
+  rows.push_back({"led by drones", "1", "people who followed at some time",
+                  [](const RunMetrics& run) { return run.guidance.led; }});
+}
+
+}  // namespace
+
+std::string metric_table(const std::vector<const RunMetrics*>& runs) {
+  std::vector<MetricRow> rows;
+  add_escape_rows(*runs.front(), rows);
+  add_exit_rows(rows);
+  add_exposure_rows(rows);
+  std::string html =
+      "<table><tr><th class=\"text\">figure</th><th class=\"text\">unit</th><th "
+      "class=\"text\">meaning</th><th>median</th>"
+      "<th>quartiles</th><th>runs</th></tr>\n";
+  for (const MetricRow& row : rows) {
+    std::vector<double> values;
+    for (const RunMetrics* run : runs) {
+      const Value value = row.value(*run);
+      if (value && std::isfinite(*value)) values.push_back(*value);
+    }
+    html += fmt::format("<tr><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td>",
+                        row.name, row.unit, escaped_markup(row.meaning));
+    if (values.empty()) {
+      html += "<td>none</td><td></td><td>0</td></tr>\n";
+      continue;
+    }
+    html +=
+        fmt::format("<td>{:.4g}</td><td>{:.4g} to {:.4g}</td><td>{}</td></tr>\n", median(values),
+                    quantile(values, 0.25), quantile(values, 0.75), values.size());
+  }
+  return html + "</table>\n";
+}
+
+}  // namespace throng::study

@@ -1,0 +1,30 @@
+// HTML pages with charts, each one file that needs nothing else.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace throng::study {
+
+struct Page {
+  std::string title;  ///< plain text
+  std::string style;  ///< CSS beyond that of all pages
+  std::string body;   ///< HTML
+};
+
+/// The page with the charts of web/report.js, drawn in the browser from `figures` wherever the body
+/// has chart_frame()s. Its policy lets it fetch nothing and run no script but its own. Without
+/// scripts, all but the charts is there.
+std::string html_of(const Page& page, const nlohmann::json& figures);
+
+/// Where a chart will be. `data` are attributes that say which: name="value", separated by blanks.
+std::string chart_frame(const std::string& title, const std::string& data);
+
+/// Text with what HTML would take for markup made harmless.
+std::string escaped_markup(const std::string& text);
+
+/// For figures of a page: as near as a chart can show, in few characters. NaN and infinities
+/// become null.
+nlohmann::json rounded(double value, int decimals = 3);
+
+}  // namespace throng::study

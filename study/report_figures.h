@@ -1,0 +1,18 @@
+// What the charts of a report of runs show, as web/report.js reads it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "study/run_report.h"
+
+namespace throng::study {
+
+/// Metres, seconds, per cent. `escape`: the curves at 0, 1, 2, ... s with median and quartiles;
+/// `place`: the floor plan; `runs`: of each the exits' states over time, density and pressure on
+/// cells of 1 m (rows from the lowest y, from the lowest x), the fundamental diagram and the ways,
+/// from samples once a second.
+nlohmann::json report_figures(const world::Scenario& scenario,
+                              const std::vector<MeasuredRun>& runs);
+
+}  // namespace throng::study

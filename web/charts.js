@@ -1,0 +1,77 @@
+// The chart library with what reports use of it, and what all charts share.
+import * as echarts from 'echarts/core';
+import { CustomChart, LineChart, LinesChart, ScatterChart } from 'echarts/charts';
+import {
+  AriaComponent,
+  DataZoomComponent,
+  GridComponent,
+  LegendComponent,
+  ToolboxComponent,
+  TooltipComponent,
+  VisualMapContinuousComponent,
+} from 'echarts/components';
+import { CanvasRenderer, SVGRenderer } from 'echarts/renderers';
+
+echarts.use([
+  AriaComponent, CanvasRenderer, CustomChart, DataZoomComponent, GridComponent, LegendComponent, LineChart,
+  LinesChart, ScatterChart, SVGRenderer, ToolboxComponent, TooltipComponent, VisualMapContinuousComponent,
+]);
+
+// Colours that people with any kind of colour vision can tell apart (Okabe and Ito 2008).
+export const colours = {
+  black: '#000000', blue: '#0072B2', green: '#009E73', grey: '#8a8a8a', orange: '#E69F00', pale: '#e4e4e4',
+  pink: '#CC79A7', sky: '#56B4E9', vermilion: '#D55E00',
+};
+
+// A browser draws as many marks as SVG, which stays sharp in print; more are pixels.
+const MOST_SVG_MARKS = 3000;
+
+export const axis = (name, more) => ({
+  type: 'value', name, nameLocation: 'middle', nameGap: 28, splitLine: { lineStyle: { color: '#e6e6e6' } }, ...more,
+});
+
+// Text of somebody's file, which tooltips would take for markup.
+export const escaped = (text) =>
+  String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+
+export const number = (value, digits = 2) => (Number.isFinite(value) ? value.toFixed(digits) : 'none');
+
+// Zoom by dragging a bar below the chart, or by Ctrl and the wheel, which alone scrolls the page.
+export const timeZoom = () => [
+  { type: 'slider', xAxisIndex: 0, height: 18, bottom: 8, filterMode: 'none', labelFormatter: (s) => `${Math.round(s)} s` },
+  { type: 'inside', xAxisIndex: 0, zoomOnMouseWheel: 'ctrl', filterMode: 'none' },
+];
+
+// Makes the chart in an element; `layout` gives its height in px for a width, and its grid and the
+// width that it takes if those depend on it. Returns what to call when the page's width changes and around printing.
+export function draw(element, { option, marks = 0, layout }) {
+  const place = () => {
+    const { height, width, grid } = layout(element.parentElement.clientWidth);
+    if (width) element.style.width = `${Math.round(width)}px`;
+    element.style.height = `${Math.round(height)}px`;
+    return grid ? { grid } : {};
+  };
+  const placed = place();
+  const renderer = marks > MOST_SVG_MARKS ? 'canvas' : 'svg';
+  const chart = echarts.init(element, null, { renderer, devicePixelRatio: Math.max(2, window.devicePixelRatio) });
+  chart.setOption({
+    animation: false,
+    aria: { enabled: true },
+    textStyle: { fontFamily: 'sans-serif' },
+    toolbox: { right: 8, top: 0, itemSize: 13, feature: { restore: {}, saveAsImage: { name: element.dataset.chart } } },
+    ...option,
+    ...placed,
+  });
+  const bars = (option.dataZoom ?? []).filter((zoom) => zoom.type === 'slider');
+  return {
+    resize() {
+      const changed = place();
+      chart.resize();
+      chart.setOption(changed);
+    },
+    // On paper nobody zooms or saves.
+    printing(now) {
+      chart.setOption({ toolbox: { show: !now }, ...(bars.length ? { dataZoom: [{ show: !now }] } : {}) });
+    },
+  };
+}

@@ -1,0 +1,33 @@
+// Draws the charts of a report. The page holds their figures as JSON (#figures) and an element
+// [data-chart] for each; tables and the choice of a run need no script.
+import { draw } from './charts.js';
+import { escapeOfPolicies, escapeOfRuns } from './escape.js';
+import { fundamental } from './fundamental.js';
+import { map, ways } from './ground.js';
+import { timeline } from './timeline.js';
+
+const makers = { escape: escapeOfRuns, policies: escapeOfPolicies, timeline, map, ways, fundamental };
+const figures = JSON.parse(document.getElementById('figures').textContent);
+const drawn = new Map();
+
+// Those of a run that is not chosen have no width: they come when it is.
+function drawVisible() {
+  for (const element of document.querySelectorAll('[data-chart]')) {
+    if (element.parentElement.clientWidth === 0) continue;
+    const chart = drawn.get(element);
+    if (chart) chart.resize();
+    else drawn.set(element, draw(element, makers[element.dataset.chart](figures, element)));
+  }
+}
+
+const printing = (now) => () => {
+  document.body.classList.toggle('printing', now);
+  drawVisible();
+  for (const chart of drawn.values()) chart.printing(now);
+};
+
+drawVisible();
+document.addEventListener('change', drawVisible);
+window.addEventListener('resize', drawVisible);
+window.addEventListener('beforeprint', printing(true));
+window.addEventListener('afterprint', printing(false));
