@@ -24,7 +24,7 @@ constexpr const char* kPageStyle =
     "figure{margin:1.5em 0;break-inside:avoid}figcaption{font-weight:bold;margin-bottom:.3em}"
     ".hint{color:#555;font-size:13px}"
     "@media print{body{margin:0;max-width:none}table{display:table;overflow:visible;font-size:10px}"
-    "tr{break-inside:avoid}.hint,input[type=radio],label{display:none}}";
+    "h2,h3{break-after:avoid}tr{break-inside:avoid}.hint,input[type=radio],label{display:none}}";
 
 /// JSON that cannot end the element it stands in.
 std::string inert(const nlohmann::json& value) {

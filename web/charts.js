@@ -24,7 +24,11 @@ export const colours = {
 };
 
 // A browser draws as many marks as SVG, which stays sharp in print; more are pixels.
-const MOST_SVG_MARKS = 3000;
+const MOST_SVG_MARKS = 5000;
+
+// What A4 holds between usual margins, in px: while a page is being laid out for paper, elements
+// still tell the width that they have on the screen.
+const PAPER_WIDTH = 690;
 
 export const axis = (name, more) => ({
   type: 'value', name, nameLocation: 'middle', nameGap: 28, splitLine: { lineStyle: { color: '#e6e6e6' } }, ...more,
@@ -45,9 +49,11 @@ export const timeZoom = () => [
 // Makes the chart in an element; `layout` gives its height in px for a width, and its grid and the
 // width that it takes if those depend on it. Returns what to call when the page's width changes and around printing.
 export function draw(element, { option, marks = 0, layout }) {
+  let paper = false;
   const place = () => {
-    const { height, width, grid } = layout(element.parentElement.clientWidth);
-    if (width) element.style.width = `${Math.round(width)}px`;
+    const room = paper ? PAPER_WIDTH : element.parentElement.clientWidth;
+    const { height, width, grid } = layout(room);
+    element.style.width = width || paper ? `${Math.round(width ?? room)}px` : '';
     element.style.height = `${Math.round(height)}px`;
     return grid ? { grid } : {};
   };
@@ -69,9 +75,12 @@ export function draw(element, { option, marks = 0, layout }) {
       chart.resize();
       chart.setOption(changed);
     },
-    // On paper nobody zooms or saves.
+    // On paper nobody zooms or saves; and it does not wait for the next frame.
     printing(now) {
+      paper = now;
+      this.resize();
       chart.setOption({ toolbox: { show: !now }, ...(bars.length ? { dataZoom: [{ show: !now }] } : {}) });
+      chart.getZr().flush();
     },
   };
 }

@@ -25,7 +25,7 @@ export function fundamental({ runs }, element) {
       dataZoom: ['xAxisIndex', 'yAxisIndex'].map((which) =>
         ({ type: 'inside', [which]: 0, zoomOnMouseWheel: 'ctrl', filterMode: 'none' })),
       series: [
-        { name: people, type: 'scatter', data: samples, symbolSize: 3, itemStyle: { color: colours.blue, opacity: 0.3 } },
+        { name: people, type: 'scatter', data: samples, symbolSize: 3, progressive: 0, itemStyle: { color: colours.blue, opacity: 0.3 } },
         {
           name: 'median', type: 'line', data: bins, symbolSize: 7, lineStyle: { color: colours.black, width: 1.5 },
           itemStyle: { color: colours.black }, z: 4,
