@@ -20,6 +20,7 @@ void add_people(CLI::App& app);
 void add_keys(CLI::App& app);
 void add_remote_jobs(CLI::App& app);  // submit, jobs, watch, cancel, retry, remove, logs, fetch
 void add_scenarios(CLI::App& app);
+void add_scenario(CLI::App& app);  // check, plan, make, generate
 void add_airframes(CLI::App& app);
 void add_metrics(CLI::App& app);
 void add_report(CLI::App& app);

@@ -66,6 +66,7 @@ class Goals {
 
   Goal& operator[](int index) { return goals_[static_cast<std::size_t>(index)]; }
   const Goal& operator[](int index) const { return goals_[static_cast<std::size_t>(index)]; }
+  int count() const { return static_cast<int>(goals_.size()); }
   const GoalSet& set(int index) const { return sets_[static_cast<std::size_t>(index)]; }
 
   /// -1 when there is none.

@@ -1,0 +1,194 @@
+#include "places/plan.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "places/plan_drawing.h"
+#include "places/survey.h"
+
+namespace throng::places {
+
+using Eigen::Vector2d;
+using world::Scenario;
+
+namespace {
+
+Ink ground_ink(const std::string& material) {
+  static const std::map<std::string, std::array<std::uint8_t, 3>> kMaterials = {
+      {"pavers", {236, 232, 226}},
+      {"asphalt", {214, 214, 216}},
+      {"grass", {206, 224, 190}},
+      {"concrete", {228, 228, 226}},
+      {"dirt", {224, 210, 188}}};
+  const auto found = kMaterials.find(material);
+  return {found != kMaterials.end() ? found->second : std::array<std::uint8_t, 3>{240, 240, 240}};
+}
+
+constexpr Ink kNothing{{0, 0, 0}, 0};
+
+void draw_ground(const Scenario& scenario, Sheet& sheet) {
+  const world::Rectangle& all = scenario.ground;
+  sheet.polygon(std::array{all.min, Vector2d(all.max.x(), all.min.y()), all.max,
+                           Vector2d(all.min.x(), all.max.y())},
+                ground_ink(scenario.ground_material), kNothing);
+  for (const world::GroundArea& area : scenario.areas) {
+    sheet.polygon(area.corners, ground_ink(area.material), kNothing);
+  }
+  constexpr Ink kPaint{{255, 255, 255}};
+  for (const world::Marking& marking : scenario.markings) {
+    const Vector2d along = (marking.to - marking.from).normalized();
+    const Vector2d side = 0.5 * marking.width_m * Vector2d(-along.y(), along.x());
+    sheet.polygon(std::array<Vector2d, 4>{marking.from - side, marking.to - side, marking.to + side,
+                                          marking.from + side},
+                  kPaint, kNothing);
+  }
+  const world::Rectangle& in = scenario.inside;
+  constexpr Ink kEdge{{120, 120, 120}, 0.5};
+  sheet.polygon(std::array{in.min, Vector2d(in.max.x(), in.min.y()), in.max,
+                           Vector2d(in.min.x(), in.max.y())},
+                kNothing, kEdge);
+}
+
+void draw_things(const Scenario& scenario, Sheet& sheet) {
+  for (const world::Building& building : scenario.buildings) {
+    sheet.polygon(building.footprint, inks::kBuilding, inks::kInk);
+    Vector2d middle = Vector2d::Zero();
+    for (const Vector2d& corner : building.footprint) middle += corner;
+    sheet.words(middle / static_cast<double>(building.footprint.size()), {-12, 4}, building.id,
+                inks::kInk);
+  }
+  for (const world::Prop& prop : scenario.props) {
+    const Vector2d half =
+        prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
+    const Vector2d along(std::cos(prop.yaw_rad), std::sin(prop.yaw_rad));
+    const Vector2d across(-along.y(), along.x());
+    const auto corner = [&](double x, double y) -> Vector2d {
+      return prop.position + x * half.x() * along + y * half.y() * across;
+    };
+    sheet.polygon(std::array{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)},
+                  inks::kProp, kNothing);
+  }
+}
+
+void draw_obstacles(const crowd::Obstacles& obstacles, Sheet& sheet) {
+  for (const crowd::Segment& segment : obstacles.segments()) {
+    sheet.line(std::array<Vector2d, 2>{segment.begin.cast<double>(), segment.end.cast<double>()},
+               inks::kObstacle, 1.2);
+  }
+}
+
+void draw_exits(const Scenario& scenario, Sheet& sheet) {
+  constexpr double kDoorPx = 5;
+  for (const world::Exit& exit : scenario.exits) {
+    const Ink& ink = exit.open ? inks::kOpenExit : inks::kShutExit;
+    sheet.line(std::array{exit.from, exit.to}, ink, kDoorPx);
+    // Beyond the door, where nothing else is written.
+    constexpr double kBesideM = 1.2;
+    sheet.words(exit.middle() + kBesideM * exit.outward, {exit.outward.x() < -0.5 ? -90.0 : 4.0, 4},
+                fmt::format("{} {:.3g} m", exit.id, exit.width_m()), ink);
+  }
+}
+
+/// The exits' goals and the others within the plan; a goal that waits to be moved is far away.
+void draw_goals(const Scenario& scenario, const crowd::Goals& goals, Sheet& sheet) {
+  for (int i = 0; i < goals.count(); ++i) {
+    const crowd::Goal& goal = goals[i];
+    const Vector2d centre = goal.shape->centre().cast<double>();
+    if (!scenario.ground.contains(centre)) continue;
+    constexpr double kGoalPx = 2.5;
+    sheet.dot(centre, kGoalPx, inks::kGoal);
+  }
+}
+
+void draw_people(const LoadedCrowd& loaded, Sheet& sheet) {
+  constexpr std::size_t kMostDots = 3000;
+  constexpr double kPersonPx = 1.6;
+  constexpr double kSourcePx = 4;
+  const std::size_t stride = 1 + loaded.count() / kMostDots;
+  std::map<std::pair<long, long>, int> sources;  // by metre
+  for (std::size_t agent = 0; agent < loaded.count(); ++agent) {
+    const Vector2d at = loaded.place(agent);
+    if (loaded.is_person[agent] == 0) {
+      constexpr double kDangerPx = 7;
+      sheet.dot(at, kDangerPx, inks::kDanger);
+    } else if (loaded.crowd.agents.awaited[agent] != 0) {
+      ++sources[{std::lround(at.x()), std::lround(at.y())}];
+    } else if (agent % stride == 0) {
+      sheet.dot(at, kPersonPx, inks::kPerson);
+    }
+  }
+  for (const auto& [place, count] : sources) {
+    sheet.dot({static_cast<double>(place.first), static_cast<double>(place.second)}, kSourcePx,
+              inks::kSource);
+  }
+}
+
+/// For each exit an arrow from the middle of those who have it as their nearest, and their number.
+void draw_flows(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
+                Sheet& sheet) {
+  struct Flow {
+    Vector2d sum = Vector2d::Zero();
+    int people = 0;
+  };
+  std::vector<Flow> flows(scenario.exits.size());
+  int all = 0;
+  for (std::size_t agent = 0; agent < loaded.count(); ++agent) {
+    if (loaded.is_person[agent] == 0) continue;
+    const Vector2d at = loaded.place(agent);
+    const int cell = routes.walkable_near(at, 1);
+    const int exit =
+        cell == Routes::kNone ? Routes::kNone : routes.nearest_exit[static_cast<std::size_t>(cell)];
+    if (exit == Routes::kNone) continue;
+    flows[static_cast<std::size_t>(exit)].sum += at;
+    ++flows[static_cast<std::size_t>(exit)].people;
+    ++all;
+  }
+  constexpr double kWidestPx = 24;
+  for (std::size_t i = 0; i < flows.size(); ++i) {
+    if (flows[i].people == 0) continue;
+    const Vector2d from = flows[i].sum / flows[i].people;
+    const Vector2d to = scenario.exits[i].middle();
+    if ((to - from).norm() < 1) continue;
+    sheet.line(std::array{from, to}, inks::kFlow, 1 + kWidestPx * flows[i].people / all, true);
+    sheet.words(0.5 * (from + to), {6, -4}, fmt::format("{} nearest here", flows[i].people),
+                inks::kOpenExit);
+  }
+}
+
+void draw_drones(const Scenario& scenario, Sheet& sheet) {
+  for (const world::DroneStart& drone : scenario.drones) {
+    const Vector2d at = drone.position.head<2>();
+    constexpr double kDroneM = 1.2;
+    constexpr double kHeadingM = 3;
+    const Vector2d heading(std::cos(drone.yaw_rad), std::sin(drone.yaw_rad));
+    sheet.ring(at, kDroneM, inks::kDrone);
+    sheet.line(std::array<Vector2d, 2>{at, at + kHeadingM * heading}, inks::kDrone, 2, true);
+    sheet.words(at, {8, 16}, fmt::format("{}, {:.3g} m up", drone.id, drone.position.z()),
+                inks::kDrone);
+  }
+}
+
+}  // namespace
+
+Drawing draw_plan(const Scenario& scenario, int size_px) {
+  const LoadedCrowd loaded = load_crowd_of(scenario);
+  const Routes routes = find_routes(scenario, loaded);
+  Sheet sheet(scenario.ground, size_px);
+  draw_ground(scenario, sheet);
+  draw_things(scenario, sheet);
+  draw_obstacles(loaded.crowd.obstacles, sheet);
+  draw_goals(scenario, loaded.crowd.goals, sheet);
+  draw_people(loaded, sheet);
+  draw_flows(scenario, loaded, routes, sheet);
+  draw_exits(scenario, sheet);
+  draw_drones(scenario, sheet);
+  sheet.finish(scenario.name);
+  return sheet.take();
+}
+
+}  // namespace throng::places

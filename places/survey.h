@@ -1,0 +1,54 @@
+// A scenario and its crowd as they stand before the run begins: who is where, which ground people
+// can walk on and how far it is to the exits. What checking and drawing a scenario need to know.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "crowd/crowd.h"
+#include "crowd/walkable_grid.h"
+#include "world/scenario.h"
+
+namespace throng::places {
+
+/// The crowd's files read into memory, without the cost of a run.
+struct LoadedCrowd {
+  crowd::Crowd crowd;
+  std::vector<std::uint8_t> is_person;  ///< per agent; the others stand for dangers
+  std::vector<Problem> warnings;        ///< what was ignored while loading
+
+  std::size_t count() const { return is_person.size(); }
+  Eigen::Vector2d place(std::size_t agent) const {
+    return crowd.agents.position[agent].cast<double>();
+  }
+};
+
+/// Reads the scenario's Menge files. Throws InputError and EnvironmentError as crowd::Simulation.
+LoadedCrowd load_crowd_of(const world::Scenario& scenario);
+
+/// The ground inside of the scenario on which the slimmest of its people can stand, and the way
+/// from there to the nearest open exit.
+struct Routes {
+  static constexpr int kNone = -1;
+
+  crowd::WalkableGrid grid;       ///< of `inside` and a margin around it
+  std::vector<int> nearest_exit;  ///< per cell: index into the scenario's exits, or kNone
+  std::vector<float> distance_m;  ///< per cell: to that exit, by steps to one of eight cells
+  std::vector<std::uint8_t> reached_from_exit;  ///< per exit: 0 where it is shut or walled up
+
+  /// The cell of a point; kNone outside of the grid.
+  int cell_at(const Eigen::Vector2d& point) const;
+  /// The nearest walkable cell within `reach_m` of a point, or kNone.
+  int walkable_near(const Eigen::Vector2d& point, double reach_m) const;
+  Eigen::Vector2d centre_of(int cell) const;
+};
+
+Routes find_routes(const world::Scenario& scenario, const LoadedCrowd& loaded);
+
+/// Whether somebody gets through a door: straight, from 1 m before it to 1 m behind it, somewhere
+/// along its width.
+bool is_passable(const world::Exit& exit, const Routes& routes);
+
+}  // namespace throng::places
