@@ -17,6 +17,7 @@ enum Parameter : std::size_t { tau, tau_obstacles };
 struct Workspace {
   OrcaBatch batch;
   HalfPlanes walls;
+  PaceBatch paces;
 };
 
 class Orca : public Model {
@@ -25,12 +26,14 @@ class Orca : public Model {
       : pace_(pace),
         neighborhood_(crowd),
         solve_(OrcaBatch::kernel(crowd.instruction_set)),
+        look_ahead_(PaceBatch::kernel(crowd.instruction_set)),
         workspaces_(make_workspace(crowd)) {}
 
   void step(const Crowd& crowd, const Grid& grid,
             std::span<Eigen::Vector2f> new_velocity) override {
     neighborhood_.prepare(crowd, grid);
     workspaces_.prepare();
+    if (pace_) sort_directions(crowd, grid);
     parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       Workspace& workspace = workspaces_.local();
       for (std::size_t slot = begin; slot < end; slot += OrcaBatch::kAgents) {
@@ -48,7 +51,7 @@ class Orca : public Model {
     const auto neighbors =
         most.empty() ? 0 : static_cast<std::size_t>(*std::max_element(most.begin(), most.end()));
     const std::size_t walls = crowd.obstacles.segments().size();
-    Workspace workspace{OrcaBatch(neighbors, walls), {}};
+    Workspace workspace{OrcaBatch(neighbors, walls), {}, {}};
     workspace.walls.reserve(walls);
     return workspace;
   }
@@ -58,6 +61,12 @@ class Orca : public Model {
     workspace.batch.clear();
     for (std::size_t slot = begin; slot < end; ++slot) {
       add(crowd, grid, neighborhood_.look(crowd, grid, slot), workspace);
+    }
+    if (pace_) {
+      look_ahead_(grid, directions_, workspace.batch.seen(), workspace.paces);
+      for (std::size_t slot = begin; slot < end; ++slot) {
+        slow_down(crowd.agents, grid.id(slot), slot - begin, workspace);
+      }
     }
     solve_(grid, static_cast<float>(crowd.dt_s), workspace.batch);
     for (std::size_t slot = begin; slot < end; ++slot) {
@@ -76,23 +85,40 @@ class Orca : public Model {
       avoid_walls(self, crowd.obstacles.segments(), around.walls,
                   agents.model_parameters[tau_obstacles][id], workspace.walls);
     }
-    float speed = agents.preferred_speed[id];
-    float horizon_s = agents.model_parameters[tau][id];
-    Eigen::Vector2f direction = agents.preferred_direction[id];
     if (pace_) {
-      const Gait gait = pace_->gait(crowd, grid, around);
-      speed = std::min(speed, gait.share * agents[Property::pref_speed][id]);
-      horizon_s *= gait.horizon_share;
-      direction = gait.direction;
+      workspace.paces.set(workspace.batch.size(), pace_->view(crowd, grid, around));
     }
-    workspace.batch.add(
-        {around.slot, horizon_s, speed * direction, agents[Property::max_speed][id]},
-        workspace.walls, around.neighbors);
+    workspace.batch.add({around.slot, agents.model_parameters[tau][id],
+                         agents.preferred_speed[id] * agents.preferred_direction[id],
+                         agents[Property::max_speed][id]},
+                        workspace.walls, around.neighbors);
+  }
+
+  /// Where everybody wants to go, in the grid's order: neighbours look at each other's.
+  void sort_directions(const Crowd& crowd, const Grid& grid) {
+    constexpr std::size_t kDirectionGrain = 4096;
+    if (directions_.size() < grid.size()) directions_.resize(grid.size());
+    parallel_ranges(grid.size(), kDirectionGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t slot = begin; slot < end; ++slot) {
+        directions_[slot] = crowd.agents.preferred_direction[grid.id(slot)];
+      }
+    });
+  }
+
+  void slow_down(const Agents& agents, std::size_t id, std::size_t lane,
+                 Workspace& workspace) const {
+    const Pace::View& view = workspace.paces.view(lane);
+    const Gait gait = pace_->gait(view, workspace.paces.ahead(lane));
+    const float speed = std::min(agents.preferred_speed[id], gait.share * view.free_speed);
+    workspace.batch.set_wish(lane, agents.model_parameters[tau][id] * gait.horizon_share,
+                             speed * gait.direction);
   }
 
   std::optional<Pace> pace_;  // of those who slow down where it is crowded
   Neighborhood neighborhood_;
   OrcaBatch::Kernel* solve_;
+  PaceBatch::Kernel* look_ahead_;
+  std::vector<Eigen::Vector2f> directions_;  // per slot of the grid, for pace_
   PerThread<Workspace> workspaces_;
 };
 

@@ -25,9 +25,7 @@ void OrcaBatch::add(const Agent& agent, const HalfPlanes& walls,
   const std::size_t lane = agents_.add(agent.slot, neighbors);
   wall_rows_ = std::max(wall_rows_, walls.size());
   make_room(wall_rows_ + agents_.rows());
-  cutoff_[lane] = 1 / agent.horizon_s;
-  preferred_x_[lane] = agent.preferred.x();
-  preferred_y_[lane] = agent.preferred.y();
+  set_wish(lane, agent.horizon_s, agent.preferred);
   max_speed_[lane] = agent.max_speed;
   walls_[lane] = static_cast<float>(walls.size());
   for (std::size_t i = 0; i < walls.size(); ++i) {

@@ -26,8 +26,21 @@ class OrcaBatch {
   OrcaBatch(std::size_t neighbors, std::size_t walls);
 
   void clear();
+  std::size_t size() const { return agents_.size(); }
   /// Adds one of at most kAgents; `walls` are half-planes that it has to keep.
   void add(const Agent& agent, const HalfPlanes& walls, std::span<const Grid::Neighbor> neighbors);
+
+  /// Whom the agents see, in the order in which they were added; lanes without one are filled.
+  const LaneBatch& seen() {
+    agents_.fill();
+    return agents_;
+  }
+  /// Has an agent that was added want something else.
+  void set_wish(std::size_t i, float horizon_s, const Eigen::Vector2f& preferred) {
+    cutoff_[i] = 1 / horizon_s;
+    preferred_x_[i] = preferred.x();
+    preferred_y_[i] = preferred.y();
+  }
 
   /// Of each agent, in the order in which they were added, once a kernel has run.
   Eigen::Vector2f velocity(std::size_t i) const { return {velocity_x_[i], velocity_y_[i]}; }

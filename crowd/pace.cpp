@@ -8,8 +8,6 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr float kTowards = -0.3F;  // cosine between the ways of two who meet
-
 /// 1 where walls at both sides leave room for one only, 0 where two can pass each other, and
 /// between these in between.
 float singleness(const Crowd& crowd, const Grid& grid, const Surroundings& around) {
@@ -38,37 +36,24 @@ float singleness(const Crowd& crowd, const Grid& grid, const Surroundings& aroun
 
 }  // namespace
 
-Pace::Ahead Pace::ahead(const Crowd& crowd, const Grid& grid, const Surroundings& around) const {
-  constexpr float kLeastSq = 1e-12F;  // m^2
+Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const Surroundings& around) const {
   const std::size_t id = around.agent;
-  const auto& neighbors = around.neighbors;
-  float reach_sq = std::min(spec_.reach_m, crowd.agents[Property::neighbor_dist][id]);
-  reach_sq *= reach_sq;
+  View view;
+  view.direction = crowd.agents.preferred_direction[id];
+  view.free_speed = crowd.agents[Property::pref_speed][id];
+  const float reach = std::min(spec_.reach_m, crowd.agents[Property::neighbor_dist][id]);
+  view.reach_sq = reach * reach;
   const auto most = static_cast<std::size_t>(crowd.agents[Property::max_neighbors][id]);
-  if (!neighbors.empty() && neighbors.size() == most) {
-    reach_sq = std::min(reach_sq, neighbors.back().distance_sq);
+  if (!around.neighbors.empty() && around.neighbors.size() == most) {
+    view.reach_sq = std::min(view.reach_sq, around.neighbors.back().distance_sq);
   }
-  const Eigen::Vector2f& position = grid.position(around.slot);
-  const Eigen::Vector2f& direction = crowd.agents.preferred_direction[id];
-  Ahead found;
-  // Without branches that nobody could foresee: who is behind gets weight 0.
-  for (const Grid::Neighbor& other : neighbors) {
-    if (other.distance_sq >= reach_sq) break;
-    const float along = std::max(0.0F, direction.dot(grid.position(other.slot) - position));
-    const float distance = std::sqrt(std::max(other.distance_sq, kLeastSq));
-    const float weight = along / distance * (reach_sq - other.distance_sq);
-    const float cosine = crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction);
-    const float opposed = cosine < kTowards ? weight : 0;
-    found.against += opposed;
-    found.along += weight - opposed;
+  const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
+  if (file > 0 && view.free_speed > 0) {
+    const float share = std::clamp(gap_m(crowd, grid, around) / (spec_.headway_s * view.free_speed),
+                                   spec_.least, 1.0F);
+    view.file_share = 1 - file * (1 - share);
   }
-  // What the weights would be in a crowd of density 1.
-  if (reach_sq > 0) {
-    const float inverse = 2 / (reach_sq * reach_sq);
-    found.along *= inverse;
-    found.against *= inverse;
-  }
-  return found;
+  return view;
 }
 
 float Pace::gap_m(const Crowd& crowd, const Grid& grid, const Surroundings& around) {
@@ -88,28 +73,21 @@ float Pace::gap_m(const Crowd& crowd, const Grid& grid, const Surroundings& arou
   return gap;
 }
 
-Gait Pace::gait(const Crowd& crowd, const Grid& grid, const Surroundings& around) const {
-  const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
-  const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
-  const Ahead others = ahead(crowd, grid, around);
+Gait Pace::gait(const View& view, const Ahead& ahead) const {
+  const Eigen::Vector2f& direction = view.direction;
   Gait gait{1, 1, direction};
-  if (others.along > 0) {
-    const float share = 1 - std::exp(-spec_.decline * (1 / others.along - 1 / spec_.jam_density));
+  if (ahead.along > 0) {
+    const float share = 1 - std::exp(-spec_.decline * (1 / ahead.along - 1 / spec_.jam_density));
     gait.share = std::clamp(share, spec_.least, 1.0F);
   }
   // Who is slow need not look as far; and at a door nobody waits for those beside them.
   gait.horizon_share = gait.share;
-  const float free_speed = crowd.agents[Property::pref_speed][around.agent];
-  if (file > 0 && free_speed > 0) {
-    const float share =
-        std::clamp(gap_m(crowd, grid, around) / (spec_.headway_s * free_speed), spec_.least, 1.0F);
-    gait.share = std::min(gait.share, 1 - file * (1 - share));
-  }
-  if (others.against > 0) {
-    const float farther = 2 * others.against / std::max(others.along, others.against);
+  gait.share = std::min(gait.share, view.file_share);
+  if (ahead.against > 0) {
+    const float farther = 2 * ahead.against / std::max(ahead.along, ahead.against);
     gait.horizon_share = std::max(gait.horizon_share, std::min(1.0F, farther));
     // By the tangent of half the angle.
-    const float t = std::min(spec_.keep_right * others.against / 2, kMostHalfTurn);
+    const float t = std::min(spec_.keep_right * ahead.against / 2, kMostHalfTurn);
     const float c = (1 - t * t) / (1 + t * t);
     const float s = 2 * t / (1 + t * t);
     gait.direction = {c * direction.x() + s * direction.y(), c * direction.y() - s * direction.x()};

@@ -1,6 +1,10 @@
 // How people of the model `weidmann` walk where it is crowded ahead of them.
 #pragma once
 
+#include <span>
+
+#include "base/instruction_set.h"
+#include "crowd/lane_batch.h"
 #include "crowd/neighborhood.h"
 
 namespace throng::crowd {
@@ -34,11 +38,19 @@ struct Gait {
 /// form.
 class Pace {
  public:
+  static constexpr float kTowards = -0.3F;         ///< cosine between the ways of two who meet
   static constexpr float kMostHalfTurn = 0.5463F;  ///< tangent of half of the greatest turn
 
   explicit Pace(const PaceSpec& spec) : spec_(spec) {}
 
-  Gait gait(const Crowd& crowd, const Grid& grid, const Surroundings& around) const;
+  /// What one agent knows of the others, besides the density ahead of it.
+  struct View {
+    Eigen::Vector2f direction;  ///< unit: where it wants to go
+    float free_speed = 0;       ///< m/s
+    float reach_sq = 0;         ///< m^2: others count up to there
+    float file_share = 1;       ///< of the free speed, at most, in single file
+  };
+  View view(const Crowd& crowd, const Grid& grid, const Surroundings& around) const;
 
   /// People per m^2 in the half disc ahead. Those straight ahead and near count most: by
   /// (1 - d^2/R^2) cos(angle) for the distance d, where R is the reach, or the distance of the
@@ -47,13 +59,36 @@ class Pace {
     float along = 0;    ///< without those who come towards one, 1/m^2
     float against = 0;  ///< those who do, 1/m^2
   };
-  Ahead ahead(const Crowd& crowd, const Grid& grid, const Surroundings& around) const;
+
+  Gait gait(const View& view, const Ahead& ahead) const;
 
  private:
   /// How far straight on until one touches somebody who does not come towards one, m.
   static float gap_m(const Crowd& crowd, const Grid& grid, const Surroundings& around);
 
   PaceSpec spec_;
+};
+
+/// Ahead for several agents at once, one per lane.
+class PaceBatch {
+ public:
+  void set(std::size_t lane, const Pace::View& view) { views_[lane] = view; }
+  const Pace::View& view(std::size_t lane) const { return views_[lane]; }
+  /// Once a kernel has run.
+  Pace::Ahead ahead(std::size_t lane) const { return {along_[lane], against_[lane]}; }
+
+  /// `directions`: where whoever is in a slot of the grid wants to go. `agents`: whom those of the
+  /// batch see, filled. An agent's figures do not depend on who else is in the batch.
+  using Kernel = void(const Grid& grid, std::span<const Eigen::Vector2f> directions,
+                      const LaneBatch& agents, PaceBatch& batch);
+  static Kernel* kernel(InstructionSet set);
+
+ private:
+  friend struct PaceKernel;
+
+  std::array<Pace::View, LaneBatch::kAgents> views_;
+  LaneBatch::Lanes along_{};
+  LaneBatch::Lanes against_{};
 };
 
 }  // namespace throng::crowd

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <type_traits>
+#include <vector>
 
 #include "crowd/grid.h"
 #include "crowd_files.h"
@@ -30,33 +30,38 @@ class PaceOf {
     crowd_.obstacles.build();
   }
 
-  float density() {
-    return look(
-        [this](const Surroundings& around) { return pace_.ahead(crowd_, grid_, around).along; });
-  }
+  float density(InstructionSet set = best_instruction_set()) { return look(set).along; }
   /// Has somebody's way be along -x.
   void turn_round(std::size_t other) { crowd_.agents.preferred_direction[other] = {-1, 0}; }
   Gait gait() {
-    return look([this](const Surroundings& around) { return pace_.gait(crowd_, grid_, around); });
+    const Pace::Ahead ahead = look(best_instruction_set());
+    return pace_.gait(batch_.view(0), ahead);
   }
-  float share() {
-    return look(
-        [this](const Surroundings& around) { return pace_.gait(crowd_, grid_, around).share; });
-  }
+  float share() { return gait().share; }
 
  private:
-  template <typename Measure>
-  std::invoke_result_t<const Measure&, const Surroundings&> look(const Measure& measure) {
+  Pace::Ahead look(InstructionSet set) {
     Neighborhood neighborhood(crowd_);
     neighborhood.prepare(crowd_, grid_);
     std::size_t slot = 0;
     while (grid_.id(slot) != 0) ++slot;
-    return measure(neighborhood.look(crowd_, grid_, slot));
+    const Surroundings around = neighborhood.look(crowd_, grid_, slot);
+    std::vector<Eigen::Vector2f> directions;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      directions.push_back(crowd_.agents.preferred_direction[grid_.id(i)]);
+    }
+    LaneBatch agents(around.neighbors.size());
+    agents.add(slot, around.neighbors);
+    agents.fill();
+    batch_.set(0, pace_.view(crowd_, grid_, around));
+    PaceBatch::kernel(set)(grid_, directions, agents, batch_);
+    return batch_.ahead(0);
   }
 
   Crowd crowd_;
   Grid grid_;
   Pace pace_{PaceSpec{}};
+  PaceBatch batch_;
 };
 
 std::vector<Eigen::Vector2f> crowd_on_lattice(float spacing) {
@@ -90,6 +95,13 @@ TEST(Pace, MeasuresTheDensityOfACrowd) {
     EXPECT_NEAR(PaceOf(crowd_on_lattice(spacing), 60).density(), density, 0.25F * density);
     EXPECT_NEAR(PaceOf(crowd_on_lattice(spacing)).density(), density, 0.35F * density)
         << "also where only ten others are minded";
+  }
+}
+
+TEST(Pace, EveryInstructionSetGivesTheSameBits) {
+  for (const float spacing : {0.4F, 0.8F}) {
+    PaceOf crowd(crowd_on_lattice(spacing), 60);
+    EXPECT_EQ(crowd.density(InstructionSet::baseline), crowd.density());
   }
 }
 
