@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,7 @@ struct MetricsArguments {
   std::string to_file;
   std::string without_guides;
   metrics::WalkerDefaults walkers;
+  metrics::TrajectoryFormat format;
 };
 
 void write_csv(const std::vector<metrics::ExitSeries>& exits, const world::Trace& trace,
@@ -46,9 +48,9 @@ void measure(const MetricsArguments& arguments) {
     throw InputError({"throng metrics", "", recorded ? "a trace and a trajectory" : "neither",
                       "a trace or --trajectory"});
   }
-  const world::Trace trace = recorded
-                                 ? metrics::read_trajectory(arguments.trajectory, arguments.walkers)
-                                 : world::read_trace(arguments.trace);
+  const world::Trace trace =
+      recorded ? metrics::read_trajectory(arguments.trajectory, arguments.walkers, arguments.format)
+               : world::read_trace(arguments.trace);
   if (!arguments.to_file.empty()) {
     metrics::write_trajectory(trace, arguments.to_file);
     fmt::print("{}\n", arguments.to_file);
@@ -76,6 +78,31 @@ void measure(const MetricsArguments& arguments) {
   if (!arguments.csv.empty()) write_csv(exits, trace, arguments.csv);
 }
 
+// What a trajectory does not say of itself, as in a job's block crowd.recorded.
+void add_format(CLI::App& command, const std::shared_ptr<MetricsArguments>& arguments) {
+  metrics::TrajectoryFormat& format = arguments->format;
+  static const std::map<std::string, metrics::TrajectoryKind> kKinds = {
+      {"any", metrics::TrajectoryKind::any},
+      {"text", metrics::TrajectoryKind::text},
+      {"sqlite", metrics::TrajectoryKind::sqlite},
+      {"scb", metrics::TrajectoryKind::scb},
+      {"csv", metrics::TrajectoryKind::csv}};
+  command.add_option("--format", format.kind, "Of the trajectory; default: by suffix and content")
+      ->transform(CLI::CheckedTransformer(kKinds));
+  command.add_option("--frame-rate", format.frames_per_s, "Of the trajectory, 1/s")
+      ->check(CLI::Range(0.01, 10'000.0));
+  command.add_option("--unit-m", format.unit_m, "Length of the trajectory's unit, m (cm: 0.01)")
+      ->check(CLI::Range(1e-6, 1e6));
+  command.add_option("--person-column", format.columns.person, "Column of a CSV")
+      ->capture_default_str();
+  auto* frame = command.add_option("--frame-column", format.columns.frame, "Column of a CSV")
+                    ->capture_default_str();
+  command.add_option("--time-column", format.columns.time, "Column of a CSV, s, instead of frames")
+      ->excludes(frame);
+  command.add_option("--x-column", format.columns.x, "Column of a CSV")->capture_default_str();
+  command.add_option("--y-column", format.columns.y, "Column of a CSV")->capture_default_str();
+}
+
 }  // namespace
 
 void add_metrics(CLI::App& app) {
@@ -85,7 +112,7 @@ void add_metrics(CLI::App& app) {
   command->add_option("trace", arguments->trace, "Trace of a run (HDF5)");
   command->add_option(
       "--trajectory", arguments->trajectory,
-      "Recorded people instead: text of JuPedSim or PedPy, JuPedSim's SQLite, or Menge's .scb");
+      "Recorded people instead: text of JuPedSim or PedPy, JuPedSim's SQLite, Menge's .scb, .csv");
   command->add_option("--scenario", arguments->scenario,
                       "Id or file (.json) of the scenario; default: the trace's");
   command->add_option("-o,--output", arguments->output, "JSON to write; default: standard output");
@@ -103,6 +130,7 @@ void add_metrics(CLI::App& app) {
                    "Of recorded people, m/s")
       ->check(CLI::Range(0.1, 20.0))
       ->capture_default_str();
+  add_format(*command, arguments);
   command->callback([arguments] { measure(*arguments); });
 }
 

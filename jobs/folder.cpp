@@ -26,6 +26,7 @@ JobFolder JobFolder::create(fs::path path, const JobSpec& job) {
     throw InputError(Problem{"", folder.path().string(), "a folder with another job in it",
                              "a new or empty folder, or one of the same job"});
   }
+  if (job.recorded) keep_recording(*job.recorded, folder.path());
   return folder;
 }
 

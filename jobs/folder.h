@@ -1,6 +1,7 @@
 // A job's folder: where everything that belongs to one job lies.
 //
 //   job.json                  the job with all defaults
+//   recorded/                 the trajectories that the job replays, if it does
 //   work/run000/trace.h5      published by the task run000/trace
 //   work/run000/metrics/      metrics.json, exits.csv
 //   work/run000/shard0003/    images, density maps, previews, records of its frames

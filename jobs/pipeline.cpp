@@ -48,6 +48,9 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
   spec.duration_s = job.capture.to_s;
   spec.people = job.agents;
   spec.crowd = job.crowd;
+  if (job.recorded) {
+    spec.recorded = std::make_shared<const world::Trace>(read_recording(*job.recorded));
+  }
   spec.wind = environment_of_run(job.environment, spec.seed).wind;
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     sim::DroneMission& mission = spec.drones.emplace_back(job.drones[i].mission);

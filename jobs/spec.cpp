@@ -112,6 +112,7 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
   read(value, "seed", job.seed);
   read(value, "runs", job.runs);
   read_crowd(part(value, "crowd"), job);
+  job.recorded = read_recorded(part(value, "crowd"), source, problems);
   for (const json& drone : part(value, "drones")) {
     job.drones.push_back(read_drone(drone, job.drones.size(), source, problems));
   }
@@ -184,6 +185,25 @@ void check_times(const JobSpec& job, std::vector<Problem>& problems) {
   }
 }
 
+// Recorded people do what they did.
+void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
+  if (job.crowd.physical.on) {
+    problems.push_back({"", "/crowd/physical", "true", "false, since the people are recorded"});
+  }
+  if (job.recorded->sha256.empty()) return;  // there is no such file
+  try {
+    const world::Trace recording = read_recording(*job.recorded);
+    if (job.capture.to_s > recording.duration_s() + world::kTimeSlackS) {
+      problems.push_back(
+          {"", "/capture/to_s", fmt::format("{}", job.capture.to_s),
+           fmt::format("at most {:.6g}, the recording's length", recording.duration_s())});
+    }
+    sim::choose_roles("", {}, recording.agents(), job.agents, job.seed, problems);
+  } catch (const InputError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
+}
+
 // What only the simulation knows: whether the drones can fly and whether there are people enough.
 void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
                            std::vector<Problem>& problems) {
@@ -201,9 +221,11 @@ void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
     problems.push_back({"", "/crowd/model", problem.found, problem.expected});
     return;
   }
+  if (job.recorded) return check_recording(job, problems);
   if (job.agents) {
     const crowd::Simulation crowd = sim::load_crowd(scenario, job.seed, job.crowd);
-    sim::choose_roles(scenario, crowd.agent_count(), job.agents, job.seed, problems);
+    sim::choose_roles(scenario.id, scenario.disaster_agents, crowd.agent_count(), job.agents,
+                      job.seed, problems);
   }
 }
 
@@ -348,6 +370,7 @@ json to_json(const JobSpec& job) {
         {"previews", job.outputs.previews}}}};
   value["outputs"].update(exports_json(job.outputs));
   if (job.agents) value["crowd"]["agents"] = *job.agents;
+  if (job.recorded) value["crowd"]["recorded"] = to_json(*job.recorded);
   if (!job.randomize.empty()) value["randomize"] = to_json(job.randomize);
   return value;
 }
@@ -356,11 +379,13 @@ JobSpec job_of_run(const JobSpec& job, int run) {
   if (job.randomize.empty()) return job;
   const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
   json value = to_json(job);
+  value["crowd"].erase("recorded");  // its file is known from where the job lies
   for (const RandomField& field : job.randomize) {
     value[json::json_pointer(field.pointer)] = field.draw(seed);
   }
   std::vector<Problem> problems;
   JobSpec run_job = read_job(value, "", problems);
+  run_job.recorded = job.recorded;
   check(problems.empty(), "what is drawn for a job is what the job may say");
   return run_job;
 }

@@ -14,6 +14,7 @@
 #include "jobs/camera_spec.h"
 #include "jobs/environment.h"
 #include "jobs/randomize.h"
+#include "jobs/recorded_spec.h"
 #include "render/quality.h"
 #include "sim/run.h"
 #include "skinning/appearance.h"
@@ -48,6 +49,7 @@ struct JobSpec {
   int runs = 1;
   std::optional<int> agents;
   sim::CrowdSpec crowd;
+  std::optional<RecordedSpec> recorded;  ///< replayed instead of simulating people
   std::vector<DroneSpec> drones;
   CaptureSpec capture;
   EnvironmentSpec environment;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -16,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "metrics/number_in.h"
 
 namespace throng::metrics {
 
@@ -26,6 +26,11 @@ namespace {
 
 constexpr double kCentimetre = 0.01;
 constexpr std::int64_t kMostFrames = 10'000'000;
+constexpr std::size_t kMostCells = 40'000'000;  ///< frames times people
+constexpr double kLargestPerson = 1e15;
+constexpr double kFarthestPlaceM = 100'000;
+constexpr double kSlowestRate = 0.01;
+constexpr double kFastestRate = 10'000;
 constexpr std::string_view kDatabaseStart = "SQLite format 3";
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -37,16 +42,6 @@ std::vector<std::string_view> words_of(std::string_view line) {
     at = line.find_first_not_of(kBetween, end);
   }
   return words;
-}
-
-std::optional<double> number_in(std::string_view word) {
-  double value = 0;
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (result.ec != std::errc() || result.ptr != word.data() + word.size() ||
-      !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
 }
 
 // Reads "framerate: 16.00 fps" and the like.
@@ -65,7 +60,8 @@ std::optional<double> frame_rate_in(std::string_view comment) {
 
 class TextReader {
  public:
-  TextReader(std::string_view text, std::string name) : text_(text), name_(std::move(name)) {}
+  TextReader(std::string_view text, std::string name, const TrajectoryFormat& format)
+      : text_(text), name_(std::move(name)), given_rate_(format.frames_per_s) {}
 
   Recorded read() {
     for (std::size_t at = 0; at < text_.size();) {
@@ -74,6 +70,7 @@ class TextReader {
       read_line(text_.substr(at, end - at));
       at = end + 1;
     }
+    if (given_rate_) recorded_.frames_per_s = *given_rate_;
     if (recorded_.frames_per_s <= 0) {
       throw InputError({name_, "", "no frame rate", "a comment like \"# framerate: 16\""});
     }
@@ -86,7 +83,7 @@ class TextReader {
     if (words.empty()) return;
     if (words.front().front() == '#') {
       if (const auto rate = frame_rate_in(line)) recorded_.frames_per_s = *rate;
-      if (line.find("x/cm") != std::string_view::npos) unit_m_ = kCentimetre;
+      if (line.find("x/cm") != std::string_view::npos) recorded_.unit_m = kCentimetre;
       return;
     }
     std::vector<double> numbers;
@@ -96,9 +93,10 @@ class TextReader {
       numbers.push_back(*number);
     }
     if (numbers.size() < 4) reject(fmt::format("{} values", numbers.size()));
+    if (std::abs(numbers[0]) > kLargestPerson) reject(std::string(words[0]));
     if (std::abs(numbers[1]) > kMostFrames) reject(std::string(words[1]));
     const auto place = recorded_.places[std::llround(numbers[0])].try_emplace(
-        std::llround(numbers[1]), unit_m_ * numbers[2], unit_m_ * numbers[3]);
+        std::llround(numbers[1]), numbers[2], numbers[3]);
     if (!place.second) reject("the same person and frame again");
   }
 
@@ -110,23 +108,29 @@ class TextReader {
   std::string_view text_;
   std::string name_;
   int line_ = 0;
-  double unit_m_ = 1;
+  std::optional<double> given_rate_;
   Recorded recorded_;
 };
 
-Recorded read_database(const fs::path& file) {
+Recorded read_database(const fs::path& file, const TrajectoryFormat& format) {
   try {
     const SQLite::Database database(file.string(), SQLite::OPEN_READONLY);
     Recorded recorded;
     SQLite::Statement rate(database, "SELECT value FROM metadata WHERE key = 'fps'");
     if (rate.executeStep()) recorded.frames_per_s = rate.getColumn(0).getDouble();
+    if (format.frames_per_s) recorded.frames_per_s = *format.frames_per_s;
     if (!(recorded.frames_per_s > 0)) {
       throw InputError({file.string(), "table metadata", "no fps", "a number above 0"});
     }
     SQLite::Statement rows(database, "SELECT id, frame, pos_x, pos_y FROM trajectory_data");
     while (rows.executeStep()) {
-      recorded.places[rows.getColumn(0).getInt64()][rows.getColumn(1).getInt64()] = {
-          rows.getColumn(2).getDouble(), rows.getColumn(3).getDouble()};
+      const std::int64_t frame = rows.getColumn(1).getInt64();
+      const auto place = recorded.places[rows.getColumn(0).getInt64()].try_emplace(
+          frame, rows.getColumn(2).getDouble(), rows.getColumn(3).getDouble());
+      if (!place.second || frame > kMostFrames || frame < -kMostFrames) {
+        throw InputError({file.string(), "table trajectory_data", fmt::format("frame {}", frame),
+                          "frames within 10 million, each person once a frame"});
+      }
     }
     return recorded;
   } catch (const SQLite::Exception& error) {
@@ -222,17 +226,54 @@ void fill_database(const world::Trace& trace, SQLite::Database& database) {
   transaction.commit();
 }
 
-Recorded read_recorded(const fs::path& file) {
-  if (file.extension() == ".scb") return read_scb(file);
+TrajectoryKind kind_of(const fs::path& file, std::string_view bytes) {
+  if (file.extension() == ".scb") return TrajectoryKind::scb;
+  if (file.extension() == ".csv") return TrajectoryKind::csv;
+  return bytes.starts_with(kDatabaseStart) ? TrajectoryKind::sqlite : TrajectoryKind::text;
+}
+
+Recorded read_recorded(const fs::path& file, const TrajectoryFormat& format) {
   const std::string bytes = read_file(file);
-  return bytes.starts_with(kDatabaseStart) ? read_database(file)
-                                           : TextReader(bytes, file.string()).read();
+  switch (format.kind == TrajectoryKind::any ? kind_of(file, bytes) : format.kind) {
+    case TrajectoryKind::scb: {
+      Recorded recorded = read_scb(file);
+      if (format.frames_per_s) recorded.frames_per_s = *format.frames_per_s;
+      return recorded;
+    }
+    case TrajectoryKind::csv:
+      return read_csv(bytes, file.string(), format);
+    case TrajectoryKind::sqlite:
+      return read_database(file, format);
+    default:
+      return TextReader(bytes, file.string(), format).read();
+  }
+}
+
+// Gives all places their metres and refuses those that cannot be, and what memory has no room for.
+void check_recorded(const std::string& file, const TrajectoryFormat& format, Recorded& recorded) {
+  if (!(recorded.frames_per_s >= kSlowestRate && recorded.frames_per_s <= kFastestRate)) {
+    throw InputError({file, "", fmt::format("{:g} frames per second", recorded.frames_per_s),
+                      fmt::format("{:g} to {:g}", kSlowestRate, kFastestRate)});
+  }
+  const double unit_m = format.unit_m.value_or(recorded.unit_m);
+  for (auto& [id, places] : recorded.places) {
+    for (auto& [frame, place] : places) {
+      place *= unit_m;
+      if (!(place.cwiseAbs().maxCoeff() <= kFarthestPlaceM)) {
+        throw InputError({file, fmt::format("person {}, frame {}", id, frame),
+                          fmt::format("[{:g}, {:g}] m", place.x(), place.y()),
+                          "a place within 100 km of the origin"});
+      }
+    }
+  }
 }
 
 }  // namespace
 
-world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers) {
-  const Recorded recorded = read_recorded(file);
+world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers,
+                             const TrajectoryFormat& format) {
+  Recorded recorded = read_recorded(file, format);
+  check_recorded(file.string(), format, recorded);
   if (recorded.places.empty()) {
     throw InputError({file.string(), "", "nobody", "at least one person in one frame"});
   }
@@ -245,6 +286,13 @@ world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers
   if (last - first > kMostFrames) {
     throw InputError({file.string(), "", fmt::format("frames {} to {}", first, last),
                       fmt::format("at most {} frames", kMostFrames)});
+  }
+  const std::size_t cells = static_cast<std::size_t>(last - first + 1) * recorded.places.size();
+  if (cells > kMostCells) {
+    throw InputError(
+        {file.string(), "",
+         fmt::format("{} people in {} frames", recorded.places.size(), last - first + 1),
+         fmt::format("at most {} pairs of frame and person", kMostCells)});
   }
   world::Trace trace;
   trace.header.scenario_id = file.stem().string();

@@ -1,11 +1,14 @@
 // Trajectories as pedestrian researchers exchange them: the text format of JuPedSim and PedPy,
-// JuPedSim's SQLite database, and Menge's .scb.
+// JuPedSim's SQLite database, Menge's .scb, and tables (CSV) whose columns the user names.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "world/trace.h"
 
@@ -17,10 +20,32 @@ struct WalkerDefaults {
   double desired_speed_mps = 1.34;  ///< Weidmann 1993
 };
 
+/// What kind of file it is. any: by suffix and first bytes, as read_trajectory() says.
+enum class TrajectoryKind : std::uint8_t { any, text, sqlite, scb, csv };
+
+/// Names in the first line of a table. Either `frame` or `time` says when; the other is empty.
+struct TrajectoryColumns {
+  std::string person = "id";
+  std::string frame = "frame";
+  std::string time;  ///< s
+  std::string x = "x";
+  std::string y = "y";
+};
+
+/// What the user says of a file, instead of what it says itself or has no place for.
+struct TrajectoryFormat {
+  TrajectoryKind kind = TrajectoryKind::any;
+  std::optional<double> frames_per_s;
+  std::optional<double> unit_m;  ///< length of the file's unit, m
+  TrajectoryColumns columns;     ///< csv
+};
+
 /// Where everybody was, as files have it.
 struct Recorded {
   double frames_per_s = 0;
-  std::map<std::int64_t, std::map<std::int64_t, Eigen::Vector2d>> places;  ///< by person and frame
+  double unit_m = 1;                                                       ///< as the file says
+  std::map<std::int64_t, std::map<std::int64_t, Eigen::Vector2d>> places;  ///< by person and frame,
+                                                                           ///< in the file's unit
 };
 
 /// Reads Menge's .scb from version 2.0 on (1.0 does not say how long a frame is); agents are people
@@ -29,13 +54,23 @@ Recorded read_scb(const std::filesystem::path& file);
 /// Writes the people of a trace as .scb 2.1, their class being 0.
 void write_scb(const world::Trace& trace, const std::filesystem::path& file);
 
-/// Reads a file as a trace of people without states and intents. Menge's by the suffix .scb; SQLite
-/// by its first bytes: tables `trajectory_data` (frame, id, pos_x, pos_y in m) and `metadata`
-/// (fps). Else text: lines `id frame x y ...` with spaces, tabs or commas between, `#` before
-/// comments, of which `framerate: 16` (or `fps`) must be one, and `x/cm` says that lengths are in
-/// centimetres. Velocities are central differences over one frame before and after. People take
-/// part in the frames that have them. Throws InputError (file, line) and EnvironmentError.
-world::Trace read_trajectory(const std::filesystem::path& file, const WalkerDefaults& walkers);
+/// Reads a table: the first line that is not empty and does not begin with # names the columns,
+/// which commas, semicolons or tabs separate (whichever that line has most of); fields may stand in
+/// double quotes. Persons are any words. With a column of times instead of frames, people are put
+/// on frames of `frames_per_s` (default: the median step between times) by linear interpolation;
+/// they are not there in gaps of more than 1 s.
+Recorded read_csv(std::string_view text, const std::string& name, const TrajectoryFormat& format);
+
+/// Reads a file as a trace of people without states and intents. Tables (read_csv) by the suffix
+/// .csv and Menge's by .scb; SQLite by its first bytes: tables `trajectory_data` (frame, id, pos_x,
+/// pos_y in m) and `metadata` (fps). Else text: lines `id frame x y ...` with spaces, tabs or
+/// commas between, `#` before comments, of which `framerate: 16` (or `fps`) must be one, and `x/cm`
+/// says that lengths are in centimetres. Velocities are central differences over one frame before
+/// and after. People take part in the frames that have them. Refused are places more than 100 km
+/// from the origin, rates below 0.01 or above 10 000 a second, and more than 40 million pairs of
+/// frame and person. Throws InputError (file, line) and EnvironmentError.
+world::Trace read_trajectory(const std::filesystem::path& file, const WalkerDefaults& walkers,
+                             const TrajectoryFormat& format = {});
 
 /// Writes the people of a trace: SQLite for the suffix .sqlite, Menge's for .scb, else text. Frames
 /// are the trace's steps, ids its agents from 1. Throws EnvironmentError.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/crowd_trace.h"
-
 namespace throng::sim {
 
 using world::AgentRole;
@@ -47,14 +45,14 @@ std::int8_t CrowdRecorder::nearest_exit(const Eigen::Vector2d& place) const {
                                 : static_cast<std::int8_t>(nearest - exits.begin());
 }
 
-void CrowdRecorder::record(const crowd::Simulation& crowd, double time_s, RunObserver& observer) {
+void CrowdRecorder::record(const CrowdSource& crowd, double time_s, RunObserver& observer) {
   const auto positions = crowd.positions();
   const auto present = crowd.present();
   for (std::size_t i = 0; i < positions.size(); ++i) {
     arrived_[i] = arrived_[i] || present[i] != 0;
     update_intent(i, crowd.goals()[i], positions[i].cast<double>());
   }
-  world::CrowdStep step = crowd_step(crowd);
+  world::CrowdStep step = crowd.now();
   step.time_s = time_s;
   step.exit_intent = intents_;
   observer.step(step);

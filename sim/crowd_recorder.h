@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "crowd/simulation.h"
+#include "sim/crowd_source.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -19,7 +19,7 @@ class CrowdRecorder {
                 const std::vector<world::GoalRef>& moving_goals);
 
   /// Reports the crowd as it is now, and an event for everybody who has got away just now.
-  void record(const crowd::Simulation& crowd, double time_s, RunObserver& observer);
+  void record(const CrowdSource& crowd, double time_s, RunObserver& observer);
 
   /// Per agent: index of the exit that it heads for; -1: none.
   const std::vector<std::int8_t>& intents() const { return intents_; }

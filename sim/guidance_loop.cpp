@@ -46,8 +46,8 @@ DroneSeen GuidanceLoop::seen(const Flight& flight, std::size_t drone) {
   return {state.position, state.velocity, leads(flight, drone), plan};
 }
 
-void GuidanceLoop::look(const crowd::Simulation& crowd, const CrowdRecorder& recorder,
-                        Flight& flight, double time_s) {
+void GuidanceLoop::look(const CrowdSource& crowd, const CrowdRecorder& recorder, Flight& flight,
+                        double time_s) {
   if (drones_.empty()) return;
   lookout_.look(crowd, recorder, time_s);
   WorldView& view = lookout_.view();
@@ -67,7 +67,7 @@ void GuidanceLoop::report(const Flight& flight, RunObserver& observer) const {
   }
 }
 
-void GuidanceLoop::move_goals(const Flight& flight, crowd::Simulation& crowd) const {
+void GuidanceLoop::move_goals(const Flight& flight, CrowdSource& crowd) const {
   const Eigen::Vector2f out_of_sight(0, 5000);
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     if (!goals_[i]) continue;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "crowd/simulation.h"
 #include "sim/crowd_recorder.h"
+#include "sim/crowd_source.h"
 #include "sim/flight.h"
 #include "sim/perception.h"
 #include "sim/plan.h"
@@ -20,14 +20,13 @@ class GuidanceLoop {
 
   /// Shows every policy the world as it is at `time_s`, one after the other: each knows the plans
   /// that those before it have just made.
-  void look(const crowd::Simulation& crowd, const CrowdRecorder& recorder, Flight& flight,
-            double time_s);
+  void look(const CrowdSource& crowd, const CrowdRecorder& recorder, Flight& flight, double time_s);
 
   /// Tells where the drones are sent.
   void report(const Flight& flight, RunObserver& observer) const;
 
   /// Puts the goals that drones move below them; those of drones that lead nobody are out of sight.
-  void move_goals(const Flight& flight, crowd::Simulation& crowd) const;
+  void move_goals(const Flight& flight, CrowdSource& crowd) const;
 
  private:
   static DroneSeen seen(const Flight& flight, std::size_t drone);

@@ -11,16 +11,17 @@ namespace throng::sim {
 
 using world::AgentRole;
 
-std::vector<AgentRole> choose_roles(const world::Scenario& scenario, std::size_t agents,
+std::vector<AgentRole> choose_roles(const std::string& scenario,
+                                    std::span<const int> disaster_agents, std::size_t agents,
                                     std::optional<int> people, std::uint64_t seed,
                                     std::vector<Problem>& problems) {
   std::vector<AgentRole> roles(agents, AgentRole::person);
-  for (std::size_t i = 0; i < scenario.disaster_agents.size(); ++i) {
-    const auto agent = static_cast<std::size_t>(scenario.disaster_agents[i]);
+  for (std::size_t i = 0; i < disaster_agents.size(); ++i) {
+    const auto agent = static_cast<std::size_t>(disaster_agents[i]);
     if (agent < agents) {
       roles[agent] = AgentRole::disaster;
     } else {
-      problems.push_back({scenario.id, fmt::format("/disaster_agents/{}", i), std::to_string(agent),
+      problems.push_back({scenario, fmt::format("/disaster_agents/{}", i), std::to_string(agent),
                           fmt::format("an agent of the scene, which has {}", agents)});
     }
   }

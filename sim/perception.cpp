@@ -56,7 +56,7 @@ void Lookout::count_flows(std::size_t agent, const Vector2d& place, std::vector<
   }
 }
 
-void Lookout::look(const crowd::Simulation& crowd, const CrowdRecorder& recorder, double time_s) {
+void Lookout::look(const CrowdSource& crowd, const CrowdRecorder& recorder, double time_s) {
   view_.time_s = time_s;
   view_.people.clear();
   std::vector<int> out(scenario_.exits.size());

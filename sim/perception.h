@@ -4,8 +4,8 @@
 #include <deque>
 #include <vector>
 
-#include "crowd/simulation.h"
 #include "sim/crowd_recorder.h"
+#include "sim/crowd_source.h"
 #include "sim/run.h"
 #include "sim/world_view.h"
 #include "world/scenario.h"
@@ -21,7 +21,7 @@ class Lookout {
           const std::vector<std::optional<world::GoalRef>>& guide_goals, double step_s);
 
   /// Looks at the crowd as it is now. The drones in the view are the caller's to fill in.
-  void look(const crowd::Simulation& crowd, const CrowdRecorder& recorder, double time_s);
+  void look(const CrowdSource& crowd, const CrowdRecorder& recorder, double time_s);
 
   const WorldView& view() const { return view_; }
   WorldView& view() { return view_; }

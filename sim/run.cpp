@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "crowd/simulation.h"
 #include "sim/crowd_recorder.h"
-#include "sim/crowd_trace.h"
+#include "sim/crowd_source.h"
 #include "sim/flight.h"
 #include "sim/guidance_loop.h"
 #include "sim/hold_warnings.h"
@@ -48,7 +48,7 @@ void check_exits(const world::Scenario& scenario, std::vector<Problem>& problems
 }
 
 // A first move of every goal, to learn whether the behaviour file has it.
-void check_goals(const std::vector<PlannedDrone>& drones, crowd::Simulation& crowd,
+void check_goals(const std::vector<PlannedDrone>& drones, CrowdSource& crowd,
                  std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < drones.size(); ++i) {
     if (!drones[i].moves_goal) continue;
@@ -72,7 +72,7 @@ std::vector<world::GoalRef> goals_moved_by(const std::vector<PlannedDrone>& dron
 }
 
 // Who is a person and there; fills and returns `there`.
-std::span<const std::uint8_t> people_there(const crowd::Simulation& crowd,
+std::span<const std::uint8_t> people_there(const CrowdSource& crowd,
                                            const std::vector<world::AgentRole>& roles,
                                            std::vector<std::uint8_t>& there) {
   const auto present = crowd.present();
@@ -83,7 +83,7 @@ std::span<const std::uint8_t> people_there(const crowd::Simulation& crowd,
   return there;
 }
 
-void report_falls(const crowd::Simulation& crowd, double time_s, RunObserver& observer) {
+void report_falls(const CrowdSource& crowd, double time_s, RunObserver& observer) {
   for (const crowd::Fall& fall : crowd.falls()) {
     world::TraceEvent event;
     event.time_s = time_s;
@@ -97,14 +97,24 @@ void report_falls(const crowd::Simulation& crowd, double time_s, RunObserver& ob
 }
 
 world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spec,
-                             const crowd::Simulation& crowd,
-                             const std::vector<world::AgentRole>& roles) {
-  world::TraceHeader header = crowd_header(crowd, spec.seed);
+                             const CrowdSource& crowd, const std::vector<world::AgentRole>& roles) {
+  world::TraceHeader header = crowd.header(spec.seed);
   header.scenario_id = scenario.id;
-  for (const world::Exit& exit : scenario.exits) header.exit_ids.push_back(exit.id);
+  if (crowd.has_intents()) {
+    for (const world::Exit& exit : scenario.exits) header.exit_ids.push_back(exit.id);
+  }
   for (const DroneMission& mission : spec.drones) header.drone_ids.push_back(mission.id);
   header.role = roles;
   return header;
+}
+
+// In a recording everybody is a person: the scenario's dangers are agents of its own crowd.
+std::vector<world::AgentRole> roles_of(const world::Scenario& scenario, const RunSpec& spec,
+                                       const CrowdSource& crowd, std::vector<Problem>& problems) {
+  const std::size_t agents = crowd.positions().size();
+  const std::vector<int> none;
+  return choose_roles(scenario.id, spec.recorded ? none : scenario.disaster_agents, agents,
+                      spec.people, spec.seed, problems);
 }
 
 }  // namespace
@@ -134,9 +144,11 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   check_times(spec, problems);
   check_exits(scenario, problems);
   const std::vector<PlannedDrone> drones = plan_drones(scenario, spec.drones, problems);
-  crowd::Simulation crowd = load_crowd(scenario, spec.seed, spec.crowd);
-  const std::vector<world::AgentRole> roles =
-      choose_roles(scenario, crowd.agent_count(), spec.people, spec.seed, problems);
+  const std::unique_ptr<CrowdSource> source =
+      spec.recorded ? replayed(spec.recorded)
+                    : simulated(load_crowd(scenario, spec.seed, spec.crowd));
+  CrowdSource& crowd = *source;
+  const std::vector<world::AgentRole> roles = roles_of(scenario, spec, crowd, problems);
   check_goals(drones, crowd, problems);
   for (std::size_t i = 0; i < roles.size(); ++i) {
     crowd.set_present(i, roles[i] != world::AgentRole::absent);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -85,6 +86,7 @@ struct RunSpec {
   double duration_s = 120;    ///< simulated time; the run may not end earlier
   std::optional<int> people;  ///< how many of the scenario's people take part; default all
   CrowdSpec crowd;
+  std::shared_ptr<const world::Trace> recorded;  ///< people to replay instead of the scenario's
   std::vector<DroneMission> drones;
   WindSpec wind;
   double physics_dt_s = 1.0 / 480;  ///< at most 1/240 s

@@ -1,0 +1,199 @@
+// Tables of trajectories whose columns the user names.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "base/error.h"
+#include "metrics/number_in.h"
+#include "metrics/trajectory_file.h"
+
+namespace throng::metrics {
+
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr double kLongestGapS = 1;
+constexpr double kLatestS = 1e6;
+
+char separator_of(std::string_view line) {
+  constexpr std::array kSeparators = {',', ';', '\t'};
+  return *std::max_element(kSeparators.begin(), kSeparators.end(), [&](char a, char b) {
+    return std::count(line.begin(), line.end(), a) < std::count(line.begin(), line.end(), b);
+  });
+}
+
+std::string_view trimmed(std::string_view field) {
+  const std::size_t first = field.find_first_not_of(" \r");
+  if (first == std::string_view::npos) return {};
+  field = field.substr(first, field.find_last_not_of(" \r") - first + 1);
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
+    field = field.substr(1, field.size() - 2);
+  }
+  return field;
+}
+
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  bool quoted = false;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] != separator || quoted) continue;
+    fields.push_back(trimmed(line.substr(start, i - start)));
+    start = i + 1;
+  }
+  fields.push_back(trimmed(line.substr(start)));
+  return fields;
+}
+
+/// A person's places by time or, where the table has frames, by frame.
+using Track = std::map<double, Vector2d>;
+
+class TableReader {
+ public:
+  TableReader(std::string_view text, const std::string& name, const TrajectoryFormat& format)
+      : text_(text), name_(name), format_(format), by_time_(!format.columns.time.empty()) {}
+
+  std::vector<Track> read() {
+    for (std::size_t at = 0; at < text_.size();) {
+      const std::size_t end = std::min(text_.find('\n', at), text_.size());
+      ++line_;
+      read_line(text_.substr(at, end - at));
+      at = end + 1;
+    }
+    return std::move(tracks_);
+  }
+
+ private:
+  enum Column { kPerson, kWhen, kX, kY, kColumns };
+
+  void read_line(std::string_view line) {
+    if (trimmed(line).empty() || line.front() == '#') return;
+    if (separator_ == 0) return read_names(line);
+    const std::vector<std::string_view> fields = fields_of(line, separator_);
+    const auto last = *std::max_element(column_.begin(), column_.end());
+    if (fields.size() <= last) {
+      reject(fmt::format("{} fields", fields.size()), fmt::format("at least {}", last + 1));
+    }
+    const std::string_view person = fields[column_[kPerson]];
+    if (person.empty()) reject("nobody", "a person's name or number");
+    const double when = number(fields[column_[kWhen]]);
+    if (!by_time_ && when != std::floor(when))
+      reject(fmt::format("frame {}", when), "a whole number");
+    if (std::abs(when) > kLatestS * (by_time_ ? 1 : 10)) {
+      reject(fmt::format("{:g}", when), "a time within 1e6 s, or a frame within 1e7");
+    }
+    const auto [known, is_new] = numbers_.try_emplace(std::string(person), tracks_.size());
+    if (is_new) tracks_.emplace_back();
+    const Vector2d place(number(fields[column_[kX]]), number(fields[column_[kY]]));
+    if (!tracks_[known->second].try_emplace(when, place).second) {
+      reject("the same person and time again", "each person once at a time");
+    }
+  }
+
+  void read_names(std::string_view line) {
+    separator_ = separator_of(line);
+    const std::vector<std::string_view> names = fields_of(line, separator_);
+    const TrajectoryColumns& columns = format_.columns;
+    const std::array<std::string, kColumns> wanted = {
+        columns.person, by_time_ ? columns.time : columns.frame, columns.x, columns.y};
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto found = std::find(names.begin(), names.end(), wanted[i]);
+      if (found == names.end()) {
+        reject(std::string(line.substr(0, 200)), fmt::format("a column \"{}\"", wanted[i]));
+      }
+      column_[i] = static_cast<std::size_t>(found - names.begin());
+    }
+  }
+
+  double number(std::string_view field) const {
+    const auto value = number_in(field);
+    if (!value) reject(std::string(field.substr(0, 40)), "a number");
+    return *value;
+  }
+
+  [[noreturn]] void reject(const std::string& found, const std::string& expected) const {
+    throw InputError({name_, fmt::format("line {}", line_), found, expected});
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  const TrajectoryFormat& format_;
+  bool by_time_;
+  int line_ = 0;
+  char separator_ = 0;  // 0: the names have not been read yet
+  std::array<std::size_t, kColumns> column_{};
+  std::map<std::string, std::size_t> numbers_;  // of persons, in the order of their appearance
+  std::vector<Track> tracks_;
+};
+
+/// The median step between the times of any people; nothing where there is one time only.
+std::optional<double> median_step_s(const std::vector<Track>& tracks) {
+  std::vector<double> times;
+  for (const Track& track : tracks) {
+    for (const auto& [time, place] : track) times.push_back(time);
+  }
+  std::sort(times.begin(), times.end());
+  constexpr double kSameTimeS = 1e-4;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] - times[i - 1] > kSameTimeS) steps.push_back(times[i] - times[i - 1]);
+  }
+  if (steps.empty()) return std::nullopt;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+// Puts a track by time on frames.
+std::map<std::int64_t, Vector2d> on_frames(const Track& track, double frames_per_s) {
+  constexpr double kSlack = 1e-3;  // of a frame
+  std::map<std::int64_t, Vector2d> places;
+  for (auto now = track.begin(); now != track.end(); ++now) {
+    const double at = now->first * frames_per_s;
+    if (std::abs(at - std::round(at)) < kSlack) places[std::llround(at)] = now->second;
+    const auto next = std::next(now);
+    if (next == track.end()) break;
+    const double step_s = next->first - now->first;
+    if (step_s > std::max(kLongestGapS, 1.5 / frames_per_s)) continue;
+    const double until = next->first * frames_per_s - kSlack;
+    for (double frame = std::floor(at + kSlack) + 1; frame < until; ++frame) {
+      const double share = (frame - at) / (step_s * frames_per_s);
+      places[std::llround(frame)] = (1 - share) * now->second + share * next->second;
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+Recorded read_csv(std::string_view text, const std::string& name, const TrajectoryFormat& format) {
+  const std::vector<Track> tracks = TableReader(text, name, format).read();
+  const bool by_time = !format.columns.time.empty();
+  Recorded recorded;
+  recorded.frames_per_s = format.frames_per_s.value_or(0);
+  if (by_time && !format.frames_per_s) {
+    if (const auto step = median_step_s(tracks)) recorded.frames_per_s = 1 / *step;
+  }
+  if (!(recorded.frames_per_s > 0)) {
+    throw InputError({name, "", "no frame rate", "the number of frames per second, or times"});
+  }
+  std::int64_t person = 0;
+  for (const Track& track : tracks) {
+    auto& places = recorded.places[++person];
+    if (by_time) {
+      places = on_frames(track, recorded.frames_per_s);
+    } else {
+      for (const auto& [frame, place] : track) places[std::llround(frame)] = place;
+    }
+    if (places.empty()) recorded.places.erase(person);
+  }
+  return recorded;
+}
+
+}  // namespace throng::metrics
