@@ -6,30 +6,54 @@
 #include <string>
 #include <vector>
 
+#include "metrics/voronoi.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
 namespace throng::annotate {
 
-/// Side of a cell (m).
-inline constexpr double kFieldCellM = 1;
+/// Distance at which the kernel exp(-r²/h²) has fallen to 1/e (m); it is cut off at three times it.
+inline constexpr double kFieldKernelM = 0.7;
 
-/// A grid over the scenario's ground. Cell (row, column) covers origin + [column, column + 1) ·
+/// Cells over the scenario's ground. Cell (row, column) covers origin + [column, column + 1) ·
 /// cell in x and origin + [row, row + 1) · cell in y.
-struct GroundField {
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m
-  int columns = 0;
-  int rows = 0;
-  std::vector<float> density;     ///< people per m²; times the cells' area it sums to `people`
-  std::vector<float> velocity_x;  ///< m/s, mean of the people in the cell; 0 where nobody is
-  std::vector<float> velocity_y;
-  std::int64_t people = 0;  ///< on the ground, seen by cameras or not
+class GroundGrid {
+ public:
+  /// Cells of 0.25 m, doubled until there are at most 131 072.
+  explicit GroundGrid(const world::Scenario& scenario);
+
+  const Eigen::Vector2d& origin() const { return origin_; }  ///< m
+  double cell_m() const { return cell_m_; }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  std::size_t cells() const { return walkable_.size(); }
+
+ private:
+  friend class FieldPainter;
+
+  Eigen::Vector2d origin_;
+  double cell_m_ = 0.25;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<bool> walkable_;  ///< whether a cell's middle is outside of all buildings
+  metrics::VoronoiCutter cutter_;
 };
 
-/// Everybody who is there at the trace's step nearest to `time_s`; each counts in one cell.
-GroundField ground_field(const world::Trace& trace, const world::Rectangle& ground, double time_s);
+struct GroundField {
+  /// People per m²: each person's kernel is scaled so that it sums to 1 over the cells of the
+  /// ground where one can walk; times a cell's area these sum to `people`.
+  std::vector<float> density;
+  std::vector<float> velocity_x;  ///< m/s, mean by the same kernel; 0 where nobody is near
+  std::vector<float> velocity_y;
+  std::vector<float> voronoi;  ///< people per m² by Voronoi cells (metrics/voronoi.h)
+  std::int64_t people = 0;     ///< on the ground, seen by cameras or not
+};
 
-/// The bytes of a .npy file, float32, C order, shape (3, rows, columns): density, velocity x, y.
-std::string npy_bytes(const GroundField& field);
+/// Everybody who is there at the trace's step nearest to `time_s`.
+GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, double time_s);
+
+/// The bytes of a .npy file, float32, C order, shape (4, rows, columns): density, velocity x, y,
+/// Voronoi density.
+std::string npy_bytes(const GroundGrid& grid, const GroundField& field);
 
 }  // namespace throng::annotate

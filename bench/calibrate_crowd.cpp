@@ -1,7 +1,8 @@
 // Fits the parameters of the model `weidmann` to the fundamental diagram and to the flow through
 // doors, with Ceres, and prints what they give. Without --fit it prints the tables of any model.
 //
-//   calibrate_crowd [MODEL]   speed over density in a ring, specific flow of doors
+//   calibrate_crowd [MODEL [NAME=VALUE...]]   speed over density in a ring, specific flow of doors;
+//                                             with other constants of the model, if named
 //   calibrate_crowd --fit     the fit, from the parameters that the model has now
 #include <ceres/ceres.h>
 #include <fmt/core.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -135,6 +137,17 @@ Values shipped_values() {
   return values;
 }
 
+/// The model with constants that the command line names.
+Tested with_constants(const std::string& model, std::span<char* const> named) {
+  std::string attributes;
+  for (const std::string_view constant : named) {
+    const std::size_t at = constant.find('=');
+    if (at == std::string_view::npos) continue;
+    attributes += fmt::format(R"( {}="{}")", constant.substr(0, at), constant.substr(at + 1));
+  }
+  return {model, fmt::format("<{}{}/>", crowd::find_model(model).tag, attributes), ""};
+}
+
 }  // namespace
 }  // namespace throng::validation
 
@@ -146,10 +159,12 @@ int main(int argc, char** argv) {
   using throng::validation::shipped_values;
   using throng::validation::Values;
   using throng::validation::weidmann_with;
+  using throng::validation::with_constants;
   constexpr std::size_t kSeeds = 7;
   const std::string word = argc > 1 ? argv[1] : "weidmann";
   if (word != "--fit") {
-    print(measure({word}, kSeeds));
+    const std::span<char* const> named(argv + std::min(argc, 2), argv + argc);
+    print(measure(with_constants(word, named), kSeeds));
     return 0;
   }
   const Values values = fit(shipped_values());

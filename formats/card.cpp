@@ -55,7 +55,8 @@ const std::map<std::string, std::string>& places() {
       {"density", "density/RUN/CAMERA/FRAME.npy: people per pixel, float32"},
       {"exits", "exits/RUN.csv"},
       {"fields",
-       "fields/RUN/FRAME.npy: people per square metre, velocity; grid in fields/RUN.json"},
+       "fields/RUN/FRAME.npy: people per square metre, velocity, Voronoi density; grid in "
+       "fields/RUN.json"},
       {"depth", "depth/RUN/CAMERA/FRAME.png: centimetres, 16 bits, 0 beyond 655.35 m"},
       {"instances", "instances/RUN/CAMERA/FRAME.png: red + 256 green + 65536 blue"},
       {"parts", "parts/RUN/CAMERA/FRAME.png"},

@@ -20,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-/// What fields/RUN/FRAME.npy has: three planes of float32 after the header.
+/// What fields/RUN/FRAME.npy has: four planes of float32 after the header.
 std::vector<float> values_of(const fs::path& file) {
   const std::string bytes = read_file(file);
   constexpr std::size_t kPreamble = 10;
@@ -39,8 +39,9 @@ void check_field(const fs::path& root, const std::string& path, const json& grid
                  Findings& findings) {
   const std::vector<float> values = values_of(root / path);
   const auto cells = grid.at("rows").get<std::size_t>() * grid.at("columns").get<std::size_t>();
-  if (values.size() != 3 * cells) {
-    findings.add("fields", path, "", "not three values for each cell of the grid");
+  constexpr std::size_t kPlanes = 4;
+  if (values.size() != kPlanes * cells) {
+    findings.add("fields", path, "", "not four values for each cell of the grid");
     return;
   }
   double sum = 0;

@@ -80,17 +80,18 @@ namespace {
 void add_fields(const JobSpec& job, int run, const world::Trace& trace,
                 const world::Scenario& scenario, Publication& output) {
   nlohmann::json people = nlohmann::json::array();
-  annotate::GroundField field;
+  const annotate::GroundGrid ground(scenario);
   for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {
-    field = annotate::ground_field(trace, scenario.ground, job.frame_time_s(frame));
+    const auto field = annotate::ground_field(trace, ground, job.frame_time_s(frame));
     output.add(fmt::format("fields/{}/{:06}.npy", run_name(run), frame),
-               annotate::npy_bytes(field));
+               annotate::npy_bytes(ground, field));
     people.push_back(field.people);
   }
-  const nlohmann::json grid = {{"origin_m", {field.origin.x(), field.origin.y()}},
-                               {"cell_m", annotate::kFieldCellM},
-                               {"columns", field.columns},
-                               {"rows", field.rows},
+  const nlohmann::json grid = {{"origin_m", {ground.origin().x(), ground.origin().y()}},
+                               {"cell_m", ground.cell_m()},
+                               {"kernel_m", annotate::kFieldKernelM},
+                               {"columns", ground.columns()},
+                               {"rows", ground.rows()},
                                {"people", people}};
   output.add("fields/" + run_name(run) + ".json", grid.dump(kJsonIndent) + "\n");
 }

@@ -290,7 +290,7 @@ class ExternalReaders(unittest.TestCase):
         grid = json.loads((self.dataset / "fields/run000.json").read_text())
         for frame, people in enumerate(grid["people"]):
             field = numpy.load(self.dataset / f"fields/run000/{frame:06}.npy")
-            self.assertEqual(field.shape, (3, grid["rows"], grid["columns"]))
+            self.assertEqual(field.shape, (4, grid["rows"], grid["columns"]))
             self.assertAlmostEqual(field[0].sum(dtype=numpy.float64) * grid["cell_m"] ** 2, people, places=3)
         self.assertGreater(people, 100)
 
