@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/confine.h"
 #include "base/files.h"
 #include "crowd/suggest.h"
 
@@ -111,7 +112,12 @@ void Element::add_warning(Problem warning) const {
 }
 
 std::filesystem::path Element::file_beside(std::string_view file_name) const {
-  return source_->path.parent_path() / file_name;
+  std::filesystem::path path = source_->path.parent_path() / file_name;
+  if (!Confinement::allows(path)) {
+    fail(fmt::format("the file {}, which lies elsewhere", in_quotes(file_name)),
+         "a file that came with the scenario");
+  }
+  return path;
 }
 
 namespace {

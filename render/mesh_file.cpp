@@ -1,5 +1,6 @@
 #include "render/mesh_file.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -9,7 +10,9 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <memory>
 
+#include "base/confine.h"
 #include "base/error.h"
 
 namespace throng::render {
@@ -52,10 +55,22 @@ void append(const aiMesh& mesh, const std::array<std::uint8_t, 4>& paint,
   }
 }
 
+/// Files as the library opens them: those that this thread may read.
+class ConfinedFiles : public Assimp::DefaultIOSystem {
+ public:
+  bool Exists(const char* file) const override {
+    return Confinement::allows(file) && DefaultIOSystem::Exists(file);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Confinement::allows(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+};
+
 }  // namespace
 
 PropMesh mesh_from_file(const world::PlacedMesh& placed, std::uint32_t id) {
   Assimp::Importer importer;
+  importer.SetIOHandler(std::make_unique<ConfinedFiles>().release());  // which it deletes
   const aiScene* scene = importer.ReadFile(
       placed.file.string(), aiProcess_Triangulate | aiProcess_GenSmoothNormals |
                                 aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "base/confine.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/resources.h"
@@ -162,6 +163,12 @@ std::vector<DroneStart> read_drones(const JsonValue& list, const std::vector<Bui
 fs::path read_companion(const JsonValue& value, const fs::path& scenario_file) {
   const std::string name = value.text();
   fs::path path = fs::absolute(scenario_file).parent_path() / name;
+  // Before looking whether it is there, which is nobody's business.
+  if (value.exists() && !Confinement::allows(path)) {
+    value.reject(fmt::format("\"{}\", which lies elsewhere", name),
+                 "a file that came with the scenario");
+    return {};
+  }
   if (value.exists() && !name.empty() && !fs::is_regular_file(path)) {
     value.reject(fmt::format("\"{}\", which does not exist beside the scenario", name),
                  "the name of a file");
@@ -284,13 +291,18 @@ fs::path scenarios_folder() {
 std::vector<std::string> list_scenarios(const fs::path& folder) {
   std::vector<std::string> ids;
   std::error_code error;
-  fs::recursive_directory_iterator entries(folder, error);
+  // A server's folder holds links to shipped scenarios and to uploads.
+  fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink,
+                                           error);
   if (error) {
     throw EnvironmentError(
         fmt::format("cannot read the scenarios in {}: {}", folder.string(), error.message()));
   }
-  for (const auto& entry : entries) {
-    if (entry.path().extension() != ".json" || !entry.is_regular_file()) continue;
+  constexpr int kDeepest = 8;  // links may lead in circles
+  for (; entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+    const fs::directory_entry& entry = *entries;
+    if (entries.depth() >= kDeepest) entries.disable_recursion_pending();
+    if (entry.path().extension() != ".json" || !entry.is_regular_file(error)) continue;
     if (entry.path().filename() == "study.json") continue;
     // Jobs and the like ("demo.job.json") have a dot left here, which no id has.
     std::string id = entry.path().lexically_relative(folder).replace_extension().generic_string();
@@ -303,8 +315,13 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
 Scenario find_scenario(const fs::path& folder, const std::string& id) {
   const fs::path file = folder / (id + ".json");
   if (!is_scenario_id(id) || !fs::is_regular_file(file)) {
-    throw InputError(Problem{"", "", fmt::format("scenario \"{}\"", id),
-                             fmt::format("one of: {}", fmt::join(list_scenarios(folder), ", "))});
+    constexpr std::size_t kMostNamed = 50;
+    std::vector<std::string> known = list_scenarios(folder);
+    const bool some = known.size() > kMostNamed;
+    if (some) known.resize(kMostNamed);
+    throw InputError(
+        Problem{"", "", fmt::format("scenario \"{}\"", id),
+                fmt::format("one of: {}{}", fmt::join(known, ", "), some ? " and others" : "")});
   }
   return load_scenario(file, id);
 }

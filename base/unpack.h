@@ -1,0 +1,36 @@
+// Unpacking an archive that came from somebody else: nothing of it lands outside the folder, and
+// it cannot grow beyond what was agreed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace throng {
+
+/// What an archive may hold.
+struct UnpackLimits {
+  std::size_t most_entries = 4000;
+  std::int64_t most_file_bytes = 256LL << 20U;  ///< of each file
+  std::int64_t most_bytes = 1LL << 30U;         ///< of all files together
+  /// Unpacked bytes per packed byte; text and empty images reach some dozens.
+  std::int64_t most_ratio = 200;
+  std::size_t longest_path = 200;  ///< characters
+  std::size_t deepest = 8;         ///< folders and the file's name
+};
+
+struct Unpacked {
+  std::size_t files = 0;
+  std::int64_t bytes = 0;
+};
+
+/// Unpacks a zip, tar or tar.gz file, which it tells apart by its bytes, into an empty folder.
+/// Names are relative paths of printable ASCII that any system could hold; files and folders only:
+/// no links, no devices; nothing encrypted; no two names that differ in their case alone. What
+/// macOS adds to zip files (__MACOSX, .DS_Store) is left out. Throws InputError naming the entry
+/// and EnvironmentError; the folder then holds a part.
+Unpacked unpack_archive(std::string_view bytes, const std::filesystem::path& folder,
+                        const UnpackLimits& limits = {});
+
+}  // namespace throng
