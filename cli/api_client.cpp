@@ -113,6 +113,23 @@ json ApiClient::post(const std::string& path, const std::string& body,
       checked(connection_->client.Post(path, headers, body, "application/json"), url_, path).body);
 }
 
+json ApiClient::upload(const std::string& path, const std::string& bytes, const std::string& type) {
+  return json::parse(
+      checked(connection_->client.Post(path, connection_->headers, bytes, type), url_, path).body);
+}
+
+json ApiClient::post_form(const std::string& path, const std::vector<Part>& parts,
+                          const std::pair<std::string, std::string>& header) {
+  httplib::Headers headers = connection_->headers;
+  if (!header.first.empty()) headers.insert(header);
+  httplib::MultipartFormDataItems items;
+  items.reserve(parts.size());
+  for (const Part& part : parts) {
+    items.push_back({part.name, part.bytes, part.file_name, part.type});
+  }
+  return json::parse(checked(connection_->client.Post(path, headers, items), url_, path).body);
+}
+
 void ApiClient::remove(const std::string& path) {
   checked(connection_->client.Delete(path, connection_->headers), url_, path);
 }

@@ -34,6 +34,16 @@ class ApiClient {
   /// `headers` besides the usual ones, as name and value.
   nlohmann::json post(const std::string& path, const std::string& body = "",
                       const std::pair<std::string, std::string>& header = {});
+  /// Sends a file of its own type, or the parts of a form: name, file name (or ""), type, bytes.
+  struct Part {
+    std::string name;
+    std::string file_name;
+    std::string type;
+    std::string bytes;
+  };
+  nlohmann::json upload(const std::string& path, const std::string& bytes, const std::string& type);
+  nlohmann::json post_form(const std::string& path, const std::vector<Part>& parts,
+                           const std::pair<std::string, std::string>& header = {});
   void remove(const std::string& path);
 
   /// Called with the bytes that are there and those there will be; false ends the download.

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/api_client.h"
+#include "cli/bundle.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
@@ -24,17 +25,6 @@ using namespace std::chrono_literals;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Text as a value in a query.
-std::string encoded(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_plain = std::isalnum(byte) != 0 || c == '-' || c == '_' || c == '.' || c == '~';
-    out += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-  }
-  return out;
-}
 
 std::string path_of(const std::string& id) { return "/v1/jobs/" + encoded(id); }
 
@@ -143,6 +133,7 @@ struct SubmitArguments {
   bool dry_run = false;
   bool watch = false;
   std::string fetch_to;
+  std::string scenario;  ///< a bundle of the job's own; "" for none
 };
 
 void submit(const SubmitArguments& arguments) {
@@ -155,8 +146,17 @@ void submit(const SubmitArguments& arguments) {
   }
   std::string query = fmt::format("?priority={}", arguments.priority);
   for (const std::string& label : arguments.labels) query += "&label=" + encoded(label);
+  const auto post = [&](const std::string& path,
+                        const std::pair<std::string, std::string>& header = {}) {
+    if (arguments.scenario.empty()) return api.post(path, text, header);
+    return api.post_form(
+        path,
+        {{"job", "", "application/json", text},
+         {"scenario", "bundle", "application/octet-stream", read_bundle(arguments.scenario).bytes}},
+        header);
+  };
   if (arguments.dry_run) {
-    const json answer = api.post("/v1/jobs?dry_run", text);
+    const json answer = post("/v1/jobs?dry_run");
     fmt::print("valid: {} runs, {} shards, {} frames\n", answer["runs"].dump(),
                answer["shards"].dump(), answer["frames"].dump());
     return;
@@ -164,7 +164,7 @@ void submit(const SubmitArguments& arguments) {
   const std::pair<std::string, std::string> header =
       arguments.key.empty() ? std::pair<std::string, std::string>()
                             : std::pair<std::string, std::string>("Idempotency-Key", arguments.key);
-  const std::string id = api.post("/v1/jobs" + query, text, header)["id"];
+  const std::string id = post("/v1/jobs" + query, header)["id"];
   fmt::print("{}\n", id);
   std::fflush(stdout);
   if (!arguments.watch && arguments.fetch_to.empty()) return;
@@ -229,6 +229,9 @@ void add_submit(CLI::App& app) {
   command->add_option("--label", arguments->labels, "Words to find it by; may be given again");
   command->add_option("--key", arguments->key,
                       "The same key again is the same submission (Idempotency-Key)");
+  command->add_option("--scenario", arguments->scenario,
+                      "Folder, zip or tar file of scenarios to send along; the job names one as "
+                      "\"bundle/NAME\"");
   command->add_flag("--dry-run", arguments->dry_run, "Only check it");
   command->add_flag("--watch", arguments->watch, "Follow it to its end");
   command->add_option("--fetch", arguments->fetch_to, "Then download its archive to this file");

@@ -1,21 +1,82 @@
-// throng scenarios: what places there are.
+// throng scenarios: what places there are, here and on a server.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <memory>
 
+#include "cli/api_client.h"
+#include "cli/bundle.h"
 #include "cli/commands.h"
+#include "server/scenario_checker.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
 
+namespace {
+
+void list() {
+  const auto folder = world::scenarios_folder();
+  for (const std::string& id : world::list_scenarios(folder)) {
+    fmt::print("{:<32} {}\n", id, world::find_scenario(folder, id).name);
+  }
+}
+
+struct UploadArguments {
+  std::string from;
+  std::string name;
+  bool dry_run = false;
+};
+
+void upload(const UploadArguments& arguments) {
+  const Bundle bundle = read_bundle(arguments.from);
+  const std::string name = arguments.name.empty() ? bundle.name : arguments.name;
+  ApiClient api;
+  const nlohmann::json answer = api.upload(
+      fmt::format("/v1/scenarios?name={}{}", encoded(name), arguments.dry_run ? "&dry_run" : ""),
+      bundle.bytes, "application/octet-stream");
+  for (const nlohmann::json& id : answer["ids"]) fmt::print("{}\n", id.get<std::string>());
+}
+
+void add_upload(CLI::App& scenarios) {
+  auto* command = scenarios.add_subcommand(
+      "upload", "Send scenarios to a server ($THRONG_URL, $THRONG_KEY); prints their ids");
+  const auto arguments = std::make_shared<UploadArguments>();
+  command->add_option("bundle", arguments->from, "A folder, or a zip, tar or tar.gz file")
+      ->required();
+  command->add_option("--name", arguments->name,
+                      "The first part of their ids; default: the folder's or file's name");
+  command->add_flag("--dry-run", arguments->dry_run, "Only check them");
+  command->callback([arguments] { upload(*arguments); });
+}
+
+/// What `throng serve` starts for each upload.
+void add_check_bundle(CLI::App& scenarios) {
+  auto* command = scenarios.add_subcommand("check-bundle", "Check an upload of the service");
+  command->group("");  // not for users
+  const auto folder = std::make_shared<std::string>();
+  const auto work = std::make_shared<std::string>();
+  command->add_option("folder", *folder, "The scenarios")->required();
+  command->add_option("work", *work, "Folder for the result")->required();
+  command->callback(
+      [folder, work] { std::exit(server::run_scenario_check_child(*folder, *work)); });
+}
+
+}  // namespace
+
 void add_scenarios(CLI::App& app) {
-  auto* command = app.add_subcommand("scenarios", "List the scenarios that a job can name");
-  command->callback([] {
-    const auto folder = world::scenarios_folder();
-    for (const std::string& id : world::list_scenarios(folder)) {
-      fmt::print("{:<32} {}\n", id, world::find_scenario(folder, id).name);
-    }
+  auto* command = app.add_subcommand(
+      "scenarios", "List the scenarios that a job can name; upload others to a server");
+  command->require_subcommand(0, 1);
+  command->callback([command] {
+    if (command->get_subcommands().empty()) list();
   });
+  add_upload(*command);
+  auto* remove = command->add_subcommand("remove", "Remove an upload from a server");
+  const auto name = std::make_shared<std::string>();
+  remove->add_option("name", *name, "The first part of its scenarios' ids")->required();
+  remove->callback([name] { ApiClient().remove("/v1/scenarios/" + encoded(*name)); });
+  add_check_bundle(*command);
 }
 
 }  // namespace throng::cli

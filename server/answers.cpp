@@ -12,15 +12,14 @@ namespace throng::server {
 
 using nlohmann::json;
 
-namespace {
-
-// RFC 3339 in UTC with milliseconds; null for "not yet".
 json time_json(std::int64_t unix_ms) {
   if (unix_ms == 0) return nullptr;
   constexpr std::int64_t kMsPerS = 1000;
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
                      fmt::gmtime(static_cast<std::time_t>(unix_ms / kMsPerS)), unix_ms % kMsPerS);
 }
+
+namespace {
 
 json parsed_or(const std::string& text, json otherwise) {
   return text.empty() ? std::move(otherwise) : json::parse(text);
@@ -66,6 +65,8 @@ const char* title_of(int status) {
       return "Service Unavailable";
     case 421:
       return "Misdirected Request";
+    case 507:
+      return "Insufficient Storage";
     case 500:
       return "Internal Server Error";
     default:

@@ -1,6 +1,7 @@
 // What the API says, as JSON.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "jobs/supervisor.h"
 
 namespace throng::server {
+
+/// Milliseconds of Unix time by RFC 3339, in UTC; null for 0, "not yet".
+nlohmann::json time_json(std::int64_t unix_ms);
 
 /// {"stage", "frames_done", "frames_total", "runs": [...]}
 nlohmann::json progress_json(const jobs::JobProgress& progress);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "server/http.h"
 #include "server/jobs_api.h"
 #include "server/requests.h"
+#include "server/scenarios_api.h"
 #include "server/service_api.h"
 
 namespace throng::server {
@@ -33,13 +35,15 @@ void write_problem(Response& response, const HttpError& error) {
 }
 
 constexpr const char* kCalibrations = "/v1/calibrations";
+constexpr const char* kScenarios = "/v1/scenarios";
+constexpr const char* kJobs = "/v1/jobs";
 
 }  // namespace
 
 std::span<const Route> routes() {
   static constexpr std::array kRoutes = {
-      Route{Method::post, "/v1/jobs", Scope::submit, &submit_job},
-      Route{Method::get, "/v1/jobs", Scope::read, &list_jobs},
+      Route{Method::post, kJobs, Scope::submit, &submit_job},
+      Route{Method::get, kJobs, Scope::read, &list_jobs},
       Route{Method::get, "/v1/jobs/{id}", Scope::read, &send_job},
       Route{Method::patch, "/v1/jobs/{id}", Scope::submit, &change_job},
       Route{Method::remove, "/v1/jobs/{id}", Scope::submit, &remove_job},
@@ -63,8 +67,11 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/calibrations/{id}", Scope::read, &send_calibration},
       Route{Method::remove, "/v1/calibrations/{id}", Scope::submit, &remove_calibration},
       Route{Method::get, "/v1/calibrations/{id}/{name}", Scope::read, &send_calibration_result},
-      Route{Method::get, "/v1/scenarios", Scope::read, &list_scenarios},
+      Route{Method::post, kScenarios, Scope::submit, &upload_scenarios},
+      Route{Method::get, kScenarios, Scope::read, &list_scenarios},
       Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},
+      Route{Method::remove, "/v1/scenarios/{path}", Scope::submit, &remove_scenarios},
+      Route{Method::get, "/v1/people", Scope::read, &list_people},
       Route{Method::get, "/v1/airframes", Scope::read, &list_airframes},
       Route{Method::get, "/v1/policies", Scope::read, &list_policies},
       Route{Method::get, "/v1/formats", Scope::read, &list_formats},
@@ -108,6 +115,10 @@ void guarded(const JobService& service, const Request& request, Response& respon
   } catch (const QuotaError& error) {
     response.set_header("Retry-After", "60");
     write_problem(response, {429, error.what()});
+  } catch (const UploadsFull& error) {
+    write_problem(response, {507, error.what()});
+  } catch (const NameTaken& error) {
+    write_problem(response, {409, error.what()});
   } catch (const ConflictError& error) {
     write_problem(response, {409, error.what()});
   } catch (const std::exception& error) {
@@ -125,12 +136,29 @@ bool names_this_machine(const Request& request) {
   return host.empty() || is_loopback(host);
 }
 
-// Pictures of boards are uploaded; everything else is small.
-constexpr std::size_t kLargestUpload = 256 << 20;
+/// Who sends a request; nothing when they need a key and have none.
+std::optional<Caller> caller_in(const Keys& keys, const Request& request) {
+  constexpr std::string_view kBearer = "Bearer ";
+  const std::string header = request.get_header_value("Authorization");
+  return keys.caller_of(header.starts_with(kBearer) ? header.substr(kBearer.size())
+                                                    : std::string());
+}
+
+constexpr std::size_t kLargestPictures = 256 << 20;
+constexpr std::size_t kLargestBundle = 64 << 20;
 constexpr std::size_t kLargestText = 1 << 20;
 
-HttpOptions with_uploads(HttpOptions options) {
-  options.largest_body = kLargestUpload;
+std::size_t largest_body(const Keys& keys, const Request& request) {
+  // Of strangers little is read before they are turned away.
+  const bool is_upload =
+      request.method == "POST" && (request.path == kCalibrations || request.path == kScenarios ||
+                                   (request.path == kJobs && request.is_multipart_form_data()));
+  if (!is_upload || !caller_in(keys, request)) return kLargestText;
+  return request.path == kCalibrations ? kLargestPictures : kLargestBundle;
+}
+
+HttpOptions with_uploads(HttpOptions options, const Keys& keys) {
+  options.largest_body = [&keys](const Request& request) { return largest_body(keys, request); };
   return options;
 }
 
@@ -145,13 +173,11 @@ void refuse_other_sites(const Request& request) {
 // Who calls, if they may do what the route does.
 Caller admitted(const Keys& keys, const Request& request, Scope needed) {
   if (needed == Scope::anybody) return {};
-  constexpr std::string_view kBearer = "Bearer ";
-  const std::string header = request.get_header_value("Authorization");
-  const auto caller =
-      keys.caller_of(header.starts_with(kBearer) ? header.substr(kBearer.size()) : std::string());
+  const auto caller = caller_in(keys, request);
   if (!caller) {
-    throw HttpError{401, header.empty() ? "this service needs a key: Authorization: Bearer KEY"
-                                        : "this key is not known, or was revoked"};
+    throw HttpError{401, request.get_header_value("Authorization").empty()
+                             ? "this service needs a key: Authorization: Bearer KEY"
+                             : "this key is not known, or was revoked"};
   }
   if (caller->scope < needed) {
     throw HttpError{403, fmt::format("the key's scope is {}, this needs {}", name_of(caller->scope),
@@ -163,7 +189,7 @@ Caller admitted(const Keys& keys, const Request& request, Scope needed) {
 }  // namespace
 
 Api::Api(JobService& service, const Keys& keys, const HttpOptions& options)
-    : server_(with_uploads(options), &write_library_error) {
+    : server_(with_uploads(options, keys), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [&service, &keys, loopback](const Route& entry) {
     return [&service, &keys, loopback, entry](const Request& request, Response& response) {
@@ -173,9 +199,6 @@ Api::Api(JobService& service, const Keys& keys, const HttpOptions& options)
         }
         if (entry.method != Method::get) refuse_other_sites(request);
         const Caller caller = admitted(keys, request, entry.scope);
-        if (request.path != kCalibrations && request.body.size() > kLargestText) {
-          throw HttpError{413, fmt::format("a body may have {} bytes here", kLargestText)};
-        }
         entry.handler({service, caller}, request, response);
       });
     };

@@ -2,6 +2,7 @@
 #pragma once
 
 namespace httplib {
+class Server;
 struct Request;
 struct Response;
 }  // namespace httplib

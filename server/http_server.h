@@ -1,27 +1,29 @@
 // cpp-httplib, hardened. Debian's 0.11.4 needs care in its defaults (8 threads, 5 requests per
-// connection) and in what it lets through (chunked bodies of any size, contradictory lengths).
-// It still cannot bound headers or slow clients: the bare port is for loopback.
+// connection) and in what it lets through: chunked bodies of any size, contradictory lengths,
+// endless and slow headers and bodies (server/connection.h). It speaks no TLS and counts no
+// requests per client: the bare port is for loopback.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 
-namespace httplib {
-class Server;
-struct Request;
-struct Response;
-}  // namespace httplib
+#include "server/http_fwd.h"
 
 namespace throng::server {
 
 struct HttpOptions {
   std::string host = "127.0.0.1";
   int port = 0;  ///< 0: any that is free
-  /// Bytes that a request's body may have; the rest is read, thrown away and answered with 413.
-  std::size_t largest_body = 1 << 20;
+  /// Bytes that a request's body may have, asked when its headers have been read; a longer one is
+  /// refused unread, with 413.
+  std::function<std::size_t(const httplib::Request&)> largest_body = {};
+  /// Bytes that all bodies above a megabyte may have together while they are read and worked on;
+  /// one more is refused with 503.
+  std::int64_t most_body_bytes = 512 << 20;
 };
 
 /// Whether an address can only be reached from this machine.
@@ -40,7 +42,7 @@ class HttpServer {
   HttpServer& operator=(const HttpServer&) = delete;
 
   /// To add routes to, before run().
-  httplib::Server& routes() { return *server_; }
+  httplib::Server& routes();
   int port() const { return port_; }
 
   /// Serves until stop(). Once only.
@@ -50,7 +52,8 @@ class HttpServer {
   void stop();
 
  private:
-  std::unique_ptr<httplib::Server> server_;
+  class BoundedServer;
+  std::unique_ptr<BoundedServer> server_;
   int port_ = 0;
   std::atomic<bool> stopping_ = false;
 };

@@ -41,8 +41,12 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
 }  // namespace
 
 JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
-    : options_(std::move(options)), executor_(executor), store_(options_.data) {
+    : options_(std::move(options)),
+      executor_(executor),
+      store_(options_.data),
+      scenarios_(options_.data, options_.scenarios, options_.scenario_checker, options_.uploads) {
   tidy_data_folder(options_.data, store_);
+  drop_unused_bundles();
   worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
 
@@ -51,10 +55,15 @@ JobService::~JobService() = default;
 jobs::JobSpec JobService::checked(std::string_view job_json) const {
   const std::string text =
       jobs::with_calibrations(job_json, [this](const std::string& id) { return camera_of(id); });
-  return jobs::parse_job(text, "", options_.scenarios);
+  return jobs::parse_job(text, "", scenarios());
 }
 
 jobs::Added JobService::submit(const Submission& submission) {
+  const std::shared_lock lock(uploads_mutex_);
+  return add(submission);
+}
+
+jobs::Added JobService::add(const Submission& submission) {
   const jobs::JobSpec job = checked(submission.job_json);
   const json sent = {submission.job_json, submission.priority, submission.labels};
   const jobs::Added added = store_.add({.name = job.name,
@@ -260,6 +269,7 @@ bool JobService::remove(const std::string& id) {
   end_work_on(id);
   if (!store_.remove(id)) return false;
   tell();
+  drop_bundle_of(*row);
   // Moved away first, so that a half-removed folder is never taken for a job's.
   const fs::path trash = options_.data / "trash";
   std::error_code error;
@@ -285,7 +295,7 @@ fs::path JobService::place_of(const JobRow& row) const {
 }
 
 std::string JobService::without_paths(std::string message) const {
-  for (const fs::path& folder : {options_.data, options_.scenarios}) {
+  for (const fs::path& folder : {scenarios(), options_.data, options_.scenarios}) {
     replace_all(message, fs::absolute(folder).string() + "/", "");
     replace_all(message, folder.string() + "/", "");
   }
@@ -368,7 +378,7 @@ void JobService::run(const JobRow& row, const std::stop_token& stop) {
 }
 
 void JobService::make_dataset(const JobRow& row, const std::stop_token& stop) {
-  const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", options_.scenarios);
+  const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", scenarios());
   const auto folder = jobs::JobFolder::create(folder_of(row.id).path(), job);
   auto last_save = std::chrono::steady_clock::time_point();
   std::string stages;

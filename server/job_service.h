@@ -12,6 +12,7 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <shared_mutex>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -25,6 +26,7 @@
 #include "jobs/store.h"
 #include "jobs/supervisor.h"
 #include "server/calibrator.h"
+#include "server/scenario_store.h"
 
 namespace throng::jobs {
 struct JobSpec;
@@ -34,8 +36,10 @@ namespace throng::server {
 
 struct JobServiceOptions {
   std::filesystem::path data;       ///< holds the store and a folder per job; one service at a time
-  std::filesystem::path scenarios;  ///< the scenarios that jobs may name
+  std::filesystem::path scenarios;  ///< those that come with throng
   Calibrator calibrator = calibrator_in_process();
+  ScenarioChecker scenario_checker = scenario_checker_in_process();
+  UploadLimits uploads = {};
 };
 
 /// A job to be queued.
@@ -83,6 +87,18 @@ class JobService {
   /// Queues the job if it can be done; durable when it returns. Throws InputError.
   jobs::Added submit(const Submission& submission);
 
+  /// Likewise with a bundle of scenarios of the job's own (zip, tar), of which the job names one as
+  /// "bundle/NAME"; it is kept as long as there is a job that names it. The same bundle is kept
+  /// once. Throws InputError and UploadsFull.
+  jobs::Added submit_with_bundle(const Submission& submission, std::string_view bundle);
+  /// The same, without queueing it.
+  jobs::JobSpec checked_with_bundle(std::string_view job_json, std::string_view bundle);
+
+  /// Scenarios that users have sent; removed with remove_scenarios().
+  ScenarioStore& uploads() { return scenarios_; }
+  /// Removes an upload. False when there is none. Throws ConflictError while an active job uses it.
+  bool remove_scenarios(const std::string& name);
+
   /// Queues a calibration (calibrate/request.h) of the files that came with it; durable when it
   /// returns. Throws InputError.
   jobs::JobRow submit_calibration(std::string_view request_json, const std::vector<Upload>& files);
@@ -124,7 +140,8 @@ class JobService {
   int watchers() const { return *watchers_; }
 
   const std::filesystem::path& data_folder() const { return options_.data; }
-  const std::filesystem::path& scenarios() const { return options_.scenarios; }
+  /// Where all scenarios are found: shipped ones and uploads.
+  const std::filesystem::path& scenarios() const { return scenarios_.folder(); }
   /// Where everything that belongs to a job lies (jobs/folder.h).
   std::filesystem::path job_folder(const std::string& id) const { return folder_of(id).path(); }
 
@@ -158,10 +175,22 @@ class JobService {
   void save_progress(const jobs::JobRow& row);
   void note(const jobs::JobRow& row, const std::string& type, const std::string& data_json);
   jobs::JobFolder folder_of(const std::string& id) const;
+  jobs::Added add(const Submission& submission);
+  template <typename Use>
+  auto with_bundle(std::string_view job_json, std::string_view bundle, const std::string& owner,
+                   const Use& use);
+  std::vector<jobs::JobRow> jobs_that_name(const std::string& upload,
+                                           std::vector<jobs::JobState> states) const;
+  void drop_if_unused(const std::string& bundle);
+  void drop_bundle_of(const jobs::JobRow& removed);
+  void drop_unused_bundles();
 
   JobServiceOptions options_;
   jobs::Executor& executor_;
   jobs::Store store_;
+  ScenarioStore scenarios_;
+  /// Held together while a job that may name an upload is added, alone while uploads go.
+  std::shared_mutex uploads_mutex_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;  ///< something was queued, or the active job has ended
   bool queued_ = true;                   ///< there may be something to do; guarded by mutex_

@@ -68,18 +68,34 @@ std::string key_of(const Request& request) {
   return key;
 }
 
-bool is_asked(const Request& request, const char* name) {
-  if (!request.has_param(name)) return false;
-  const std::string value = request.get_param_value(name);
-  if (value.empty() || value == "1" || value == "true") return true;
-  if (value == "0" || value == "false") return false;
-  throw HttpError{400,
-                  fmt::format("{} is wrong", name),
-                  {{"", fmt::format("?{}", name), value, "true or false"}}};
+/// What comes as multipart/form-data: a job, and a bundle of scenarios of its own.
+struct Form {
+  std::string job;
+  const std::string* bundle = nullptr;
+};
+
+std::optional<Form> form_of(const Request& request) {
+  if (!request.is_multipart_form_data()) return std::nullopt;
+  Form form;
+  for (const auto& [name, part] : request.files) {
+    if (name == "job") {
+      form.job = part.content;
+    } else if (name == "scenario") {
+      form.bundle = &part.content;
+    } else {
+      throw HttpError{400, fmt::format("a part \"{}\"; there are job and scenario", name)};
+    }
+  }
+  if (form.job.empty()) throw HttpError{400, "there is no part \"job\" with the job as JSON"};
+  return form;
 }
 
-void queue(const Call& call, const Submission& submission, Response& response) {
-  const jobs::Added added = call.service.submit(submission);
+/// With a bundle of its own, unless that is null.
+void queue(const Call& call, const Submission& submission, Response& response,
+           const std::string* bundle = nullptr) {
+  const jobs::Added added = bundle == nullptr
+                                ? call.service.submit(submission)
+                                : call.service.submit_with_bundle(submission, *bundle);
   if (!added.is_equal) {
     throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and what was sent "
                                      "with it then was something else",
@@ -120,11 +136,16 @@ std::vector<jobs::JobState> states_of(const Request& request) {
 }  // namespace
 
 void submit_job(const Call& call, const Request& request, Response& response) {
-  require_json(request);
+  const std::optional<Form> form = form_of(request);
+  if (!form) require_json(request);
+  const std::string& job = form ? form->job : request.body;
   if (is_asked(request, "dry_run")) {
-    return answer_dry_run(call.service.checked(request.body), response);
+    const bool has_bundle = form && form->bundle != nullptr;
+    return answer_dry_run(has_bundle ? call.service.checked_with_bundle(job, *form->bundle)
+                                     : call.service.checked(job),
+                          response);
   }
-  Submission submission{request.body};
+  Submission submission{job};
   submission.priority =
       static_cast<int>(number_of(request, "priority", -kHighestPriority, kHighestPriority, 0));
   submission.labels = all_of(request, "label");
@@ -132,7 +153,7 @@ void submit_job(const Call& call, const Request& request, Response& response) {
   submission.key = key_of(request);
   submission.owner = call.caller.key_id;
   submission.most_active = call.caller.most_active;
-  queue(call, submission, response);
+  queue(call, submission, response, form ? form->bundle : nullptr);
 }
 
 void list_jobs(const Call& call, const Request& request, Response& response) {

@@ -35,6 +35,16 @@ std::int64_t number_of(const Request& request, const char* name, std::int64_t le
   return number;
 }
 
+bool is_asked(const Request& request, const char* name) {
+  if (!request.has_param(name)) return false;
+  const std::string value = request.get_param_value(name);
+  if (value.empty() || value == "1" || value == "true") return true;
+  if (value == "0" || value == "false") return false;
+  throw HttpError{400,
+                  fmt::format("{} is wrong", name),
+                  {{"", fmt::format("?{}", name), value, "true or false"}}};
+}
+
 int limit_of(const Request& request) {
   constexpr int kUsual = 50;
   constexpr int kMost = 500;

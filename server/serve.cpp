@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <stop_token>
 #include <thread>
@@ -66,9 +67,12 @@ int serve(const ServeOptions& options) {
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
+  // Workers look for scenarios there.
+  ::setenv("THRONG_SCENARIOS", ScenarioStore::folder_in(options.data).c_str(), 1);
   jobs::LocalProcesses executor({.workers = options.workers});
   JobService service({options.data, options.scenarios,
-                      calibrator_in_child({"/proc/self/exe", "calibrate", "request"})},
+                      calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
+                      scenario_checker_in_child({"/proc/self/exe", "scenarios", "check-bundle"})},
                      executor);
   Api api(service, keys, {options.host, options.port});
   if (!options.port_file.empty()) {

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +15,9 @@
 #include "sim/airframe.h"
 #include "sim/battery.h"
 #include "sim/policy.h"
-#include "world/scenario.h"
+#include "skinning/items.h"
+#include "skinning/population.h"
+#include "skinning/population_files.h"
 
 namespace throng::embedded {
 extern const std::string_view kOpenApi;
@@ -47,28 +48,10 @@ std::uintmax_t free_bytes(const Call& call) {
   return fs::space(call.service.data_folder()).available;
 }
 
-json scenario_json(const fs::path& folder, const std::string& id) {
-  const world::Scenario scenario = world::find_scenario(folder, id);
-  json exits = json::array();
-  for (const world::Exit& exit : scenario.exits) {
-    exits.push_back({{"id", exit.id}, {"width_m", exit.width_m()}, {"open", exit.open}});
-  }
-  json drones = json::array();
-  for (const world::DroneStart& drone : scenario.drones) {
-    drones.push_back({{"id", drone.id},
-                      {"start_m", {drone.position.x(), drone.position.y(), drone.position.z()}}});
-  }
-  const world::Rectangle& ground = scenario.ground;
-  return {
-      {"id", id},
-      {"name", scenario.name},
-      {"description", scenario.description},
-      {"crowd_model", scenario.crowd_model.empty() ? json(nullptr) : json(scenario.crowd_model)},
-      {"ground_m", {ground.min.x(), ground.min.y(), ground.max.x(), ground.max.y()}},
-      {"exits", std::move(exits)},
-      {"drones", std::move(drones)},
-      {"buildings", scenario.buildings.size()},
-      {"props", scenario.props.size()}};
+/// The part of the job's schema at a pointer: how a job names what a list holds.
+json schema_at(const char* pointer) {
+  static const json kSchema = json::parse(jobs::job_schema());
+  return kSchema.at(json::json_pointer(pointer));
 }
 
 }  // namespace
@@ -117,28 +100,6 @@ void send_openapi(const Call&, const Request&, Response& response) {
   response.set_content(std::string(embedded::kOpenApi), "application/json");
 }
 
-void list_scenarios(const Call& call, const Request&, Response& response) {
-  json list = json::array();
-  for (const std::string& id : world::list_scenarios(call.service.scenarios())) {
-    try {
-      list.push_back(scenario_json(call.service.scenarios(), id));
-    } catch (const InputError& error) {
-      // One that is damaged hides no other.
-      list.push_back({{"id", id}, {"error", call.service.without_paths(error.what())}});
-    }
-  }
-  write_json(response, 200, {{"scenarios", std::move(list)}});
-}
-
-void send_scenario(const Call& call, const Request& request, Response& response) {
-  const std::string id = request.matches[1];
-  const auto all = world::list_scenarios(call.service.scenarios());
-  if (std::find(all.begin(), all.end(), id) == all.end()) {
-    throw HttpError{404, "there is no such scenario; GET /v1/scenarios lists them"};
-  }
-  write_json(response, 200, scenario_json(call.service.scenarios(), id));
-}
-
 void list_airframes(const Call&, const Request&, Response& response) {
   json list = json::array();
   for (const sim::Airframe& airframe : sim::shipped_airframes()) {
@@ -149,7 +110,9 @@ void list_airframes(const Call&, const Request&, Response& response) {
                         {"hover_power_w", sim::hover_power_w(airframe)}};
     list.push_back(std::move(entry));
   }
-  write_json(response, 200, {{"airframes", std::move(list)}});
+  write_json(response, 200,
+             {{"airframes", std::move(list)},
+              {"schema", schema_at("/properties/drones/items/properties/airframe")}});
 }
 
 void list_formats(const Call&, const Request&, Response& response) {
@@ -157,7 +120,9 @@ void list_formats(const Call&, const Request&, Response& response) {
   for (const formats::Format& format : formats::all_formats()) {
     list.push_back({{"name", format.name}, {"summary", format.summary}, {"needs", format.needs}});
   }
-  write_json(response, 200, {{"formats", std::move(list)}});
+  write_json(response, 200,
+             {{"formats", std::move(list)},
+              {"schema", schema_at("/properties/outputs/properties/formats")}});
 }
 
 void list_policies(const Call&, const Request&, Response& response) {
@@ -165,7 +130,32 @@ void list_policies(const Call&, const Request&, Response& response) {
   for (const sim::PolicyEntry& policy : sim::policies()) {
     list.push_back({{"name", policy.name}, {"flies_free", policy.flies_free}});
   }
-  write_json(response, 200, {{"policies", std::move(list)}});
+  write_json(
+      response, 200,
+      {{"policies", std::move(list)},
+       {"schema", schema_at("/properties/drones/items/properties/guidance/properties/policy")}});
+}
+
+void list_people(const Call&, const Request&, Response& response) {
+  const fs::path folder = skinning::population_folder();
+  if (!fs::exists(folder / skinning::kIndexFile)) {
+    throw HttpError{404, "no people have been baked on this machine: throng people build"};
+  }
+  const skinning::PopulationIndex index = skinning::read_index(folder);
+  json list = json::array();
+  for (const skinning::Character& who : index.characters) {
+    list.push_back({{"name", who.name},
+                    {"sex", who.male ? "male" : "female"},
+                    {"age_years", who.age_years},
+                    {"stature_m", who.stature_m},
+                    {"carries", skinning::kCarryNames[static_cast<std::size_t>(who.carries)]},
+                    {"wears", who.wears}});
+  }
+  write_json(response, 200,
+             {{"content_hash", index.content_hash},
+              {"licence", index.licence},
+              {"people", std::move(list)},
+              {"schema", schema_at("/properties/appearance")}});
 }
 
 }  // namespace throng::server

@@ -11,6 +11,7 @@
 
 #include "base/files.h"
 #include "tests/server/api_fixture.h"
+#include "tests/server/bundles.h"
 
 namespace throng::server {
 namespace {
@@ -140,6 +141,17 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   }
   expect_described("get", "/v1/scenarios/{path}", get("/v1/scenarios/yard"));
   expect_described("get", "/v1/scenarios/{path}", get("/v1/scenarios/../../etc/passwd"));
+  expect_described("get", "/v1/people", get("/v1/people"));
+  for (const char* query : {"?name=mine&dry_run", "?name=mine", "?name=mine", "?name=.."}) {
+    expect_described(
+        "post", "/v1/scenarios",
+        client().Post(fmt::format("/v1/scenarios{}", query), yard_bundle(), "application/zip"));
+  }
+  expect_described("get", "/v1/scenarios", get("/v1/scenarios"));
+  expect_described("get", "/v1/scenarios/{path}", get("/v1/scenarios/mine/yard"));
+  expect_described("get", "/v1/scenarios/{path}", get("/v1/scenarios/mine/yard?format=svg"));
+  expect_described("delete", "/v1/scenarios/{path}", client().Delete("/v1/scenarios/mine"));
+  expect_described("delete", "/v1/scenarios/{path}", client().Delete("/v1/scenarios/mine"));
   expect_described("patch", "/v1/jobs/{id}",
                    client().Patch(self, R"({"priority": 2})", "application/json"));
   expect_described("patch", "/v1/jobs/{id}", client().Patch(self, "[]", "application/json"));

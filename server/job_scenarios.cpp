@@ -1,0 +1,134 @@
+// The part of JobService that keeps uploads as long as jobs need them.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.h"
+#include "jobs/spec.h"
+#include "server/answers.h"
+#include "server/job_service.h"
+
+namespace throng::server {
+
+using jobs::JobRow;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::string_view kOwnBundle = "bundle/";
+constexpr int kPage = 500;
+
+/// The upload that a job's scenario may belong to; "" for a calibration.
+std::string upload_of_job(const JobRow& row) {
+  const json spec = json::parse(row.spec_json, nullptr, /*allow_exceptions=*/false);
+  const auto named = spec.is_object() ? spec.find("scenario") : spec.end();
+  if (!spec.is_object() || named == spec.end() || !named->is_string()) return "";
+  return upload_of(named->get<std::string>());
+}
+
+/// The job with its "bundle/NAME" as the bundle's own name.
+std::string naming(const std::string& bundle, std::string_view job_json) {
+  json job = json::parse(job_json, nullptr, /*allow_exceptions=*/false);
+  if (!job.is_object()) throw InputError(Problem{"", "", "no JSON object", "a job"});
+  const json scenario = job.value("scenario", json());
+  const std::string name = scenario.is_string() ? scenario.get<std::string>() : "";
+  if (!name.starts_with(kOwnBundle)) {
+    throw InputError(Problem{"", "/scenario", scenario.dump(),
+                             "\"bundle/NAME\", a scenario of the bundle that came with the job"});
+  }
+  job["scenario"] = bundle + "/" + name.substr(kOwnBundle.size());
+  return text_of(job);
+}
+
+}  // namespace
+
+std::vector<JobRow> JobService::jobs_that_name(const std::string& upload,
+                                               std::vector<jobs::JobState> states) const {
+  // Without parsing those that cannot: texts hold the id as it is.
+  const std::string beginning = fmt::format("\"{}/", upload);
+  std::vector<JobRow> found;
+  jobs::JobFilter filter;
+  filter.states = std::move(states);
+  filter.limit = kPage;
+  while (true) {
+    std::vector<JobRow> rows = store_.list(filter);
+    for (const JobRow& row : rows) {
+      if (row.spec_json.find(beginning) == std::string::npos) continue;
+      if (upload_of_job(row) == upload) found.push_back(row);
+    }
+    if (static_cast<int>(rows.size()) < kPage) return found;
+    filter.after = rows.back().id;
+  }
+}
+
+template <typename Use>
+auto JobService::with_bundle(std::string_view job_json, std::string_view bundle,
+                             const std::string& owner, const Use& use) {
+  const std::string name = bundle_name_of(bundle);
+  const std::string job = naming(name, job_json);
+  // Unpacked and checked before others have to wait.
+  std::optional<ScenarioStore::Staged> staged;
+  if (!scenarios_.find(name)) staged = scenarios_.stage(name, bundle, owner);
+  const std::unique_lock lock(uploads_mutex_);
+  if (!scenarios_.find(name)) {
+    // It was there and has gone, with the last job that named it.
+    if (!staged) staged = scenarios_.stage(name, bundle, owner);
+    static_cast<void>(scenarios_.publish(*staged));
+  }
+  try {
+    return use(job);
+  } catch (...) {
+    drop_if_unused(name);
+    throw;
+  }
+}
+
+jobs::Added JobService::submit_with_bundle(const Submission& submission, std::string_view bundle) {
+  return with_bundle(submission.job_json, bundle, submission.owner, [&](const std::string& job) {
+    Submission named = submission;
+    named.job_json = job;
+    jobs::Added added = add(named);
+    // A repeated submission's job may be another's, or be gone.
+    if (!added.is_new) drop_if_unused(bundle_name_of(bundle));
+    return added;
+  });
+}
+
+jobs::JobSpec JobService::checked_with_bundle(std::string_view job_json, std::string_view bundle) {
+  return with_bundle(job_json, bundle, "", [&](const std::string& job) {
+    jobs::JobSpec spec = checked(job);
+    drop_if_unused(bundle_name_of(bundle));
+    return spec;
+  });
+}
+
+bool JobService::remove_scenarios(const std::string& name) {
+  const std::unique_lock lock(uploads_mutex_);
+  const auto users = jobs_that_name(name, {jobs::JobState::queued, jobs::JobState::running});
+  if (!users.empty()) {
+    throw ConflictError(fmt::format("{} jobs that wait or run use it, {} among them", users.size(),
+                                    users.front().id));
+  }
+  return scenarios_.remove(name);
+}
+
+void JobService::drop_if_unused(const std::string& bundle) {
+  if (jobs_that_name(bundle, {}).empty()) scenarios_.remove(bundle);
+}
+
+void JobService::drop_bundle_of(const JobRow& removed) {
+  const std::string name = upload_of_job(removed);
+  if (!is_bundle_name(name)) return;
+  const std::unique_lock lock(uploads_mutex_);
+  drop_if_unused(name);
+}
+
+void JobService::drop_unused_bundles() {
+  for (const ScenarioUpload& upload : scenarios_.list()) {
+    if (is_bundle_name(upload.name)) drop_if_unused(upload.name);
+  }
+}
+
+}  // namespace throng::server

@@ -1,0 +1,122 @@
+#include "server/scenario_checker.h"
+
+#include <fmt/core.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "jobs/child_process.h"
+#include "jobs/problem_json.h"
+#include "jobs/scenario_check.h"
+#include "server/answers.h"
+
+namespace throng::server {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* kResultName = "check.json";
+constexpr int kRefusedExit = 2;
+constexpr int kFailedExit = 3;
+constexpr auto kLongestCheck = std::chrono::minutes(2);
+constexpr auto kStep = std::chrono::milliseconds(5);
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kMayLimitMemory = false;  // sanitizers reserve terabytes of addresses
+#else
+constexpr bool kMayLimitMemory = true;
+#endif
+
+void limit(decltype(RLIMIT_AS) what, rlim_t most) {
+  const rlimit value{most, most};
+  ::setrlimit(what, &value);
+}
+
+void confine_this_process() {
+  constexpr rlim_t kMostMemory = 4ULL << 30U;
+  constexpr rlim_t kMostSeconds = 110;
+  constexpr rlim_t kMostFileBytes = 16ULL << 20U;
+  constexpr rlim_t kMostFiles = 256;
+  if (kMayLimitMemory) limit(RLIMIT_AS, kMostMemory);
+  limit(RLIMIT_CPU, kMostSeconds);
+  limit(RLIMIT_FSIZE, kMostFileBytes);
+  limit(RLIMIT_NOFILE, kMostFiles);
+  limit(RLIMIT_CORE, 0);
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  // An own network without any device; containers often forbid it, and nothing here uses one.
+  if (::unshare(CLONE_NEWNET) != 0) static_cast<void>(::unshare(CLONE_NEWUSER | CLONE_NEWNET));
+}
+
+jobs::ExitStatus ended(jobs::ChildProcess& child) {
+  const auto end = std::chrono::steady_clock::now() + kLongestCheck;
+  while (!child.has_ended()) {
+    if (std::chrono::steady_clock::now() > end) {
+      throw InputError(Problem{"", "", "scenarios that take minutes to load", "smaller ones"});
+    }
+    child.read_lines();
+    std::this_thread::sleep_for(kStep);
+  }
+  return child.wait();
+}
+
+}  // namespace
+
+ScenarioChecker scenario_checker_in_process() {
+  return [](const fs::path& folder, const fs::path&) { return jobs::check_scenarios(folder); };
+}
+
+ScenarioChecker scenario_checker_in_child(std::vector<std::string> command) {
+  return [command = std::move(command)](const fs::path& folder, const fs::path& work) {
+    std::vector<std::string> words = command;
+    words.push_back(folder.string());
+    words.push_back(work.string());
+    jobs::ChildProcess child(words, {}, work / "log.txt");
+    const jobs::ExitStatus status = ended(child);
+    if (status.signal != 0) {
+      throw InputError(Problem{
+          "", "",
+          fmt::format("scenarios at which the reader was ended by signal {}", status.signal),
+          "ones that load within 4 GiB of memory and two minutes"});
+    }
+    if (status.code == 0)
+      return json::parse(read_file(work / kResultName)).get<std::vector<std::string>>();
+    if (status.code == kRefusedExit) {
+      throw InputError(json::parse(read_file(work / kResultName)).get<std::vector<Problem>>());
+    }
+    throw EnvironmentError("the scenarios could not be checked");
+  };
+}
+
+int run_scenario_check_child(const fs::path& folder, const fs::path& work) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  confine_this_process();
+  const auto write = [&](const json& value) {
+    write_file_atomically(work / kResultName, text_of(value));
+  };
+  try {
+    write(jobs::check_scenarios(folder));
+    return 0;
+  } catch (const InputError& error) {
+    write(error.problems());
+    return kRefusedExit;
+  } catch (const std::bad_alloc&) {
+    write(std::vector<Problem>{
+        {"", "", "scenarios that need more than 4 GiB of memory", "smaller ones"}});
+    return kRefusedExit;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kFailedExit;
+  }
+}
+
+}  // namespace throng::server

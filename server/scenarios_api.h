@@ -1,0 +1,19 @@
+// Scenarios over HTTP: those that come with throng and those that users send.
+#pragma once
+
+#include "server/call.h"
+#include "server/http_fwd.h"
+
+namespace throng::server {
+
+/// POST a bundle (zip, tar, tar.gz) with ?name=; with ?dry_run it is only checked.
+void upload_scenarios(const Call& call, const httplib::Request& request,
+                      httplib::Response& response);
+void list_scenarios(const Call& call, const httplib::Request& request, httplib::Response& response);
+/// One scenario by its id; its floor plan with ?format=svg.
+void send_scenario(const Call& call, const httplib::Request& request, httplib::Response& response);
+/// DELETE an upload by its name.
+void remove_scenarios(const Call& call, const httplib::Request& request,
+                      httplib::Response& response);
+
+}  // namespace throng::server

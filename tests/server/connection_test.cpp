@@ -1,0 +1,73 @@
+// What the bare port does with clients that mean no good.
+#include <gmock/gmock.h>
+
+#include "tests/server/api_fixture.h"
+
+namespace throng::server {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+using HostileClients = ApiTest;
+
+TEST_F(HostileClients, EndlessHeadersAreCutOff) {
+  const std::string line(200'000, 'x');
+  EXPECT_THAT(raw("GET /" + line), testing::AnyOf("", StartsWith("HTTP/1.1 4")));
+  EXPECT_THAT(raw("GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: " + line + "\r\n\r\n"),
+              testing::AnyOf("", StartsWith("HTTP/1.1 4")));
+  std::string many = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
+  for (int i = 0; i < 20'000; ++i) many += fmt::format("X-{}: y\r\n", i);
+  EXPECT_THAT(raw(many + "\r\n"), testing::AnyOf("", StartsWith("HTTP/1.1 4")));
+  EXPECT_EQ(get("/healthz")->status, 200);
+}
+
+TEST_F(HostileClients, LargeBodiesAreRefusedUnread) {
+  const std::string head =
+      "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n";
+  const auto before = std::chrono::steady_clock::now();
+  // The body never comes: the answer does not wait for it.
+  EXPECT_THAT(raw(head + "Content-Length: 2000000\r\n\r\n"), StartsWith("HTTP/1.1 413"));
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(8));
+  keys.create("somebody", Scope::admin);
+  EXPECT_THAT(raw("POST /v1/calibrations HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
+                  "application/json\r\nContent-Length: 2000000\r\n\r\n"),
+              StartsWith("HTTP/1.1 413"))
+      << "strangers may not send large bodies anywhere";
+}
+
+TEST_F(HostileClients, RequestsSentTogetherAreAllAnswered) {
+  const std::string one = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
+  const std::string answers = raw(one + "\r\n" + one + "\r\n" + one + "Connection: close\r\n\r\n");
+  std::size_t count = 0;
+  for (auto at = answers.find("HTTP/1.1 200"); at != std::string::npos;
+       at = answers.find("HTTP/1.1 200", at + 1)) {
+    ++count;
+  }
+  EXPECT_EQ(count, 3U);
+}
+
+TEST_F(HostileClients, UploadsShareTheMemoryThereIs) {
+  HttpOptions options;
+  options.largest_body = [](const httplib::Request&) { return std::size_t{64} << 20U; };
+  options.most_body_bytes = 3 << 20;
+  HttpServer small(options, [](const httplib::Request&, httplib::Response& response, int status,
+                               const std::string&) { response.status = status; });
+  small.routes().Post("/", [](const httplib::Request& request, httplib::Response& response) {
+    response.set_content(std::to_string(request.body.size()), "text/plain");
+  });
+  const std::jthread serving([&] { small.run(); });
+  httplib::Client honest("127.0.0.1", small.port());
+  const std::string fits(2 << 20, 'x');
+  // The memory is given back a moment after the answer.
+  const auto is_taken = [&] {
+    return wait_until([&] { return honest.Post("/", fits, "text/plain")->body == "2097152"; });
+  };
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(is_taken());
+  EXPECT_EQ(honest.Post("/", std::string(4 << 20, 'x'), "text/plain")->status, 503);
+  EXPECT_TRUE(is_taken());
+  small.stop();
+}
+
+}  // namespace
+}  // namespace throng::server

@@ -1,0 +1,276 @@
+// Scenarios that users send: over HTTP, and with a job.
+#include <gmock/gmock.h>
+
+#include "base/error.h"
+#include "tests/server/api_fixture.h"
+#include "tests/server/bundles.h"
+
+namespace throng::server {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using throng::testing::packed;
+using throng::testing::PackedEntry;
+using throng::testing::Packing;
+
+constexpr const char* kMine = R"({"scenario": "mine/yard", "capture": {"to_s": 2}})";
+constexpr const char* kBundled = R"({"scenario": "bundle/yard", "capture": {"to_s": 2}})";
+
+class Uploads : public ApiTest {
+ protected:
+  httplib::Result upload(const std::string& bytes, const std::string& query = "name=mine",
+                         const httplib::Headers& headers = {}) const {
+    return client().Post("/v1/scenarios?" + query, headers, bytes, "application/zip");
+  }
+
+  /// The mistakes in an upload of the yard with these files changed.
+  json errors_of(const std::vector<PackedEntry>& changed) const {
+    std::vector<PackedEntry> files = yard_files();
+    for (const PackedEntry& entry : changed) {
+      const auto same = std::find_if(files.begin(), files.end(), [&](const PackedEntry& file) {
+        return file.path == entry.path;
+      });
+      if (same == files.end()) {
+        files.push_back(entry);
+      } else {
+        *same = entry;
+      }
+    }
+    const httplib::Result answer = upload(packed(Packing::tar, files));
+    expect_problem(answer, 400);
+    return json::parse(answer->body)["errors"];
+  }
+
+  httplib::Result submit_bundled(const std::string& bundle, const std::string& query = "",
+                                 const std::string& job = kBundled) const {
+    return client().Post(
+        "/v1/jobs" + query,
+        httplib::MultipartFormDataItems{{"job", job, "", "application/json"},
+                                        {"scenario", bundle, "bundle.zip", "application/zip"}});
+  }
+};
+
+TEST_F(Uploads, AreUsedLikeThoseThatComeWithThrong) {
+  const httplib::Result answer = upload(yard_bundle());
+  ASSERT_EQ(answer->status, 201) << answer->body;
+  EXPECT_EQ(answer->get_header_value("Location"), "/v1/scenarios/mine/yard");
+  EXPECT_THAT(json::parse(answer->body)["ids"], ElementsAre("mine/yard"));
+  const json all = get_json("/v1/scenarios")["scenarios"];
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0]["id"], "mine/yard");
+  EXPECT_EQ(all[0]["uploaded"]["files"], 3);
+  EXPECT_EQ(all[1]["uploaded"], nullptr);
+  const httplib::Result plan = get("/v1/scenarios/mine/yard?format=svg");
+  EXPECT_EQ(plan->get_header_value("Content-Type"), "image/svg+xml");
+  EXPECT_THAT(plan->body, HasSubstr("<svg"));
+  expect_problem(get("/v1/scenarios/mine/yard?format=png"), 400);
+  EXPECT_EQ(client().Post("/v1/jobs", kMine, "application/json")->status, 201);
+}
+
+TEST_F(Uploads, SurviveARestartAndLieInOneFolderOfTheirOwn) {
+  std::vector<PackedEntry> files = yard_files();
+  for (PackedEntry& file : files) file.path = "my place/" + file.path;
+  ASSERT_EQ(upload(packed(Packing::tar_gz, files))->status, 201);
+  ScenarioStore again(data.path(), scenarios.path(), scenario_checker_in_process(), {});
+  ASSERT_TRUE(again.find("mine"));
+  EXPECT_EQ(again.find("mine")->files, 3U);
+  EXPECT_TRUE(fs::exists(again.folder() / "mine/yard.json"));
+  EXPECT_TRUE(fs::exists(again.folder() / "yard.json")) << "what comes with throng is linked anew";
+}
+
+TEST_F(Uploads, ADryRunLeavesNothing) {
+  EXPECT_EQ(upload(yard_bundle(), "name=mine&dry_run")->status, 200);
+  EXPECT_EQ(get_json("/v1/scenarios")["scenarios"].size(), 1U);
+  EXPECT_TRUE(fs::is_empty(data.path() / "uploads"));
+  expect_problem(upload("no archive", "name=mine&dry_run"), 400);
+  EXPECT_TRUE(fs::is_empty(data.path() / "uploads"));
+}
+
+TEST_F(Uploads, NamesAreTakenOnce) {
+  ASSERT_EQ(upload(yard_bundle())->status, 201);
+  expect_problem(upload(yard_bundle()), 409);
+  expect_problem(upload(yard_bundle(), "name=b0123456789abcdef"), 409);
+  for (const char* name : {"", "name=", "name=A", "name=../x", "name=a/b", "name=a.b"}) {
+    expect_problem(upload(yard_bundle(), name), 400);
+  }
+  expect_problem(client().Post("/v1/scenarios?name=x", yard_bundle(), "text/plain"), 415);
+}
+
+TEST_F(Uploads, WhatIsWrongIsSaidWithFileElementAndRemedy) {
+  json errors =
+      errors_of({{"behavior.xml", "<BFSM>\n<State name=\"Walk\" final=\"1\"/>\n<Oops/></BFSM>"}});
+  EXPECT_EQ(errors[0]["source"], "behavior.xml");
+  EXPECT_THAT(errors[0]["pointer"].get<std::string>(), HasSubstr("line 3"));
+  errors = errors_of({{"yard.json", R"({"name": 3})"}});
+  EXPECT_EQ(errors[0]["source"], "yard.json");
+  errors = errors_of({{"a.xml", "", AE_IFLNK, "/etc/passwd"}});
+  EXPECT_EQ(errors[0]["source"], "bundle");
+  testing::Yard walled;
+  walled.scenario["exits"][0]["goals"] = json::array({json::array({7, 0})});
+  const httplib::Result answer = upload(packed(Packing::zip, yard_files(walled)));
+  expect_problem(answer, 400);
+  EXPECT_EQ(json::parse(answer->body)["errors"][0]["source"], "yard.json");
+  expect_problem(upload(packed(Packing::zip, {{"readme.txt", "hello"}})), 400);
+}
+
+TEST_F(Uploads, NoFileOutsideTheBundleIsRead) {
+  const std::string outside = (scenarios.path() / "yard_scene.xml").string();
+  json scenario = testing::Yard().scenario;
+  scenario["crowd"]["scene"] = outside;
+  json errors = errors_of({{"yard.json", scenario.dump()}});
+  EXPECT_EQ(errors[0]["pointer"], "/crowd/scene");
+  EXPECT_THAT(errors[0]["found"].get<std::string>(), HasSubstr("elsewhere"));
+  scenario["crowd"]["scene"] = "../../../../../../etc/passwd";
+  errors = errors_of({{"yard.json", scenario.dump()}});
+  EXPECT_THAT(errors[0]["found"].get<std::string>(), HasSubstr("elsewhere"));
+
+  const std::string scene = yard_files()[0].bytes;
+  const auto with = [&](const std::string& element) {
+    std::string text = scene;
+    text.insert(text.find("<Experiment version=\"2.0\">") + 26, element);
+    return text;
+  };
+  for (const char* element : {R"(<Elevation type="height_field" file_name="/etc/hostname"/>)",
+                              R"(<Elevation type="nav_mesh" file_name="../../../x"/>)",
+                              R"(<ObstacleSet type="nav_mesh" class="1" file_name="/etc/x"/>)"}) {
+    errors = errors_of({{"scene.xml", with(element)}});
+    EXPECT_EQ(errors[0]["source"], "scene.xml") << element;
+    EXPECT_THAT(errors[0]["found"].get<std::string>(), HasSubstr("elsewhere")) << element;
+  }
+  // A file of the bundle that names one outside.
+  errors = errors_of(
+      {{"scene.xml", with(R"(<Elevation type="height_field" file_name="a.ht"/>)")},
+       {"a.ht", R"(<HeightField file_name="/etc/hostname" cell_size="1" vert_scale="1"/>)"}});
+  EXPECT_EQ(errors[0]["source"], "a.ht");
+  EXPECT_THAT(errors[0]["found"].get<std::string>(), HasSubstr("elsewhere"));
+}
+
+TEST_F(Uploads, MeshesNameNoFileOutsideTheBundle) {
+  const jobs::TemporaryFolder elsewhere;
+  write_file_atomically(elsewhere.path() / "points.bin",
+                        std::string(36, '\0') + std::string(36, 'x'));
+  json scenario = testing::Yard().scenario;
+  scenario["meshes"] = json::array({{{"file", "a.gltf"}, {"position", {0, 0, 0}}}});
+  const auto gltf = [&](const std::string& uri) {
+    return json{{"asset", {{"version", "2.0"}}},
+                {"scene", 0},
+                {"scenes", {{{"nodes", {0}}}}},
+                {"nodes", {{{"mesh", 0}}}},
+                {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
+                {"accessors",
+                 {{{"bufferView", 0},
+                   {"componentType", 5126},
+                   {"count", 3},
+                   {"type", "VEC3"},
+                   {"min", {0, 0, 0}},
+                   {"max", {1, 1, 1}}}}},
+                {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
+                {"buffers", {{{"uri", uri}, {"byteLength", 36}}}}}
+        .dump();
+  };
+  const json errors = errors_of({{"yard.json", scenario.dump()},
+                                 {"a.gltf", gltf((elsewhere.path() / "points.bin").string())}});
+  EXPECT_EQ(errors[0]["source"], "a.gltf");
+  std::vector<PackedEntry> files = yard_files();
+  files.back().bytes = scenario.dump();
+  files.push_back({"a.gltf", gltf("points.bin")});
+  const std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  files.push_back({"points.bin", std::string(reinterpret_cast<const char*>(corners.data()), 36)});
+  const httplib::Result fine = upload(packed(Packing::tar, files));
+  EXPECT_EQ(fine->status, 201) << fine->body;
+}
+
+TEST_F(Uploads, AreRemovedByTheirOwnerAndNotInUse) {
+  const std::string one = keys.create("one", Scope::submit);
+  const std::string other = keys.create("other", Scope::submit);
+  const auto as = [](const std::string& key) {
+    return httplib::Headers{{"Authorization", "Bearer " + key}};
+  };
+  expect_problem(upload(yard_bundle(), "name=mine", as(keys.create("reader", Scope::read))), 403);
+  expect_problem(upload(yard_bundle()), 401);
+  ASSERT_EQ(upload(yard_bundle(), "name=mine", as(one))->status, 201);
+  expect_problem(client().Delete("/v1/scenarios/mine", as(other)), 403);
+  expect_problem(client().Delete("/v1/scenarios/yard", as(one)), 404);
+  expect_problem(client().Delete("/v1/scenarios/mine/yard", as(one)), 404);
+  {
+    Gate gate(executor);
+    const httplib::Result job = client().Post("/v1/jobs", as(one), kMine, "application/json");
+    ASSERT_EQ(job->status, 201);
+    expect_problem(client().Delete("/v1/scenarios/mine", as(one)), 409);
+    gate.open();
+    const std::string self = "/v1/jobs/" + json::parse(job->body)["id"].get<std::string>();
+    EXPECT_TRUE(
+        wait_until([&] { return json::parse(get(self, as(one))->body)["state"] == "succeeded"; }));
+  }
+  EXPECT_EQ(client().Delete("/v1/scenarios/mine", as(one))->status, 204);
+  expect_problem(client().Delete("/v1/scenarios/mine", as(one)), 404);
+  expect_problem(client().Post("/v1/jobs", as(one), kMine, "application/json"), 400);
+  EXPECT_FALSE(fs::exists(data.path() / "uploads/mine"));
+}
+
+TEST_F(Uploads, HaveABoundTogether) {
+  UploadLimits limits;
+  limits.most_uploads = 1;
+  ScenarioStore store(data.path() / "small", scenarios.path(), scenario_checker_in_process(),
+                      limits);
+  ScenarioStore::Staged first = store.stage("one", yard_bundle(), "");
+  store.publish(first);
+  ScenarioStore::Staged second = store.stage("two", yard_bundle(), "");
+  EXPECT_THROW(store.publish(second), UploadsFull);
+  EXPECT_TRUE(store.remove("one"));
+  EXPECT_EQ(store.publish(second).name, "two");
+}
+
+TEST_F(Uploads, ABundleThatComesWithAJobLivesAsLongAsItsJobs) {
+  const std::string bundle = yard_bundle();
+  const std::string name = bundle_name_of(bundle);
+  const httplib::Result first = submit_bundled(bundle);
+  ASSERT_EQ(first->status, 201) << first->body;
+  const json job = json::parse(first->body);
+  EXPECT_EQ(job["job"]["scenario"], name + "/yard");
+  const httplib::Result second = submit_bundled(bundle);
+  ASSERT_EQ(second->status, 201);
+  EXPECT_EQ(get_json("/v1/scenarios")["scenarios"].size(), 1U) << "it is of no use to others";
+  EXPECT_EQ(client().Delete("/v1/jobs/" + job["id"].get<std::string>())->status, 204);
+  EXPECT_TRUE(fs::exists(data.path() / "uploads" / name));
+  EXPECT_EQ(
+      client().Delete("/v1/jobs/" + json::parse(second->body)["id"].get<std::string>())->status,
+      204);
+  EXPECT_FALSE(fs::exists(data.path() / "uploads" / name));
+}
+
+TEST_F(Uploads, ABundleOfARefusedJobDoesNotStay) {
+  const std::string bundle = yard_bundle();
+  expect_problem(submit_bundled(bundle, "", R"({"scenario": "bundle/yard", "runs": 0})"), 400);
+  expect_problem(submit_bundled(bundle, "", R"({"scenario": "yard"})"), 400);
+  expect_problem(submit_bundled(bundle, "", R"({"scenario": "bundle/other"})"), 400);
+  expect_problem(submit_bundled("x"), 400);
+  const httplib::Result dry = submit_bundled(bundle, "?dry_run");
+  EXPECT_EQ(dry->status, 200) << dry->body;
+  EXPECT_TRUE(fs::is_empty(data.path() / "uploads"));
+  expect_problem(client().Post("/v1/jobs", httplib::MultipartFormDataItems{{"scenario", bundle, "",
+                                                                            "application/zip"}}),
+                 400);
+  const httplib::Result plain = client().Post(
+      "/v1/jobs", httplib::MultipartFormDataItems{{"job", kJob, "", "application/json"}});
+  EXPECT_EQ(plain->status, 201);
+}
+
+TEST_F(Uploads, BundlesWithoutAJobAreDroppedAtTheStart) {
+  const std::string bundle = yard_bundle();
+  {
+    ScenarioStore store(data.path() / "two", scenarios.path(), scenario_checker_in_process(), {});
+    ScenarioStore::Staged staged = store.stage(bundle_name_of(bundle), bundle, "");
+    store.publish(staged);
+    ScenarioStore::Staged kept = store.stage("kept", bundle, "");
+    store.publish(kept);
+  }
+  JobService second({data.path() / "two", scenarios.path()}, executor);
+  EXPECT_EQ(second.uploads().list().size(), 1U);
+  EXPECT_TRUE(second.uploads().find("kept"));
+}
+
+}  // namespace
+}  // namespace throng::server
