@@ -1,0 +1,73 @@
+"""Hostile clients at the bare port and through nginx (docker/nginx.conf), and what nginx lets through."""
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+import urllib.error
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
+import hostile  # noqa: E402
+
+THRONG = sys.argv.pop(1)
+
+
+class Front(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.throng = hostile.Throng(THRONG, folder.name)
+        self.addCleanup(self.throng.stop)
+        self.bare = hostile.Front(self.throng.port, self.throng.key)
+        self.folder = folder.name
+
+    def through_nginx(self):
+        if not hostile.nginx_program():
+            self.skipTest("there is no nginx on this machine")
+        nginx = hostile.Nginx(self.folder, self.throng.port)
+        self.addCleanup(nginx.stop)
+        return hostile.Front(nginx.port, self.throng.key, nginx.context)
+
+    def withstands(self, front):
+        undisturbed = self.bare.run_job()
+        found = hostile.attack(self.throng, front, 24, 4)
+        self.assertEqual(found.job_hash, undisturbed)
+        self.assertEqual(found.refused, 0)
+        self.assertLess(found.memory_mb[1] - found.memory_mb[0], 200)
+
+    def test_the_bare_port_withstands_hostile_clients(self):
+        self.withstands(self.bare)
+
+    def test_nginx_keeps_hostile_clients_away(self):
+        self.withstands(self.through_nginx())
+
+    def refusal(self, front, path, **more):
+        with self.assertRaises(urllib.error.HTTPError) as raised:
+            front.request(path, **more)
+        problem = json.loads(raised.exception.read())
+        self.assertEqual(problem["status"], raised.exception.code)
+        return raised.exception.code
+
+    def test_nginx_lets_through_what_clients_need(self):
+        front = self.through_nginx()
+        self.assertEqual(json.loads(front.request("/v1/version"))["name"], "throng")
+        front.run_job()
+        job = json.loads(front.request("/v1/jobs"))["jobs"][0]["id"]
+        whole = front.request(f"/v1/jobs/{job}/archive")
+        part = front.request(f"/v1/jobs/{job}/archive", headers={"Range": "bytes=1000-1999"})
+        self.assertEqual(part, whole[1000:2000])
+        events = front.request(f"/v1/jobs/{job}/events")
+        self.assertIn("submitted", events.decode())
+        large = b" " * (2 << 20)
+        headers = {"Content-Type": "application/json"}
+        self.assertEqual(self.refusal(front, "/v1/schema", body=large, headers=headers), 413)
+        # Large ones pass where they belong, and are looked at by the service.
+        headers = {"Content-Type": "application/zip"}
+        self.assertEqual(self.refusal(front, "/v1/scenarios?name=x", body=large, headers=headers), 400)
+        self.assertEqual(self.refusal(front, "/v1/jobs", headers={"Authorization": "Bearer x"}), 401)
+        self.throng.stop()
+        self.assertEqual(self.refusal(front, "/v1/version"), 503)
+
+
+if __name__ == "__main__":
+    unittest.main()
