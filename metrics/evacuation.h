@@ -75,7 +75,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
                        const std::vector<ExitSeries>& exits);
 
 /// Raised whenever the meaning of a value in metrics.json or exits.csv changes (docs/metrics.md).
-inline constexpr int kDefinitionsVersion = 2;
+inline constexpr int kDefinitionsVersion = 3;
 
 /// By how much sooner people escaped than in a run without guides of the same seed: the sum over
 /// all people (s), positive when sooner; who did not escape counts with the end of the shorter run.

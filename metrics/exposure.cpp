@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
+#include <deque>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "metrics/voronoi.h"
 
@@ -18,45 +21,98 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kSampleS = 1.0;
+constexpr double kMeanS = 1.0;
 constexpr double kSquareM = std::numbers::sqrt2;
 constexpr double kCrushPacking = 0.85;
 constexpr double kCrushSpeed = 0.1;
 constexpr double kGridM = 0.8;
 
-using Squares = std::map<std::pair<int, int>, double>;
+/// Mean density of squares of 2 m² over the last second.
+class SquareMeter {
+ public:
+  explicit SquareMeter(std::size_t window) : window_(window) {}
 
-// Spreads one person over the squares that the cell covers.
-void spread(const VoronoiCell& cell, Squares& squares) {
-  Vector2d min = cell.rings.front().front();
-  Vector2d max = min;
-  for (const Vector2d& corner : cell.rings.front()) {
-    min = min.cwiseMin(corner);
-    max = max.cwiseMax(corner);
-  }
-  const auto number = [](double at) { return static_cast<int>(std::floor(at / kSquareM)); };
-  for (int column = number(min.x()); column <= number(max.x()); ++column) {
-    for (int row = number(min.y()); row <= number(max.y()); ++row) {
-      const Vector2d low(column * kSquareM, row * kSquareM);
-      const std::array<Vector2d, 4> square = {low, low + Vector2d(kSquareM, 0),
-                                              low + Vector2d(kSquareM, kSquareM),
-                                              low + Vector2d(0, kSquareM)};
-      squares[{column, row}] += area_in(cell, square) / cell.area_m2;
+  /// Spreads somebody over the squares that their cell covers.
+  void add(const VoronoiCell& cell) {
+    Vector2d min = cell.rings.front().front();
+    Vector2d max = min;
+    for (const Vector2d& corner : cell.rings.front()) {
+      min = min.cwiseMin(corner);
+      max = max.cwiseMax(corner);
+    }
+    const Corner low = corner_of(min);
+    const Corner high = corner_of(max);
+    if (low.column == high.column && low.row == high.row) return add_to(low, 1);
+    for (int column = low.column; column <= high.column; ++column) {
+      for (int row = low.row; row <= high.row; ++row) {
+        const Vector2d at(column * kSquareM, row * kSquareM);
+        const std::array<Vector2d, 4> square = {at, at + Vector2d(kSquareM, 0),
+                                                at + Vector2d(kSquareM, kSquareM),
+                                                at + Vector2d(0, kSquareM)};
+        add_to({column, row}, area_in(cell, square) / cell.area_m2);
+      }
     }
   }
-}
 
-void add_person(double density, double packing, bool hardly_moves, Exposure& exposure) {
+  /// The greatest mean once everybody of a step was added (1/m²). In the first second the mean is
+  /// over what there was.
+  double finish_step() {
+    if (last_.size() == window_) {
+      for (const auto& [square, people] : last_.front()) square->sum -= people;
+      last_.pop_front();
+    }
+    double most = 0;
+    for (auto& [square, people] : now_) {
+      people = std::exchange(square->now, 0);
+      square->sum += people;
+      most = std::max(most, square->sum);
+    }
+    last_.push_back(std::exchange(now_, {}));
+    return most / (static_cast<double>(last_.size()) * kSquareM * kSquareM);
+  }
+
+ private:
+  struct Square {
+    double now = 0;  ///< people at this step
+    double sum = 0;  ///< over the window
+  };
+  struct Corner {
+    int column = 0;
+    int row = 0;
+  };
+  using People = std::vector<std::pair<Square*, double>>;
+
+  static Corner corner_of(const Vector2d& place) {
+    return {static_cast<int>(std::floor(place.x() / kSquareM)),
+            static_cast<int>(std::floor(place.y() / kSquareM))};
+  }
+  void add_to(const Corner& corner, double share) {
+    if (share <= 0) return;
+    const auto key =
+        (static_cast<std::uint64_t>(static_cast<std::uint32_t>(corner.column)) << 32U) |
+        static_cast<std::uint32_t>(corner.row);
+    Square& square = squares_[key];  // stays where it is
+    if (square.now == 0) now_.emplace_back(&square, 0);
+    square.now += share;
+  }
+
+  std::size_t window_;
+  std::unordered_map<std::uint64_t, Square> squares_;
+  People now_;
+  std::deque<People> last_;
+};
+
+void add_person(double density, double packing, bool hardly_moves, double dt_s,
+                Exposure& exposure) {
   for (std::size_t i = 0; i < kExposureDensities.size(); ++i) {
-    if (density > kExposureDensities[i]) exposure.above_person_s[i] += kSampleS;
+    if (density > kExposureDensities[i]) exposure.above_person_s[i] += dt_s;
   }
   for (std::size_t i = 0; i < kExposurePacking.size(); ++i) {
-    if (packing > kExposurePacking[i]) exposure.packed_person_s[i] += kSampleS;
+    if (packing > kExposurePacking[i]) exposure.packed_person_s[i] += dt_s;
   }
   const auto* level = std::lower_bound(kServiceDensities.begin(), kServiceDensities.end(), density);
-  exposure.service_person_s[static_cast<std::size_t>(level - kServiceDensities.begin())] +=
-      kSampleS;
-  if (packing > kCrushPacking && hardly_moves) exposure.crush_proxy_person_s += kSampleS;
+  exposure.service_person_s[static_cast<std::size_t>(level - kServiceDensities.begin())] += dt_s;
+  if (packing > kCrushPacking && hardly_moves) exposure.crush_proxy_person_s += dt_s;
 }
 
 }  // namespace
@@ -70,30 +126,29 @@ Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,
   radius_m /= static_cast<double>(people.size());
   const double close_packing_m2 = 2 * std::numbers::sqrt3 * radius_m * radius_m;
   const VoronoiCutter cutter(scenario.buildings);
-  const auto stride =
-      static_cast<std::size_t>(std::max<long>(1, std::lround(kSampleS / trace.header.dt_s)));
-  for (std::size_t step = 0; step < trace.steps(); step += stride) {
-    std::vector<Vector2d> places;
-    std::vector<std::size_t> agents;
+  const double dt_s = trace.header.dt_s;
+  SquareMeter squares(static_cast<std::size_t>(std::max<long>(1, std::lround(kMeanS / dt_s))));
+  std::vector<Vector2d> places;
+  std::vector<std::size_t> agents;
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    places.clear();
+    agents.clear();
     for (const PersonRecord& person : people) {
       if (!trace.present(step, person.agent)) continue;
       places.push_back(trace.position[trace.at(step, person.agent)].cast<double>());
       agents.push_back(person.agent);
     }
     const PointGrid grid(places, kGridM);
-    Squares squares;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!scenario.inside.contains(places[i])) continue;
       const VoronoiCell cell = cutter.cell(grid, i);
       const std::size_t at = trace.at(step, agents[i]);
       add_person(cell.density_per_m2(), cell.density_per_m2() * close_packing_m2,
-                 trace.velocity[at].norm() < kCrushSpeed * trace.desired_speed_mps[at], exposure);
-      spread(cell, squares);
+                 trace.velocity[at].norm() < kCrushSpeed * trace.desired_speed_mps[at], dt_s,
+                 exposure);
+      squares.add(cell);
     }
-    for (const auto& square : squares) {
-      exposure.max_density_per_m2 =
-          std::max(exposure.max_density_per_m2, square.second / (kSquareM * kSquareM));
-    }
+    exposure.max_density_per_m2 = std::max(exposure.max_density_per_m2, squares.finish_step());
   }
   return exposure;
 }

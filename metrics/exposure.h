@@ -17,14 +17,14 @@ inline constexpr std::array kExposurePacking = {0.6, 0.8};
 /// 2.32, 1.39, 0.93 and 0.46 m²); F is beyond.
 inline constexpr std::array kServiceDensities = {1 / 3.25, 1 / 2.32, 1 / 1.39, 1 / 0.93, 1 / 0.46};
 
-/// From samples once a second, each of which stands for a second of everybody who is inside. All
-/// densities are those of the person's own Voronoi cell.
+/// Each step of the trace stands for its time step of everybody who is inside. All densities but
+/// the greatest are those of the person's own Voronoi cell.
 struct Exposure {
   std::array<double, kExposureDensities.size()> above_person_s{};
   std::array<double, kExposurePacking.size()> packed_person_s{};  ///< share of close packing
   std::array<double, kServiceDensities.size() + 1> service_person_s{};
   double crush_proxy_person_s = 0;  ///< above 0.85 of close packing, below 0.1 of desired speed
-  double max_density_per_m2 = 0;    ///< greatest mean over a square of 2 m²
+  double max_density_per_m2 = 0;    ///< greatest mean over a square of 2 m² and a second
 };
 
 Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,

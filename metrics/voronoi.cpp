@@ -1,5 +1,6 @@
 #include "metrics/voronoi.h"
 
+#include <algorithm>
 #include <boost/geometry/algorithms/append.hpp>
 #include <boost/geometry/algorithms/area.hpp>
 #include <boost/geometry/algorithms/correct.hpp>
@@ -11,6 +12,7 @@
 #include <boost/geometry/strategies/strategies.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "world/polygon.h"
 
@@ -39,6 +41,14 @@ void clip_to(Ring& ring, std::span<const Vector2d> region) {
   }
 }
 
+double farthest_sq(const Ring& ring, const Vector2d& from) {
+  double farthest = 0;
+  for (const Vector2d& corner : ring) {
+    farthest = std::max(farthest, (corner - from).squaredNorm());
+  }
+  return farthest;
+}
+
 CellPolygon polygon_from(const Ring& ring) {
   CellPolygon polygon;
   for (const Vector2d& corner : ring) {
@@ -60,7 +70,7 @@ Ring ring_from(const BoostRing& boost_ring) {
 
 }  // namespace
 
-void clip(Ring& ring, const Vector2d& point, const Vector2d& normal) {
+bool clip(Ring& ring, const Vector2d& point, const Vector2d& normal) {
   thread_local std::vector<double> beyond;
   beyond.clear();
   bool all_inside = true;
@@ -68,7 +78,7 @@ void clip(Ring& ring, const Vector2d& point, const Vector2d& normal) {
     beyond.push_back((corner - point).dot(normal));
     all_inside = all_inside && beyond.back() <= 0;
   }
-  if (all_inside) return;
+  if (all_inside) return false;
   thread_local Ring kept;
   kept.clear();
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -78,7 +88,8 @@ void clip(Ring& ring, const Vector2d& point, const Vector2d& normal) {
       kept.push_back(ring[i] + beyond[i] / (beyond[i] - beyond[j]) * (ring[j] - ring[i]));
     }
   }
-  ring = kept;
+  std::swap(ring, kept);
+  return true;
 }
 
 double area_in(const VoronoiCell& cell, std::span<const Vector2d> convex_region) {
@@ -109,24 +120,45 @@ VoronoiCutter::VoronoiCutter(std::span<const world::Building> buildings) {
 VoronoiCell VoronoiCutter::cell(const PointGrid& people, std::size_t index) const {
   const Vector2d& person = people[index];
   VoronoiCell cell;
-  Ring& ring = cell.rings.emplace_back(disc_);
-  for (Vector2d& corner : ring) corner += person;
-  double reach = 1.01 * kCellRadiusM;
-  bool more = true;
-  for (int number = 0; more; ++number) {
+  // A square at first, cut to the disc at the end where that is needed: few corners are quick.
+  const double radius = disc_.front().x();
+  Ring& ring = cell.rings.emplace_back();
+  for (const Vector2d& sign :
+       {Vector2d(1, 1), Vector2d(-1, 1), Vector2d(-1, -1), Vector2d(1, -1)}) {
+    ring.emplace_back(person + radius * sign);
+  }
+  double reach_sq = radius * radius;
+  thread_local std::vector<std::pair<double, std::size_t>> near;
+  near.clear();
+  bool more = people.for_ring(person, 0, [&](std::size_t other) {
+    if (other != index) near.emplace_back((people[other] - person).squaredNorm(), other);
+  });
+  for (int number = 1; more; ++number) {
     more = people.for_ring(person, number, [&](std::size_t other) {
-      const Vector2d offset = people[other] - person;
-      const double squared = offset.squaredNorm();
-      if (other == index || squared > 4 * reach * reach) return;
+      const double squared = (people[other] - person).squaredNorm();
+      if (squared <= 4 * reach_sq) near.emplace_back(squared, other);
+    });
+    // The nearest cut most: who is beyond what they leave cuts nothing.
+    std::sort(near.begin(), near.end());
+    for (const auto& [squared, other] : near) {
+      if (squared > 4 * reach_sq) break;
       if (squared == 0) {
         ++cell.sharers;
-      } else {
-        clip(ring, person + 0.5 * offset, offset);
+        continue;
       }
-    });
-    reach = 0;
-    for (const Vector2d& corner : ring) reach = std::max(reach, (corner - person).norm());
-    if (number * people.cell_m() >= 2 * reach) break;
+      const Vector2d offset = people[other] - person;
+      if (!clip(ring, person + 0.5 * offset, offset)) continue;
+      reach_sq = std::min(reach_sq, farthest_sq(ring, person));
+    }
+    near.clear();
+    const double seen_m = number * people.cell_m();
+    if (seen_m * seen_m >= 4 * reach_sq) break;
+  }
+  const double inner = radius * std::cos(std::numbers::pi / kDiscCorners);
+  if (farthest_sq(ring, person) > inner * inner) {
+    Ring disc = disc_;
+    for (Vector2d& corner : disc) corner += person;
+    clip_to(ring, disc);
   }
   cell.area_m2 = world::signed_area(ring);
   take_away_buildings(person, cell);

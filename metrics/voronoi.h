@@ -46,8 +46,9 @@ class VoronoiCutter {
   Ring disc_;
 };
 
-/// Cuts away what lies beyond the line through `point`, on the side to which `normal` points.
-void clip(Ring& ring, const Eigen::Vector2d& point, const Eigen::Vector2d& normal);
+/// Cuts away what lies beyond the line through `point`, on the side to which `normal` points. False
+/// where that is nothing.
+bool clip(Ring& ring, const Eigen::Vector2d& point, const Eigen::Vector2d& normal);
 
 /// The area that a cell has in common with a convex region, given counter-clockwise (m²).
 double area_in(const VoronoiCell& cell, std::span<const Eigen::Vector2d> convex_region);

@@ -116,25 +116,25 @@ TEST(ExposureFigures, ALatticeIsAsDenseAsItIs) {
     }
   }
   CrowdOfTest crowd;
-  crowd.duration_s = 0.9;  // one sample
+  crowd.duration_s = 0.9;  // ten steps: a second of everybody
   const Exposure exposure = figures_of(trace_of(walks, crowd)).exposure;
   const int inner = 19 * 19;
-  EXPECT_GE(exposure.above_person_s[1], inner);  // 3.57
-  EXPECT_EQ(exposure.above_person_s[3], 0);      // 5.55
-  EXPECT_EQ(exposure.packed_person_s[0], 0);     // 0.6
-  EXPECT_GE(exposure.service_person_s[5], inner);
+  EXPECT_GE(exposure.above_person_s[1], inner - 1e-6);  // 3.57
+  EXPECT_EQ(exposure.above_person_s[3], 0);             // 5.55
+  EXPECT_EQ(exposure.packed_person_s[0], 0);            // 0.6
+  EXPECT_GE(exposure.service_person_s[5], inner - 1e-6);
   double sum = 0;
   for (const double level : exposure.service_person_s) sum += level;
-  EXPECT_EQ(sum, 21 * 21);
+  EXPECT_NEAR(sum, 21 * 21, 1e-6);
   EXPECT_NEAR(exposure.max_density_per_m2, 4, 1e-6);
   EXPECT_EQ(exposure.crush_proxy_person_s, 0);
 }
 
 TEST(ExposureFigures, WhoIsAloneIsAtTheBestLevel) {
   CrowdOfTest crowd;
-  crowd.duration_s = 9.5;
+  crowd.duration_s = 9.9;
   const Exposure exposure = figures_of(trace_of({standing({-5, 0})}, crowd)).exposure;
-  EXPECT_EQ(exposure.service_person_s[0], 10);
+  EXPECT_NEAR(exposure.service_person_s[0], 10, 1e-9);
   EXPECT_NEAR(exposure.max_density_per_m2, 1 / (std::numbers::pi * 4), 1e-6);
 }
 
@@ -146,8 +146,27 @@ TEST(ExposureFigures, APackedCrowdThatStandsIsTheCrushProxy) {
     }
   }
   CrowdOfTest crowd;
-  crowd.duration_s = 0.5;
-  EXPECT_GE(figures_of(trace_of(walks, crowd)).exposure.crush_proxy_person_s, 7 * 7);
+  crowd.duration_s = 0.4;  // half a second
+  EXPECT_GE(figures_of(trace_of(walks, crowd)).exposure.crush_proxy_person_s, 0.5 * 7 * 7 - 1e-6);
+}
+
+// Two who pass at 0.5 m count at the steps at which they are near, not only at full seconds.
+TEST(ExposureFigures, CountsEveryStep) {
+  CrowdOfTest crowd;
+  crowd.dt_s = 0.1;
+  crowd.duration_s = 3;
+  const auto meeting = [](double time_s) -> Eigen::Vector2d {
+    const bool near = time_s > 1.25 && time_s < 1.75;  // five steps, between two full seconds
+    return {near ? -5.1 : -9.0, 0};
+  };
+  const Exposure exposure = figures_of(trace_of({standing({-5, 0}), meeting}, crowd)).exposure;
+  // Each owns half of a disc of 2 m and 0.1 m of the other's: less than 7 m² while they are near.
+  const double alone = 1 / (std::numbers::pi * 4);
+  EXPECT_LT(alone, kServiceDensities[0]);
+  EXPECT_NEAR(exposure.service_person_s[0], 2 * 3.1, 1e-6) << "still level A";
+  // The second's mean is over ten steps, half of them with both in the squares.
+  EXPECT_GT(exposure.max_density_per_m2, 1.4 * alone);
+  EXPECT_LT(exposure.max_density_per_m2, 2 * alone);
 }
 
 TEST(GuidanceFigures, FollowersAreInAStateOfThatName) {
