@@ -14,7 +14,9 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "jobs/archive.h"
+#include "jobs/folder.h"
 #include "jobs/manifest.h"
+#include "jobs/plan.h"
 #include "server/file_answer.h"
 #include "server/http.h"
 #include "server/requests.h"
@@ -42,21 +44,29 @@ std::string etag_of_dataset(const fs::path& dataset) {
   return fmt::format("\"{}\"", sha256_hex_of_file(dataset / jobs::kManifestName));
 }
 
-/// A file of one run of a dataset; 404 when there is no such run or the job did not ask for it.
+/// A file of one run: of the dataset, or before that is complete of the run's own figures, which
+/// are there once it was measured, whatever becomes of the others. 404 when there is no such run or
+/// the job did not ask for it.
 void send_run_file(const Call& call, const Request& request, Response& response, const char* folder,
                    const char* suffix, const char* type) {
-  const jobs::JobRow row = find_succeeded(call, request);
+  const jobs::JobRow row = find_job(call, request);
+  const bool complete = row.state == jobs::JobState::succeeded;
   const std::string number = request.matches[2];
   constexpr std::size_t kMostDigits = 6;
-  fs::path file;
-  if (number.size() <= kMostDigits) {
-    const std::string name = fmt::format("run{:03}{}", std::stoi(number), suffix);
-    file = call.service.dataset_of(row.id) / folder / name;
+  const int run = number.size() <= kMostDigits ? std::stoi(number) : -1;
+  if (run < 0 || run >= json::parse(row.spec_json).at("runs").get<int>()) {
+    throw HttpError{404, fmt::format("the job has no run {}", number)};
   }
-  if (file.empty() || !fs::exists(file)) {
-    throw HttpError{404, fmt::format("the dataset has no {} of run {}", folder, number)};
+  const fs::path root = complete ? call.service.dataset_of(row.id)
+                                 : jobs::JobFolder(call.service.job_folder(row.id))
+                                       .output_of({jobs::Task::Kind::measure, run});
+  const fs::path file = root / folder / (jobs::run_name(run) + suffix);
+  if (fs::exists(file)) return response.set_content(read_file(file), type);
+  if (!complete && !fs::exists(root)) {
+    throw HttpError{409, fmt::format("the job is {}; this is there once run {} was measured",
+                                     name_of(row.state), number)};
   }
-  response.set_content(read_file(file), type);
+  throw HttpError{404, fmt::format("there is no {} of run {}", folder, number)};
 }
 
 jobs::ArchiveFormat format_of(const Request& request) {

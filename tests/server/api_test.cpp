@@ -93,6 +93,19 @@ TEST_F(ApiTest, ResultsOfAnUnfinishedJobAreAConflict) {
   gate.open();
 }
 
+TEST_F(ApiTest, ARunsFiguresAreThereOnceItWasMeasured) {
+  Gate gate(executor);
+  const std::string id = submit();
+  const std::string run = "/v1/jobs/" + id + "/runs/0";
+  expect_problem(get(run + "/metrics"), 409);
+  expect_problem(get("/v1/jobs/" + id + "/runs/1/metrics"), 404);
+  const auto measured = service.job_folder(id) / "work/run000/metrics";
+  write_file_atomically(measured / "metrics/run000.json", R"({"people":3})");
+  EXPECT_EQ(get_json(run + "/metrics"), json::parse(R"({"people":3})"));
+  expect_problem(get(run + "/metrics.csv"), 404);  // this job did not ask for it
+  gate.open();
+}
+
 TEST_F(ApiTest, DeleteRemovesAndSaysSo) {
   const std::string id = submit_and_wait();
   EXPECT_EQ(client().Delete("/v1/jobs/" + id)->status, 204);
