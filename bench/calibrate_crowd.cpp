@@ -1,8 +1,8 @@
 // Fits the parameters of the model `weidmann` to the fundamental diagram and to the flow through
 // doors, with Ceres, and prints what they give. Without --fit it prints the tables of any model.
 //
-//   calibrate_crowd [MODEL [NAME=VALUE...]]   speed over density in a ring, specific flow of doors;
-//                                             with other constants of the model, if named
+//   calibrate_crowd [MODEL [seeds=7] [NAME=VALUE...]]   speed over density in a ring, specific flow
+//                                                       of doors; with other constants, if named
 //   calibrate_crowd --fit     the fit, from the parameters that the model has now
 #include <ceres/ceres.h>
 #include <fmt/core.h>
@@ -137,12 +137,24 @@ Values shipped_values() {
   return values;
 }
 
+constexpr std::string_view kSeedsArgument = "seeds=";
+
+/// Runs per door.
+std::size_t seeds_named(std::span<char* const> named) {
+  for (const std::string_view word : named) {
+    if (word.starts_with(kSeedsArgument)) {
+      return std::stoul(std::string(word.substr(kSeedsArgument.size())));
+    }
+  }
+  return 7;
+}
+
 /// The model with constants that the command line names.
 Tested with_constants(const std::string& model, std::span<char* const> named) {
   std::string attributes;
   for (const std::string_view constant : named) {
     const std::size_t at = constant.find('=');
-    if (at == std::string_view::npos) continue;
+    if (at == std::string_view::npos || constant.starts_with(kSeedsArgument)) continue;
     attributes += fmt::format(R"( {}="{}")", constant.substr(0, at), constant.substr(at + 1));
   }
   return {model, fmt::format("<{}{}/>", crowd::find_model(model).tag, attributes), ""};
@@ -156,18 +168,18 @@ int main(int argc, char** argv) {
   using throng::validation::kNames;
   using throng::validation::measure;
   using throng::validation::print;
+  using throng::validation::seeds_named;
   using throng::validation::shipped_values;
   using throng::validation::Values;
   using throng::validation::weidmann_with;
   using throng::validation::with_constants;
-  constexpr std::size_t kSeeds = 7;
   const std::string word = argc > 1 ? argv[1] : "weidmann";
   if (word != "--fit") {
     const std::span<char* const> named(argv + std::min(argc, 2), argv + argc);
-    print(measure(with_constants(word, named), kSeeds));
+    print(measure(with_constants(word, named), seeds_named(named)));
     return 0;
   }
   const Values values = fit(shipped_values());
   for (std::size_t i = 0; i < kNames.size(); ++i) fmt::print("{} {:.3f}\n", kNames[i], values[i]);
-  print(measure(weidmann_with(values), kSeeds));
+  print(measure(weidmann_with(values), seeds_named({})));
 }

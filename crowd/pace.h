@@ -14,7 +14,7 @@ struct PaceSpec {
   float reach_m = 1.7F;       ///< how far ahead others count
   float jam_density = 4.82F;  ///< 1/m^2
   float decline = 1.56F;      ///< 1/m^2
-  float least = 0.17F;        ///< share of the free speed that is left in a jam
+  float least = 0.19F;        ///< share of the free speed that is left in a jam
   float headway_s = 0.85F;    ///< from touching the one ahead, in single file
   float keep_right = 6;       ///< rad m^2: turn by the density of those who come towards one
 };
