@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/scenario_import.h"
 #include "cli/scenario_named.h"
 #include "places/check.h"
 #include "places/plan.h"
@@ -59,10 +60,11 @@ void add_plan(CLI::App& scenario) {
 }  // namespace
 
 void add_scenario(CLI::App& app) {
-  auto* command = app.add_subcommand("scenario", "Check and draw scenarios");
+  auto* command = app.add_subcommand("scenario", "Check, draw and import scenarios");
   command->require_subcommand(1);
   add_check(*command);
   add_plan(*command);
+  add_scenario_import(*command);
 }
 
 }  // namespace throng::cli

@@ -32,6 +32,25 @@ find_path(RECAST_INCLUDE Recast.h PATH_SUFFIXES recastnavigation REQUIRED)
 target_link_libraries(throng_recast INTERFACE "${RECAST_LIBRARY}")
 target_include_directories(throng_recast SYSTEM INTERFACE "${RECAST_INCLUDE}")
 
+# The file for CMake asks for Ignition's own, the one for pkg-config for C++17.
+add_library(throng_sdformat INTERFACE)
+foreach(library IN ITEMS sdformat12 ignition-math6)
+  find_library(LIBRARY_${library} ${library} REQUIRED)
+  target_link_libraries(throng_sdformat INTERFACE "${LIBRARY_${library}}")
+endforeach()
+find_path(SDFORMAT_INCLUDE sdf/sdf.hh PATH_SUFFIXES sdformat-12.3 REQUIRED)
+find_path(IGNITION_MATH_INCLUDE ignition/math/Pose3.hh PATH_SUFFIXES ignition/math6 REQUIRED)
+find_path(IGNITION_UTILS_INCLUDE ignition/utils/ImplPtr.hh PATH_SUFFIXES ignition/utils1 REQUIRED)
+target_include_directories(throng_sdformat SYSTEM INTERFACE
+  "${SDFORMAT_INCLUDE}" "${IGNITION_MATH_INCLUDE}" "${IGNITION_UTILS_INCLUDE}")
+
+# Headers only; OSM's XML is read by Expat.
+find_package(EXPAT REQUIRED)
+add_library(throng_osmium INTERFACE)
+find_path(OSMIUM_INCLUDE osmium/osm.hpp REQUIRED)
+target_include_directories(throng_osmium SYSTEM INTERFACE "${OSMIUM_INCLUDE}")
+target_link_libraries(throng_osmium INTERFACE EXPAT::EXPAT Threads::Threads)
+
 find_package(Ceres 2.1 REQUIRED)
 add_library(throng_ceres INTERFACE)
 target_link_libraries(throng_ceres INTERFACE Ceres::ceres)

@@ -1,0 +1,12 @@
+// The subcommand of `throng scenario` with a file of its own.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace throng::cli {
+
+void add_scenario_import(CLI::App& scenario);
+
+}  // namespace throng::cli

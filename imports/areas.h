@@ -1,0 +1,46 @@
+// Areas on the ground while they are worked on: an outline with holes, checked and cut by
+// Boost.Geometry, and at last taken apart into the simple polygons that scenarios are made of.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "world/scenario.h"
+
+namespace throng::imports {
+
+/// Corners in order, counter-clockwise seen from above, not repeated at the end (m).
+using Corners = std::vector<Eigen::Vector2d>;
+
+struct Area {
+  Corners outline;
+  std::vector<Corners> holes;
+};
+
+/// The area with corners in the right order and without those that repeat or lie on a straight
+/// edge; nothing where it has no extent, crosses itself or has holes that do not lie within it.
+std::optional<Area> tidied(const Area& area);
+
+/// What of an area lies in a rectangle, and outside of others.
+std::vector<Area> clipped(const Area& area, const world::Rectangle& to);
+std::vector<Area> without(const Area& area, const std::vector<Area>& others);
+
+/// The ground within half of `width_m` of a line, with flat ends and corners cut square; empty
+/// where the line has no length.
+std::vector<Area> along(const std::vector<Eigen::Vector2d>& line, double width_m);
+
+double size_m2(const Area& area);
+
+/// Simple polygons that cover the area: where there are holes it is cut through them. Pieces
+/// smaller than `least_m2` are left out.
+std::vector<Corners> simple_parts(const Area& area, double least_m2 = 0.01);
+
+/// The smallest convex polygon around points; empty where they lie on a line.
+Corners hull_of(const std::vector<Eigen::Vector2d>& points);
+
+/// A rectangle's corners; a regular polygon of 24 corners in place of a circle.
+Corners corners_of(const world::Rectangle& rectangle);
+Corners circle(const Eigen::Vector2d& centre, double radius_m);
+
+}  // namespace throng::imports

@@ -1,0 +1,20 @@
+// Things as Wavefront OBJ with its materials.
+#pragma once
+
+#include <string>
+
+#include "imports/place.h"
+
+namespace throng::imports {
+
+struct MeshText {
+  std::string triangles;  ///< the .obj; y up, so that the place's (x, y, z) is (x, z, -y)
+  std::string materials;  ///< the .mtl
+};
+
+MeshText mesh_text(const Thing& thing, const std::string& materials_file);
+
+/// Path of a thing's files below the scenario's folder, without suffix; unique.
+std::string mesh_name(const Place& place, std::size_t thing);
+
+}  // namespace throng::imports

@@ -1,0 +1,259 @@
+#include "imports/osm_file.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <osmium/area/assembler.hpp>
+#include <osmium/io/xml_input.hpp>
+#include <osmium/osm.hpp>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "base/error.h"
+
+namespace throng::imports {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 256U << 20U;
+constexpr std::size_t kMostNodes = 2'000'000;
+constexpr double kLargestM = 5'000;
+constexpr double kRadian = std::numbers::pi / 180;
+
+/// Metres east and north of a point on the WGS 84 ellipsoid, by its radii of curvature there
+/// (Torge, Geodesy, 2001, section 4.1.3).
+class Projection {
+ public:
+  explicit Projection(const GeoPoint& origin) : origin_(origin) {
+    constexpr double kEquatorM = 6'378'137;
+    constexpr double kEccentricity2 = 6.69437999014e-3;
+    const double sine = std::sin(origin.latitude_deg * kRadian);
+    const double w = std::sqrt(1 - kEccentricity2 * sine * sine);
+    north_m_ = kEquatorM * (1 - kEccentricity2) / (w * w * w) * kRadian;
+    east_m_ = kEquatorM / w * std::cos(origin.latitude_deg * kRadian) * kRadian;
+  }
+
+  Vector2d at(const osmium::Location& location) const {
+    return {east_m_ * (location.lon() - origin_.longitude_deg),
+            north_m_ * (location.lat() - origin_.latitude_deg)};
+  }
+
+ private:
+  GeoPoint origin_;
+  double north_m_;  // of a degree
+  double east_m_;
+};
+
+/// Everything that the file holds, and where its nodes are.
+struct Extract {
+  osmium::memory::Buffer buffer{1U << 16U, osmium::memory::Buffer::auto_grow::yes};
+  osmium::Box bounds;
+  std::unordered_map<std::int64_t, osmium::Location> nodes;
+};
+
+Tags tags_of(const osmium::TagList& list) {
+  Tags tags;
+  for (const osmium::Tag& tag : list) tags[tag.key()] = tag.value();
+  return tags;
+}
+
+// Closed ways with one of these are areas, others rings of road or wall.
+bool is_area(const osmium::TagList& tags) {
+  if (tags.has_tag("area", "no")) return false;
+  constexpr std::array<const char*, 8> kAreas = {"building", "building:part", "landuse", "leisure",
+                                                 "natural",  "amenity",       "area",    "water"};
+  for (const char* key : kAreas) {
+    if (tags.has_key(key)) return true;
+  }
+  return false;
+}
+
+void read_all(const fs::path& file, Extract& extract) {
+  osmium::io::Reader reader{osmium::io::File{file.string(), "osm"}};
+  extract.bounds = reader.header().joined_boxes();
+  while (osmium::memory::Buffer part = reader.read()) {
+    extract.buffer.add_buffer(part);
+    extract.buffer.commit();
+  }
+  reader.close();
+  osmium::Box all;
+  for (const osmium::Node& node : extract.buffer.select<osmium::Node>()) {
+    if (!node.visible() || !node.location().valid()) continue;
+    extract.nodes[node.id()] = node.location();
+    if (extract.nodes.size() > kMostNodes) {
+      throw InputError(
+          {file.string(), "", fmt::format("more than {} nodes", kMostNodes), "a smaller extract"});
+    }
+    all.extend(node.location());
+  }
+  if (!extract.bounds.valid()) extract.bounds = all;
+  if (!extract.bounds.valid()) {
+    throw InputError({file.string(), "", "no bounds and no nodes", "an extract of OpenStreetMap"});
+  }
+}
+
+class ExtractReader {
+ public:
+  ExtractReader(std::string name, Extract& extract, const Projection& projection)
+      : name_(std::move(name)), extract_(extract), projection_(projection) {
+    config_.create_empty_areas = false;
+  }
+
+  OsmFile read() {
+    for (const osmium::Node& node : extract_.buffer.select<osmium::Node>()) {
+      if (node.tags().empty() || !extract_.nodes.contains(node.id())) continue;
+      result_.points.push_back({node.id(), tags_of(node.tags()), projection_.at(node.location())});
+    }
+    for (osmium::Way& way : extract_.buffer.select<osmium::Way>()) {
+      locate(way);
+      ways_[way.id()] = &way;
+    }
+    for (const auto& way : extract_.buffer.select<osmium::Way>()) {
+      if (!way.tags().empty()) add_way(way);
+    }
+    for (const osmium::Relation& relation : extract_.buffer.select<osmium::Relation>()) {
+      if (relation.tags().has_tag("type", "multipolygon")) add_relation(relation);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void locate(osmium::Way& way) const {
+    for (osmium::NodeRef& node : way.nodes()) {
+      const auto known = extract_.nodes.find(node.ref());
+      node.set_location(known == extract_.nodes.end() ? osmium::Location{} : known->second);
+    }
+  }
+
+  static bool is_complete(const osmium::Way& way) {
+    for (const osmium::NodeRef& node : way.nodes()) {
+      if (!node.location().valid()) return false;
+    }
+    return !way.nodes().empty();
+  }
+
+  void skip(const std::string& element, const std::string& reason) {
+    result_.skipped.push_back({name_, 0, element, reason});
+  }
+
+  void add_way(const osmium::Way& way) {
+    const std::string name = fmt::format("way {}", way.id());
+    if (way.nodes().size() >= 4 && way.is_closed() && is_area(way.tags())) {
+      if (!is_complete(way)) return skip(name, "some of its nodes are not in the file");
+      osmium::area::Assembler assembler{config_};
+      osmium::memory::Buffer made{1U << 12U, osmium::memory::Buffer::auto_grow::yes};
+      assembler(way, made);
+      return add_areas(made, name);
+    }
+    OsmLine line{way.id(), tags_of(way.tags()), {}, {}};
+    for (const osmium::NodeRef& node : way.nodes()) {
+      if (!node.location().valid()) continue;
+      line.points.push_back(projection_.at(node.location()));
+      line.nodes.push_back(node.ref());
+    }
+    if (line.points.size() >= 2) result_.lines.push_back(std::move(line));
+  }
+
+  void add_relation(const osmium::Relation& relation) {
+    const std::string name = fmt::format("relation {}", relation.id());
+    std::vector<const osmium::Way*> members;
+    for (const osmium::RelationMember& member : relation.members()) {
+      if (member.type() != osmium::item_type::way) continue;
+      const auto way = ways_.find(member.ref());
+      if (way == ways_.end() || !is_complete(*way->second)) {
+        return skip(name, fmt::format("way {} is not whole in the file", member.ref()));
+      }
+      members.push_back(way->second);
+    }
+    // The assembler counts ways and members alike.
+    if (members.empty() || members.size() != relation.members().size()) {
+      return skip(name, "a multipolygon of other things than ways");
+    }
+    osmium::area::Assembler assembler{config_};
+    osmium::memory::Buffer made{1U << 12U, osmium::memory::Buffer::auto_grow::yes};
+    assembler(relation, members, made);
+    add_areas(made, name);
+  }
+
+  Corners corners_of_ring(const osmium::NodeRefList& ring) const {
+    Corners corners;
+    for (const osmium::NodeRef& node : ring) corners.push_back(projection_.at(node.location()));
+    if (!corners.empty()) corners.pop_back();  // the first one again
+    return corners;
+  }
+
+  void add_areas(const osmium::memory::Buffer& made, const std::string& name) {
+    bool any = false;
+    for (const osmium::Area& found : made.select<osmium::Area>()) {
+      for (const osmium::OuterRing& outer : found.outer_rings()) {
+        Area area{corners_of_ring(outer), {}};
+        for (const osmium::InnerRing& inner : found.inner_rings(outer)) {
+          area.holes.push_back(corners_of_ring(inner));
+        }
+        const auto tidy = tidied(area);
+        if (!tidy) continue;
+        result_.areas.push_back({name, tags_of(found.tags()), *tidy});
+        any = true;
+      }
+    }
+    if (!any) skip(name, "its edges cross or do not close");
+  }
+
+  std::string name_;
+  Extract& extract_;
+  const Projection& projection_;
+  osmium::area::AssemblerConfig config_;  // assemblers refer to it
+  std::unordered_map<std::int64_t, const osmium::Way*> ways_;
+  OsmFile result_;
+};
+
+}  // namespace
+
+OsmFile read_osm_file(const fs::path& file, const std::optional<GeoPoint>& origin) {
+  std::error_code unreadable;
+  const std::uintmax_t size = fs::file_size(file, unreadable);
+  if (unreadable) throw EnvironmentError(fmt::format("cannot read {}", file.string()));
+  if (size > kLargestFile) {
+    throw InputError({file.string(), "", "a file of more than 256 MB", "a smaller extract"});
+  }
+  Extract extract;
+  try {
+    read_all(file, extract);
+  } catch (const osmium::io_error& error) {  // of XML too
+    throw InputError({file.string(), "", error.what(), "an extract of OpenStreetMap (XML)"});
+  } catch (const std::invalid_argument& error) {
+    throw InputError({file.string(), "", error.what(), "an extract of OpenStreetMap (XML)"});
+  } catch (const std::range_error& error) {
+    throw InputError({file.string(), "", error.what(), "an extract of OpenStreetMap (XML)"});
+  } catch (const std::length_error& error) {
+    throw InputError({file.string(), "", error.what(), "an extract of OpenStreetMap (XML)"});
+  }
+  const osmium::Location low = extract.bounds.bottom_left();
+  const osmium::Location high = extract.bounds.top_right();
+  const GeoPoint middle{0.5 * (low.lat() + high.lat()), 0.5 * (low.lon() + high.lon())};
+  const Projection projection(origin.value_or(middle));
+  const world::Rectangle bounds{projection.at(low), projection.at(high)};
+  const Vector2d extent = bounds.max - bounds.min;
+  constexpr double kFarthestM = 50'000;
+  const double farthest =
+      std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
+  if (!(extent.maxCoeff() <= kLargestM) || !(farthest <= kFarthestM) ||
+      std::abs(middle.latitude_deg) > 85) {
+    throw InputError({file.string(), "bounds",
+                      fmt::format("{:.0f} m x {:.0f} m, {:.0f} m from the origin", extent.x(),
+                                  extent.y(), farthest),
+                      "at most 5 km, near the origin and not at a pole"});
+  }
+  ExtractReader reader(file.string(), extract, projection);
+  OsmFile result = reader.read();
+  result.bounds = bounds;
+  return result;
+}
+
+}  // namespace throng::imports

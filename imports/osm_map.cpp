@@ -1,0 +1,339 @@
+#include "imports/osm_map.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "imports/osm_gates.h"
+#include "imports/osm_tags.h"
+#include "imports/place_writer.h"
+#include "imports/solids.h"
+
+namespace throng::imports {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kLeastBuildingM2 = 1;
+constexpr double kLeastPatchM2 = 0.2;
+constexpr std::size_t kMostProps = 20'000;
+const Vector3d kRoofRgb(0.35, 0.33, 0.3);
+const Vector3d kWaterRgb(0.05, 0.12, 0.2);
+
+struct Bounds {
+  Vector2d low;
+  Vector2d high;
+};
+
+Bounds bounds_of(const Corners& corners) {
+  Bounds bounds{corners.front(), corners.front()};
+  for (const Vector2d& corner : corners) {
+    bounds.low = bounds.low.cwiseMin(corner);
+    bounds.high = bounds.high.cwiseMax(corner);
+  }
+  return bounds;
+}
+
+bool meet(const Bounds& a, const Bounds& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
+class MapReader {
+ public:
+  MapReader(OsmFile file, std::string source) : file_(std::move(file)), source_(std::move(source)) {
+    place_.inside = file_.bounds;
+    place_.skipped = std::move(file_.skipped);
+    ground_ = ground_of(place_);
+  }
+
+  Place read();
+
+ private:
+  void skip(const std::string& element, const std::string& reason) {
+    place_.skipped.push_back({source_, 0, element, reason});
+  }
+  void add_surface(const Area& area, const std::string& material,
+                   std::vector<world::GroundArea>& to);
+  void add_building(const OsmArea& found);
+  void add_water(const OsmArea& found);
+  void add_area(const OsmArea& found);
+  void add_way(const OsmLine& line, const WayKind& kind);
+  void add_crossings(const OsmLine& line, const WayKind& kind);
+  void add_barrier(const OsmLine& line, const Barrier& barrier);
+  void add_line(const OsmLine& line);
+  void add_tree_row(const OsmLine& line);
+  void add_prop(const OsmPoint& point);
+  void add_prop(world::PropKind kind, const Vector2d& at, const Tags& tags, std::uint32_t look);
+  Thing& thing(const std::string& name) { return place_.things.emplace_back(Thing{name, {}}); }
+
+  OsmFile file_;
+  std::string source_;
+  world::Rectangle ground_;
+  Place place_;
+  std::vector<Bounds> building_bounds_;
+  std::vector<Area> openings_;        // in barriers
+  std::set<std::int64_t> crossings_;  // nodes
+  std::vector<world::GroundArea> green_;
+  std::vector<world::GroundArea> paved_;
+  std::vector<world::GroundArea> paths_;
+  std::vector<world::GroundArea> roads_;
+  std::vector<UsedWay> used_;
+};
+
+void MapReader::add_surface(const Area& area, const std::string& material,
+                            std::vector<world::GroundArea>& to) {
+  for (const Area& part : clipped(area, ground_)) {
+    for (Corners& corners : simple_parts(part, kLeastPatchM2)) {
+      to.push_back({std::move(corners), material, false});
+    }
+  }
+}
+
+// What stands there already is cut out, so that no two buildings overlap.
+void MapReader::add_building(const OsmArea& found) {
+  const double base = building_base_m(found.tags);
+  const double top = std::max(building_height_m(found.tags), base + 0.5);
+  const bool roof = value_of(found.tags, "building") == "roof";
+  if (base > kHeadM || roof) {
+    Thing& drawn = thing(found.name);
+    Solid& solid = drawn.solids.emplace_back();
+    solid.rgb = kRoofRgb;
+    constexpr double kRoofM = 0.3;
+    for (const Area& part : clipped(found.area, ground_)) {
+      for (const Corners& corners : simple_parts(part, kLeastBuildingM2)) {
+        const Triangles prism = prism_triangles(corners, base > kHeadM ? base : top - kRoofM, top);
+        solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
+      }
+    }
+    if (solid.triangles.empty()) place_.things.pop_back();
+    return;
+  }
+  for (const Area& part : clipped(found.area, ground_)) {
+    std::vector<Area> others;
+    const Bounds bounds = bounds_of(part.outline);
+    for (std::size_t i = 0; i < place_.buildings.size(); ++i) {
+      if (meet(bounds, building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
+    }
+    double kept_m2 = 0;
+    for (const Area& rest : without(part, others)) {
+      kept_m2 += size_m2(rest);
+      for (Corners& corners : simple_parts(rest, kLeastBuildingM2)) {
+        building_bounds_.push_back(bounds_of(corners));
+        place_.obstacles.push_back(corners);
+        place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1),
+                                    std::move(corners), top, world::Facade::by_id});
+      }
+    }
+    const double cut_m2 = size_m2(part) - kept_m2;
+    if (cut_m2 > kLeastBuildingM2) {
+      skip(found.name, fmt::format("{:.0f} m² of it are in other buildings: cut off", cut_m2));
+    }
+  }
+}
+
+void MapReader::add_water(const OsmArea& found) {
+  constexpr double kSurfaceM = 0.02;
+  Solid solid;
+  solid.rgb = kWaterRgb;
+  for (const Area& part : clipped(found.area, ground_)) {
+    for (const Corners& corners : simple_parts(part, kLeastPatchM2)) {
+      const Triangles flat = prism_triangles(corners, 0, kSurfaceM);
+      solid.triangles.insert(solid.triangles.end(), flat.begin(), flat.end());
+      place_.obstacles.push_back(corners);
+    }
+  }
+  if (!solid.triangles.empty()) thing(found.name).solids.push_back(std::move(solid));
+}
+
+void MapReader::add_area(const OsmArea& found) {
+  const Tags& tags = found.tags;
+  if (tags.contains("building") && value_of(tags, "building") != "no") return add_building(found);
+  if (tags.contains("building:part")) {
+    return skip(found.name, "a part of a building: the whole is drawn");
+  }
+  if (value_of(tags, "natural") == "water" || tags.contains("water")) return add_water(found);
+  const std::string material = surface_of(tags);
+  if (material == "grass") return add_surface(found.area, material, green_);
+  if (!material.empty()) return add_surface(found.area, material, paved_);
+  const bool silent = tags.contains("landuse") || tags.contains("amenity") ||
+                      tags.contains("leisure") || tags.contains("area");
+  if (!silent) skip(found.name, "an area that is not drawn");
+}
+
+// The bars of a crossing over the road, at the node that says so.
+void MapReader::add_crossings(const OsmLine& line, const WayKind& kind) {
+  constexpr double kBarsM = 4;
+  constexpr double kClearOfKerb = 0.94;
+  for (std::size_t i = 0; i < line.points.size(); ++i) {
+    if (!crossings_.contains(line.nodes[i]) || !ground_.contains(line.points[i])) continue;
+    const Vector2d along =
+        line.points[std::min(i + 1, line.points.size() - 1)] - line.points[i > 0 ? i - 1 : 0];
+    if (along.norm() < 0.1) continue;
+    const Vector2d across =
+        0.5 * kClearOfKerb * kind.width_m * Vector2d(-along.y(), along.x()).normalized();
+    place_.markings.push_back(
+        {"crossing", line.points[i] - across, line.points[i] + across, kBarsM});
+  }
+}
+
+void MapReader::add_way(const OsmLine& line, const WayKind& kind) {
+  for (const Area& area : along(line.points, kind.width_m)) {
+    add_surface(area, kind.material, kind.road ? roads_ : paths_);
+  }
+  used_.push_back({&line, kind});
+  if (!kind.road) return;
+  add_crossings(line, kind);
+  if (!kind.centre_line) return;
+  constexpr double kFromEndsM = 4;
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const Vector2d way = line.points[i + 1] - line.points[i];
+    if (way.norm() < 3 * kFromEndsM) continue;
+    const Vector2d ends = kFromEndsM * way.normalized();
+    const auto part = part_within(line.points[i] + ends, line.points[i + 1] - ends, ground_);
+    if (part) place_.markings.push_back({"dashes", part->first, part->second, 0.12});
+  }
+}
+
+void MapReader::add_barrier(const OsmLine& line, const Barrier& barrier) {
+  Solid solid;
+  solid.rgb = barrier.rgb;
+  for (const Area& whole : along(line.points, barrier.width_m)) {
+    for (const Area& closed : without(whole, openings_)) {
+      for (const Area& part : clipped(closed, ground_)) {
+        for (const Corners& corners : simple_parts(part)) {
+          const Triangles prism = prism_triangles(corners, 0, barrier.height_m);
+          solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
+          place_.obstacles.push_back(corners);
+        }
+      }
+    }
+  }
+  if (!solid.triangles.empty()) {
+    thing(fmt::format("{} {}", value_of(line.tags, "barrier"), line.id)).solids.push_back(solid);
+  }
+}
+
+void MapReader::add_tree_row(const OsmLine& line) {
+  constexpr double kApartM = 8;
+  double since = kApartM;
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const Vector2d way = line.points[i + 1] - line.points[i];
+    const double length = way.norm();
+    for (double at = kApartM - since; at <= length; at += kApartM) {
+      if (at < 0) continue;
+      const Vector2d place = line.points[i] + at / std::max(length, 1e-9) * way;
+      add_prop(world::PropKind::tree, place, line.tags,
+               static_cast<std::uint32_t>(place_.props.size()));
+    }
+    since = std::fmod(since + length, kApartM);
+  }
+}
+
+void MapReader::add_line(const OsmLine& line) {
+  const std::string name = fmt::format("way {}", line.id);
+  if (line.tags.contains("highway")) {
+    const auto kind = way_kind(line.tags);
+    const bool elsewhere = value_of(line.tags, "tunnel") == "yes" ||
+                           value_of(line.tags, "bridge") == "yes" ||
+                           length_in(value_of(line.tags, "layer")).value_or(0) > 0;
+    if (elsewhere) return skip(name, "a way above or below the ground");
+    if (kind) return add_way(line, *kind);
+    return skip(name, fmt::format("highway={} has no ground here", value_of(line.tags, "highway")));
+  }
+  if (const auto barrier = barrier_of(line.tags)) return add_barrier(line, *barrier);
+  if (value_of(line.tags, "natural") == "tree_row") return add_tree_row(line);
+  constexpr std::array<const char*, 7> kSeen = {"railway",  "waterway", "natural", "barrier",
+                                                "man_made", "power",    "aeroway"};
+  for (const char* key : kSeen) {
+    if (line.tags.contains(key)) {
+      return skip(name, fmt::format("{}={} is not drawn", key, value_of(line.tags, key)));
+    }
+  }
+}
+
+void MapReader::add_prop(world::PropKind kind, const Vector2d& at, const Tags& tags,
+                         std::uint32_t look) {
+  if (!place_.inside.contains(at) || place_.props.size() >= kMostProps) return;
+  world::Prop prop;
+  prop.kind = kind;
+  prop.position = at;
+  prop.look = look % 16;
+  if (kind == world::PropKind::tree) {
+    constexpr double kTreeM = 8;
+    prop.scale =
+        std::clamp(length_in(value_of(tags, "height")).value_or(kTreeM) / kTreeM, 0.4, 2.5);
+  }
+  // A bench looks to its right, seen along its heading; directions are clockwise from north.
+  if (const auto towards = length_in(value_of(tags, "direction"))) {
+    prop.yaw_rad = std::remainder(EIGEN_PI - *towards * EIGEN_PI / 180, 2 * EIGEN_PI);
+  }
+  place_.props.push_back(prop);
+}
+
+void MapReader::add_prop(const OsmPoint& point) {
+  struct NamedProp {
+    const char* key;
+    const char* value;
+    world::PropKind kind;
+  };
+  constexpr std::array<NamedProp, 5> kProps = {
+      {{"natural", "tree", world::PropKind::tree},
+       {"highway", "street_lamp", world::PropKind::lamp_post},
+       {"amenity", "bench", world::PropKind::bench},
+       {"amenity", "waste_basket", world::PropKind::bin},
+       {"barrier", "bollard", world::PropKind::bollard}}};
+  for (const NamedProp& named : kProps) {
+    if (value_of(point.tags, named.key) != named.value) continue;
+    return add_prop(named.kind, point.place, point.tags,
+                    static_cast<std::uint32_t>(point.id & 0xFFFF));
+  }
+}
+
+Place MapReader::read() {
+  constexpr double kGateM = 2.4;
+  for (const OsmPoint& point : file_.points) {
+    const std::string& barrier = value_of(point.tags, "barrier");
+    if (barrier == "gate" || barrier == "entrance" || barrier == "lift_gate") {
+      const Vector2d half = Vector2d::Constant(0.5 * kGateM);
+      openings_.push_back({corners_of({point.place - half, point.place + half}), {}});
+    }
+    if (value_of(point.tags, "highway") == "crossing") crossings_.insert(point.id);
+  }
+  for (const OsmArea& area : file_.areas) add_area(area);
+  for (const OsmLine& line : file_.lines) add_line(line);
+  for (const OsmPoint& point : file_.points) add_prop(point);
+  for (const auto* layer : {&green_, &paved_, &paths_, &roads_}) {
+    place_.areas.insert(place_.areas.end(), layer->begin(), layer->end());
+  }
+  place_.gates = gates_at_edge(used_, place_.inside);
+  place_.people_come = true;
+  return std::move(place_);
+}
+
+}  // namespace
+
+Place read_osm(const std::filesystem::path& file, const OsmOptions& options) {
+  OsmFile extract = read_osm_file(file, options.origin);
+  constexpr double kSmallestM = 20;
+  const Vector2d size = extract.bounds.max - extract.bounds.min;
+  if (!(size.minCoeff() >= kSmallestM)) {
+    throw InputError({file.string(), "bounds",
+                      fmt::format("{:.1f} m x {:.1f} m", size.x(), size.y()),
+                      "at least 20 m x 20 m"});
+  }
+  Place place = MapReader(std::move(extract), file.string()).read();
+  place.name = place_name_of(file);
+  place.description = fmt::format("Imported from {} (OpenStreetMap).", file.filename().string());
+  if (!options.gates.empty()) place.gates = options.gates;
+  return place;
+}
+
+}  // namespace throng::imports

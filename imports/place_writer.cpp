@@ -1,0 +1,268 @@
+#include "imports/place_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "imports/mesh_text.h"
+
+namespace throng::imports {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kUsualSpeedMps = 1.34;  // Weidmann 1993
+constexpr double kGoalBeyondM = 2;
+constexpr double kDegrees = 180 / EIGEN_PI;
+
+// Millimetres are enough, and short.
+double rounded(double value) { return std::round(value * 1000) / 1000; }
+json point(const Vector2d& p) { return {rounded(p.x()), rounded(p.y())}; }
+
+json corners_json(const Corners& corners) {
+  json list = json::array();
+  for (const Vector2d& corner : corners) list.push_back(point(corner));
+  return list;
+}
+
+json ground_json(const Place& place) {
+  const world::Rectangle ground = ground_of(place);
+  json areas = json::array();
+  for (const world::GroundArea& area : place.areas) {
+    areas.push_back({{"corners", corners_json(area.corners)}, {"material", area.material}});
+    if (area.kerb) areas.back()["kerb"] = 1;
+  }
+  json markings = json::array();
+  for (const world::Marking& marking : place.markings) {
+    markings.push_back({{"kind", marking.kind},
+                        {"from", point(marking.from)},
+                        {"to", point(marking.to)},
+                        {"width_m", rounded(marking.width_m)}});
+  }
+  return {{"min", point(ground.min)},
+          {"max", point(ground.max)},
+          {"material", place.ground_material},
+          {"areas", areas},
+          {"markings", markings}};
+}
+
+json buildings_json(const Place& place) {
+  json buildings = json::array();
+  for (const world::Building& building : place.buildings) {
+    buildings.push_back({{"id", building.id},
+                         {"footprint", corners_json(building.footprint)},
+                         {"height_m", rounded(building.height_m)}});
+    if (building.facade == world::Facade::glass) buildings.back()["facade"] = "glass";
+  }
+  return buildings;
+}
+
+json props_json(const Place& place) {
+  json props = json::array();
+  for (const world::Prop& prop : place.props) {
+    props.push_back({{"kind", world::prop_types().at(static_cast<std::size_t>(prop.kind)).name},
+                     {"position", point(prop.position)},
+                     {"yaw_deg", rounded(prop.yaw_rad * kDegrees)},
+                     {"scale", rounded(prop.scale)},
+                     {"look", prop.look}});
+  }
+  return props;
+}
+
+json exits_json(const Place& place, const std::vector<Gate>& gates) {
+  json exits = json::array();
+  for (std::size_t i = 0; i < gates.size(); ++i) {
+    const Vector2d out = outward_of(gates[i], place.inside);
+    exits.push_back({{"id", fmt::format("exit{}", i + 1)},
+                     {"from", point(gates[i].from)},
+                     {"to", point(gates[i].to)},
+                     {"outward", {out.x(), out.y()}},
+                     {"goals", {{0, i}}}});
+  }
+  return exits;
+}
+
+// South of the middle and above all roofs, so that the camera sees the middle.
+json drone_json(const Place& place) {
+  const Vector2d size = place.inside.max - place.inside.min;
+  const Vector2d middle = 0.5 * (place.inside.min + place.inside.max);
+  constexpr double kAboveRoofsM = 6;
+  constexpr double kLowestM = 18;
+  constexpr double kHighestM = 60;
+  double height = std::clamp(0.45 * size.maxCoeff(), kLowestM, kHighestM);
+  for (const world::Building& building : place.buildings) {
+    height = std::max(height, building.height_m + kAboveRoofsM);
+  }
+  const Vector2d start = middle - Vector2d(0, 0.8 * height);
+  return {{"id", "d1"},
+          {"start", {rounded(start.x()), rounded(start.y()), rounded(height)}},
+          {"yaw_deg", 90}};
+}
+
+json scenario_json(const Place& place, const Population& population) {
+  json meshes = json::array();
+  for (std::size_t i = 0; i < place.things.size(); ++i) {
+    meshes.push_back({{"file", mesh_name(place, i) + ".obj"}, {"position", {0, 0, 0}}});
+  }
+  return {
+      {"name", place.name},
+      {"description", place.description},
+      {"crowd", {{"scene", place.name + "_scene.xml"}, {"behavior", place.name + "_behavior.xml"}}},
+      {"ground", ground_json(place)},
+      {"inside", {{"min", point(place.inside.min)}, {"max", point(place.inside.max)}}},
+      {"exits", exits_json(place, population.gates)},
+      {"buildings", buildings_json(place)},
+      {"drones", {drone_json(place)}},
+      {"props", props_json(place)},
+      {"meshes", meshes}};
+}
+
+json job_json(const Place& place) {
+  return {{"name", place.name},
+          {"scenario", place.name},
+          {"quality", "draft"},
+          {"drones", {{{"id", "d1"}, {"camera", {{"pitch_deg", -50}}}}}},
+          {"capture", {{"rate_hz", 0.5}, {"from_s", 4}, {"to_s", 30}}}};
+}
+
+using Out = std::back_insert_iterator<std::string>;
+
+void add_group(Out out, const std::vector<Vector2d>& starts, const std::string& arrivals) {
+  fmt::format_to(out,
+                 "  <AgentGroup>\n    <ProfileSelector type=\"const\" name=\"person\"/>\n"
+                 "    <StateSelector type=\"const\" name=\"Walk\"/>\n"
+                 "    <Generator type=\"explicit\">\n");
+  for (const Vector2d& start : starts) {
+    fmt::format_to(out, "      <Agent p_x=\"{:.3f}\" p_y=\"{:.3f}\"/>\n", start.x(), start.y());
+  }
+  fmt::format_to(out, "    </Generator>\n{}  </AgentGroup>\n", arrivals);
+}
+
+// As many come in as a place of this size with so many people loses, when everybody walks across it
+// once (Little's law).
+void add_arrivals(Out out, const Place& place, const Population& population) {
+  constexpr double kInM = 2;
+  constexpr double kUntilS = 600;
+  const double across_s = (place.inside.max - place.inside.min).maxCoeff() / kUsualSpeedMps;
+  const double total_per_s = static_cast<double>(population.starts.size()) / across_s;
+  double shares = 0;
+  for (const Gate& gate : population.gates) shares += gate.share;
+  for (const Gate& gate : population.gates) {
+    const double per_s = total_per_s * gate.share / std::max(shares, 1e-9);
+    if (per_s < 1e-4) continue;
+    const Vector2d middle = 0.5 * (gate.from + gate.to);
+    const Vector2d in = -outward_of(gate, place.inside);
+    const Vector2d along = (gate.to - gate.from).normalized();
+    std::vector<Vector2d> starts;
+    const double half = std::max(0.0, 0.5 * (gate.to - gate.from).norm() - 0.6);
+    for (double at = -half; at <= half; at += 0.9)
+      starts.emplace_back(middle + kInM * in + at * along);
+    add_group(out, starts,
+              fmt::format("    <Arrivals type=\"rate\" per_second=\"{:.4f}\" end=\"{}\"/>\n", per_s,
+                          kUntilS));
+  }
+}
+
+std::string scene_xml(const Place& place, const Population& population) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<Experiment version=\"2.0\">\n"
+      "  <SpatialQuery type=\"kd-tree\" test_visibility=\"0\"/>\n  <Common time_step=\"0.1\"/>\n"
+      "  <AgentProfile name=\"person\">\n"
+      "    <Common max_angle_vel=\"360\" max_neighbors=\"10\" obstacleSet=\"1\" "
+      "neighbor_dist=\"5\" r=\"0.2\" class=\"1\" pref_speed=\"1.34\" max_speed=\"2\" "
+      "max_accel=\"5\">\n"
+      "      <Property name=\"pref_speed\" dist=\"n\" mean=\"1.34\" stddev=\"0.26\"/>\n"
+      "    </Common>\n    <ORCA tau=\"3\" tauObst=\"0.4\"/>\n  </AgentProfile>\n";
+  const Out out = std::back_inserter(text);
+  if (!population.starts.empty()) add_group(out, population.starts, "");
+  if (place.people_come) add_arrivals(out, place, population);
+  std::vector<Corners> obstacles = place.obstacles;
+  for (const world::Prop& prop : place.props) obstacles.push_back(footprint_of(prop));
+  text += "  <ObstacleSet type=\"explicit\" class=\"1\">\n";
+  for (const Corners& obstacle : obstacles) {
+    text += "    <Obstacle closed=\"1\">\n";
+    for (const Vector2d& corner : obstacle) {
+      fmt::format_to(out, "      <Vertex p_x=\"{:.3f}\" p_y=\"{:.3f}\"/>\n", corner.x(),
+                     corner.y());
+    }
+    text += "    </Obstacle>\n";
+  }
+  return text + "  </ObstacleSet>\n</Experiment>\n";
+}
+
+std::string behavior_xml(const Place& place, const Population& population) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<!-- A beginning: everybody walks to one of the exits and leaves. "
+      "-->\n<BFSM>\n  <GoalSet id=\"0\">\n";
+  const Out out = std::back_inserter(text);
+  for (std::size_t i = 0; i < population.gates.size(); ++i) {
+    const Gate& gate = population.gates[i];
+    const Vector2d goal =
+        0.5 * (gate.from + gate.to) + kGoalBeyondM * outward_of(gate, place.inside);
+    const double radius = std::clamp(0.4 * (gate.to - gate.from).norm(), 0.5, 1.5);
+    fmt::format_to(out,
+                   "    <Goal id=\"{}\" type=\"circle\" x=\"{:.3f}\" y=\"{:.3f}\" "
+                   "radius=\"{:.2f}\"/>\n",
+                   i, goal.x(), goal.y(), radius);
+  }
+  return text +
+         "  </GoalSet>\n"
+         "  <State name=\"Walk\" final=\"0\">\n"
+         "    <GoalSelector type=\"random\" goal_set=\"0\"/>\n    <VelComponent type=\"auto\"/>\n"
+         "  </State>\n"
+         "  <State name=\"Gone\" final=\"1\"><Action type=\"leave\"/></State>\n"
+         "  <Transition from=\"Walk\" to=\"Gone\"><Condition type=\"goal_reached\"/></Transition>\n"
+         "</BFSM>\n";
+}
+
+}  // namespace
+
+std::string Skipped::text() const {
+  std::string where = file;
+  if (line > 0) where += fmt::format(":{}", line);
+  return fmt::format("{}{}{}: {}", where, where.empty() ? "" : ": ", element, reason);
+}
+
+std::string place_name_of(const fs::path& file) {
+  std::string name;
+  for (const char c : file.stem().string()) {
+    const bool upper = c >= 'A' && c <= 'Z';
+    const char lower = upper ? static_cast<char>(c - 'A' + 'a') : c;
+    const bool word = (lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9');
+    if (word) {
+      name += lower;
+    } else if (!name.empty() && name.back() != '_') {
+      name += '_';
+    }
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return name.empty() ? "place" : name;
+}
+
+fs::path write_place(const Place& place, const Population& population, const fs::path& folder) {
+  constexpr int kIndent = 1;
+  for (std::size_t i = 0; i < place.things.size(); ++i) {
+    const std::string name = mesh_name(place, i);
+    const MeshText mesh = mesh_text(place.things[i], fs::path(name).filename().string() + ".mtl");
+    write_file_atomically(folder / (name + ".mtl"), mesh.materials);
+    write_file_atomically(folder / (name + ".obj"), mesh.triangles);
+  }
+  std::string skipped;
+  for (const Skipped& one : place.skipped) skipped += one.text() + "\n";
+  write_file_atomically(folder / (place.name + ".skipped.txt"), skipped);
+  write_file_atomically(folder / (place.name + "_scene.xml"), scene_xml(place, population));
+  write_file_atomically(folder / (place.name + "_behavior.xml"), behavior_xml(place, population));
+  write_file_atomically(folder / (place.name + ".job.json"), job_json(place).dump(kIndent) + "\n");
+  const fs::path file = folder / (place.name + ".json");
+  write_file_atomically(file, scenario_json(place, population).dump(kIndent) + "\n");
+  return file;
+}
+
+}  // namespace throng::imports

@@ -1,0 +1,153 @@
+#include "imports/sdf_shapes.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <sdf/sdf.hh>
+
+#include "base/error.h"
+#include "imports/mesh_reader.h"
+
+namespace throng::imports {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kLargestM = 10'000;
+
+Vector3d vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
+
+[[noreturn]] void reject(const std::string& found, const std::string& expected) {
+  throw InputError(Problem{"", "", found, expected});
+}
+
+double size_within(double size) {
+  if (!(size > 0 && size <= kLargestM)) {
+    reject(fmt::format("a size of {:g} m", size), "a size above 0 and up to 10 km");
+  }
+  return size;
+}
+
+Vector3d size_within(const ignition::math::Vector3d& size) {
+  return {size_within(size.X()), size_within(size.Y()), size_within(size.Z())};
+}
+
+bool is_upright(const Eigen::Isometry3d& pose) {
+  constexpr double kCosineOfADegree = 0.99985;
+  return std::abs(pose.linear()(2, 2)) > kCosineOfADegree;
+}
+
+// A prism about the pose's z.
+Body prism(const Corners& outline, double length, const Eigen::Isometry3d& pose) {
+  Body body;
+  Solid solid;
+  solid.triangles = prism_triangles(outline, -0.5 * length, 0.5 * length);
+  move(solid.triangles, pose);
+  body.solids.push_back(std::move(solid));
+  if (!is_upright(pose)) return body;
+  Corners corners;
+  for (const Vector2d& corner : outline) {
+    corners.emplace_back((pose * Vector3d(corner.x(), corner.y(), 0)).head<2>());
+  }
+  if (auto tidy = tidied({corners, {}})) body.footprint = tidy->outline;
+  body.from_z = pose.translation().z() - 0.5 * length;
+  body.to_z = pose.translation().z() + 0.5 * length;
+  return body;
+}
+
+Body ball(const Vector3d& radii, double stretch, const Eigen::Isometry3d& pose) {
+  Body body;
+  Solid solid;
+  solid.triangles = ball_triangles(radii, stretch);
+  move(solid.triangles, pose);
+  body.solids.push_back(std::move(solid));
+  return body;
+}
+
+Body plane(const sdf::Plane& plane, const Eigen::Isometry3d& pose) {
+  const Vector3d up = pose.linear() * vector_of(plane.Normal());
+  if (!(up.z() > 0.99)) reject("a plane that is not level", "a level plane");
+  const double half_x = 0.5 * size_within(plane.Size().X());
+  const double half_y = 0.5 * size_within(plane.Size().Y());
+  Body body;
+  Corners corners;
+  for (const Vector2d& corner : corners_of({{-half_x, -half_y}, {half_x, half_y}})) {
+    corners.emplace_back((pose * Vector3d(corner.x(), corner.y(), 0)).head<2>());
+  }
+  if (auto tidy = tidied({corners, {}})) body.footprint = tidy->outline;
+  body.from_z = body.to_z = pose.translation().z();
+  return body;
+}
+
+Body mesh(const sdf::Mesh& mesh, const Eigen::Isometry3d& pose, const std::string& file,
+          const LocalFiles& files) {
+  const auto path = files.find(mesh.Uri(), file);
+  if (!path) {
+    reject(fmt::format("mesh \"{}\"", mesh.Uri()), "a file in the folders of the world and models");
+  }
+  Body body;
+  body.solids = read_mesh(*path, mesh.Submesh());
+  const Vector3d scale = vector_of(mesh.Scale());
+  if (!scale.allFinite() || !(scale.cwiseAbs().maxCoeff() <= kLargestM)) {
+    reject("a scale that is no number", "a scale");
+  }
+  for (Solid& solid : body.solids) {
+    for (Triangle& triangle : solid.triangles) {
+      for (Vector3d& corner : triangle) {
+        corner = corner.cwiseProduct(scale);
+        if (!(corner.norm() <= kLargestM)) reject("a mesh of more than 10 km", "a smaller mesh");
+        corner = pose * corner;
+      }
+    }
+  }
+  return body;
+}
+
+}  // namespace
+
+Body body_of(const sdf::Geometry& geometry, const Eigen::Isometry3d& pose, const std::string& file,
+             const LocalFiles& files) {
+  switch (geometry.Type()) {
+    case sdf::GeometryType::BOX: {
+      const Vector3d half = 0.5 * size_within(geometry.BoxShape()->Size());
+      return prism(corners_of({-half.head<2>(), half.head<2>()}), 2 * half.z(), pose);
+    }
+    case sdf::GeometryType::CYLINDER:
+      return prism(circle(Vector2d::Zero(), size_within(geometry.CylinderShape()->Radius())),
+                   size_within(geometry.CylinderShape()->Length()), pose);
+    case sdf::GeometryType::SPHERE:
+      return ball(Vector3d::Constant(size_within(geometry.SphereShape()->Radius())), 0, pose);
+    case sdf::GeometryType::ELLIPSOID:
+      return ball(size_within(geometry.EllipsoidShape()->Radii()), 0, pose);
+    case sdf::GeometryType::CAPSULE:
+      return ball(Vector3d::Constant(size_within(geometry.CapsuleShape()->Radius())),
+                  size_within(geometry.CapsuleShape()->Length()), pose);
+    case sdf::GeometryType::PLANE:
+      return plane(*geometry.PlaneShape(), pose);
+    case sdf::GeometryType::MESH:
+      return mesh(*geometry.MeshShape(), pose, file, files);
+    default:
+      reject("a geometry of another kind",
+             "a box, cylinder, sphere, ellipsoid, capsule, plane, mesh");
+  }
+}
+
+std::optional<Vector3d> colour_of(const sdf::Material* material) {
+  if (material == nullptr) return std::nullopt;
+  const ignition::math::Color colour = material->Diffuse();
+  const Vector3d rgb(colour.R(), colour.G(), colour.B());
+  if (!rgb.allFinite()) return std::nullopt;
+  return rgb.cwiseMax(0).cwiseMin(1);
+}
+
+std::string ground_material_like(const Vector3d& rgb) {
+  constexpr double kTint = 0.08;
+  constexpr double kDark = 0.3;
+  if (rgb.y() > rgb.x() + kTint && rgb.y() > rgb.z() + kTint) return "grass";
+  if (rgb.x() > rgb.z() + kTint && rgb.x() > rgb.y()) return "dirt";
+  return rgb.maxCoeff() < kDark ? "asphalt" : "concrete";
+}
+
+}  // namespace throng::imports

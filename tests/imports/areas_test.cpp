@@ -1,0 +1,64 @@
+// Areas: what is tidied, cut and taken apart; and where the shadow of bodies falls.
+#include "imports/areas.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "imports/solids.h"
+#include "world/polygon.h"
+
+namespace throng::imports {
+namespace {
+
+Corners square(double from, double to) { return corners_of({{from, from}, {to, to}}); }
+
+double whole_m2(const std::vector<Corners>& parts) {
+  return std::accumulate(parts.begin(), parts.end(), 0.0, [](double sum, const Corners& part) {
+    return sum + world::signed_area(part);
+  });
+}
+
+TEST(Areas, AreTidiedOrRefused) {
+  const auto tidy = tidied({{{0, 0}, {0, 4}, {4, 4}, {4, 2}, {4, 0}, {2, 0}, {0, 0}}, {}});
+  ASSERT_TRUE(tidy);
+  EXPECT_EQ(tidy->outline.size(), 4U);
+  EXPECT_NEAR(world::signed_area(tidy->outline), 16, 1e-9);
+  EXPECT_FALSE(tidied({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {}}));  // crosses itself
+  EXPECT_FALSE(tidied({{{0, 0}, {1, 1}, {2, 2}}, {}}));
+  EXPECT_FALSE(tidied({square(0, 4), {square(3, 6)}}));  // a hole that reaches out
+}
+
+TEST(Areas, WithHolesComeApartIntoSimpleOnes) {
+  const std::vector<Corners> parts = simple_parts({square(0, 10), {square(2, 4), square(6, 8)}});
+  EXPECT_GE(parts.size(), 3U);
+  EXPECT_NEAR(whole_m2(parts), 100 - 8, 1e-6);
+  for (const Corners& part : parts) {
+    EXPECT_TRUE(world::is_simple(part));
+    EXPECT_GT(world::distance_to(part, {3, 3}), 0.9);
+    EXPECT_GT(world::distance_to(part, {7, 7}), 0.9);
+  }
+}
+
+TEST(Areas, LoseWhatLiesInOthersOrOutside) {
+  double left = 0;
+  for (const Area& rest : without({square(0, 10), {}}, {{square(5, 20), {}}}))
+    left += size_m2(rest);
+  EXPECT_NEAR(left, 75, 1e-6);
+  ASSERT_EQ(clipped({square(0, 10), {}}, {{8, 8}, {30, 30}}).size(), 1U);
+  EXPECT_NEAR(size_m2(along({{0, 0}, {10, 0}}, 3).at(0)), 30, 1e-6);
+  EXPECT_TRUE(along({{1, 1}, {1, 1}}, 3).empty());
+}
+
+TEST(Shadow, IsThatOfWhatIsBetweenFeetAndHeads) {
+  Triangles wall = box_triangles({6, 0.2, 3});
+  EXPECT_NEAR(whole_m2(shadow_of(wall)), 6 * 0.25, 1.2);
+  Eigen::Isometry3d up = Eigen::Isometry3d::Identity();
+  up.translation().z() = 5;
+  move(wall, up);
+  EXPECT_TRUE(shadow_of(wall).empty());                        // a beam overhead
+  EXPECT_TRUE(shadow_of(box_triangles({5, 5, 0.3})).empty());  // a kerb
+}
+
+}  // namespace
+}  // namespace throng::imports

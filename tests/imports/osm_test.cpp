@@ -1,0 +1,127 @@
+// OpenStreetMap: buildings, ways, barriers and gates of a small map drawn by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "imports/osm_map.h"
+#include "imports/osm_tags.h"
+#include "tests/world/temporary_folder.h"
+#include "world/polygon.h"
+
+namespace throng::imports {
+namespace {
+
+const std::filesystem::path kMaps = std::filesystem::path(THRONG_SOURCE_DIR) / "tests/imports/data";
+
+class Quarter : public ::testing::Test {
+ protected:
+  static bool covers(const Corners& corners, const Eigen::Vector2d& point) {
+    return world::distance_to(corners, point) == 0;
+  }
+  bool built(const Eigen::Vector2d& point) const {
+    return std::any_of(
+        place.buildings.begin(), place.buildings.end(),
+        [&](const world::Building& building) { return covers(building.footprint, point); });
+  }
+  bool blocked(const Eigen::Vector2d& point) const {
+    return std::any_of(place.obstacles.begin(), place.obstacles.end(),
+                       [&](const Corners& obstacle) { return covers(obstacle, point); });
+  }
+  /// Metres from the south-western corner's degrees.
+  static Eigen::Vector2d at(double latitude, double longitude) {
+    constexpr double kNorth = 111'229.0;  // of a degree at 50 degrees on WGS 84
+    constexpr double kEast = 71'696.0;
+    return {kEast * (longitude - 10), kNorth * (latitude - 50)};
+  }
+  bool mentions(const std::string& words) const {
+    return std::any_of(place.skipped.begin(), place.skipped.end(), [&](const Skipped& one) {
+      return one.text().find(words) != std::string::npos;
+    });
+  }
+
+  Place place = read_osm(kMaps / "quarter.osm", {GeoPoint{50, 10}, {}});
+};
+
+TEST_F(Quarter, IsProjectedToMetres) {
+  EXPECT_NEAR(place.inside.min.norm(), 0, 1e-6);
+  EXPECT_NEAR(place.inside.max.x(), at(0, 10.0014).x(), 0.1);
+  EXPECT_NEAR(place.inside.max.y(), at(50.0009, 0).y(), 0.1);
+}
+
+TEST_F(Quarter, HasBuildingsWithCourtyardsAndHeights) {
+  EXPECT_TRUE(built(at(50.00055, 10.0003)));
+  EXPECT_FALSE(built(at(50.00065, 10.0003)));  // the courtyard
+  for (const world::Building& building : place.buildings) {
+    EXPECT_TRUE(world::is_simple(building.footprint));
+    if (covers(building.footprint, at(50.00055, 10.0003))) {
+      EXPECT_NEAR(building.height_m, 12, 1e-9);
+    }
+    if (covers(building.footprint, at(50.00057, 10.0009))) {
+      EXPECT_NEAR(building.height_m, 21.5, 1e-9);
+    }
+  }
+  EXPECT_TRUE(mentions("way 4"));  // overlaps way 3
+  EXPECT_TRUE(mentions("way 5"));  // crosses itself
+  EXPECT_FALSE(built(at(50.00015, 10.0002)));
+  EXPECT_FALSE(blocked(at(50.00015, 10.0002)));  // on stilts
+}
+
+TEST_F(Quarter, HasWaysBarriersAndWater) {
+  EXPECT_TRUE(std::any_of(place.areas.begin(), place.areas.end(), [&](const world::GroundArea& a) {
+    return a.material == "asphalt" && covers(a.corners, at(50.00035, 10.001));
+  }));
+  const auto crossing = std::find_if(place.markings.begin(), place.markings.end(),
+                                     [](const world::Marking& m) { return m.kind == "crossing"; });
+  ASSERT_NE(crossing, place.markings.end());
+  EXPECT_NEAR((crossing->to - crossing->from).norm(), 0.94 * 6, 0.1);
+  EXPECT_TRUE(blocked(at(50.00028, 10.00074)));
+  EXPECT_FALSE(blocked(at(50.00028, 10.00085)));  // the gate in the fence
+  EXPECT_TRUE(blocked(at(50.000095, 10.00078)));  // the pond
+  EXPECT_TRUE(mentions("railway=tram"));
+  EXPECT_EQ(std::count_if(place.props.begin(), place.props.end(),
+                          [](const world::Prop& p) { return p.kind == world::PropKind::tree; }),
+            3);
+}
+
+TEST_F(Quarter, IsLeftWhereItsWaysLeaveIt) {
+  ASSERT_EQ(place.gates.size(), 4U);  // the street and the footway, twice each
+  for (const Gate& gate : place.gates) {
+    const double width = (gate.to - gate.from).norm();
+    EXPECT_NEAR(gate.share, width < 4 ? 3 : 0.3 * 6, 1e-6);
+  }
+}
+
+TEST(Osm, ReadsLengthsAsMappersWriteThem) {
+  EXPECT_EQ(length_in("12"), 12);
+  EXPECT_EQ(length_in("12.5 m"), 12.5);
+  EXPECT_NEAR(length_in("10 ft").value(), 3.048, 1e-9);
+  for (const char* text : {"", "high", "-3", "1e9", "nan", "12 cm", "3;4"}) {
+    EXPECT_FALSE(length_in(text)) << text;
+  }
+}
+
+TEST(Osm, RefusesWhatIsNoExtract) {
+  const throng::testing::TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    write_file_atomically(folder.path() / "m.osm", text);
+    return read_osm(folder.path() / "m.osm", {});
+  };
+  const std::string bomb =
+      "<?xml version='1.0'?><!DOCTYPE o [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;'>]>"
+      "<osm version='0.6'><node id='1' lat='0' lon='0'><tag k='name' v='&b;'/></node></osm>";
+  for (const std::string& text :
+       {std::string(), std::string("<osm version='0.6'/>"), std::string("<sdf/>"), bomb,
+        std::string(
+            "<osm version='0.6'><bounds minlat='0' minlon='0' maxlat='40' maxlon='40'/></osm>"),
+        std::string(
+            "<osm version='0.6'><bounds minlat='0' minlon='0' maxlat='1e-6' maxlon='1e-6'/></osm>"),
+        std::string("<osm version='0.6'><node id='1' lat='1e300' lon='nan'/></osm>"),
+        std::string("<osm version='0.6'><node id='1' lat='1' lon='2'/>")}) {
+    EXPECT_THROW(read(text), InputError) << text;
+  }
+}
+
+}  // namespace
+}  // namespace throng::imports
