@@ -40,9 +40,11 @@ class RunningService {
  public:
   RunningService()
       : data_(make_folder()),
-        service_({data_, fs::path(THRONG_SOURCE_DIR) / "scenarios"}, executor_),
+        service_({.data = data_, .scenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios"},
+                 executor_),
         keys_(data_),
-        api_(service_, keys_, {}),
+        hooks_(service_),
+        api_(service_, keys_, hooks_, {}),
         job_(service_.submit({kJobText}).row.id),
         thread_([this] { api_.run(); }) {}
   ~RunningService() {
@@ -67,6 +69,7 @@ class RunningService {
   IdleExecutor executor_;
   JobService service_;
   Keys keys_;
+  WebhookSender hooks_;
   Api api_;
   std::string job_;
   std::jthread thread_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/problem_json.h"
 #include "calibrate/camera_file.h"
 #include "calibrate/warnings.h"
 #include "camera/files.h"
@@ -57,17 +58,6 @@ json view_json(const ViewResult& view) {
           {"outliers", std::move(outliers)}};
 }
 
-json problems_json(const std::vector<Problem>& problems) {
-  json list = json::array();
-  for (const Problem& problem : problems) {
-    list.push_back({{"source", problem.source},
-                    {"where", problem.where},
-                    {"found", problem.found},
-                    {"expected", problem.expected}});
-  }
-  return list;
-}
-
 std::string yaml_matrix(const char* name, std::size_t rows, std::size_t columns,
                         const std::vector<double>& data) {
   std::vector<std::string> words;
@@ -100,7 +90,7 @@ json to_json(const Calibration& calibration) {
   value["covariance"] = covariance_json(calibration);
   value["views"] = json::array();
   for (const ViewResult& view : calibration.views) value["views"].push_back(view_json(view));
-  value["left_out"] = problems_json(calibration.left_out);
+  value["left_out"] = json(calibration.left_out);
   value["warnings"] = calibration.warnings;
   for (const ModelScore& score : calibration.models) {
     value["models"].push_back({{"lens", name_of(score.lens)},

@@ -26,6 +26,7 @@ struct ExportArguments {
   std::vector<std::string> splits;
   double min_visibility = 0;
   double min_height_px = 0;
+  double shard_mb = formats::WebDatasetOptions{}.shard_mb;
   std::string classes = "none";
   std::vector<std::string> class_names;
 };
@@ -73,6 +74,7 @@ formats::ExportOptions options_of(const ExportArguments& arguments) {
   formats::ExportOptions options;
   options.splits = splits_of(arguments.splits);
   options.filters = {arguments.min_visibility, arguments.min_height_px};
+  options.webdataset.shard_mb = arguments.shard_mb;
   options.classes.by = arguments.classes;
   for (const std::string& word : arguments.class_names) {
     formats::add_class_name(word, "--class-name", options.classes);
@@ -119,6 +121,10 @@ void add_export(CLI::App& app) {
       ->add_option("--min-height", arguments->min_height_px,
                    "Who is fewer pixels high becomes an ignore region")
       ->check(CLI::Range(0.0, 1e6));
+  command
+      ->add_option("--shard-mb", arguments->shard_mb, "Size of WebDataset's tar files (10^6 bytes)")
+      ->check(CLI::Range(1.0, 1e5))
+      ->capture_default_str();
   command->add_option("--classes", arguments->classes, "What classes tell apart")
       ->check(CLI::IsMember([] {
         std::vector<std::string> names;

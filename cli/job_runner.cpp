@@ -35,8 +35,8 @@ void show(ProgressBar& bar, const jobs::JobProgress& progress) {
   double fraction = 0;
   std::int64_t done = 0;
   std::int64_t total = 0;
-  for (const jobs::RunProgress& run : progress) {
-    fraction += fraction_of(run) / static_cast<double>(progress.size());
+  for (const jobs::RunProgress& run : progress.runs) {
+    fraction += fraction_of(run) / static_cast<double>(progress.runs.size());
     done += run.images_done;
     total += run.images_total;
   }
@@ -78,16 +78,25 @@ jobs::JobSpec read_job_file(const std::string& path) {
 void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job,
                 const JobArguments& arguments) {
   if (arguments.profile) ::setenv(jobs::kProfileVariable, "1", 1);
+  std::vector<jobs::RunFailure> failures;
   {
     const Interrupt interrupt;
     ProgressBar bar(job.name.empty() ? "job" : job.name);
     jobs::LocalProcesses executor({.workers = arguments.workers});
-    jobs::run_job(
+    failures = jobs::run_job(
         folder, job, executor, [&](const jobs::JobProgress& progress) { show(bar, progress); },
         interrupt.token());
   }
   fmt::print("{}\n", folder.dataset().string());
-  if (arguments.profile) fmt::print("{}", jobs::profile_table(folder, job));
+  if (failures.empty()) {
+    if (arguments.profile) fmt::print("{}", jobs::profile_table(folder, job));
+    return;
+  }
+  std::string message = fmt::format(
+      "{} of {} runs failed and are not in the dataset; the same command tries them again",
+      failures.size(), job.runs);
+  for (const jobs::RunFailure& failure : failures) message += "\n" + failure.message;
+  throw EnvironmentError(message);
 }
 
 }  // namespace throng::cli

@@ -14,17 +14,20 @@ namespace throng::cli {
 
 namespace {
 
+constexpr int kGibShift = 30;
+
 std::string day_of(std::int64_t unix_ms) {
   constexpr std::int64_t kMsPerS = 1000;
   return fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(unix_ms / kMsPerS)));
 }
 
 void print_keys(const std::vector<server::KeyRow>& keys) {
-  fmt::print("{:<10}{:<8}{:>10}  {:<12}{:<12}{}\n", "id", "scope", "most jobs", "made", "revoked",
-             "name");
+  fmt::print("{:<10}{:<8}{:>10}{:>10}  {:<12}{:<12}{}\n", "id", "scope", "most jobs", "most GiB",
+             "made", "revoked", "name");
   for (const server::KeyRow& key : keys) {
-    fmt::print("{:<10}{:<8}{:>10}  {:<12}{:<12}{}\n", key.id, server::name_of(key.scope),
+    fmt::print("{:<10}{:<8}{:>10}{:>10}  {:<12}{:<12}{}\n", key.id, server::name_of(key.scope),
                key.most_active == 0 ? "any" : std::to_string(key.most_active),
+               key.most_bytes == 0 ? "any" : std::to_string(key.most_bytes >> kGibShift),
                day_of(key.created_ms), key.revoked_ms == 0 ? "" : day_of(key.revoked_ms), key.name);
   }
 }
@@ -53,9 +56,14 @@ void add_keys(CLI::App& app) {
       ->capture_default_str();
   create->add_option("--most-jobs", *most, "Jobs that may wait or run at once (0: any number)")
       ->check(CLI::NonNegativeNumber);
+  const auto most_gib = std::make_shared<int>(0);
+  create->add_option("--most-gib", *most_gib, "Disk that their jobs may take (0: any)")
+      ->check(CLI::NonNegativeNumber);
   add_data(create);
   create->callback([=] {
-    fmt::print("{}\n", server::Keys(*data).create(*name, *server::scope_named(*scope), *most));
+    fmt::print("{}\n",
+               server::Keys(*data).create(*name, *server::scope_named(*scope), *most,
+                                          static_cast<std::int64_t>(*most_gib) << kGibShift));
   });
 
   auto* list = command->add_subcommand("list", "List the keys");

@@ -38,7 +38,14 @@ void show(ProgressBar& bar, const json& job) {
                           : total > 0                 ? static_cast<double>(done) / total
                                                       : 0.0;
   const std::string stage = progress.value("stage", job["state"].get<std::string>());
-  bar.show(fraction, total == 0 ? stage : fmt::format("{}, {} of {} frames", stage, done, total));
+  std::string text = total == 0 ? stage : fmt::format("{}, {} of {} frames", stage, done, total);
+  if (const json left = progress.value("remaining_s", json()); left.is_number()) {
+    text += fmt::format(", {:.0f} s left", left.get<double>());
+  }
+  if (job["waiting_for"].is_string()) {
+    text += fmt::format(", waits: {}", job["waiting_for"].get<std::string>());
+  }
+  bar.show(fraction, text);
 }
 
 /// Follows a job until it has ended. A server that restarts is waited for.
@@ -72,7 +79,16 @@ void require_success(const json& job) {
   const json& error = job["error"];
   const std::vector<Problem> problems = problems_of(error["problems"]);
   if (error["kind"] == "input" && !problems.empty()) throw InputError(problems);
-  throw EnvironmentError("the job failed: " + error["message"].get<std::string>());
+  std::string message = error["message"].get<std::string>();
+  if (job["state"] != "partial") {
+    throw EnvironmentError(fmt::format("the job failed: {}", message));
+  }
+  for (const json& run : error["runs"]) {
+    message += fmt::format("\n{}", run["message"].get<std::string>());
+  }
+  throw EnvironmentError(
+      fmt::format("{}\n`throng fetch {}` has the others, `throng retry {}` tries again", message,
+                  job["id"].get<std::string>(), job["id"].get<std::string>()));
 }
 
 struct FetchArguments {
@@ -242,7 +258,7 @@ void add_list(CLI::App& app) {
   auto* command = app.add_subcommand("jobs", "List a server's jobs, the newest first");
   const auto arguments = std::make_shared<ListArguments>();
   command->add_option("--state", arguments->states, "Only these")
-      ->check(CLI::IsMember({"queued", "running", "succeeded", "failed", "cancelled"}));
+      ->check(CLI::IsMember({"queued", "running", "succeeded", "partial", "failed", "cancelled"}));
   command->add_option("--label", arguments->label, "Only those that have it");
   command->add_option("--name", arguments->name, "Only those whose name contains it");
   command->add_option("--limit", arguments->limit, "So many at most")
@@ -281,9 +297,8 @@ void add_remote_jobs(CLI::App& app) {
   add_for_id(app, "cancel", "End a job; what it has done is kept for a retry", id)->callback([id] {
     ApiClient().post(path_of(*id) + "/cancel");
   });
-  add_for_id(app, "retry", "Queue a job again that failed or was cancelled", id)->callback([id] {
-    ApiClient().post(path_of(*id) + "/retry");
-  });
+  add_for_id(app, "retry", "Queue a job again that failed, at least in part, or was cancelled", id)
+      ->callback([id] { ApiClient().post(path_of(*id) + "/retry"); });
   add_for_id(app, "remove", "End a job and remove its files", id)->callback([id] {
     ApiClient().remove(path_of(*id));
   });

@@ -25,6 +25,28 @@ void add_serve(CLI::App& app) {
   command->add_option("--workers", options->workers, "Processes at work at once (0: one per core)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command
+      ->add_option("--keep-days", options->keep_days,
+                   "Remove jobs so many days after their end (0: never)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--keep-gib", options->keep_gib,
+                   "Remove the jobs that ended first while all take more disk (0: any)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--least-free", options->least_free_mib,
+                   "MiB of free disk below which the queue rests")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--task-timeout", options->longest_task_s,
+                   "Seconds after which a worker counts as hung (0: any time)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--worker-memory", options->worker_memory_mib,
+                   "MiB of address space that each worker may use (0: any)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--log-json", options->log_json, "Log lines as JSON");
   command->add_flag(
       "--insecure", options->insecure,
       "Listen on addresses that other machines can reach while there are no keys: whoever "

@@ -37,10 +37,15 @@ struct ClassOptions {
   std::map<std::string, std::string> names;  ///< other names for values of that property
 };
 
+struct WebDatasetOptions {
+  double shard_mb = 1000;  ///< 10^6 bytes that a tar file may reach before the next is begun
+};
+
 struct ExportOptions {
   SplitOptions splits;
   FilterOptions filters;
   ClassOptions classes;
+  WebDatasetOptions webdataset;
 };
 
 /// Values of a property, in a fixed order; they are the classes. Empty for an unknown property.

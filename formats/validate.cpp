@@ -80,6 +80,8 @@ ExportOptions options_of(const json& manifest) {
   const json filters = outputs.value("filters", json::object());
   options.filters.min_visibility = filters.value("min_visibility", 0.0);
   options.filters.min_height_px = filters.value("min_height_px", 0.0);
+  options.webdataset.shard_mb =
+      outputs.value("webdataset", json::object()).value("shard_mb", options.webdataset.shard_mb);
   const json splits = outputs.value("splits", json::object());
   for (std::size_t i = 0; i < kSplitNames.size(); ++i) {
     const std::string name(kSplitNames.at(i));

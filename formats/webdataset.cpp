@@ -1,4 +1,5 @@
-// WebDataset: plain tar shards in which a sample's members lie together: KEY.jpg and KEY.json.
+// WebDataset: plain tar shards in which a sample's members lie together, KEY.jpg and KEY.json, and
+// shards.json with the checksum of each.
 #include <archive.h>
 #include <archive_entry.h>
 #include <fmt/format.h>
@@ -6,11 +7,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "formats/makers.h"
 
 namespace throng::formats {
@@ -18,8 +21,14 @@ namespace throng::formats {
 namespace fs = std::filesystem;
 namespace {
 
-/// Samples in a shard: some hundred megabytes of full pictures.
-constexpr std::int64_t kSamplesPerShard = 500;
+constexpr double kBytesPerMb = 1e6;
+constexpr std::int64_t kTarBlock = 512;
+
+/// What a member takes in a tar file: a header and whole blocks.
+std::int64_t bytes_in_tar(std::string_view member) {
+  const auto size = static_cast<std::int64_t>(member.size());
+  return kTarBlock + (size + kTarBlock - 1) / kTarBlock * kTarBlock;
+}
 
 struct CloseArchive {
   void operator()(archive* tar) const { archive_write_free(tar); }
@@ -71,34 +80,53 @@ class WebDatasetExporter : public Exporter {
       : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
+    // Keys end at the first dot, and have none.
+    const std::string picture = read_file(info_.root / image.file);
+    const std::string sample = sample_of(image, info_).dump();
+    const std::int64_t bytes = bytes_in_tar(picture) + bytes_in_tar(sample);
     Shards& shards = shards_[image.split];
-    if (shards.samples % kSamplesPerShard == 0) {
+    const bool is_full =
+        static_cast<double>(shards.bytes + bytes) > info_.options.webdataset.shard_mb * kBytesPerMb;
+    if (!shards.open || is_full) {
       close(shards);
-      shards.place =
-          fmt::format("{}-{:06}.tar", name_of(image.split), shards.samples / kSamplesPerShard);
+      shards.place = fmt::format("{}-{:06}.tar", name_of(image.split), shards.list.size());
       shards.open = std::make_unique<TarFile>(output_.folder() / shards.place);
     }
     ++shards.samples;
-    // Keys end at the first dot, and have none.
-    shards.open->add(image.stem() + ".jpg", read_file(info_.root / image.file));
-    shards.open->add(image.stem() + ".json", sample_of(image, info_).dump());
+    shards.bytes += bytes;
+    shards.open->add(image.stem() + ".jpg", picture);
+    shards.open->add(image.stem() + ".json", sample);
   }
 
   void finish() override {
-    for (auto& [split, shards] : shards_) close(shards);
+    nlohmann::json list = nlohmann::json::object();
+    for (auto& [split, shards] : shards_) {
+      close(shards);
+      list[std::string(name_of(split))] = std::move(shards.list);
+    }
+    output_.write("shards.json", list.dump(2) + "\n");
   }
 
  private:
   struct Shards {
     std::unique_ptr<TarFile> open;
     std::string place;
-    std::int64_t samples = 0;
+    std::int64_t samples = 0;  ///< in the open one
+    std::int64_t bytes = 0;    ///< likewise
+    nlohmann::json list = nlohmann::json::array();
   };
 
   void close(Shards& shards) const {
     if (!shards.open) return;
     shards.open->close();
     shards.open.reset();
+    const fs::path file = output_.folder() / shards.place;
+    shards.list.push_back({{"file", shards.place},
+                           {"samples", shards.samples},
+                           {"bytes", fs::file_size(file)},
+                           {"sha256", sha256_hex_of_file(file)}});
+    shards.samples = 0;
+    shards.bytes = 0;
     output_.written(shards.place);
   }
 

@@ -1,17 +1,15 @@
 #include "jobs/archive.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <unordered_map>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/read_only_file.h"
 #include "jobs/manifest.h"
 
 namespace throng::jobs {
@@ -22,34 +20,9 @@ namespace {
 
 std::int64_t padding_of(std::int64_t bytes) { return (kTarBlock - bytes % kTarBlock) % kTarBlock; }
 
-class OpenFile {
- public:
-  explicit OpenFile(const fs::path& path)
-      : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-    if (descriptor_ < 0) {
-      throw EnvironmentError(
-          fmt::format("cannot open {}: {}", path.string(), std::strerror(errno)));
-    }
-  }
-  ~OpenFile() { ::close(descriptor_); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
 void read_exactly(const fs::path& path, std::int64_t offset, std::span<char> buffer) {
-  const OpenFile file(path);
-  while (!buffer.empty()) {
-    const ssize_t count = ::pread(file.descriptor(), buffer.data(), buffer.size(), offset);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) {
-      throw EnvironmentError(fmt::format("{} is shorter than the manifest says", path.string()));
-    }
-    offset += count;
-    buffer = buffer.subspan(static_cast<std::size_t>(count));
+  if (ReadOnlyFile(path).read_at(offset, buffer) < buffer.size()) {
+    throw EnvironmentError(fmt::format("{} is shorter than the manifest says", path.string()));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "formats/card.h"
 #include "formats/exporter.h"
 #include "jobs/environment.h"
+#include "jobs/failed_runs.h"
 #include "jobs/manifest.h"
 #include "jobs/people.h"
 #include "jobs/pipeline.h"
@@ -38,12 +39,13 @@ void link_or_copy(const fs::path& from, const fs::path& to) {
 class Collector {
  public:
   Collector(const JobFolder& folder, const JobSpec& job)
-      : folder_(folder), job_(job), staging_(folder.dataset()) {}
+      : folder_(folder), job_(job), failed_(read_failed_runs(folder)), staging_(folder.dataset()) {}
 
   void collect() {
     json runs = json::array();
     json metrics = json::array();
     for (const RunPlan& run : plan_runs(job_)) {
+      if (has_failed(run.index)) continue;
       const json measured = take({Task::Kind::measure, run.index});
       metrics.push_back({{"run", run_name(run.index)}, {"seed", measured.at("seed")}});
       metrics.back().update(measured.at("metrics"));
@@ -112,14 +114,24 @@ class Collector {
                       std::move(hashes.sha256_hex), hashes.crc32});
   }
 
+  bool has_failed(int run) const {
+    return std::any_of(failed_.begin(), failed_.end(),
+                       [&](const FailedRun& failed) { return failed.run == run; });
+  }
+
   json manifest_of(json runs) const {
+    json failed = json::array();
+    for (const FailedRun& run : failed_) {
+      failed.push_back({{"run", run_name(run.run)}, {"task", run.task}});
+    }
     return {{"schema_version", kManifestVersion},
             {"generator", kGenerator},
             {"job", to_json(job_)},
             {"devices", devices_},
             {"people", {{"content_hash", pinned_people(folder_)}}},
             {"counts", {{"frames", images_}, {"annotations", annotations_}, {"agents", agents_}}},
-            {"runs", std::move(runs)}};
+            {"runs", std::move(runs)},
+            {"failed_runs", std::move(failed)}};
   }
 
   // Other formats, and what the dataset says of itself: one pass over its annotations.
@@ -147,6 +159,7 @@ class Collector {
 
   const JobFolder& folder_;
   const JobSpec& job_;
+  std::vector<FailedRun> failed_;  ///< left out
   StagingFolder staging_;
   std::vector<FileEntry> files_;
   std::vector<fs::path> coco_shards_;

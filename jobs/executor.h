@@ -21,6 +21,8 @@ enum class Outcome {
   input_error,        ///< the job is wrong: retrying cannot help
   environment_error,  ///< the machine failed, also after retries
   crashed,            ///< the worker died, also after retries
+  timed_out,          ///< the worker hung or took too long, also after retries
+  out_of_memory,      ///< likewise
   cancelled,
 };
 
@@ -48,8 +50,9 @@ class Executor {
 
   /// Runs independent tasks of one job, as many at once as is good, and returns when none runs any
   /// more; results are in the order of the tasks. Failures of the machine are retried. Once a task
-  /// has failed for good, or `stop` asks, those that run are ended and no others begin: they count
-  /// as cancelled. Calls `on_progress` from the calling thread.
+  /// has failed for good, the others of its run are ended or not begun: they count as cancelled.
+  /// So do all others once `stop` asks, or the job itself turns out to be wrong (an input error).
+  /// Calls `on_progress` from the calling thread.
   virtual std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
                                       const OnProgress& on_progress, std::stop_token stop) = 0;
 };

@@ -70,6 +70,8 @@ void read_exports(const json& outputs, int runs, OutputSpec& spec, std::vector<P
   formats::FilterOptions& limits = spec.exports.filters;
   limits.min_visibility = filters.value("min_visibility", limits.min_visibility);
   limits.min_height_px = filters.value("min_height_px", limits.min_height_px);
+  double& shard_mb = spec.exports.webdataset.shard_mb;
+  shard_mb = outputs.value("webdataset", json::object()).value("shard_mb", shard_mb);
   read_classes(outputs.value("classes", json::object()), spec.exports.classes, problems);
 }
 
@@ -91,6 +93,7 @@ json exports_json(const OutputSpec& spec) {
           {"filters",
            {{"min_visibility", exports.filters.min_visibility},
             {"min_height_px", exports.filters.min_height_px}}},
+          {"webdataset", {{"shard_mb", exports.webdataset.shard_mb}}},
           {"classes", {{"by", exports.classes.by}, {"names", names}}}};
 }
 

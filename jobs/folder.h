@@ -5,6 +5,7 @@
 //   work/run000/trace.h5      published by the task run000/trace
 //   work/run000/metrics/      metrics.json, exits.csv
 //   work/run000/shard0003/    images, density maps, previews, records of its frames
+//   failed_runs.json          runs that the dataset lacks, if any
 //   dataset/                  the result; complete when it is there
 //   logs/                     what the workers said
 #pragma once

@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
-#include <cstring>
 #include <deque>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -17,6 +16,8 @@
 #include "base/resources.h"
 #include "jobs/child_process.h"
 #include "jobs/worker.h"
+#include "jobs/worker_end.h"
+#include "jobs/worker_limits.h"
 #include "jobs/worker_messages.h"
 
 namespace throng::jobs {
@@ -27,18 +28,6 @@ using Clock = std::chrono::steady_clock;
 
 // How late the end of a silent worker, or a wish to stop, may be noticed.
 constexpr int kPollMs = 50;
-
-// The last lines of a log, to say why a worker died without a word.
-std::string tail_of(const std::filesystem::path& log) {
-  constexpr std::streamoff kLongest = 400;
-  std::ifstream file(log, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  if (size <= 0) return "";
-  file.seekg(std::max<std::streamoff>(0, size - kLongest));
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  return text;
-}
 
 // The tasks of one call of run(), from the first worker's start to the last one's end.
 class Batch {
@@ -52,50 +41,73 @@ class Batch {
         stop_(std::move(stop)),
         slots_(std::min(static_cast<std::size_t>(options.workers), tasks.size())),
         results_(tasks.size()) {
-    for (std::size_t i = 0; i < tasks.size(); ++i) waiting_.push_back(i);
+    for (std::size_t i = 0; i < tasks.size(); ++i) waiting_.push_back({i, Clock::now()});
   }
 
   std::vector<TaskResult> run() {
     while (true) {
-      if (stop_.stop_requested()) end_all();
-      while (!waiting_.empty() && running_.size() < slots_) start_next();
-      if (running_.empty()) break;
+      if (stop_.stop_requested()) end_others([](const Task&) { return true; });
+      while (running_.size() < slots_ && start_next()) {
+      }
+      if (running_.empty() && waiting_.empty()) break;
       wait_for_news();
       for (auto& worker : running_) read_messages(*worker);
       collect_ended();
-      if (ending_ && Clock::now() >= deadline_) {
-        for (auto& worker : running_) worker->process.signal_group(SIGKILL);
-      }
+      for (auto& worker : running_) watch(*worker);
     }
     return std::move(results_);
   }
 
  private:
+  struct Waiting {
+    std::size_t task;
+    Clock::time_point from;  ///< not to be begun earlier
+  };
+
   struct Worker {
     Worker(std::size_t index, const std::vector<std::string>& command,
            const ChildProcess::Variables& variables, const std::filesystem::path& log)
         : task(index), process(command, variables, log) {}
     std::size_t task;
     ChildProcess process;
+    Clock::time_point begun = Clock::now();
+    Clock::time_point heard = begun;  ///< when it last said something
+    long long kills_before = kills_for_memory();
     std::optional<WorkerError> error;
+    std::string timeout;
+    std::optional<Clock::time_point> kill_at;  ///< it was asked to end: its result is of no use
   };
 
-  void start_next() {
-    const std::size_t task = waiting_.front();
-    waiting_.pop_front();
-    ++results_[task].attempts;
+  // Begins the next task that need not rest; false when there is none.
+  bool start_next() {
+    const auto next = std::find_if(waiting_.begin(), waiting_.end(), [](const Waiting& waiting) {
+      return waiting.from <= Clock::now();
+    });
+    if (next == waiting_.end()) return false;
+    const std::size_t task = next->task;
+    waiting_.erase(next);
+    const int attempt = ++results_[task].attempts;
     std::vector<std::string> command = options_.command;
     command.insert(command.end(),
                    {"--job", folder_.path().string(), "--task", name_of(tasks_[task])});
-    ChildProcess::Variables variables = {{kSupervisorVariable, std::to_string(::getpid())}};
-    // One core per worker: Mesa's software renderer would start a thread per core in each.
-    if (slots_ > 1) variables.emplace_back("LP_NUM_THREADS", "0");
     try {
-      running_.push_back(
-          std::make_unique<Worker>(task, command, variables, folder_.log_of(tasks_[task])));
+      running_.push_back(std::make_unique<Worker>(task, command, variables_of(attempt),
+                                                  folder_.log_of(tasks_[task])));
     } catch (const EnvironmentError& error) {
       fail(task, {Outcome::environment_error, 0, error.what(), {}});
     }
+    return true;
+  }
+
+  ChildProcess::Variables variables_of(int attempt) const {
+    ChildProcess::Variables variables = {{kSupervisorVariable, std::to_string(::getpid())},
+                                         {kAttemptVariable, std::to_string(attempt)}};
+    if (options_.worker_memory_mib > 0) {
+      variables.emplace_back(kMemoryVariable, std::to_string(options_.worker_memory_mib));
+    }
+    // One core per worker: Mesa's software renderer would start a thread per core in each.
+    if (slots_ > 1) variables.emplace_back("LP_NUM_THREADS", "0");
+    return variables;
   }
 
   void wait_for_news() {
@@ -112,77 +124,90 @@ class Batch {
 
   void read_messages(Worker& worker) {
     for (const std::string& line : worker.process.read_lines()) {
+      worker.heard = Clock::now();
       const WorkerMessage message = read_worker_message(line);
       if (message.error) worker.error = message.error;
       if (message.progress && on_progress_) on_progress_(tasks_[worker.task], *message.progress);
     }
   }
 
+  // Kills what hangs, takes too long, or does not end when asked to.
+  void watch(Worker& worker) const {
+    const auto now = Clock::now();
+    const auto since = [&](Clock::time_point then) {
+      return std::chrono::duration<double>(now - then).count();
+    };
+    if (worker.kill_at) {
+      if (now >= *worker.kill_at) worker.process.signal_group(SIGKILL);
+      return;
+    }
+    if (since(worker.heard) > options_.lease_s) {
+      worker.timeout = fmt::format("no sign of life for {} s", options_.lease_s);
+    } else if (options_.longest_task_s > 0 && since(worker.begun) > options_.longest_task_s) {
+      worker.timeout = fmt::format("the task took longer than {} s", options_.longest_task_s);
+    }
+    if (!worker.timeout.empty()) worker.process.signal_group(SIGKILL);
+  }
+
   void collect_ended() {
+    std::vector<std::unique_ptr<Worker>> ended;
     for (auto worker = running_.begin(); worker != running_.end();) {
       if (!(*worker)->process.has_ended()) {
         ++worker;
         continue;
       }
-      read_messages(**worker);
-      const std::size_t task = (*worker)->task;
-      TaskResult result = result_of(**worker);
+      ended.push_back(std::move(*worker));
       worker = running_.erase(worker);
+    }
+    for (const auto& worker : ended) {
+      read_messages(*worker);
+      const ExitStatus status = worker->process.wait();
+      const bool memory_ran_out = kills_for_memory() > worker->kills_before;
+      TaskResult result = result_of({status, worker->error, worker->timeout, memory_ran_out},
+                                    folder_.log_of(tasks_[worker->task]));
       if (result.outcome == Outcome::succeeded) continue;
-      if (ending_) {
-        results_[task].outcome = Outcome::cancelled;
+      if (worker->kill_at) {
+        results_[worker->task].outcome = Outcome::cancelled;
       } else {
-        fail(task, std::move(result));
+        fail(worker->task, std::move(result));
       }
     }
   }
 
-  TaskResult result_of(Worker& worker) const {
-    const ExitStatus status = worker.process.wait();
-    TaskResult result;
-    if (worker.error) {
-      result.message = worker.error->message;
-      result.problems = worker.error->problems;
-    }
-    if (status.signal == 0 && status.code == worker_succeeded) return result;
-    if (status.signal == 0 && status.code == worker_input_error) {
-      result.outcome = Outcome::input_error;
-    } else if (status.signal == 0 && status.code == worker_environment_error) {
-      result.outcome = Outcome::environment_error;
-    } else {
-      result.outcome = Outcome::crashed;
-    }
-    if (result.message.empty()) {
-      const char* hint = status.signal == SIGKILL ? "; perhaps it ran out of memory" : "";
-      result.message = status.signal != 0
-                           ? fmt::format("the worker was killed by signal {} ({}){}", status.signal,
-                                         ::strsignal(status.signal), hint)
-                           : fmt::format("the worker ended with exit code {}", status.code);
-      const std::string log = tail_of(folder_.log_of(tasks_[worker.task]));
-      if (!log.empty()) result.message += ":\n" + log;
-    }
-    return result;
-  }
-
-  // Tries the task again or lets it, and with it all others, end.
+  // Lets the task rest and tries it again, or gives it up, and with it the tasks of its run. A job
+  // that is wrong is given up as a whole.
   void fail(std::size_t task, TaskResult result) {
-    result.attempts = results_[task].attempts;
-    if (result.outcome != Outcome::input_error && result.attempts < options_.attempts) {
-      waiting_.push_back(task);
+    const int attempts = results_[task].attempts;
+    const bool is_wrong = result.outcome == Outcome::input_error;
+    if (!is_wrong && attempts < options_.attempts) {
+      constexpr double kLonger = 4;
+      waiting_.push_back({task, after(options_.rest_s * std::pow(kLonger, attempts - 1))});
       return;
     }
+    result.attempts = attempts;
     results_[task] = std::move(result);
-    end_all();
+    const int run = tasks_[task].run;
+    end_others([&](const Task& other) { return is_wrong || other.run == run; });
   }
 
-  void end_all() {
-    if (ending_) return;
-    ending_ = true;
-    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                   std::chrono::duration<double>(options_.grace_s));
-    for (const std::size_t task : waiting_) results_[task].outcome = Outcome::cancelled;
-    waiting_.clear();
-    for (auto& worker : running_) worker->process.signal_group(SIGTERM);
+  template <typename Condition>
+  void end_others(const Condition& condition) {
+    const auto gone = std::remove_if(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+      if (!condition(tasks_[waiting.task])) return false;
+      results_[waiting.task].outcome = Outcome::cancelled;
+      return true;
+    });
+    waiting_.erase(gone, waiting_.end());
+    for (auto& worker : running_) {
+      if (worker->kill_at || !condition(tasks_[worker->task])) continue;
+      worker->kill_at = after(options_.grace_s);
+      worker->process.signal_group(SIGTERM);
+    }
+  }
+
+  static Clock::time_point after(double seconds) {
+    return Clock::now() +
+           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   }
 
   const LocalProcessesOptions& options_;
@@ -191,11 +216,9 @@ class Batch {
   const Executor::OnProgress& on_progress_;
   std::stop_token stop_;
   std::size_t slots_;
-  std::deque<std::size_t> waiting_;
+  std::deque<Waiting> waiting_;
   std::vector<std::unique_ptr<Worker>> running_;
   std::vector<TaskResult> results_;
-  bool ending_ = false;
-  Clock::time_point deadline_;
 };
 
 }  // namespace

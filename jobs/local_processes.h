@@ -17,6 +17,14 @@ struct LocalProcessesOptions {
   int workers = 0;
   /// How often a task is begun before a failure of the machine is final.
   int attempts = 3;
+  /// How long a task rests after its first failure; four times as long after each further one.
+  double rest_s = 1;
+  /// A worker that has said nothing for so long is taken for dead and killed.
+  double lease_s = 60;
+  /// The longest that a task may take; 0: any time.
+  double longest_task_s = 0;
+  /// Address space that a worker may use; 0: any.
+  int worker_memory_mib = 0;
   /// How long a worker may take to end after SIGTERM, before SIGKILL.
   double grace_s = 2;
 };

@@ -11,6 +11,7 @@
 #include "annotate/exits_csv.h"
 #include "annotate/ground_field.h"
 #include "base/error.h"
+#include "base/redact.h"
 #include "camera/files.h"
 #include "jobs/environment.h"
 #include "jobs/flight_record.h"
@@ -71,7 +72,10 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   const std::vector<Problem> warnings = sim::simulate(world::find_scenario(scenarios, job.scenario),
                                                       run_spec(job, run), trace, progress, stop);
   if (run > 0) return;  // all runs read the same files
-  for (const Problem& warning : warnings) fmt::print(stderr, "warning: {}\n", warning.text());
+  for (const Problem& warning : warnings) {
+    fmt::print(stderr, "warning: {}\n",
+               without_folders(warning.text(), {folder.path(), scenarios}));
+  }
 }
 
 namespace {

@@ -15,8 +15,10 @@ constexpr std::array kTransitions = {
     Transition{JobState::queued, JobEvent::cancel, JobState::cancelled},
     Transition{JobState::running, JobEvent::resume, JobState::running},
     Transition{JobState::running, JobEvent::succeed, JobState::succeeded},
+    Transition{JobState::running, JobEvent::succeed_partly, JobState::partial},
     Transition{JobState::running, JobEvent::fail, JobState::failed},
     Transition{JobState::running, JobEvent::cancel, JobState::cancelled},
+    Transition{JobState::partial, JobEvent::retry, JobState::queued},
     Transition{JobState::failed, JobEvent::retry, JobState::queued},
     Transition{JobState::cancelled, JobEvent::retry, JobState::queued},
 };
@@ -32,6 +34,10 @@ std::optional<JobState> next_state(JobState state, JobEvent event) {
 
 bool is_active(JobState state) { return state == JobState::queued || state == JobState::running; }
 
+bool has_dataset(JobState state) {
+  return state == JobState::succeeded || state == JobState::partial;
+}
+
 std::string_view name_of(JobState state) {
   switch (state) {
     case JobState::queued:
@@ -40,6 +46,8 @@ std::string_view name_of(JobState state) {
       return "running";
     case JobState::succeeded:
       return "succeeded";
+    case JobState::partial:
+      return "partial";
     case JobState::failed:
       return "failed";
     case JobState::cancelled:
@@ -56,6 +64,8 @@ std::string_view name_of(JobEvent event) {
       return "resumed";
     case JobEvent::succeed:
       return "succeeded";
+    case JobEvent::succeed_partly:
+      return "partial";
     case JobEvent::fail:
       return "failed";
     case JobEvent::cancel:

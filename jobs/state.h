@@ -7,27 +7,39 @@
 
 namespace throng::jobs {
 
-enum class JobState { queued, running, succeeded, failed, cancelled };
+enum class JobState {
+  queued,
+  running,
+  succeeded,
+  partial,  ///< some of its runs failed; the dataset holds the others
+  failed,
+  cancelled
+};
 
 enum class JobEvent {
   start,   ///< a supervisor takes the job up
   resume,  ///< the server was restarted: a new supervisor takes up a job that was running
   succeed,
+  succeed_partly,
   fail,
   cancel,
   retry,  ///< of a job that did not come to its end: what it has published is kept
 };
 
-inline constexpr std::array kJobStates = {JobState::queued, JobState::running, JobState::succeeded,
-                                          JobState::failed, JobState::cancelled};
-inline constexpr std::array kJobEvents = {JobEvent::start, JobEvent::resume, JobEvent::succeed,
-                                          JobEvent::fail,  JobEvent::cancel, JobEvent::retry};
+inline constexpr std::array kJobStates = {JobState::queued,    JobState::running,
+                                          JobState::succeeded, JobState::partial,
+                                          JobState::failed,    JobState::cancelled};
+inline constexpr std::array kJobEvents = {
+    JobEvent::start, JobEvent::resume, JobEvent::succeed, JobEvent::succeed_partly,
+    JobEvent::fail,  JobEvent::cancel, JobEvent::retry};
 
 /// The state after the event; nothing when the event cannot happen in this state.
 std::optional<JobState> next_state(JobState state, JobEvent event);
 
 /// Whether the job waits or runs: something may still happen to it.
 bool is_active(JobState state);
+/// Whether there is a dataset to be had.
+bool has_dataset(JobState state);
 
 std::string_view name_of(JobState state);
 /// What has happened, as a word: "started", "failed".

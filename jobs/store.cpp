@@ -13,6 +13,7 @@
 #include "jobs/folder_lock.h"
 #include "jobs/group_commit.h"
 #include "jobs/job_id.h"
+#include "jobs/store_rows.h"
 #include "jobs/store_schema.h"
 
 namespace throng::jobs {
@@ -22,10 +23,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kBusyTimeoutMs = 5000;
-
-constexpr const char* kColumns =
-    "id, name, state, attempt, spec, progress, error, created_ms, started_ms, ended_ms, kind, "
-    "priority, labels, owner";
 
 std::int64_t system_clock_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -39,40 +36,6 @@ fs::path created(const fs::path& folder) {
     throw EnvironmentError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
   }
   return folder;
-}
-
-JobRow row_of(SQLite::Statement& query) {
-  JobRow row;
-  row.id = query.getColumn(0).getString();
-  row.name = query.getColumn(1).getString();
-  const auto state = job_state_named(query.getColumn(2).getString());
-  check(state.has_value(), "the table holds known states only");
-  row.state = *state;
-  row.attempt = query.getColumn(3);
-  row.spec_json = query.getColumn(4).getString();
-  row.progress_json = query.getColumn(5).getString();
-  row.error_json = query.getColumn(6).getString();
-  row.created_ms = query.getColumn(7);
-  row.started_ms = query.getColumn(8);
-  row.ended_ms = query.getColumn(9);
-  const bool calibration = query.getColumn(10).getString() == name_of(JobKind::calibration);
-  row.kind = calibration ? JobKind::calibration : JobKind::dataset;
-  row.priority = query.getColumn(11);
-  row.labels =
-      nlohmann::json::parse(query.getColumn(12).getString()).get<std::vector<std::string>>();
-  row.owner = query.getColumn(13).getString();
-  return row;
-}
-
-std::vector<JobRow> rows_of(SQLite::Statement& query) {
-  std::vector<JobRow> rows;
-  while (query.executeStep()) rows.push_back(row_of(query));
-  return rows;
-}
-
-std::optional<JobRow> first_of(SQLite::Statement& query) {
-  if (!query.executeStep()) return std::nullopt;
-  return row_of(query);
 }
 
 std::string text(std::string_view view) { return std::string(view); }
@@ -167,57 +130,19 @@ std::string_view name_of(JobKind kind) {
   return kind == JobKind::calibration ? "calibration" : "dataset";
 }
 
-namespace {
-
-void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job) {
-  SQLite::Statement insert(
-      database,
-      "INSERT INTO job (id, name, state, spec, created_ms, kind, priority, labels, submission_key, "
-      "submission_hash, owner) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(1, row.id);
-  insert.bind(2, row.name);
-  insert.bind(3, row.spec_json);
-  insert.bind(4, row.created_ms);
-  insert.bind(5, text(name_of(row.kind)));
-  insert.bind(6, row.priority);
-  insert.bind(7, nlohmann::json(row.labels).dump());
-  if (!job.key.empty()) insert.bind(8, job.key);
-  insert.bind(9, job.hash);
-  insert.bind(10, row.owner);
-  insert.exec();
-}
-
-/// How many jobs of an owner wait or run.
-std::int64_t active_of(SQLite::Database& database, const std::string& owner) {
-  SQLite::Statement query(
-      database, "SELECT count(*) FROM job WHERE owner = ? AND state IN ('queued', 'running')");
-  query.bind(1, owner);
-  query.executeStep();
-  return query.getColumn(0);
-}
-
-std::string hash_of_submission(SQLite::Database& database, const std::string& id) {
-  SQLite::Statement query(database, "SELECT submission_hash FROM job WHERE id = ?");
-  query.bind(1, id);
-  query.executeStep();
-  return query.getColumn(0).getString();
-}
-
-}  // namespace
-
 Added Store::add(const NewJob& job) {
   Added added;
   connections_->write([&] {
     if (!job.key.empty()) {
       if (auto earlier = connections_->find_submission(job.owner, job.key)) {
         const std::string hash = hash_of_submission(connections_->writer, earlier->id);
-        added = {std::move(*earlier), false, hash == job.hash};
+        added = {std::move(*earlier), false, hash == job.hash, {}};
         return;
       }
     }
-    if (job.most_active > 0 && active_of(connections_->writer, job.owner) >= job.most_active) {
-      added.is_over_quota = true;
-      return;
+    if (job.most_active > 0 || job.most_bytes > 0) {
+      added.over_quota = over_quota(connections_->writer, job);
+      if (!added.over_quota.empty()) return;
     }
     std::random_device random;
     JobRow row;
@@ -232,7 +157,7 @@ Added Store::add(const NewJob& job) {
     insert_job(connections_->writer, row, job);
     connections_->write_event(row.id, row.created_ms, "submitted", "{}");
     connections_->last_id = row.id;
-    added = {std::move(row), true, true};
+    added = {std::move(row), true, true, {}};
   });
   return added;
 }
@@ -329,22 +254,62 @@ std::optional<JobRow> Store::apply(const JobRow& row, JobEvent event,
   return changed;
 }
 
-std::optional<JobRow> Store::change(const std::string& id, int priority,
-                                    const std::vector<std::string>& labels) {
+std::optional<JobRow> Store::change(const std::string& id, const JobChange& change) {
   std::optional<JobRow> changed;
   connections_->write([&] {
-    const nlohmann::json list = labels;
+    const nlohmann::json list = change.labels;
     SQLite::Statement update(connections_->writer,
-                             "UPDATE job SET priority = ?, labels = ? WHERE id = ?");
-    update.bind(1, priority);
+                             "UPDATE job SET priority = ?, labels = ?, keep = ? WHERE id = ?");
+    update.bind(1, change.priority);
     update.bind(2, list.dump());
-    update.bind(3, id);
+    update.bind(3, change.keep ? 1 : 0);
+    update.bind(4, id);
     if (update.exec() == 0) return;
     changed = connections_->find(id);
-    const nlohmann::json data = {{"priority", priority}, {"labels", list}};
+    const nlohmann::json data = {
+        {"priority", change.priority}, {"labels", list}, {"keep", change.keep}};
     connections_->write_event(id, clock_(), "changed", data.dump());
   });
   return changed;
+}
+
+void Store::set_bytes(const std::string& id, std::int64_t bytes) {
+  connections_->write([&] {
+    SQLite::Statement update(connections_->writer, "UPDATE job SET bytes = ? WHERE id = ?");
+    update.bind(1, bytes);
+    update.bind(2, id);
+    update.exec();
+  });
+}
+
+std::vector<JobRow> Store::ended(int limit) const {
+  return connections_->read([&](SQLite::Database& database) {
+    SQLite::Statement query(database,
+                            fmt::format("SELECT {} FROM job WHERE ended_ms > 0 AND keep = 0 "
+                                        "ORDER BY ended_ms LIMIT ?",
+                                        kColumns));
+    query.bind(1, limit);
+    return rows_of(query);
+  });
+}
+
+std::int64_t Store::total_bytes() const {
+  return connections_->read([&](SQLite::Database& database) -> std::int64_t {
+    SQLite::Statement query(database, "SELECT coalesce(sum(bytes), 0) FROM job");
+    query.executeStep();
+    return query.getColumn(0);
+  });
+}
+
+int Store::forget_events(std::int64_t before_ms) {
+  int forgotten = 0;
+  connections_->write([&] {
+    SQLite::Statement remove(connections_->writer,
+                             "DELETE FROM event WHERE type = 'removed' AND at_ms < ?");
+    remove.bind(1, before_ms);
+    forgotten = remove.exec();
+  });
+  return forgotten;
 }
 
 void Store::save_progress(const JobRow& row, const std::string& progress_json) {

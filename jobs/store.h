@@ -35,7 +35,17 @@ struct JobRow {
   std::int64_t ended_ms = 0;    ///< 0: not yet
   int priority = 0;             ///< higher ones are begun first
   std::vector<std::string> labels = {};
-  std::string owner = {};  ///< of whom it is; "" for nobody in particular
+  std::string owner = {};        ///< of whom it is; "" for nobody in particular
+  std::int64_t bytes = 0;        ///< that its files take on disk, as last measured
+  bool keep = false;             ///< never to be removed for its age
+  std::string waiting_for = {};  ///< not stored: why nobody works on it although it is its turn
+};
+
+/// What of a job may be changed at any time.
+struct JobChange {
+  int priority = 0;
+  std::vector<std::string> labels = {};
+  bool keep = false;
 };
 
 /// What is to be queued.
@@ -50,14 +60,15 @@ struct NewJob {
   std::string key = {};
   /// Of what was sent, to tell a repetition from a key that is used twice.
   std::string hash = {};
-  int most_active = 0;  ///< jobs that the owner may have waiting or running; 0: any number
+  int most_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
+  std::int64_t most_bytes = 0;  ///< that the owner's jobs may take before this one; 0: any
 };
 
 struct Added {
   JobRow row;
-  bool is_new = true;          ///< else the job of an earlier submission with this key
-  bool is_equal = true;        ///< false: and what was sent then was something else
-  bool is_over_quota = false;  ///< nothing was queued: the owner has as many as they may
+  bool is_new = true;           ///< else the job of an earlier submission with this key
+  bool is_equal = true;         ///< false: and what was sent then was something else
+  std::string over_quota = {};  ///< why nothing was queued: the owner has as much as they may
 };
 
 /// Which jobs to list.
@@ -109,9 +120,18 @@ class Store {
   std::optional<JobRow> apply(const JobRow& row, JobEvent event,
                               const std::string& error_json = "");
 
-  /// Sets a job's priority and labels; returns the new row, nothing when there is none. Durable.
-  std::optional<JobRow> change(const std::string& id, int priority,
-                               const std::vector<std::string>& labels);
+  /// Returns the new row, nothing when there is none. Durable.
+  std::optional<JobRow> change(const std::string& id, const JobChange& change);
+
+  /// Remembers how much disk a job's files take.
+  void set_bytes(const std::string& id, std::int64_t bytes);
+
+  /// Jobs of any kind that have ended and need not be kept, those that ended first before others.
+  std::vector<JobRow> ended(int limit) const;
+  /// Of all jobs.
+  std::int64_t total_bytes() const;
+  /// Forgets events of removed jobs that are older than this. Returns how many.
+  int forget_events(std::int64_t before_ms);
 
   /// Remembers the progress of a running attempt; nothing happens when the job has moved on. Costs
   /// a disk sync: call it at most about once a second.
@@ -124,6 +144,9 @@ class Store {
   std::vector<EventRow> events(const std::string& job, std::int64_t after, int limit) const;
   /// The number of the newest event; 0 for none.
   std::int64_t last_event() const;
+
+  /// The time by the store's clock.
+  std::int64_t now_ms() const { return clock_(); }
 
   /// Forgets a job and what happened to it. False when there is none. Durable.
   bool remove(const std::string& id);

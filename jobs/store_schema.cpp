@@ -55,6 +55,43 @@ DROP INDEX job_by_submission_key;
 CREATE UNIQUE INDEX job_by_submission_key ON job (owner, submission_key)
   WHERE submission_key IS NOT NULL;
 CREATE INDEX job_by_owner ON job (owner, state);
+)",
+    // Jobs that ended with some of their runs, how much disk they take, which to keep for good. A
+    // column's check cannot be changed in place.
+    R"(
+CREATE TABLE new_job (
+  id TEXT PRIMARY KEY,
+  name TEXT NOT NULL,
+  state TEXT NOT NULL
+    CHECK (state IN ('queued', 'running', 'succeeded', 'partial', 'failed', 'cancelled')),
+  attempt INTEGER NOT NULL DEFAULT 0,
+  spec TEXT NOT NULL,
+  progress TEXT NOT NULL DEFAULT '',
+  error TEXT NOT NULL DEFAULT '',
+  created_ms INTEGER NOT NULL,
+  started_ms INTEGER NOT NULL DEFAULT 0,
+  ended_ms INTEGER NOT NULL DEFAULT 0,
+  kind TEXT NOT NULL DEFAULT 'dataset',
+  priority INTEGER NOT NULL DEFAULT 0,
+  labels TEXT NOT NULL DEFAULT '[]',
+  submission_key TEXT,
+  submission_hash TEXT NOT NULL DEFAULT '',
+  owner TEXT NOT NULL DEFAULT '',
+  bytes INTEGER NOT NULL DEFAULT 0,
+  keep INTEGER NOT NULL DEFAULT 0
+) WITHOUT ROWID;
+INSERT INTO new_job (id, name, state, attempt, spec, progress, error, created_ms, started_ms,
+    ended_ms, kind, priority, labels, submission_key, submission_hash, owner)
+  SELECT id, name, state, attempt, spec, progress, error, created_ms, started_ms, ended_ms, kind,
+    priority, labels, submission_key, submission_hash, owner FROM job;
+DROP TABLE job;
+ALTER TABLE new_job RENAME TO job;
+CREATE INDEX job_by_state ON job (state, priority DESC, id);
+CREATE INDEX job_by_kind ON job (kind, id);
+CREATE INDEX job_by_owner ON job (owner, state);
+CREATE INDEX job_by_end ON job (ended_ms) WHERE ended_ms > 0;
+CREATE UNIQUE INDEX job_by_submission_key ON job (owner, submission_key)
+  WHERE submission_key IS NOT NULL;
 )"};
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jobs/problem_json.h"
+#include "base/problem_json.h"
 
 namespace throng::jobs {
 
@@ -18,6 +18,8 @@ std::string error_line(const WorkerError& error) {
   // File names and messages of libraries may hold any bytes.
   return json{{"error", body}}.dump(-1, ' ', false, json::error_handler_t::replace);
 }
+
+std::string sign_of_life_line() { return "{}"; }
 
 WorkerMessage read_worker_message(const std::string& line) {
   WorkerMessage message;

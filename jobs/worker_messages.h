@@ -17,7 +17,7 @@ struct WorkerError {
   std::vector<Problem> problems;
 };
 
-/// One line: a step, an error, or neither when the line is not for us.
+/// One line: a step, an error, or neither: then it is at least a sign of life.
 struct WorkerMessage {
   std::optional<TaskProgress> progress;
   std::optional<WorkerError> error;
@@ -26,6 +26,8 @@ struct WorkerMessage {
 /// Lines without line break; always valid UTF-8.
 std::string progress_line(const TaskProgress& progress);
 std::string error_line(const WorkerError& error);
+/// Says that the worker is there. One that is silent for too long is taken for dead.
+std::string sign_of_life_line();
 
 /// Anything that is not a message (a driver may print) gives an empty one.
 WorkerMessage read_worker_message(const std::string& line);

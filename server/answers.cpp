@@ -25,14 +25,21 @@ json parsed_or(const std::string& text, json otherwise) {
   return text.empty() ? std::move(otherwise) : json::parse(text);
 }
 
-// Where the job is: the stage of its least advanced run, but simulating once any run is.
+// Where the job is: the stage of its least advanced run, but simulating once any run is. Runs that
+// have failed hold nothing up.
 jobs::Stage stage_of(const jobs::JobProgress& progress) {
-  jobs::Stage least = jobs::Stage::finished;
-  for (const jobs::RunProgress& run : progress) {
+  jobs::Stage least = jobs::Stage::failed;
+  for (const jobs::RunProgress& run : progress.runs) {
     if (run.stage == jobs::Stage::simulating) return run.stage;
     least = std::min(least, run.stage);
   }
   return least;
+}
+
+json with_pace(json value, const jobs::Pace& pace) {
+  value["frames_per_s"] = pace.images_per_s;
+  value["remaining_s"] = pace.remaining_s ? json(*pace.remaining_s) : json(nullptr);
+  return value;
 }
 
 const char* title_of(int status) {
@@ -75,7 +82,7 @@ const char* title_of(int status) {
 }
 
 /// What all that is queued has.
-json row_json(const jobs::JobRow& row) {
+json row_json(const jobs::JobRow& row, const Retention& retention) {
   return {{"id", row.id},
           {"name", row.name},
           {"state", name_of(row.state)},
@@ -86,6 +93,10 @@ json row_json(const jobs::JobRow& row) {
           {"created_at", time_json(row.created_ms)},
           {"started_at", time_json(row.started_ms)},
           {"ended_at", time_json(row.ended_ms)},
+          {"expires_at", time_json(expiry_ms(row, retention).value_or(0))},
+          {"keep", row.keep},
+          {"bytes", row.bytes},
+          {"waiting_for", row.waiting_for.empty() ? json(nullptr) : json(row.waiting_for)},
           {"progress", parsed_or(row.progress_json, json::object())},
           {"error", parsed_or(row.error_json, nullptr)}};
 }
@@ -96,26 +107,36 @@ json progress_json(const jobs::JobProgress& progress) {
   json runs = json::array();
   std::int64_t done = 0;
   std::int64_t total = 0;
-  for (const jobs::RunProgress& run : progress) {
-    runs.push_back({{"run", jobs::run_name(run.run)},
-                    {"seed", run.seed},
-                    {"stage", name_of(run.stage)},
-                    {"simulated_s", run.simulated_s},
-                    {"duration_s", run.duration_s},
-                    {"frames_done", run.images_done},
-                    {"frames_total", run.images_total}});
+  for (const jobs::RunProgress& run : progress.runs) {
+    runs.push_back(with_pace({{"run", jobs::run_name(run.run)},
+                              {"seed", run.seed},
+                              {"stage", name_of(run.stage)},
+                              {"simulated_s", run.simulated_s},
+                              {"duration_s", run.duration_s},
+                              {"frames_done", run.images_done},
+                              {"frames_total", run.images_total}},
+                             run.pace));
     done += run.images_done;
     total += run.images_total;
   }
-  return {{"stage", name_of(stage_of(progress))},
-          {"frames_done", done},
-          {"frames_total", total},
-          {"runs", std::move(runs)}};
+  json shards = json::array();
+  for (const jobs::ShardProgress& shard : progress.shards) {
+    shards.push_back(with_pace({{"shard", name_of(shard.task)},
+                                {"frames_done", shard.images_done},
+                                {"frames_total", shard.images_total}},
+                               shard.pace));
+  }
+  return with_pace({{"stage", name_of(stage_of(progress))},
+                    {"frames_done", done},
+                    {"frames_total", total},
+                    {"runs", std::move(runs)},
+                    {"shards", std::move(shards)}},
+                   progress.pace);
 }
 
 json stages_json(const jobs::JobProgress& progress) {
   json runs = json::object();
-  for (const jobs::RunProgress& run : progress) {
+  for (const jobs::RunProgress& run : progress.runs) {
     runs[jobs::run_name(run.run)] = name_of(run.stage);
   }
   return {{"stage", name_of(stage_of(progress))}, {"runs", std::move(runs)}};
@@ -146,9 +167,22 @@ json error_json(const std::string& kind, const std::string& message,
   return {{"kind", kind}, {"message", message}, {"problems", problems_json(problems)}};
 }
 
-json calibration_json(const jobs::JobRow& row) {
+json partial_error_json(const std::vector<jobs::RunFailure>& failures) {
+  json error = error_json(
+      "partial", fmt::format("{} of the runs failed and are not in the dataset", failures.size()),
+      {});
+  for (const jobs::RunFailure& failure : failures) {
+    error["runs"].push_back({{"run", jobs::run_name(failure.run)},
+                             {"task", failure.task},
+                             {"message", failure.message},
+                             {"attempts", failure.attempts}});
+  }
+  return error;
+}
+
+json calibration_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/calibrations/" + row.id;
-  json value = row_json(row);
+  json value = row_json(row, retention);
   value["request"] = json::parse(row.spec_json);
   value["links"] = {{"self", self}};
   if (row.state == jobs::JobState::succeeded) {
@@ -159,12 +193,12 @@ json calibration_json(const jobs::JobRow& row) {
   return value;
 }
 
-json job_json(const jobs::JobRow& row) {
+json job_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/jobs/" + row.id;
-  json value = row_json(row);
+  json value = row_json(row, retention);
   value["job"] = json::parse(row.spec_json);
   value["links"] = {{"self", self}};
-  if (row.state == jobs::JobState::succeeded) {
+  if (has_dataset(row.state)) {
     value["links"]["archive"] = self + "/archive";
     value["links"]["metrics"] = self + "/metrics";
   }

@@ -9,10 +9,11 @@
 #include "base/error.h"
 #include "jobs/store.h"
 #include "jobs/supervisor.h"
+#include "server/retention.h"
 
 namespace throng::server {
 
-/// Milliseconds of Unix time by RFC 3339, in UTC; null for 0, "not yet".
+/// RFC 3339 in UTC with milliseconds; null for 0, which is "not yet".
 nlohmann::json time_json(std::int64_t unix_ms);
 
 /// {"stage", "frames_done", "frames_total", "runs": [...]}
@@ -28,14 +29,17 @@ nlohmann::json event_json(const jobs::EventRow& event);
 nlohmann::json error_json(const std::string& kind, const std::string& message,
                           const std::vector<Problem>& problems);
 
+/// Of a job that is partial: {"kind": "partial", "message", "problems": [], "runs": [...]}.
+nlohmann::json partial_error_json(const std::vector<jobs::RunFailure>& failures);
+
 /// [{"pointer", "found", "expected", "message"}]
 nlohmann::json problems_json(const std::vector<Problem>& problems);
 
 /// A calibration as GET /v1/calibrations/{id} shows it; its camera is there once it has succeeded.
-nlohmann::json calibration_json(const jobs::JobRow& row);
+nlohmann::json calibration_json(const jobs::JobRow& row, const Retention& retention);
 
 /// A job as GET /v1/jobs/{id} shows it.
-nlohmann::json job_json(const jobs::JobRow& row);
+nlohmann::json job_json(const jobs::JobRow& row, const Retention& retention);
 
 /// A problem document (RFC 9457).
 nlohmann::json problem_document(int status, const std::string& detail,

@@ -19,6 +19,7 @@
 #include "server/requests.h"
 #include "server/scenarios_api.h"
 #include "server/service_api.h"
+#include "server/webhooks_api.h"
 
 namespace throng::server {
 
@@ -72,6 +73,13 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/scenarios/{path}", Scope::read, &send_scenario},
       Route{Method::remove, "/v1/scenarios/{path}", Scope::submit, &remove_scenarios},
       Route{Method::get, "/v1/people", Scope::read, &list_people},
+      Route{Method::post, "/v1/webhooks", Scope::admin, &create_webhook},
+      Route{Method::get, "/v1/webhooks", Scope::admin, &list_webhooks},
+      Route{Method::get, "/v1/webhooks/{id}", Scope::admin, &send_webhook},
+      Route{Method::patch, "/v1/webhooks/{id}", Scope::admin, &change_webhook},
+      Route{Method::remove, "/v1/webhooks/{id}", Scope::admin, &remove_webhook},
+      Route{Method::get, "/v1/webhooks/{id}/deliveries", Scope::admin, &list_deliveries},
+      Route{Method::post, "/v1/webhooks/{id}/ping", Scope::admin, &ping_webhook},
       Route{Method::get, "/v1/airframes", Scope::read, &list_airframes},
       Route{Method::get, "/v1/policies", Scope::read, &list_policies},
       Route{Method::get, "/v1/formats", Scope::read, &list_formats},
@@ -188,18 +196,18 @@ Caller admitted(const Keys& keys, const Request& request, Scope needed) {
 
 }  // namespace
 
-Api::Api(JobService& service, const Keys& keys, const HttpOptions& options)
+Api::Api(JobService& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options)
     : server_(with_uploads(options, keys), &write_library_error) {
   const bool loopback = is_loopback(options.host);
-  const auto route = [&service, &keys, loopback](const Route& entry) {
-    return [&service, &keys, loopback, entry](const Request& request, Response& response) {
+  const auto route = [&service, &keys, &hooks, loopback](const Route& entry) {
+    return [&service, &keys, &hooks, loopback, entry](const Request& request, Response& response) {
       guarded(service, request, response, [&] {
         if (loopback && !names_this_machine(request)) {
           throw HttpError{421, "this service is for its own machine"};
         }
         if (entry.method != Method::get) refuse_other_sites(request);
         const Caller caller = admitted(keys, request, entry.scope);
-        entry.handler({service, caller}, request, response);
+        entry.handler({service, hooks, caller}, request, response);
       });
     };
   };

@@ -11,18 +11,19 @@
 #include "server/job_service.h"
 #include "server/keys.h"
 #include "server/routes.h"
+#include "server/webhook_sender.h"
 
 namespace throng::server {
 
 /// Every operation there is.
 std::span<const Route> routes();
 
-/// Serves the API on a port of its own. The service and the keys must outlive it.
+/// Serves the API on a port of its own. Service, keys and webhooks must outlive it.
 class Api {
  public:
   /// Binds at once; `options` says where. Unless the address is loopback, requests may name any
   /// Host. Throws EnvironmentError.
-  Api(JobService& service, const Keys& keys, const HttpOptions& options);
+  Api(JobService& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options);
 
   int port() const { return server_.port(); }
   /// Serves until stop().

@@ -77,7 +77,7 @@ void submit_calibration(const Call& call, const Request& request, Response& resp
   const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
   const jobs::JobRow row = call.service.submit_calibration(sent.request, sent.files);
   response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
-  write_json(response, 201, calibration_json(row));
+  write_json(response, 201, calibration_json(row, call.service.retention()));
 }
 
 void list_calibrations(const Call& call, const Request& request, Response& response) {
@@ -85,7 +85,8 @@ void list_calibrations(const Call& call, const Request& request, Response& respo
   const std::vector<jobs::JobRow> rows = call.service.list(
       {.kind = jobs::JobKind::calibration, .after = after_of(request), .limit = limit});
   json list = json::array();
-  for (const jobs::JobRow& row : rows) list.push_back(calibration_json(row));
+  for (const jobs::JobRow& row : rows)
+    list.push_back(calibration_json(row, call.service.retention()));
   const bool more = static_cast<int>(rows.size()) == limit;
   write_json(
       response, 200,
@@ -94,7 +95,7 @@ void list_calibrations(const Call& call, const Request& request, Response& respo
 
 void send_calibration(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_row(call.service, request, jobs::JobKind::calibration);
-  json value = calibration_json(row);
+  json value = calibration_json(row, call.service.retention());
   if (row.state == jobs::JobState::succeeded) {
     value["camera"] =
         json::parse(read_file(call.service.calibration_folder(row.id) / calibrate::kCameraName));

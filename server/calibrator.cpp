@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/problem_json.h"
 #include "calibrate/request.h"
 #include "jobs/child_process.h"
 
@@ -28,23 +29,11 @@ constexpr const char* kProblemsName = "problems.json";
 constexpr int kPollMs = 50;
 
 std::vector<Problem> read_problems(const fs::path& file) {
-  std::vector<Problem> problems;
-  for (const json& entry : json::parse(read_file(file))) {
-    problems.push_back(
-        {entry.at("source"), entry.at("where"), entry.at("found"), entry.at("expected")});
-  }
-  return problems;
+  return json::parse(read_file(file)).get<std::vector<Problem>>();
 }
 
 void write_problems(const fs::path& file, const std::vector<Problem>& problems) {
-  json list = json::array();
-  for (const Problem& problem : problems) {
-    list.push_back({{"source", problem.source},
-                    {"where", problem.where},
-                    {"found", problem.found},
-                    {"expected", problem.expected}});
-  }
-  write_file_atomically(file, list.dump(-1, ' ', false, json::error_handler_t::replace));
+  write_file_atomically(file, json(problems).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 /// The last line of what the child said when it failed.

@@ -1,8 +1,11 @@
 #include "server/data_folder.h"
 
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 
 #include <chrono>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "base/files.h"
@@ -60,6 +63,21 @@ void tidy_data_folder(const fs::path& data, const jobs::Store& store) {
   quarantine_strangers(data, "jobs", store);
   quarantine_strangers(data, "calibrations", store);
   remove_old(data / "quarantine");
+}
+
+std::int64_t disk_bytes_of(const fs::path& folder) {
+  constexpr std::int64_t kBlock = 512;  // the unit of st_blocks, whatever the file system's
+  std::set<std::pair<dev_t, ino_t>> counted;
+  std::int64_t bytes = 0;
+  std::error_code error;
+  fs::recursive_directory_iterator entries(folder, error);
+  for (; !error && entries != fs::recursive_directory_iterator(); entries.increment(error)) {
+    struct stat status {};
+    if (::lstat(entries->path().c_str(), &status) != 0) continue;
+    if (status.st_nlink > 1 && !counted.emplace(status.st_dev, status.st_ino).second) continue;
+    bytes += status.st_blocks * kBlock;
+  }
+  return bytes;
 }
 
 }  // namespace throng::server

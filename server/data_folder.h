@@ -1,6 +1,7 @@
 // What a server finds in its data folder when it starts.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "jobs/store.h"
@@ -11,5 +12,9 @@ namespace throng::server {
 /// never deleted: somebody may have put an older store back. What has lain there for a month, and
 /// what half-finished uploads and removals have left, is removed. Throws EnvironmentError.
 void tidy_data_folder(const std::filesystem::path& data, const jobs::Store& store);
+
+/// Disk that everything in a folder takes; files with several names count once. 0 when there is
+/// none.
+std::int64_t disk_bytes_of(const std::filesystem::path& folder);
 
 }  // namespace throng::server

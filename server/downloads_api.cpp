@@ -32,7 +32,7 @@ namespace {
 
 jobs::JobRow find_succeeded(const Call& call, const Request& request) {
   jobs::JobRow row = find_job(call, request);
-  if (row.state != jobs::JobState::succeeded) {
+  if (!has_dataset(row.state)) {
     throw HttpError{
         409, fmt::format("the job is {}; this is there once it has succeeded", name_of(row.state))};
   }

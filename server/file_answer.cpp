@@ -1,18 +1,15 @@
 #include "server/file_answer.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "base/error.h"
+#include "base/read_only_file.h"
 #include "server/byte_range.h"
 #include "server/http.h"
 #include "server/http_error.h"
@@ -25,38 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class OpenFile {
- public:
-  explicit OpenFile(const fs::path& file)
-      : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-    struct stat status {};
-    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
-      throw EnvironmentError(
-          fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)));
-    }
-    size_ = status.st_size;
-    changed_ns_ = status.st_mtim.tv_sec * 1'000'000'000LL + status.st_mtim.tv_nsec;
-  }
-  ~OpenFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  std::int64_t size() const { return size_; }
-  std::int64_t changed_ns() const { return changed_ns_; }
-  ssize_t read(std::span<char> buffer, std::int64_t offset) const {
-    return ::pread(descriptor_, buffer.data(), buffer.size(), offset);
-  }
-
- private:
-  int descriptor_;
-  std::int64_t size_ = 0;
-  std::int64_t changed_ns_ = 0;
-};
-
-void answer_with(const Request& request, Response& response, std::shared_ptr<const OpenFile> file,
-                 const std::string& type, const std::string& etag) {
+void answer_with(const Request& request, Response& response,
+                 std::shared_ptr<const ReadOnlyFile> file, const std::string& type,
+                 const std::string& etag) {
   if (request.get_header_value("If-None-Match") == etag) {
     response.set_header("ETag", etag);
     response.status = 304;
@@ -71,9 +39,13 @@ void answer_with(const Request& request, Response& response, std::shared_ptr<con
                                                              httplib::DataSink& sink) mutable {
         constexpr std::size_t kBlock = 1 << 20;
         buffer.resize(std::min(length, kBlock));
-        const ssize_t count = file->read(buffer, static_cast<std::int64_t>(offset));
-        // The length has been promised: all that is left is to break off.
-        return count > 0 && sink.write(buffer.data(), static_cast<std::size_t>(count));
+        try {
+          const std::size_t count = file->read_at(static_cast<std::int64_t>(offset), buffer);
+          if (count > 0) return sink.write(buffer.data(), count);
+        } catch (const EnvironmentError& error) {
+          spdlog::error("{}", error.what());
+        }
+        return false;  // the length has been promised: all that is left is to break off
       });
 }
 
@@ -100,12 +72,12 @@ void settle_range(const Request& request, Response& response, const std::string&
 
 void answer_with_file(const Request& request, Response& response, const fs::path& file,
                       const std::string& type, const std::string& etag) {
-  answer_with(request, response, std::make_shared<const OpenFile>(file), type, etag);
+  answer_with(request, response, std::make_shared<const ReadOnlyFile>(file), type, etag);
 }
 
 void answer_with_growing_file(const Request& request, Response& response, const fs::path& file,
                               const std::string& type) {
-  auto open = std::make_shared<const OpenFile>(file);
+  auto open = std::make_shared<const ReadOnlyFile>(file);
   const std::string etag = fmt::format("\"{}-{}\"", open->size(), open->changed_ns());
   answer_with(request, response, std::move(open), type, etag);
 }

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/redact.h"
 #include "calibrate/request.h"
 #include "jobs/calibrations.h"
 #include "jobs/job_id.h"
@@ -27,27 +28,24 @@ using jobs::JobState;
 
 namespace {
 
-constexpr auto kProgressInterval = 1s;
-constexpr auto kPauseAfterError = 1s;
 // Longer than a worker may take to end (jobs::LocalProcessesOptions::grace_s).
 constexpr auto kLongestEnd = 20s;
-
-void replace_all(std::string& text, const std::string& what, const std::string& by) {
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
-    text.replace(at, what.size(), by);
-  }
-}
 
 }  // namespace
 
 JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
     : options_(std::move(options)),
       executor_(executor),
-      store_(options_.data),
-      scenarios_(options_.data, options_.scenarios, options_.scenario_checker, options_.uploads) {
+      store_(options_.data, options_.clock),
+      scenarios_(options_.data, options_.scenarios, options_.scenario_checker, options_.uploads),
+      disk_(
+          options_.free_bytes ? options_.free_bytes
+                              : [data = options_.data] { return free_bytes_of(data); },
+          options_.least_free_bytes, [this](const std::string& reason) { pause(reason); }) {
   tidy_data_folder(options_.data, store_);
   drop_unused_bundles();
   worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+  sweeper_ = std::jthread([this](const std::stop_token& stop) { sweep(stop); });
 }
 
 JobService::~JobService() = default;
@@ -73,12 +71,9 @@ jobs::Added JobService::add(const Submission& submission) {
                                         .owner = submission.owner,
                                         .key = submission.key,
                                         .hash = sha256_hex(text_of(sent)),
-                                        .most_active = submission.most_active});
-  if (added.is_over_quota) {
-    throw QuotaError(
-        fmt::format("{} of your jobs wait or run, which is as many as this key may have",
-                    submission.most_active));
-  }
+                                        .most_active = submission.most_active,
+                                        .most_bytes = submission.most_bytes});
+  if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
   if (!added.is_new) return added;
   spdlog::info("job {} queued", added.row.id);
   note_queued();
@@ -87,12 +82,8 @@ jobs::Added JobService::add(const Submission& submission) {
 }
 
 void JobService::tell() {
-  {
-    const std::lock_guard lock(told_mutex_);
-    ++told_;
-  }
   ++revision_;
-  told_changed_.notify_all();
+  bell_.ring();
 }
 
 std::shared_ptr<void> JobService::begin_watch(int most) {
@@ -105,15 +96,10 @@ std::vector<jobs::EventRow> JobService::events(const std::string& job, std::int6
                                                int limit,
                                                std::chrono::milliseconds patience) const {
   const auto end = std::chrono::steady_clock::now() + patience;
-  std::unique_lock lock(told_mutex_);
   while (true) {
-    // Counted before looking: what happens in between wakes us.
-    const std::uint64_t told = told_;
-    lock.unlock();
+    const std::uint64_t rung = bell_.rung();
     std::vector<jobs::EventRow> rows = store_.events(job, after, limit);
-    lock.lock();
-    if (!rows.empty()) return rows;
-    if (!told_changed_.wait_until(lock, end, [&] { return told_ != told; })) return rows;
+    if (!rows.empty() || !bell_.wait(rung, end)) return rows;
   }
 }
 
@@ -166,54 +152,48 @@ json JobService::camera_of(const std::string& id) const {
   return json::parse(read_file(place_of(*row) / calibrate::kCameraName));
 }
 
+void JobService::complete(JobRow& row) const {
+  if (active_ && active_->row.id == row.id && !active_->row.progress_json.empty()) {
+    row.progress_json = active_->row.progress_json;
+  }
+  if (is_active(row.state)) row.waiting_for = paused_;
+}
+
 std::optional<JobRow> JobService::get(const std::string& id) const {
   std::optional<JobRow> row = store_.get(id);
   const std::lock_guard lock(mutex_);
-  if (row && active_ && active_->row.id == id && !active_->row.progress_json.empty()) {
-    row->progress_json = active_->row.progress_json;
-  }
+  if (row) complete(*row);
   return row;
 }
 
 std::shared_ptr<const std::string> JobService::text_of_job(
     const std::string& id, const std::function<std::string(const JobRow&)>& write) const {
-  constexpr std::size_t kMostTexts = 1000;
   // Taken before looking: what changes in between makes the text one of the past.
   const std::uint64_t revision = revision_;
-  {
-    const std::lock_guard lock(texts_mutex_);
-    if (texts_revision_ == revision) {
-      if (const auto found = texts_.find(id); found != texts_.end()) return found->second;
-    }
-  }
+  if (auto text = texts_.find(revision, id)) return text;
   const std::optional<JobRow> row = get(id);
   if (!row || row->kind != jobs::JobKind::dataset) return nullptr;
   auto text = std::make_shared<const std::string>(write(*row));
-  const std::lock_guard lock(texts_mutex_);
-  if (texts_revision_ != revision || texts_.size() >= kMostTexts) {
-    texts_.clear();
-    texts_revision_ = revision;
-  }
-  texts_[id] = text;
+  texts_.put(revision, id, text);
   return text;
 }
 
 std::vector<JobRow> JobService::list(const jobs::JobFilter& filter) const {
   std::vector<JobRow> rows = store_.list(filter);
   const std::lock_guard lock(mutex_);
-  for (JobRow& row : rows) {
-    if (active_ && active_->row.id == row.id && !active_->row.progress_json.empty()) {
-      row.progress_json = active_->row.progress_json;
-    }
-  }
+  for (JobRow& row : rows) complete(row);
   return rows;
 }
 
-std::optional<JobRow> JobService::change(const std::string& id, int priority,
-                                         const std::vector<std::string>& labels) {
-  std::optional<JobRow> row = store_.change(id, priority, labels);
+std::optional<JobRow> JobService::change(const std::string& id, const jobs::JobChange& change) {
+  std::optional<JobRow> row = store_.change(id, change);
   if (row) tell();
   return row;
+}
+
+std::string JobService::paused() const {
+  const std::lock_guard lock(mutex_);
+  return paused_;
 }
 
 void JobService::end_work_on(const std::string& id) {
@@ -232,8 +212,7 @@ std::optional<JobRow> JobService::cancel(const std::string& id) {
       throw ConflictError(
           fmt::format("the job is {}: there is nothing to cancel", name_of(row->state)));
     }
-    if (!store_.apply(*row, JobEvent::cancel)) continue;
-    tell();
+    if (!apply(*row, JobEvent::cancel)) continue;
     end_work_on(id);
     spdlog::info("job {} cancelled", id);
     return get(id);
@@ -249,11 +228,10 @@ std::optional<JobRow> JobService::retry(const std::string& id) {
                       "tried again",
                       name_of(row->state)));
     }
-    const std::optional<JobRow> queued = store_.apply(*row, JobEvent::retry);
+    const std::optional<JobRow> queued = apply(*row, JobEvent::retry);
     if (!queued) continue;
     spdlog::info("job {} queued again", id);
     note_queued();
-    tell();
     return queued;
   }
   return std::nullopt;
@@ -262,10 +240,8 @@ std::optional<JobRow> JobService::retry(const std::string& id) {
 bool JobService::remove(const std::string& id) {
   // The state may change between reading and cancelling; then look again.
   std::optional<JobRow> row = store_.get(id);
-  while (row && is_active(row->state) && !store_.apply(*row, JobEvent::cancel))
-    row = store_.get(id);
+  while (row && is_active(row->state) && !apply(*row, JobEvent::cancel)) row = store_.get(id);
   if (!row) return false;
-  tell();
   end_work_on(id);
   if (!store_.remove(id)) return false;
   tell();
@@ -295,138 +271,7 @@ fs::path JobService::place_of(const JobRow& row) const {
 }
 
 std::string JobService::without_paths(std::string message) const {
-  for (const fs::path& folder : {scenarios(), options_.data, options_.scenarios}) {
-    replace_all(message, fs::absolute(folder).string() + "/", "");
-    replace_all(message, folder.string() + "/", "");
-  }
-  return message;
-}
-
-void JobService::work(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    try {
-      if (work_on_next(stop)) continue;
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, stop, [&] { return queued_; });
-      queued_ = false;
-    } catch (const std::exception& error) {
-      // The store cannot be reached (disk full, say): nothing is lost, try again.
-      spdlog::error("queue: {}", error.what());
-      std::unique_lock lock(mutex_);
-      changed_.wait_for(lock, stop, kPauseAfterError, [] { return false; });
-    }
-  }
-}
-
-bool JobService::work_on_next(const std::stop_token& stop) {
-  const std::optional<JobRow> next = store_.next();
-  if (!next) return false;
-  std::stop_source stop_job;
-  std::optional<JobRow> row;
-  {
-    // Under the lock, so that remove() sees a job it has cancelled either not begun or active.
-    const std::lock_guard lock(mutex_);
-    const bool resumed = next->state == JobState::running;
-    row = store_.apply(*next, resumed ? JobEvent::resume : JobEvent::start);
-    if (!row) return true;
-    active_ = Active{*row, stop_job};
-    spdlog::info("job {} {}", row->id, resumed ? "resumed" : "started");
-  }
-  tell();
-  const std::stop_callback forward(stop, [&] { stop_job.request_stop(); });
-  const auto finish = [&] {
-    const std::lock_guard lock(mutex_);
-    active_.reset();
-    changed_.notify_all();
-  };
-  try {
-    run(*row, stop_job.get_token());
-  } catch (...) {
-    finish();
-    throw;
-  }
-  finish();
-  return true;
-}
-
-void JobService::run(const JobRow& row, const std::stop_token& stop) {
-  JobEvent event = JobEvent::fail;
-  std::string error;
-  try {
-    if (row.kind == jobs::JobKind::calibration) {
-      make_calibration(row, stop);
-    } else {
-      make_dataset(row, stop);
-    }
-    save_progress(row);
-    event = JobEvent::succeed;
-  } catch (const Cancelled&) {
-    // By remove(), which has noted it; or by the end of the service, and then the job stays
-    // "running" for the next one to resume.
-    spdlog::info("job {} stopped", row.id);
-    return;
-  } catch (const InputError& failure) {
-    std::vector<Problem> problems = failure.problems();
-    for (Problem& problem : problems) problem.source = without_paths(problem.source);
-    error = text_of(error_json("input", without_paths(failure.what()), problems));
-  } catch (const std::exception& failure) {
-    error = text_of(error_json("environment", without_paths(failure.what()), {}));
-  }
-  const std::optional<JobRow> ended = store_.apply(row, event, error);
-  tell();
-  spdlog::info("job {} {}", row.id, ended ? name_of(ended->state) : "was cancelled meanwhile");
-}
-
-void JobService::make_dataset(const JobRow& row, const std::stop_token& stop) {
-  const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", scenarios());
-  const auto folder = jobs::JobFolder::create(folder_of(row.id).path(), job);
-  auto last_save = std::chrono::steady_clock::time_point();
-  std::string stages;
-  const auto on_progress = [&](const jobs::JobProgress& progress) {
-    report(row, text_of(progress_json(progress)));
-    if (const std::string now = text_of(stages_json(progress)); now != stages) {
-      stages = now;
-      note(row, "stage", stages);
-    }
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_save < kProgressInterval) return;
-    last_save = now;
-    save_progress(row);
-  };
-  jobs::run_job(folder, job, executor_, on_progress, stop);
-}
-
-void JobService::make_calibration(const JobRow& row, const std::stop_token& stop) {
-  const fs::path folder = calibration_folder(row.id);
-  const auto say = [&](double share, const std::string& what) {
-    report(row, text_of({{"share", share}, {"stage", what}}));
-  };
-  options_.calibrator(folder, say, stop);
-  say(1, "finished");
-}
-
-void JobService::note(const JobRow& row, const std::string& type, const std::string& data_json) {
-  try {
-    store_.note(row, type, data_json);
-  } catch (const EnvironmentError& error) {
-    spdlog::warn("job {}: {} not recorded: {}", row.id, type, error.what());
-  }
-  tell();
-}
-
-// Progress is worth no job: when it cannot be saved now, it will be a second later.
-void JobService::save_progress(const JobRow& row) {
-  try {
-    store_.save_progress(row, get(row.id).value_or(row).progress_json);
-  } catch (const EnvironmentError& error) {
-    spdlog::warn("job {}: progress not saved: {}", row.id, error.what());
-  }
-}
-
-void JobService::report(const JobRow& row, std::string progress_json) {
-  const std::lock_guard lock(mutex_);
-  if (active_ && active_->row.id == row.id) active_->row.progress_json = std::move(progress_json);
-  ++revision_;
+  return without_folders(std::move(message), {scenarios(), options_.data, options_.scenarios});
 }
 
 }  // namespace throng::server

@@ -18,15 +18,18 @@
 #include <string>
 #include <string_view>
 #include <thread>
-#include <unordered_map>
 #include <vector>
 
 #include "jobs/executor.h"
 #include "jobs/folder.h"
 #include "jobs/store.h"
 #include "jobs/supervisor.h"
+#include "server/bell.h"
 #include "server/calibrator.h"
+#include "server/disk_watch.h"
+#include "server/retention.h"
 #include "server/scenario_store.h"
+#include "server/text_cache.h"
 
 namespace throng::jobs {
 struct JobSpec;
@@ -40,6 +43,10 @@ struct JobServiceOptions {
   Calibrator calibrator = calibrator_in_process();
   ScenarioChecker scenario_checker = scenario_checker_in_process();
   UploadLimits uploads = {};
+  Retention retention = {};
+  std::int64_t least_free_bytes = 512LL << 20;  ///< below this the queue rests
+  DiskWatch::FreeBytes free_bytes = {};         ///< default: of the data folder's disk
+  jobs::Store::Clock clock = {};                ///< default: the system's
 };
 
 /// A job to be queued.
@@ -47,9 +54,10 @@ struct Submission {
   std::string_view job_json;
   int priority = 0;
   std::vector<std::string> labels = {};
-  std::string key = {};    ///< the same key again is the same submission; "" for none
-  std::string owner = {};  ///< the id of the caller's key
-  int most_active = 0;     ///< jobs that the owner may have waiting or running; 0: any number
+  std::string key = {};         ///< the same key again is the same submission; "" for none
+  std::string owner = {};       ///< the id of the caller's key
+  int most_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
+  std::int64_t most_bytes = 0;  ///< that the owner's jobs may take already; 0: any
 };
 
 /// Somebody has as many jobs as they may have. Answered with 429.
@@ -112,15 +120,15 @@ class JobService {
   std::vector<jobs::JobRow> list(const jobs::JobFilter& filter) const;
   std::map<jobs::JobState, std::int64_t> count() const { return store_.count(); }
 
-  /// Sets priority and labels of a job, whatever its state; nothing when there is none.
-  std::optional<jobs::JobRow> change(const std::string& id, int priority,
-                                     const std::vector<std::string>& labels);
+  /// Whatever the job's state; nothing when there is none.
+  std::optional<jobs::JobRow> change(const std::string& id, const jobs::JobChange& change);
 
   /// Ends an active job and returns when nobody works on it any more; what it has published stays.
   /// Nothing when there is none. Throws ConflictError when it has ended.
   std::optional<jobs::JobRow> cancel(const std::string& id);
 
-  /// Queues a job again that failed or was cancelled; what it has published is not done again.
+  /// Queues a job again that failed, at least in part, or was cancelled; what it has published is
+  /// not done again.
   /// Nothing when there is none. Throws ConflictError in any other state.
   std::optional<jobs::JobRow> retry(const std::string& id);
 
@@ -138,6 +146,12 @@ class JobService {
   /// One of at most `most` watchers of events, as long as it is held; null when there are as many.
   std::shared_ptr<void> begin_watch(int most);
   int watchers() const { return *watchers_; }
+
+  /// Why the queue rests; "" when it does not.
+  std::string paused() const;
+  const Retention& retention() const { return options_.retention; }
+  /// Removes what has been kept for long enough. Done by itself every minute.
+  void remove_expired();
 
   const std::filesystem::path& data_folder() const { return options_.data; }
   /// Where all scenarios are found: shipped ones and uploads.
@@ -164,9 +178,13 @@ class JobService {
   void work(const std::stop_token& stop);
   bool work_on_next(const std::stop_token& stop);
   void run(const jobs::JobRow& row, const std::stop_token& stop);
+  void pause(const std::string& reason);
+  void sweep(const std::stop_token& stop);
+  std::optional<jobs::JobRow> apply(const jobs::JobRow& row, jobs::JobEvent event,
+                                    const std::string& error_json = "");
   void end_work_on(const std::string& id);
   void tell();
-  void make_dataset(const jobs::JobRow& row, const std::stop_token& stop);
+  std::vector<jobs::RunFailure> make_dataset(const jobs::JobRow& row, const std::stop_token& stop);
   void make_calibration(const jobs::JobRow& row, const std::stop_token& stop);
   nlohmann::json camera_of(const std::string& calibration_id) const;
   std::filesystem::path place_of(const jobs::JobRow& row) const;
@@ -174,6 +192,8 @@ class JobService {
   void report(const jobs::JobRow& row, std::string progress_json);
   void save_progress(const jobs::JobRow& row);
   void note(const jobs::JobRow& row, const std::string& type, const std::string& data_json);
+  /// Adds what only this process knows. Under mutex_.
+  void complete(jobs::JobRow& row) const;
   jobs::JobFolder folder_of(const std::string& id) const;
   jobs::Added add(const Submission& submission);
   template <typename Use>
@@ -192,18 +212,18 @@ class JobService {
   /// Held together while a job that may name an upload is added, alone while uploads go.
   std::shared_mutex uploads_mutex_;
   mutable std::mutex mutex_;
-  std::condition_variable_any changed_;  ///< something was queued, or the active job has ended
-  bool queued_ = true;                   ///< there may be something to do; guarded by mutex_
-  std::optional<Active> active_;         ///< guarded by mutex_; its row carries the newest progress
+  std::condition_variable_any
+      changed_;                   ///< something was queued, the active job has ended, a pause
+  bool queued_ = true;            ///< there may be something to do; guarded by mutex_
+  std::string paused_;            ///< guarded by mutex_
+  std::optional<Active> active_;  ///< guarded by mutex_; its row carries the newest progress
   std::shared_ptr<std::atomic<int>> watchers_ = std::make_shared<std::atomic<int>>(0);
-  mutable std::mutex told_mutex_;
-  mutable std::condition_variable told_changed_;
-  std::uint64_t told_ = 0;  ///< how often something has happened; guarded by told_mutex_
-  std::atomic<std::uint64_t> revision_ = 0;  ///< changes with told_ and with progress
-  mutable std::mutex texts_mutex_;
-  mutable std::uint64_t texts_revision_ = 0;  ///< that texts_ are of; guarded by texts_mutex_
-  mutable std::unordered_map<std::string, std::shared_ptr<const std::string>> texts_;  ///< likewise
-  std::jthread worker_;  ///< last: ends before what it uses
+  mutable Bell bell_;                        ///< rings with every event
+  std::atomic<std::uint64_t> revision_ = 0;  ///< changes with every event and with progress
+  mutable TextCache texts_;
+  DiskWatch disk_;
+  std::jthread worker_;  ///< these end before what they use
+  std::jthread sweeper_;
 };
 
 }  // namespace throng::server

@@ -91,8 +91,11 @@ std::optional<Form> form_of(const Request& request) {
 }
 
 /// With a bundle of its own, unless that is null.
-void queue(const Call& call, const Submission& submission, Response& response,
+void queue(const Call& call, Submission submission, Response& response,
            const std::string* bundle = nullptr) {
+  submission.owner = call.caller.key_id;
+  submission.most_active = call.caller.most_active;
+  submission.most_bytes = call.caller.most_bytes;
   const jobs::Added added = bundle == nullptr
                                 ? call.service.submit(submission)
                                 : call.service.submit_with_bundle(submission, *bundle);
@@ -103,7 +106,7 @@ void queue(const Call& call, const Submission& submission, Response& response,
   }
   response.set_header("Location", fmt::format("/v1/jobs/{}", added.row.id));
   if (!added.is_new) response.set_header("Idempotent-Replayed", "true");
-  write_json(response, added.is_new ? 201 : 200, job_json(added.row));
+  write_json(response, added.is_new ? 201 : 200, job_json(added.row, call.service.retention()));
 }
 
 /// What a job would be, without queueing it.
@@ -124,9 +127,10 @@ std::vector<jobs::JobState> states_of(const Request& request) {
   for (const std::string& name : all_of(request, "state")) {
     const auto state = jobs::job_state_named(name);
     if (!state) {
-      throw HttpError{400,
-                      "state is wrong",
-                      {{"", "?state", name, "queued, running, succeeded, failed or cancelled"}}};
+      throw HttpError{
+          400,
+          "state is wrong",
+          {{"", "?state", name, "queued, running, succeeded, partial, failed or cancelled"}}};
     }
     states.push_back(*state);
   }
@@ -151,9 +155,7 @@ void submit_job(const Call& call, const Request& request, Response& response) {
   submission.labels = all_of(request, "label");
   check_labels(submission.labels, "?label");
   submission.key = key_of(request);
-  submission.owner = call.caller.key_id;
-  submission.most_active = call.caller.most_active;
-  queue(call, submission, response, form ? form->bundle : nullptr);
+  queue(call, std::move(submission), response, form ? form->bundle : nullptr);
 }
 
 void list_jobs(const Call& call, const Request& request, Response& response) {
@@ -170,7 +172,7 @@ void list_jobs(const Call& call, const Request& request, Response& response) {
   filter.limit = limit_of(request);
   const std::vector<jobs::JobRow> rows = call.service.list(filter);
   json jobs = json::array();
-  for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row));
+  for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row, call.service.retention()));
   const bool more = static_cast<int>(rows.size()) == filter.limit;
   write_json(response, 200,
              {{"jobs", std::move(jobs)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
@@ -178,10 +180,13 @@ void list_jobs(const Call& call, const Request& request, Response& response) {
 
 void send_job(const Call& call, const Request& request, Response& response) {
   const std::string id = request.matches[1];
-  const auto text = jobs::is_job_id(id)
-                        ? call.service.text_of_job(
-                              id, [](const jobs::JobRow& row) { return text_of(job_json(row)); })
-                        : nullptr;
+  const auto text =
+      jobs::is_job_id(id)
+          ? call.service.text_of_job(id,
+                                     [&](const jobs::JobRow& row) {
+                                       return text_of(job_json(row, call.service.retention()));
+                                     })
+          : nullptr;
   if (text == nullptr) throw HttpError{404, fmt::format("there is no job {}", id)};
   response.set_content(*text, "application/json");
 }
@@ -194,41 +199,44 @@ void change_job(const Call& call, const Request& request, Response& response) {
                         const std::string& expected) {
     return HttpError{400, "the change is wrong", {{"", pointer, found, expected}}};
   };
-  if (!change.is_object()) throw wrong("", "no JSON object", "priority, labels or both");
-  int priority = row.priority;
-  std::vector<std::string> labels = row.labels;
+  if (!change.is_object())
+    throw wrong("", "no JSON object", "priority, labels, keep or some of them");
+  jobs::JobChange wanted{row.priority, row.labels, row.keep};
   for (const auto& [name, value] : change.items()) {
     if (name == "priority") {
       if (!value.is_number_integer() || value < -kHighestPriority || value > kHighestPriority) {
         throw wrong("/priority", value.dump(), "an integer from -100 to 100");
       }
-      priority = value;
+      wanted.priority = value;
     } else if (name == "labels") {
       const bool is_list =
           value.is_array() && std::all_of(value.begin(), value.end(),
                                           [](const json& label) { return label.is_string(); });
       if (!is_list) throw wrong("/labels", value.dump(), "a list of texts");
-      labels = value.get<std::vector<std::string>>();
-      check_labels(labels, "/labels");
+      wanted.labels = value.get<std::vector<std::string>>();
+      check_labels(wanted.labels, "/labels");
+    } else if (name == "keep") {
+      if (!value.is_boolean()) throw wrong("/keep", value.dump(), "true or false");
+      wanted.keep = value;
     } else {
-      throw wrong("/" + name, "an unknown field", "priority or labels");
+      throw wrong("/" + name, "an unknown field", "priority, labels or keep");
     }
   }
-  const auto changed = call.service.change(row.id, priority, labels);
+  const auto changed = call.service.change(row.id, wanted);
   if (!changed) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*changed));
+  write_json(response, 200, job_json(*changed, call.service.retention()));
 }
 
 void cancel_job(const Call& call, const Request& request, Response& response) {
   const auto row = call.service.cancel(find_own(call, request).id);
   if (!row) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*row));
+  write_json(response, 200, job_json(*row, call.service.retention()));
 }
 
 void retry_job(const Call& call, const Request& request, Response& response) {
   const auto row = call.service.retry(find_own(call, request).id);
   if (!row) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*row));
+  write_json(response, 200, job_json(*row, call.service.retention()));
 }
 
 void clone_job(const Call& call, const Request& request, Response& response) {
@@ -241,10 +249,7 @@ void clone_job(const Call& call, const Request& request, Response& response) {
     job.merge_patch(patch);
   }
   const std::string text = text_of(job);
-  queue(call,
-        {text, row.priority, row.labels, key_of(request), call.caller.key_id,
-         call.caller.most_active},
-        response);
+  queue(call, {text, row.priority, row.labels, key_of(request)}, response);
 }
 
 void remove_job(const Call& call, const Request& request, Response& response) {

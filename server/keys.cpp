@@ -31,6 +31,7 @@ CREATE TABLE IF NOT EXISTS key (
   hash TEXT NOT NULL,
   scope TEXT NOT NULL,
   most_active INTEGER NOT NULL DEFAULT 0,
+  most_bytes INTEGER NOT NULL DEFAULT 0,
   created_ms INTEGER NOT NULL,
   revoked_ms INTEGER NOT NULL DEFAULT 0
 ) WITHOUT ROWID
@@ -74,6 +75,13 @@ struct Keys::File {
     constexpr mode_t kOwnerOnly = 0600;
     ::chmod(path.c_str(), kOwnerOnly);
     database.exec(kTable);
+    // Made by a version that knew no limit of bytes.
+    const bool is_old = database
+                            .execAndGet(
+                                "SELECT count(*) FROM pragma_table_info('key') "
+                                "WHERE name = 'most_bytes'")
+                            .getInt() == 0;
+    if (is_old) database.exec("ALTER TABLE key ADD COLUMN most_bytes INTEGER NOT NULL DEFAULT 0");
   }
 
   template <typename Action>
@@ -113,19 +121,21 @@ Keys::Keys(const fs::path& data) {
 
 Keys::~Keys() = default;
 
-std::string Keys::create(const std::string& name, Scope scope, int most_active) {
+std::string Keys::create(const std::string& name, Scope scope, int most_active,
+                         std::int64_t most_bytes) {
   const std::string id = random_text(kIdLength);
   std::string token = fmt::format("{}{}_{}", kPrefix, id, random_text(kSecretLength));
   file_->with([&](SQLite::Database& database) {
     SQLite::Statement insert(database,
-                             "INSERT INTO key (id, name, hash, scope, most_active, created_ms) "
-                             "VALUES (?, ?, ?, ?, ?, ?)");
+                             "INSERT INTO key (id, name, hash, scope, most_active, created_ms, "
+                             "most_bytes) VALUES (?, ?, ?, ?, ?, ?, ?)");
     insert.bind(1, id);
     insert.bind(2, name);
     insert.bind(3, sha256_hex(token));
     insert.bind(4, std::string(name_of(scope)));
     insert.bind(5, most_active);
     insert.bind(6, now_ms());
+    insert.bind(7, most_bytes);
     insert.exec();
   });
   return token;
@@ -133,14 +143,16 @@ std::string Keys::create(const std::string& name, Scope scope, int most_active) 
 
 std::vector<KeyRow> Keys::list() const {
   return file_->with([](SQLite::Database& database) {
-    SQLite::Statement query(database,
-                            "SELECT id, name, scope, most_active, created_ms, revoked_ms FROM key "
-                            "ORDER BY created_ms, id");
+    SQLite::Statement query(
+        database,
+        "SELECT id, name, scope, most_active, most_bytes, created_ms, revoked_ms "
+        "FROM key ORDER BY created_ms, id");
     std::vector<KeyRow> rows;
     while (query.executeStep()) {
       rows.push_back({query.getColumn(0).getString(), query.getColumn(1).getString(),
                       scope_of(query.getColumn(2).getString()), query.getColumn(3).getInt(),
-                      query.getColumn(4).getInt64(), query.getColumn(5).getInt64()});
+                      query.getColumn(4).getInt64(), query.getColumn(5).getInt64(),
+                      query.getColumn(6).getInt64()});
     }
     return rows;
   });
@@ -163,7 +175,7 @@ bool Keys::are_needed() const {
 }
 
 std::optional<Caller> Keys::caller_of(std::string_view token) const {
-  if (!are_needed()) return Caller{"", Scope::admin, 0};
+  if (!are_needed()) return Caller{"", Scope::admin, 0, 0};
   if (!token.starts_with(kPrefix) ||
       token.size() != kPrefix.size() + kIdLength + 1 + kSecretLength) {
     return std::nullopt;
@@ -171,13 +183,14 @@ std::optional<Caller> Keys::caller_of(std::string_view token) const {
   const std::string hash = sha256_hex(token);
   return file_->with([&](SQLite::Database& database) -> std::optional<Caller> {
     SQLite::Statement query(
-        database, "SELECT id, hash, scope, most_active FROM key WHERE id = ? AND revoked_ms = 0");
+        database,
+        "SELECT id, hash, scope, most_active, most_bytes FROM key WHERE id = ? AND revoked_ms = 0");
     query.bind(1, std::string(token.substr(kPrefix.size(), kIdLength)));
     if (!query.executeStep() || !are_equal(query.getColumn(1).getString(), hash)) {
       return std::nullopt;
     }
     return Caller{query.getColumn(0).getString(), scope_of(query.getColumn(2).getString()),
-                  query.getColumn(3).getInt()};
+                  query.getColumn(3).getInt(), query.getColumn(4).getInt64()};
   });
 }
 

@@ -1,7 +1,6 @@
 #include "server/scenario_checker.h"
 
 #include <fmt/core.h>
-#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
@@ -13,9 +12,10 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/problem_json.h"
 #include "jobs/child_process.h"
-#include "jobs/problem_json.h"
 #include "jobs/scenario_check.h"
+#include "jobs/worker_limits.h"
 #include "server/answers.h"
 
 namespace throng::server {
@@ -51,10 +51,7 @@ void confine_this_process() {
   limit(RLIMIT_CPU, kMostSeconds);
   limit(RLIMIT_FSIZE, kMostFileBytes);
   limit(RLIMIT_NOFILE, kMostFiles);
-  limit(RLIMIT_CORE, 0);
-  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  // An own network without any device; containers often forbid it, and nothing here uses one.
-  if (::unshare(CLONE_NEWNET) != 0) static_cast<void>(::unshare(CLONE_NEWUSER | CLONE_NEWNET));
+  static_cast<void>(jobs::limit_this_process());  // no network, no core dumps
 }
 
 jobs::ExitStatus ended(jobs::ChildProcess& child) {

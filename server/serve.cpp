@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <thread>
 
@@ -16,7 +17,9 @@
 #include "jobs/local_processes.h"
 #include "server/api.h"
 #include "server/job_service.h"
+#include "server/json_log.h"
 #include "server/keys.h"
+#include "server/webhook_sender.h"
 
 namespace throng::server {
 
@@ -47,6 +50,18 @@ class SignalWatch {
   std::jthread thread_;
 };
 
+// A line per message; as JSON for whoever gathers logs of many services. What is logged are ids and
+// what happened, never keys, bodies or headers.
+void set_up_log(bool as_json) {
+  const auto logger = spdlog::stderr_logger_mt("throng");
+  if (as_json) {
+    logger->set_formatter(std::make_unique<JsonLogFormatter>());
+  } else {
+    logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %l %v", spdlog::pattern_time_type::utc);
+  }
+  spdlog::set_default_logger(logger);
+}
+
 std::string url_of(const std::string& host, int port) {
   const bool is_ipv6 = host.find(':') != std::string::npos;
   return is_ipv6 ? fmt::format("http://[{}]:{}", host, port)
@@ -62,19 +77,29 @@ int serve(const ServeOptions& options) {
                              "a loopback address such as 127.0.0.1; other addresses need keys "
                              "(throng keys create), or --insecure where the network is a fence"});
   }
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("throng"));
+  set_up_log(options.log_json);
   std::signal(SIGPIPE, SIG_IGN);
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
   // Workers look for scenarios there.
   ::setenv("THRONG_SCENARIOS", ScenarioStore::folder_in(options.data).c_str(), 1);
-  jobs::LocalProcesses executor({.workers = options.workers});
-  JobService service({options.data, options.scenarios,
-                      calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
-                      scenario_checker_in_child({"/proc/self/exe", "scenarios", "check-bundle"})},
+  jobs::LocalProcesses executor({.workers = options.workers,
+                                 .longest_task_s = options.longest_task_s,
+                                 .worker_memory_mib = options.worker_memory_mib});
+  constexpr int kMibShift = 20;
+  constexpr int kGibShift = 30;
+  constexpr std::int64_t kMsPerDay = 86'400'000;
+  JobService service({.data = options.data,
+                      .scenarios = options.scenarios,
+                      .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
+                      .scenario_checker = scenario_checker_in_child(
+                          {"/proc/self/exe", "scenarios", "check-bundle"}),
+                      .retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
+                      .least_free_bytes = options.least_free_mib << kMibShift},
                      executor);
-  Api api(service, keys, {options.host, options.port});
+  WebhookSender hooks(service);
+  Api api(service, keys, hooks, {options.host, options.port});
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
   }

@@ -32,9 +32,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Below this nothing can be written that is worth beginning.
-constexpr std::uintmax_t kLeastFreeBytes = 256ULL << 20U;
-
 /// Memory of this process that is in RAM; 0 where the kernel does not say.
 std::int64_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
@@ -44,9 +41,7 @@ std::int64_t resident_bytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-std::uintmax_t free_bytes(const Call& call) {
-  return fs::space(call.service.data_folder()).available;
-}
+std::int64_t free_bytes(const Call& call) { return free_bytes_of(call.service.data_folder()); }
 
 /// The part of the job's schema at a pointer: how a job names what a list holds.
 json schema_at(const char* pointer) {
@@ -62,12 +57,10 @@ void send_health(const Call&, const Request&, Response& response) {
 
 void send_readiness(const Call& call, const Request&, Response& response) {
   static_cast<void>(call.service.count());  // throws when the store cannot be read
-  const std::uintmax_t free = free_bytes(call);
-  if (free < kLeastFreeBytes) {
-    throw HttpError{503, fmt::format("the data folder's disk has {} bytes free, {} are needed",
-                                     free, kLeastFreeBytes)};
+  if (const std::string reason = call.service.paused(); !reason.empty()) {
+    throw HttpError{503, fmt::format("the queue rests: {}", reason)};
   }
-  write_json(response, 200, {{"status", "ready"}, {"free_bytes", free}});
+  write_json(response, 200, {{"status", "ready"}, {"free_bytes", free_bytes(call)}});
 }
 
 void send_figures(const Call& call, const Request&, Response& response) {
@@ -82,6 +75,8 @@ void send_figures(const Call& call, const Request&, Response& response) {
   add("throng_events_total", "counter", "Events of jobs since the store was made.",
       call.service.last_event());
   add("throng_event_streams", "gauge", "Clients that watch events.", call.service.watchers());
+  add("throng_queue_paused", "gauge", "1 while the queue rests because the disk is full.",
+      call.service.paused().empty() ? 0 : 1);
   add("throng_disk_free_bytes", "gauge", "Free bytes where the data folder lies.",
       free_bytes(call));
   add("process_resident_memory_bytes", "gauge", "Memory of the server in RAM.", resident_bytes());

@@ -1,6 +1,7 @@
 // Exports of texts, points, values per pixel and containers, read back by readers of their own.
 #include <archive.h>
 #include <archive_entry.h>
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -11,6 +12,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "formats/npy.h"
 #include "formats/raster.h"
 #include "tests/formats/dataset_fixture.h"
@@ -228,6 +230,28 @@ TEST_F(MoreExports, WebDatasetKeepsSamplesTogether) {
     EXPECT_EQ(names[i + 1], key + ".json");
   }
   EXPECT_EQ(annotations, coco().at("annotations").size());
+}
+
+TEST_F(MoreExports, WebDatasetBeginsAShardWhereTheLastIsFull) {
+  ExportOptions options;
+  options.webdataset.shard_mb = 0.01;
+  const fs::path folder = exported("webdataset", options);
+  const json shards = json::parse(read_file(folder / "shards.json")).at("train");
+  ASSERT_GT(shards.size(), 1U);
+  std::int64_t samples = 0;
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    const fs::path tar = folder / shards[i].at("file").get<std::string>();
+    EXPECT_EQ(tar.filename(), fmt::format("train-{:06}.tar", i));
+    EXPECT_EQ(shards[i].at("bytes"), fs::file_size(tar));
+    EXPECT_EQ(shards[i].at("sha256"), sha256_hex(read_file(tar)));
+    samples += shards[i].at("samples").get<std::int64_t>();
+    // A sample is never cut, so one that is too large has a shard of its own; the end of a tar
+    // file fills a block.
+    if (shards[i].at("samples") > 1) {
+      EXPECT_LE(fs::file_size(tar), 10'000 + 10'240);
+    }
+  }
+  EXPECT_EQ(samples, 12);
 }
 
 TEST_F(MoreExports, FloAndExrAreTheValuesPerPixel) {

@@ -31,6 +31,9 @@ class LocalProcessesTest : public testing::Test {
     options.command = {"/bin/sh", "-c", "job=$2 task=$4; " + script, "worker"};
     options.workers = workers;
     options.grace_s = 0.3;
+    options.rest_s = 0.01;
+    options.lease_s = lease_s;
+    options.longest_task_s = longest_task_s;
     LocalProcesses processes(options);
     return processes.run(
         JobFolder(folder.path()), list,
@@ -49,6 +52,8 @@ class LocalProcessesTest : public testing::Test {
 
   TemporaryFolder folder;
   std::map<int, std::vector<double>> reported;
+  double lease_s = 60;
+  double longest_task_s = 0;
 };
 
 TEST_F(LocalProcessesTest, EveryTaskRunsOnce) {
@@ -99,13 +104,82 @@ TEST_F(LocalProcessesTest, InputErrorsAreNotRetried) {
   EXPECT_EQ(count_lines("tries"), 1);
 }
 
-TEST_F(LocalProcessesTest, AFinalFailureEndsTheOthers) {
+TEST_F(LocalProcessesTest, AWrongJobEndsAllTasks) {
   const auto start = std::chrono::steady_clock::now();
   const auto results = run("[ $task = run001/trace ] && exit 2; exec sleep 60", 3);
   EXPECT_EQ(results[0].outcome, Outcome::cancelled);
   EXPECT_EQ(results[1].outcome, Outcome::input_error);
   EXPECT_EQ(results[2].outcome, Outcome::cancelled);
   EXPECT_LT(std::chrono::steady_clock::now() - start, 20s);
+}
+
+TEST_F(LocalProcessesTest, ATaskThatFailsForGoodEndsThoseOfItsRunOnly) {
+  const std::vector<Task> tasks = {{Task::Kind::render, 0, 0},
+                                   {Task::Kind::render, 0, 1},
+                                   {Task::Kind::render, 1, 0},
+                                   {Task::Kind::render, 0, 2}};
+  LocalProcessesOptions options;
+  options.command = {"/bin/sh", "-c",
+                     "case $4 in run000/shard0000) exit 3;; run000/shard0001) exec sleep 60;; "
+                     "esac; sleep 0.3",
+                     "worker"};
+  options.workers = 2;
+  options.attempts = 2;
+  options.grace_s = 0.3;
+  options.rest_s = 0.01;
+  LocalProcesses processes(options);
+  const auto results = processes.run(JobFolder(folder.path()), tasks, {}, {});
+  EXPECT_EQ(results[0].outcome, Outcome::environment_error);
+  EXPECT_EQ(results[0].attempts, 2);
+  EXPECT_EQ(results[1].outcome, Outcome::cancelled);
+  EXPECT_EQ(results[2].outcome, Outcome::succeeded);
+  EXPECT_NE(results[3].outcome, Outcome::environment_error);
+}
+
+TEST_F(LocalProcessesTest, AWorkerThatIsSilentTooLongIsReplaced) {
+  lease_s = 0.3;
+  const auto results =
+      run("echo x >> $job/tries; [ $(wc -l < $job/tries) -ge 2 ] || exec sleep 60");
+  EXPECT_EQ(results[0].outcome, Outcome::succeeded);
+  EXPECT_EQ(results[0].attempts, 2);
+}
+
+TEST_F(LocalProcessesTest, SignsOfLifeKeepAWorker) {
+  lease_s = 0.5;
+  const auto results = run("for i in 1 2 3 4 5 6 7 8; do echo '{}'; sleep 0.1; done");
+  EXPECT_EQ(results[0].outcome, Outcome::succeeded);
+  EXPECT_EQ(results[0].attempts, 1);
+}
+
+TEST_F(LocalProcessesTest, AHangingWorkerIsNamedAsSuch) {
+  lease_s = 0.2;
+  auto results = run("kill -STOP $$");
+  EXPECT_EQ(results[0].outcome, Outcome::timed_out);
+  EXPECT_THAT(results[0].message, HasSubstr("timed out: no sign of life for 0.2 s"));
+  lease_s = 60;
+  longest_task_s = 0.2;
+  results = run("while :; do echo '{}'; sleep 0.05; done");
+  EXPECT_EQ(results[0].outcome, Outcome::timed_out);
+  EXPECT_EQ(results[0].attempts, 3);
+  EXPECT_THAT(results[0].message, HasSubstr("the task took longer than 0.2 s"));
+}
+
+TEST_F(LocalProcessesTest, OutOfMemoryIsNamedAsSuch) {
+  const auto results =
+      run(R"(echo '{"error":{"kind":"environment","message":"out of memory: x"}}'; exit 4)");
+  EXPECT_EQ(results[0].outcome, Outcome::out_of_memory);
+  EXPECT_THAT(results[0].message, HasSubstr("out of memory"));
+}
+
+TEST_F(LocalProcessesTest, ATaskRestsBeforeItIsTriedAgain) {
+  LocalProcessesOptions options;
+  options.command = {"/bin/sh", "-c", "exit 3", "worker"};
+  options.rest_s = 0.1;
+  LocalProcesses processes(options);
+  const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
+  const auto start = std::chrono::steady_clock::now();
+  processes.run(JobFolder(folder.path()), tasks, {}, {});
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 500ms) << "0.1 s and 0.4 s";
 }
 
 TEST_F(LocalProcessesTest, CancelEndsTheWholeTreeEvenIfItIgnoresSigterm) {

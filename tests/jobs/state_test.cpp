@@ -10,14 +10,15 @@ using enum JobEvent;
 
 TEST(State, EveryStateAndEvent) {
   constexpr std::optional<JobState> kNone;
-  // Rows as kJobStates; columns: start, resume, succeed, fail, cancel, retry.
+  // Rows as kJobStates; columns: start, resume, succeed, succeed_partly, fail, cancel, retry.
   const std::array<std::array<std::optional<JobState>, kJobEvents.size()>, kJobStates.size()>
       expected = {{
-          {running, kNone, kNone, kNone, cancelled, kNone},
-          {kNone, running, succeeded, failed, cancelled, kNone},
-          {kNone, kNone, kNone, kNone, kNone, kNone},
-          {kNone, kNone, kNone, kNone, kNone, queued},
-          {kNone, kNone, kNone, kNone, kNone, queued},
+          {running, kNone, kNone, kNone, kNone, cancelled, kNone},
+          {kNone, running, succeeded, partial, failed, cancelled, kNone},
+          {kNone, kNone, kNone, kNone, kNone, kNone, kNone},
+          {kNone, kNone, kNone, kNone, kNone, kNone, queued},
+          {kNone, kNone, kNone, kNone, kNone, kNone, queued},
+          {kNone, kNone, kNone, kNone, kNone, kNone, queued},
       }};
   for (std::size_t s = 0; s < kJobStates.size(); ++s) {
     for (std::size_t e = 0; e < kJobEvents.size(); ++e) {

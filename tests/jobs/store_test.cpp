@@ -133,11 +133,11 @@ TEST_F(StoreTest, TheHighestPriorityComesFirstAndCanBeChanged) {
   const JobRow usual = store.add({.name = "usual"}).row;
   const JobRow high = store.add({.name = "high", .priority = 5}).row;
   EXPECT_EQ(store.next()->id, high.id);
-  EXPECT_EQ(store.change(low.id, 6, {"urgent"})->priority, 6);
+  EXPECT_EQ(store.change(low.id, {6, {"urgent"}})->priority, 6);
   EXPECT_EQ(store.next()->id, low.id);
   EXPECT_EQ(store.get(low.id)->labels, std::vector<std::string>{"urgent"});
   EXPECT_EQ(store.get(usual.id)->labels, std::vector<std::string>{});
-  EXPECT_FALSE(store.change("jnosuchjob00000", 1, {}));
+  EXPECT_FALSE(store.change("jnosuchjob00000", {}));
 }
 
 TEST_F(StoreTest, ASubmissionSentTwiceIsOneJob) {
@@ -209,6 +209,47 @@ TEST_F(StoreTest, WhatHappensIsRecordedWithTheChangeItself) {
   store.remove(queued.id);
   ASSERT_EQ(store.events(queued.id, 0, 100).size(), 1U);
   EXPECT_EQ(store.events(queued.id, 0, 100)[0].type, "removed");
+}
+
+TEST_F(StoreTest, DiskIsCountedAndBoundedPerOwner) {
+  Store store(folder.path(), clock());
+  const JobRow mine = store.add({.name = "a", .owner = "me"}).row;
+  const JobRow theirs = store.add({.name = "b", .owner = "them"}).row;
+  store.set_bytes(mine.id, 700);
+  store.set_bytes(theirs.id, 5000);
+  EXPECT_EQ(store.get(mine.id)->bytes, 700);
+  EXPECT_EQ(store.total_bytes(), 5700);
+  EXPECT_EQ(store.add({.name = "c", .owner = "me", .most_bytes = 701}).over_quota, "");
+  EXPECT_NE(store.add({.name = "d", .owner = "me", .most_bytes = 700}).over_quota, "");
+  EXPECT_NE(store.add({.name = "e", .owner = "me", .most_active = 2}).over_quota, "");
+  EXPECT_EQ(store.list({}).size(), 3U);
+}
+
+TEST_F(StoreTest, WhatHasEndedIsListedInTheOrderOfEndingButWhatIsKept) {
+  Store store(folder.path(), clock());
+  const JobRow a = store.add({.name = "a"}).row;
+  const JobRow b = store.add({.name = "b"}).row;
+  const JobRow c = store.add({.name = "c"}).row;
+  store.add({.name = "still waiting"});
+  for (const JobRow& row : {c, a, b}) {
+    ++now_ms;
+    store.apply(row, JobEvent::cancel);
+  }
+  EXPECT_TRUE(store.change(b.id, {.keep = true})->keep);
+  std::vector<std::string> names;
+  for (const JobRow& row : store.ended(10)) names.push_back(row.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"c", "a"}));
+  EXPECT_EQ(store.ended(1).size(), 1U);
+}
+
+TEST_F(StoreTest, EventsOfRemovedJobsAreForgottenInTheEnd) {
+  Store store(folder.path(), clock());
+  store.remove(store.add({.name = "a"}).row.id);
+  store.add({.name = "b"});
+  EXPECT_EQ(store.forget_events(0), 0);
+  EXPECT_EQ(store.forget_events(store.now_ms() + 1), 1);
+  ASSERT_EQ(store.events("", 0, 10).size(), 1U);
+  EXPECT_EQ(store.events("", 0, 10)[0].type, "submitted");
 }
 
 TEST_F(StoreTest, RemovedJobsAreGone) {

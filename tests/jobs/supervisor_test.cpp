@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "base/error.h"
+#include "jobs/failed_runs.h"
 #include "tests/jobs/fake_executor.h"
 #include "tests/jobs/yard.h"
 
@@ -42,16 +46,82 @@ TEST_F(SupervisorTest, DoesEveryTaskOnceSimulationsFirstDatasetLast) {
 
 TEST_F(SupervisorTest, TakesUpWhereAnEarlierOneStopped) {
   executor.before = [](const Task& task) {
-    return name_of(task) == "run001/metrics" ? TaskResult{Outcome::crashed, 3, "m", {}}
-                                             : TaskResult{};
+    return task.kind == Task::Kind::measure ? TaskResult{Outcome::crashed, 3, "m", {}}
+                                            : TaskResult{};
   };
   EXPECT_THROW(run_job(folder(), job, executor), EnvironmentError);
   FakeExecutor second;
   run_job(folder(), job, second);
-  EXPECT_THAT(second.done(), ElementsAre("run001/metrics", "dataset"));
+  EXPECT_THAT(second.done(), ElementsAre("run000/metrics", "run001/metrics", "dataset"));
   FakeExecutor third;
   run_job(folder(), job, third);
   EXPECT_TRUE(third.done().empty());
+}
+
+TEST_F(SupervisorTest, ARunThatFailsLeavesTheOthersTheirDataset) {
+  executor.before = [](const Task& task) {
+    return name_of(task) == "run001/shard0002" ? TaskResult{Outcome::crashed, 3, "boom", {}}
+                                               : TaskResult{};
+  };
+  JobProgress last;
+  const std::vector<RunFailure> failures =
+      run_job(folder(), job, executor, [&](const JobProgress& progress) { last = progress; });
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_EQ(failures[0].run, 1);
+  EXPECT_EQ(failures[0].task, "run001/shard0002");
+  EXPECT_EQ(failures[0].attempts, 3);
+  EXPECT_THAT(failures[0].message, HasSubstr("boom (after 3 attempts)"));
+  EXPECT_EQ(last.runs[0].stage, Stage::finished);
+  EXPECT_EQ(last.runs[1].stage, Stage::failed);
+  EXPECT_TRUE(folder().is_done({Task::Kind::collect}));
+  ASSERT_EQ(read_failed_runs(folder()).size(), 1U);
+  EXPECT_EQ(read_failed_runs(folder())[0].run, 1);
+
+  // Again: what is missing is done, and the dataset made anew.
+  FakeExecutor second;
+  EXPECT_TRUE(run_job(folder(), job, second).empty());
+  EXPECT_THAT(second.done(), ElementsAre("run001/shard0002", "dataset"));
+  EXPECT_TRUE(read_failed_runs(folder()).empty());
+}
+
+TEST_F(SupervisorTest, ASimulationThatFailsIsNotDrawn) {
+  executor.before = [](const Task& task) {
+    return name_of(task) == "run000/trace" ? TaskResult{Outcome::timed_out, 3, "slow", {}}
+                                           : TaskResult{};
+  };
+  EXPECT_EQ(run_job(folder(), job, executor).size(), 1U);
+  EXPECT_THAT(executor.done(), ElementsAre("run001/trace", "run001/metrics", "run001/shard0000",
+                                           "run001/shard0001", "run001/shard0002", "dataset"));
+}
+
+TEST_F(SupervisorTest, WithoutAnyRunThereIsNoDataset) {
+  executor.before = [](const Task& task) {
+    return task.kind == Task::Kind::simulate ? TaskResult{Outcome::crashed, 3, "boom", {}}
+                                             : TaskResult{};
+  };
+  try {
+    run_job(folder(), job, executor);
+    FAIL();
+  } catch (const EnvironmentError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("all 2 runs failed; run000/trace: boom"));
+  }
+  EXPECT_FALSE(folder().is_done({Task::Kind::collect}));
+}
+
+TEST_F(SupervisorTest, SaysHowFastItIsAndWhatIsLeft) {
+  executor.before = [](const Task&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return TaskResult{};
+  };
+  bool was_known = false;
+  run_job(folder(), job, executor, [&](const JobProgress& progress) {
+    if (progress.pace.images_per_s == 0) return;
+    was_known = true;
+    ASSERT_TRUE(progress.pace.remaining_s);
+    EXPECT_GE(*progress.pace.remaining_s, 0);
+    EXPECT_LT(progress.pace.images_per_s, 1 / 0.02);
+  });
+  EXPECT_TRUE(was_known);
 }
 
 TEST_F(SupervisorTest, RemovesWhatDeadWorkersLeft) {
@@ -64,14 +134,14 @@ TEST_F(SupervisorTest, RemovesWhatDeadWorkersLeft) {
 
 TEST_F(SupervisorTest, AFailureNamesTheTaskAndTheReason) {
   executor.before = [](const Task& task) {
-    return name_of(task) == "run000/shard0001" ? TaskResult{Outcome::crashed, 3, "boom", {}}
-                                               : TaskResult{};
+    return task.kind == Task::Kind::collect ? TaskResult{Outcome::crashed, 3, "boom", {}}
+                                            : TaskResult{};
   };
   try {
     run_job(folder(), job, executor);
     FAIL();
   } catch (const EnvironmentError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("run000/shard0001: boom (after 3 attempts)"));
+    EXPECT_THAT(error.what(), HasSubstr("dataset: boom (after 3 attempts)"));
   }
   EXPECT_THAT(executor.done(), Not(Contains("dataset")));
 }
@@ -111,15 +181,16 @@ TEST_F(SupervisorTest, StoppingIsCancelled) {
 TEST_F(SupervisorTest, ProgressOnlyGrowsAndEndsComplete) {
   JobProgress last;
   run_job(folder(), job, executor, [&](const JobProgress& progress) {
-    ASSERT_EQ(progress.size(), 2U);
-    for (std::size_t run = 0; run < last.size(); ++run) {
-      EXPECT_GE(progress[run].images_done, last[run].images_done);
-      EXPECT_GE(progress[run].stage, last[run].stage);
-      EXPECT_EQ(progress[run].images_total, 3);
+    ASSERT_EQ(progress.runs.size(), 2U);
+    for (std::size_t run = 0; run < last.runs.size(); ++run) {
+      EXPECT_GE(progress.runs[run].images_done, last.runs[run].images_done);
+      EXPECT_GE(progress.runs[run].stage, last.runs[run].stage);
+      EXPECT_EQ(progress.runs[run].images_total, 3);
     }
     last = progress;
   });
-  for (const RunProgress& run : last) {
+  EXPECT_TRUE(last.shards.empty());
+  for (const RunProgress& run : last.runs) {
     EXPECT_EQ(run.stage, Stage::finished);
     EXPECT_EQ(run.images_done, 3);
     EXPECT_EQ(run.simulated_s, 2);

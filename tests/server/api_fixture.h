@@ -19,7 +19,11 @@ using nlohmann::json;
 
 class ApiTest : public ServiceFixture {
  protected:
-  ApiTest() : service(options(), executor), api(service, keys, {}), thread([this] { api.run(); }) {}
+  ApiTest()
+      : service(options(), executor),
+        hooks(service),
+        api(service, keys, hooks, {}),
+        thread([this] { api.run(); }) {}
   ~ApiTest() override { api.stop(); }
 
   httplib::Client client() const { return httplib::Client("127.0.0.1", api.port()); }
@@ -71,6 +75,7 @@ class ApiTest : public ServiceFixture {
 
   JobService service;
   Keys keys{data.path()};
+  WebhookSender hooks;
   Api api;
   std::jthread thread;
 };

@@ -185,7 +185,7 @@ TEST_F(ApiTest, AConnectionServesManyRequestsAndManyConnectionsAreServed) {
 }
 
 TEST_F(ApiTest, APortIsServedOnce) {
-  EXPECT_THROW(Api(service, keys, {"127.0.0.1", api.port()}), EnvironmentError);
+  EXPECT_THROW(Api(service, keys, hooks, {"127.0.0.1", api.port()}), EnvironmentError);
 }
 
 }  // namespace

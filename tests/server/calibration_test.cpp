@@ -47,7 +47,10 @@ std::string grid_table() {
 class CalibrationApi : public ServiceFixture {
  protected:
   CalibrationApi()
-      : service(options(), executor), api(service, keys, {}), thread([this] { api.run(); }) {}
+      : service(options(), executor),
+        hooks(service),
+        api(service, keys, hooks, {}),
+        thread([this] { api.run(); }) {}
   ~CalibrationApi() override { api.stop(); }
 
   httplib::Client client() const { return httplib::Client("127.0.0.1", api.port()); }
@@ -72,6 +75,7 @@ class CalibrationApi : public ServiceFixture {
 
   JobService service;
   Keys keys{data.path()};
+  WebhookSender hooks;
   Api api;
   std::jthread thread;
 };

@@ -166,5 +166,82 @@ TEST_F(JobServiceTest, ManyClientsAtOnce) {
   }));
 }
 
+TEST_F(JobServiceTest, AJobMayEndWithSomeOfItsRuns) {
+  const std::string place = data.path().string();
+  std::atomic<bool> fails = true;
+  executor.before = [&](const Task& task) {
+    return task.run == 1 && task.kind == Task::Kind::simulate && fails
+               ? TaskResult{Outcome::out_of_memory, 3, "no memory for " + place + "/x", {}}
+               : TaskResult{};
+  };
+  JobService service(options(), executor);
+  const std::string job = R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2}})";
+  const std::string id = service.submit({job}).row.id;
+  ASSERT_TRUE(reaches(service, id, JobState::partial));
+  const json error = json::parse(service.get(id)->error_json);
+  EXPECT_EQ(error["kind"], "partial");
+  ASSERT_EQ(error["runs"].size(), 1U);
+  EXPECT_EQ(error["runs"][0]["run"], "run001");
+  EXPECT_EQ(error["runs"][0]["message"], "run001/trace: no memory for x (after 3 attempts)");
+  EXPECT_TRUE(std::filesystem::exists(service.dataset_of(id)));
+  EXPECT_GT(service.get(id)->bytes, 0);
+  fails = false;
+  EXPECT_TRUE(service.retry(id));
+  ASSERT_TRUE(reaches(service, id, JobState::succeeded));
+  EXPECT_EQ(service.get(id)->error_json, "");
+}
+
+TEST_F(JobServiceTest, AFullDiskLetsTheQueueRest) {
+  std::atomic<std::int64_t> free = 1000;
+  JobServiceOptions limited = options();
+  limited.free_bytes = [&] { return free.load(); };
+  limited.least_free_bytes = 100;
+  // Fails as a worker does that cannot write, once there is no room.
+  executor.before = [&](const Task& task) {
+    if (task.kind == Task::Kind::render) free = 50;
+    return free < 100 ? TaskResult{Outcome::environment_error, 3, "no space left", {}}
+                      : TaskResult{};
+  };
+  JobService service(limited, executor);
+  const std::string id = service.submit({kJob}).row.id;
+  ASSERT_TRUE(wait_until([&] { return !service.paused().empty(); }));
+  EXPECT_EQ(service.get(id)->state, JobState::running) << "nothing has failed";
+  EXPECT_NE(service.get(id)->waiting_for, "");
+  const std::string queued = service.submit({kJob}).row.id;
+  executor.before = [](const Task&) { return TaskResult{}; };
+  free = 110;  // a little is not enough
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  EXPECT_NE(service.paused(), "");
+  EXPECT_EQ(service.get(queued)->state, JobState::queued);
+  free = 1000;
+  ASSERT_TRUE(reaches(service, id, JobState::succeeded));
+  ASSERT_TRUE(reaches(service, queued, JobState::succeeded));
+  EXPECT_EQ(service.paused(), "");
+  EXPECT_EQ(service.get(id)->waiting_for, "");
+}
+
+TEST_F(JobServiceTest, WhatHasBeenKeptForLongEnoughIsRemoved) {
+  std::atomic<std::int64_t> now_ms = 1'700'000'000'000;
+  JobServiceOptions keeping = options();
+  keeping.clock = [&] { return now_ms.load(); };
+  keeping.retention.longest_ms = 1000;
+  JobService service(keeping, executor);
+  const std::string old = service.submit({kJob}).row.id;
+  const std::string kept = service.submit({kJob}).row.id;
+  ASSERT_TRUE(reaches(service, kept, JobState::succeeded));
+  service.change(kept, {.keep = true});
+  now_ms += 999;
+  service.remove_expired();
+  EXPECT_TRUE(service.get(old));
+  now_ms += 1;
+  const std::string fresh = service.submit({kJob}).row.id;
+  ASSERT_TRUE(reaches(service, fresh, JobState::succeeded));
+  service.remove_expired();
+  EXPECT_FALSE(service.get(old));
+  EXPECT_FALSE(std::filesystem::exists(service.job_folder(old)));
+  EXPECT_TRUE(service.get(kept));
+  EXPECT_TRUE(service.get(fresh));
+}
+
 }  // namespace
 }  // namespace throng::server

@@ -202,5 +202,15 @@ TEST_F(JobsApi, TooManyStreamsAreRefusedAndOthersServed) {
   gate.open();
 }
 
+TEST_F(ApiTest, AJobCanBeKeptForGood) {
+  const std::string self = "/v1/jobs/" + submit_and_wait();
+  EXPECT_FALSE(get_json(self)["keep"]);
+  EXPECT_TRUE(get_json(self)["expires_at"].is_null());
+  const auto kept = client().Patch(self, R"({"keep": true})", "application/json");
+  EXPECT_EQ(kept->status, 200);
+  EXPECT_TRUE(get_json(self)["keep"]);
+  expect_problem(client().Patch(self, R"({"keep": 1})", "application/json"), 400);
+}
+
 }  // namespace
 }  // namespace throng::server

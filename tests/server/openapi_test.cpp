@@ -47,6 +47,24 @@ class OpenApi : public ApiTest {
 
   std::set<std::string> described_;
 
+  void expect_webhooks_described() {
+    const auto posted = [&](const std::string& path, const std::string& body) {
+      return client().Post(path, body, "application/json");
+    };
+    const auto made = posted("/v1/webhooks", R"({"url": "http://127.0.0.1:1/"})");
+    expect_described("post", "/v1/webhooks", made);
+    expect_described("post", "/v1/webhooks", posted("/v1/webhooks", "{}"));
+    expect_described("get", "/v1/webhooks", get("/v1/webhooks"));
+    const std::string hook = json::parse(made->body)["links"]["self"];
+    expect_described("post", "/v1/webhooks/{id}/ping", posted(hook + "/ping", ""));
+    expect_described("get", "/v1/webhooks/{id}/deliveries", get(hook + "/deliveries"));
+    expect_described("get", "/v1/webhooks/{id}", get(hook));
+    expect_described("patch", "/v1/webhooks/{id}",
+                     client().Patch(hook, R"({"enabled": false})", "application/json"));
+    expect_described("delete", "/v1/webhooks/{id}", client().Delete(hook));
+    expect_described("get", "/v1/webhooks/{id}", get(hook));
+  }
+
  private:
   void expect_valid(json schema, const json& value) const {
     schema["components"] = document_["components"];
@@ -160,6 +178,7 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   expect_described("post", "/v1/jobs/{id}/clone", posted(self + "/clone", R"({"seed": 2})"));
   expect_described("delete", "/v1/jobs/{id}", client().Delete(self));
   expect_described("delete", "/v1/jobs/{id}", client().Delete(self));
+  expect_webhooks_described();
   EXPECT_GT(described_.size(), 45U);
 }
 

@@ -32,7 +32,7 @@ class ServiceFixture : public testing::Test {
  protected:
   ServiceFixture() { jobs::write_yard(scenarios.path()); }
 
-  JobServiceOptions options() const { return {data.path(), scenarios.path()}; }
+  JobServiceOptions options() const { return {.data = data.path(), .scenarios = scenarios.path()}; }
 
   jobs::TemporaryFolder scenarios;
   jobs::TemporaryFolder data;

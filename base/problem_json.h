@@ -1,4 +1,4 @@
-// Problems as JSON, the same in workers' messages, the job store and the API.
+// Problems as JSON, as processes of ours tell them each other. For rooms that link nlohmann's JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,0 +1,38 @@
+// Wakes those who wait for something to happen.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+
+namespace throng::server {
+
+/// Safe to use from many threads.
+class Bell {
+ public:
+  void ring() {
+    {
+      const std::lock_guard lock(mutex_);
+      ++rung_;
+    }
+    changed_.notify_all();
+  }
+
+  /// How often it has rung: ask before looking, and what happens in between wakes the waiting.
+  std::uint64_t rung() const { return rung_; }
+
+  /// Until it has rung more often than `before`; false when that takes too long.
+  bool wait(std::uint64_t before, std::chrono::steady_clock::time_point end) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_until(lock, end, [&] { return rung_ != before; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::atomic<std::uint64_t> rung_ = 0;  ///< written under mutex_
+};
+
+}  // namespace throng::server

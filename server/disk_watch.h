@@ -1,0 +1,40 @@
+// Looks at how much room there is on a disk, again and again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace throng::server {
+
+class DiskWatch {
+ public:
+  using FreeBytes = std::function<std::int64_t()>;
+  /// Called with why nothing more should be written, and with "" once there is room again.
+  using OnChange = std::function<void(const std::string& reason)>;
+
+  /// Looks twice a second. There is room again when a quarter more than
+  /// `least_bytes` is free, so that it does not change with every file.
+  DiskWatch(FreeBytes free_bytes, std::int64_t least_bytes, OnChange on_change);
+
+  /// Looks now. Why there is no room; "" when there is.
+  std::string look();
+
+ private:
+  void watch(const std::stop_token& stop);
+
+  FreeBytes free_bytes_;
+  std::int64_t least_bytes_;
+  OnChange on_change_;
+  std::mutex mutex_;
+  std::string reason_;   ///< why there was no room when somebody last looked; guarded by mutex_
+  std::jthread thread_;  ///< last: ends before what it uses
+};
+
+/// Free bytes where a folder lies. Throws EnvironmentError.
+std::int64_t free_bytes_of(const std::filesystem::path& folder);
+
+}  // namespace throng::server

@@ -1,0 +1,63 @@
+// Delivers events to webhooks: in their order, each until it is taken, for a day at most.
+//
+//   POST URL
+//   Throng-Event: succeeded
+//   Throng-Delivery: WEBHOOK-SEQ          the same for every attempt
+//   Throng-Signature: t=SECONDS,v1=HEX    server/webhooks.h
+//   {"seq": 17, "job": ID, "at": TIME, "type": "succeeded", "data": {...}, "links": {"job": PATH}}
+//
+// Any answer from 200 to 299 takes it; redirections are not followed. An event may come twice,
+// where the answer was lost. After a failure it is tried again after 1, 2, 4... seconds, at last
+// every ten minutes; a webhook that has failed for a day is taken out of use.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "server/job_service.h"
+#include "server/webhooks.h"
+
+namespace throng::server {
+
+struct WebhookSenderOptions {
+  std::chrono::milliseconds first_rest{1000};  ///< after a first failure; doubles with each
+  std::chrono::milliseconds longest_rest{600'000};
+  std::chrono::milliseconds patience{86'400'000};  ///< with a webhook that fails
+};
+
+class WebhookSender {
+ public:
+  /// Those of the service's data folder; the service must outlive it.
+  explicit WebhookSender(const JobService& service, WebhookSenderOptions options = {});
+  ~WebhookSender();
+  WebhookSender(const WebhookSender&) = delete;
+  WebhookSender& operator=(const WebhookSender&) = delete;
+
+  Webhooks& webhooks() { return webhooks_; }
+
+  /// Takes note of webhooks that have come or gone.
+  void refresh();
+
+  /// Sends a ping at once and logs how that went; nothing when there is no such webhook.
+  std::optional<Delivery> ping(const std::string& id);
+
+ private:
+  void serve(const std::string& id, const std::stop_token& stop);
+  bool deliver_next(Webhook& webhook, const std::stop_token& stop);
+  void rest(std::chrono::milliseconds duration, const std::stop_token& stop);
+
+  const JobService& service_;
+  Webhooks webhooks_;
+  WebhookSenderOptions options_;
+  std::mutex mutex_;
+  std::condition_variable_any stopped_;
+  std::map<std::string, std::jthread> threads_;  ///< by webhook; guarded by mutex_
+};
+
+}  // namespace throng::server

@@ -1,0 +1,173 @@
+#include "server/webhooks_api.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "server/answers.h"
+#include "server/http.h"
+#include "server/requests.h"
+
+namespace throng::server {
+
+using httplib::Request;
+using httplib::Response;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMostWebhooks = 32;  // each has a thread of its own
+constexpr std::size_t kLongestUrl = 2000;
+constexpr std::size_t kMostEvents = 32;
+constexpr std::size_t kLongestSecret = 200;
+
+json webhook_json(const Webhook& webhook) {
+  return {{"id", webhook.id},
+          {"url", webhook.url},
+          {"events", webhook.events},
+          {"enabled", webhook.enabled},
+          {"created_at", time_json(webhook.created_ms)},
+          {"delivered_up_to", webhook.after},
+          {"failures", webhook.failures},
+          {"failing_since", time_json(webhook.failing_since_ms)},
+          {"links",
+           {{"self", "/v1/webhooks/" + webhook.id},
+            {"deliveries", fmt::format("/v1/webhooks/{}/deliveries", webhook.id)}}}};
+}
+
+json delivery_json(const Delivery& delivery) {
+  return {{"event", delivery.event},
+          {"type", delivery.type},
+          {"at", time_json(delivery.at_ms)},
+          {"attempt", delivery.attempt},
+          {"status", delivery.status == 0 ? json(nullptr) : json(delivery.status)},
+          {"error", delivery.error.empty() ? json(nullptr) : json(delivery.error)},
+          {"took_ms", delivery.took_ms},
+          {"succeeded", delivery.succeeded()}};
+}
+
+Webhook find_webhook(const Call& call, const Request& request) {
+  const std::string id = request.matches[1];
+  auto webhook = call.hooks.webhooks().get(id);
+  if (!webhook) throw HttpError{404, fmt::format("there is no webhook {}", id)};
+  return *webhook;
+}
+
+HttpError wrong(const std::string& pointer, const std::string& found, const std::string& expected) {
+  return {400, "the webhook is wrong", {{"", pointer, found, expected}}};
+}
+
+/// A host, perhaps a port and a path, no user or blank: what can be called.
+bool is_url(const std::string& url) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!url.starts_with(scheme) || url.size() > kLongestUrl) continue;
+    const std::string rest = url.substr(scheme.size());
+    return !rest.empty() && rest[0] != '/' && rest[0] != ':' &&
+           std::none_of(rest.begin(), rest.end(), [](unsigned char c) {
+             return c <= ' ' || c >= 127 || c == '@' || c == '\\' || c == '#';
+           });
+  }
+  return false;
+}
+
+std::string text_at(const json& body, const char* name, const std::string& otherwise) {
+  if (!body.contains(name)) return otherwise;
+  if (!body[name].is_string()) throw wrong(fmt::format("/{}", name), body[name].dump(), "a text");
+  return body[name];
+}
+
+std::vector<std::string> events_of(const json& body) {
+  if (!body.contains("events")) return {"succeeded", "partial", "failed", "cancelled"};
+  const json& list = body["events"];
+  const bool is_list =
+      list.is_array() && !list.empty() && list.size() <= kMostEvents &&
+      std::all_of(list.begin(), list.end(), [](const json& event) { return event.is_string(); });
+  if (!is_list) {
+    throw wrong("/events", list.dump(), "a list of types of events, or [\"*\"] for all");
+  }
+  return list.get<std::vector<std::string>>();
+}
+
+json body_of(const Request& request, std::initializer_list<std::string_view> known) {
+  require_json(request);
+  json body = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
+  if (!body.is_object()) throw wrong("", "no JSON object", "a webhook");
+  for (const auto& [name, value] : body.items()) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw wrong("/" + name, "an unknown field", fmt::format("{}", *known.begin()));
+    }
+  }
+  return body;
+}
+
+}  // namespace
+
+void create_webhook(const Call& call, const Request& request, Response& response) {
+  const json body = body_of(request, {"url", "events", "secret"});
+  const std::string url = text_at(body, "url", "");
+  if (!is_url(url)) {
+    throw wrong("/url", '"' + url + '"', "an address such as https://example.org/hook");
+  }
+  const std::string secret = text_at(body, "secret", "");
+  if (secret.size() > kLongestSecret) {
+    throw wrong("/secret", fmt::format("{} characters", secret.size()),
+                fmt::format("at most {}", kLongestSecret));
+  }
+  Webhooks& webhooks = call.hooks.webhooks();
+  if (webhooks.list().size() >= kMostWebhooks) {
+    throw HttpError{409, fmt::format("there may be {} webhooks: remove one", kMostWebhooks)};
+  }
+  const Webhook webhook = webhooks.create(url, events_of(body), secret, call.service.last_event());
+  call.hooks.refresh();
+  json answer = webhook_json(webhook);
+  answer["secret"] = webhook.secret;  // this once
+  response.set_header("Location", "/v1/webhooks/" + webhook.id);
+  write_json(response, 201, answer);
+}
+
+void list_webhooks(const Call& call, const Request&, Response& response) {
+  json list = json::array();
+  for (const Webhook& webhook : call.hooks.webhooks().list()) list.push_back(webhook_json(webhook));
+  write_json(response, 200, {{"webhooks", std::move(list)}});
+}
+
+void send_webhook(const Call& call, const Request& request, Response& response) {
+  write_json(response, 200, webhook_json(find_webhook(call, request)));
+}
+
+void change_webhook(const Call& call, const Request& request, Response& response) {
+  const std::string id = find_webhook(call, request).id;
+  const json body = body_of(request, {"enabled"});
+  if (!body.contains("enabled") || !body["enabled"].is_boolean()) {
+    throw wrong("/enabled", body.value("enabled", json(nullptr)).dump(), "true or false");
+  }
+  call.hooks.webhooks().enable(id, body["enabled"], call.service.last_event());
+  call.hooks.refresh();
+  write_json(response, 200, webhook_json(find_webhook(call, request)));
+}
+
+void remove_webhook(const Call& call, const Request& request, Response& response) {
+  call.hooks.webhooks().remove(find_webhook(call, request).id);
+  call.hooks.refresh();
+  response.status = 204;
+}
+
+void list_deliveries(const Call& call, const Request& request, Response& response) {
+  json list = json::array();
+  for (const Delivery& delivery :
+       call.hooks.webhooks().deliveries(find_webhook(call, request).id, limit_of(request))) {
+    list.push_back(delivery_json(delivery));
+  }
+  write_json(response, 200, {{"deliveries", std::move(list)}});
+}
+
+void ping_webhook(const Call& call, const Request& request, Response& response) {
+  const auto delivery = call.hooks.ping(find_webhook(call, request).id);
+  if (!delivery) throw HttpError{404, "the webhook has been removed"};
+  write_json(response, 200, delivery_json(*delivery));
+}
+
+}  // namespace throng::server
