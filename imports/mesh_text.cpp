@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <iterator>
 
 #include "imports/place_writer.h"
@@ -13,6 +14,7 @@ MeshText mesh_text(const Thing& thing, const std::string& materials_file) {
   text.triangles = fmt::format("mtllib {}\n", materials_file);
   auto out = std::back_inserter(text.triangles);
   int vertices = 0;
+  int normals = 0;
   for (std::size_t i = 0; i < thing.solids.size(); ++i) {
     const Solid& solid = thing.solids[i];
     text.materials += fmt::format("newmtl m{}\nKd {:.4f} {:.4f} {:.4f}\n", i, solid.rgb.x(),
@@ -22,7 +24,13 @@ MeshText mesh_text(const Thing& thing, const std::string& materials_file) {
       for (const Eigen::Vector3d& p : triangle) {
         fmt::format_to(out, "v {:.4f} {:.4f} {:.4f}\n", p.x(), p.z(), -p.y());
       }
-      fmt::format_to(out, "f {} {} {}\n", vertices + 1, vertices + 2, vertices + 3);
+      // With its own normal: readers make those that are missing smooth, and boxes round.
+      const Eigen::Vector3d across = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+      const Eigen::Vector3d n =
+          across.norm() > 0 ? Eigen::Vector3d(across.normalized()) : Eigen::Vector3d(0, 0, 1);
+      ++normals;
+      fmt::format_to(out, "vn {:.4f} {:.4f} {:.4f}\nf {}//{} {}//{} {}//{}\n", n.x(), n.z(), -n.y(),
+                     vertices + 1, normals, vertices + 2, normals, vertices + 3, normals);
       vertices += 3;
     }
   }
