@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kCentimetre = 0.01;
 constexpr std::int64_t kMostFrames = 10'000'000;
-constexpr std::size_t kMostCells = 40'000'000;  ///< frames times people
+constexpr std::size_t kMostPairs = 40'000'000;  ///< frames times people
 constexpr double kLargestPerson = 1e15;
 constexpr double kFarthestPlaceM = 100'000;
 constexpr double kSlowestRate = 0.01;
@@ -288,11 +288,11 @@ world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers
                       fmt::format("at most {} frames", kMostFrames)});
   }
   const std::size_t cells = static_cast<std::size_t>(last - first + 1) * recorded.places.size();
-  if (cells > kMostCells) {
+  if (cells > kMostPairs) {
     throw InputError(
         {file.string(), "",
          fmt::format("{} people in {} frames", recorded.places.size(), last - first + 1),
-         fmt::format("at most {} pairs of frame and person", kMostCells)});
+         fmt::format("at most {} pairs of frame and person", kMostPairs)});
   }
   world::Trace trace;
   trace.header.scenario_id = file.stem().string();
