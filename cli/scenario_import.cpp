@@ -1,6 +1,4 @@
 // throng scenario import: worlds and maps of others as scenarios.
-#include "cli/scenario_import.h"
-
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "cli/scenario_import.h"
 #include "imports/osm_map.h"
 #include "imports/place_writer.h"
 #include "imports/populate.h"
@@ -25,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ImportArguments {
+struct PlaceArguments {
   std::string file;
   std::string folder;
   imports::PopulateOptions population;
@@ -53,7 +52,7 @@ std::array<double, count> numbers_in(const std::string& text, const std::string&
   return numbers;
 }
 
-std::vector<imports::Gate> gates_of(const ImportArguments& arguments) {
+std::vector<imports::Gate> gates_of(const PlaceArguments& arguments) {
   constexpr double kFarthestM = 10'000;
   constexpr double kNarrowestM = 0.8;
   std::vector<imports::Gate> gates;
@@ -70,7 +69,7 @@ std::vector<imports::Gate> gates_of(const ImportArguments& arguments) {
   return gates;
 }
 
-imports::Place place_of(const ImportArguments& arguments) {
+imports::Place place_of(const PlaceArguments& arguments) {
   const fs::path file = arguments.file;
   const std::string suffix = file.extension().string();
   if (!fs::is_regular_file(file)) {
@@ -95,7 +94,7 @@ imports::Place place_of(const ImportArguments& arguments) {
   throw InputError({arguments.file, "", "suffix \"" + suffix + "\"", ".sdf, .world or .osm"});
 }
 
-void import_place(const ImportArguments& arguments) {
+void import_place(const PlaceArguments& arguments) {
   imports::Place place = place_of(arguments);
   const imports::Population population = imports::populate(place, arguments.population);
   const fs::path written = imports::write_place(place, population, arguments.folder);
@@ -114,7 +113,7 @@ void import_place(const ImportArguments& arguments) {
 void add_scenario_import(CLI::App& scenario) {
   auto* command = scenario.add_subcommand(
       "import", "Make a scenario of a Gazebo world or an OpenStreetMap extract");
-  const auto arguments = std::make_shared<ImportArguments>();
+  const auto arguments = std::make_shared<PlaceArguments>();
   command->add_option("file", arguments->file, "WORLD.sdf, WORLD.world or MAP.osm")->required();
   command->add_option("-o,--output", arguments->folder, "Folder of scenarios to write into")
       ->required();

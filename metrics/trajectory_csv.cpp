@@ -70,7 +70,7 @@ class TableReader {
   }
 
  private:
-  enum Column { kPerson, kWhen, kX, kY, kColumns };
+  enum Column { person_column, when_column, x_column, y_column, column_count };
 
   void read_line(std::string_view line) {
     if (trimmed(line).empty() || line.front() == '#') return;
@@ -80,9 +80,9 @@ class TableReader {
     if (fields.size() <= last) {
       reject(fmt::format("{} fields", fields.size()), fmt::format("at least {}", last + 1));
     }
-    const std::string_view person = fields[column_[kPerson]];
+    const std::string_view person = fields[column_[person_column]];
     if (person.empty()) reject("nobody", "a person's name or number");
-    const double when = number(fields[column_[kWhen]]);
+    const double when = number(fields[column_[when_column]]);
     if (!by_time_ && when != std::floor(when))
       reject(fmt::format("frame {}", when), "a whole number");
     if (std::abs(when) > kLatestS * (by_time_ ? 1 : 10)) {
@@ -90,7 +90,7 @@ class TableReader {
     }
     const auto [known, is_new] = numbers_.try_emplace(std::string(person), tracks_.size());
     if (is_new) tracks_.emplace_back();
-    const Vector2d place(number(fields[column_[kX]]), number(fields[column_[kY]]));
+    const Vector2d place(number(fields[column_[x_column]]), number(fields[column_[y_column]]));
     if (!tracks_[known->second].try_emplace(when, place).second) {
       reject("the same person and time again", "each person once at a time");
     }
@@ -100,7 +100,7 @@ class TableReader {
     separator_ = separator_of(line);
     const std::vector<std::string_view> names = fields_of(line, separator_);
     const TrajectoryColumns& columns = format_.columns;
-    const std::array<std::string, kColumns> wanted = {
+    const std::array<std::string, column_count> wanted = {
         columns.person, by_time_ ? columns.time : columns.frame, columns.x, columns.y};
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const auto found = std::find(names.begin(), names.end(), wanted[i]);
@@ -127,7 +127,7 @@ class TableReader {
   bool by_time_;
   int line_ = 0;
   char separator_ = 0;  // 0: the names have not been read yet
-  std::array<std::size_t, kColumns> column_{};
+  std::array<std::size_t, column_count> column_{};
   std::map<std::string, std::size_t> numbers_;  // of persons, in the order of their appearance
   std::vector<Track> tracks_;
 };
