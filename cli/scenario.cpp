@@ -4,12 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/scenario_import.h"
 #include "cli/scenario_named.h"
+#include "places/blueprint.h"
 #include "places/check.h"
+#include "places/generate.h"
 #include "places/plan.h"
 
 namespace throng::cli {
@@ -57,13 +60,79 @@ void add_plan(CLI::App& scenario) {
   });
 }
 
+void add_make(CLI::App& scenario) {
+  auto* command = scenario.add_subcommand(
+      "make", "Make a scenario's files, those of its crowd among them, from a blueprint");
+  const auto file = std::make_shared<fs::path>();
+  const auto folder = std::make_shared<fs::path>(".");
+  command->add_option("blueprint", *file, "ID.place.json (docs/blueprint.md)")->required();
+  command->add_option("-o,--output", *folder, "the folder for ID.json and its Menge files");
+  command->callback([file, folder] {
+    const std::string id = file->stem().stem().string();
+    const fs::path made =
+        places::make_scenario(places::load_blueprint(*file), file->string(), *folder, id);
+    fmt::print("{}\n", made.string());
+  });
+}
+
+struct GenerateArguments {
+  std::string kind = "plaza";
+  nlohmann::json spec = nlohmann::json::object();
+  int seed = 1;
+  int count = 1;
+  fs::path folder = ".";
+};
+
+void generate(const GenerateArguments& arguments) {
+  for (int i = 0; i < arguments.count; ++i) {
+    nlohmann::json spec = arguments.spec;
+    spec["kind"] = arguments.kind;
+    spec["seed"] = arguments.seed + i;
+    std::vector<Problem> problems;
+    const places::PlaceSpec place = places::read_place_spec(spec, "", problems);
+    if (!problems.empty()) throw InputError(std::move(problems));
+    const std::string id = places::id_of(place);
+    const fs::path made =
+        places::make_scenario(places::generate_place(place), id, arguments.folder, id);
+    fmt::print("{}\n", made.string());
+  }
+}
+
+void add_generate(CLI::App& scenario) {
+  auto* command = scenario.add_subcommand("generate", "Make places from a seed");
+  const auto arguments = std::make_shared<GenerateArguments>();
+  command->add_option("--kind", arguments->kind, "plaza, street, campus or block");
+  command->add_option("--seed", arguments->seed, "the first place's");
+  command->add_option("--count", arguments->count, "how many, of one seed after the other")
+      ->check(CLI::Range(1, 100'000));
+  command->add_option("-o,--output", arguments->folder, "the folder for the scenarios");
+  const auto number = [&](const char* option, const char* field, const char* help) {
+    command->add_option_function<double>(
+        option, [arguments, field](double value) { arguments->spec[field] = value; }, help);
+  };
+  const auto integer = [&](const char* option, const char* field, const char* help) {
+    command->add_option_function<int>(
+        option, [arguments, field](int value) { arguments->spec[field] = value; }, help);
+  };
+  number("--size", "size_m", "of the longer side, 30 to 200 m");
+  integer("--exits", "exits", "2 to 8");
+  number("--exit-width", "exit_width_m", "2 to 12 m");
+  number("--building-density", "building_density", "0 to 1");
+  number("--clutter", "clutter", "0 to 1: how many things stand about");
+  number("--demand", "demand_per_minute", "people who come in by each exit in a minute");
+  integer("--people", "people", "who are there from the start");
+  command->callback([arguments] { generate(*arguments); });
+}
+
 }  // namespace
 
 void add_scenario(CLI::App& app) {
-  auto* command = app.add_subcommand("scenario", "Check, draw and import scenarios");
+  auto* command = app.add_subcommand("scenario", "Make, generate, check, draw and import scenarios");
   command->require_subcommand(1);
   add_check(*command);
   add_plan(*command);
+  add_make(*command);
+  add_generate(*command);
   add_scenario_import(*command);
 }
 

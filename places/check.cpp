@@ -66,6 +66,7 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
     const Routes routes = find_routes(scenario, loaded);
     check_exits(scenario, loaded, routes, findings);
     check_walls(scenario, routes, findings);
+    check_ground(scenario, routes, findings);
     check_people(scenario, loaded, routes, findings);
     append(findings.take(), all);
     for (const Problem& warning : loaded.warnings) {

@@ -305,6 +305,29 @@ void check_walls(const Scenario& scenario, const Routes& routes, Findings& findi
   }
 }
 
+void check_ground(const Scenario& scenario, const Routes& routes, Findings& findings) {
+  constexpr double kWorthNamingM2 = 1;  // less is a corner that the grid draws too roughly
+  if (std::none_of(routes.reached_from_exit.begin(), routes.reached_from_exit.end(),
+                   [](std::uint8_t reached) { return reached != 0; })) {
+    return;  // the exits' own findings say more
+  }
+  std::size_t cells = 0;
+  Vector2d first = Vector2d::Zero();
+  for (std::size_t cell = 0; cell < routes.nearest_exit.size(); ++cell) {
+    if (routes.grid.walkable[cell] == 0 || routes.nearest_exit[cell] != Routes::kNone) continue;
+    const Vector2d at = routes.centre_of(static_cast<int>(cell));
+    if (!scenario.inside.contains(at)) continue;
+    if (cells++ == 0) first = at;
+  }
+  const double area = static_cast<double>(cells) * routes.grid.cell_m * routes.grid.cell_m;
+  if (area < kWorthNamingM2) return;
+  findings.warning("/crowd/scene",
+                   fmt::format("{:.3g} m² of free ground, for example at {}, from where no open "
+                               "exit can be reached",
+                               area, point_text(first)),
+                   "ground that people can leave", "fill it with an obstacle or open a way out");
+}
+
 void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                  Findings& findings) {
   constexpr double kNarrowestM = 0.5;

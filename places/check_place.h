@@ -42,6 +42,8 @@ void check_people(const world::Scenario& scenario, const LoadedCrowd& loaded, co
                   Findings& findings);
 /// Whether buildings, which are seen, are also in people's way.
 void check_walls(const world::Scenario& scenario, const Routes& routes, Findings& findings);
+/// Whether there is ground that people can stand on but not leave.
+void check_ground(const world::Scenario& scenario, const Routes& routes, Findings& findings);
 void check_exits(const world::Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                  Findings& findings);
 

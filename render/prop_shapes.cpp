@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "render/large_props.h"
 #include "render/prop_builder.h"
 
 namespace throng::render {
@@ -178,6 +179,27 @@ PropMesh prop_shape(const world::Prop& prop, std::uint32_t id) {
       break;
     case world::PropKind::stall:
       make_stall(builder);
+      break;
+    case world::PropKind::barrier:
+      make_barrier(builder);
+      break;
+    case world::PropKind::fence:
+      make_fence(builder);
+      break;
+    case world::PropKind::kiosk:
+      make_kiosk(builder);
+      break;
+    case world::PropKind::tent:
+      make_tent(builder);
+      break;
+    case world::PropKind::stage:
+      make_stage(builder);
+      break;
+    case world::PropKind::train:
+      make_train(builder);
+      break;
+    case world::PropKind::fountain:
+      make_fountain(builder);
       break;
   }
   return builder.take();

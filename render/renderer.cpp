@@ -174,7 +174,7 @@ Renderer::State::State(const world::Scenario& scenario, const skinning::Populati
       contacts(scenario, daylight),
       people_pass(people, quality, light_words(environment)),
       sky(environment),
-      smoke(environment),
+      smoke(environment, scenario.disasters),
       shadow_map(quality.shadow_texels),
       view_buffer(make_buffer()),
       next_view_buffer(make_buffer()),

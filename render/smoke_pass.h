@@ -7,12 +7,15 @@
 #include "render/environment.h"
 #include "render/gl_objects.h"
 #include "render/renderer.h"
+#include "world/disasters.h"
 
 namespace throng::render {
 
 class SmokePass {
  public:
-  explicit SmokePass(const Environment& environment);
+  /// Smoke rises from the disasters as they grow; in a scenario that describes none, from all
+  /// dangers and all the time.
+  SmokePass(const Environment& environment, std::vector<world::Disaster> disasters);
 
   /// Changes the colours alone: nobody's outline or depth. Expects the View and Light blocks and
   /// the target to be bound and everything solid to be drawn. Does nothing without smoke.
@@ -25,10 +28,22 @@ class SmokePass {
     std::array<float, 4> look{};   ///< linear albedo, how much of what is behind it hides
     float depth_m = 0;             ///< of the camera
   };
-  void add_puffs(const Eigen::Vector2d& danger, std::size_t number, double time_s,
+  /// What the puffs of one danger have in common.
+  struct Source {
+    Eigen::Vector2d place;
+    double age_s = 0;        ///< older puffs have not been
+    double reach_m = 0;      ///< how wide it is spread beyond what a small fire has
+    double rise = 1;         ///< of how a fire's smoke rises
+    std::uint64_t dust = 0;  ///< how many puffs stay on the ground
+    Eigen::Vector3d smoke_albedo;
+    Eigen::Vector3d dust_albedo;
+  };
+  static Source source_of(const world::Disaster& disaster, double time_s);
+  void add_puffs(const Source& source, std::size_t number, double time_s,
                  const camera::Camera& camera);
 
   Environment environment_;
+  std::vector<world::Disaster> disasters_;
   std::vector<Puff> puffs_;  ///< of the frame
   Buffer instances_;
   VertexArray array_;

@@ -176,14 +176,21 @@ void scatter_over(const JsonValue& item, const Scenario& scenario, std::vector<P
 
 }  // namespace
 
-const std::array<PropType, 7>& prop_types() {
-  static const std::array<PropType, 7> types = {{{"tree", {0.25, 0.25}},
-                                                 {"bench", {0.9, 0.3}},
-                                                 {"lamp_post", {0.12, 0.12}},
-                                                 {"bin", {0.28, 0.28}},
-                                                 {"car", {2.15, 0.9}},
-                                                 {"bollard", {0.1, 0.1}},
-                                                 {"stall", {1.5, 1.1}}}};
+const std::array<PropType, kPropKinds>& prop_types() {
+  static const std::array<PropType, kPropKinds> types = {{{"tree", {0.25, 0.25}},
+                                                          {"bench", {0.9, 0.3}},
+                                                          {"lamp_post", {0.12, 0.12}},
+                                                          {"bin", {0.28, 0.28}},
+                                                          {"car", {2.15, 0.9}},
+                                                          {"bollard", {0.1, 0.1}},
+                                                          {"stall", {1.5, 1.1}},
+                                                          {"barrier", {1.25, 0.25}},
+                                                          {"fence", {1.5, 0.06}},
+                                                          {"kiosk", {1.5, 1.25}},
+                                                          {"tent", {3, 3}},
+                                                          {"stage", {8, 4.5}},
+                                                          {"train", {10, 1.45}},
+                                                          {"fountain", {2.6, 2.6}}}};
   return types;
 }
 

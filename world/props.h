@@ -12,7 +12,23 @@ namespace throng::world {
 class JsonValue;
 struct Scenario;
 
-enum class PropKind : std::uint8_t { tree, bench, lamp_post, bin, car, bollard, stall };
+enum class PropKind : std::uint8_t {
+  tree,
+  bench,
+  lamp_post,
+  bin,
+  car,
+  bollard,
+  stall,
+  barrier,
+  fence,
+  kiosk,
+  tent,
+  stage,
+  train,
+  fountain
+};
+inline constexpr std::size_t kPropKinds = 14;
 
 /// A kind's name in files and its size on the ground at scale 1: half of its length along its
 /// heading and half of its width (m). People cannot be there.
@@ -20,7 +36,7 @@ struct PropType {
   std::string_view name;
   Eigen::Vector2d half_size;
 };
-const std::array<PropType, 7>& prop_types();
+const std::array<PropType, kPropKinds>& prop_types();
 
 struct Prop {
   PropKind kind = PropKind::tree;

@@ -254,8 +254,8 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   std::vector<Problem> problems;
   const JsonValue root(document, source, problems);
   root.fields({"name", "crowd", "ground", "inside", "exits"},
-              {"description", "buildings", "drones", "disaster_agents", "guides_alert", "meshes",
-               "props", "scatter"});
+              {"description", "buildings", "drones", "disaster_agents", "disasters", "guides_alert",
+               "meshes", "props", "scatter"});
   root["crowd"].fields({"scene", "behavior"}, {"model"});
   root["ground"].fields({"min", "max", "material"}, {"areas", "markings"});
   root["inside"].fields({"min", "max"});
@@ -279,6 +279,13 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   scenario.areas = read_ground_areas(root["ground"]["areas"]);
   scenario.markings = read_markings(root["ground"]["markings"]);
   scenario.disaster_agents = read_disaster_agents(root["disaster_agents"]);
+  scenario.disasters = read_disasters(root["disasters"]);
+  for (const Disaster& disaster : scenario.disasters) {
+    std::vector<int>& agents = scenario.disaster_agents;
+    if (std::find(agents.begin(), agents.end(), disaster.agent) == agents.end()) {
+      agents.push_back(disaster.agent);
+    }
+  }
   if (root["guides_alert"].exists()) scenario.guides_alert = root["guides_alert"].boolean();
   if (!problems.empty()) throw InputError(std::move(problems));
   return scenario;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "world/disasters.h"
 #include "world/ground.h"
 #include "world/props.h"
 
@@ -82,7 +83,9 @@ struct Scenario {
   std::vector<Building> buildings;
   std::vector<DroneStart> drones;
   /// Agents that are not people (the paper's disaster is an agent); neither drawn nor counted.
+  /// Those of `disasters` are among them.
   std::vector<int> disaster_agents;
+  std::vector<Disaster> disasters;
   /// Whether the behaviour file lets people who have noticed nothing follow a drone.
   bool guides_alert = false;
   std::vector<Prop> props;       ///< placed ones in the file's order, then scattered ones

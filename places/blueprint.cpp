@@ -1,0 +1,136 @@
+#include "places/blueprint.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
+#include "places/crowd_files.h"
+#include "places/people.h"
+#include "world/json_reader.h"
+#include "world/scenario.h"
+
+namespace throng::places {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+/// Files that are removed again: the scenario reader wants the Menge files to be there.
+class Draft {
+ public:
+  Draft(const fs::path& beside, const std::string& id) : folder_(beside / (id + "_draft")) {}
+  const fs::path& path() const { return folder_.path(); }
+
+ private:
+  StagingFolder folder_;
+};
+
+std::string scene_name(const std::string& id) { return id + "_scene.xml"; }
+std::string behavior_name(const std::string& id) { return id + "_behavior.xml"; }
+
+json disasters_json(const People& people) {
+  json list = json::array();
+  for (const Danger& danger : people.dangers) {
+    const world::Disaster& seen = danger.seen;
+    list.push_back({{"kind", world::kDisasterKinds.at(static_cast<std::size_t>(seen.kind))},
+                    {"agent", seen.agent},
+                    {"position", {seen.position.x(), seen.position.y()}},
+                    {"start_s", seen.start_s},
+                    {"radius_m", seen.radius_m},
+                    {"growth_mps", seen.growth_mps},
+                    {"most_m", seen.most_m}});
+  }
+  return list;
+}
+
+/// The scenario file's document without what only the people say.
+json scenario_json(const json& blueprint, const std::string& id) {
+  json document = blueprint;
+  document.erase("people");
+  document.erase("disasters");
+  document["crowd"] = {{"scene", scene_name(id)}, {"behavior", behavior_name(id)}};
+  const auto exits = document.find("exits");
+  if (exits == document.end() || !exits->is_array()) return document;
+  int number = 0;
+  for (json& exit : *exits) {
+    if (exit.is_object()) exit["goals"] = json::array({{kLeavingSet, number}});
+    ++number;
+  }
+  return document;
+}
+
+/// The place without its people: what is wrong with it is the blueprint's fault.
+world::Scenario read_place(const json& document, const std::string& source, const fs::path& folder,
+                           const std::string& id) {
+  const Draft draft(folder, id);
+  write_file_atomically(draft.path() / scene_name(id), "<Experiment/>");
+  write_file_atomically(draft.path() / behavior_name(id), "<BFSM/>");
+  write_file_atomically(draft.path() / (id + ".json"), document.dump());
+  try {
+    return world::load_scenario(draft.path() / (id + ".json"), id);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) problem.source = source;
+    throw InputError(std::move(problems));
+  }
+}
+
+/// What a disaster changes about the exits, and the goals that fleeing people have.
+void add_emergency(const world::Scenario& place, const People& people, json& document) {
+  if (people.dangers.empty()) return;
+  document["disasters"] = disasters_json(people);
+  for (std::size_t i = 0; i < place.exits.size(); ++i) {
+    if (is_blocked(place.exits[i], people)) {
+      document["exits"][i]["open"] = false;
+    } else {
+      document["exits"][i]["goals"].push_back({kFleeingSet, i});
+    }
+  }
+  for (std::size_t i = 0; i < place.drones.size(); ++i) {
+    document["drones"][i]["moves_goal"] = {kGuidesSet, i};
+  }
+}
+
+}  // namespace
+
+json load_blueprint(const fs::path& file) {
+  json document = world::parse_json(read_file(file), file.string());
+  if (!document.is_object() || !document.contains("extends")) return document;
+  std::vector<Problem> problems;
+  const world::JsonValue name = world::JsonValue(document, file.string(), problems)["extends"];
+  const fs::path base_file = file.parent_path() / fs::path(name.text()).filename();
+  if (problems.empty() && (base_file.filename() != name.text() || !fs::exists(base_file))) {
+    name.reject("the name of a file in the same folder");
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  json base = world::parse_json(read_file(base_file), base_file.string());
+  document.erase("extends");
+  base.merge_patch(document);
+  return base;
+}
+
+fs::path make_scenario(const json& blueprint, const std::string& source, const fs::path& folder,
+                       const std::string& id) {
+  std::vector<Problem> problems;
+  const world::JsonValue root(blueprint, source, problems);
+  root.fields({"name", "ground", "inside", "exits", "people"},
+              {"description", "buildings", "drones", "disasters", "meshes", "props", "scatter"});
+  if (!problems.empty()) throw InputError(std::move(problems));
+  json document = scenario_json(blueprint, id);
+  const world::Scenario place = read_place(document, source, folder, id);
+  const People people = read_people(root["people"], root["disasters"], place.exits);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  const CrowdFiles files = write_crowd(place, people, problems);
+  for (Problem& problem : problems) problem.source = source;
+  if (!problems.empty()) throw InputError(std::move(problems));
+  add_emergency(place, people, document);
+  write_file_atomically(folder / scene_name(id), files.scene);
+  write_file_atomically(folder / behavior_name(id), files.behavior);
+  const fs::path file = folder / (id + ".json");
+  write_file_atomically(file, document.dump(1) + "\n");
+  return file;
+}
+
+}  // namespace throng::places

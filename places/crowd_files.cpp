@@ -1,0 +1,242 @@
+#include "places/crowd_files.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "places/behavior_file.h"
+
+namespace throng::places {
+
+using Eigen::Vector2d;
+using world::Exit;
+using world::Scenario;
+
+namespace {
+
+constexpr double kClearanceM = 0.45;
+constexpr double kSourceBehindM = 6;  // beyond the door that people come in by
+
+std::string agent_group(const std::string& profile, const std::string& state,
+                        const std::string& generators, const std::string& arrivals = "") {
+  return fmt::format(
+      "  <AgentGroup>\n    <ProfileSelector type=\"const\" name=\"{}\"/>\n"
+      "    <StateSelector type=\"const\" name=\"{}\"/>\n{}{}  </AgentGroup>\n",
+      profile, state, generators, arrivals);
+}
+
+std::string agent_at(const Vector2d& place) {
+  return fmt::format("      <Agent p_x=\"{:.2f}\" p_y=\"{:.2f}\"/>\n", place.x(), place.y());
+}
+
+std::string explicit_places(const std::vector<Vector2d>& places) {
+  std::string text = "    <Generator type=\"explicit\">\n";
+  for (const Vector2d& place : places) text += agent_at(place);
+  return text + "    </Generator>\n";
+}
+
+std::string grid_generator(const PlaceGrid& grid) {
+  // Not in rank and file, but not nearer to a wall than people may be either.
+  const double stray_m = std::min(0.25 * grid.apart_m, 0.2);
+  return fmt::format(
+      "    <Generator type=\"rect_grid\" anchor_x=\"{:.3f}\" anchor_y=\"{:.3f}\" "
+      "offset_x=\"{:.3f}\" offset_y=\"{:.3f}\"\n               count_x=\"{}\" count_y=\"{}\" "
+      "displace_dist=\"u\" displace_min=\"0\" displace_max=\"{:.3f}\"/>\n",
+      grid.first.x(), grid.first.y(), grid.apart_m, grid.apart_m, grid.columns, grid.rows, stray_m);
+}
+
+std::string groups_of(const People& people, const Solids& solids, std::vector<Problem>& problems) {
+  std::string text;
+  for (std::size_t i = 0; i < people.groups.size(); ++i) {
+    const Group& group = people.groups[i];
+    const std::vector<PlaceGrid> grids = spread(group.area, group.count, solids, kClearanceM);
+    std::string generators;
+    int count = 0;
+    for (const PlaceGrid& grid : grids) {
+      generators += grid_generator(grid);
+      count += grid.count();
+    }
+    if (count < group.count) {
+      problems.push_back({"", fmt::format("/people/groups/{}/count", i),
+                          std::to_string(group.count),
+                          fmt::format("at most {}, as many as have room in the area", count)});
+    }
+    if (count > 0) text += agent_group("person", state_of(group.doing), generators);
+  }
+  for (const Line& line : people.lines) {
+    std::vector<Vector2d> places;
+    for (int i = 0; i < line.count; ++i) {
+      const double share = line.count > 1 ? static_cast<double>(i) / (line.count - 1) : 0;
+      places.push_back(line.from + share * (line.to - line.from));
+    }
+    text += agent_group("person", state_of(Doing::wait), explicit_places(places));
+  }
+  return text;
+}
+
+/// Places side by side along a segment where there is room.
+std::vector<Vector2d> places_along(const Vector2d& from, const Vector2d& to, const Solids& solids) {
+  constexpr double kApartM = 0.8;
+  std::vector<Vector2d> places;
+  const double length = (to - from).norm();
+  const int count = std::max(1, static_cast<int>(length / kApartM));
+  for (int i = 0; i < count; ++i) {
+    const Vector2d place = from + (i + 0.5) / count * (to - from);
+    if (solids.is_clear(place, kClearanceM)) places.push_back(place);
+  }
+  return places;
+}
+
+std::string arrivals_of(const Source& source) {
+  if (source.table.empty()) {
+    constexpr double kSecondsPerMinute = 60;
+    return fmt::format("    <Arrivals type=\"rate\" per_second=\"{:.6g}\" end=\"{:.6g}\"/>\n",
+                       source.per_minute / kSecondsPerMinute, source.until_s);
+  }
+  std::string text = "    <Arrivals type=\"table\">";
+  for (const auto& [time_s, count] : source.table) {
+    text += fmt::format("<At time=\"{:.6g}\" count=\"{}\"/>", time_s, count);
+  }
+  return text + "</Arrivals>\n";
+}
+
+std::string sources_of(const Scenario& scenario, const People& people, const Solids& solids,
+                       std::vector<Problem>& problems) {
+  std::string text;
+  for (std::size_t i = 0; i < people.sources.size(); ++i) {
+    const Source& source = people.sources[i];
+    Vector2d from = source.from;
+    Vector2d to = source.to;
+    if (source.exit) {
+      const Exit& exit = scenario.exits[*source.exit];
+      from = exit.from + kSourceBehindM * exit.outward;
+      to = exit.to + kSourceBehindM * exit.outward;
+    }
+    const std::vector<Vector2d> places = places_along(from, to, solids);
+    if (places.empty()) {
+      problems.push_back({"", fmt::format("/people/sources/{}", i),
+                          "nothing but walls where people are to come from", "free ground there"});
+      continue;
+    }
+    const std::string state =
+        source.towards ? state_towards(scenario.exits[*source.towards]) : state_of(source.doing);
+    text += agent_group("person", state, explicit_places(places), arrivals_of(source));
+  }
+  return text;
+}
+
+std::string obstacle(const std::vector<Vector2d>& outline) {
+  std::string text = "    <Obstacle closed=\"1\">";
+  for (const Vector2d& corner : outline) {
+    text += fmt::format("<Vertex p_x=\"{:.3f}\" p_y=\"{:.3f}\"/>", corner.x(), corner.y());
+  }
+  return text + "</Obstacle>\n";
+}
+
+std::vector<Vector2d> octagon(const Vector2d& middle, double radius_m) {
+  std::vector<Vector2d> corners;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = std::numbers::pi * (i + 0.5) / 4;
+    corners.push_back(middle + radius_m * Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return corners;
+}
+
+std::string obstacles_of(const People& people, const Solids& solids) {
+  std::string text = "  <ObstacleSet type=\"explicit\" class=\"1\">\n";
+  for (const auto& outline : solids.outlines()) text += obstacle(outline);
+  text += "  </ObstacleSet>\n";
+  std::string blocked;
+  for (const Danger& danger : people.dangers) {
+    if (danger.blocked_m > 0) blocked += obstacle(octagon(danger.seen.position, danger.blocked_m));
+  }
+  if (!blocked.empty()) {
+    text +=
+        "  <!-- What is in the way of those who have noticed it. -->\n"
+        "  <ObstacleSet type=\"explicit\" class=\"2\">\n" +
+        blocked + "  </ObstacleSet>\n";
+  }
+  return text;
+}
+
+std::string profiles_of(const People& people) {
+  std::string text = fmt::format(
+      "  <AgentProfile name=\"person\">\n"
+      "    <Common max_angle_vel=\"360\" max_neighbors=\"10\" obstacleSet=\"1\" "
+      "neighbor_dist=\"5\" class=\"1\"\n            max_speed=\"3\" max_accel=\"5\">\n"
+      "      <Property name=\"pref_speed\" dist=\"n\" mean=\"{:.3g}\" stddev=\"{:.3g}\"/>\n"
+      "      <Property name=\"r\" dist=\"u\" min=\"0.18\" max=\"0.24\"/>\n"
+      "    </Common>\n  </AgentProfile>\n",
+      people.speed_mps, 0.19 * people.speed_mps);
+  if (people.dangers.empty()) return text;
+  text +=
+      "  <AgentProfile name=\"danger\">\n"
+      "    <Common max_neighbors=\"0\" neighbor_dist=\"0\" obstacleSet=\"0\" r=\"0.3\" "
+      "class=\"2\" pref_speed=\"0\"\n            max_speed=\"0\"/>\n  </AgentProfile>\n"
+      "  <AgentProfile name=\"attacker\">\n"
+      "    <Common max_neighbors=\"6\" neighbor_dist=\"3\" obstacleSet=\"1\" r=\"0.22\" "
+      "class=\"2\" pref_speed=\"1.6\"\n            max_speed=\"2.5\"/>\n  </AgentProfile>\n";
+  return text;
+}
+
+/// One group each, before all others: their numbers are those of the blueprint's list.
+std::string dangers_of(const People& people) {
+  std::string text;
+  for (const Danger& danger : people.dangers) {
+    const bool moves = danger.seen.kind == world::DisasterKind::attacker;
+    text += agent_group(moves ? "attacker" : "danger", moves ? "Attack" : "Danger",
+                        explicit_places({danger.seen.position}));
+  }
+  return text;
+}
+
+/// Where strollers go where the blueprint does not say: some of the places where they start.
+std::vector<Vector2d> usual_spots(const People& people, const Solids& solids) {
+  constexpr int kSpots = 24;
+  std::vector<Vector2d> spots;
+  for (const Group& group : people.groups) {
+    if (group.doing != Doing::stroll) continue;
+    for (const PlaceGrid& grid : spread(group.area, kSpots, solids, 2 * kClearanceM)) {
+      for (int i = 0; i < grid.count(); ++i) {
+        spots.push_back(grid.first + grid.apart_m * Vector2d(i % grid.columns, i / grid.columns));
+      }
+    }
+  }
+  return spots;
+}
+
+}  // namespace
+
+bool is_blocked(const Exit& exit, const People& people) {
+  return std::any_of(people.dangers.begin(), people.dangers.end(), [&](const Danger& danger) {
+    const std::array<Vector2d, 3> door = {exit.from, exit.to, exit.middle()};
+    return std::any_of(door.begin(), door.end(), [&](const Vector2d& point) {
+      return (point - danger.seen.position).norm() < danger.blocked_m;
+    });
+  });
+}
+
+CrowdFiles write_crowd(const Scenario& scenario, const People& people,
+                       std::vector<Problem>& problems) {
+  const Solids solids(scenario);
+  People complete = people;
+  if (complete.spots.empty()) complete.spots = usual_spots(people, solids);
+  CrowdFiles files;
+  files.scene =
+      "<?xml version=\"1.0\"?>\n<Experiment version=\"2.0\">\n"
+      "  <SpatialQuery type=\"kd-tree\" test_visibility=\"0\"/>\n"
+      "  <Common time_step=\"0.1\"/>\n";
+  if (people.in_groups > 0) {
+    files.scene += fmt::format("  <SocialGroups share=\"{:.3g}\"/>\n", people.in_groups);
+  }
+  files.scene += profiles_of(people) + dangers_of(people) + groups_of(people, solids, problems) +
+                 sources_of(scenario, people, solids, problems) + obstacles_of(people, solids) +
+                 "</Experiment>\n";
+  files.behavior = behavior_text(scenario, complete);
+  return files;
+}
+
+}  // namespace throng::places

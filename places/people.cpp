@@ -1,0 +1,148 @@
+#include "places/people.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "world/json_reader.h"
+#include "world/polygon.h"
+
+namespace throng::places {
+
+using world::JsonValue;
+
+namespace {
+
+constexpr double kFarM = 100'000;
+constexpr int kMostPeople = 100'000;
+constexpr double kLongestS = 86'400;
+constexpr std::array<std::string_view, 4> kDoings = {"stroll", "wait", "cross", "leave"};
+
+Doing read_doing(const JsonValue& value) {
+  const std::string word = value.text();
+  const auto* const found = std::find(kDoings.begin(), kDoings.end(), word);
+  if (found != kDoings.end()) return static_cast<Doing>(found - kDoings.begin());
+  value.reject(fmt::format("one of: {}", fmt::join(kDoings, ", ")));
+  return Doing::stroll;
+}
+
+std::vector<Eigen::Vector2d> read_outline(const JsonValue& value) {
+  std::vector<Eigen::Vector2d> outline;
+  for (const JsonValue& corner : value.items(3)) outline.push_back(corner.vector2(kFarM));
+  if (outline.size() >= 3 && !world::is_simple(outline)) {
+    value.reject("edges that touch each other", "a polygon whose edges do not cross");
+  }
+  return outline;
+}
+
+std::optional<std::size_t> read_exit(const JsonValue& value,
+                                     const std::vector<world::Exit>& exits) {
+  if (!value.exists()) return std::nullopt;
+  const std::string id = value.text();
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < exits.size(); ++i) {
+    if (exits[i].id == id) return i;
+    ids.push_back(exits[i].id);
+  }
+  value.reject(fmt::format("the id of an exit: {}", fmt::join(ids, ", ")));
+  return std::nullopt;
+}
+
+Group read_group(const JsonValue& item) {
+  item.fields({"doing", "area", "count"});
+  return {read_doing(item["doing"]), read_outline(item["area"]),
+          item["count"].integer(1, kMostPeople)};
+}
+
+Line read_line(const JsonValue& item) {
+  item.fields({"from", "to", "count"});
+  return {item["from"].vector2(kFarM), item["to"].vector2(kFarM), item["count"].integer(1, 1000)};
+}
+
+Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits) {
+  item.fields({"doing"}, {"exit", "from", "to", "per_minute", "until_s", "table", "towards"});
+  Source source;
+  source.doing = read_doing(item["doing"]);
+  source.exit = read_exit(item["exit"], exits);
+  source.towards = read_exit(item["towards"], exits);
+  if (!item["exit"].exists()) {
+    if (!item["from"].exists() || !item["to"].exists()) {
+      item.reject("no place", "\"exit\", or \"from\" and \"to\"");
+    }
+    source.from = item["from"].vector2(kFarM);
+    source.to = item["to"].vector2(kFarM);
+  }
+  if (item["until_s"].exists()) source.until_s = item["until_s"].number(1, kLongestS);
+  for (const JsonValue& row : item["table"].items()) {
+    const auto pair = row.tuple(2, "[seconds, people]");
+    if (pair.empty()) continue;
+    source.table.emplace_back(pair[0].number(0, kLongestS), pair[1].integer(1, kMostPeople));
+  }
+  if (item["table"].exists() == item["per_minute"].exists()) {
+    item.reject("both or none of \"per_minute\" and \"table\"", "one of them");
+  } else if (item["per_minute"].exists()) {
+    source.per_minute = item["per_minute"].number(0.01, 10'000);
+  }
+  return source;
+}
+
+/// What people know of a kind of disaster unless the blueprint says otherwise.
+Danger usual_danger(const world::Disaster& seen) {
+  switch (seen.kind) {
+    case world::DisasterKind::explosion:
+      return {seen, 40, 10, seen.radius_m, true};
+    case world::DisasterKind::collapse:
+      return {seen, 40, 10, seen.radius_m, false};
+    case world::DisasterKind::attacker:
+      return {seen, 10, 0.8, 0, true};
+    case world::DisasterKind::gas:
+      return {seen, seen.radius_m, std::max(seen.growth_mps, 0.1), 0, false};
+    case world::DisasterKind::fire:
+      break;
+  }
+  return {seen, 15, 1.5, seen.radius_m, false};
+}
+
+Danger read_danger(const JsonValue& item, int agent) {
+  item.fields({"kind", "position"}, {"start_s", "radius_m", "growth_mps", "most_m", "noticed_m",
+                                     "notice_growth_mps", "blocked_m", "panic"});
+  Danger danger = usual_danger(world::read_disaster(item, agent));
+  const auto read = [&](std::string_view key, double& value) {
+    if (item[key].exists()) value = item[key].number(0, 10'000);
+  };
+  read("noticed_m", danger.noticed_m);
+  read("notice_growth_mps", danger.notice_growth_mps);
+  read("blocked_m", danger.blocked_m);
+  if (item["panic"].exists()) danger.panic = item["panic"].boolean();
+  return danger;
+}
+
+}  // namespace
+
+People read_people(const JsonValue& value, const JsonValue& disasters,
+                   const std::vector<world::Exit>& exits) {
+  People people;
+  value.fields({}, {"groups", "lines", "sources", "spots", "speed_mps", "in_groups"});
+  for (const JsonValue& item : value["groups"].items()) people.groups.push_back(read_group(item));
+  for (const JsonValue& item : value["lines"].items()) people.lines.push_back(read_line(item));
+  for (const JsonValue& item : value["sources"].items()) {
+    people.sources.push_back(read_source(item, exits));
+  }
+  for (const JsonValue& spot : value["spots"].items()) {
+    people.spots.push_back(spot.vector2(kFarM));
+  }
+  if (value["speed_mps"].exists()) people.speed_mps = value["speed_mps"].number(0.3, 3);
+  if (value["in_groups"].exists()) people.in_groups = value["in_groups"].number(0, 1);
+  for (const JsonValue& item : disasters.items()) {
+    people.dangers.push_back(read_danger(item, static_cast<int>(people.dangers.size())));
+  }
+  if (people.groups.empty() && people.lines.empty() && people.sources.empty()) {
+    value.reject("nobody", "\"groups\", \"lines\" or \"sources\"");
+  }
+  return people;
+}
+
+}  // namespace throng::places
