@@ -9,6 +9,7 @@
 #include "cli/interrupt.h"
 #include "cli/job_runner.h"
 #include "cli/progress_bar.h"
+#include "jobs/job_scenario.h"
 #include "jobs/pipeline.h"
 #include "sim/run.h"
 #include "world/scenario.h"
@@ -35,7 +36,7 @@ void simulate(const SimulateArguments& arguments) {
     const Interrupt interrupt;
     ProgressBar bar("simulating");
     warnings = sim::simulate(
-        world::find_scenario(world::scenarios_folder(), job.scenario),
+        jobs::scenario_of(job, world::scenarios_folder()),
         jobs::run_spec(job, arguments.run), arguments.trace_file,
         [&](double done_s, double total_s) {
           bar.show(done_s / total_s, fmt::format("{:.0f} of {:.0f} s", done_s, total_s));

@@ -1,4 +1,5 @@
 #include "jobs/pipeline.h"
+#include "jobs/job_scenario.h"
 
 #include <fmt/core.h>
 
@@ -69,7 +70,7 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   const auto progress = [&](double done_s, double total_s) {
     if (on_progress) on_progress({done_s, total_s});
   };
-  const std::vector<Problem> warnings = sim::simulate(world::find_scenario(scenarios, job.scenario),
+  const std::vector<Problem> warnings = sim::simulate(scenario_of(job, scenarios),
                                                       run_spec(job, run), trace, progress, stop);
   if (run > 0) return;  // all runs read the same files
   for (const Problem& warning : warnings) {
@@ -123,7 +124,7 @@ void add_flights(const JobSpec& job, int run, const world::Trace& trace, Publica
 }  // namespace
 
 void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run) {
-  const world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
+  const world::Scenario scenario = scenario_of(job, scenarios);
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, run}));
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   const nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));

@@ -15,6 +15,7 @@
 #include "annotate/preview.h"
 #include "base/error.h"
 #include "camera/camera.h"
+#include "jobs/job_scenario.h"
 #include "jobs/environment.h"
 #include "jobs/people.h"
 #include "jobs/pipeline.h"
@@ -185,7 +186,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
                   const OnTaskProgress& on_progress, const std::stop_token& stop) {
   JobSpec job = job_of_run(whole_job, shard.run);
   const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
-  world::Scenario scenario = world::find_scenario(scenarios, job.scenario);
+  world::Scenario scenario = scenario_of(job, scenarios);
   world::thin_out(scenario, job.props_density, seed);
   const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, shard.run}));
   const skinning::Population population = skinning::load_population(skinning::population_folder());

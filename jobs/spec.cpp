@@ -12,6 +12,7 @@
 #include "crowd/simulation.h"
 #include "jobs/export_spec.h"
 #include "jobs/guidance_spec.h"
+#include "jobs/job_scenario.h"
 #include "jobs/plan.h"
 #include "jobs/schema.h"
 #include "sim/participants.h"
@@ -103,10 +104,22 @@ render::Quality quality_of(std::string_view word) {
   return static_cast<render::Quality>(found - render::kQualities.begin());
 }
 
+void read_scenario(const json& value, JobSpec& job, std::vector<Problem>& problems) {
+  if (value.is_string()) value.get_to(job.scenario);
+  if (!value.is_object()) return;
+  if (value.size() != 1 || !value.contains("generate")) {
+    problems.push_back(
+        {"", "/scenario", value.dump(), "an id, or an object with only \"generate\""});
+  }
+  job.generate =
+      places::read_place_spec(value.value("generate", json()), "/scenario/generate", problems);
+  job.scenario = "generated/" + places::id_of(*job.generate);
+}
+
 // What the schema allows, as a job; absent fields keep the defaults of the structs.
 JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {
   JobSpec job;
-  read(value, "scenario", job.scenario);
+  read_scenario(value.value("scenario", json()), job, problems);
   job.name = job.scenario;
   read(value, "name", job.name);
   read(value, "seed", job.seed);
@@ -260,10 +273,10 @@ void check_runs(const JobSpec& job, const world::Scenario& scenario,
 
 // Points at the job when the job names no scenario that exists; a broken scenario file names
 // itself.
-world::Scenario scenario_of(const JobSpec& job, const std::string& source,
-                            const std::filesystem::path& folder) {
+world::Scenario load_scenario_of(const JobSpec& job, const std::string& source,
+                                 const std::filesystem::path& folder) {
   try {
-    return world::find_scenario(folder, job.scenario);
+    return scenario_of(job, folder);
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {
@@ -317,7 +330,7 @@ JobSpec parse_job(std::string_view text, const std::string& source,
   std::vector<RandomField> randomize = take_randomize(value, problems);
   JobSpec job = read_job(value, source, problems);
   job.randomize = std::move(randomize);
-  const world::Scenario scenario = scenario_of(job, source, scenarios);
+  const world::Scenario scenario = load_scenario_of(job, source, scenarios);
   take_from_scenario(job, scenario);
   check_times(job, problems);
   if (problems.empty()) check_cameras(job, problems);
@@ -338,7 +351,8 @@ json to_json(const JobSpec& job) {
   for (const DroneSpec& drone : job.drones) drones.push_back(drone_json(drone));
   json value = {
       {"name", job.name},
-      {"scenario", job.scenario},
+      {"scenario",
+       job.generate ? json{{"generate", places::to_json(*job.generate)}} : json(job.scenario)},
       {"seed", job.seed},
       {"runs", job.runs},
       {"crowd",

@@ -15,6 +15,7 @@
 #include "jobs/environment.h"
 #include "jobs/randomize.h"
 #include "jobs/recorded_spec.h"
+#include "places/generate.h"
 #include "render/quality.h"
 #include "sim/run.h"
 #include "skinning/appearance.h"
@@ -44,7 +45,8 @@ struct OutputSpec {
 
 struct JobSpec {
   std::string name;
-  std::string scenario;
+  std::string scenario;  ///< its id; of one that is generated: "generated/" and its parameters
+  std::optional<places::PlaceSpec> generate;  ///< the place is made from a seed
   std::uint64_t seed = 1;
   int runs = 1;
   std::optional<int> agents;

@@ -86,9 +86,9 @@ std::string goals_of(const Scenario& scenario, const People& people) {
   std::string guides;
   for (std::size_t i = 0; i < std::max<std::size_t>(1, scenario.drones.size()); ++i) {
     guides += fmt::format(
-        "    <Goal id=\"{}\" type=\"circle\" x=\"{}\" y=\"100000\" "
+        "    <Goal id=\"{}\" type=\"circle\" x=\"{}\" y=\"90000\" "
         "radius=\"1\"/>\n",
-        i, 100'000 + 20 * i);
+        i, 90'000 + 20 * i);
   }
   add("What leads people out, one per drone; far away until something moves it.", kGuidesSet,
       guides);

@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "places/crowd_files.h"
 #include "places/people.h"
+#include "places/shorthand.h"
 #include "world/json_reader.h"
 #include "world/scenario.h"
 
@@ -62,8 +63,9 @@ json scenario_json(const json& blueprint, const std::string& id) {
 }
 
 /// The place without its people: what is wrong with it is the blueprint's fault.
-world::Scenario read_place(const json& document, const std::string& source, const fs::path& folder,
+world::Scenario read_place(json document, const std::string& source, const fs::path& folder,
                            const std::string& id) {
+  document.erase("meshes");  // their files are not here, and people do not walk into them
   const Draft draft(folder, id);
   write_file_atomically(draft.path() / scene_name(id), "<Experiment/>");
   write_file_atomically(draft.path() / behavior_name(id), "<BFSM/>");
@@ -111,9 +113,12 @@ json load_blueprint(const fs::path& file) {
   return base;
 }
 
-fs::path make_scenario(const json& blueprint, const std::string& source, const fs::path& folder,
+fs::path make_scenario(const json& said, const std::string& source, const fs::path& folder,
                        const std::string& id) {
   std::vector<Problem> problems;
+  json blueprint = said;
+  expand_shorthand(blueprint, source, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
   const world::JsonValue root(blueprint, source, problems);
   root.fields({"name", "ground", "inside", "exits", "people"},
               {"description", "buildings", "drones", "disasters", "meshes", "props", "scatter"});

@@ -81,6 +81,24 @@ void expect_defaults(const json& schema, const json& value, const std::string& p
   }
 }
 
+TEST_F(Spec, APlaceFromASeedIsReadBackAsItIsWritten) {
+  const JobSpec job = parse(
+      R"({"scenario": {"generate": {"kind": "street", "seed": 4, "exits": 3, "clutter": 0.25}}})");
+  ASSERT_TRUE(job.generate);
+  EXPECT_EQ(job.generate->exits, 3);
+  EXPECT_EQ(job.scenario.substr(0, 19), "generated/street_4_");
+  const json written = to_json(job);
+  EXPECT_EQ(written["scenario"]["generate"]["clutter"], 0.25);
+  EXPECT_EQ(to_json(parse(written.dump())), written);
+}
+
+TEST_F(Spec, NamesWhatIsWrongWithAPlaceFromASeed) {
+  EXPECT_THAT(pointers_of(R"({"scenario": {"generate": {"kind": "moon"}}})"),
+              ElementsAre("/scenario/generate/kind"));
+  EXPECT_THAT(pointers_of(R"({"scenario": {"make": 1, "generate": {"kind": "street"}}})"),
+              ElementsAre("/scenario"));
+}
+
 TEST_F(Spec, DefaultsAreThoseOfTheSchema) {
   expect_defaults(json::parse(job_schema()), to_json(parse(R"({"scenario": "yard"})")), "");
 }

@@ -185,5 +185,34 @@ TEST(Smoke, HidesFromTheEyeAndNotFromTheGroundTruth) {
   EXPECT_NE(drawn(0.8, 21).rgb, thick.rgb) << "it drifts";
 }
 
+TEST(Smoke, RisesFromADisasterFromItsStartOnAndAsFarAsItHasGrown) {
+  world::Scenario scenario = open_ground();
+  scenario.disasters = {{world::DisasterKind::gas, 0, {0, 0}, 10, 2, 0.5, 12}};
+  Environment lighting;
+  const auto changed = [&](double time_s) {
+    Scene scene;
+    scene.time_s = time_s;
+    const auto drawn = [&](double smoke) {
+      lighting.smoke = smoke;
+      Stage stage(scenario, lighting);
+      return stage.renderer().draw(scene, camera_at({-30, 0, 14}, 0, -22));
+    };
+    const Frame clear = drawn(0);
+    const Frame thick = drawn(1);
+    int pixels = 0;
+    for (int y = 0; y < clear.height(); ++y) {
+      for (int x = 0; x < clear.width(); ++x) {
+        const int difference = brightness(clear, x, y) - brightness(thick, x, y);
+        pixels += std::abs(difference) > 8 ? 1 : 0;
+      }
+    }
+    return pixels;
+  };
+  EXPECT_EQ(changed(9.9), 0);
+  const int young = changed(14);
+  EXPECT_GT(young, 100);
+  EXPECT_GT(changed(30), 2 * young) << "it spreads";
+}
+
 }  // namespace
 }  // namespace throng::render

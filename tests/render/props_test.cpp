@@ -140,7 +140,9 @@ TEST_P(PropOutline, DepthIsThatOfCastRays) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, PropOutline,
                          testing::Values(PropKind::bench, PropKind::lamp_post, PropKind::bin,
-                                         PropKind::car, PropKind::bollard, PropKind::stall));
+                                         PropKind::car, PropKind::bollard, PropKind::stall,
+                                         PropKind::barrier, PropKind::kiosk, PropKind::tent,
+                                         PropKind::fountain));
 
 TEST(Props, HaveIdsOfTheirOwnAndTreesHaveTransparentCrowns) {
   const Prop tree = prop_at(PropKind::tree, 12, 0);

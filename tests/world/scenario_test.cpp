@@ -55,6 +55,23 @@ class ScenarioFile : public ::testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(ScenarioFile, ReadsDisastersWhoseAgentsAreNotPeople) {
+  json document = valid_scenario();
+  document["disasters"] = json::parse(R"([{"kind": "gas", "agent": 3, "position": [1, 2],
+      "start_s": 10, "radius_m": 2, "growth_mps": 0.5, "most_m": 6}])");
+  const Scenario s = load(document);
+  ASSERT_EQ(s.disasters.size(), 1U);
+  EXPECT_THAT(s.disaster_agents, ElementsAre(7, 3));
+  const Disaster& gas = s.disasters.front();
+  EXPECT_EQ(gas.kind, DisasterKind::gas);
+  EXPECT_EQ(gas.reach_m(9.9), 0);
+  EXPECT_EQ(gas.reach_m(10), 2);
+  EXPECT_DOUBLE_EQ(gas.reach_m(14), 4);
+  EXPECT_EQ(gas.reach_m(100), 6);
+  document["disasters"].push_back(document["disasters"][0]);
+  EXPECT_EQ(problems_of(document.dump()).front().where, "/disasters/1/agent");
+}
+
 TEST_F(ScenarioFile, ReadsEverything) {
   const Scenario s = load(valid_scenario());
   EXPECT_EQ(s.id, "yard");

@@ -1,0 +1,18 @@
+// What a blueprint may say more briefly than a scenario file: boxes for outlines, rows of things.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace throng::places {
+
+/// Replaces "box": [x0, y0, x1, y1] by the outline that stands for ("footprint" of buildings,
+/// "corners" of ground areas, "area" of scatter and groups of people), and "rows" by props. Adds
+/// to `problems` what cannot be read.
+void expand_shorthand(nlohmann::json& blueprint, const std::string& source,
+                      std::vector<Problem>& problems);
+
+}  // namespace throng::places

@@ -1,0 +1,69 @@
+"""Runs what docs/blueprint.md tells users to do, as it stands there, and the commands on places."""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+THRONG = os.path.abspath(sys.argv[1])
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def throng(*arguments, cwd, code=0):
+    done = subprocess.run([THRONG, *arguments], cwd=cwd, capture_output=True, text=True)
+    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
+    return done.stdout + done.stderr
+
+
+def test_ten_minutes(folder):
+    text = (ROOT / "docs" / "blueprint.md").read_text()
+    blueprints = re.findall(r"Save this as `([a-z_]+\.place\.json)`.*?```json\n(.*?)```", text, re.S)
+    assert [name for name, _ in blueprints] == ["yard.place.json", "yard_fire.place.json"]
+    for name, content in blueprints:
+        (folder / name).write_text(content)
+    job = re.search(r'`(\{"scenario": "yard_fire".*?\})`', text).group(1)
+    (folder / "job.json").write_text(job)
+    commands = [line for block in re.findall(r"```sh\n(.*?)```", text, re.S) for line in block.splitlines()]
+    assert len(commands) == 7, commands
+    environment = dict(os.environ, PATH=f"{folder}:{os.environ['PATH']}")
+    (folder / "throng").symlink_to(THRONG)
+    for command in commands:
+        done = subprocess.run(["bash", "-ec", command], cwd=folder, env=environment, capture_output=True, text=True)
+        assert done.returncode == 0, (command, done.stdout, done.stderr)
+    assert (folder / "yard.svg").read_text().startswith("<svg")
+    assert list((folder / "my_scenarios").glob("plaza_5_*.json"))
+    datasets = [path.parent for path in (folder / "out").rglob("manifest.json")]
+    assert datasets, "a dataset"
+
+
+def test_check_says_what_is_wrong(folder):
+    scenario = json.loads((ROOT / "scenarios" / "bridge" / "everyday.json").read_text())
+    for name in ("everyday_scene.xml", "everyday_behavior.xml", "river.obj", "river.mtl"):
+        (folder / name).write_text((ROOT / "scenarios" / "bridge" / name).read_text())
+    (folder / "good.json").write_text(json.dumps(scenario))
+    assert "0 errors" in throng("scenario", "check", "good.json", cwd=folder)
+    scenario["drones"][0]["start"] = [-66, 20, 11.2]
+    (folder / "bad.json").write_text(json.dumps(scenario))
+    said = throng("scenario", "check", "bad.json", cwd=folder, code=2)
+    assert "/drones/0/start" in said and "remedy" in said, said
+
+
+def test_a_generated_place_in_a_job(folder):
+    job = {"scenario": {"generate": {"kind": "street", "seed": 4, "people": 30}}, "capture": {"to_s": 5}}
+    (folder / "job.json").write_text(json.dumps(job))
+    throng("simulate", "job.json", "-o", "a.h5", cwd=folder)
+    throng("simulate", "job.json", "-o", "b.h5", cwd=folder)
+    assert (folder / "a.h5").stat().st_size == (folder / "b.h5").stat().st_size
+    job["scenario"]["generate"]["kind"] = "moon"
+    (folder / "job.json").write_text(json.dumps(job))
+    said = throng("simulate", "job.json", "-o", "c.h5", cwd=folder, code=2)
+    assert "/scenario/generate/kind" in said and "campus" in said, said
+
+
+for test in [value for name, value in list(globals().items()) if name.startswith("test_")]:
+    with tempfile.TemporaryDirectory() as temporary:
+        test(pathlib.Path(temporary))
+        print(test.__name__, "ok")
