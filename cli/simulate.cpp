@@ -36,8 +36,8 @@ void simulate(const SimulateArguments& arguments) {
     const Interrupt interrupt;
     ProgressBar bar("simulating");
     warnings = sim::simulate(
-        jobs::scenario_of(job, world::scenarios_folder()),
-        jobs::run_spec(job, arguments.run), arguments.trace_file,
+        jobs::scenario_of(job, world::scenarios_folder()), jobs::run_spec(job, arguments.run),
+        arguments.trace_file,
         [&](double done_s, double total_s) {
           bar.show(done_s / total_s, fmt::format("{:.0f} of {:.0f} s", done_s, total_s));
         },
