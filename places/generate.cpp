@@ -387,7 +387,7 @@ json generate_place(const PlaceSpec& spec) {
   if (spec.kind == "street") return street(spec);
   if (spec.kind == "campus") return campus(spec);
   if (spec.kind == "block") return block(spec);
-  check(spec.kind == "plaza", "a spec has a known kind");
+  throng::check(spec.kind == "plaza", "a spec has a known kind");
   return plaza(spec);
 }
 

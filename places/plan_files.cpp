@@ -193,7 +193,7 @@ std::string to_png(const Drawing& drawing) {
   std::string bytes(size, '\0');
   const int done =
       png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.data, 0, nullptr);
-  check(done != 0, "a picture in memory becomes a PNG file");
+  throng::check(done != 0, "a picture in memory becomes a PNG file");
   bytes.resize(size);
   return bytes;
 }
