@@ -127,7 +127,8 @@ void add_generate(CLI::App& scenario) {
 }  // namespace
 
 void add_scenario(CLI::App& app) {
-  auto* command = app.add_subcommand("scenario", "Make, generate, check, draw and import scenarios");
+  auto* command =
+      app.add_subcommand("scenario", "Make, generate, check, draw and import scenarios");
   command->require_subcommand(1);
   add_check(*command);
   add_plan(*command);

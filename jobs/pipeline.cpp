@@ -70,8 +70,8 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
   const auto progress = [&](double done_s, double total_s) {
     if (on_progress) on_progress({done_s, total_s});
   };
-  const std::vector<Problem> warnings = sim::simulate(scenario_of(job, scenarios),
-                                                      run_spec(job, run), trace, progress, stop);
+  const std::vector<Problem> warnings =
+      sim::simulate(scenario_of(job, scenarios), run_spec(job, run), trace, progress, stop);
   if (run > 0) return;  // all runs read the same files
   for (const Problem& warning : warnings) {
     fmt::print(stderr, "warning: {}\n",
