@@ -128,30 +128,40 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Where a job's previews are by their names in the dataset: there, or in the shards that have been
-/// published so far.
-std::vector<std::pair<std::string, fs::path>> previews_of(const fs::path& job) {
-  std::vector<fs::path> folders;
-  if (fs::exists(job / "dataset")) {
-    folders.push_back(job / "dataset/previews");
-  } else {
-    std::error_code error;
-    for (const auto& run : fs::directory_iterator(job / "work", error)) {
-      for (const auto& shard : fs::directory_iterator(run.path(), error)) {
-        const std::string name = shard.path().filename().string();
-        if (name.starts_with("shard") && name.find('.') == std::string::npos) {
-          folders.push_back(shard.path() / "previews");
-        }
+/// Where the dataset's files of a job are: in it, or in the shards that have been published so far.
+std::vector<fs::path> places_of_images(const fs::path& job) {
+  if (fs::exists(job / "dataset")) return {job / "dataset"};
+  std::vector<fs::path> places;
+  std::error_code error;
+  for (const auto& run : fs::directory_iterator(job / "work", error)) {
+    for (const auto& shard : fs::directory_iterator(run.path(), error)) {
+      const std::string name = shard.path().filename().string();
+      if (name.starts_with("shard") && name.find('.') == std::string::npos) {
+        places.push_back(jobs::published_file(shard.path(), ""));
       }
     }
   }
-  std::vector<std::pair<std::string, fs::path>> previews;
-  for (const fs::path& folder : folders) {
-    for (const fs::path& file : files_below(folder)) {
-      previews.emplace_back(file.generic_string(), folder / file);
+  return places;
+}
+
+/// A picture with drawn annotations, and the same without.
+struct Preview {
+  std::string name;
+  fs::path drawn;
+  fs::path clean;
+};
+
+/// By their names.
+std::vector<Preview> previews_of(const fs::path& job) {
+  std::vector<Preview> previews;
+  for (const fs::path& place : places_of_images(job)) {
+    for (const fs::path& file : files_below(place / "previews")) {
+      previews.push_back(
+          {file.generic_string(), place / "previews" / file, place / "images" / file});
     }
   }
-  std::sort(previews.begin(), previews.end());
+  std::sort(previews.begin(), previews.end(),
+            [](const Preview& a, const Preview& b) { return a.name < b.name; });
   return previews;
 }
 
@@ -255,9 +265,9 @@ void send_log(const Call& call, const Request& request, Response& response) {
 void list_previews(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
   json previews = json::array();
-  for (const auto& [name, file] : previews_of(call.service.job_folder(row.id))) {
-    previews.push_back(
-        {{"name", name}, {"href", fmt::format("/v1/jobs/{}/previews/{}", row.id, name)}});
+  for (const Preview& preview : previews_of(call.service.job_folder(row.id))) {
+    const std::string href = fmt::format("/v1/jobs/{}/previews/{}", row.id, preview.name);
+    previews.push_back({{"name", preview.name}, {"href", href}, {"clean", href + "?clean"}});
   }
   write_json(response, 200, {{"previews", std::move(previews)}});
 }
@@ -265,8 +275,10 @@ void list_previews(const Call& call, const Request& request, Response& response)
 void send_preview(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
   const std::string wanted = request.matches[2];
-  for (const auto& [name, file] : previews_of(call.service.job_folder(row.id))) {
-    if (name != wanted) continue;
+  const bool clean = is_asked(request, "clean");
+  for (const Preview& preview : previews_of(call.service.job_folder(row.id))) {
+    if (preview.name != wanted) continue;
+    const fs::path& file = clean ? preview.clean : preview.drawn;
     return answer_with_growing_file(request, response, file, media_type_of(file));
   }
   throw HttpError{404, "there is no such preview (yet)"};

@@ -1,6 +1,7 @@
 // What can be done with jobs over HTTP, and the stream of what happens to them.
 #include <gmock/gmock.h>
 
+#include "jobs/publication.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {
@@ -202,7 +203,7 @@ TEST_F(JobsApi, TooManyStreamsAreRefusedAndOthersServed) {
   gate.open();
 }
 
-TEST_F(ApiTest, AJobCanBeKeptForGood) {
+TEST_F(JobsApi, AJobCanBeKeptForGood) {
   const std::string self = "/v1/jobs/" + submit_and_wait();
   EXPECT_FALSE(get_json(self)["keep"]);
   EXPECT_TRUE(get_json(self)["expires_at"].is_null());
@@ -210,6 +211,25 @@ TEST_F(ApiTest, AJobCanBeKeptForGood) {
   EXPECT_EQ(kept->status, 200);
   EXPECT_TRUE(get_json(self)["keep"]);
   expect_problem(client().Patch(self, R"({"keep": 1})", "application/json"), 400);
+}
+
+TEST_F(JobsApi, PreviewsAreThereWhileTheJobRuns) {
+  Gate gate(executor);
+  const std::string id = submit();
+  const std::string self = "/v1/jobs/" + id;
+  ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
+  EXPECT_TRUE(get_json(self + "/previews")["previews"].empty());
+  jobs::Publication shard(service.job_folder(id) / "work/run000/shard0000");
+  shard.add("previews/run000/d1/000001.jpg", "drawn");
+  shard.add("images/run000/d1/000000.jpg", "another");
+  shard.add("images/run000/d1/000001.jpg", "clean");
+  shard.publish({});
+  const json previews = get_json(self + "/previews")["previews"];
+  ASSERT_EQ(previews.size(), 1U);
+  EXPECT_EQ(previews[0]["name"], "run000/d1/000001.jpg");
+  EXPECT_EQ(get(previews[0]["href"])->body, "drawn");
+  EXPECT_EQ(get(previews[0]["clean"])->body, "clean");
+  expect_problem(get(self + "/previews/run000/d1/000000.jpg?clean"), 404);
 }
 
 }  // namespace
