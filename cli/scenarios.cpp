@@ -35,6 +35,10 @@ void upload(const UploadArguments& arguments) {
   const nlohmann::json answer = api.upload(
       fmt::format("/v1/scenarios?name={}{}", encoded(name), arguments.dry_run ? "&dry_run" : ""),
       bundle.bytes, "application/octet-stream");
+  for (const nlohmann::json& finding : answer["findings"]) {
+    fmt::print(stderr, "{}: {}\n  remedy: {}\n", finding["severity"].get<std::string>(),
+               finding["message"].get<std::string>(), finding["remedy"].get<std::string>());
+  }
   for (const nlohmann::json& id : answer["ids"]) fmt::print("{}\n", id.get<std::string>());
 }
 

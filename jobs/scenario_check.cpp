@@ -1,11 +1,11 @@
 #include "jobs/scenario_check.h"
 
+#include <iterator>
 #include <utility>
 
 #include "base/confine.h"
 #include "base/error.h"
 #include "crowd/simulation.h"
-#include "places/check.h"
 #include "render/mesh_file.h"
 #include "sim/run.h"
 #include "world/scenario.h"
@@ -59,42 +59,31 @@ class Findings {
   std::vector<Problem> problems_;
 };
 
-/// Throws what would make its runs fail or useless, each with what to do about it.
-void require_usable(const world::Scenario& scenario, const std::string& source) {
-  std::vector<Problem> problems;
-  for (places::Finding& finding : places::check(scenario, source)) {
-    if (finding.severity != places::Severity::error) continue;
-    finding.problem.expected += "; " + finding.remedy;
-    problems.push_back(std::move(finding.problem));
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-}
-
 }  // namespace
 
-std::vector<std::string> check_scenarios(const fs::path& folder) {
-  std::vector<std::string> ids = world::list_scenarios(folder);
-  if (ids.empty()) {
+CheckedScenarios check_scenarios(const fs::path& folder) {
+  CheckedScenarios checked{world::list_scenarios(folder), {}};
+  if (checked.ids.empty()) {
     throw InputError(Problem{"", "", "no scenario",
                              "at least one file NAME.json, its name of small letters, digits and _ "
                              "(docs/scenario.md)"});
   }
   const Confinement confinement(folder);
   Findings findings(folder);
-  for (const std::string& id : ids) {
+  for (const std::string& id : checked.ids) {
     world::Scenario scenario;
     const auto load = [&] { scenario = world::load_scenario(folder / (id + ".json"), id); };
     if (!findings.has_done(load)) continue;
-    const std::string source = id + ".json";
     if (findings.has_done([&] { static_cast<void>(sim::load_crowd(scenario, 1, {})); })) {
-      findings.has_done([&] { require_usable(scenario, source); });
+      std::vector<places::Finding> found = places::check(scenario, id + ".json");
+      std::move(found.begin(), found.end(), std::back_inserter(checked.findings));
     }
     for (const world::PlacedMesh& mesh : scenario.meshes) {
       findings.has_done([&] { static_cast<void>(render::mesh_from_file(mesh, 0)); });
     }
   }
   findings.throw_any();
-  return ids;
+  return checked;
 }
 
 }  // namespace throng::jobs

@@ -5,13 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "places/check.h"
+
 namespace throng::jobs {
 
+/// What there is in a folder of scenarios.
+struct CheckedScenarios {
+  std::vector<std::string> ids;           ///< below the folder
+  std::vector<places::Finding> findings;  ///< that stop nobody from using them
+};
+
 /// Reads every scenario in a folder as a job would: the file, its crowd's scene and behaviour with
-/// all that these name, and its meshes, with what these name; and checks that it is of use
-/// (places::check). Everything has to lie in the folder, links followed. Returns the scenarios' ids
-/// below the folder. Throws InputError with every problem, files named as they lie in the folder,
-/// and EnvironmentError.
-std::vector<std::string> check_scenarios(const std::filesystem::path& folder);
+/// all that these name, and its meshes, with what these name. Everything has to lie in the folder,
+/// links followed. Throws InputError with every problem, files named as they lie in the folder, and
+/// EnvironmentError. What else places::check finds is told.
+CheckedScenarios check_scenarios(const std::filesystem::path& folder);
 
 }  // namespace throng::jobs

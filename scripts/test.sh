@@ -60,7 +60,7 @@ step_fuzz() {
   say "fuzzing the files' readers (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build fuzz
   local target
-  for target in crowd files imports; do
+  for target in crowd files imports bundle; do
     mkdir -p "build/fuzz/corpus/$target"
     "build/fuzz/tests/fuzz/fuzz_$target" -max_total_time=30 -timeout=20 -rss_limit_mb=3000 -max_len=8000 \
       -dict=tests/fuzz/crowd.dict -artifact_prefix="build/fuzz/$target-" -print_final_stats=1 -verbosity=0 \

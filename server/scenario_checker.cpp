@@ -29,13 +29,33 @@ constexpr const char* kResultName = "check.json";
 constexpr int kRefusedExit = 2;
 constexpr int kFailedExit = 3;
 constexpr auto kLongestCheck = std::chrono::minutes(2);
-constexpr auto kStep = std::chrono::milliseconds(5);
+constexpr auto kCheckStep = std::chrono::milliseconds(5);
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kMayLimitMemory = false;  // sanitizers reserve terabytes of addresses
 #else
 constexpr bool kMayLimitMemory = true;
 #endif
+
+json json_of(const jobs::CheckedScenarios& checked) {
+  json findings = json::array();
+  for (const places::Finding& finding : checked.findings) {
+    findings.push_back({{"is_error", finding.severity == places::Severity::error},
+                        {"problem", finding.problem},
+                        {"remedy", finding.remedy}});
+  }
+  return {{"ids", checked.ids}, {"findings", std::move(findings)}};
+}
+
+jobs::CheckedScenarios checked_from(const json& value) {
+  jobs::CheckedScenarios checked{value.at("ids"), {}};
+  for (const json& finding : value.at("findings")) {
+    checked.findings.push_back(
+        {finding.at("is_error") ? places::Severity::error : places::Severity::warning,
+         finding.at("problem").get<Problem>(), finding.at("remedy")});
+  }
+  return checked;
+}
 
 void limit(decltype(RLIMIT_AS) what, rlim_t most) {
   const rlimit value{most, most};
@@ -61,7 +81,7 @@ jobs::ExitStatus ended(jobs::ChildProcess& child) {
       throw InputError(Problem{"", "", "scenarios that take minutes to load", "smaller ones"});
     }
     child.read_lines();
-    std::this_thread::sleep_for(kStep);
+    std::this_thread::sleep_for(kCheckStep);
   }
   return child.wait();
 }
@@ -85,8 +105,7 @@ ScenarioChecker scenario_checker_in_child(std::vector<std::string> command) {
           fmt::format("scenarios at which the reader was ended by signal {}", status.signal),
           "ones that load within 4 GiB of memory and two minutes"});
     }
-    if (status.code == 0)
-      return json::parse(read_file(work / kResultName)).get<std::vector<std::string>>();
+    if (status.code == 0) return checked_from(json::parse(read_file(work / kResultName)));
     if (status.code == kRefusedExit) {
       throw InputError(json::parse(read_file(work / kResultName)).get<std::vector<Problem>>());
     }
@@ -101,7 +120,7 @@ int run_scenario_check_child(const fs::path& folder, const fs::path& work) {
     write_file_atomically(work / kResultName, text_of(value));
   };
   try {
-    write(jobs::check_scenarios(folder));
+    write(json_of(jobs::check_scenarios(folder)));
     return 0;
   } catch (const InputError& error) {
     write(error.problems());

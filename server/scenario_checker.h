@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "jobs/scenario_check.h"
+
 namespace throng::server {
 
 /// jobs::check_scenarios. `work` is a folder for what it has to write.
-using ScenarioChecker = std::function<std::vector<std::string>(const std::filesystem::path& folder,
-                                                               const std::filesystem::path& work)>;
+using ScenarioChecker = std::function<jobs::CheckedScenarios(const std::filesystem::path& folder,
+                                                             const std::filesystem::path& work)>;
 
 /// In this process; for tests.
 ScenarioChecker scenario_checker_in_process();
@@ -21,7 +23,7 @@ ScenarioChecker scenario_checker_in_process();
 ScenarioChecker scenario_checker_in_child(std::vector<std::string> command);
 
 /// What such a child does: it limits its own memory, time and files, gives up the network where the
-/// kernel lets it, checks, and writes the ids or the problems to work/check.json. Returns the exit
+/// kernel lets it, checks, and writes what it has found to work/check.json. Returns the exit
 /// code.
 int run_scenario_check_child(const std::filesystem::path& folder,
                              const std::filesystem::path& work);

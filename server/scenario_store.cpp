@@ -127,8 +127,8 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
         Problem{"", "?name", '"' + name + '"',
                 fmt::format("1 to {} small letters, digits and underscores", kLongestName)});
   }
-  Staged staged{{name, owner, unix_ms_now(), 0, 0, {}},
-                std::make_unique<StagingFolder>(uploads_ / name)};
+  Staged staged{
+      {name, owner, unix_ms_now(), 0, 0, {}}, {}, std::make_unique<StagingFolder>(uploads_ / name)};
   const fs::path& folder = staged.folder->path();
   const fs::path unpacked = folder / "unpacked";
   fs::create_directories(unpacked);
@@ -138,9 +138,9 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
   fs::rename(root_of(unpacked), folder / kFilesName);
   const fs::path work = folder / "work";
   fs::create_directories(work);
-  for (const std::string& id : checker_(folder / kFilesName, work)) {
-    staged.upload.ids.push_back(name + "/" + id);
-  }
+  jobs::CheckedScenarios checked = checker_(folder / kFilesName, work);
+  for (const std::string& id : checked.ids) staged.upload.ids.push_back(name + "/" + id);
+  staged.findings = std::move(checked.findings);
   fs::remove_all(work);
   fs::remove_all(unpacked);
   write_file_atomically(folder / kNoteName, note_of(staged.upload));

@@ -73,6 +73,7 @@ class ScenarioStore {
   /// A bundle that has been unpacked and found good, and is not published.
   struct Staged {
     ScenarioUpload upload;
+    std::vector<places::Finding> findings;  ///< that stop nobody from using it
     std::unique_ptr<StagingFolder> folder;
   };
 

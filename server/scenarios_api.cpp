@@ -30,6 +30,16 @@ json upload_json(const ScenarioUpload& upload) {
           {"files", upload.files}};
 }
 
+json findings_json(const std::vector<places::Finding>& findings) {
+  json list = json::array();
+  for (const places::Finding& finding : findings) {
+    list.push_back(problems_json({finding.problem}).front());
+    list.back()["severity"] = finding.severity == places::Severity::error ? "error" : "warning";
+    list.back()["remedy"] = finding.remedy;
+  }
+  return list;
+}
+
 json scenario_json(const Call& call, const std::string& id) {
   const world::Scenario scenario = world::find_scenario(call.service.scenarios(), id);
   json exits = json::array();
@@ -85,6 +95,7 @@ void upload_scenarios(const Call& call, const Request& request, Response& respon
     const ScenarioUpload upload = dry ? staged.upload : uploads.publish(staged);
     json value = upload_json(upload);
     value["ids"] = upload.ids;
+    value["findings"] = findings_json(staged.findings);
     if (!dry) response.set_header("Location", "/v1/scenarios/" + upload.ids.front());
     write_json(response, dry ? 200 : 201, value);
   } catch (const InputError& error) {

@@ -101,6 +101,22 @@ class Client(unittest.TestCase):
         self.throng("remove", id_)
         self.assertIn(id_, self.throng("watch", id_, code=2))
 
+    def test_scenarios_of_ones_own(self):
+        place = pathlib.Path(__file__).resolve().parents[2] / "scenarios" / "city_square"
+        ids = self.throng("scenarios", "upload", place, "--name", "mine").split()
+        self.assertIn("mine/nearest_exit", ids)
+        self.assertIn("name", self.throng("scenarios", "upload", place, "--name", "mine", code=2))
+        self.throng("scenarios", "remove", "mine")
+        self.throng("scenarios", "remove", "mine", code=2)
+        self.assertIn("no scenario", self.throng("scenarios", "upload", place.parent.parent / "docs", code=2))
+        # A worker finds the scenario that came with its job.
+        self.job.write_text(json.dumps({**JOB, "scenario": "bundle/nearest_exit"}))
+        id_ = self.throng("submit", self.job, "--scenario", place, "--watch").split()[0]
+        bundles = self.base / "data" / "uploads"
+        self.assertEqual(len(list(bundles.iterdir())), 1)
+        self.throng("remove", id_)
+        self.assertEqual(list(bundles.iterdir()), [])
+
     def test_mistakes_and_missing_servers_have_their_exit_codes(self):
         self.job.write_text(json.dumps({**JOB, "runs": 0}))
         self.assertIn("/runs", self.throng("submit", self.job, code=2))

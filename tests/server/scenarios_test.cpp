@@ -110,9 +110,14 @@ TEST_F(Uploads, WhatIsWrongIsSaidWithFileElementAndRemedy) {
   testing::Yard walled;
   walled.scenario["exits"][0]["goals"] = json::array({json::array({7, 0})});
   const httplib::Result answer = upload(packed(Packing::zip, yard_files(walled)));
-  expect_problem(answer, 400);
-  EXPECT_EQ(json::parse(answer->body)["errors"][0]["source"], "yard.json");
-  expect_problem(upload(packed(Packing::zip, {{"readme.txt", "hello"}})), 400);
+  // It can be used; whether that is wise is for its owner to say.
+  ASSERT_EQ(answer->status, 201) << answer->body;
+  const json findings = json::parse(answer->body)["findings"];
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings[0]["source"], "yard.json");
+  EXPECT_EQ(findings[0]["severity"], "error");
+  EXPECT_FALSE(findings[0]["remedy"].get<std::string>().empty());
+  expect_problem(upload(packed(Packing::zip, {{"readme.txt", "hello"}}), "name=other"), 400);
 }
 
 TEST_F(Uploads, NoFileOutsideTheBundleIsRead) {
