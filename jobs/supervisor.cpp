@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "jobs/failed_runs.h"
 
@@ -119,7 +120,7 @@ class Supervision {
     const auto on_progress = [&](const Task& task, const TaskProgress& progress) {
       note(task, progress);
     };
-    const std::vector<TaskResult> results = executor_.run(folder_, open, on_progress, stop_);
+    const std::vector<TaskResult> results = execute(open, on_progress);
     for (std::size_t i = 0; i < open.size(); ++i) take_failure(open[i], results[i]);
     if (stop_.stop_requested()) throw Cancelled();
     for (const Task& task : open) {
@@ -129,10 +130,18 @@ class Supervision {
     }
   }
 
+  // A worker that was killed leaves what it had half-written; once all have ended nobody needs it.
+  std::vector<TaskResult> execute(std::span<const Task> tasks,
+                                  const Executor::OnProgress& on_progress) {
+    std::vector<TaskResult> results = executor_.run(folder_, tasks, on_progress, stop_);
+    folder_.remove_leftovers();
+    return results;
+  }
+
   // The last task, of all runs together: its failure is the job's.
   void do_task(const Task& task) {
     const std::array tasks = {task};
-    const TaskResult result = executor_.run(folder_, tasks, {}, stop_)[0];
+    const TaskResult result = execute(tasks, {})[0];
     if (stop_.stop_requested()) throw Cancelled();
     throw_if_wrong(task, result);
     if (result.outcome != Outcome::succeeded) throw EnvironmentError(text_of(task, result));

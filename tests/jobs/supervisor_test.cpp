@@ -132,6 +132,21 @@ TEST_F(SupervisorTest, RemovesWhatDeadWorkersLeft) {
   EXPECT_FALSE(std::filesystem::exists(leftover.parent_path()));
 }
 
+TEST_F(SupervisorTest, RemovesWhatAWorkerLeftThatDiedMeanwhile) {
+  const JobFolder work = folder();
+  std::vector<std::filesystem::path> leftovers;
+  executor.before = [&](const Task& task) {
+    leftovers.push_back(work.output_of(task).string() + ".tmp.12345.0");
+    std::filesystem::create_directories(leftovers.back());
+    return TaskResult{};
+  };
+  run_job(work, job, executor);
+  EXPECT_EQ(leftovers.size(), executor.done().size());
+  for (const std::filesystem::path& leftover : leftovers) {
+    EXPECT_FALSE(std::filesystem::exists(leftover)) << leftover;
+  }
+}
+
 TEST_F(SupervisorTest, AFailureNamesTheTaskAndTheReason) {
   executor.before = [](const Task& task) {
     return task.kind == Task::Kind::collect ? TaskResult{Outcome::crashed, 3, "boom", {}}
