@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "base/files.h"
 #include "calibrate/camera_file.h"
 #include "calibrate/picture.h"
 #include "calibrate/pose.h"
 #include "calibrate/result.h"
+
+namespace throng::embedded {
+extern const std::string_view kCalibrationSchema;
+}  // namespace throng::embedded
 
 namespace throng::calibrate {
 
@@ -21,10 +24,6 @@ using nlohmann::json;
 namespace {
 
 constexpr std::array kRequestKinds = {"intrinsics", "pose", "bundle"};
-constexpr std::array kFields = {"kind",    "images",     "board",    "points",   "observations",
-                                "gcp",     "size",       "camera",   "fix_lens", "lens",
-                                "skew",    "fix",        "tie",      "prior",    "reject",
-                                "loss_px", "outlier_px", "sigma_px", "name"};
 
 [[noreturn]] void refuse(const std::string& pointer, const json& found, std::string expected) {
   throw InputError(Problem{"", pointer, found.dump(), std::move(expected)});
@@ -144,11 +143,13 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
 
 }  // namespace
 
+std::string_view request_schema() { return embedded::kCalibrationSchema; }
+
 Request request_from_json(const json& value, const fs::path& folder) {
   if (!value.is_object()) refuse("", value, "an object");
-  const std::set<std::string> known(kFields.begin(), kFields.end());
+  static const json kFields = json::parse(request_schema()).at("properties");
   for (const auto& entry : value.items()) {
-    if (known.count(entry.key()) == 0) {
+    if (!kFields.contains(entry.key())) {
       refuse("/" + entry.key(), entry.value(), "no such field: see docs/calibration.md");
     }
   }

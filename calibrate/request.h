@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/board.h"
@@ -27,6 +28,9 @@ struct Request {
   bool fix_lens = false;  ///< bundle: leave the lens as it is
   IntrinsicsOptions options;
 };
+
+/// The JSON schema of what a client sends (calibrate/request.schema.json).
+std::string_view request_schema();
 
 /// Reads what a client sent; paths are below `folder`, where its files lie. Throws InputError with
 /// JSON pointers.

@@ -2,9 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
+#include <thread>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -103,6 +105,17 @@ json ApiClient::get(const std::string& path) { return json::parse(get_text(path)
 
 std::string ApiClient::get_text(const std::string& path) {
   return checked(connection_->client.Get(path, connection_->headers), url_, path).body;
+}
+
+std::string ApiClient::wait_for_text(const std::string& path, const std::function<bool()>& go_on) {
+  constexpr int kAccepted = 202;
+  while (true) {
+    const httplib::Response answer =
+        checked(connection_->client.Get(path, connection_->headers), url_, path);
+    if (answer.status != kAccepted) return answer.body;
+    if (!go_on()) throw Cancelled();
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
 }
 
 json ApiClient::post(const std::string& path, const std::string& body,

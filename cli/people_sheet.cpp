@@ -101,7 +101,7 @@ annotate::SheetOptions options_of(const SheetArguments& arguments,
   return options;
 }
 
-std::string encoded(const annotate::Sheet& sheet, const std::string& extension) {
+std::string sheet_encoded(const annotate::Sheet& sheet, const std::string& extension) {
   constexpr int kQuality = 82;
   if (extension != ".png") {
     return annotate::jpeg_bytes(sheet.rgb, sheet.width, sheet.height, kQuality);
@@ -126,7 +126,7 @@ void draw(const SheetArguments& arguments) {
         bar.show(share, what);
       });
   if (interrupt.token().stop_requested()) throw Cancelled();
-  write_file_atomically(arguments.output, encoded(sheet, extension_of(arguments.output)));
+  write_file_atomically(arguments.output, sheet_encoded(sheet, extension_of(arguments.output)));
   bar.show(1, fmt::format("{} x {} pixels", sheet.width, sheet.height));
 }
 

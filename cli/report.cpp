@@ -1,15 +1,23 @@
-// throng report: traces of one place as one HTML file.
+// throng report: traces of one place as one HTML file, or the report of a job on a server.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <thread>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "cli/api_client.h"
+#include "cli/bundle.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/scenario_named.h"
+#include "jobs/folder.h"
+#include "jobs/job_id.h"
+#include "jobs/job_scenario.h"
 #include "study/run_report.h"
 #include "world/trace.h"
 
@@ -51,21 +59,56 @@ void find_traces(const fs::path& input, std::vector<NamedTrace>& traces) {
   traces.insert(traces.end(), found.begin(), found.end());
 }
 
-void report(const ReportArguments& arguments) {
+/// Where a job took place, which may have been made for it.
+std::optional<world::Scenario> scenario_of_job(const fs::path& input) {
+  const jobs::JobFolder folder(input);
+  if (!fs::exists(folder.job_file())) return std::nullopt;
+  const fs::path scenarios = world::scenarios_folder();
+  return jobs::scenario_of(folder.read_job(scenarios), scenarios);
+}
+
+bool is_on_server(const ReportArguments& arguments) {
+  return arguments.inputs.size() == 1 && !fs::exists(arguments.inputs[0]) &&
+         jobs::is_job_id(arguments.inputs[0]);
+}
+
+void fetch_report(const std::string& id, const fs::path& output) {
+  const Interrupt interrupt;
+  ApiClient api;
+  write_file_atomically(output, api.wait_for_text("/v1/jobs/" + encoded(id) + "/report", [&] {
+    return !interrupt.token().stop_requested();
+  }));
+}
+
+std::string report_of_traces(const ReportArguments& arguments) {
   std::vector<NamedTrace> traces;
   for (const std::string& input : arguments.inputs) find_traces(input, traces);
+  std::optional<world::Scenario> scenario;
+  if (!arguments.scenario.empty()) {
+    scenario = scenario_named(arguments.scenario);
+  } else {
+    scenario = scenario_of_job(arguments.inputs.front());
+  }
+  std::string id = scenario ? scenario->id : "";
   std::vector<study::MeasuredRun> runs;
-  std::string place = arguments.scenario;
   for (const NamedTrace& named : traces) {
     world::Trace trace = world::read_trace(named.file);
-    if (place.empty()) place = trace.header.scenario_id;
-    if (arguments.scenario.empty() && trace.header.scenario_id != place) {
+    if (!scenario) scenario = scenario_named(id = trace.header.scenario_id);
+    if (arguments.scenario.empty() && trace.header.scenario_id != id) {
       throw InputError({named.file.string(), "", trace.header.scenario_id,
-                        fmt::format("a run of {}, as the first one", place)});
+                        fmt::format("a run of {}, as the first one", id)});
     }
-    runs.push_back(study::measured(named.name, std::move(trace), scenario_named(place)));
+    runs.push_back(study::measured(named.name, std::move(trace), *scenario));
   }
-  write_file_atomically(arguments.output, study::html_report(scenario_named(place), runs));
+  return study::html_report(*scenario, runs);
+}
+
+void report(const ReportArguments& arguments) {
+  if (is_on_server(arguments)) {
+    fetch_report(arguments.inputs[0], arguments.output);
+  } else {
+    write_file_atomically(arguments.output, report_of_traces(arguments));
+  }
   fmt::print("{}\n", arguments.output);
 }
 
@@ -76,11 +119,14 @@ void add_report(CLI::App& app) {
       "report", "Charts and tables of one or several runs as one self-contained HTML file");
   const auto arguments = std::make_shared<ReportArguments>();
   command
-      ->add_option("inputs", arguments->inputs,
-                   "Traces, folders of traces, or folders of jobs; all of one scenario")
+      ->add_option(
+          "inputs", arguments->inputs,
+          "Traces, folders of traces, or folders of jobs; all of one scenario. Or the id of "
+          "one job on the server ($THRONG_URL)")
       ->required();
-  command->add_option("--scenario", arguments->scenario,
-                      "Id or file (.json) of the scenario; default: the first trace's");
+  command->add_option(
+      "--scenario", arguments->scenario,
+      "Id or file (.json) of the scenario; default: the job's or the first trace's");
   command->add_option("-o,--output", arguments->output, "HTML file to write")->required();
   command->callback([arguments] { report(*arguments); });
 }

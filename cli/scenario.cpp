@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A path as it is, else the file of a shipped scenario's id.
-fs::path path_of(const std::string& name) {
+fs::path scenario_path(const std::string& name) {
   if (fs::exists(name)) return name;
   return world::scenarios_folder() / (name + ".json");
 }
@@ -35,7 +35,7 @@ void add_check(CLI::App& scenario) {
   const auto name = std::make_shared<std::string>();
   command->add_option("scenario", *name, "FILE.json, a folder or an id")->required();
   command->callback([name] {
-    const std::vector<places::Finding> findings = places::check_files(path_of(*name));
+    const std::vector<places::Finding> findings = places::check_files(scenario_path(*name));
     std::size_t errors = 0;
     for (const places::Finding& finding : findings) {
       fmt::print("{}\n", finding.text());

@@ -206,6 +206,10 @@ XmlFile::XmlFile(const std::filesystem::path& path, std::string_view root_name)
     : source_(std::make_unique<XmlSource>(XmlSource{path, path.filename().string(), {}, false})),
       document_(std::make_unique<tinyxml2::XMLDocument>()) {
   const std::string text = read_text(*source_);
+  if (const std::size_t at = text.find("<!ENTITY"); at != std::string::npos) {
+    throw InputError(Problem{source_->name, line_of(text, at), "a declaration of an entity",
+                             "text that is written out: entities may grow without end"});
+  }
   const tinyxml2::XMLError error = document_->Parse(text.data(), text.size());
   if (error != tinyxml2::XML_SUCCESS) {
     throw InputError(Problem{source_->name,

@@ -60,6 +60,7 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/jobs/{id}/manifest", Scope::read, &send_manifest},
       Route{Method::get, "/v1/jobs/{id}/files/{path}", Scope::read, &send_file},
       Route{Method::get, "/v1/jobs/{id}/metrics", Scope::read, &send_metrics},
+      Route{Method::get, "/v1/jobs/{id}/report", Scope::read, &send_report},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", Scope::read, &send_run_metrics_csv},
       Route{Method::get, "/v1/events", Scope::read, &send_events},
@@ -129,6 +130,10 @@ void guarded(const JobService& service, const Request& request, Response& respon
     write_problem(response, {409, error.what()});
   } catch (const ConflictError& error) {
     write_problem(response, {409, error.what()});
+  } catch (const EnvironmentError& error) {  // the machine's fault, which may pass
+    spdlog::error("{} {}: {}", request.method, request.path, error.what());
+    response.set_header("Retry-After", "10");
+    write_problem(response, {503, service.without_paths(error.what())});
   } catch (const std::exception& error) {
     spdlog::error("{} {}: {}", request.method, request.path, error.what());
     write_problem(response, {500, service.without_paths(error.what())});

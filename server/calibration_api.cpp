@@ -81,6 +81,7 @@ void submit_calibration(const Call& call, const Request& request, Response& resp
 }
 
 void list_calibrations(const Call& call, const Request& request, Response& response) {
+  static const json kSchema = json::parse(calibrate::request_schema());
   const int limit = limit_of(request);
   const std::vector<jobs::JobRow> rows = call.service.list(
       {.kind = jobs::JobKind::calibration, .after = after_of(request), .limit = limit});
@@ -88,9 +89,10 @@ void list_calibrations(const Call& call, const Request& request, Response& respo
   for (const jobs::JobRow& row : rows)
     list.push_back(calibration_json(row, call.service.retention()));
   const bool more = static_cast<int>(rows.size()) == limit;
-  write_json(
-      response, 200,
-      {{"calibrations", std::move(list)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
+  write_json(response, 200,
+             {{"calibrations", std::move(list)},
+              {"next", more ? json(rows.back().id) : json(nullptr)},
+              {"schema", kSchema}});
 }
 
 void send_calibration(const Call& call, const Request& request, Response& response) {

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -233,6 +234,19 @@ void send_run_metrics(const Call& call, const Request& request, Response& respon
 
 void send_run_metrics_csv(const Call& call, const Request& request, Response& response) {
   send_run_file(call, request, response, "exits", ".csv", "text/csv");
+}
+
+void send_report(const Call& call, const Request& request, Response& response) {
+  // Shorter than a proxy's patience, and than what is left to a service that ends.
+  constexpr auto kPatience = std::chrono::seconds(5);
+  const jobs::JobRow row = find_succeeded(call, request);
+  const std::optional<fs::path> file = call.service.report_of(row.id, kPatience);
+  if (!file) {
+    response.set_header("Retry-After", "2");
+    return write_json(response, 202, {{"status", "the report is being made"}});
+  }
+  answer_with_file(request, response, *file, "text/html; charset=utf-8",
+                   fmt::format("\"{}\"", sha256_hex_of_file(*file)));
 }
 
 void list_logs(const Call& call, const Request& request, Response& response) {

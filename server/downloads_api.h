@@ -16,6 +16,9 @@ void send_run_metrics(const Call& call, const httplib::Request& request,
 void send_run_metrics_csv(const Call& call, const httplib::Request& request,
                           httplib::Response& response);
 
+/// The report of all runs as one HTML page; 202 as long as it is being made.
+void send_report(const Call& call, const httplib::Request& request, httplib::Response& response);
+
 /// What the workers said, and the pictures with drawn annotations: also while the job is at work.
 void list_logs(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_log(const Call& call, const httplib::Request& request, httplib::Response& response);

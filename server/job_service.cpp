@@ -41,7 +41,8 @@ JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
       disk_(
           options_.free_bytes ? options_.free_bytes
                               : [data = options_.data] { return free_bytes_of(data); },
-          options_.least_free_bytes, [this](const std::string& reason) { pause(reason); }) {
+          options_.least_free_bytes, [this](const std::string& reason) { pause(reason); }),
+      reports_(options_.reporter) {
   tidy_data_folder(options_.data, store_);
   drop_unused_bundles();
   worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
@@ -230,6 +231,7 @@ std::optional<JobRow> JobService::retry(const std::string& id) {
     }
     const std::optional<JobRow> queued = apply(*row, JobEvent::retry);
     if (!queued) continue;
+    ReportMaker::forget(place_of(*row));
     spdlog::info("job {} queued again", id);
     note_queued();
     return queued;

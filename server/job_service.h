@@ -20,6 +20,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/error.h"
 #include "jobs/executor.h"
 #include "jobs/folder.h"
 #include "jobs/store.h"
@@ -27,6 +28,7 @@
 #include "server/bell.h"
 #include "server/calibrator.h"
 #include "server/disk_watch.h"
+#include "server/report_maker.h"
 #include "server/retention.h"
 #include "server/scenario_store.h"
 #include "server/text_cache.h"
@@ -42,6 +44,8 @@ struct JobServiceOptions {
   std::filesystem::path scenarios;  ///< those that come with throng
   Calibrator calibrator = calibrator_in_process();
   ScenarioChecker scenario_checker = scenario_checker_in_process();
+  /// Default: there are no reports.
+  Reporter reporter = [](const auto&...) { throw EnvironmentError("no reports are made here"); };
   UploadLimits uploads = {};
   Retention retention = {};
   std::int64_t least_free_bytes = 512LL << 20;  ///< below this the queue rests
@@ -162,6 +166,12 @@ class JobService {
   /// Where a job's dataset lies once it has succeeded.
   std::filesystem::path dataset_of(const std::string& id) const { return folder_of(id).dataset(); }
 
+  /// The report of a job that has a dataset (ReportMaker::report_of).
+  std::optional<std::filesystem::path> report_of(const std::string& id,
+                                                 std::chrono::milliseconds patience) {
+    return reports_.report_of(job_folder(id), patience);
+  }
+
   /// Where a calibration's results lie once it has succeeded.
   std::filesystem::path calibration_folder(const std::string& id) const;
 
@@ -222,6 +232,7 @@ class JobService {
   std::atomic<std::uint64_t> revision_ = 0;  ///< changes with every event and with progress
   mutable TextCache texts_;
   DiskWatch disk_;
+  ReportMaker reports_;
   std::jthread worker_;  ///< these end before what they use
   std::jthread sweeper_;
 };

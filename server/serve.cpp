@@ -95,6 +95,7 @@ int serve(const ServeOptions& options) {
                       .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
                       .scenario_checker = scenario_checker_in_child(
                           {"/proc/self/exe", "scenarios", "check-bundle"}),
+                      .reporter = reporter_in_child({"/proc/self/exe", "report"}),
                       .retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
                       .least_free_bytes = options.least_free_mib << kMibShift},
                      executor);

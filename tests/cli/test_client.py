@@ -127,6 +127,17 @@ class Client(unittest.TestCase):
         self.environment["THRONG_URL"] = "http://127.0.0.1:9"
         self.assertIn("cannot reach", self.throng("jobs", code=3))
 
+    def test_report_of_a_job(self):
+        self.job.write_text(json.dumps({**JOB, "scenario": {"generate": {"kind": "plaza", "seed": 5}}}))
+        id_ = self.throng("submit", self.job, "--watch").split()[0]
+        pages = [self.base / "of_server.html", self.base / "of_folder.html"]
+        self.throng("report", id_, "-o", pages[0])
+        self.throng("report", self.base / "data" / "jobs" / id_, "-o", pages[1])
+        self.assertTrue("Generated plaza 5" in pages[0].read_text())
+        self.assertTrue(pages[0].read_bytes() == pages[1].read_bytes())
+        self.throng("remove", id_)
+        self.throng("report", id_, "-o", pages[0], code=2)
+
     def test_cancel_and_retry(self):
         self.job.write_text(json.dumps({**JOB, "runs": 20}))
         id_ = self.throng("submit", self.job).strip()

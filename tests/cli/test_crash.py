@@ -306,7 +306,7 @@ class Crash(unittest.TestCase):
             other.execute("BEGIN IMMEDIATE")
             with self.assertRaises(urllib.error.HTTPError) as refused:
                 self.server.request("POST", "/v1/jobs", JOB)
-            self.assertEqual(refused.exception.code, 500)
+            self.assertEqual(refused.exception.code, 503)
             self.assertEqual(len(self.server.request("GET", "/v1/jobs")["jobs"]), 1, "reading goes on")
             other.execute("ROLLBACK")
         self.expect_undisturbed(job)

@@ -10,8 +10,8 @@
 namespace throng::server {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 TEST_F(ApiTest, AJobFromSubmissionToMetrics) {
   const httplib::Result answer = client().Post("/v1/jobs", kJob, "application/json; charset=utf-8");
@@ -90,6 +90,7 @@ TEST_F(ApiTest, ResultsOfAnUnfinishedJobAreAConflict) {
   const std::string id = submit();
   expect_problem(get("/v1/jobs/" + id + "/archive"), 409);
   expect_problem(get("/v1/jobs/" + id + "/metrics"), 409);
+  expect_problem(get("/v1/jobs/" + id + "/report"), 409);
   gate.open();
 }
 
@@ -104,6 +105,35 @@ TEST_F(ApiTest, ARunsFiguresAreThereOnceItWasMeasured) {
   EXPECT_EQ(get_json(run + "/metrics"), json::parse(R"({"people":3})"));
   expect_problem(get(run + "/metrics.csv"), 404);  // this job did not ask for it
   gate.open();
+}
+
+TEST_F(ApiTest, AReportIsMadeOnceWhenAskedFor) {
+  std::atomic<int> made = 0;
+  reporter = [&](const std::filesystem::path& job, const std::filesystem::path& file,
+                 const std::stop_token&) {
+    ++made;
+    write_file_atomically(file, "report of " + job.filename().string());
+  };
+  const std::string id = submit_and_wait();
+  for (int i = 0; i < 2; ++i) {
+    const httplib::Result page = get("/v1/jobs/" + id + "/report");
+    EXPECT_EQ(page->status, 200);
+    EXPECT_EQ(page->body, "report of " + id);
+    EXPECT_EQ(page->get_header_value("Content-Type"), "text/html; charset=utf-8");
+  }
+  EXPECT_EQ(made, 1);
+}
+
+TEST_F(ApiTest, AReportThatFailsIsTriedAgain) {
+  reporter = [](const auto&, const auto&, const auto&) { throw EnvironmentError("no room"); };
+  const std::string id = submit_and_wait();
+  const httplib::Result failed = get("/v1/jobs/" + id + "/report");
+  expect_problem(failed, 503);
+  EXPECT_EQ(failed->get_header_value("Retry-After"), "10");
+  reporter = [](const auto&, const std::filesystem::path& file, const auto&) {
+    write_file_atomically(file, "page");
+  };
+  EXPECT_EQ(get("/v1/jobs/" + id + "/report")->body, "page");
 }
 
 TEST_F(ApiTest, DeleteRemovesAndSaysSo) {

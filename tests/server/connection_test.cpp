@@ -13,12 +13,12 @@ using HostileClients = ApiTest;
 
 TEST_F(HostileClients, EndlessHeadersAreCutOff) {
   const std::string line(200'000, 'x');
-  EXPECT_THAT(raw("GET /" + line), testing::AnyOf("", StartsWith("HTTP/1.1 4")));
+  EXPECT_THAT(raw("GET /" + line), ::testing::AnyOf("", StartsWith("HTTP/1.1 4")));
   EXPECT_THAT(raw("GET /healthz HTTP/1.1\r\nHost: localhost\r\nX: " + line + "\r\n\r\n"),
-              testing::AnyOf("", StartsWith("HTTP/1.1 4")));
+              ::testing::AnyOf("", StartsWith("HTTP/1.1 4")));
   std::string many = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
   for (int i = 0; i < 20'000; ++i) many += fmt::format("X-{}: y\r\n", i);
-  EXPECT_THAT(raw(many + "\r\n"), testing::AnyOf("", StartsWith("HTTP/1.1 4")));
+  EXPECT_THAT(raw(many + "\r\n"), ::testing::AnyOf("", StartsWith("HTTP/1.1 4")));
   EXPECT_EQ(get("/healthz")->status, 200);
 }
 

@@ -19,8 +19,8 @@ using jobs::Outcome;
 using jobs::Task;
 using jobs::TaskResult;
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 class JobServiceTest : public ServiceFixture {};
 

@@ -7,8 +7,8 @@
 namespace throng::server {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 class JobsApi : public ApiTest {
  protected:

@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "base/files.h"
 #include "server/job_service.h"
 #include "tests/jobs/fake_executor.h"
 #include "tests/jobs/yard.h"
@@ -28,11 +29,19 @@ inline bool wait_until(const std::function<bool()>& condition) {
   return true;
 }
 
-class ServiceFixture : public testing::Test {
+class ServiceFixture : public ::testing::Test {
  protected:
   ServiceFixture() { jobs::write_yard(scenarios.path()); }
 
-  JobServiceOptions options() const { return {.data = data.path(), .scenarios = scenarios.path()}; }
+  JobServiceOptions options() const {
+    return {.data = data.path(),
+            .scenarios = scenarios.path(),
+            .reporter = [this](const auto&... all) { reporter(all...); }};
+  }
+
+  Reporter reporter = [](const auto&, const std::filesystem::path& file, const std::stop_token&) {
+    write_file_atomically(file, "<!doctype html>");
+  };
 
   jobs::TemporaryFolder scenarios;
   jobs::TemporaryFolder data;

@@ -10,7 +10,7 @@ namespace throng::server {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// An address that takes what it is sent, or not.
 class Receiver {
