@@ -34,6 +34,11 @@ void add_serve(CLI::App& app) {
                    "Remove the jobs that ended first while all take more disk (0: any)")
       ->check(CLI::NonNegativeNumber);
   command
+      ->add_option("--uploads-gib", options->uploads_gib,
+                   "What all uploaded scenarios may take together")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
       ->add_option("--least-free", options->least_free_mib,
                    "MiB of free disk below which the queue rests")
       ->check(CLI::NonNegativeNumber)

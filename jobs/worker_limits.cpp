@@ -22,7 +22,10 @@ int refuse_network() {
                                                                  &seccomp_release);
   if (!filter) return ENOMEM;
   for (const int family : {AF_INET, AF_INET6, AF_PACKET, AF_VSOCK}) {
-    const std::array conditions = {SCMP_A0_32(SCMP_CMP_EQ, static_cast<scmp_datum_t>(family))};
+    // The kernel takes the lower 32 bits of the first argument, whatever the others are.
+    constexpr scmp_datum_t kInt = 0xFFFFFFFF;
+    const std::array conditions = {
+        scmp_arg_cmp{0, SCMP_CMP_MASKED_EQ, kInt, static_cast<scmp_datum_t>(family)}};
     const int result = seccomp_rule_add_array(filter.get(), SCMP_ACT_ERRNO(EACCES),
                                               SCMP_SYS(socket), 1, conditions.data());
     if (result != 0) return -result;

@@ -32,7 +32,7 @@ step_tidy() {
   state="$(sources | xargs cat .clang-tidy | sha256sum)"
   [ "$(cat "$stamp" 2>/dev/null)" = "$state" ] && return
   cmake -S . --preset asan >build/configure-asan.log
-  jq -r '.[].file' build/asan/compile_commands.json | grep -v /tests/ |
+  jq -r '.[].file' build/asan/compile_commands.json | grep -v -e /tests/ -e /embedded_ |
     xargs -P "$(nproc)" -n 1 clang-tidy -p build/asan --quiet --extra-arg=-Wno-unknown-warning-option 2>build/tidy.err ||
     return 1
   echo "$state" >"$stamp"

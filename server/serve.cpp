@@ -96,6 +96,7 @@ int serve(const ServeOptions& options) {
                       .scenario_checker = scenario_checker_in_child(
                           {"/proc/self/exe", "scenarios", "check-bundle"}),
                       .reporter = reporter_in_child({"/proc/self/exe", "report"}),
+                      .uploads = {.most_bytes = options.uploads_gib << kGibShift},
                       .retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
                       .least_free_bytes = options.least_free_mib << kMibShift},
                      executor);
