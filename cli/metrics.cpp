@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,28 @@ void write_csv(const std::vector<metrics::ExitSeries>& exits, const world::Trace
   write_file_atomically(file, annotate::exits_csv(exits, trace.time_s, steps));
 }
 
+// Recorded people who are never in the place are most often in other units or axes.
+void check_somebody_inside(const world::Trace& trace, const world::Scenario& scenario,
+                           const std::string& file) {
+  Eigen::Vector2f min = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
+  Eigen::Vector2f max = -min;
+  for (std::size_t i = 0; i < trace.position.size(); ++i) {
+    if ((trace.flags[i] & world::kPresent) == 0) continue;
+    if (scenario.inside.contains(trace.position[i].cast<double>())) return;
+    min = min.cwiseMin(trace.position[i]);
+    max = max.cwiseMax(trace.position[i]);
+  }
+  const world::Rectangle& place = scenario.inside;
+  throw InputError(
+      {file, "",
+       fmt::format("nobody in the place at any time, but people from ({:.4g}, {:.4g}) to ({:.4g}, "
+                   "{:.4g}) m",
+                   min.x(), min.y(), max.x(), max.y()),
+       fmt::format("people in ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}) m of {}; --unit-m 0.01 is for "
+                   "centimetres",
+                   place.min.x(), place.min.y(), place.max.x(), place.max.y(), scenario.id)});
+}
+
 void measure(const MetricsArguments& arguments) {
   const bool recorded = !arguments.trajectory.empty();
   if (recorded == !arguments.trace.empty()) {
@@ -62,11 +85,13 @@ void measure(const MetricsArguments& arguments) {
   }
   const world::Scenario scenario =
       scenario_named(arguments.scenario.empty() ? trace.header.scenario_id : arguments.scenario);
+  if (recorded) check_somebody_inside(trace, scenario, arguments.trajectory);
   const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
   nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
   if (!arguments.without_guides.empty()) {
-    figures["guidance"]["lead_efficiency_s"] =
-        metrics::lead_efficiency_s(trace, world::read_trace(arguments.without_guides), scenario);
+    metrics::add_to_json(
+        metrics::lead_effect(trace, world::read_trace(arguments.without_guides), scenario),
+        figures["guidance"]);
   }
   const std::string text = figures.dump(2) + "\n";
   if (arguments.output.empty()) {

@@ -10,29 +10,15 @@
 #include "metrics/exit_totals.h"
 #include "metrics/exits.h"
 #include "metrics/exposure.h"
-#include "metrics/flow_bound.h"
+#include "metrics/guidance.h"
 #include "metrics/journeys.h"
+#include "metrics/notification.h"
+#include "metrics/people.h"
+#include "metrics/run_bound.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
 namespace throng::metrics {
-
-/// When people first headed for an exit or followed a guide, and what came after.
-struct Notification {
-  int never = 0;                  ///< people who did not, in the time that the run had
-  std::vector<double> times_s;    ///< of the others since they arrived, in order
-  std::optional<double> first_s;  ///< the earliest of all, by the run's clock
-  std::vector<double> escape_s;   ///< from then to the escape, of those who escaped, in order
-};
-
-/// What guides did for people.
-struct GuidanceFigures {
-  int led = 0;                 ///< people who followed at some time
-  double mean_followed_s = 0;  ///< over those
-  double mean_followed_m = 0;
-  double flown_km = 0;  ///< of all drones
-  double energy_wh = 0;
-};
 
 struct RunMetrics {
   int people = 0;
@@ -64,9 +50,10 @@ struct RunMetrics {
   GuidanceFigures guidance;
   std::vector<Journey> journeys;
   Exposure exposure;
-  /// How soon everybody who was inside at the first notification could have been out (s from then);
-  /// empty when nobody noticed.
-  std::optional<FlowBound> bound;
+  /// How soon people could have been out; empty when nobody noticed.
+  std::optional<RunBound> bound;
+  std::vector<PersonRecord> persons;  ///< by number of the agent
+  std::vector<double> escape_s;       ///< of those who escaped, in order
 };
 
 /// `exits` is exit_series() of the same trace and scenario. Disasters are not people; everything is
@@ -75,13 +62,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
                        const std::vector<ExitSeries>& exits);
 
 /// Raised whenever the meaning of a value in metrics.json or exits.csv changes (docs/metrics.md).
-inline constexpr int kDefinitionsVersion = 3;
-
-/// By how much sooner people escaped than in a run without guides of the same seed: the sum over
-/// all people (s), positive when sooner; who did not escape counts with the end of the shorter run.
-/// Throws InputError when the traces do not have the same agents.
-double lead_efficiency_s(const world::Trace& trace, const world::Trace& without_guides,
-                         const world::Scenario& scenario);
+inline constexpr int kDefinitionsVersion = 4;
 
 /// metrics.json: every value with its unit in its name, and the version of the definitions.
 nlohmann::json to_json(const RunMetrics& metrics);

@@ -61,6 +61,7 @@ ExitTotals totals_of(const ExitSeries& series, bool open, double dt_s) {
   totals.clog_after_s = clog_after_s(series.width_m);
   totals.gaps = gap_figures(crossings_s, totals.clog_after_s);
   totals.clogs = series.clogs;
+  totals.edie = series.edie;
   return totals;
 }
 
@@ -72,6 +73,13 @@ json clog_json(const ClogEvent& clog) {
           {"max_normalised_density", clog.max_normalised_density},
           {"max_pressure_per_s2", clog.max_pressure_per_s2},
           {"members", clog.members}};
+}
+
+json edie_json(const EdieRegion& edie) {
+  if (edie.duration_s() <= 0) return nullptr;
+  return {{"density_per_m2", edie.density_per_m2()},
+          {"flow_per_ms", edie.flow_per_ms()},
+          {"speed_mps", edie.speed_mps()}};
 }
 
 template <typename T>
@@ -158,6 +166,7 @@ json to_json(const ExitTotals& totals) {
           {"max_voronoi_density_per_m2", totals.max_voronoi_density_per_m2},
           {"last_crossing_s", value_or_null(totals.last_crossing_s)},
           {"clog_after_s", totals.clog_after_s},
+          {"edie", edie_json(totals.edie)},
           {"gaps", to_json(totals.gaps)},
           {"clogs", std::move(clogs)}};
 }

@@ -34,6 +34,7 @@ struct ExitTotals {
   double max_voronoi_density_per_m2 = 0;
   std::optional<double> last_crossing_s;
   double clog_after_s = 0;
+  EdieRegion edie;  ///< of the zone under demand
   GapFigures gaps;
   std::vector<ClogEvent> clogs;
 };

@@ -78,13 +78,14 @@ class ExitObserver {
   }
 
   ExitSeries observe() {
-    ExitSeries series{exit_.id, exit_.width_m(), zone_.area_m2(), {}, {}, {}};
+    ExitSeries series{exit_.id, exit_.width_m(), zone_.area_m2(), {}};
     series.samples.reserve(trace_.steps());
     for (std::size_t step = 0; step < trace_.steps(); ++step) {
       const double flow = change_over(series.samples, step, kFlowWindowS);
       const double wait_flow = change_over(series.samples, step, kWaitWindowS);
       series.samples.push_back(observe_step(step, series.passages));
       finish(series.samples.back(), trace_.time_s[step], flow, wait_flow);
+      if (series.samples.back().demand && step + 1 < trace_.steps()) add_walks(step, series.edie);
     }
     find_clogs(series, trace_.time_s);
     for (ClogEvent& clog : series.clogs) clog.members = members_of(clog);
@@ -173,16 +174,27 @@ class ExitObserver {
     }
   }
 
+  // The way from this step to the next of those who are near and intend this exit.
+  void add_walks(std::size_t step, EdieRegion& edie) const {
+    edie.add_time(zone_, trace_.time_s[step + 1] - trace_.time_s[step]);
+    for (const NearPerson& person : near_) {
+      if (!person.comes_here || !trace_.present(step + 1, person.agent)) continue;
+      const std::size_t next = trace_.at(step + 1, person.agent);
+      edie.add_walk(zone_, person.place, trace_.position[next].cast<double>());
+    }
+  }
+
   double voronoi_density() const {
     std::vector<Eigen::Vector2d> places;
     for (const NearPerson& person : near_) places.push_back(person.place);
     const PointGrid grid(places, kCellGridM);
     const double reach_m = zone_.radius_m() + 1.01 * kCellRadiusM;
     double people = 0;
+    VoronoiCell cell;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Eigen::Vector2d offset = places[i] - zone_.middle();
       if (offset.norm() > reach_m || offset.dot(exit_.outward) > 1.01 * kCellRadiusM) continue;
-      const VoronoiCell cell = cutter_.cell(grid, i);
+      cutter_.cut(grid, i, cell);
       people += share_in_zone(cell);
     }
     return people / zone_.area_m2();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "metrics/edie.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
@@ -66,6 +67,7 @@ struct ExitSeries {
   std::vector<ExitSample> samples;     ///< one per trace step
   std::vector<Passage> passages = {};  ///< by time
   std::vector<ClogEvent> clogs = {};   ///< in order
+  EdieRegion edie = {};                ///< those who intend the exit, in the zone, under demand
 };
 
 /// One series per exit of the scenario, at the trace's rate, causal but for what is called offline

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "metrics/ground_pressure.h"
 #include "metrics/voronoi.h"
 
 namespace throng::metrics {
@@ -128,20 +129,24 @@ Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,
   const VoronoiCutter cutter(scenario.buildings);
   const double dt_s = trace.header.dt_s;
   SquareMeter squares(static_cast<std::size_t>(std::max<long>(1, std::lround(kMeanS / dt_s))));
+  GroundPressure pressure(scenario.inside, scenario.buildings, dt_s);
   std::vector<Vector2d> places;
   std::vector<std::size_t> agents;
+  VoronoiCell cell;
   for (std::size_t step = 0; step < trace.steps(); ++step) {
     places.clear();
     agents.clear();
     for (const PersonRecord& person : people) {
       if (!trace.present(step, person.agent)) continue;
-      places.push_back(trace.position[trace.at(step, person.agent)].cast<double>());
+      const std::size_t at = trace.at(step, person.agent);
+      places.push_back(trace.position[at].cast<double>());
       agents.push_back(person.agent);
+      pressure.add(places.back(), trace.velocity[at].cast<double>());
     }
     const PointGrid grid(places, kGridM);
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!scenario.inside.contains(places[i])) continue;
-      const VoronoiCell cell = cutter.cell(grid, i);
+      cutter.cut(grid, i, cell);
       const std::size_t at = trace.at(step, agents[i]);
       add_person(cell.density_per_m2(), cell.density_per_m2() * close_packing_m2,
                  trace.velocity[at].norm() < kCrushSpeed * trace.desired_speed_mps[at], dt_s,
@@ -149,6 +154,7 @@ Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,
       squares.add(cell);
     }
     exposure.max_density_per_m2 = std::max(exposure.max_density_per_m2, squares.finish_step());
+    exposure.max_pressure_per_s2 = std::max(exposure.max_pressure_per_s2, pressure.finish_step());
   }
   return exposure;
 }
@@ -171,6 +177,7 @@ json to_json(const Exposure& exposure) {
   above["level_of_service"] = std::move(service);
   above["crush_proxy_person_s"] = exposure.crush_proxy_person_s;
   above["max_density_2m2_per_m2"] = exposure.max_density_per_m2;
+  above["max_pressure_per_s2"] = exposure.max_pressure_per_s2;
   return above;
 }
 

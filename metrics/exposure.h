@@ -25,6 +25,7 @@ struct Exposure {
   std::array<double, kServiceDensities.size() + 1> service_person_s{};
   double crush_proxy_person_s = 0;  ///< above 0.85 of close packing, below 0.1 of desired speed
   double max_density_per_m2 = 0;    ///< greatest mean over a square of 2 m² and a second
+  double max_pressure_per_s2 = 0;   ///< greatest mean over a second (metrics/ground_pressure.h)
 };
 
 Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
 
 namespace throng::metrics {
 
@@ -10,137 +15,223 @@ using Eigen::Vector2d;
 
 namespace {
 
-// From the door's middle to beyond the nearest side of the rectangle; 0 outside.
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Maximum flow from people through doors that opens one slot after another. The network: each
+/// person comes to each door in the second in which they can be there, and may wait from each
+/// second of a door to its next. Who has got a slot keeps one, if not always the same.
+class DoorFlow {
+ public:
+  DoorFlow(const Departures& departures)
+      : doors_(departures.capacity_per_s.size()), exit_of_(departures.access_s.size(), kNone) {
+    for (std::size_t person = 0; person < departures.access_s.size(); ++person) {
+      auto& entry = entry_.emplace_back(doors_.size(), kNone);
+      bool reaches = false;
+      for (std::size_t e = 0; e < doors_.size(); ++e) {
+        const double access_s = departures.access_s[person][e];
+        if (departures.capacity_per_s[e] <= 0 || !std::isfinite(access_s)) continue;
+        entry[e] = std::max(0, static_cast<int>(std::ceil(access_s - 1)));
+        doors_[e].people.push_back(person);
+        reaches = true;
+      }
+      if (reaches) ++left_;
+    }
+    for (std::size_t e = 0; e < doors_.size(); ++e) {
+      std::sort(doors_[e].people.begin(), doors_[e].people.end(),
+                [&](std::size_t one, std::size_t other) {
+                  return std::pair(entry_[one][e], one) < std::pair(entry_[other][e], other);
+                });
+    }
+    target_.resize(exit_of_.size());
+    seen_.assign(exit_of_.size(), 0);
+  }
+
+  /// How many of those who can get out at all have no slot yet.
+  std::size_t left() const { return left_; }
+
+  /// Opens a slot of the door for `room` people; returns how many more are out.
+  int open(std::size_t exit, int second, int room) {
+    Door& door = doors_[exit];
+    door.waiting.resize(static_cast<std::size_t>(second) + 1, 0);
+    door.on.resize(door.waiting.size());
+    int more = 0;
+    while (more < room && left_ > 0 && (send(exit, second) || reroute({exit, second}))) {
+      ++more;
+      --left_;
+    }
+    return more;
+  }
+
+ private:
+  static constexpr int kNone = -1;
+
+  /// A second of a door.
+  struct Place {
+    std::size_t exit = 0;
+    int second = 0;
+  };
+
+  /// How a free way from some place to the new slot goes on.
+  struct On {
+    enum class Kind { arrived, waits, waits_less, person };
+    int search = 0;  ///< in which it was found
+    Kind kind = Kind::arrived;
+    std::size_t person = 0;  ///< who gives up the place for another
+  };
+
+  struct Door {
+    std::vector<std::size_t> people;  ///< who can come here, by when
+    std::size_t first_free = 0;       ///< all before it have slots
+    std::vector<int> waiting;         ///< per second, people who wait until the next one
+    std::vector<On> on;               ///< per second
+  };
+
+  // Takes the first one who waits for any slot and can be there.
+  bool send(std::size_t exit, int second) {
+    Door& door = doors_[exit];
+    while (door.first_free < door.people.size() &&
+           exit_of_[door.people[door.first_free]] != kNone) {
+      ++door.first_free;
+    }
+    if (door.first_free == door.people.size()) return false;
+    const std::size_t person = door.people[door.first_free];
+    if (entry_[person][exit] > second) return false;
+    exit_of_[person] = static_cast<int>(exit);
+    for (int s = entry_[person][exit]; s < second; ++s) ++door.waiting[static_cast<std::size_t>(s)];
+    return true;
+  }
+
+  // Breadth first, backward from the slot, over what the flow leaves free, to anybody without one.
+  bool reroute(const Place& slot) {
+    ++search_;
+    next_.clear();
+    reach(slot, On::Kind::arrived);
+    while (!next_.empty()) {
+      const Place place = next_.front();
+      next_.pop_front();
+      const std::vector<int>& waiting = doors_[place.exit].waiting;
+      if (place.second > 0) reach({place.exit, place.second - 1}, On::Kind::waits);
+      if (waiting[static_cast<std::size_t>(place.second)] > 0) {
+        reach({place.exit, place.second + 1}, On::Kind::waits_less);
+      }
+      if (take_from(place)) return true;
+    }
+    return false;
+  }
+
+  void reach(const Place& place, On::Kind kind, std::size_t person = 0) {
+    On& on = doors_[place.exit].on[static_cast<std::size_t>(place.second)];
+    if (on.search == search_) return;
+    on = {search_, kind, person};
+    next_.push_back(place);
+  }
+
+  // Whoever comes to the place and goes elsewhere yet: the end of the search if that is nowhere.
+  bool take_from(const Place& place) {
+    const auto e = static_cast<std::ptrdiff_t>(place.exit);
+    const std::vector<std::size_t>& people = doors_[place.exit].people;
+    const auto by_entry = [&](std::size_t person) { return entry_[person][place.exit]; };
+    auto at = std::partition_point(people.begin(), people.end(), [&](std::size_t person) {
+      return by_entry(person) < place.second;
+    });
+    for (; at != people.end() && by_entry(*at) == place.second; ++at) {
+      if (exit_of_[*at] == e || seen_[*at] == search_) continue;
+      seen_[*at] = search_;
+      target_[*at] = place;
+      if (exit_of_[*at] == kNone) {
+        follow(*at);
+        return true;
+      }
+      const auto other = static_cast<std::size_t>(exit_of_[*at]);
+      reach({other, entry_[*at][other]}, On::Kind::person, *at);
+    }
+    return false;
+  }
+
+  // Moves the flow along the way that was found.
+  void follow(std::size_t person) {
+    for (;;) {
+      Place place = target_[person];
+      Door& door = doors_[place.exit];
+      exit_of_[person] = static_cast<int>(place.exit);
+      const On* on = &door.on[static_cast<std::size_t>(place.second)];
+      for (; on->kind == On::Kind::waits || on->kind == On::Kind::waits_less;
+           on = &door.on[static_cast<std::size_t>(place.second)]) {
+        if (on->kind == On::Kind::waits) {
+          ++door.waiting[static_cast<std::size_t>(place.second++)];
+        } else {
+          --door.waiting[static_cast<std::size_t>(--place.second)];
+        }
+      }
+      if (on->kind == On::Kind::arrived) return;
+      person = on->person;
+    }
+  }
+
+  std::vector<Door> doors_;
+  std::vector<std::vector<int>> entry_;  ///< per person and exit, the second; kNone: never
+  std::vector<int> exit_of_;             ///< per person; kNone: no slot
+  std::vector<Place> target_;            ///< per person, where the search would have them go
+  std::vector<int> seen_;                ///< per person, the last search that did
+  std::deque<Place> next_;
+  int search_ = 0;
+  std::size_t left_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> earliest_out_s(const Departures& departures) {
+  const std::size_t exits = departures.capacity_per_s.size();
+  check(departures.on_s.size() == exits, "every exit has a way out");
+  DoorFlow flow(departures);
+  std::vector<int> second(exits, 0);
+  std::vector<double> out_s;
+  while (flow.left() > 0) {
+    std::size_t next = exits;
+    for (std::size_t e = 0; e < exits; ++e) {
+      if (departures.capacity_per_s[e] <= 0) continue;
+      const auto out_at_s = [&](std::size_t exit) { return second[exit] + departures.on_s[exit]; };
+      if (next == exits || out_at_s(e) < out_at_s(next)) next = e;
+    }
+    // Rounded so that no people get lost over the seconds.
+    const double rate = departures.capacity_per_s[next];
+    const int now = second[next]++;
+    const int room = static_cast<int>(std::ceil(rate * (now + 1)) - std::ceil(rate * now));
+    const int more = flow.open(next, now, room);
+    out_s.insert(out_s.end(), static_cast<std::size_t>(more), now + departures.on_s[next]);
+  }
+  out_s.resize(departures.access_s.size(), kNever);
+  return out_s;
+}
+
 double way_out_m(const world::Rectangle& inside, const Vector2d& door) {
   const Vector2d to_min = door - inside.min;
   const Vector2d to_max = inside.max - door;
   return std::max(0.0, std::min(to_min.minCoeff(), to_max.minCoeff()));
 }
 
-// One second of one exit and how many it lets out in it.
-struct Slot {
-  std::size_t exit;
-  int second;    // in which people must be at the door
-  double out_s;  // when they are out at last
-  int room;
-};
-
-// Maximum flow of people through slots by augmenting paths (Ford and Fulkerson 1956): a person fits
-// every slot of an exit not earlier than it can be there. Slots come one by one, the earliest
-// first, and what was matched stays matched, so the flow is maximal after each.
-class Matching {
- public:
-  Matching(std::vector<std::vector<double>> access_s) : access_s_(std::move(access_s)) {
-    slot_of_.assign(access_s_.size(), -1);
-  }
-
-  /// How many more people are out with this slot.
-  int add(const Slot& slot) {
-    slots_.push_back(slot);
-    users_.emplace_back();
-    int more = 0;
-    while (more < slot.room) {
-      visited_.assign(slots_.size(), false);
-      if (!fill(slots_.size() - 1)) break;
-      ++more;
-    }
-    return more;
-  }
-
- private:
-  bool fits(std::size_t person, const Slot& slot) const {
-    return access_s_[person][slot.exit] <= slot.second + 1;
-  }
-
-  // Finds one more person for the slot: one who waits, or one of another slot that finds another.
-  bool fill(std::size_t slot) {
-    visited_[slot] = true;
-    for (std::size_t person = 0; person < slot_of_.size(); ++person) {
-      if (slot_of_[person] < 0 && fits(person, slots_[slot])) {
-        take(person, slot);
-        return true;
-      }
-    }
-    for (std::size_t other = 0; other < slots_.size(); ++other) {
-      if (visited_[other]) continue;
-      for (const std::size_t person : users_[other]) {
-        if (!fits(person, slots_[slot])) continue;
-        if (!fill(other)) break;  // nobody else for that one, whoever leaves it
-        auto& users = users_[other];
-        users.erase(std::find(users.begin(), users.end(), person));
-        take(person, slot);
-        return true;
-      }
-    }
-    return false;
-  }
-
-  void take(std::size_t person, std::size_t slot) {
-    slot_of_[person] = static_cast<int>(slot);
-    users_[slot].push_back(person);
-  }
-
-  std::vector<std::vector<double>> access_s_;  // per person and exit
-  std::vector<Slot> slots_;
-  std::vector<std::vector<std::size_t>> users_;  // per slot
-  std::vector<int> slot_of_;                     // per person; -1: none
-  std::vector<bool> visited_;
-};
-
-std::vector<Slot> slots_by_time(const world::Scenario& place, const BoundSpec& spec, int seconds) {
-  std::vector<Slot> slots;
-  for (std::size_t e = 0; e < place.exits.size(); ++e) {
-    if (!place.exits[e].open) continue;
-    const double on_s = way_out_m(place.inside, place.exits[e].middle()) / spec.speed_mps;
-    for (int second = 0; second < seconds; ++second) {
-      // Rounded so that no people get lost over the seconds.
-      const double rate = spec.capacity_per_s[e];
-      const int room = static_cast<int>(std::ceil(rate * (second + 1)) - std::ceil(rate * second));
-      slots.push_back({e, second, second + on_s, room});
-    }
-  }
-  std::stable_sort(slots.begin(), slots.end(),
-                   [](const Slot& a, const Slot& b) { return a.out_s < b.out_s; });
-  return slots;
-}
-
-}  // namespace
-
 FlowBound flow_bound(const world::Scenario& place, const std::vector<Vector2d>& people,
                      const BoundSpec& spec) {
   if (people.empty()) return {};
-  std::vector<std::vector<double>> access_s;
-  double farthest_s = 0;
-  double capacity = 0;
+  Departures departures;
+  for (std::size_t e = 0; e < place.exits.size(); ++e) {
+    const world::Exit& exit = place.exits[e];
+    departures.capacity_per_s.push_back(exit.open ? spec.capacity_per_s[e] : 0);
+    departures.on_s.push_back(way_out_m(place.inside, exit.middle()) / spec.speed_mps);
+  }
   for (const Vector2d& person : people) {
-    auto& row = access_s.emplace_back();
+    auto& row = departures.access_s.emplace_back();
     for (const world::Exit& exit : place.exits) {
       row.push_back((person - exit.middle()).norm() / spec.speed_mps);
-      farthest_s = std::max(farthest_s, row.back());
     }
   }
-  for (std::size_t e = 0; e < place.exits.size(); ++e) {
-    if (place.exits[e].open) capacity += spec.capacity_per_s[e];
-  }
-  const double infinity = std::numeric_limits<double>::infinity();
-  if (capacity <= 0) return {infinity, infinity, infinity, infinity};
-
-  const auto count = static_cast<double>(people.size());
-  const int seconds = static_cast<int>(std::ceil(farthest_s + count / capacity)) + 60;
-  Matching matching(std::move(access_s));
-  FlowBound bound{infinity, infinity, infinity, 0};
-  double out = 0;
-  for (const Slot& slot : slots_by_time(place, spec, seconds)) {
-    if (out == count) break;
-    const double more = matching.add(slot);
-    out += more;
-    bound.mean_s += more * slot.out_s / count;
-    if (out >= 0.5 * count) bound.t50_s = std::min(bound.t50_s, slot.out_s);
-    if (out >= 0.9 * count) bound.t90_s = std::min(bound.t90_s, slot.out_s);
-    if (out == count) bound.t100_s = slot.out_s;
-  }
-  if (out < count) bound.mean_s = infinity;
-  return bound;
+  const std::vector<double> out_s = earliest_out_s(departures);
+  const auto by_share = [&](double share) {
+    const double count = std::ceil(share * static_cast<double>(out_s.size()));
+    return out_s[static_cast<std::size_t>(count) - 1];
+  };
+  return {by_share(0.5), by_share(0.9), out_s.back(),
+          std::accumulate(out_s.begin(), out_s.end(), 0.0) / static_cast<double>(out_s.size())};
 }
 
 }  // namespace throng::metrics

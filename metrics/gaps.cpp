@@ -14,8 +14,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kFewestInTail = 50;
-
 // The fit to sorted[first...], and its distance.
 std::optional<GapTail> tail_from(const std::vector<double>& sorted, std::size_t first) {
   const auto count = static_cast<double>(sorted.size() - first);
@@ -55,13 +53,35 @@ json or_null(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
+// Says why, where there is no exponent or it means nothing.
+json tail_json(const GapFigures& figures) {
+  json result = {{"valid", figures.tail && figures.tail->plausible()},
+                 {"why_not", nullptr},
+                 {"fewest_gaps", kFewestInTail}};
+  if (!figures.tail) {
+    const bool few = static_cast<int>(figures.gaps_s.size()) < kFewestInTail;
+    result["why_not"] = few ? "too few gaps" : "no tail of so many gaps that differ";
+    return result;
+  }
+  const GapTail& tail = *figures.tail;
+  if (!tail.plausible()) result["why_not"] = "the gaps do not follow a power law";
+  result.update({{"alpha", tail.alpha},
+                 {"standard_error", tail.standard_error},
+                 {"from_s", tail.from_s},
+                 {"gaps", tail.gaps},
+                 {"kolmogorov_smirnov", tail.distance},
+                 {"clogging_regime", tail.clogging_regime()}});
+  return result;
+}
+
 }  // namespace
 
 std::optional<GapTail> fit_tail(std::vector<double> gaps_s) {
   std::erase_if(gaps_s, [](double gap) { return gap <= 0; });
   std::sort(gaps_s.begin(), gaps_s.end());
   std::optional<GapTail> best;
-  for (std::size_t first = 0; first + kFewestInTail <= gaps_s.size(); ++first) {
+  for (std::size_t first = 0; first + static_cast<std::size_t>(kFewestInTail) <= gaps_s.size();
+       ++first) {
     if (first > 0 && gaps_s[first] == gaps_s[first - 1]) continue;
     const auto tail = tail_from(gaps_s, first);
     if (tail && (!best || tail->distance < best->distance)) best = tail;
@@ -95,22 +115,13 @@ json to_json(const GapFigures& figures) {
   for (std::size_t i = 0; i < kBurstGapsS.size(); ++i) {
     bursts[fmt::format("gap_below_{:.0f}s", kBurstGapsS[i])] = figures.bursts[i];
   }
-  json tail = nullptr;
-  if (figures.tail) {
-    tail = {{"alpha", figures.tail->alpha},
-            {"standard_error", figures.tail->standard_error},
-            {"from_s", figures.tail->from_s},
-            {"gaps", figures.tail->gaps},
-            {"kolmogorov_smirnov", figures.tail->distance},
-            {"plausible", figures.tail->plausible()},
-            {"clogging_regime", figures.tail->clogging_regime()}};
-  }
   return {{"count", figures.gaps_s.size()},
           {"median_s", or_null(figures.median_s)},
           {"p90_s", or_null(figures.p90_s)},
           {"longest_s", or_null(figures.longest_s)},
           {"share_longer_than_clog_time", or_null(figures.long_share)},
-          {"tail", std::move(tail)},
+          {"list_s", figures.gaps_s},
+          {"tail", tail_json(figures)},
           {"burst_sizes", std::move(bursts)}};
 }
 

@@ -25,7 +25,10 @@ struct GapTail {
   bool clogging_regime() const { return plausible() && alpha <= 2; }
 };
 
-/// Empty if less than 50 gaps would be in the tail, or all of them are equal.
+/// Fewer gaps in a tail say nothing about its law.
+inline constexpr int kFewestInTail = 50;
+
+/// Empty if less than kFewestInTail gaps would be in the tail, or all of them are equal.
 std::optional<GapTail> fit_tail(std::vector<double> gaps_s);
 
 inline constexpr std::array kBurstGapsS = {1.0, 2.0, 3.0};

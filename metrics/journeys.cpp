@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "metrics/quantile.h"
-#include "metrics/walking_distance.h"
 
 namespace throng::metrics {
 
@@ -51,7 +50,8 @@ void add_detour(const std::optional<double>& detour, std::vector<double>& detour
 
 std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& scenario,
                               const std::vector<ExitSeries>& exits,
-                              const std::vector<PersonRecord>& people) {
+                              const std::vector<PersonRecord>& people,
+                              const std::vector<WalkingDistance>& ways) {
   std::map<std::size_t, Journey> by_agent;
   for (std::size_t e = 0; e < exits.size(); ++e) {
     for (const Passage& passage : exits[e].passages) {
@@ -61,16 +61,6 @@ std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& 
       journey.exit = e;
       journey.to_s = passage.time_s;
     }
-  }
-  if (by_agent.empty()) return {};
-  world::Rectangle ground = scenario.inside;
-  for (const world::Exit& exit : scenario.exits) {
-    ground.min = ground.min.cwiseMin(exit.from).cwiseMin(exit.to);
-    ground.max = ground.max.cwiseMax(exit.from).cwiseMax(exit.to);
-  }
-  std::vector<WalkingDistance> distances;
-  for (const world::Exit& exit : scenario.exits) {
-    distances.emplace_back(ground, scenario.buildings, exit);
   }
   std::vector<Journey> result;
   for (const PersonRecord& person : people) {
@@ -85,9 +75,9 @@ std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& 
                                                   journey.from_s - world::kTimeSlackS) -
                                  trace.time_s.begin());
     const Vector2d start = trace.position[trace.at(first, person.agent)].cast<double>();
-    journey.to_used_m = distances[journey.exit].from(start);
+    journey.to_used_m = ways[journey.exit].from(start);
     for (std::size_t e = 0; e < exits.size(); ++e) {
-      const auto way = scenario.exits[e].open ? distances[e].from(start) : std::nullopt;
+      const auto way = scenario.exits[e].open ? ways[e].from(start) : std::nullopt;
       if (way && (!journey.to_nearest_m || *way < *journey.to_nearest_m)) {
         journey.to_nearest_m = way;
       }

@@ -7,6 +7,7 @@
 
 #include "metrics/exits.h"
 #include "metrics/people.h"
+#include "metrics/walking_distance.h"
 
 namespace throng::metrics {
 
@@ -30,10 +31,11 @@ struct Journey {
   }
 };
 
-/// Of those who went out through a door; by number of the agent.
+/// Of those who went out through a door; by number of the agent. `ways`: ways_to_exits().
 std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& scenario,
                               const std::vector<ExitSeries>& exits,
-                              const std::vector<PersonRecord>& people);
+                              const std::vector<PersonRecord>& people,
+                              const std::vector<WalkingDistance>& ways);
 
 /// Medians, quantiles and sums over the journeys.
 nlohmann::json to_json(const std::vector<Journey>& journeys);

@@ -35,9 +35,9 @@ class PointGrid {
   std::size_t size() const { return points_.size(); }
   const Eigen::Vector2d& operator[](std::size_t index) const { return points_[index]; }
 
-  /// Calls body(index) for every point of the cells at Chebyshev distance `ring` from `place`'s.
-  /// After the rings 0 to k, all points within k * cell_m() have been seen. Returns false when the
-  /// ring lies beyond all cells.
+  /// Calls body(index, point) for every point of the cells at Chebyshev distance `ring` from
+  /// `place`'s. After the rings 0 to k, all points within k * cell_m() have been seen. Returns
+  /// false when the ring lies beyond all cells.
   template <typename Body>
   bool for_ring(const Eigen::Vector2d& place, int ring, const Body& body) const {
     const int column = index_of(place.x() - min_.x());
@@ -56,13 +56,13 @@ class PointGrid {
     return true;
   }
 
-  /// Calls body(index) for every point within `radius_m` of `place`.
+  /// Calls body(index, point) for every point within `radius_m` of `place`.
   template <typename Body>
   void for_within(const Eigen::Vector2d& place, double radius_m, const Body& body) const {
     const int low = index_of(place.y() - radius_m - min_.y());
     const int high = index_of(place.y() + radius_m - min_.y());
-    const auto near = [&](std::size_t index) {
-      if ((points_[index] - place).squaredNorm() <= radius_m * radius_m) body(index);
+    const auto near = [&](std::size_t index, const Eigen::Vector2d& point) {
+      if ((point - place).squaredNorm() <= radius_m * radius_m) body(index, point);
     };
     for (int row = std::max(0, low); row <= std::min(rows_ - 1, high); ++row) {
       visit(row, index_of(place.x() - radius_m - min_.x()),
@@ -71,6 +71,12 @@ class PointGrid {
   }
 
  private:
+  /// Who is looked at together lies together.
+  struct Sorted {
+    Eigen::Vector2d point;
+    std::size_t index = 0;
+  };
+
   int index_of(double offset_m) const {
     constexpr double kFar = 1e6;  // cells; beyond it nothing is stored
     return static_cast<int>(std::clamp(std::floor(offset_m / cell_m_), -kFar, kFar));
@@ -87,9 +93,11 @@ class PointGrid {
     start_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
     for (const Eigen::Vector2d& point : points_) ++start_[cell_of(point) + 1];
     for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
-    order_.resize(points_.size());
+    sorted_.resize(points_.size());
     std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-    for (std::size_t i = 0; i < points_.size(); ++i) order_[next[cell_of(points_[i])]++] = i;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      sorted_[next[cell_of(points_[i])]++] = {points_[i], i};
+    }
   }
 
   template <typename Body>
@@ -100,7 +108,7 @@ class PointGrid {
     const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_);
     for (std::size_t i = start_[first + static_cast<std::size_t>(from)];
          i < start_[first + static_cast<std::size_t>(to) + 1]; ++i) {
-      body(order_[i]);
+      body(sorted_[i].index, sorted_[i].point);
     }
   }
 
@@ -109,8 +117,8 @@ class PointGrid {
   Eigen::Vector2d min_ = Eigen::Vector2d::Zero();
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::size_t> start_;  ///< per cell, where its points begin in order_
-  std::vector<std::size_t> order_;
+  std::vector<std::size_t> start_;  ///< per cell, where its points begin in sorted_
+  std::vector<Sorted> sorted_;      ///< by cell, in order within each
 };
 
 }  // namespace throng::metrics

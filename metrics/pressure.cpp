@@ -12,28 +12,31 @@ namespace {
 
 constexpr double kLatticeM = 0.5;
 constexpr double kAverageS = 1.0;
-constexpr double kKernelReachM = 2 * kPressureRadiusM;
 
 }  // namespace
+
+double pressure_of(double weights, const Vector2d& velocities, double squares) {
+  if (weights <= 0) return 0;
+  const double variance = squares / weights - (velocities / weights).squaredNorm();
+  constexpr double kReach = kPressureReachM / kPressureRadiusM;
+  const double mass =
+      std::numbers::pi * kPressureRadiusM * kPressureRadiusM * (1 - std::exp(-kReach * kReach));
+  return weights / mass * std::max(0.0, variance);
+}
 
 double pressure_at(const Vector2d& place, const PointGrid& grid,
                    std::span<const NearPerson> people) {
   double weights = 0;
   Vector2d velocity = Vector2d::Zero();
   double squares = 0;
-  grid.for_within(place, kKernelReachM, [&](std::size_t i) {
-    const double squared = (people[i].place - place).squaredNorm();
+  grid.for_within(place, kPressureReachM, [&](std::size_t i, const Vector2d& person) {
+    const double squared = (person - place).squaredNorm();
     const double weight = std::exp(-squared / (kPressureRadiusM * kPressureRadiusM));
     weights += weight;
     velocity += weight * people[i].velocity;
     squares += weight * people[i].velocity.squaredNorm();
   });
-  if (weights <= 0) return 0;
-  const double variance = squares / weights - (velocity / weights).squaredNorm();
-  const double reach = kKernelReachM / kPressureRadiusM;
-  const double mass =
-      std::numbers::pi * kPressureRadiusM * kPressureRadiusM * (1 - std::exp(-reach * reach));
-  return weights / mass * std::max(0.0, variance);
+  return pressure_of(weights, velocity, squares);
 }
 
 PressureMeter::PressureMeter(const ControlZone& zone, double dt_s)

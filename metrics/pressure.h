@@ -15,6 +15,11 @@ namespace throng::metrics {
 /// Distance at which the Gaussian kernel exp(-r²/R²) / (pi R²) of density and velocity has fallen
 /// to 1/e. People beyond twice of it are left out, and the kernel made up for it.
 inline constexpr double kPressureRadiusM = 1.0;
+inline constexpr double kPressureReachM = 2 * kPressureRadiusM;
+
+/// Pressure (1/s²) from sums over the people within reach, each times exp(-r²/R²): of 1, of the
+/// velocity and of its square. 0 where nobody is.
+double pressure_of(double weights, const Eigen::Vector2d& velocities, double squares);
 
 /// Pressure at one place and instant (1/s²). `grid` holds the places of `people`, in that order.
 double pressure_at(const Eigen::Vector2d& place, const PointGrid& grid,

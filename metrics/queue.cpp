@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <queue>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "metrics/point_grid.h"
@@ -17,6 +16,58 @@ namespace {
 constexpr double kLinkM = 1.2;
 constexpr double kSlow = 0.5;  // of the desired speed
 
+/// Shortest ways over the links from everybody in the zone at once. Ways that end within 0.25 m are
+/// taken in any order, and again when they get shorter (Dial 1969; Meyer and Sanders 2003): what
+/// comes out is what Dijkstra's order gives, for less than its heap costs.
+class WaysBack {
+ public:
+  WaysBack(std::size_t people) : way_m_(people, kUnknown), taken_m_(people, kUnknown) {}
+
+  double of(std::size_t person) const { return way_m_[person]; }
+  bool any() const { return !bins_.empty(); }
+
+  void offer(std::size_t person, double way_m) {
+    if (way_m >= way_m_[person]) return;
+    way_m_[person] = way_m;
+    const auto bin = static_cast<std::size_t>(way_m / kBinM);
+    if (bin >= bins_.size()) bins_.resize(bin + 1);
+    bins_[bin].push_back(person);
+  }
+
+  /// Whose links are to be followed next.
+  std::optional<std::size_t> next() {
+    for (; bin_ < bins_.size(); ++bin_) {
+      while (!bins_[bin_].empty()) {
+        const std::size_t person = bins_[bin_].back();
+        bins_[bin_].pop_back();
+        if (taken_m_[person] == way_m_[person]) continue;
+        taken_m_[person] = way_m_[person];
+        return person;
+      }
+    }
+    return std::nullopt;
+  }
+
+  Queue queue() const {
+    Queue queue;
+    for (const double way_m : way_m_) {
+      if (way_m == kUnknown) continue;
+      ++queue.people;
+      queue.length_m = std::max(queue.length_m, way_m);
+    }
+    return queue;
+  }
+
+ private:
+  static constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  static constexpr double kBinM = 0.25;
+
+  std::vector<double> way_m_;    ///< per person
+  std::vector<double> taken_m_;  ///< the way when the links were followed last
+  std::vector<std::vector<std::size_t>> bins_;
+  std::size_t bin_ = 0;  ///< all before it are empty
+};
+
 }  // namespace
 
 Queue queue_before(const ControlZone& zone, const Vector2d& outward,
@@ -28,32 +79,20 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
       slow.push_back(person.place);
     }
   }
-  // Shortest ways over the links (Dijkstra 1959), from everybody in the zone at once.
-  using Reached = std::pair<double, std::size_t>;
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> next;
-  std::vector<double> way(slow.size(), std::numeric_limits<double>::infinity());
+  WaysBack ways(slow.size());
   for (std::size_t i = 0; i < slow.size(); ++i) {
-    if (!zone.contains(slow[i])) continue;
-    way[i] = (slow[i] - zone.middle()).norm();
-    next.emplace(way[i], i);
+    if (zone.contains(slow[i])) ways.offer(i, (slow[i] - zone.middle()).norm());
   }
-  if (next.empty()) return {};
+  if (!ways.any()) return {};
   const PointGrid grid(slow, kLinkM);
-  Queue queue;
-  while (!next.empty()) {
-    const auto [length, at] = next.top();
-    next.pop();
-    if (length > way[at]) continue;
-    ++queue.people;
-    queue.length_m = std::max(queue.length_m, length);
-    grid.for_within(slow[at], kLinkM, [&, from = at, so_far = length](std::size_t other) {
-      const double longer = so_far + (slow[other] - slow[from]).norm();
-      if (longer >= way[other]) return;
-      way[other] = longer;
-      next.emplace(longer, other);
-    });
+  while (const auto next = ways.next()) {
+    grid.for_within(
+        slow[*next], kLinkM,
+        [&, from = slow[*next], so_far = ways.of(*next)](std::size_t other, const Vector2d& there) {
+          if (so_far < ways.of(other)) ways.offer(other, so_far + (there - from).norm());
+        });
   }
-  return queue;
+  return ways.queue();
 }
 
 }  // namespace throng::metrics

@@ -32,13 +32,57 @@ constexpr int kDiscCorners = 32;
 // Overlaps below this are rounding.
 constexpr double kNoAreaM2 = 1e-9;
 
+// Memory that is used again and again.
+struct Scratch {
+  std::vector<double> beyond;
+  Ring kept;
+  std::vector<std::pair<double, std::size_t>> near;
+};
+
+// Cuts away what lies beyond the line through `point`, on the side to which `normal` points. False
+// where that is nothing.
+bool clip(Ring& ring, const Vector2d& point, const Vector2d& normal, Scratch& scratch) {
+  const std::size_t corners = ring.size();
+  std::vector<double>& beyond = scratch.beyond;
+  beyond.resize(corners);
+  bool all_inside = true;
+  for (std::size_t i = 0; i < corners; ++i) {
+    beyond[i] = (ring[i] - point).dot(normal);
+    all_inside = all_inside && beyond[i] <= 0;
+  }
+  if (all_inside) return false;
+  Ring& kept = scratch.kept;
+  kept.clear();
+  for (std::size_t i = 0; i < corners; ++i) {
+    const std::size_t j = i + 1 < corners ? i + 1 : 0;
+    if (beyond[i] <= 0) kept.push_back(ring[i]);
+    if ((beyond[i] <= 0) != (beyond[j] <= 0)) {
+      kept.push_back(ring[i] + beyond[i] / (beyond[i] - beyond[j]) * (ring[j] - ring[i]));
+    }
+  }
+  std::swap(ring, kept);
+  return true;
+}
+
 // Cuts a ring to a convex region (Sutherland and Hodgman 1974). A ring that is not convex may get
 // edges that lie on each other, which its signed area does not notice.
 void clip_to(Ring& ring, std::span<const Vector2d> region) {
+  thread_local Scratch scratch;
   for (std::size_t i = 0; i < region.size() && !ring.empty(); ++i) {
     const Vector2d edge = region[(i + 1) % region.size()] - region[i];
-    clip(ring, region[i], Vector2d(edge.y(), -edge.x()));
+    clip(ring, region[i], Vector2d(edge.y(), -edge.x()), scratch);
   }
+}
+
+// Whether the ring lies on one side of a box.
+bool beside(const Ring& ring, const Vector2d& min, const Vector2d& max) {
+  Vector2d low = ring.front();
+  Vector2d high = low;
+  for (const Vector2d& corner : ring) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  return (low.array() >= max.array()).any() || (high.array() <= min.array()).any();
 }
 
 double farthest_sq(const Ring& ring, const Vector2d& from) {
@@ -70,31 +114,11 @@ Ring ring_from(const BoostRing& boost_ring) {
 
 }  // namespace
 
-bool clip(Ring& ring, const Vector2d& point, const Vector2d& normal) {
-  thread_local std::vector<double> beyond;
-  beyond.clear();
-  bool all_inside = true;
-  for (const Vector2d& corner : ring) {
-    beyond.push_back((corner - point).dot(normal));
-    all_inside = all_inside && beyond.back() <= 0;
-  }
-  if (all_inside) return false;
-  thread_local Ring kept;
-  kept.clear();
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const std::size_t j = i + 1 < ring.size() ? i + 1 : 0;
-    if (beyond[i] <= 0) kept.push_back(ring[i]);
-    if ((beyond[i] <= 0) != (beyond[j] <= 0)) {
-      kept.push_back(ring[i] + beyond[i] / (beyond[i] - beyond[j]) * (ring[j] - ring[i]));
-    }
-  }
-  std::swap(ring, kept);
-  return true;
-}
-
 double area_in(const VoronoiCell& cell, std::span<const Vector2d> convex_region) {
+  thread_local Ring ring;
   double area = 0;
-  for (Ring ring : cell.rings) {
+  for (const Ring& whole : cell.rings) {
+    ring = whole;
     clip_to(ring, convex_region);
     area += world::signed_area(ring);
   }
@@ -118,24 +142,34 @@ VoronoiCutter::VoronoiCutter(std::span<const world::Building> buildings) {
 }
 
 VoronoiCell VoronoiCutter::cell(const PointGrid& people, std::size_t index) const {
-  const Vector2d& person = people[index];
   VoronoiCell cell;
+  cut(people, index, cell);
+  return cell;
+}
+
+void VoronoiCutter::cut(const PointGrid& people, std::size_t index, VoronoiCell& cell) const {
+  thread_local Scratch scratch;
+  Scratch& memory = scratch;
+  const Vector2d& person = people[index];
   // A square at first, cut to the disc at the end where that is needed: few corners are quick.
   const double radius = disc_.front().x();
-  Ring& ring = cell.rings.emplace_back();
+  cell.rings.resize(1);
+  cell.sharers = 1;
+  Ring& ring = cell.rings.front();
+  ring.clear();
   for (const Vector2d& sign :
        {Vector2d(1, 1), Vector2d(-1, 1), Vector2d(-1, -1), Vector2d(1, -1)}) {
     ring.emplace_back(person + radius * sign);
   }
   double reach_sq = radius * radius;
-  thread_local std::vector<std::pair<double, std::size_t>> near;
+  auto& near = memory.near;
   near.clear();
-  bool more = people.for_ring(person, 0, [&](std::size_t other) {
-    if (other != index) near.emplace_back((people[other] - person).squaredNorm(), other);
+  bool more = people.for_ring(person, 0, [&](std::size_t other, const Vector2d& place) {
+    if (other != index) near.emplace_back((place - person).squaredNorm(), other);
   });
   for (int number = 1; more; ++number) {
-    more = people.for_ring(person, number, [&](std::size_t other) {
-      const double squared = (people[other] - person).squaredNorm();
+    more = people.for_ring(person, number, [&](std::size_t other, const Vector2d& place) {
+      const double squared = (place - person).squaredNorm();
       if (squared <= 4 * reach_sq) near.emplace_back(squared, other);
     });
     // The nearest cut most: who is beyond what they leave cuts nothing.
@@ -147,7 +181,7 @@ VoronoiCell VoronoiCutter::cell(const PointGrid& people, std::size_t index) cons
         continue;
       }
       const Vector2d offset = people[other] - person;
-      if (!clip(ring, person + 0.5 * offset, offset)) continue;
+      if (!clip(ring, person + 0.5 * offset, offset, memory)) continue;
       reach_sq = std::min(reach_sq, farthest_sq(ring, person));
     }
     near.clear();
@@ -162,7 +196,6 @@ VoronoiCell VoronoiCutter::cell(const PointGrid& people, std::size_t index) cons
   }
   cell.area_m2 = world::signed_area(ring);
   take_away_buildings(person, cell);
-  return cell;
 }
 
 void VoronoiCutter::take_away_buildings(const Vector2d& person, VoronoiCell& cell) const {
@@ -170,6 +203,8 @@ void VoronoiCutter::take_away_buildings(const Vector2d& person, VoronoiCell& cel
   for (const Footprint& footprint : footprints_) {
     const Eigen::Array2d gap = (footprint.min - person).cwiseMax(person - footprint.max).array();
     if ((gap > 1.01 * kCellRadiusM).any()) continue;
+    // Most footprints near are not reached by the cell.
+    if (beside(cell.rings.front(), footprint.min, footprint.max)) continue;
     Ring common = footprint.ring;
     clip_to(common, cell.rings.front());
     if (world::signed_area(common) < kNoAreaM2) continue;

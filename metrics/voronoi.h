@@ -33,6 +33,8 @@ class VoronoiCutter {
   /// corners with the disc's area), outside of buildings and connected to the point. People at one
   /// place share one cell.
   VoronoiCell cell(const PointGrid& people, std::size_t index) const;
+  /// The same into a cell that was used before: quicker where there are many.
+  void cut(const PointGrid& people, std::size_t index, VoronoiCell& cell) const;
 
  private:
   struct Footprint {
@@ -45,10 +47,6 @@ class VoronoiCutter {
   std::vector<Footprint> footprints_;
   Ring disc_;
 };
-
-/// Cuts away what lies beyond the line through `point`, on the side to which `normal` points. False
-/// where that is nothing.
-bool clip(Ring& ring, const Eigen::Vector2d& point, const Eigen::Vector2d& normal);
 
 /// The area that a cell has in common with a convex region, given counter-clockwise (m²).
 double area_in(const VoronoiCell& cell, std::span<const Eigen::Vector2d> convex_region);

@@ -17,10 +17,20 @@ constexpr double kFinestM = 0.25;
 constexpr double kMostCells = 1e6;
 constexpr double kSameM = 1e-9;
 
-double distance_to_segment(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
+Vector2d nearest_on_segment(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
   const Vector2d along = to - from;
   const double share = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (point - from - share * along).norm();
+  return from + share * along;
+}
+
+// Twice the area of the triangle, positive counter-clockwise.
+double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+// Whether each segment has its ends on both sides of the other; touching is not crossing.
+bool cross_each_other(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
+  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }
 
 }  // namespace
@@ -28,23 +38,20 @@ double distance_to_segment(const Vector2d& point, const Vector2d& from, const Ve
 WalkingDistance::WalkingDistance(const world::Rectangle& ground,
                                  const std::vector<world::Building>& buildings,
                                  const world::Exit& door)
-    : origin_(ground.min) {
-  const Vector2d size = ground.max - ground.min;
-  cell_m_ = std::max(kFinestM, std::sqrt(size.prod() / kMostCells));
-  columns_ = static_cast<int>(std::ceil(size.x() / cell_m_));
-  rows_ = static_cast<int>(std::ceil(size.y() / cell_m_));
-  const auto cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  blocked_.assign(cells, false);
-  distance_m_.assign(cells, kInfinity);
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const Vector2d place = centre(column, row);
-      blocked_[index(column, row)] =
-          std::any_of(buildings.begin(), buildings.end(), [&](const world::Building& building) {
-            return world::distance_to(building.footprint, place) <= 0;
-          });
-      const double to_door = distance_to_segment(place, door.from, door.to);
-      if (to_door <= cell_m_ && !blocked_[index(column, row)]) at(column, row) = to_door;
+    : door_from_(door.from),
+      door_to_(door.to),
+      lattice_(lattice_over(ground, kFinestM, kMostCells)),
+      blocked_(covered_by(buildings, lattice_)),
+      distance_m_(lattice_.size(), kInfinity) {
+  footprints_.reserve(buildings.size());
+  for (const world::Building& building : buildings) footprints_.push_back(building.footprint);
+  for (int row = 0; row < lattice_.rows; ++row) {
+    for (int column = 0; column < lattice_.columns; ++column) {
+      const Vector2d place = lattice_.place(column, row);
+      const double to_door = (place - nearest_on_segment(place, door_from_, door_to_)).norm();
+      if (to_door <= lattice_.pitch_m && !blocked_[lattice_.index(column, row)]) {
+        at(column, row) = to_door;
+      }
     }
   }
   for (bool changes = true; changes;) {
@@ -57,10 +64,10 @@ WalkingDistance::WalkingDistance(const world::Rectangle& ground,
 
 bool WalkingDistance::sweep(bool left, bool down) {
   bool changes = false;
-  for (int i = 0; i < rows_; ++i) {
-    const int row = down ? rows_ - 1 - i : i;
-    for (int j = 0; j < columns_; ++j) {
-      changes = update(left ? columns_ - 1 - j : j, row) || changes;
+  for (int i = 0; i < lattice_.rows; ++i) {
+    const int row = down ? lattice_.rows - 1 - i : i;
+    for (int j = 0; j < lattice_.columns; ++j) {
+      changes = update(left ? lattice_.columns - 1 - j : j, row) || changes;
     }
   }
   return changes;
@@ -68,16 +75,16 @@ bool WalkingDistance::sweep(bool left, bool down) {
 
 // Godunov's upwind difference of |grad d| = 1.
 bool WalkingDistance::update(int column, int row) {
-  if (blocked_[index(column, row)]) return false;
+  if (blocked_[lattice_.index(column, row)]) return false;
   const auto known = [&](int c, int r) {
-    return c < 0 || r < 0 || c >= columns_ || r >= rows_ ? kInfinity : at(c, r);
+    return c < 0 || r < 0 || c >= lattice_.columns || r >= lattice_.rows ? kInfinity : at(c, r);
   };
   const double a = std::min(known(column - 1, row), known(column + 1, row));
   const double b = std::min(known(column, row - 1), known(column, row + 1));
   if (std::min(a, b) == kInfinity) return false;
-  double length = std::min(a, b) + cell_m_;
-  if (std::abs(a - b) < cell_m_) {
-    length = 0.5 * (a + b + std::sqrt(2 * cell_m_ * cell_m_ - (a - b) * (a - b)));
+  double length = std::min(a, b) + lattice_.pitch_m;
+  if (std::abs(a - b) < lattice_.pitch_m) {
+    length = 0.5 * (a + b + std::sqrt(2 * lattice_.pitch_m * lattice_.pitch_m - (a - b) * (a - b)));
   }
   if (length >= at(column, row) - kSameM) return false;
   at(column, row) = length;
@@ -85,15 +92,15 @@ bool WalkingDistance::update(int column, int row) {
 }
 
 std::optional<double> WalkingDistance::from(const Vector2d& place) const {
-  const Vector2d cell = (place - origin_) / cell_m_ - Vector2d(0.5, 0.5);
+  const Vector2d cell = (place - lattice_.first) / lattice_.pitch_m;
   const int column = static_cast<int>(std::floor(cell.x()));
   const int row = static_cast<int>(std::floor(cell.y()));
   double sum = 0;
   double weights = 0;
   for (const int c : {column, column + 1}) {
     for (const int r : {row, row + 1}) {
-      if (c < 0 || r < 0 || c >= columns_ || r >= rows_) continue;
-      const double length = distance_m_[index(c, r)];
+      if (c < 0 || r < 0 || c >= lattice_.columns || r >= lattice_.rows) continue;
+      const double length = distance_m_[lattice_.index(c, r)];
       const double weight = (1 - std::abs(cell.x() - c)) * (1 - std::abs(cell.y() - r));
       if (length == kInfinity || weight <= 0) continue;
       sum += weight * length;
@@ -101,7 +108,33 @@ std::optional<double> WalkingDistance::from(const Vector2d& place) const {
     }
   }
   if (weights <= 0) return std::nullopt;
-  return sum / weights;
+  const Vector2d door = nearest_on_segment(place, door_from_, door_to_);
+  return straight_way_is_free(place, door) ? (place - door).norm() : sum / weights;
+}
+
+bool WalkingDistance::straight_way_is_free(const Vector2d& from, const Vector2d& to) const {
+  return std::none_of(footprints_.begin(), footprints_.end(), [&](const auto& footprint) {
+    for (std::size_t i = 0; i < footprint.size(); ++i) {
+      const Vector2d& next = footprint[i + 1 < footprint.size() ? i + 1 : 0];
+      if (cross_each_other(from, to, footprint[i], next)) return true;
+    }
+    // Exactly through two corners it crosses no edge.
+    return world::distance_to(footprint, 0.5 * (from + to)) <= 0;
+  });
+}
+
+std::vector<WalkingDistance> ways_to_exits(const world::Scenario& scenario) {
+  world::Rectangle ground = scenario.inside;
+  for (const world::Exit& exit : scenario.exits) {
+    ground.min = ground.min.cwiseMin(exit.from).cwiseMin(exit.to);
+    ground.max = ground.max.cwiseMax(exit.from).cwiseMax(exit.to);
+  }
+  std::vector<WalkingDistance> ways;
+  ways.reserve(scenario.exits.size());
+  for (const world::Exit& exit : scenario.exits) {
+    ways.emplace_back(ground, scenario.buildings, exit);
+  }
+  return ways;
 }
 
 }  // namespace throng::metrics

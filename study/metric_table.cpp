@@ -38,22 +38,16 @@ void add_escape_rows(const RunMetrics& example, std::vector<MetricRow>& rows) {
          [i](const RunMetrics& run) { return run.percentiles[i].time_s; }});
   }
   rows.push_back({"T90 / lower bound", "1",
-                  "from the first notification; bound: everybody knows at once, doors pass 1.3 "
-                  "people per metre and second",
+                  "from the first notification; bound: each sets out when they noticed, at their "
+                  "own speed on the shortest way; doors pass 1.3 people per metre and second",
                   [](const RunMetrics& run) -> Value {
-                    for (const RunMetrics::Percentile& at : run.percentiles) {
-                      if (at.percent != 90 || !at.time_s || !run.bound || run.bound->t90_s <= 0) {
-                        continue;
-                      }
-                      return (*at.time_s - *run.notification.first_s) / run.bound->t90_s;
-                    }
-                    return std::nullopt;
+                    if (!run.bound) return std::nullopt;
+                    return metrics::ratio_to_bound(*run.bound, run.escape_s, 90);
                   }});
   rows.push_back({"notified after, median", "s",
                   "from arrival until a person first headed for an exit or followed a guide",
                   [](const RunMetrics& run) -> Value {
-                    if (run.notification.times_s.empty()) return std::nullopt;
-                    return median(run.notification.times_s);
+                    return metrics::time_by_which(run.notification.notice, 50);
                   }});
 }
 
@@ -99,6 +93,10 @@ void add_exposure_rows(std::vector<MetricRow>& rows) {
   }
   rows.push_back({"greatest density", "1/m²", "mean Voronoi density of a square of 2 m²",
                   [](const RunMetrics& run) { return run.exposure.max_density_per_m2; }});
+  rows.push_back({"greatest pressure", "1/s²",
+                  "density times the variance of velocity, mean over a second; compare runs of one "
+                  "model only",
+                  [](const RunMetrics& run) { return run.exposure.max_pressure_per_s2; }});
   rows.push_back({"crush proxy", "person s",
                   "above 0.85 of close packing and below 0.1 of the desired speed: a proxy, as "
                   "there are no contact forces",
@@ -130,9 +128,13 @@ std::string metric_table(const std::vector<const RunMetrics*>& runs) {
       html += "<td>none</td><td></td><td>0</td></tr>\n";
       continue;
     }
-    html +=
-        fmt::format("<td>{:.4g}</td><td>{:.4g} to {:.4g}</td><td>{}</td></tr>\n", median(values),
-                    quantile(values, 0.25), quantile(values, 0.75), values.size());
+    // Of one run there are none.
+    const std::string quartiles =
+        values.size() < 2
+            ? ""
+            : fmt::format("{:.4g} to {:.4g}", quantile(values, 0.25), quantile(values, 0.75));
+    html += fmt::format("<td>{:.4g}</td><td>{}</td><td>{}</td></tr>\n", median(values), quartiles,
+                        values.size());
   }
   return html + "</table>\n";
 }

@@ -48,13 +48,17 @@ std::string exits_table(const MeasuredRun& run) {
       "<th>clogs</th><th>clogging index</th><th>longest queue</th><th>longest gap (s)</th>"
       "<th>max density (1/m²)</th><th>max pressure (1/s²)</th></tr>\n";
   for (const metrics::ExitTotals& exit : run.metrics.exits) {
-    const double flow = exit.demand_flow_per_s.value_or(0);
+    // Where nobody wanted to go out, no flow is none, not 0.
+    const auto flow_cell = [&](double per) {
+      const auto& flow = exit.demand_flow_per_s;
+      return flow ? fmt::format("{:.2f}", *flow / per) : std::string();
+    };
     html += fmt::format(
-        "<tr><td>{}</td><td>{:.2f}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.1f}</td>"
+        "<tr><td>{}</td><td>{:.2f}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>"
         "<td>{:.1f}</td><td>{:.1f}</td><td>{}</td><td>{:.2f}</td><td>{}</td><td>{}</td>"
         "<td>{:.2f}</td><td>{:.3f}</td></tr>\n",
-        escaped_markup(exit.exit_id), exit.width_m, exit.crossings, flow, flow / exit.width_m,
-        exit.demand_s, exit.congested_s, exit.clogged_s, exit.clogs.size(),
+        escaped_markup(exit.exit_id), exit.width_m, exit.crossings, flow_cell(1),
+        flow_cell(exit.width_m), exit.demand_s, exit.congested_s, exit.clogged_s, exit.clogs.size(),
         exit.mean_clogging_index, exit.max_queue,
         exit.gaps.longest_s ? fmt::format("{:.1f}", *exit.gaps.longest_s) : "",
         exit.max_voronoi_density_per_m2, exit.max_pressure_per_s2);
@@ -81,9 +85,12 @@ std::string run_section(std::size_t index, const MeasuredRun& run) {
     return chart_frame(
         title, fmt::format("data-chart=\"map\" data-run=\"{}\" data-field=\"{}\"", index, field));
   };
-  return "<h3>Exits, " + escaped_markup(run.name) + "</h3>\n" + exits_table(run) +
-         chart("State of the exits", "timeline") + "<h3>Ground, " + escaped_markup(run.name) +
-         "</h3>\n" + map("Mean density over the run", "density") +
+  const std::string exits =
+      run.metrics.exits.empty()
+          ? "<p>This place has no exits, so that nothing was measured at any.</p>\n"
+          : exits_table(run) + chart("State of the exits", "timeline");
+  return "<h3>Exits, " + escaped_markup(run.name) + "</h3>\n" + exits + "<h3>Ground, " +
+         escaped_markup(run.name) + "</h3>\n" + map("Mean density over the run", "density") +
          map("Greatest crowd pressure (sampled each second)", "pressure") +
          chart("Fundamental diagram", "fundamental") + chart("Ways of the people", "ways");
 }

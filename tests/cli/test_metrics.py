@@ -141,6 +141,87 @@ class Metrics(unittest.TestCase):
             compared += 1
         self.assertGreater(compared, 3)
 
+    def test_queue_and_wait(self):
+        """Who can be reached from the zone over links of 1.2 m, by relaxing until nothing gets shorter."""
+        speed = numpy.hypot(self.velocity[..., 0], self.velocity[..., 1])
+        slow = (self.place[..., 0] < 0) & (speed < 0.5 * self.desired)
+        crossed = self.crossed()
+        compared = 0
+        for step in range(0, len(self.time), 10):
+            who = numpy.flatnonzero(slow[step])
+            at = self.place[step, who]
+            way = numpy.where(self.in_zone[step, who], numpy.hypot(at[:, 0], at[:, 1]), numpy.inf)
+            link = numpy.linalg.norm(at[:, None] - at[None], axis=2)
+            link[link > 1.2] = numpy.inf
+            while len(who):
+                shorter = numpy.minimum(way, (way[None] + link).min(axis=1))
+                if (shorter == way).all():
+                    break
+                way = shorter
+            queue = numpy.isfinite(way)
+            self.assertEqual(float(self.rows[step]["queue"]), queue.sum(), f"step {step}")
+            self.assertAlmostEqual(float(self.rows[step]["queue_length"]), way[queue].max(initial=0), delta=6e-3)
+            flow = (crossed[step] - (crossed[step - 200] if step > 200 else 0)) / 20
+            wait = queue.sum() / max(flow, 0.1 * 1.3 * WIDTH)
+            self.assertAlmostEqual(float(self.rows[step]["predicted_wait"]), wait, delta=0.01 + 1e-3 * wait)
+            compared += queue.sum() > 5
+        self.assertGreater(compared, 10, "there were queues to compare")
+
+    def pressure_at(self, step, places):
+        squared = ((places[:, None] - self.place[step][None]) ** 2).sum(axis=2)
+        weight = numpy.where(squared <= 4, numpy.exp(-squared), 0)
+        total = numpy.maximum(weight.sum(axis=1), 1e-300)
+        mean = weight @ self.velocity[step] / total[:, None]
+        variance = weight @ (self.velocity[step] ** 2).sum(axis=1) / total - (mean ** 2).sum(axis=1)
+        return total / (math.pi * (1 - math.exp(-4))) * numpy.maximum(0, variance)
+
+    def test_pressure(self):
+        edge = numpy.arange(-8, 8) * 0.5 + 0.25
+        places = numpy.stack(numpy.meshgrid(edge, edge), axis=2).reshape(-1, 2)
+        places = places[(places[:, 0] < 0) & (numpy.hypot(places[:, 0], places[:, 1]) < self.zone_radius)]
+        greatest = []
+        for end in range(20, len(self.time), 50):
+            mean = sum(self.pressure_at(step, places) for step in range(end - 9, end + 1)) / 10
+            greatest.append(mean.max())
+            self.assertAlmostEqual(float(self.rows[end]["pressure"]), mean.max(), delta=1e-3 + 1e-3 * mean.max())
+        self.assertGreater(max(greatest), 0.05, "there was something to compare")
+        overall = self.figures["exposure"]["max_pressure_per_s2"]
+        self.assertGreater(overall, 0.8 * self.column("pressure").max(), "the ground's lattice is another one")
+
+    def test_gaps(self):
+        """From the moments on the line, between two steps."""
+        x = self.place[..., 0]
+        out = []
+        for person in range(x.shape[1]):
+            beyond = numpy.flatnonzero(x[:, person] >= 0.2)
+            if len(beyond):
+                last = numpy.flatnonzero(x[:beyond[0], person] < 0)[-1]
+                share = x[last, person] / (x[last, person] - x[last + 1, person])
+                out.append(self.time[last] + share * (self.time[last + 1] - self.time[last]))
+        gaps = numpy.diff(numpy.sort(out))
+        figures = self.figures["exits"][0]["gaps"]
+        self.assertEqual(figures["count"], len(gaps))
+        numpy.testing.assert_allclose(figures["list_s"], gaps, atol=1e-5)
+        self.assertAlmostEqual(figures["median_s"], numpy.median(gaps), delta=1e-5)
+        self.assertAlmostEqual(figures["p90_s"], numpy.quantile(gaps, 0.9), delta=1e-5)
+
+    def test_edie(self):
+        """Every way between two steps in fifty pieces."""
+        demand = self.column("demand")[:-1] > 0
+        part = (numpy.arange(50) + 0.5) / 50
+        person_s = walked = 0.0
+        for step in numpy.flatnonzero(demand):
+            start, way = self.place[step], self.place[step + 1] - self.place[step]
+            at = start[:, None] + part[None, :, None] * way[:, None]
+            share = ((at[..., 0] < 0) & (numpy.hypot(at[..., 0], at[..., 1]) < self.zone_radius)).mean(axis=1)
+            person_s += share.sum() * 0.1
+            walked += (share * numpy.linalg.norm(way, axis=1)).sum()
+        region = demand.sum() * 0.1 * math.pi * self.zone_radius ** 2 / 2
+        edie = self.figures["exits"][0]["edie"]
+        self.assertAlmostEqual(edie["density_per_m2"] / (person_s / region), 1, delta=2e-3)
+        self.assertAlmostEqual(edie["flow_per_ms"] / (walked / region), 1, delta=2e-3)
+        self.assertAlmostEqual(edie["speed_mps"] / (walked / person_s), 1, delta=2e-3)
+
     def test_escape_percentiles(self):
         outside = ((self.place < INSIDE["min"]) | (self.place > INSIDE["max"])).any(axis=2)
         first = numpy.where(outside.any(axis=0), self.time[outside.argmax(axis=0)], numpy.inf)
@@ -197,6 +278,17 @@ class Metrics(unittest.TestCase):
                 self.assertEqual(again["escape_time_percentiles"][name] is None, value is None)
                 if value is not None:
                     self.assertAlmostEqual(again["escape_time_percentiles"][name], value, delta=1e-3)
+
+    def test_people_in_other_units_are_refused(self):
+        file = self.base / "centimetres.txt"
+        file.write_text("# framerate: 10\n1 0 -300 0\n1 1 -290 0\n")
+        command = [THRONG, "metrics", "--trajectory", str(file), "--scenario", str(self.base / "place.json")]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("centimetres.txt: found nobody in the place at any time", done.stderr)
+        self.assertIn("--unit-m 0.01", done.stderr)
+        done = subprocess.run([*command, "--unit-m", "0.01"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(json.loads(done.stdout)["people"], 1)
 
 
 if __name__ == "__main__":

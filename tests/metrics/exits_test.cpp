@@ -55,6 +55,45 @@ TEST(ExitSeries, AnEvenStreamHasItsFlow) {
   EXPECT_DOUBLE_EQ(series.samples.back().flow_per_s, 0);
 }
 
+// A column 0.5 m apart at 1 m/s: two a second on any line, six on the 3 m of it in the zone.
+// Exactly.
+TEST(ExitSeries, AUniformColumnHasItsFlowDensityAndEdieFigures) {
+  CrowdOfTest crowd;
+  crowd.duration_s = 20;
+  const world::Trace trace = trace_of(column(60, 0.5, 0.05), crowd);
+  const ExitSeries series = observe(trace);
+  const double area = std::numbers::pi * 9 / 2;
+  for (int step = 45; step <= 200; ++step) {
+    const ExitSample& sample = series.samples[step];
+    EXPECT_DOUBLE_EQ(sample.flow_per_s, 2) << step;
+    EXPECT_DOUBLE_EQ(sample.specific_flow_per_ms, 1) << step;
+    EXPECT_EQ(sample.in_zone, 6) << step;
+    EXPECT_NEAR(sample.density_per_m2, 6 / area, 1e-6) << step;
+    EXPECT_TRUE(sample.demand);
+  }
+  EXPECT_NEAR(series.edie.duration_s(), 20, 1e-6);
+  EXPECT_NEAR(series.edie.density_per_m2(), 6 / area, 1e-5);
+  EXPECT_NEAR(series.edie.flow_per_ms(), 6 / area, 1e-5);
+  EXPECT_NEAR(series.edie.speed_mps(), 1, 1e-5);
+}
+
+// Lanes at 0.8 and 1.6 m/s: flow is density times speed of each, and the mean speed that over all.
+TEST(ExitSeries, EdieWeighsSpeedsByTimeInTheZone) {
+  std::vector<Walk> walks;
+  for (int i = 0; i < 120; ++i) {
+    walks.push_back(walking({-0.04 - 0.4 * i, 0.5}, {0.8, 0}));
+    walks.push_back(walking({-0.04 - 0.8 * i, -0.5}, {1.6, 0}));
+  }
+  CrowdOfTest crowd;
+  crowd.duration_s = 15;
+  const EdieRegion edie = observe(trace_of(walks, crowd)).edie;
+  const double area = std::numbers::pi * 9 / 2;
+  const double lane = std::sqrt(9 - 0.25);
+  EXPECT_NEAR(edie.density_per_m2(), (lane / 0.4 + lane / 0.8) / area, 1e-4);
+  EXPECT_NEAR(edie.flow_per_ms(), (lane / 0.4 * 0.8 + lane / 0.8 * 1.6) / area, 1e-4);
+  EXPECT_NEAR(edie.speed_mps(), (0.8 / 0.4 + 1.6 / 0.8) / (1 / 0.4 + 1 / 0.8), 1e-4);
+}
+
 TEST(ExitSeries, IsCausal) {
   const auto walks = column(20, 0.7, 2);
   CrowdOfTest half;

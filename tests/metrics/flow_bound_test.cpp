@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "base/random.h"
 
 namespace throng::metrics {
 namespace {
@@ -46,6 +52,68 @@ TEST(FlowBound, PeopleGoWhereTheyAreNeeded) {
   std::vector<Vector2d> people(30, Vector2d(-10, 0));
   people.insert(people.end(), 30, Vector2d(0, 0));
   EXPECT_NEAR(flow_bound(hall(), people, {2, {1, 1}}).t100_s, 33, 2);
+}
+
+// One door of 2 /s and people who come as they come: the k-th of them is out when they are there,
+// or half a second after the one before, whichever is later.
+TEST(EarliestOut, AtOneDoorIsTheQueueOfArrivals) {
+  Departures departures;
+  departures.capacity_per_s = {2};
+  departures.on_s = {3};
+  for (const double access_s : {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 20.0, 21.0}) {
+    departures.access_s.push_back({access_s});
+  }
+  EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{3, 3, 4, 4, 5, 5, 22, 23}));
+}
+
+// Who can take either door must leave the near one to those who cannot: only rerouting finds that.
+TEST(EarliestOut, PeopleMakeRoomForThoseWhoHaveNoChoice) {
+  const double never = std::numeric_limits<double>::infinity();
+  Departures departures;
+  departures.capacity_per_s = {1, 1};
+  departures.on_s = {0, 0};
+  departures.access_s = {{1, 1},     {1, 1},     {1, 1},        {1, never},
+                         {1, never}, {1, never}, {never, never}};
+  EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{0, 0, 1, 1, 2, 2, never}));
+}
+
+// Against all assignments of a few people to doors: with an assignment, each door serves in the
+// order of arrival.
+TEST(EarliestOut, IsTheBestOfAllAssignmentsAtEveryTime) {
+  Random random(3, Stream::wind);
+  for (int trial = 0; trial < 60; ++trial) {
+    constexpr int kPeople = 7;
+    Departures departures;
+    departures.capacity_per_s = {1, 2};
+    departures.on_s = {static_cast<double>(random.below(4)), static_cast<double>(random.below(4))};
+    for (int i = 0; i < kPeople; ++i) {
+      departures.access_s.push_back({1.0 + random.below(8), 1.0 + random.below(8)});
+    }
+    std::vector<double> best(kPeople, 1e9);  // of every assignment, the k-th person out
+    for (int assignment = 0; assignment < 1 << kPeople; ++assignment) {
+      std::vector<double> out_s;
+      for (int exit = 0; exit < 2; ++exit) {
+        std::vector<int> arrivals;
+        for (int i = 0; i < kPeople; ++i) {
+          if ((assignment >> i & 1) == exit) {
+            arrivals.push_back(static_cast<int>(departures.access_s[i][exit]) - 1);
+          }
+        }
+        std::sort(arrivals.begin(), arrivals.end());
+        std::map<int, int> used;
+        int second = 0;
+        for (const int arrival : arrivals) {
+          second = std::max(second, arrival);
+          if (used[second] == departures.capacity_per_s[exit]) ++second;
+          ++used[second];
+          out_s.push_back(second + departures.on_s[exit]);
+        }
+      }
+      std::sort(out_s.begin(), out_s.end());
+      for (int i = 0; i < kPeople; ++i) best[i] = std::min(best[i], out_s[i]);
+    }
+    EXPECT_EQ(earliest_out_s(departures), best) << trial;
+  }
 }
 
 TEST(FlowBound, NobodyOrNoWayOut) {

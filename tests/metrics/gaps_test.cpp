@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/random.h"
 
 namespace throng::metrics {
 namespace {
@@ -74,6 +77,49 @@ TEST(Gaps, NobodyAndOneHaveNoGaps) {
   EXPECT_FALSE(figures.long_share);
   EXPECT_EQ(figures.bursts[0], std::vector<int>{1});
   EXPECT_TRUE(to_json(figures).at("median_s").is_null());
+}
+
+// Independent gaps drawn from the law, as a door's are: within three standard errors of the
+// exponent.
+TEST(Gaps, ARandomSampleGivesTheExponentWithinItsError) {
+  int within_one = 0;
+  constexpr int kTrials = 40;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random(static_cast<std::uint64_t>(trial), Stream::wind);
+    const double alpha = trial % 2 == 0 ? 1.8 : 2.6;
+    std::vector<double> gaps;
+    for (int i = 0; i < 400; ++i) {
+      gaps.push_back(0.5 * std::pow(1 - random.uniform(), -1 / (alpha - 1)));
+    }
+    const auto tail = fit_tail(gaps);
+    ASSERT_TRUE(tail);
+    const double off = std::abs(tail->alpha - alpha) / tail->standard_error;
+    EXPECT_LT(off, 3.5) << trial;
+    if (off < 1) ++within_one;
+    EXPECT_TRUE(tail->plausible());
+  }
+  EXPECT_GT(within_one, kTrials / 3) << "about two thirds, were the tail's start known";
+}
+
+TEST(Gaps, TheJsonListsThemAndSaysWhyThereIsNoExponent) {
+  const std::vector<double> few = {0, 0.5, 3};
+  const nlohmann::json none = to_json(gap_figures(few, 2));
+  EXPECT_EQ(none.at("list_s"), (std::vector<double>{0.5, 2.5}));
+  EXPECT_EQ(none.at("tail").at("valid"), false);
+  EXPECT_EQ(none.at("tail").at("why_not"), "too few gaps");
+  EXPECT_FALSE(none.at("tail").contains("alpha"));
+  std::vector<double> times = {0};
+  for (const double gap : power_law(1.7, 0.4, 200)) times.push_back(times.back() + gap);
+  const nlohmann::json law = to_json(gap_figures(times, 2));
+  EXPECT_EQ(law.at("tail").at("valid"), true);
+  EXPECT_TRUE(law.at("tail").at("why_not").is_null());
+  EXPECT_EQ(law.at("tail").at("clogging_regime"), true);
+  times = {0};
+  for (int i = 0; i < 65; ++i) times.push_back(times.back() + (i < 60 ? 0.5 + 0.001 * i : 5.0));
+  const nlohmann::json other = to_json(gap_figures(times, 2));
+  EXPECT_EQ(other.at("tail").at("valid"), false);
+  EXPECT_EQ(other.at("tail").at("why_not"), "the gaps do not follow a power law");
+  EXPECT_EQ(other.at("tail").at("clogging_regime"), false);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "metrics/evacuation.h"
+#include "metrics/ground_pressure.h"
+#include "metrics/pressure.h"
 #include "metrics/walking_distance.h"
 #include "tests/metrics/walks.h"
 
@@ -40,9 +42,9 @@ TEST(NotificationFigures, CountFromTheFirstIntent) {
   EXPECT_NEAR(*metrics.notification.first_s, 5.1, 1e-6);
   EXPECT_NEAR(metrics.notification.times_s.back(), 5.1, 1e-6);
   // 12 and 14 m to x = 10, plus up to a step.
-  ASSERT_EQ(metrics.notification.escape_s.size(), 2U);
-  EXPECT_NEAR(metrics.notification.escape_s[0], 12, 0.11);
-  EXPECT_NEAR(metrics.notification.escape_s[1], 14, 0.11);
+  const nlohmann::json after = to_json(metrics.notification).at("escape_after_notice");
+  EXPECT_NEAR(after.at("t50_s"), 12, 0.11);
+  EXPECT_NEAR(after.at("t100_s"), 14, 0.11);
 }
 
 TEST(NotificationFigures, WhoNeverNoticesIsCounted) {
@@ -52,6 +54,27 @@ TEST(NotificationFigures, WhoNeverNoticesIsCounted) {
   EXPECT_FALSE(metrics.bound);
   EXPECT_TRUE(to_json(metrics).at("notification").at("mean_s").is_null());
   EXPECT_TRUE(to_json(metrics).at("lower_bound").is_null());
+}
+
+// Two notice, at 1 and 9 s, and need 12 s; a third never does. The run ends at 15 s.
+TEST(NotificationFigures, PercentilesCountWhoWasNotWatchedToTheEnd) {
+  CrowdOfTest crowd;
+  crowd.duration_s = 15;
+  world::Trace trace = trace_of(
+      {walking({-2, 0}, {1, 0}, 1), walking({-2, 1}, {1, 0}, 9), standing({-5, 0})}, crowd);
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    if (step < 10) trace.exit_intent[trace.at(step, 0)] = -1;
+    if (step < 90) trace.exit_intent[trace.at(step, 1)] = -1;
+    trace.exit_intent[trace.at(step, 2)] = -1;
+  }
+  const nlohmann::json json = to_json(figures_of(trace).notification);
+  EXPECT_EQ(json.at("noticed"), 2);
+  EXPECT_EQ(json.at("never"), 1);
+  EXPECT_NEAR(json.at("percentiles").at("t25_s"), 1, 1e-6) << "of all three";
+  EXPECT_NEAR(json.at("percentiles").at("t50_s"), 9, 1e-6);
+  EXPECT_TRUE(json.at("percentiles").at("t75_s").is_null());
+  // The second was watched for 6 s only: by the first, everybody is out after 12 s.
+  EXPECT_NEAR(json.at("escape_after_notice").at("t100_s"), 12, 0.11);
 }
 
 TEST(Horizons, AreKnownWhenEverybodyIsOut) {
@@ -103,8 +126,22 @@ TEST(WalkingDistance, GoesAroundBuildings) {
 
 TEST(WalkingDistance, IsStraightWhereTheGroundIsFree) {
   const WalkingDistance distance({{-20, -20}, {1, 20}}, {}, door(2));
-  EXPECT_NEAR(*distance.from({-10, 0}), 10, 0.05);
-  EXPECT_NEAR(*distance.from({-12, 10}), std::hypot(12, 9), 0.02 * 15);
+  EXPECT_NEAR(*distance.from({-10, 0}), 10, 1e-9);
+  EXPECT_NEAR(*distance.from({-12, 10}), std::hypot(12, 9), 1e-9);
+}
+
+TEST(WalkingDistance, ThroughTwoCornersOfABuildingIsNoWay) {
+  const WalkingDistance distance({{-20, -20}, {1, 20}}, {box({-6, -1}, {-4, 1})}, door(2));
+  // The straight way to (0, 1) runs along the building's upper edge; that to (0, 0) through its
+  // middle.
+  EXPECT_NEAR(*distance.from({-10, 1}), 10, 0.2);
+  EXPECT_GT(*distance.from({-10, 0}), 10.1);
+}
+
+TEST(WalkingDistance, IsKnownFromWhereTheDoorIsSeenThroughAGap) {
+  const WalkingDistance distance({{-20, -20}, {1, 20}},
+                                 {box({-6, -20}, {-5, -1}), box({-6, 1}, {-5, 20})}, door(2));
+  EXPECT_NEAR(*distance.from({-15, 0.5}), 15, 1e-9);
 }
 
 // A lattice of 0.5 m: density 4, 0.554 of close packing for discs of 0.2 m, level F.
@@ -128,6 +165,55 @@ TEST(ExposureFigures, ALatticeIsAsDenseAsItIs) {
   EXPECT_NEAR(sum, 21 * 21, 1e-6);
   EXPECT_NEAR(exposure.max_density_per_m2, 4, 1e-6);
   EXPECT_EQ(exposure.crush_proxy_person_s, 0);
+}
+
+// Alternate walkers at +1 and -1 m/s on a fine lattice: 16 people per square metre, variance 1.
+TEST(ExposureFigures, TheGreatestPressureIsDensityTimesVariance) {
+  std::vector<Walk> walks;
+  for (int row = -10; row < 10; ++row) {
+    for (int column = -10; column < 10; ++column) {
+      walks.push_back(standing({-8 + 0.25 * column, 0.25 * row}));
+    }
+  }
+  CrowdOfTest crowd;
+  crowd.duration_s = 2;
+  world::Trace trace = trace_of(walks, crowd);
+  for (std::size_t i = 0; i < trace.velocity.size(); ++i) {
+    const auto agent = static_cast<int>(i % walks.size());
+    trace.velocity[i] = {0, (agent / 20 + agent % 20) % 2 == 0 ? 1.0F : -1.0F};
+  }
+  EXPECT_NEAR(figures_of(trace).exposure.max_pressure_per_s2, 16, 0.5);
+  EXPECT_NEAR(to_json(figures_of(trace)).at("exposure").at("max_pressure_per_s2"), 16, 0.5);
+}
+
+// For a second somebody stands still beside somebody who walks; then nobody is there.
+TEST(ExposureFigures, ThePressureIsAMeanOverASecond) {
+  const world::Rectangle ground{{-5, -5}, {5, 5}};
+  GroundPressure always(ground, {}, 0.1);
+  GroundPressure half(ground, {}, 0.1);
+  double most_always = 0;
+  double most_half = 0;
+  for (int step = 0; step < 30; ++step) {
+    for (GroundPressure* pressure : {&always, &half}) {
+      if (pressure == &half && step % 2 == 1) continue;
+      pressure->add({0.25, 0.25}, {1, 0});
+      pressure->add({0.25, 0.35}, {0, 0});
+    }
+    most_always = std::max(most_always, always.finish_step());
+    const double now = half.finish_step();
+    if (step > 10) most_half = std::max(most_half, now);
+  }
+  EXPECT_GT(most_always, 0.1);
+  EXPECT_NEAR(most_half, 0.5 * most_always, 1e-9);
+  // As it is at the place itself: two weights of almost 1, variance of a quarter.
+  const std::vector<NearPerson> two = {{0, {0.25, 0.25}, {1, 0}, 1, true},
+                                       {1, {0.25, 0.35}, {0, 0}, 1, true}};
+  const std::vector<Vector2d> places = {two[0].place, two[1].place};
+  EXPECT_NEAR(most_always, pressure_at({0.25, 0.25}, PointGrid(places, 1), two), 1e-9);
+  GroundPressure covered(ground, std::vector<world::Building>{box({-5, -5}, {5, 5})}, 0.1);
+  covered.add({0.25, 0.25}, {1, 0});
+  covered.add({0.25, 0.35}, {0, 0});
+  EXPECT_EQ(covered.finish_step(), 0);
 }
 
 TEST(ExposureFigures, WhoIsAloneIsAtTheBestLevel) {
@@ -181,18 +267,98 @@ TEST(GuidanceFigures, FollowersAreInAStateOfThatName) {
 
 TEST(GuidanceFigures, TheEffectIsAgainstTheSameRunWithoutGuides) {
   const world::Scenario scenario = place_with_door(2);
-  EXPECT_NEAR(lead_efficiency_s(two_who_notice(0), two_who_notice(5), scenario), 10, 0.21);
-  EXPECT_NEAR(lead_efficiency_s(two_who_notice(5), two_who_notice(0), scenario), -10, 0.21);
-  const world::Trace other = trace_of({standing({0, 0})});
-  EXPECT_THROW(lead_efficiency_s(two_who_notice(0), other, scenario), InputError);
+  world::Trace led = two_who_notice(0);
+  led.header.state_names = {"Walk", "FollowDrone"};
+  led.state[led.at(3, 1)] = 1;  // one of the two
+  const LeadEffect effect = lead_effect(led, two_who_notice(5), scenario);
+  EXPECT_NEAR(effect.all_s, 10, 0.21);
+  EXPECT_NEAR(effect.led_s, 5, 0.11);
+  EXPECT_EQ(effect.censored, 0);
+  EXPECT_NEAR(lead_effect(two_who_notice(5), led, scenario).all_s, -10, 0.21);
+  // Both are out at 12 and 14 s; without guides nobody is when that run ends, at 10 s.
+  const LeadEffect censored = lead_effect(two_who_notice(0), two_who_notice(5, 13), scenario);
+  EXPECT_EQ(censored.censored, 2);
+  EXPECT_NEAR(censored.all_s, 1, 0.11) << "one was out a second before the end of the shorter run";
+  nlohmann::json json = to_json(GuidanceFigures{});
+  add_to_json(effect, json);
+  EXPECT_EQ(json.at("lead_efficiency_s"), effect.all_s);
+  EXPECT_EQ(json.at("lead_efficiency_of_led_s"), effect.led_s);
 }
 
-TEST(LowerBoundOfARun, IsNotBeaten) {
+TEST(GuidanceFigures, AnythingButThePairIsRefused) {
+  const world::Scenario scenario = place_with_door(2);
+  EXPECT_THROW(lead_effect(two_who_notice(0), trace_of({standing({0, 0})}), scenario), InputError);
+  world::Trace other = two_who_notice(5);
+  other.header.seed = 7;
+  EXPECT_THROW(lead_effect(two_who_notice(0), other, scenario), InputError);
+  other.header.seed = 0;
+  other.header.scenario_id = "elsewhere";
+  EXPECT_THROW(lead_effect(two_who_notice(0), other, scenario), InputError);
+}
+
+TEST(RunBound, IsThatOfEachPersonsNoticeSpeedAndWay) {
   const RunMetrics metrics = figures_of(two_who_notice(2));
   ASSERT_TRUE(metrics.bound);
-  // 4 m to the door and 10 m on, at 1.3 m/s.
-  EXPECT_NEAR(metrics.bound->t100_s, 14 / 1.3, 1);
-  EXPECT_GE(to_json(metrics).at("lower_bound").at("t100_ratio"), 1.0);
+  EXPECT_NEAR(metrics.bound->from_s, 2, 1e-9);
+  // 2 and 4 m to the door, in the second that ends 3.08 s after the notice, and 10 m on at 1.3 m/s.
+  const double on_s = 10 / 1.3;
+  ASSERT_EQ(metrics.bound->out_s.size(), 2U);
+  EXPECT_NEAR(metrics.bound->out_s[0], 1 + on_s, 1e-6);
+  EXPECT_NEAR(metrics.bound->out_s[1], 3 + on_s, 1e-6);
+  EXPECT_NEAR(metrics.bound->mean_s, 2 + on_s, 1e-6);
+  const nlohmann::json json = to_json(metrics).at("lower_bound");
+  EXPECT_NEAR(json.at("t100_ratio"), 14 / (3 + on_s), 0.02);
+  EXPECT_NEAR(json.at("mean_ratio"), 13 / (2 + on_s), 0.02);
+}
+
+TEST(RunBound, ASlowPersonWhoNoticesLateMakesItLonger) {
+  world::Trace trace = two_who_notice(2);
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    trace.desired_speed_mps[trace.at(step, 1)] = 0.5F;
+    if (trace.time_s[step] < 8) trace.exit_intent[trace.at(step, 1)] = -1;
+  }
+  const RunMetrics metrics = figures_of(trace);
+  ASSERT_TRUE(metrics.bound);
+  // Noticed 6 s after the first one, and then 6 m beyond the door already: none of its way is left
+  // but that back to the door, 2 m at 0.5 m/s, before it leaves at the speed of the fastest.
+  EXPECT_NEAR(metrics.bound->out_s[1], 6 + 4 - 1 + 10 / 1.3, 1e-3);
+}
+
+TEST(RunBound, GoesAroundBuildings) {
+  const world::Trace trace = two_who_notice(0);
+  world::Scenario walled = place_with_door(2);
+  walled.buildings.push_back(box({-1.5, -6}, {-1, 6}));
+  const double straight_s = figures_of(trace).bound->out_s.back();
+  const double around_m = std::hypot(2.5, 6) + 0.5 + std::hypot(1, 5);  // to (0, 1)
+  const double around_s = figures_of(trace, walled).bound->out_s.back();
+  EXPECT_NEAR(around_s - straight_s, (around_m - 4) / 1.3, 1.1);
+}
+
+TEST(RunBound, WhoNeverNoticesNeverGoes) {
+  world::Trace trace = trace_of({walking({-2, 0}, {1, 0}), standing({-5, 0})});
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    trace.exit_intent[trace.at(step, 1)] = -1;
+  }
+  const RunMetrics metrics = figures_of(trace);
+  ASSERT_TRUE(metrics.bound);
+  EXPECT_TRUE(std::isinf(metrics.bound->out_s[1]));
+  const nlohmann::json json = to_json(metrics).at("lower_bound");
+  EXPECT_TRUE(json.at("t100_s").is_null());
+  EXPECT_TRUE(json.at("t100_ratio").is_null());
+  EXPECT_GE(json.at("t50_ratio"), 1.0);
+  EXPECT_NEAR(json.at("mean_s"), (1 + 10 / 1.3 - 0 + 60) / 2, 0.6) << "counted to the run's end";
+}
+
+TEST(PersonTable, HasARowForEverybody) {
+  const RunMetrics metrics = figures_of(trace_of({walking({-2, 0}, {1, 0}), standing({-5, 0})}));
+  const nlohmann::json table = to_json(metrics).at("by_person");
+  for (const auto& [name, column] : table.items()) EXPECT_EQ(column.size(), 2U) << name;
+  EXPECT_EQ(table.at("exit"), (nlohmann::json{"door", nullptr}));
+  EXPECT_NEAR(table.at("escaped_s").at(0), 12, 0.11);
+  EXPECT_TRUE(table.at("escaped_s").at(1).is_null());
+  EXPECT_NEAR(table.at("walked_m").at(0), 2, 0.11);
+  EXPECT_NEAR(table.at("shortest_to_used_m").at(0), 2, 1e-6);
+  EXPECT_EQ(table.at("stops"), (nlohmann::json{0, nullptr}));
 }
 
 }  // namespace

@@ -108,6 +108,26 @@ TEST(RunReport, NobodyIsNoError) {
   const std::string html = html_report(scenario, runs);
   EXPECT_NE(html.find("not reached"), std::string::npos);
   EXPECT_EQ(count(html, "type=\"radio\""), 0U) << "one run needs no choice";
+  EXPECT_EQ(count(html, " to 0</td>"), 0U) << "nor has it quartiles";
+}
+
+TEST(RunReport, APlaceWithoutExitsHasNoEmptyPanel) {
+  world::Scenario scenario = metrics::place_with_door(2);
+  scenario.exits.clear();
+  std::vector<MeasuredRun> runs;
+  runs.push_back(measured("open", metrics::trace_of({metrics::standing({0, 0})}), scenario));
+  const std::string html = html_report(scenario, runs);
+  EXPECT_EQ(count(html, "data-chart=\"timeline\""), 0U);
+  EXPECT_NE(html.find("no exits"), std::string::npos);
+}
+
+TEST(RunReport, ADoorThatNobodyWantedToPassHasNoFlow) {
+  const world::Scenario scenario = metrics::place_with_door(2);
+  std::vector<MeasuredRun> runs;
+  runs.push_back(measured("calm", metrics::trace_of({metrics::standing({-9, 0})}), scenario));
+  EXPECT_NE(
+      html_report(scenario, runs).find("<td>door</td><td>2.00</td><td>0</td><td></td><td></td>"),
+      std::string::npos);
 }
 
 }  // namespace

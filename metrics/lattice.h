@@ -1,0 +1,37 @@
+// Places on the ground at equal distances, and which of them buildings cover.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "world/scenario.h"
+
+namespace throng::metrics {
+
+/// The middles of the square cells that a rectangle is cut into, row by row from its least corner.
+struct Lattice {
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();  ///< m
+  double pitch_m = 1;
+  int columns = 0, rows = 0;
+
+  std::size_t size() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
+  Eigen::Vector2d place(int column, int row) const {
+    return first + pitch_m * Eigen::Vector2d(column, row);
+  }
+};
+
+/// Every `pitch_m`, or coarser where that would be more than about `most` places.
+Lattice lattice_over(const world::Rectangle& ground, double pitch_m, double most);
+
+/// Per place, whether a building covers it.
+std::vector<bool> covered_by(std::span<const world::Building> buildings, const Lattice& lattice);
+
+}  // namespace throng::metrics

@@ -1,0 +1,28 @@
+// When people first headed for an exit or followed a guide, and what came after.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <vector>
+
+#include "metrics/people.h"
+#include "metrics/survival.h"
+
+namespace throng::metrics {
+
+struct Notification {
+  int never = 0;                  ///< people who did not, in the time that the run had
+  std::vector<double> times_s;    ///< of the others since they arrived, in order
+  std::optional<double> first_s;  ///< the earliest of all, by the run's clock
+  /// Of everybody since they arrived: until they noticed, or escaped without, or the run ended.
+  std::vector<Watched> notice;
+  /// Of those who noticed since then: until they escaped, or the run ended.
+  std::vector<Watched> escape;
+};
+
+/// `end_s`: when the run ended.
+Notification notification_of(const std::vector<PersonRecord>& people, double end_s);
+
+nlohmann::json to_json(const Notification& notification);
+
+}  // namespace throng::metrics
