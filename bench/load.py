@@ -225,7 +225,7 @@ def part_archive(arguments, folder):
             digest.update(block)
             crc = zlib.crc32(block, crc)
     manifest = json.loads((dataset / "manifest.json").read_text())
-    manifest["files"].append({"path": "zz_big.bin", "bytes": GIB, "sha256": digest.hexdigest(), "crc32": crc})
+    manifest["files"].append({"path": "zz_big.bin", "bytes": GIB, "sha256": digest.hexdigest(), "crc32": f"{crc:08x}"})
     (dataset / "manifest.json").write_text(json.dumps(manifest))
 
     def speed(url):

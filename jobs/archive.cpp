@@ -10,7 +10,6 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/read_only_file.h"
-#include "jobs/manifest.h"
 
 namespace throng::jobs {
 
@@ -28,10 +27,10 @@ void read_exactly(const fs::path& path, std::int64_t offset, std::span<char> buf
 
 }  // namespace
 
-Archive::Archive(fs::path dataset, const std::string& root, ArchiveFormat format,
-                 const Selection& selection)
+Archive::Archive(fs::path dataset, const Manifest& manifest, const std::string& root,
+                 ArchiveFormat format, const Selection& selection)
     : dataset_(std::move(dataset)), root_(root + "/"), format_(format) {
-  choose(selection);
+  choose(manifest, selection);
   if (format_ == ArchiveFormat::tar) {
     link_equal_files();
     lay_out_tar();
@@ -40,18 +39,16 @@ Archive::Archive(fs::path dataset, const std::string& root, ArchiveFormat format
   }
 }
 
-void Archive::choose(const Selection& selection) {
-  for (FileEntry& file : read_manifest_files(dataset_)) {
+void Archive::choose(const Manifest& manifest, const Selection& selection) {
+  for (const FileEntry& file : manifest.files) {
     if (!selection.holds(file.path)) continue;
     if (format_ == ArchiveFormat::zip && !file.crc32) {
       throw EnvironmentError(
           "the dataset was made before checksums for zip were kept; ask for tar");
     }
-    files_.push_back(std::move(file));
+    files_.push_back(file);
   }
-  const std::string manifest = read_file(dataset_ / kManifestName);
-  files_.push_back({kManifestName, static_cast<std::int64_t>(manifest.size()), sha256_hex(manifest),
-                    crc32_of(manifest)});
+  files_.push_back(manifest.itself);
   std::sort(files_.begin(), files_.end(),
             [](const FileEntry& a, const FileEntry& b) { return a.path < b.path; });
   for (const FileEntry& file : files_) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "jobs/archive_format.h"
+#include "jobs/manifest.h"
 #include "jobs/publication.h"
 #include "jobs/selection.h"
 
@@ -21,10 +22,14 @@ namespace throng::jobs {
 /// bytes is there and the others are hard links to it.
 class Archive {
  public:
-  /// Reads the dataset's manifest. `root` names the folder inside the archive: at most 100
-  /// characters of [A-Za-z0-9._-]. Throws EnvironmentError.
-  Archive(std::filesystem::path dataset, const std::string& root,
+  /// `root` names the folder inside the archive: at most 100 characters of [A-Za-z0-9._-]. Throws
+  /// EnvironmentError.
+  Archive(std::filesystem::path dataset, const Manifest& manifest, const std::string& root,
           ArchiveFormat format = ArchiveFormat::tar, const Selection& selection = {});
+  /// Of the manifest that is in the dataset.
+  explicit Archive(const std::filesystem::path& dataset, const std::string& root,
+                   ArchiveFormat format = ArchiveFormat::tar, const Selection& selection = {})
+      : Archive(dataset, read_manifest(dataset), root, format, selection) {}
 
   std::int64_t size() const { return size_; }
 
@@ -41,7 +46,7 @@ class Archive {
     std::uint32_t member;
   };
 
-  void choose(const Selection& selection);
+  void choose(const Manifest& manifest, const Selection& selection);
   void link_equal_files();
   void lay_out_tar();
   void lay_out_zip();

@@ -13,11 +13,25 @@ namespace throng::jobs {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Nothing, or what is left of a file whose writing was broken off.
+bool is_as_good_as_empty(const fs::path& folder, const fs::path& file) {
+  if (!fs::is_directory(folder)) return false;
+  const std::string draft = file.filename().string() + ".tmp.";
+  const fs::directory_iterator entries(folder);
+  return std::all_of(begin(entries), end(entries), [&](const auto& entry) {
+    return entry.path().filename().string().starts_with(draft);
+  });
+}
+
+}  // namespace
+
 JobFolder JobFolder::create(fs::path path, const JobSpec& job) {
   JobFolder folder(std::move(path));
   const std::string text = to_json(job).dump(kJsonIndent) + "\n";
   if (!fs::exists(folder.job_file())) {
-    if (fs::exists(folder.path()) && !fs::is_empty(folder.path())) {
+    if (fs::exists(folder.path()) && !is_as_good_as_empty(folder.path(), folder.job_file())) {
       throw InputError(Problem{"", folder.path().string(), "a folder with other files in it",
                                "a new or empty folder, or one of the same job"});
     }

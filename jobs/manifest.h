@@ -13,8 +13,13 @@ inline constexpr const char* kManifestName = "manifest.json";
 /// Raised when the meaning of a field of the manifest changes.
 inline constexpr int kManifestVersion = 1;
 
-/// The files of a dataset, sorted by path; the manifest itself is not among them. Throws
-/// EnvironmentError when there is no manifest or it is damaged.
-std::vector<FileEntry> read_manifest_files(const std::filesystem::path& dataset);
+struct Manifest {
+  std::vector<FileEntry> files;  ///< of the dataset, sorted by path, without the manifest itself
+  FileEntry itself;
+};
+
+/// Needs little more memory than its result, however many files there are. Throws EnvironmentError
+/// when there is no manifest or it is damaged.
+Manifest read_manifest(const std::filesystem::path& dataset);
 
 }  // namespace throng::jobs

@@ -14,6 +14,7 @@
 #include "server/calibration_api.h"
 #include "server/downloads_api.h"
 #include "server/events_api.h"
+#include "server/file_answer.h"
 #include "server/http.h"
 #include "server/jobs_api.h"
 #include "server/requests.h"
@@ -99,6 +100,7 @@ namespace {
 // The library answers 404 for a method that a path does not know.
 void write_library_error(const Request& request, Response& response, int status,
                          const std::string& detail) {
+  forget_ranges(request);
   if (status == 404) {
     if (const std::string methods = allowed_methods(routes(), request.path); !methods.empty()) {
       response.set_header("Allow", methods);
@@ -118,9 +120,8 @@ void guarded(const JobService& service, const Request& request, Response& respon
   } catch (const HttpError& error) {
     write_problem(response, error);
   } catch (const InputError& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems) problem.source = service.without_paths(problem.source);
-    write_problem(response, {400, "the job cannot be done as it stands", problems});
+    write_problem(response, {400, "the job cannot be done as it stands",
+                             service.without_paths(error.problems())});
   } catch (const QuotaError& error) {
     response.set_header("Retry-After", "60");
     write_problem(response, {429, error.what()});
@@ -206,6 +207,7 @@ Api::Api(JobService& service, const Keys& keys, WebhookSender& hooks, const Http
   const bool loopback = is_loopback(options.host);
   const auto route = [&service, &keys, &hooks, loopback](const Route& entry) {
     return [&service, &keys, &hooks, loopback, entry](const Request& request, Response& response) {
+      forget_ranges(request);
       guarded(service, request, response, [&] {
         if (loopback && !names_this_machine(request)) {
           throw HttpError{421, "this service is for its own machine"};

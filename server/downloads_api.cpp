@@ -40,11 +40,6 @@ jobs::JobRow find_succeeded(const Call& call, const Request& request) {
   return row;
 }
 
-/// The manifest holds the hash of every file.
-std::string etag_of_dataset(const fs::path& dataset) {
-  return fmt::format("\"{}\"", sha256_hex_of_file(dataset / jobs::kManifestName));
-}
-
 /// A file of one run: of the dataset, or before that is complete of the run's own figures, which
 /// are there once it was measured, whatever becomes of the others. 404 when there is no such run or
 /// the job did not ask for it.
@@ -173,12 +168,12 @@ void send_archive(const Call& call, const Request& request, Response& response) 
   const fs::path dataset = call.service.dataset_of(row.id);
   const std::string name = jobs::slug(row.name);
   const jobs::ArchiveFormat format = format_of(request);
-  const auto archive = std::make_shared<const jobs::Archive>(
+  const auto archive = call.service.datasets().archive_of(
       dataset, name, format, selection_of(request, dataset, json::parse(row.spec_json)));
   // The manifest holds the hash of every file; what was chosen of them is in the query.
   const std::string chosen =
       request.target.substr(std::min(request.target.find('?'), request.target.size()));
-  const std::string manifest = sha256_hex_of_file(dataset / jobs::kManifestName);
+  const std::string manifest = call.service.datasets().manifest_of(dataset)->itself.sha256;
   settle_range(request, response,
                fmt::format("\"{}\"", chosen.empty() ? manifest : sha256_hex(manifest + chosen)),
                archive->size());
@@ -204,14 +199,16 @@ void send_archive(const Call& call, const Request& request, Response& response) 
 
 void send_manifest(const Call& call, const Request& request, Response& response) {
   const fs::path dataset = call.service.dataset_of(find_succeeded(call, request).id);
-  answer_with_file(request, response, dataset / jobs::kManifestName, "application/json",
-                   etag_of_dataset(dataset));
+  answer_with_file(
+      request, response, dataset / jobs::kManifestName, "application/json",
+      fmt::format("\"{}\"", call.service.datasets().manifest_of(dataset)->itself.sha256));
 }
 
 void send_file(const Call& call, const Request& request, Response& response) {
   const fs::path dataset = call.service.dataset_of(find_succeeded(call, request).id);
   const std::string wanted = request.matches[2];
-  const auto files = jobs::read_manifest_files(dataset);
+  const auto manifest = call.service.datasets().manifest_of(dataset);
+  const std::vector<jobs::FileEntry>& files = manifest->files;
   // What is in the manifest is in the dataset: no path leads out of it.
   const auto file =
       std::lower_bound(files.begin(), files.end(), wanted,

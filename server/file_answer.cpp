@@ -49,22 +49,26 @@ void answer_with(const Request& request, Response& response,
       });
 }
 
+httplib::Ranges& ranges_of(const Request& request) {
+  // The library owns the request and made it non-const.
+  return const_cast<Request&>(request).ranges;  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
+
 }  // namespace
+
+void forget_ranges(const Request& request) { ranges_of(request).clear(); }
 
 void settle_range(const Request& request, Response& response, const std::string& etag,
                   std::int64_t size) {
   const RangeAnswer answer = range_answer(request.get_header_value("Range"),
                                           request.get_header_value("If-Range"), etag, size);
-  // The library owns the request and made it non-const.
-  auto& ranges =
-      const_cast<Request&>(request).ranges;  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-  ranges.clear();
+  forget_ranges(request);
   if (answer.kind == RangeAnswer::Kind::unsatisfiable) {
     response.set_header("Content-Range", fmt::format("bytes */{}", size));
     throw HttpError{416, fmt::format("there are {} bytes", size)};
   }
   if (answer.kind == RangeAnswer::Kind::part) {
-    ranges.emplace_back(answer.part.first, answer.part.last);
+    ranges_of(request).emplace_back(answer.part.first, answer.part.last);
   }
   response.set_header("ETag", etag);
   response.set_header("Accept-Ranges", "bytes");

@@ -9,6 +9,10 @@
 
 namespace throng::server {
 
+/// The whole of an answer is sent, whatever range is asked for: the library would cut any, also
+/// what says that something is wrong.
+void forget_ranges(const httplib::Request& request);
+
 /// Puts the one range that the client may have into the request, where the library looks for it: it
 /// would itself answer ranges past the end, several at once, and ignore If-Range. Sets ETag and
 /// Accept-Ranges. Throws HttpError 416.

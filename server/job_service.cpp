@@ -276,4 +276,13 @@ std::string JobService::without_paths(std::string message) const {
   return without_folders(std::move(message), {scenarios(), options_.data, options_.scenarios});
 }
 
+std::vector<Problem> JobService::without_paths(std::vector<Problem> problems) const {
+  for (Problem& problem : problems) {
+    for (std::string* text : {&problem.source, &problem.where, &problem.found, &problem.expected}) {
+      *text = without_paths(std::move(*text));
+    }
+  }
+  return problems;
+}
+
 }  // namespace throng::server

@@ -27,6 +27,7 @@
 #include "jobs/supervisor.h"
 #include "server/bell.h"
 #include "server/calibrator.h"
+#include "server/datasets.h"
 #include "server/disk_watch.h"
 #include "server/report_maker.h"
 #include "server/retention.h"
@@ -166,6 +167,8 @@ class JobService {
   /// Where a job's dataset lies once it has succeeded.
   std::filesystem::path dataset_of(const std::string& id) const { return folder_of(id).dataset(); }
 
+  Datasets& datasets() { return datasets_; }
+
   /// The report of a job that has a dataset (ReportMaker::report_of).
   std::optional<std::filesystem::path> report_of(const std::string& id,
                                                  std::chrono::milliseconds patience) {
@@ -177,6 +180,7 @@ class JobService {
 
   /// A message without the places of this machine's folders.
   std::string without_paths(std::string message) const;
+  std::vector<Problem> without_paths(std::vector<Problem> problems) const;
 
  private:
   /// The job that is being worked on.
@@ -233,6 +237,7 @@ class JobService {
   mutable TextCache texts_;
   DiskWatch disk_;
   ReportMaker reports_;
+  Datasets datasets_;
   std::jthread worker_;  ///< these end before what they use
   std::jthread sweeper_;
 };

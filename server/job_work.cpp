@@ -156,9 +156,8 @@ void JobService::run(const JobRow& row, const std::stop_token& stop) {
     spdlog::info("job {} stopped", row.id);
     return;
   } catch (const InputError& failure) {
-    std::vector<Problem> problems = failure.problems();
-    for (Problem& problem : problems) problem.source = without_paths(problem.source);
-    error = text_of(error_json("input", without_paths(failure.what()), problems));
+    error = text_of(
+        error_json("input", without_paths(failure.what()), without_paths(failure.problems())));
   } catch (const std::exception& failure) {
     if (const std::string reason = disk_.look(); !reason.empty()) {
       spdlog::warn("job {} stopped: {}", row.id, failure.what());

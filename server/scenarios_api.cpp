@@ -99,7 +99,8 @@ void upload_scenarios(const Call& call, const Request& request, Response& respon
     if (!dry) response.set_header("Location", "/v1/scenarios/" + upload.ids.front());
     write_json(response, dry ? 200 : 201, value);
   } catch (const InputError& error) {
-    throw HttpError{400, "the bundle cannot be used as it stands", error.problems()};
+    throw HttpError{400, "the bundle cannot be used as it stands",
+                    call.service.without_paths(error.problems())};
   }
 }
 

@@ -212,6 +212,15 @@ TEST_F(SupervisorTest, ProgressOnlyGrowsAndEndsComplete) {
   }
 }
 
+TEST_F(SupervisorTest, AFolderThatWasBarelyBegunIsTaken) {
+  write_file_atomically(base.path() / "job" / "job.json.tmp.12345.0", "{");
+  run_job(folder(), job, executor);
+  EXPECT_FALSE(std::filesystem::exists(base.path() / "job" / "job.json.tmp.12345.0"));
+  EXPECT_TRUE(std::filesystem::exists(folder().dataset()));
+  write_file_atomically(base.path() / "file", "x");
+  EXPECT_THROW(JobFolder::create(base.path() / "file", job), InputError);
+}
+
 TEST_F(SupervisorTest, AFolderBelongsToOneJob) {
   folder();
   EXPECT_EQ(to_json(folder().read_job(scenarios.path())), to_json(job));

@@ -136,6 +136,15 @@ TEST_F(ApiTest, AReportThatFailsIsTriedAgain) {
   EXPECT_EQ(get("/v1/jobs/" + id + "/report")->body, "page");
 }
 
+TEST_F(ApiTest, WhatIsWrongIsSaidInFullWhateverRangeIsAskedFor) {
+  const httplib::Headers range = {{"Range", "bytes=0-10"}};
+  expect_problem(get("/v1/jobs/jnosuchjob000000/archive", range), 404);
+  expect_problem(get("/nothing", range), 404);
+  const httplib::Result list = get("/v1/jobs", range);
+  EXPECT_EQ(list->status, 200);
+  EXPECT_TRUE(json::accept(list->body));
+}
+
 TEST_F(ApiTest, DeleteRemovesAndSaysSo) {
   const std::string id = submit_and_wait();
   EXPECT_EQ(client().Delete("/v1/jobs/" + id)->status, 204);

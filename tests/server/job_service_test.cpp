@@ -82,6 +82,18 @@ TEST_F(JobServiceTest, AnInputErrorOfAWorkerKeepsItsPointers) {
   EXPECT_EQ(error["problems"][0]["pointer"], "/crowd/agents");
 }
 
+TEST_F(JobServiceTest, NoPartOfAMistakeSaysWhereTheDataLie) {
+  const std::string place = data.path().string();
+  executor.before = [&](const Task&) {
+    const std::string file = place + "/jobs/x/file";
+    return TaskResult{Outcome::input_error, 1, "m", {{file, file, file, file}}};
+  };
+  JobService service(options(), executor);
+  const JobRow row = service.submit({kJob}).row;
+  ASSERT_TRUE(reaches(service, row.id, JobState::failed));
+  EXPECT_THAT(service.get(row.id)->error_json, Not(HasSubstr(place)));
+}
+
 TEST_F(JobServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
   std::string running;
   std::string queued;
