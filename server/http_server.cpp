@@ -51,10 +51,16 @@ std::optional<Refusal> refusal_of(const httplib::Request& request) {
   if (lengths == 1 && !is_number(request.get_header_value("Content-Length"))) {
     return Refusal{400, kWhy};
   }
-  const bool has_body =
-      request.method == "POST" || request.method == "PUT" || request.method == "PATCH";
-  if (has_body && lengths == 0) return Refusal{411, kWhy};
   return std::nullopt;
+}
+
+// A request that says nothing of a body has none (RFC 9112, 6.3): `curl -X POST`. The library would
+// read on until the connection ends.
+void say_that_there_is_no_body(const httplib::Request& request) {
+  if (request.has_header("Content-Length")) return;
+  // The library owns the request and made it non-const.
+  const_cast<httplib::Request&>(request)  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+      .set_header("Content-Length", "0");
 }
 
 std::size_t length_of(const httplib::Request& request) {
@@ -161,7 +167,10 @@ HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_erro
           response.set_header("Retry-After", "5");
           refusal = {503, "other uploads take all the memory there is for them"};
         }
-        if (!refusal) return httplib::Server::HandlerResponse::Unhandled;
+        if (!refusal) {
+          say_that_there_is_no_body(request);
+          return httplib::Server::HandlerResponse::Unhandled;
+        }
         response.status = refusal->status;
         write_error(request, response, refusal->status, refusal->detail);
         close_after(response);

@@ -194,6 +194,14 @@ TEST_F(ApiTest, BodiesWithoutALengthAreRefusedAndTheConnectionEnds) {
   EXPECT_EQ(get("/healthz")->status, 200);
 }
 
+TEST_F(ApiTest, WithoutALengthThereIsNoBody) {
+  const std::string answers =
+      raw("POST /v1/jobs/jnosuchjob000000/cancel HTTP/1.1\r\nHost: localhost\r\n\r\n"
+          "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+  EXPECT_THAT(answers, StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(answers, HasSubstr("HTTP/1.1 200"));
+}
+
 TEST_F(ApiTest, LargeBodiesAreRefused) {
   const httplib::Result answer =
       client().Post("/v1/jobs", std::string(2 << 20, ' '), "application/json");
