@@ -125,7 +125,8 @@ std::vector<ActionRegistry::Entry> obstacle_actions() {
 }
 
 const ActionRegistry& action_registry() {
-  static const ActionRegistry kRegistry({property_actions(), obstacle_actions(), stress_actions(),
+  static const ActionRegistry kRegistry({property_actions(), obstacle_actions(),
+                                         late_obstacle_actions(), stress_actions(),
                                          presence_actions(), panic_actions()});
   return kRegistry;
 }

@@ -170,6 +170,8 @@ std::vector<GoalSelectorRegistry::Entry> evacuation_goal_selectors();
 /// The groups that make up the actions.
 std::vector<ActionRegistry::Entry> property_actions();
 std::vector<ActionRegistry::Entry> obstacle_actions();
+/// add_obstacle_at.
+std::vector<ActionRegistry::Entry> late_obstacle_actions();
 std::vector<ActionRegistry::Entry> stress_actions();
 /// leave.
 std::vector<ActionRegistry::Entry> presence_actions();

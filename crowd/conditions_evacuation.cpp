@@ -63,6 +63,7 @@ class Proximity : public Condition {
     float growth_rate = 0;   // m/s
     float max_distance = 0;  // m
     double start_s = 0;
+    double end_s = 0;
   };
 
   Proximity(std::size_t avoided, const Spread& spread) : avoided_(avoided), spread_(spread) {}
@@ -71,6 +72,7 @@ class Proximity : public Condition {
     const Agents& agents = crowd.agents;
     const double since_start = crowd.time_s() - spread_.start_s;
     constexpr double kRounding = 1e-6;  // s
+    if (crowd.time_s() > spread_.end_s + kRounding) return false;
     if (since_start < -kRounding || agent == avoided_ || agents.present[avoided_] == 0) {
       return false;
     }
@@ -160,6 +162,8 @@ std::unique_ptr<Condition> make_proximity(const Element& element, const Attribut
   spread.distance = attributes.real("distance");
   spread.growth_rate = attributes.real("growth_rate");
   spread.start_s = attributes.number("start");
+  spread.end_s =
+      attributes.has("end") ? attributes.number("end") : std::numeric_limits<double>::infinity();
   if (attributes.has("max_distance")) {
     spread.max_distance = attributes.real("max_distance");
     if (spread.max_distance < spread.distance) {
@@ -190,7 +194,8 @@ std::vector<ConditionRegistry::Entry> evacuation_conditions() {
         optional(number("growth_rate", "of the distance in m/s", 0), "0"),
         optional(number("max_distance",
                         "up to which it grows in m; without it: no limit if it grows", 0)),
-        optional(number("start", "before this time nobody notices, in s", 0), "0")},
+        optional(number("start", "before this time nobody notices, in s", 0), "0"),
+        optional(number("end", "after this time nobody does; without it: always, in s", 0))},
        make_proximity},
   };
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "base/random.h"
 #include "crowd/behavior.h"
@@ -53,7 +55,8 @@ class Queues {
 
 /// The expected time is that of the way there, or, when it takes longer, that of the queue:
 /// whoever is nearer has to pass first (in the manner of the best-response exit choice of FDS+Evac,
-/// Ehtamo, Heliovaara, Korhonen, Hostikka 2010). Only exits that somebody knows, or sees, count.
+/// Ehtamo, Heliovaara, Korhonen, Hostikka 2010). Only exits that somebody knows, or sees, count,
+/// and none that an obstacle covers.
 class ExitChoice : public GoalSelector {
  public:
   ExitChoice(const ExitChoiceSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {}
@@ -74,6 +77,7 @@ class ExitChoice : public GoalSelector {
     for (std::size_t i = 0; i < goals.size(); ++i) {
       const Goal& goal = crowd.goals[goals[i]];
       if (!goal.has_room() && goals[i] != current) continue;
+      if (is_buried(crowd, agent, goals[i])) continue;
       const float distance = goal.shape->distance(crowd.agents.position[agent]);
       if (distance < nearest_m) {
         nearest_m = distance;
@@ -93,6 +97,20 @@ class ExitChoice : public GoalSelector {
   const ExitChoiceSpec& spec() const { return spec_; }
 
  private:
+  /// Whether a goal's middle lies in something solid that the agent minds.
+  bool is_buried(const Crowd& crowd, std::size_t agent, int goal) {
+    const std::uint32_t mask = crowd.agents.obstacle_mask[agent];
+    const auto [found, is_new] = buried_.try_emplace({goal, mask}, false);
+    if (!is_new || crowd.compat != Compat::none) return found->second;
+    const Eigen::Vector2f middle = crowd.goals[goal].shape->centre();
+    const std::vector<Polygon>& polygons = crowd.obstacles.polygons();
+    found->second = std::any_of(polygons.begin(), polygons.end(), [&](const Polygon& polygon) {
+      return (polygon.obstacle_class & mask) != 0 && polygon.solid &&
+             crowd.obstacles.encloses(polygon, middle);
+    });
+    return found->second;
+  }
+
   float expected_s(const Crowd& crowd, std::size_t agent, std::size_t index, float distance) const {
     constexpr float kSlowest = 0.1F;  // m/s
     const Goal& goal = crowd.goals[crowd.goals.set(spec_.set).goals[index]];
@@ -110,6 +128,7 @@ class ExitChoice : public GoalSelector {
   ExitChoiceSpec spec_;
   std::uint64_t seed_;
   Queues queues_;
+  std::map<std::pair<int, std::uint32_t>, bool> buried_;  ///< by goal and obstacle classes
 };
 
 /// Has those who head for an exit think again now and then, each in its own turn.
