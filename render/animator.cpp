@@ -109,6 +109,10 @@ class Watcher {
   std::vector<std::vector<Eigen::Vector3d>> drones_;  ///< [step]
 };
 
+bool is_drawn(world::AgentRole role) {
+  return role == world::AgentRole::person || role == world::AgentRole::attacker;
+}
+
 }  // namespace
 
 bool is_down(std::string_view state_name) {
@@ -134,7 +138,7 @@ Animator::Animator(const world::Trace& trace, const skinning::Population& popula
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     appearance_.push_back(skinning::appearance_of(population, trace.header.seed,
                                                   static_cast<std::uint32_t>(agent), styling));
-    if (trace.header.role[agent] != world::AgentRole::person) continue;
+    if (!is_drawn(trace.header.role[agent])) continue;
     const std::uint64_t key = derive_seed(trace.header.seed, Stream::motion, agent);
     const Curiosity curiosity(Random(key, Stream::motion, 1));
     for (std::size_t step = 0; step < trace.steps(); ++step) {
@@ -160,7 +164,7 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
   const Between at = find(trace.time_s, time_s);
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (!trace.present(at.before, agent)) continue;
-    if (trace.header.role[agent] != world::AgentRole::person) {
+    if (!is_drawn(trace.header.role[agent])) {
       scene.dangers.push_back(trace.position[trace.at(at.before, agent)]);
       continue;
     }

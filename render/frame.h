@@ -21,8 +21,8 @@ inline constexpr std::uint32_t kIdNothing = 0;            ///< sky
 inline constexpr std::uint32_t kIdUmbrella = 0x40000000;  ///< + id of who holds it
 inline constexpr std::uint32_t kIdGround = 0xFFFF0000;    ///< the ground
 inline constexpr std::uint32_t kIdBuilding = 0x80000000;  ///< + index of the building
-inline constexpr std::uint32_t kIdProp = 0xC0000000;      ///< + index of the prop; then meshes
-inline constexpr std::uint32_t kIdDrone = 0xE0000000;     ///< + number of the drone
+inline constexpr std::uint32_t kIdProp = 0xC0000000;   ///< + index of the prop; then meshes, rubble
+inline constexpr std::uint32_t kIdDrone = 0xE0000000;  ///< + number of the drone
 inline constexpr std::uint32_t id_of_agent(std::uint32_t agent) { return agent + 1; }
 inline constexpr bool is_agent(std::uint32_t id) { return id > 0 && id < kIdUmbrella; }
 inline constexpr std::uint32_t id_of_umbrella(std::uint32_t agent) {

@@ -12,6 +12,7 @@ namespace {
 constexpr double kHeightM = 4.2;
 constexpr double kSpacingM = 12;
 constexpr double kShortestWallM = 4;
+constexpr double kLowestStoreyM = 2.6;  // lower walls have no lamps; also in shaders/wall.frag.glsl
 constexpr double kReachM = 26;
 constexpr double kPlaneM = 1;  // height at which the light is taken
 // About 1000 candela over 54 000 lux: 57 lux on the ground below a lamp 4.2 m up.
@@ -46,6 +47,7 @@ std::vector<Lamp> wall_lamps(const world::Scenario& scenario) {
   constexpr double kOffWallM = 0.35;
   std::vector<Lamp> lamps;
   for (const world::Building& building : scenario.buildings) {
+    if (building.height_m < kLowestStoreyM) continue;
     const std::vector<Eigen::Vector2d>& corners = building.footprint;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Eigen::Vector2d& from = corners[i];

@@ -120,7 +120,7 @@ void add_roof(const world::Building& building, std::uint32_t id, PlaceMesh& mesh
                               static_cast<float>(size.x()), static_cast<float>(size.y())},
                              1,
                              id,
-                             0});
+                             static_cast<float>(building.facade)});
   }
   for (const auto& triangle : triangulate(building.footprint)) {
     for (const std::uint32_t corner : triangle) mesh.indices.push_back(first + corner);

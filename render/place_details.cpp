@@ -192,7 +192,8 @@ std::optional<Panel> door_in(const world::Exit& exit, const Vector2d& from, cons
 }  // namespace
 
 bool has_roof_plant(const world::Building& building) {
-  return area_m2(building.footprint) >= kSmallestRoofM2;
+  constexpr double kLowestM = 2.6;  // lower ones are walls, pedestals and the like
+  return building.height_m >= kLowestM && area_m2(building.footprint) >= kSmallestRoofM2;
 }
 
 void add_exit_doors(const world::Scenario& scenario, PlaceMesh& mesh) {

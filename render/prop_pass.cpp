@@ -5,6 +5,7 @@
 
 #include "render/frame.h"
 #include "render/mesh_file.h"
+#include "render/rubble.h"
 #include "render/shaders.h"
 
 namespace throng::render {
@@ -32,8 +33,8 @@ Range append(const PropMesh& mesh, bool leaves, std::uint32_t base,
 
 }  // namespace
 
-void PropPass::add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
-                   std::vector<std::uint32_t>& indices) {
+PropPass::Item& PropPass::add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
+                              std::vector<std::uint32_t>& indices) {
   Eigen::AlignedBox3d bounds;
   for (const PropVertex& vertex : mesh.vertices) {
     bounds.extend(Eigen::Vector3f(vertex.position.data()).cast<double>());
@@ -46,6 +47,7 @@ void PropPass::add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& v
   item.leaves = append(mesh, true, base, indices);
   item.closed = closed;
   vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  return item;
 }
 
 VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
@@ -70,6 +72,13 @@ PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
   }
   for (const world::PlacedMesh& mesh : scenario.meshes) {
     add(mesh_from_file(mesh, id++), false, vertices, indices);
+  }
+  for (const world::Disaster& disaster : scenario.disasters) {
+    const std::vector<RubblePiece> pieces = rubble_of(disaster, id);
+    for (const RubblePiece& piece : pieces) {
+      add(piece.mesh, true, vertices, indices).from_s = piece.from_s;
+    }
+    if (!pieces.empty()) ++id;
   }
   if (items_.empty()) return;
   vertices_ = make_buffer(vertices);
@@ -103,11 +112,11 @@ void PropPass::draw_ranges(const Program& program, const std::vector<const Item*
                       static_cast<GLsizei>(counts.size()));
 }
 
-void PropPass::draw(const ClipPlanes& planes) const {
+void PropPass::draw(const ClipPlanes& planes, double time_s) const {
   std::vector<const Item*> closed;
   std::vector<const Item*> open;
   for (const Item& item : items_) {
-    if (is_outside(planes, item.middle, item.radius_m)) continue;
+    if (time_s < item.from_s || is_outside(planes, item.middle, item.radius_m)) continue;
     (item.closed ? closed : open).push_back(&item);
   }
   if (closed.empty() && open.empty()) return;
@@ -119,9 +128,11 @@ void PropPass::draw(const ClipPlanes& planes) const {
   draw_ranges(leaves_, closed, &Item::leaves);
 }
 
-void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope) const {
+void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,
+                           double time_s) const {
   std::vector<const Item*> casters;
   for (const Item& item : items_) {
+    if (time_s < item.from_s) continue;
     const Eigen::Vector2d middle = item.middle.head<2>();
     Eigen::AlignedBox2d shade(middle);
     shade.extend(Eigen::Vector2d(middle - slope * (item.middle.z() + item.radius_m)));

@@ -1,4 +1,4 @@
-// Draws trees, benches, lamp posts, cars and the like, and the meshes of users.
+// Draws trees, benches, lamp posts, cars and the like, the meshes of users, and rubble.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,12 +24,14 @@ class PropPass {
   /// cannot be read.
   PropPass(const world::Scenario& scenario, std::string_view words, const QualitySettings& quality);
 
-  /// The props that the camera may see. Expects what PlacePass::draw() expects.
-  void draw(const ClipPlanes& planes) const;
+  /// The props that the camera may see at a time of the run. Expects what PlacePass::draw()
+  /// expects.
+  void draw(const ClipPlanes& planes, double time_s) const;
 
   /// The props whose shade touches `area` of the ground, into the shadow map; `slope` is
   /// shadow_slope().
-  void draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope) const;
+  void draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,
+                   double time_s) const;
 
  private:
   /// One prop: a sphere that holds it and its triangles.
@@ -39,10 +41,11 @@ class PropPass {
     Range solid;
     Range leaves;
     bool closed = true;  ///< only its outside can be seen
+    double from_s = 0;   ///< not there before
   };
   /// Adds a mesh to the buffers in the making.
-  void add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
-           std::vector<std::uint32_t>& indices);
+  Item& add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
+            std::vector<std::uint32_t>& indices);
   void draw_ranges(const Program& program, const std::vector<const Item*>& items,
                    Range Item::*range) const;
 

@@ -205,7 +205,7 @@ void Renderer::State::draw_shadows(const Scene& scene, const Eigen::AlignedBox2d
   }
   shadow_map.begin();
   place.draw_shadow();
-  props.draw_shadow(area, slope);
+  props.draw_shadow(area, slope, scene.time_s);
   people_pass.draw(PeoplePass::Purpose::shadow, scene.people, std::move(casters));
 }
 
@@ -289,7 +289,7 @@ void Renderer::State::draw_view(const Scene& scene, const camera::Camera& camera
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, view_buffer.name());
   // People first: they are many small triangles, and hide ground that then costs nothing.
   people_pass.draw(purpose, scene.people, draws_of(seen));
-  props.draw(clip_planes(camera));
+  props.draw(clip_planes(camera), scene.time_s);
   airframes.draw(scene.drones, camera);
   place.draw();
   if (quality.textured) contacts.draw(scene.people, camera);

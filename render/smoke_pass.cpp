@@ -20,6 +20,8 @@ constexpr std::uint64_t kPuffs = 130;                     // of one danger
 constexpr std::uint64_t kUsualDust = 40;                  // of them
 constexpr double kLifeS = 15;
 constexpr double kDriftMps = 0.45;
+constexpr std::uint64_t kFlames = std::uint64_t{1} << 45;
+constexpr float kShines = 2;  // added to the opacity of what does; also in shaders/smoke.frag.glsl
 const Eigen::Vector3d kSoot(0.10, 0.10, 0.105);
 const Eigen::Vector3d kDustAlbedo(0.36, 0.31, 0.25);
 
@@ -101,12 +103,45 @@ void SmokePass::add_puffs(const Source& source, std::size_t number, double time_
   }
 }
 
+void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, double time_s,
+                           const camera::Camera& camera) {
+  constexpr std::uint64_t kMost = 60;
+  constexpr double kFlameS = 1.1;
+  constexpr double kFireballS = 4;
+  const double since_s = time_s - disaster.start_s;
+  const bool explodes = disaster.kind == world::DisasterKind::explosion;
+  if (since_s < 0 || (explodes && since_s > kFireballS)) return;
+  if (!explodes && disaster.kind != world::DisasterKind::fire) return;
+  const double reach_m = 0.6 * disaster.reach_m(time_s);
+  const double fades = explodes ? 1 - since_s / kFireballS : 1;
+  for (std::uint64_t i = 0; i < kMost; ++i) {
+    Random random(environment_.seed, Stream::environment, kFlames + kMost * number + i);
+    const double whole = time_s / kFlameS + random.uniform();
+    const double share = whole - std::floor(whole);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double out_m = reach_m * std::sqrt(random.uniform()) * (1 - 0.5 * share);
+    const Eigen::Vector3d at(disaster.position.x() + out_m * std::cos(angle),
+                             disaster.position.y() + out_m * std::sin(angle),
+                             0.2 + (1.2 + 0.5 * reach_m) * share);
+    const double radius = (0.22 + 0.16 * reach_m) * (1.1 - 0.8 * share);
+    Puff puff;
+    puff.place = {static_cast<float>(at.x()), static_cast<float>(at.y()),
+                  static_cast<float>(at.z()), static_cast<float>(radius)};
+    // From yellow to red as it rises.
+    puff.look = {2.4F, static_cast<float>(1.15 - 0.85 * share), 0.12F,
+                 kShines + static_cast<float>(0.6 * fades * environment_.smoke * (1 - share))};
+    puff.depth_m = static_cast<float>(camera.project(at).depth_m);
+    if (puff.depth_m > puff.place[3]) puffs_.push_back(puff);
+  }
+}
+
 void SmokePass::draw(const Scene& scene, const camera::Camera& camera) {
   if (environment_.smoke <= 0) return;
   puffs_.clear();
   for (std::size_t i = 0; i < disasters_.size(); ++i) {
     if (disasters_[i].kind == world::DisasterKind::attacker) continue;
     add_puffs(source_of(disasters_[i], scene.time_s), i, scene.time_s, camera);
+    add_flames(disasters_[i], i, scene.time_s, camera);
   }
   for (std::size_t i = 0; disasters_.empty() && i < scene.dangers.size(); ++i) {
     add_puffs({scene.dangers[i].cast<double>(), kLifeS, 0, 1, kUsualDust, kSoot, kDustAlbedo}, i,

@@ -25,8 +25,10 @@ class SmokePass {
   /// One disc, as shaders/smoke.vert.glsl reads it.
   struct Puff {
     std::array<float, 4> place{};  ///< middle and radius (m)
-    std::array<float, 4> look{};   ///< linear albedo, how much of what is behind it hides
-    float depth_m = 0;             ///< of the camera
+    /// Linear albedo, how much of what is behind it hides; what shines by itself: radiance, that
+    /// + 2.
+    std::array<float, 4> look{};
+    float depth_m = 0;  ///< of the camera
   };
   /// What the puffs of one danger have in common.
   struct Source {
@@ -38,6 +40,9 @@ class SmokePass {
     Eigen::Vector3d smoke_albedo;
     Eigen::Vector3d dust_albedo;
   };
+  /// Flames at the foot of a fire, and of an explosion for as long as its fireball lasts.
+  void add_flames(const world::Disaster& disaster, std::size_t number, double time_s,
+                  const camera::Camera& camera);
   static Source source_of(const world::Disaster& disaster, double time_s);
   void add_puffs(const Source& source, std::size_t number, double time_s,
                  const camera::Camera& camera);

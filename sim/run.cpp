@@ -113,8 +113,16 @@ std::vector<world::AgentRole> roles_of(const world::Scenario& scenario, const Ru
                                        const CrowdSource& crowd, std::vector<Problem>& problems) {
   const std::size_t agents = crowd.positions().size();
   const std::vector<int> none;
-  return choose_roles(scenario.id, spec.recorded ? none : scenario.disaster_agents, agents,
-                      spec.people, spec.seed, problems);
+  std::vector<world::AgentRole> roles =
+      choose_roles(scenario.id, spec.recorded ? none : scenario.disaster_agents, agents,
+                   spec.people, spec.seed, problems);
+  for (const world::Disaster& disaster : scenario.disasters) {
+    const auto agent = static_cast<std::size_t>(disaster.agent);
+    if (disaster.kind != world::DisasterKind::attacker || spec.recorded || agent >= agents)
+      continue;
+    roles[agent] = world::AgentRole::attacker;
+  }
+  return roles;
 }
 
 }  // namespace

@@ -102,7 +102,8 @@ Facade read_facade(const JsonValue& value) {
   if (word == "plaster") return Facade::plaster;
   if (word == "brick") return Facade::brick;
   if (word == "glass") return Facade::glass;
-  value.reject("one of: plaster, brick, glass");
+  if (word == "hedge") return Facade::hedge;
+  value.reject("one of: plaster, brick, glass, hedge");
   return Facade::by_id;
 }
 

@@ -35,8 +35,10 @@ struct Exit {
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
 };
 
-/// What a building's walls look like. by_id: plaster or brick, by the building's number.
-enum class Facade : std::uint8_t { by_id, plaster, brick, glass };
+/// What a building's walls look like. by_id: plaster or brick, by the building's number. The
+/// numbers are those of shaders/wall.frag.glsl, which has others for what render/ adds
+/// (render::WallLook).
+enum class Facade : std::uint8_t { by_id = 0, plaster = 1, brick = 2, glass = 3, hedge = 8 };
 
 /// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.
 struct Building {

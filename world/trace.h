@@ -19,6 +19,7 @@ enum class AgentRole : std::uint8_t {
   person = 0,
   disaster = 1,  ///< an agent that stands for a danger; neither drawn nor counted
   absent = 2,    ///< in the scenario but not in this run; neither drawn nor counted
+  attacker = 3,  ///< a danger that is a person: drawn and labelled as one, but not counted
 };
 
 /// Bits of Trace::flags, what an agent is at a step: takes part, i.e. has arrived and not left yet;

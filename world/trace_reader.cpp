@@ -79,7 +79,7 @@ class Reader {
     const hdf5::Handle agents = open_group("agents");
     const hsize_t count = hdf5::shape_of(agents, "role", 1)[0];
     for (const std::uint8_t role : numbers<std::uint8_t>(agents, "role", {count})) {
-      if (role > static_cast<std::uint8_t>(AgentRole::absent)) {
+      if (role > static_cast<std::uint8_t>(AgentRole::attacker)) {
         reject(source_, "agents/role", std::to_string(role), "0, 1 or 2");
       }
       header.role.push_back(static_cast<AgentRole>(role));

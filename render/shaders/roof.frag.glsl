@@ -4,6 +4,7 @@ in float openness;
 in vec4 local;  // from a corner of the roof's bounds, then their size; m
 flat in vec3 normal;
 flat in uint id;
+flat in float facade_kind;  // of the walls below; 8: a hedge, whose top this is
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint instance;
@@ -22,6 +23,7 @@ void main() {
   vec3 albedo = mix(vec3(0.27, 0.26, 0.25), vec3(0.36, 0.33, 0.29), tone);
   albedo *= (1.0 + 0.2 * gravel + 0.25 * stain) * (1.0 - 0.3 * seam) * (1.0 - 0.3 * gutter);
   albedo = mix(albedo, vec3(0.46, 0.44, 0.40), parapet);
+  if (facade_kind > 7.5) albedo = vec3(0.075, 0.135, 0.04) * (0.6 + 0.8 * noise(p * 3.1));
 #ifdef WET
   albedo *= 0.6;
 #endif

@@ -1,4 +1,4 @@
-// A puff as a ball whose rim is torn, lit from above and by the sun.
+// A puff as a ball whose rim is torn, lit from above and by the sun; flames shine by themselves.
 in vec3 world;
 in vec2 on_disc;
 flat in vec4 puff;
@@ -20,5 +20,7 @@ void main() {
 #ifdef LAMPS
   received += light.lamps.rgb * 4.0e-4;
 #endif
-  colour = vec4(film(through_air(puff.rgb * received, world)), puff.a * thick);
+  bool shines = puff.a > 1.5;
+  vec3 radiance = shines ? puff.rgb : puff.rgb * received;
+  colour = vec4(film(through_air(radiance, world)), (shines ? puff.a - 2.0 : puff.a) * thick);
 }

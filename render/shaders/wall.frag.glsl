@@ -182,12 +182,43 @@ Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
   return s;
 }
 
+// A wall too low for a storey: brick or plaster under a coping.
+Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
+  vec2 width = fwidth(p);
+  float stain = noise(p * vec2(0.7, 0.9)) - 0.5;
+  float splash = exp(-3.0 * p.y) * (0.5 + 0.5 * noise(p * 3.0));
+  float coping = band(p.y, size.y - 0.12, size.y, width.y);
+  float post = stripes(p.x / 3.0 + 0.03, 0.06, width.x / 3.0);
+  Surface s;
+  s.shine = vec3(0.0);
+  s.glow = vec3(0.0);
+  s.albedo = brick ? brick_colour(p, width) : render_colour(hash(key + 31)) * (1.0 - 0.25 * post);
+  s.albedo *= (1.0 + 0.2 * stain) * (1.0 - 0.4 * splash);
+  s.albedo = mix(s.albedo, vec3(0.48, 0.46, 0.42), coping);
+  return s;
+}
+
+// A clipped hedge: tufts of leaves, darker towards the ground.
+Surface hedge(vec2 p, vec2 size) {
+  float fade = clamp(1.5 - 6.0 * max(fwidth(p.x), fwidth(p.y)), 0.0, 1.0);
+  float tufts = noise(p * 3.1) + 0.7 * (noise(p * 9.7) - 0.5) * fade;
+  Surface s;
+  s.shine = vec3(0.0);
+  s.glow = vec3(0.0);
+  s.albedo = vec3(0.055, 0.10, 0.030) * (0.55 + 0.9 * tufts) * (0.6 + 0.4 * p.y / size.y);
+  return s;
+}
+
 Surface facade(vec2 p, vec2 size, uint building) {
+  const float kLowestStorey = 2.6;  // kLowestStoreyM of render/lamps.cpp
   vec2 width = fwidth(p);
   ivec2 key = ivec2(int(building), 3);
   int kind = int(facade_kind + 0.5);
+  if (kind == 8) return hedge(p, size);
   if (kind == 4 || kind == 5) return exit_door(p, size, kind == 4);
   if (kind == 6) return roof_plant(p, size, key);
+  bool brick = kind == 0 ? hash(key) < 0.4 : kind == 2;
+  if (size.y < kLowestStorey && kind != 3) return low_wall(p, size, key, brick);
   if (kind == 3) return glass_facade(p, size, key);
   float floors = max(1.0, round(size.y / 3.3));
   float bays = max(1.0, round(size.x / 2.8));
@@ -205,7 +236,6 @@ Surface facade(vec2 p, vec2 size, uint building) {
   Surface s;
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
-  bool brick = kind == 0 ? hash(key) < 0.4 : kind == 2;
   s.albedo = brick && !ground_floor ? brick_colour(p, width) : render_colour(hash(key + 31));
   s.albedo *= (1.0 + 0.2 * stain + 0.1 * rough) * (1.0 - 0.45 * streak) * (1.0 - 0.4 * splash);
   vec2 half_size = ground_floor ? vec2(0.36 * bay.x, 0.37 * bay.y) : vec2(0.6, 0.25 * bay.y);

@@ -52,6 +52,14 @@ TEST_F(AnimatorTest, PositionsAreInterpolatedBetweenSteps) {
   EXPECT_NEAR(scene.people[0].position.y(), 2, 1e-6);
 }
 
+TEST_F(AnimatorTest, AnAttackerIsSeenAsAPerson) {
+  trace_.header.role[2] = world::AgentRole::attacker;
+  const Scene scene = Animator(trace_, people_).scene_at(1, 0);
+  ASSERT_EQ(scene.people.size(), 3U);
+  EXPECT_EQ(scene.people[2].agent, 2U);
+  EXPECT_TRUE(scene.dangers.empty());
+}
+
 TEST_F(AnimatorTest, TheDisasterIsNotAPerson) {
   const Scene scene = animator_.scene_at(1, 0);
   ASSERT_EQ(scene.people.size(), 2U);

@@ -1,0 +1,59 @@
+// What a collapse leaves, and walls too low to be houses.
+#include "render/rubble.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/lamps.h"
+#include "render/place_details.h"
+#include "stage.h"
+
+namespace throng::render {
+namespace {
+
+world::Disaster falling_wall() { return {world::DisasterKind::collapse, 0, {14, 0}, 5, 2, 1, 6}; }
+
+TEST(Rubble, LiesWhereTheCollapseHasReached) {
+  const std::vector<RubblePiece> pieces = rubble_of(falling_wall(), kIdProp);
+  ASSERT_GT(pieces.size(), 50U);
+  for (const RubblePiece& piece : pieces) {
+    EXPECT_GE(piece.from_s, 5);
+    EXPECT_LE(piece.from_s, 9 + 1e-9) << "4 m at 1 m/s";
+    for (const PropVertex& vertex : piece.mesh.vertices) {
+      const Eigen::Vector2d at(vertex.position[0], vertex.position[1]);
+      EXPECT_LT((at - falling_wall().position).norm(), 6 + 2);
+      EXPECT_GE(vertex.position[2], 0);
+    }
+  }
+  world::Disaster fire = falling_wall();
+  fire.kind = world::DisasterKind::fire;
+  EXPECT_TRUE(rubble_of(fire, kIdProp).empty());
+}
+
+TEST(Rubble, IsInThePictureAndItsIdsOnceItHasFallen) {
+  world::Scenario scenario = open_ground();
+  scenario.disasters = {falling_wall()};
+  Stage stage(scenario);
+  const camera::Camera camera = camera_at({0, 0, 8}, 0, -28);
+  const auto pixels_at = [&](double time_s) {
+    Scene scene;
+    scene.time_s = time_s;
+    return mask_of(stage.renderer().draw(scene, camera), kIdProp).pixels;
+  };
+  EXPECT_EQ(pixels_at(4.9), 0U);
+  const std::uint64_t first = pixels_at(5.1);
+  EXPECT_GT(first, 200U);
+  EXPECT_GT(pixels_at(9.1), first + 200);
+}
+
+TEST(LowWalls, HaveNeitherLampsNorMachinesOnTop) {
+  for (const auto& [height_m, is_house] : {std::pair(0.1, false), {1.4, false}, {5.0, true}}) {
+    const world::Scenario scenario = open_ground({block(5, 25, -10, 10, height_m)});
+    EXPECT_EQ(has_roof_plant(scenario.buildings[0]), is_house) << height_m;
+    EXPECT_EQ(wall_lamps(scenario).empty(), !is_house) << height_m;
+  }
+}
+
+}  // namespace
+}  // namespace throng::render
