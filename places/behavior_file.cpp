@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "places/blocked.h"
 #include "places/crowd_files.h"
 
 namespace throng::places {
@@ -97,10 +98,12 @@ std::string goals_of(const Scenario& scenario, const People& people) {
 
 std::string state(const std::string& name, const std::string& selector, const std::string& velocity,
                   bool final = false, const std::string& actions = "") {
+  // Coarser than its default, which is meant for gaps narrower than those of places.
+  const char* cells = velocity == "auto" ? " cell_size=\"0.12\"" : "";
   return fmt::format(
       "  <State name=\"{}\" final=\"{}\">\n    <GoalSelector {}/>\n    <VelComponent "
-      "type=\"{}\"/>\n{}  </State>\n",
-      name, final ? 1 : 0, selector, velocity, actions);
+      "type=\"{}\"{}/>\n{}  </State>\n",
+      name, final ? 1 : 0, selector, velocity, cells, actions);
 }
 
 std::string transition(const std::string& from, const std::string& to,
@@ -197,6 +200,52 @@ class Everyday {
   bool final_wait_;
 };
 
+constexpr const char* kHurtState = "Casualty";  // one whose people are drawn lying
+
+bool hurts_anybody(const People& people) {
+  return std::any_of(people.dangers.begin(), people.dangers.end(),
+                     [](const Danger& danger) { return danger.hurts_m > 0; });
+}
+
+/// Actions of those who flee, for what disasters take as they grow.
+std::string late_obstacles(const People& people) {
+  std::string text;
+  for (const BlockedDisc& disc : blocked_discs(people)) {
+    if (disc.obstacle_class == 2) continue;
+    text += fmt::format("    <Action type=\"add_obstacle_at\" operand=\"{}\" time=\"{:.2f}\"/>\n",
+                        disc.obstacle_class, disc.from_s);
+  }
+  return text;
+}
+
+/// Who is caught: in an instant by an explosion, while it spreads by what comes down, at any time
+/// by an attacker.
+std::string hurting_transitions(const std::string& from, const People& people) {
+  constexpr double kInstantS = 0.3;
+  constexpr double kAgentRadiusM = 0.3;  // of who stands for it; the condition counts from there
+  std::string text;
+  for (const Danger& danger : people.dangers) {
+    if (danger.hurts_m <= 0) continue;
+    const world::Disaster& seen = danger.seen;
+    std::string spread;
+    if (seen.kind == world::DisasterKind::collapse && seen.growth_mps > 0) {
+      const double grows_m = std::max(seen.most_m - seen.radius_m, 0.0);
+      spread = fmt::format(" growth_rate=\"{:.4g}\" end=\"{:.4g}\"", seen.growth_mps,
+                           seen.start_s + kInstantS + grows_m / seen.growth_mps);
+    } else if (seen.kind != world::DisasterKind::attacker) {
+      spread = fmt::format(" end=\"{:.4g}\"", seen.start_s + kInstantS);
+    }
+    const double from_edge_m = seen.kind == world::DisasterKind::attacker
+                                   ? danger.hurts_m
+                                   : std::max(danger.hurts_m - kAgentRadiusM, 0.0);
+    text += transition(from, kHurtState,
+                       fmt::format("<Condition type=\"proximity\" distance=\"{:.4g}\" "
+                                   "agentToAvoid=\"{}\" start=\"{:.4g}\"{}/>",
+                                   from_edge_m, seen.agent, seen.start_s, spread));
+  }
+  return text;
+}
+
 std::string emergency_states(const People& people) {
   const bool panic = std::any_of(people.dangers.begin(), people.dangers.end(),
                                  [](const Danger& danger) { return danger.panic; });
@@ -209,11 +258,13 @@ std::string emergency_states(const People& people) {
   const std::string hurry =
       "    <Action type=\"set_property\" property=\"pref_speed\" dist=\"n\" mean=\"2\" "
       "stddev=\"0.25\" exit_reset=\"0\"/>\n    <Action type=\"add_obstacle\" operand=\"2\"/>\n";
+  const std::string grows = late_obstacles(people);
   std::string text = state("React", "type=\"identity\"", "goal");
   text +=
       state("Flee", set_selector("exit_choice", kFleeingSet, " familiarity=\"0.7\" sight=\"40\""),
-            "auto", false, hurry + (panic ? "    <Action type=\"panic\"/>\n" : ""));
-  text += state("Follow", set_selector("nearest", kGuidesSet), "auto");
+            "auto", false, hurry + grows + (panic ? "    <Action type=\"panic\"/>\n" : ""));
+  text += state("Follow", set_selector("nearest", kGuidesSet), "auto", false, grows);
+  if (hurts_anybody(people)) text += state(kHurtState, "type=\"identity\"", "zero", true);
   if (attack && !people.spots.empty()) {
     text += state("Attack", set_selector("random", kSpotsSet), "auto");
     text += state("Search", "type=\"identity\"", "goal");
@@ -225,7 +276,7 @@ std::string emergency_states(const People& people) {
 }
 
 std::string emergency_transitions(const Everyday& everyday, const People& people) {
-  std::string text;
+  std::string text = hurting_transitions(everyday.names() + ",React,Flee,Follow", people);
   for (const Danger& danger : people.dangers) {
     text += transition(
         everyday.names(), "React",

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "places/behavior_file.h"
+#include "places/blocked.h"
 
 namespace throng::places {
 
@@ -149,15 +150,14 @@ std::string obstacles_of(const People& people, const Solids& solids) {
   std::string text = "  <ObstacleSet type=\"explicit\" class=\"1\">\n";
   for (const auto& outline : solids.outlines()) text += obstacle(outline);
   text += "  </ObstacleSet>\n";
-  std::string blocked;
-  for (const Danger& danger : people.dangers) {
-    if (danger.blocked_m > 0) blocked += obstacle(octagon(danger.seen.position, danger.blocked_m));
-  }
-  if (!blocked.empty()) {
+  const std::vector<BlockedDisc> discs = blocked_discs(people);
+  if (!discs.empty()) {
     text +=
-        "  <!-- What is in the way of those who have noticed it. -->\n"
-        "  <ObstacleSet type=\"explicit\" class=\"2\">\n" +
-        blocked + "  </ObstacleSet>\n";
+        "  <!-- What is in the way of those who have noticed it, at first and as it grows. -->\n";
+  }
+  for (const BlockedDisc& disc : discs) {
+    text += fmt::format("  <ObstacleSet type=\"explicit\" class=\"{}\">\n{}  </ObstacleSet>\n",
+                        disc.obstacle_class, obstacle(octagon(disc.middle, disc.radius_m)));
   }
   return text;
 }
@@ -168,7 +168,8 @@ std::string profiles_of(const People& people) {
       "    <Common max_angle_vel=\"360\" max_neighbors=\"10\" obstacleSet=\"1\" "
       "neighbor_dist=\"5\" class=\"1\"\n            max_speed=\"3\" max_accel=\"5\">\n"
       "      <Property name=\"pref_speed\" dist=\"n\" mean=\"{:.3g}\" stddev=\"{:.3g}\"/>\n"
-      "      <Property name=\"r\" dist=\"u\" min=\"0.18\" max=\"0.24\"/>\n"
+      // So alike that all of them share one mesh of ways (crowd/auto_navigation.h).
+      "      <Property name=\"r\" dist=\"u\" min=\"0.195\" max=\"0.24\"/>\n"
       "    </Common>\n  </AgentProfile>\n",
       people.speed_mps, 0.19 * people.speed_mps);
   if (people.dangers.empty()) return text;

@@ -93,22 +93,22 @@ Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits)
 Danger usual_danger(const world::Disaster& seen) {
   switch (seen.kind) {
     case world::DisasterKind::explosion:
-      return {seen, 40, 10, seen.radius_m, true};
+      return {seen, 40, 10, seen.radius_m, true, seen.radius_m};
     case world::DisasterKind::collapse:
-      return {seen, 40, 10, seen.radius_m, false};
+      return {seen, 40, 10, seen.radius_m, false, seen.radius_m};
     case world::DisasterKind::attacker:
-      return {seen, 10, 0.8, 0, true};
+      return {seen, 10, 0.8, 0, true, 0.5};
     case world::DisasterKind::gas:
-      return {seen, seen.radius_m, std::max(seen.growth_mps, 0.1), 0, false};
+      return {seen, seen.radius_m, std::max(seen.growth_mps, 0.1), seen.radius_m, false, 0};
     case world::DisasterKind::fire:
       break;
   }
-  return {seen, 15, 1.5, seen.radius_m, false};
+  return {seen, 15, 1.5, seen.radius_m, false, 0};
 }
 
 Danger read_danger(const JsonValue& item, int agent) {
   item.fields({"kind", "position"}, {"start_s", "radius_m", "growth_mps", "most_m", "noticed_m",
-                                     "notice_growth_mps", "blocked_m", "panic"});
+                                     "notice_growth_mps", "blocked_m", "hurts_m", "panic"});
   Danger danger = usual_danger(world::read_disaster(item, agent));
   const auto read = [&](std::string_view key, double& value) {
     if (item[key].exists()) value = item[key].number(0, 10'000);
@@ -116,6 +116,7 @@ Danger read_danger(const JsonValue& item, int agent) {
   read("noticed_m", danger.noticed_m);
   read("notice_growth_mps", danger.notice_growth_mps);
   read("blocked_m", danger.blocked_m);
+  read("hurts_m", danger.hurts_m);
   if (item["panic"].exists()) danger.panic = item["panic"].boolean();
   return danger;
 }

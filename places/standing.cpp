@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kNearestM = 0.45;  // between the middles of two people
-constexpr double kSparsestM = 4;
+constexpr double kSparsestM = 40;
 
 world::Rectangle bounds_of(std::span<const Vector2d> outline) {
   world::Rectangle bounds{outline.front(), outline.front()};

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
 #include "crowd/simulation.h"
+#include "places/blocked.h"
 #include "places/check.h"
 #include "places/survey.h"
 #include "tests/world/temporary_folder.h"
@@ -130,6 +132,92 @@ TEST_P(Disasters, MakePeopleFlee) {
 
 INSTANTIATE_TEST_SUITE_P(All, Disasters,
                          ::testing::Values("explosion", "fire", "attacker", "collapse", "gas"));
+
+/// Where those were last who have left after a time: x.
+std::vector<float> last_seen_x(const world::Scenario& scenario, double from_s, double to_s) {
+  crowd::LoadOptions options;
+  options.model = "weidmann";
+  crowd::Simulation crowd(scenario.scene_file, scenario.behavior_file, options);
+  std::vector<float> x;
+  while (crowd.time_s() < to_s) {
+    const std::vector<std::uint8_t> before(crowd.present().begin(), crowd.present().end());
+    crowd.step();
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const bool leaves = before[i] != 0 && crowd.present()[i] == 0;
+      if (leaves && crowd.time_s() > from_s) x.push_back(crowd.positions()[i].x());
+    }
+  }
+  return x;
+}
+
+TEST_F(Blueprint, NobodyFleesThroughADoorThatADisasterHasGrownOver) {
+  blueprint["people"].erase("sources");
+  blueprint["disasters"] = {{{"kind", "gas"},
+                             {"position", {16, 0}},
+                             {"start_s", 1},
+                             {"radius_m", 2},
+                             {"growth_mps", 0.5},
+                             {"most_m", 10},
+                             {"noticed_m", 3},
+                             {"notice_growth_mps", 1}}};
+  const world::Scenario scenario = make();
+  EXPECT_TRUE(scenario.exits[0].open) << "it is free at first";
+  // The cloud reaches the door after 5 s; from there one walks some 15 s until one is out of sight.
+  const std::vector<float> late = last_seen_x(scenario, 35, 70);
+  ASSERT_GT(late.size(), 30U);
+  EXPECT_LT(*std::max_element(late.begin(), late.end()), 0);
+  blueprint["disasters"][0]["blocked_m"] = 0;
+  const std::vector<float> not_blocked = last_seen_x(make(), 35, 70);
+  EXPECT_GT(*std::max_element(not_blocked.begin(), not_blocked.end()), 0);
+}
+
+TEST(BlockedDiscs, GrowWithTheirDisasters) {
+  People people;
+  Danger fire;
+  fire.seen = {world::DisasterKind::fire, 0, {3, 4}, 10, 2, 0.5, 8};
+  fire.blocked_m = 3;
+  people.dangers = {fire};
+  const std::vector<BlockedDisc> discs = blocked_discs(people);
+  ASSERT_EQ(discs.size(), 4U) << "at first, and after 2, 4 and 6 m";
+  EXPECT_EQ(discs[0].obstacle_class, 2U);
+  EXPECT_EQ(discs[0].radius_m, 3);
+  for (std::size_t i = 1; i < discs.size(); ++i) {
+    EXPECT_DOUBLE_EQ(discs[i].radius_m, 3 + 2.0 * static_cast<double>(i));
+    EXPECT_DOUBLE_EQ(discs[i].from_s, 10 + 4.0 * static_cast<double>(i));
+    EXPECT_EQ(discs[i].obstacle_class & (discs[i].obstacle_class - 1), 0U) << "one bit";
+  }
+  people.dangers.assign(10, fire);
+  std::uint32_t classes = 0;
+  for (const BlockedDisc& disc : blocked_discs(people)) {
+    if (disc.obstacle_class == 2) continue;
+    EXPECT_EQ(classes & disc.obstacle_class, 0U);
+    classes |= disc.obstacle_class;
+  }
+  EXPECT_NE(classes, 0U);
+}
+
+TEST_F(Blueprint, WhoIsCaughtLiesThereAndStays) {
+  const auto hurt_after = [&](const char* kind, double time_s) {
+    blueprint["disasters"] = {
+        {{"kind", kind}, {"position", {6, 6}}, {"start_s", 2}, {"radius_m", 4}}};
+    const world::Scenario scenario = make();
+    crowd::LoadOptions options;
+    options.model = "weidmann";
+    crowd::Simulation crowd(scenario.scene_file, scenario.behavior_file, options);
+    while (crowd.time_s() < time_s) crowd.step();
+    const auto& names = crowd.state_names();
+    const auto found = std::find(names.begin(), names.end(), "Casualty");
+    return found == names.end()
+               ? std::ptrdiff_t{0}
+               : std::count(crowd.states().begin(), crowd.states().end(), found - names.begin());
+  };
+  EXPECT_EQ(hurt_after("explosion", 1.5), 0);
+  const std::ptrdiff_t hurt = hurt_after("explosion", 4);
+  EXPECT_GT(hurt, 2);
+  EXPECT_EQ(hurt_after("explosion", 40), hurt) << "who comes by later is not hurt";
+  EXPECT_GT(hurt_after("collapse", 4), 2);
+  EXPECT_EQ(hurt_after("fire", 20), 0);
+}
 
 TEST_F(Blueprint, ADisasterInADoorShutsIt) {
   blueprint["disasters"] = {{{"kind", "collapse"}, {"position", {20, 0}}, {"radius_m", 4}}};
