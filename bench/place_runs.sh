@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Runs every place of the library for 60 s, everyday and emergency, with a picture every 10 s, validates each dataset
+# and prints a row of docs/places.md for it. What was run before is not run again.
+#   bench/place_runs.sh FOLDER [PLACE...]
+# FOLDER/PLACE_VARIANT/ are the jobs' folders; THRONG names another program than build/release/cli/throng.
+set -euo pipefail
+root="$(cd "$(dirname "$0")/.." && pwd)"
+throng="${THRONG:-$root/build/release/cli/throng}"
+folder="${1:?usage: bench/place_runs.sh FOLDER [PLACE...]}"
+shift
+places=("$@")
+[ $# -gt 0 ] || mapfile -t places < <(cd "$root/scenarios" && dirname -- */everyday.json)
+mkdir -p "$folder"
+
+# job PLACE VARIANT: the shipped job with small, few pictures.
+job() {
+  local file=demo
+  [ "$2" = everyday ] || file="$2"
+  jq '.capture = {rate_hz: 0.1, from_s: 0, to_s: 60} | .drones[0].camera += {width: 640, height: 360}
+      | .outputs.previews = 1' "$root/scenarios/$1/$file.job.json"
+}
+
+printf '| place | variant | people | out after 60 s | simulated and drawn in |\n|---|---|---|---|---|\n'
+for place in "${places[@]}"; do
+  for variant in everyday emergency; do
+    out="$folder/${place}_$variant"
+    if [ ! -e "$out/dataset/manifest.json" ]; then
+      job "$place" "$variant" > "$out.job.json"
+      start=$(date +%s.%N)
+      "$throng" run "$out.job.json" -o "$out" > "$out.log" 2>&1 || { tail -3 "$out.log"; exit 1; }
+      echo "$(date +%s.%N) - $start" | bc > "$out.seconds"
+      "$throng" validate "$out/dataset" > "$out.validation"
+    fi
+    jq -r --arg place "$place" --arg variant "$variant" --arg seconds "$(cat "$out.seconds")" \
+      '.runs[0] | "| \($place) | \($variant) | \(.people) | \(.people - .not_escaped) | \($seconds) s |"' \
+      "$out/dataset/metrics.json"
+  done
+done
