@@ -9,13 +9,31 @@
 
 namespace throng::annotate {
 
-void append_decimal(std::string& text, double value, int decimals) {
+namespace {
+
+std::int64_t unit_of(int decimals) {
   constexpr std::array<std::int64_t, 10> kPowers = {
       1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000, 1'000'000'000};
+  return kPowers.at(static_cast<std::size_t>(decimals));
+}
+
+/// How often the unit of the last decimal is in the number.
+std::int64_t scaled_by(double value, std::int64_t unit) {
   constexpr double kLargest = 1e9;
   check(std::isfinite(value) && std::abs(value) < kLargest, "every number in a dataset is finite");
-  const std::int64_t unit = kPowers.at(static_cast<std::size_t>(decimals));
-  std::int64_t scaled = std::llround(value * static_cast<double>(unit));
+  return std::llround(value * static_cast<double>(unit));
+}
+
+}  // namespace
+
+double rounded(double value, int decimals) {
+  const std::int64_t unit = unit_of(decimals);
+  return static_cast<double>(scaled_by(value, unit)) / static_cast<double>(unit);
+}
+
+void append_decimal(std::string& text, double value, int decimals) {
+  const std::int64_t unit = unit_of(decimals);
+  std::int64_t scaled = scaled_by(value, unit);
   if (scaled < 0) {
     text.push_back('-');
     scaled = -scaled;

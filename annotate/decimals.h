@@ -16,6 +16,9 @@ inline constexpr int kPixelDecimals = 2;
 /// Decimals of shares.
 inline constexpr int kShareDecimals = 4;
 
+/// The number that append_decimal() writes: for what must agree with a record to the last bit.
+double rounded(double value, int decimals);
+
 /// Appends the number rounded to `decimals` (0 to 9), last zeros left out. Numbers beyond 1e9 and
 /// those that are none fail check(): JSON has no NaN.
 void append_decimal(std::string& text, double value, int decimals);

@@ -1,6 +1,7 @@
 #include "crowd/path_finder.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "crowd/obstacles.h"
@@ -8,6 +9,12 @@
 namespace throng::crowd {
 
 namespace {
+
+/// Floats that are not negative are in the order of their bits.
+std::uint64_t key_of(float estimate_m, std::uint32_t rank) {
+  constexpr unsigned kRankBits = 32;
+  return (std::uint64_t{std::bit_cast<std::uint32_t>(estimate_m)} << kRankBits) | rank;
+}
 
 /// The portal for a disc: its ends moved inwards by the radius, at most to its middle.
 Gate make_gate(const Portal& portal, float radius) {
@@ -43,6 +50,7 @@ PathFinder::PathFinder(const NavMesh& mesh, Lengths lengths) : mesh_(&mesh), len
     owner_.insert(owner_.end(), mesh.polygons()[polygon].portals.size(), static_cast<int>(polygon));
   }
   nodes_.resize(owner_.size());
+  passages_.resize(owner_.size());
   open_.reserve(owner_.size());
   gates_.reserve(mesh.polygons().size());
   best_gates_.reserve(mesh.polygons().size());
@@ -93,10 +101,17 @@ bool PathFinder::find_by(Pass pass, const NavMesh::Place& from, const NavMesh::P
   return true;
 }
 
-const Portal& PathFinder::portal(int number) const {
-  const int polygon = owner_[static_cast<std::size_t>(number)];
-  const int first = first_portal_[static_cast<std::size_t>(polygon)];
-  return (*mesh_)[polygon].portals[static_cast<std::size_t>(number - first)];
+// Most searches in a row are for the same radius.
+const PathFinder::Passage& PathFinder::passage(int number, float radius) {
+  Passage& passage = passages_[static_cast<std::size_t>(number)];
+  if (passage.radius != radius) {
+    const int polygon = owner_[static_cast<std::size_t>(number)];
+    const int first = first_portal_[static_cast<std::size_t>(polygon)];
+    const Portal& portal = (*mesh_)[polygon].portals[static_cast<std::size_t>(number - first)];
+    passage = {radius, (portal.right - portal.left).squaredNorm() < 4 * radius * radius,
+               make_gate(portal, radius)};
+  }
+  return passage;
 }
 
 bool PathFinder::search(const Search& how, int from, int to) {
@@ -111,18 +126,18 @@ bool PathFinder::search(const Search& how, int from, int to) {
     Node& node = nodes_[static_cast<std::size_t>(number)];
     if (node.done) continue;
     node.done = true;
-    if (portal(number).to == to) {
+    const int polygon = passage(number, how.radius).gate.polygon;
+    if (polygon == to) {
       collect_gates(number, how.radius);
       return true;
     }
-    expand(how, portal(number).to, number);
+    expand(how, polygon, number);
   }
   return false;
 }
 
-Eigen::Vector2f PathFinder::passing_point(const Search& how, const Portal& next,
+Eigen::Vector2f PathFinder::passing_point(const Search& how, const Gate& gate,
                                           const Eigen::Vector2f& start) const {
-  const Gate gate = make_gate(next, how.radius);
   switch (how.pass) {
     case Pass::near_line:
       return pass(gate, start, how.end);
@@ -133,7 +148,7 @@ Eigen::Vector2f PathFinder::passing_point(const Search& how, const Portal& next,
     case Pass::centre_behind:
       break;
   }
-  return (*mesh_)[next.to].centre;
+  return (*mesh_)[gate.polygon].centre;
 }
 
 /// Reaches for the portals of a polygon that was entered through portal `before`.
@@ -142,26 +157,27 @@ void PathFinder::expand(const Search& how, int polygon, int before) {
   const Node from = first ? Node{} : nodes_[static_cast<std::size_t>(before)];
   const Eigen::Vector2f& start = first ? how.start : from.point;
   const int back = first ? -1 : owner_[static_cast<std::size_t>(before)];
-  int number = first_portal_[static_cast<std::size_t>(polygon)];
-  for (const Portal& next : (*mesh_)[polygon].portals) {
-    const int reached = number++;
+  const auto here = static_cast<std::size_t>(polygon);
+  const int end =
+      here + 1 < first_portal_.size() ? first_portal_[here + 1] : static_cast<int>(owner_.size());
+  for (int reached = first_portal_[here]; reached < end; ++reached) {
     Node& node = nodes_[static_cast<std::size_t>(reached)];
     const bool known = node.search == search_;
-    if (next.to == back || (known && node.done)) continue;
-    const float too_narrow = 4 * how.radius * how.radius;
-    if (!how.narrow && (next.right - next.left).squaredNorm() < too_narrow) continue;
-    const Eigen::Vector2f point = passing_point(how, next, start);
+    if (known && node.done) continue;
+    const Passage& next = passage(reached, how.radius);
+    if (next.gate.polygon == back || (next.too_narrow && !how.narrow)) continue;
+    const Eigen::Vector2f point = passing_point(how, next.gate, start);
     const float cost = from.cost + (point - start).norm();
     if (known && cost >= node.cost) continue;
     node = {search_, false, before, cost, point};
-    open_.push_back({cost + (how.end - point).norm(), reached_++, reached});
+    open_.push_back({key_of(cost + (how.end - point).norm(), reached_++), reached});
     std::push_heap(open_.begin(), open_.end());
   }
 }
 
 void PathFinder::collect_gates(int last, float radius) {
   for (int number = last; number >= 0; number = nodes_[static_cast<std::size_t>(number)].before) {
-    gates_.push_back(make_gate(portal(number), radius));
+    gates_.push_back(passage(number, radius).gate);
   }
   std::reverse(gates_.begin(), gates_.end());
 }

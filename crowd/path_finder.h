@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -55,15 +56,20 @@ class PathFinder {
     float cost = 0;   // m so far
     Eigen::Vector2f point = Eigen::Vector2f::Zero();
   };
+  /// A portal for discs of one radius.
+  struct Passage {
+    float radius = -1;  // none yet
+    bool too_narrow = false;
+    Gate gate;
+  };
   struct Open {
-    float estimate = 0;  // m from start to end by way of this portal
-    int rank = 0;        // of several with the same estimate, the one that was reached first
+    /// m from start to end by way of this portal, and of several with the same estimate the one
+    /// that was reached first: compared at once.
+    std::uint64_t key = 0;
     int portal = 0;
 
-    // For a heap whose first is the best.
-    bool operator<(const Open& other) const {
-      return estimate != other.estimate ? estimate > other.estimate : rank > other.rank;
-    }
+    // For a heap.
+    bool operator<(const Open& other) const { return key > other.key; }
   };
 
   /// Where a way passes a portal, as long as nobody knows better.
@@ -79,9 +85,9 @@ class PathFinder {
   bool find_by(Pass pass, const NavMesh::Place& from, const NavMesh::Place& to, float radius);
   bool search(const Search& how, int from, int to);
   void expand(const Search& how, int polygon, int before);
-  Eigen::Vector2f passing_point(const Search& how, const Portal& next,
+  Eigen::Vector2f passing_point(const Search& how, const Gate& gate,
                                 const Eigen::Vector2f& start) const;
-  const Portal& portal(int number) const;
+  const Passage& passage(int number, float radius);
   void collect_gates(int last, float radius);
   void pull_tight(const Eigen::Vector2f& start, const Eigen::Vector2f& end);
   void bend_at(std::size_t gate, const Eigen::Vector2f& point);
@@ -91,9 +97,10 @@ class PathFinder {
   std::vector<int> first_portal_;  // by polygon: the number of its first portal
   std::vector<int> owner_;         // by portal: the polygon that it leads out of
   std::vector<Node> nodes_;        // by portal
+  std::vector<Passage> passages_;  // by portal
   std::vector<Open> open_;         // a heap
   unsigned search_ = 0;
-  int reached_ = 0;  // portals, in this search
+  std::uint32_t reached_ = 0;  // portals, in this search
 
   std::vector<Gate> gates_;
   std::vector<Gate> best_gates_;

@@ -25,7 +25,8 @@ void check_density_is_heads(const Image& image, const std::string& path, const F
   }
   const annotate::DensityMap expected =
       annotate::density_map(heads, image.width, image.height, sigma_px);
-  // Records have three decimals of a head's place, which moves a kernel by less than this share.
+  // Of heads that were not rounded as their records are: that moves a kernel by less than this
+  // share.
   constexpr double kShareOfPeak = 2e-3;
   const double slack = kShareOfPeak / (2 * std::numbers::pi * sigma_px * sigma_px);
   for (std::size_t i = 0; i < map.value.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "annotate/coco.h"
+#include "annotate/decimals.h"
 #include "annotate/density.h"
 #include "annotate/exit_view.h"
 #include "annotate/keypoints.h"
@@ -31,13 +32,16 @@ namespace throng::jobs {
 
 namespace {
 
-// The heads of the people in the labels, in box coordinates.
+// The heads of the people in the labels, in box coordinates, as the records have them: one at the
+// picture's edge is inside for both or for none.
 std::vector<Eigen::Vector2d> heads_of(const annotate::FrameLabels& labels,
                                       const camera::Camera& camera) {
   std::vector<Eigen::Vector2d> heads;
   for (const annotate::PersonLabel& label : labels.people) {
     const std::optional<Eigen::Vector2d> head = render::head_in(label.person, camera);
-    if (head) heads.push_back(*head);
+    if (!head) continue;
+    heads.emplace_back(annotate::rounded(head->x(), annotate::kPixelDecimals),
+                       annotate::rounded(head->y(), annotate::kPixelDecimals));
   }
   return heads;
 }

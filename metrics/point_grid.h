@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace throng::metrics {
@@ -59,14 +60,25 @@ class PointGrid {
   /// Calls body(index, point) for every point within `radius_m` of `place`.
   template <typename Body>
   void for_within(const Eigen::Vector2d& place, double radius_m, const Body& body) const {
-    const int low = index_of(place.y() - radius_m - min_.y());
-    const int high = index_of(place.y() + radius_m - min_.y());
-    const auto near = [&](std::size_t index, const Eigen::Vector2d& point) {
-      if ((point - place).squaredNorm() <= radius_m * radius_m) body(index, point);
-    };
-    for (int row = std::max(0, low); row <= std::min(rows_ - 1, high); ++row) {
-      visit(row, index_of(place.x() - radius_m - min_.x()),
-            index_of(place.x() + radius_m - min_.x()), near);
+    for_stored_about(place, radius_m, [&](std::size_t slot, const Eigen::Vector2d& point) {
+      if ((point - place).squaredNorm() <= radius_m * radius_m) body(sorted_[slot].index, point);
+    });
+  }
+
+  /// A point by where it is stored, from 0 to size() - 1: who is near is stored near.
+  const Eigen::Vector2d& stored(std::size_t slot) const { return sorted_[slot].point; }
+
+  /// Calls body(slot, point) for every point of the cells that reach into the square of half side
+  /// `radius_m` about `place`.
+  template <typename Body>
+  void for_stored_about(const Eigen::Vector2d& place, double radius_m, const Body& body) const {
+    const int low = std::max(0, index_of(place.y() - radius_m - min_.y()));
+    const int high = std::min(rows_ - 1, index_of(place.y() + radius_m - min_.y()));
+    const int from = index_of(place.x() - radius_m - min_.x());
+    const int to = index_of(place.x() + radius_m - min_.x());
+    for (int row = low; row <= high; ++row) {
+      const auto [first, last] = slots_of(row, from, to);
+      for (std::size_t slot = first; slot < last; ++slot) body(slot, sorted_[slot].point);
     }
   }
 
@@ -100,16 +112,20 @@ class PointGrid {
     }
   }
 
-  template <typename Body>
-  void visit(int row, int from_column, int to_column, const Body& body) const {
+  /// Where the points of a row's cells begin and end; nowhere, where there are no such cells.
+  std::pair<std::size_t, std::size_t> slots_of(int row, int from_column, int to_column) const {
     const int from = std::max(0, from_column);
     const int to = std::min(columns_ - 1, to_column);
-    if (from > to) return;
+    if (from > to) return {0, 0};
     const auto first = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_);
-    for (std::size_t i = start_[first + static_cast<std::size_t>(from)];
-         i < start_[first + static_cast<std::size_t>(to) + 1]; ++i) {
-      body(sorted_[i].index, sorted_[i].point);
-    }
+    return {start_[first + static_cast<std::size_t>(from)],
+            start_[first + static_cast<std::size_t>(to) + 1]};
+  }
+
+  template <typename Body>
+  void visit(int row, int from_column, int to_column, const Body& body) const {
+    const auto [first, last] = slots_of(row, from_column, to_column);
+    for (std::size_t i = first; i < last; ++i) body(sorted_[i].index, sorted_[i].point);
   }
 
   std::vector<Eigen::Vector2d> points_;

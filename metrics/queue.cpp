@@ -1,6 +1,7 @@
 #include "metrics/queue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kLinkM = 1.2;
 constexpr double kSlow = 0.5;  // of the desired speed
+constexpr double kAboveRounding = 1 + 1e-9;
 
 /// Shortest ways over the links from everybody in the zone at once. Ways that end within 0.25 m are
 /// taken in any order, and again when they get shorter (Dial 1969; Meyer and Sanders 2003): what
@@ -24,7 +26,6 @@ class WaysBack {
   WaysBack(std::size_t people) : way_m_(people, kUnknown), taken_m_(people, kUnknown) {}
 
   double of(std::size_t person) const { return way_m_[person]; }
-  bool any() const { return !bins_.empty(); }
 
   void offer(std::size_t person, double way_m) {
     if (way_m >= way_m_[person]) return;
@@ -79,18 +80,24 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
       slow.push_back(person.place);
     }
   }
-  WaysBack ways(slow.size());
-  for (std::size_t i = 0; i < slow.size(); ++i) {
-    if (zone.contains(slow[i])) ways.offer(i, (slow[i] - zone.middle()).norm());
-  }
-  if (!ways.any()) return {};
+  if (slow.empty()) return {};
   const PointGrid grid(slow, kLinkM);
+  WaysBack ways(grid.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Vector2d& place = grid.stored(i);
+    if (zone.contains(place)) ways.offer(i, (place - zone.middle()).norm());
+  }
   while (const auto next = ways.next()) {
-    grid.for_within(
-        slow[*next], kLinkM,
-        [&, from = slow[*next], so_far = ways.of(*next)](std::size_t other, const Vector2d& there) {
-          if (so_far < ways.of(other)) ways.offer(other, so_far + (there - from).norm());
-        });
+    const Vector2d from = grid.stored(*next);
+    const double so_far = ways.of(*next);
+    grid.for_stored_about(from, kLinkM, [&](std::size_t other, const Vector2d& there) {
+      const double left_m = ways.of(other) - so_far;
+      if (left_m <= 0) return;
+      const double squared = (there - from).squaredNorm();
+      // Most are not worth a root.
+      if (squared > kLinkM * kLinkM || squared > kAboveRounding * left_m * left_m) return;
+      ways.offer(other, so_far + std::sqrt(squared));
+    });
   }
   return ways.queue();
 }

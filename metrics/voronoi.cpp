@@ -1,6 +1,7 @@
 #include "metrics/voronoi.h"
 
 #include <algorithm>
+#include <bit>
 #include <boost/geometry/algorithms/append.hpp>
 #include <boost/geometry/algorithms/area.hpp>
 #include <boost/geometry/algorithms/correct.hpp>
@@ -11,6 +12,7 @@
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/strategies/strategies.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 
@@ -32,11 +34,41 @@ constexpr int kDiscCorners = 32;
 // Overlaps below this are rounding.
 constexpr double kNoAreaM2 = 1e-9;
 
+// Somebody whose half of the ground is to be cut away.
+struct Neighbour {
+  double squared_m2 = 0;
+  Vector2d offset;
+};
+
+// Neighbours by distance. Numbers are sorted, which is quick: each is a distance to 32 binary
+// digits (the bits of doubles that are not negative are in their order) and the neighbour's place
+// in the list.
+class Neighbours {
+ public:
+  void clear() {
+    list_.clear();
+    order_.clear();
+  }
+  void add(const Vector2d& offset, double squared_m2) {
+    order_.push_back((std::bit_cast<std::uint64_t>(squared_m2) & ~kPlace) |
+                     (list_.size() & kPlace));
+    list_.push_back({squared_m2, offset});
+  }
+  void sort() { std::sort(order_.begin(), order_.end()); }
+  std::size_t size() const { return list_.size(); }
+  const Neighbour& operator[](std::size_t i) const { return list_[order_[i] & kPlace]; }
+
+ private:
+  static constexpr std::uint64_t kPlace = (1U << 20U) - 1;  // a million neighbours
+  std::vector<Neighbour> list_;
+  std::vector<std::uint64_t> order_;
+};
+
 // Memory that is used again and again.
 struct Scratch {
   std::vector<double> beyond;
   Ring kept;
-  std::vector<std::pair<double, std::size_t>> near;
+  Neighbours near;
 };
 
 // Cuts away what lies beyond the line through `point`, on the side to which `normal` points. False
@@ -48,18 +80,22 @@ bool clip(Ring& ring, const Vector2d& point, const Vector2d& normal, Scratch& sc
   bool all_inside = true;
   for (std::size_t i = 0; i < corners; ++i) {
     beyond[i] = (ring[i] - point).dot(normal);
-    all_inside = all_inside && beyond[i] <= 0;
+    all_inside &= beyond[i] <= 0;
   }
   if (all_inside) return false;
   Ring& kept = scratch.kept;
-  kept.clear();
+  kept.resize(2 * corners);  // as many as there can be
+  std::size_t count = 0;
   for (std::size_t i = 0; i < corners; ++i) {
     const std::size_t j = i + 1 < corners ? i + 1 : 0;
-    if (beyond[i] <= 0) kept.push_back(ring[i]);
-    if ((beyond[i] <= 0) != (beyond[j] <= 0)) {
-      kept.push_back(ring[i] + beyond[i] / (beyond[i] - beyond[j]) * (ring[j] - ring[i]));
+    const bool stays = beyond[i] <= 0;
+    kept[count] = ring[i];
+    count += stays ? 1 : 0;
+    if (stays != (beyond[j] <= 0)) {
+      kept[count++] = ring[i] + beyond[i] / (beyond[i] - beyond[j]) * (ring[j] - ring[i]);
     }
   }
+  kept.resize(count);
   std::swap(ring, kept);
   return true;
 }
@@ -165,22 +201,24 @@ void VoronoiCutter::cut(const PointGrid& people, std::size_t index, VoronoiCell&
   auto& near = memory.near;
   near.clear();
   bool more = people.for_ring(person, 0, [&](std::size_t other, const Vector2d& place) {
-    if (other != index) near.emplace_back((place - person).squaredNorm(), other);
+    const Vector2d offset = place - person;
+    if (other != index) near.add(offset, offset.squaredNorm());
   });
   for (int number = 1; more; ++number) {
-    more = people.for_ring(person, number, [&](std::size_t other, const Vector2d& place) {
-      const double squared = (place - person).squaredNorm();
-      if (squared <= 4 * reach_sq) near.emplace_back(squared, other);
+    more = people.for_ring(person, number, [&](std::size_t, const Vector2d& place) {
+      const Vector2d offset = place - person;
+      const double squared = offset.squaredNorm();
+      if (squared <= 4 * reach_sq) near.add(offset, squared);
     });
     // The nearest cut most: who is beyond what they leave cuts nothing.
-    std::sort(near.begin(), near.end());
-    for (const auto& [squared, other] : near) {
+    near.sort();
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const auto& [squared, offset] = near[i];
       if (squared > 4 * reach_sq) break;
       if (squared == 0) {
         ++cell.sharers;
         continue;
       }
-      const Vector2d offset = people[other] - person;
       if (!clip(ring, person + 0.5 * offset, offset, memory)) continue;
       reach_sq = std::min(reach_sq, farthest_sq(ring, person));
     }

@@ -18,7 +18,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::string_view kOwnBundle = "bundle/";
-constexpr int kPage = 500;
+constexpr int kJobsAtOnce = 500;
 
 /// The upload that a job's scenario may belong to; "" for a calibration.
 std::string upload_of_job(const JobRow& row) {
@@ -51,14 +51,14 @@ std::vector<JobRow> JobService::jobs_that_name(const std::string& upload,
   std::vector<JobRow> found;
   jobs::JobFilter filter;
   filter.states = std::move(states);
-  filter.limit = kPage;
+  filter.limit = kJobsAtOnce;
   while (true) {
     std::vector<JobRow> rows = store_.list(filter);
     for (const JobRow& row : rows) {
       if (row.spec_json.find(beginning) == std::string::npos) continue;
       if (upload_of_job(row) == upload) found.push_back(row);
     }
-    if (static_cast<int>(rows.size()) < kPage) return found;
+    if (static_cast<int>(rows.size()) < kJobsAtOnce) return found;
     filter.after = rows.back().id;
   }
 }
