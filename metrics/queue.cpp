@@ -88,7 +88,7 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
     if (zone.contains(place)) ways.offer(i, (place - zone.middle()).norm());
   }
   while (const auto next = ways.next()) {
-    const Vector2d from = grid.stored(*next);
+    const Vector2d& from = grid.stored(*next);
     const double so_far = ways.of(*next);
     grid.for_stored_about(from, kLinkM, [&](std::size_t other, const Vector2d& there) {
       const double left_m = ways.of(other) - so_far;
