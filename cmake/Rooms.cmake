@@ -47,6 +47,8 @@ function(throng_embed target symbol file)
   endwhile()
   file(CONFIGURE OUTPUT "${output}" CONTENT "#include <string_view>\nnamespace throng::embedded {\nextern const std::string_view ${symbol};  // NOLINT\nconst std::string_view ${symbol} =  // NOLINT\n@literal@;\n}  // namespace throng::embedded\n" @ONLY)
   target_sources(${target} PRIVATE "${output}")
+  # Apart in joined builds: clang-tidy has nothing to say of it.
+  set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # throng_test(NAME SOURCES file... LIBRARIES target...): one GoogleTest program per room, test_NAME.
