@@ -3,15 +3,14 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/core.h>
 #include <openssl/crypto.h>
-#include <sys/stat.h>
 
 #include <array>
 #include <chrono>
-#include <mutex>
 #include <random>
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "server/private_database.h"
 
 namespace throng::server {
 
@@ -19,7 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kBusyTimeoutMs = 5000;
 constexpr std::string_view kPrefix = "throng_";
 constexpr std::size_t kIdLength = 8;
 constexpr std::size_t kSecretLength = 32;  // of 5 bits each
@@ -67,35 +65,21 @@ fs::path prepared(const fs::path& data) {
   return data / "keys.sqlite";
 }
 
+void set_up(SQLite::Database& database) {
+  database.exec(kTable);
+  // Made by a version that knew no limit of bytes.
+  const bool is_old = database
+                          .execAndGet(
+                              "SELECT count(*) FROM pragma_table_info('key') "
+                              "WHERE name = 'most_bytes'")
+                          .getInt() == 0;
+  if (is_old) database.exec("ALTER TABLE key ADD COLUMN most_bytes INTEGER NOT NULL DEFAULT 0");
+}
+
 }  // namespace
 
-struct Keys::File {
-  explicit File(const fs::path& path)
-      : database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs) {
-    constexpr mode_t kOwnerOnly = 0600;
-    ::chmod(path.c_str(), kOwnerOnly);
-    database.exec(kTable);
-    // Made by a version that knew no limit of bytes.
-    const bool is_old = database
-                            .execAndGet(
-                                "SELECT count(*) FROM pragma_table_info('key') "
-                                "WHERE name = 'most_bytes'")
-                            .getInt() == 0;
-    if (is_old) database.exec("ALTER TABLE key ADD COLUMN most_bytes INTEGER NOT NULL DEFAULT 0");
-  }
-
-  template <typename Action>
-  auto with(const Action& action) {
-    const std::lock_guard lock(mutex);
-    try {
-      return action(database);
-    } catch (const SQLite::Exception& error) {
-      throw EnvironmentError(fmt::format("API keys: {}", error.what()));
-    }
-  }
-
-  std::mutex mutex;
-  SQLite::Database database;
+struct Keys::File : PrivateDatabase {
+  using PrivateDatabase::PrivateDatabase;
 };
 
 std::string_view name_of(Scope scope) {
@@ -113,7 +97,7 @@ std::optional<Scope> scope_named(std::string_view name) {
 Keys::Keys(const fs::path& data) {
   const fs::path path = prepared(data);
   try {
-    file_ = std::make_unique<File>(path);
+    file_ = std::make_unique<File>(path, "API keys", set_up);
   } catch (const SQLite::Exception& error) {
     throw EnvironmentError(fmt::format("API keys in {}: {}", path.string(), error.what()));
   }

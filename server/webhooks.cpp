@@ -5,15 +5,14 @@
 #include <fmt/core.h>
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
-#include <sys/stat.h>
 
 #include <array>
 #include <chrono>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "base/error.h"
+#include "server/private_database.h"
 
 namespace throng::server {
 
@@ -96,34 +95,19 @@ void log_delivery(SQLite::Database& database, const std::string& webhook,
 
 }  // namespace
 
-struct Webhooks::File {
-  explicit File(const fs::path& path)
-      : database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 5000) {
-    constexpr mode_t kOwnerOnly = 0600;
-    ::chmod(path.c_str(), kOwnerOnly);
-    database.exec("PRAGMA journal_mode = WAL");
-    database.exec(kWebhookTables);
-  }
-
-  template <typename Action>
-  auto with(const Action& action) {
-    const std::lock_guard lock(mutex);
-    try {
-      return action(database);
-    } catch (const SQLite::Exception& error) {
-      throw EnvironmentError(fmt::format("webhooks: {}", error.what()));
-    }
-  }
-
-  std::mutex mutex;
-  SQLite::Database database;
+struct Webhooks::File : PrivateDatabase {
+  using PrivateDatabase::PrivateDatabase;
 };
 
 Webhooks::Webhooks(const fs::path& data) {
   std::error_code error;
   fs::create_directories(data, error);
   try {
-    file_ = std::make_unique<File>(data / "webhooks.sqlite");
+    file_ = std::make_unique<File>(data / "webhooks.sqlite", "webhooks",
+                                   [](SQLite::Database& database) {
+                                     database.exec("PRAGMA journal_mode = WAL");
+                                     database.exec(kWebhookTables);
+                                   });
   } catch (const SQLite::Exception& failure) {
     throw EnvironmentError(fmt::format("webhooks in {}: {}", data.string(), failure.what()));
   }

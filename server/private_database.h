@@ -1,0 +1,49 @@
+// A small SQLite file of the server's own, which only its owner may read.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+
+namespace throng::server {
+
+/// Safe to use from many threads, one after the other.
+class PrivateDatabase {
+ public:
+  /// `what` it holds is for messages; `set_up` gets the new database. Throws SQLite::Exception.
+  template <typename SetUp>
+  PrivateDatabase(const std::filesystem::path& path, std::string what, const SetUp& set_up)
+      : what_(std::move(what)),
+        database_(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kBusyTimeoutMs) {
+    constexpr mode_t kOwnerOnly = 0600;
+    ::chmod(path.c_str(), kOwnerOnly);
+    set_up(database_);
+  }
+
+  /// What `action` makes of the database. SQLite's errors become EnvironmentError.
+  template <typename Action>
+  auto with(const Action& action) {
+    const std::lock_guard lock(mutex_);
+    try {
+      return action(database_);
+    } catch (const SQLite::Exception& error) {
+      throw EnvironmentError(fmt::format("{}: {}", what_, error.what()));
+    }
+  }
+
+ private:
+  static constexpr int kBusyTimeoutMs = 5000;
+
+  std::string what_;
+  std::mutex mutex_;
+  SQLite::Database database_;
+};
+
+}  // namespace throng::server
