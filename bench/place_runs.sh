@@ -12,10 +12,10 @@ places=("$@")
 [ $# -gt 0 ] || mapfile -t places < <(cd "$root/scenarios" && dirname -- */everyday.json)
 mkdir -p "$folder"
 
-# job PLACE VARIANT: the shipped job with small, few pictures.
+# job PLACE VARIANT: the shipped job with small, few pictures. The demo is every day, but for places with a job for that.
 job() {
-  local file=demo
-  [ "$2" = everyday ] || file="$2"
+  local file="$2"
+  [ -e "$root/scenarios/$1/$file.job.json" ] || file=demo
   jq '.capture = {rate_hz: 0.1, from_s: 0, to_s: 60} | .drones[0].camera += {width: 640, height: 360}
       | .outputs.previews = 1' "$root/scenarios/$1/$file.job.json"
 }

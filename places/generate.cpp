@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "places/frame.h"
+#include "places/surroundings.h"
 
 namespace throng::places {
 
@@ -18,10 +19,10 @@ using nlohmann::json;
 namespace {
 
 constexpr std::uint64_t kPlaceIndex = std::uint64_t{1} << 44;  // apart from other uses
-constexpr std::array<std::string_view, 4> kKinds = {"plaza", "street", "campus", "block"};
 
 std::uint64_t kind_number(std::string_view kind) {
-  return static_cast<std::uint64_t>(std::find(kKinds.begin(), kKinds.end(), kind) - kKinds.begin());
+  return static_cast<std::uint64_t>(std::find(kPlaceKinds.begin(), kPlaceKinds.end(), kind) -
+                                    kPlaceKinds.begin());
 }
 
 /// A place under construction.
@@ -83,10 +84,9 @@ class Site {
 
   /// Ground, crowd and drone; `free_m2` is where people can be.
   json finish(const char* material, double free_m2) {
-    constexpr double kAroundM = 45;
     constexpr double kApproachM = 12;
     const Vector2d walls = Vector2d::Constant(frame_.depth_m);
-    const Vector2d around = walls + Vector2d::Constant(kAroundM);
+    const Vector2d around = walls + Vector2d::Constant(kSurroundingsM);
     const Vector2d approach = walls + Vector2d::Constant(kApproachM);
     json& ground = blueprint_["ground"];
     ground["min"] = point_json(frame_.min - around);
@@ -98,6 +98,7 @@ class Site {
     blueprint_["description"] = fmt::format("Made from a seed: {}", to_json(spec_).dump());
     add_people(free_m2);
     add_drone();
+    add_surroundings(frame_, kApproachM, spec_.building_density, random_, blueprint_);
     return std::move(blueprint_);
   }
 
@@ -139,13 +140,13 @@ class Site {
 };
 
 double drawn_size(const PlaceSpec& spec, double least, double most) {
-  Random random(spec.seed, Stream::environment, kPlaceIndex + kKinds.size());
+  Random random(spec.seed, Stream::environment, kPlaceIndex + kPlaceKinds.size());
   const double drawn = random.uniform(least, most);
   return spec.size_m > 0 ? spec.size_m : std::round(drawn);
 }
 
 double drawn_share(const PlaceSpec& spec, double least, double most) {
-  Random random(spec.seed, Stream::environment, kPlaceIndex + kKinds.size() + 1);
+  Random random(spec.seed, Stream::environment, kPlaceIndex + kPlaceKinds.size() + 1);
   return random.uniform(least, most);
 }
 
@@ -215,7 +216,34 @@ json street(const PlaceSpec& spec) {
   }
   const Vector2d inset(8, 3.2);
   site.scatter({"bench", "bin", "bench"}, frame.min + inset, frame.max - inset, 0.01, 5);
-  return site.finish("pavers", 0.9 * frame.size().prod());
+  return site.finish(random.uniform() < 0.6 ? "pavers" : "concrete", 0.9 * frame.size().prod());
+}
+
+/// A hall in some of the quarters between two paths that cross at `hub`.
+void add_halls(Site& site, const Vector2d& hub, const Vector2d& path) {
+  constexpr double kAroundHallM = 4;
+  const Frame& frame = site.frame();
+  Random& random = site.random();
+  int number = 0;
+  for (const bool east : {false, true}) {
+    for (const bool north : {false, true}) {
+      if (random.uniform() > 0.2 + 0.8 * site.spec().building_density) continue;
+      const Vector2d low(east ? hub.x() + path.x() : frame.min.x(),
+                         north ? hub.y() + path.y() : frame.min.y());
+      const Vector2d high(east ? frame.max.x() : hub.x() - path.x(),
+                          north ? frame.max.y() : hub.y() - path.y());
+      const Vector2d middle = 0.5 * (low + high);
+      const Vector2d room = 0.5 * (high - low) - Vector2d::Constant(kAroundHallM);
+      const Vector2d half(room.x() * random.uniform(0.4, 0.85),
+                          room.y() * random.uniform(0.4, 0.85));
+      if (half.minCoeff() < 3) continue;
+      const Vector2d apron = half + Vector2d::Constant(1.5);
+      site.area(middle - apron, middle + apron, "pavers");
+      site.blueprint()["buildings"].push_back(house_json(fmt::format("hall{}", ++number),
+                                                         middle - half, middle + half,
+                                                         random.uniform(6, 16), random));
+    }
+  }
 }
 
 /// Lawns, paths between the gates and halls that stand by themselves.
@@ -228,25 +256,16 @@ json campus(const PlaceSpec& spec) {
       spread_gates(frame, kAllSides, site.gate_count(3, 6), site.gate_width_m(3, 7), random);
   build_walls(frame, {0.5 * spec.building_density, 6, 12}, random, site.blueprint());
   const Vector2d path = Vector2d::Constant(random.uniform(2.5, 4));
-  const Vector2d quarter = 0.25 * frame.size();
-  site.area({frame.min.x() - 20, -path.y()}, {frame.max.x() + 20, path.y()}, "pavers");
-  site.area({-path.x(), frame.min.y() - 20}, {path.x(), frame.max.y() + 20}, "pavers");
-  int number = 0;
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      if (random.uniform() > 0.2 + 0.8 * spec.building_density) continue;
-      const Vector2d middle = quarter.cwiseProduct(Vector2d(x, y));
-      const Vector2d room = quarter - path - Vector2d::Constant(4);
-      const Vector2d half(room.x() * random.uniform(0.45, 0.8),
-                          room.y() * random.uniform(0.45, 0.8));
-      if (half.minCoeff() < 3) continue;
-      site.area(middle - half - Vector2d::Constant(1.5), middle + half + Vector2d::Constant(1.5),
-                "pavers");
-      site.blueprint()["buildings"].push_back(house_json(fmt::format("hall{}", ++number),
-                                                         middle - half, middle + half,
-                                                         random.uniform(6, 16), random));
-    }
-  }
+  const Vector2d hub =
+      frame.size().cwiseProduct(Vector2d(random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15)));
+  site.area({frame.min.x() - 20, hub.y() - path.y()}, {frame.max.x() + 20, hub.y() + path.y()},
+            "pavers");
+  site.area({hub.x() - path.x(), frame.min.y() - 20}, {hub.x() + path.x(), frame.max.y() + 20},
+            "pavers");
+  const Vector2d court = path + Vector2d::Constant(random.uniform(0, 5));
+  site.area(hub - court, hub + court, random.uniform() < 0.5 ? "pavers" : "concrete");
+  if (random.uniform() < 0.5) site.prop("fountain", hub);
+  add_halls(site, hub, path);
   const Vector2d inset = Vector2d::Constant(4);
   site.scatter({"tree", "tree", "tree", "bench", "lamp_post"}, frame.min + inset, frame.max - inset,
                0.012, 5);
@@ -298,90 +317,7 @@ json block(const PlaceSpec& spec) {
   return site.finish("concrete", 0.4 * frame.size().prod());
 }
 
-void read_number(const json& value, const char* key, double low, double high,
-                 const std::string& where, std::vector<Problem>& problems, double& number) {
-  if (!value.contains(key)) return;
-  const json& found = value[key];
-  if (!found.is_number() || found < low || found > high) {
-    problems.push_back({"", where + "/" + key, found.dump(),
-                        fmt::format("a number from {:g} to {:g}", low, high)});
-    return;
-  }
-  found.get_to(number);
-}
-
-void read_integer(const json& value, const char* key, int low, int high, const std::string& where,
-                  std::vector<Problem>& problems, int& number) {
-  if (!value.contains(key)) return;
-  const json& found = value[key];
-  if (!found.is_number_integer() || found < low || found > high) {
-    problems.push_back(
-        {"", where + "/" + key, found.dump(), fmt::format("an integer from {} to {}", low, high)});
-    return;
-  }
-  found.get_to(number);
-}
-
 }  // namespace
-
-PlaceSpec read_place_spec(const json& value, const std::string& where,
-                          std::vector<Problem>& problems) {
-  PlaceSpec spec;
-  if (!value.is_object()) {
-    problems.push_back({"", where, value.dump(), "an object"});
-    return spec;
-  }
-  constexpr std::array<std::string_view, 9> kFields = {"kind",         "seed",
-                                                       "size_m",       "exits",
-                                                       "exit_width_m", "building_density",
-                                                       "clutter",      "demand_per_minute",
-                                                       "people"};
-  for (const auto& [key, field] : value.items()) {
-    if (std::find(kFields.begin(), kFields.end(), key) != kFields.end()) continue;
-    problems.push_back({"", where + "/" + key, "an unknown field", "no such field"});
-  }
-  const json kind = value.value("kind", json());
-  const auto* const known =
-      std::find(kKinds.begin(), kKinds.end(), kind.is_string() ? kind.get<std::string>() : "");
-  if (known == kKinds.end()) {
-    problems.push_back({"", where + "/kind", kind.dump(), "plaza, street, campus or block"});
-  } else {
-    spec.kind = *known;
-  }
-  int seed = 1;
-  read_integer(value, "seed", 0, 1'000'000'000, where, problems, seed);
-  spec.seed = static_cast<std::uint64_t>(seed);
-  read_number(value, "size_m", 30, 200, where, problems, spec.size_m);
-  read_integer(value, "exits", 2, 8, where, problems, spec.exits);
-  read_number(value, "exit_width_m", 2, 12, where, problems, spec.exit_width_m);
-  read_number(value, "building_density", 0, 1, where, problems, spec.building_density);
-  read_number(value, "clutter", 0, 1, where, problems, spec.clutter);
-  read_number(value, "demand_per_minute", 0.1, 600, where, problems, spec.demand_per_minute);
-  read_integer(value, "people", 1, 5000, where, problems, spec.people);
-  return spec;
-}
-
-json to_json(const PlaceSpec& spec) {
-  json value = {{"kind", spec.kind},
-                {"seed", spec.seed},
-                {"building_density", spec.building_density},
-                {"clutter", spec.clutter},
-                {"demand_per_minute", spec.demand_per_minute}};
-  if (spec.size_m > 0) value["size_m"] = spec.size_m;
-  if (spec.exits > 0) value["exits"] = spec.exits;
-  if (spec.exit_width_m > 0) value["exit_width_m"] = spec.exit_width_m;
-  if (spec.people > 0) value["people"] = spec.people;
-  return value;
-}
-
-std::string id_of(const PlaceSpec& spec) {
-  // FNV-1a (Fowler, Noll, Vo): only to tell specs apart.
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : to_json(spec).dump()) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  }
-  return fmt::format("{}_{}_{:08x}", spec.kind, spec.seed, hash & 0xFFFFFFFFU);
-}
 
 json generate_place(const PlaceSpec& spec) {
   if (spec.kind == "street") return street(spec);

@@ -1,36 +1,11 @@
 // Places from a seed: blueprints that are always valid.
 #pragma once
 
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <vector>
 
-#include "base/error.h"
+#include "places/place_spec.h"
 
 namespace throng::places {
-
-/// What a generated place is to be like. Whatever is not given is drawn from the seed.
-struct PlaceSpec {
-  std::string kind = "plaza";  ///< "plaza", "street", "campus" or "block"
-  std::uint64_t seed = 1;
-  double size_m = 0;              ///< of its longer side, 30 to 200; 0: drawn
-  int exits = 0;                  ///< 2 to 8; 0: drawn
-  double exit_width_m = 0;        ///< 2 to 12; 0: drawn for each
-  double building_density = 0.5;  ///< 0 to 1: how many of the sites for buildings are built up
-  double clutter = 0.5;           ///< 0 to 1: how many things stand about
-  double demand_per_minute = 20;  ///< people who come in by each exit, above 0
-  int people = 0;                 ///< who are there from the start; 0: as many as suit the size
-};
-
-/// Reads the object of a job's "scenario": {"generate": ...}. Adds to `problems`; `where` is its
-/// pointer.
-PlaceSpec read_place_spec(const nlohmann::json& value, const std::string& where,
-                          std::vector<Problem>& problems);
-nlohmann::json to_json(const PlaceSpec& spec);
-
-/// A word for files and lists: "plaza_5_" and a number that differs where any parameter does.
-std::string id_of(const PlaceSpec& spec);
 
 /// The blueprint of such a place: every walkable point reaches an exit, nobody starts in anything
 /// solid and people come in by every exit. The same spec gives the same blueprint.

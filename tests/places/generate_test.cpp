@@ -37,7 +37,7 @@ class Generated : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(Generated, IsValidWhateverTheSeed) {
-  // All of 1 000 seeds per kind: throng scenario generate --count 1000 and throng scenario check.
+  // All of 1 000 seeds per kind: bench/generated_places.sh 1000.
   for (std::uint64_t seed = 1; seed <= 8; ++seed) expect_valid(spec_of(seed));
 }
 
@@ -102,6 +102,27 @@ TEST_P(Generated, HasMoreBuildingsWhereTheyAreDenser) {
     return area;
   };
   EXPECT_GT(built_m2(1), 1.2 * built_m2(0));
+}
+
+TEST_P(Generated, LeavesTheWayOutFreeOfWhatStandsAround) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const json place = generate_place(spec_of(seed));
+    const auto file = make_scenario(place, "generated", folder.path(), "place");
+    const world::Scenario scenario = world::load_scenario(file, "place");
+    std::size_t around = 0;
+    for (const world::Building& building : scenario.buildings) {
+      if (!building.id.starts_with("over_the_road")) continue;
+      ++around;
+      for (const auto& corner : building.footprint) EXPECT_FALSE(scenario.inside.contains(corner));
+    }
+    std::size_t cars = 0;
+    for (const world::Prop& prop : scenario.props) {
+      if (prop.kind != world::PropKind::car) continue;
+      ++cars;
+      EXPECT_FALSE(scenario.inside.contains(prop.position));
+    }
+    EXPECT_GT(around + cars, 0U) << "a place in the middle of nowhere";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Generated, ::testing::Values("plaza", "street", "campus", "block"),

@@ -27,8 +27,8 @@ std::vector<fs::path> blueprints() {
   return files;
 }
 
-TEST(Library, HasSevenPlacesBesideTheCitySquareEachWithAnEmergency) {
-  EXPECT_EQ(blueprints().size(), 14U);
+TEST(Library, HasEightPlacesEachWithAnEmergency) {
+  EXPECT_EQ(blueprints().size(), 16U);
 }
 
 TEST(Library, IsMadeFromItsBlueprints) {

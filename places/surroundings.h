@@ -1,0 +1,20 @@
+// What is seen around a generated place: nobody walks there, but drones look over the walls.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "base/random.h"
+#include "places/frame.h"
+
+namespace throng::places {
+
+/// How far the ground reaches beyond a frame's walls, m: room for the surroundings.
+constexpr double kSurroundingsM = 45;
+
+/// Adds a street around the frame, `from_m` outside of its walls, with parked cars, and on its far
+/// side a row of houses or a lawn with trees on each side; houses are the likelier the denser
+/// (0 to 1) the place is built up.
+void add_surroundings(const Frame& frame, double from_m, double density, Random& random,
+                      nlohmann::json& blueprint);
+
+}  // namespace throng::places
