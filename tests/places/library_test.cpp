@@ -27,9 +27,7 @@ std::vector<fs::path> blueprints() {
   return files;
 }
 
-TEST(Library, HasEightPlacesEachWithAnEmergency) {
-  EXPECT_EQ(blueprints().size(), 16U);
-}
+TEST(Library, HasEightPlacesEachWithAnEmergency) { EXPECT_EQ(blueprints().size(), 16U); }
 
 TEST(Library, IsMadeFromItsBlueprints) {
   // What is made must not be changed by hand: scripts/make_scenarios.sh makes it anew.
