@@ -39,9 +39,9 @@ Wishes wishes_for(Lens lens, Wishes wishes) {
 }
 
 ModelScore score_of(const Calibration& calibration) {
-  constexpr std::size_t kPoseUnknowns = 6;
+  constexpr std::size_t kUnknownsOfAPose = 6;
   ModelScore score{calibration.lens, 0, calibration.rms_px, 0};
-  score.unknowns = calibration.places.size() + kPoseUnknowns * calibration.views.size();
+  score.unknowns = calibration.places.size() + kUnknownsOfAPose * calibration.views.size();
   const double sum =
       calibration.rms_px * calibration.rms_px * static_cast<double>(calibration.points);
   score.bic = bic(sum, 2 * calibration.points, score.unknowns);

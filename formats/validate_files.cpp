@@ -25,12 +25,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint32_t kFirstThing = 0x400000;
-constexpr std::uint32_t kFirstDrone = 0xE00000;
-constexpr std::uint32_t kGround = 0xFF0000;
+constexpr std::uint32_t kFirstDroneId = 0xE00000;
+constexpr std::uint32_t kGroundId = 0xFF0000;
 
 /// Whether a pixel of the picture of instances shows what has an annotation.
 bool is_labelled(std::uint32_t id) {
-  return (id > 0 && id < kFirstThing) || (id >= kFirstDrone && id < kGround);
+  return (id > 0 && id < kFirstThing) || (id >= kFirstDroneId && id < kGroundId);
 }
 
 std::string relative(const DatasetInfo& info, const fs::path& path) {
@@ -198,7 +198,7 @@ std::uint32_t instance_of(const Person& thing) {
   const auto number = thing.number_in_run();
   const bool is_drone = number > annotate::kFirstDroneNumber;
   return static_cast<std::uint32_t>(
-      is_drone ? kFirstDrone + number - annotate::kFirstDroneNumber - 1 : number);
+      is_drone ? kFirstDroneId + number - annotate::kFirstDroneNumber - 1 : number);
 }
 
 void check_files(const DatasetInfo& info, const Image& image, Findings& findings) {

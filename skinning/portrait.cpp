@@ -13,7 +13,7 @@ namespace throng::skinning {
 namespace {
 
 constexpr double kElevation = 20 * std::numbers::pi / 180;  // radians
-constexpr float kMargin = 2;                                // pixels
+constexpr float kMarginPx = 2;                              // pixels
 constexpr float kUnseen = -1e9F;                            // depth where nobody is seen
 
 // Right and up in the camera's picture, and towards the camera.
@@ -74,7 +74,7 @@ void Portrait::draw(const PosedSurface& posed, bool front) {
 
 Eigen::Vector2f Portrait::uv_of(const Eigen::Vector3f& point, bool front) const {
   const Eigen::Vector3f view = view_of(point, front);
-  const float margin = kMargin / static_cast<float>(size_);
+  const float margin = kMarginPx / static_cast<float>(size_);
   const float across = (view.x() - low_.x()) / extent_.x();
   const float down = 1 - (view.y() - low_.y()) / extent_.y();
   return {(front ? 0 : 0.5F) + margin + across * (0.5F - 2 * margin),
