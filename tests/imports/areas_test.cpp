@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "base/random.h"
 #include "imports/solids.h"
 #include "world/polygon.h"
 
@@ -58,6 +59,49 @@ TEST(Shadow, IsThatOfWhatIsBetweenFeetAndHeads) {
   move(wall, up);
   EXPECT_TRUE(shadow_of(wall).empty());                        // a beam overhead
   EXPECT_TRUE(shadow_of(box_triangles({5, 5, 0.3})).empty());  // a kerb
+}
+
+TEST(Areas, ARingThatCrossesItselfFallsIntoItsLoops) {
+  const std::vector<Area> bow = repaired({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {}});
+  ASSERT_EQ(bow.size(), 2U);
+  EXPECT_NEAR(size_m2(bow[0]), 4, 1e-6);
+  EXPECT_NEAR(size_m2(bow[1]), 4, 1e-6);
+  // A square with a small loop over its edge, as mappers leave by a slip.
+  const std::vector<Area> slip =
+      repaired({{{0, 0}, {10, 0}, {10, 10}, {6, 10}, {5, 11}, {6, 11}, {5, 10}, {0, 10}}, {}});
+  ASSERT_FALSE(slip.empty());
+  EXPECT_NEAR(size_m2(slip[0]), 100, 0.5);
+  for (const Area& part : slip) EXPECT_TRUE(tidied(part)) << size_m2(part);
+}
+
+TEST(Areas, RepairLeavesGoodOnesAndHolesAsTheyAre) {
+  const Corners square = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  const Corners hole = {{2, 2}, {2, 4}, {4, 4}, {4, 2}};
+  const std::vector<Area> good = repaired({square, {hole}});
+  ASSERT_EQ(good.size(), 1U);
+  EXPECT_NEAR(size_m2(good[0]), 96, 1e-6);
+  // The hole reaches out of the square: what is left has a notch.
+  const std::vector<Area> notched = repaired({square, {{{8, 2}, {8, 4}, {12, 4}, {12, 2}}}});
+  ASSERT_EQ(notched.size(), 1U);
+  EXPECT_NEAR(size_m2(notched[0]), 96, 1e-6);
+  EXPECT_TRUE(repaired({{{0, 0}, {5, 0}, {9, 0}}, {}}).empty());
+}
+
+// Whatever the ring, its loops are simple and lie within its bounds.
+TEST(Areas, LoopsAreAlwaysSimple) {
+  throng::Random random(7, throng::Stream::crowd_generator);
+  for (int round = 0; round < 200; ++round) {
+    Corners ring;
+    for (std::uint32_t i = 0; i < 4 + random.below(12); ++i) {
+      ring.emplace_back(random.below(20), random.below(20));
+    }
+    for (const Area& part : repaired({ring, {}})) {
+      EXPECT_TRUE(world::is_simple(part.outline)) << round;
+      for (const Eigen::Vector2d& corner : part.outline) {
+        EXPECT_TRUE(corner.minCoeff() >= 0 && corner.maxCoeff() <= 20) << round;
+      }
+    }
+  }
 }
 
 }  // namespace
