@@ -204,6 +204,10 @@ std::vector<Corners> simple_parts(const Area& area, double least_m2) {
     if (next.holes.empty()) {
       if (world::is_simple(next.outline) && world::signed_area(next.outline) > 0) {
         parts.push_back(next.outline);
+      } else {  // touches itself
+        for (Corners& loop : simple_loops(next.outline)) {
+          if (world::is_simple(loop)) parts.push_back(std::move(loop));
+        }
       }
       continue;
     }

@@ -186,7 +186,7 @@ class ExtractReader {
       assembler(way, made);
       const Tags tags = tags_of(way.tags());
       if (!add_areas(made, name, tags)) repair({&way}, {}, name, tags);
-      return;
+      if (!tags.contains("barrier")) return;  // else it is fenced, too
     }
     OsmLine line{way.id(), tags_of(way.tags()), {}, {}};
     for (const osmium::NodeRef& node : way.nodes()) {

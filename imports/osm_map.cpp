@@ -353,7 +353,10 @@ Place read_osm(const std::filesystem::path& file, const OsmOptions& options) {
     return place;
   };
   Place place = read();
-  if (open_ground_m2(place) == 0 && !place.gates_asked) {
+  // Larger ones are not walled up, and take long to look at.
+  constexpr double kSmallM = 500;
+  const bool small = size().maxCoeff() < kSmallM;
+  if (small && !place.gates_asked && open_ground_m2(place) == 0) {
     grow();
     place = read();
     place.skipped.push_back(

@@ -67,6 +67,9 @@ class SdfReader {
  private:
   static std::vector<fs::path> folders_of(const fs::path& file, const SdfOptions& options) {
     std::vector<fs::path> folders = options.models;
+    // Where repositories of worlds have their models.
+    folders.push_back(file.parent_path() / "models");
+    folders.push_back(file.parent_path() / ".." / "models");
     folders.insert(folders.begin(), file.parent_path());
     return folders;
   }

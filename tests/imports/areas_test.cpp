@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "base/random.h"
+#include "imports/free_ground.h"
 #include "imports/solids.h"
 #include "world/polygon.h"
 
@@ -96,9 +98,33 @@ TEST(Areas, LoopsAreAlwaysSimple) {
       ring.emplace_back(random.below(20), random.below(20));
     }
     for (const Area& part : repaired({ring, {}})) {
-      EXPECT_TRUE(world::is_simple(part.outline)) << round;
+      const std::vector<Corners> parts = simple_parts(part);
+      EXPECT_NEAR(whole_m2(parts), size_m2(part), 0.05) << round;
+      for (const Corners& corners : parts) EXPECT_TRUE(world::is_simple(corners)) << round;
       for (const Eigen::Vector2d& corner : part.outline) {
         EXPECT_TRUE(corner.minCoeff() >= 0 && corner.maxCoeff() <= 20) << round;
+      }
+    }
+  }
+}
+
+// A cell is blocked if and only if its middle is in an obstacle or nearer than half a body.
+TEST(FreeGroundCells, AreThoseAwayFromAllObstacles) {
+  throng::Random random(3, throng::Stream::crowd_generator);
+  for (int round = 0; round < 40; ++round) {
+    Corners ring;
+    for (int i = 0; i < 7; ++i) {
+      ring.emplace_back(0.37 * random.below(80) - 5, 0.41 * random.below(80) - 5);
+    }
+    for (const Area& part : repaired({ring, {}})) {
+      const FreeGround ground({{0, 0}, {20, 20}}, {part.outline});
+      for (double x = 0.25; x < 20; x += FreeGround::kCellM) {
+        for (double y = 0.25; y < 20; y += FreeGround::kCellM) {
+          const double distance = world::distance_to(part.outline, {x, y});
+          if (std::abs(distance - 0.35) < 1e-9) continue;
+          EXPECT_EQ(ground.region_at({x, y}) == FreeGround::kBlocked, distance < 0.35)
+              << round << ": " << x << ", " << y;
+        }
       }
     }
   }

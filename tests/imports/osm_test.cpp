@@ -245,10 +245,14 @@ TEST(OsmFile, KnowsTagsOnOuterWaysAndWhatJosmDeleted) {
                            outer, inner),
                "type=multipolygon");
   map.way(map.box(-30, 0, -10, 20), "building=yes", "action='delete'");
+  map.way(map.box(-30, -30, -10, -10), "leisure=pitch barrier=fence");
   const Place place = map.read();
   EXPECT_NEAR(height_at(place, {5, 5}), 8, 1e-9);
   EXPECT_EQ(height_at(place, {15, 15}), 0);
   EXPECT_EQ(height_at(place, {-20, 10}), 0);
+  EXPECT_TRUE(stops_people(place, {-30, -20}));  // the fence
+  EXPECT_FALSE(stops_people(place, {-20, -20}));
+  EXPECT_EQ(place.areas.at(0).material, "grass");
 }
 
 TEST(OsmFile, ReadsWaysThatCarryTheirPlaces) {  // Overpass's "out geom"
@@ -262,7 +266,7 @@ TEST(OsmFile, ReadsWaysThatCarryTheirPlaces) {  // Overpass's "out geom"
       "<nd ref='1' lat='0' lon='0'/><tag k='building' v='yes'/></way></osm>");
   const Place place = read_osm(folder.path() / "m.osm", {});
   ASSERT_EQ(place.buildings.size(), 1U);
-  EXPECT_NEAR(place.inside.max.x() - place.inside.min.x(), 111.3, 0.1);
+  EXPECT_NEAR(world::signed_area(place.buildings[0].footprint), 111.3 * 110.6, 50);
 }
 
 }  // namespace
