@@ -1,5 +1,6 @@
 #include "imports/areas.h"
 
+#include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/linestring.hpp>
 #include <boost/geometry/geometries/multi_linestring.hpp>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "imports/loops.h"
 #include "world/polygon.h"
 
 namespace throng::imports {
@@ -109,6 +111,33 @@ std::optional<Area> tidied(const Area& area) {
   return tidy;
 }
 
+std::vector<Area> repaired(const Area& area) {
+  if (auto tidy = tidied(area)) return {std::move(*tidy)};
+  MultiPolygon whole;
+  for (const Corners& loop : simple_loops(area.outline)) {
+    const auto tidy = tidied({loop, {}});
+    if (!tidy) continue;
+    MultiPolygon more;
+    bg::union_(whole, polygon_of(*tidy), more);
+    whole = std::move(more);
+  }
+  std::vector<Area> holes;
+  for (const Corners& hole : area.holes) {
+    for (const Corners& loop : simple_loops(hole)) {
+      if (auto tidy = tidied({loop, {}})) holes.push_back(std::move(*tidy));
+    }
+  }
+  std::vector<Area> parts;
+  for (const Area& piece : areas_of(whole)) {
+    for (Area& rest : without(piece, holes)) parts.push_back(std::move(rest));
+  }
+  constexpr double kLeastM2 = 0.01;
+  std::erase_if(parts, [](const Area& part) { return size_m2(part) < kLeastM2; });
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Area& a, const Area& b) { return size_m2(a) > size_m2(b); });
+  return parts;
+}
+
 std::vector<Area> clipped(const Area& area, const world::Rectangle& to) {
   MultiPolygon inside;
   bg::intersection(polygon_of(area), box(to.min.x(), to.min.y(), to.max.x(), to.max.y()), inside);
@@ -140,6 +169,25 @@ std::vector<Area> along(const std::vector<Vector2d>& line, double width_m) {
   return areas_of(band);
 }
 
+double shared_m2(const Area& a, const Area& b) {
+  MultiPolygon both;
+  bg::intersection(polygon_of(a), polygon_of(b), both);
+  return bg::area(both);
+}
+
+Bounds bounds_of(const Corners& corners) {
+  Bounds bounds{corners.front(), corners.front()};
+  for (const Vector2d& corner : corners) {
+    bounds.low = bounds.low.cwiseMin(corner);
+    bounds.high = bounds.high.cwiseMax(corner);
+  }
+  return bounds;
+}
+
+bool meet(const Bounds& a, const Bounds& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
 double size_m2(const Area& area) {
   double size = std::abs(world::signed_area(area.outline));
   for (const Corners& hole : area.holes) size -= std::abs(world::signed_area(hole));
@@ -156,6 +204,10 @@ std::vector<Corners> simple_parts(const Area& area, double least_m2) {
     if (next.holes.empty()) {
       if (world::is_simple(next.outline) && world::signed_area(next.outline) > 0) {
         parts.push_back(next.outline);
+      } else {  // touches itself
+        for (Corners& loop : simple_loops(next.outline)) {
+          if (world::is_simple(loop)) parts.push_back(std::move(loop));
+        }
       }
       continue;
     }

@@ -22,6 +22,10 @@ struct Area {
 /// edge; nothing where it has no extent, crosses itself or has holes that do not lie within it.
 std::optional<Area> tidied(const Area& area);
 
+/// The area as it is if tidied() takes it; else what the loops of its outline cover and those of
+/// its holes do not (simple_loops()), the largest part first, those of less than 0.01 m² left out.
+std::vector<Area> repaired(const Area& area);
+
 /// What of an area lies in a rectangle, and outside of others.
 std::vector<Area> clipped(const Area& area, const world::Rectangle& to);
 std::vector<Area> without(const Area& area, const std::vector<Area>& others);
@@ -31,6 +35,14 @@ std::vector<Area> without(const Area& area, const std::vector<Area>& others);
 std::vector<Area> along(const std::vector<Eigen::Vector2d>& line, double width_m);
 
 double size_m2(const Area& area);
+double shared_m2(const Area& a, const Area& b);
+
+struct Bounds {
+  Eigen::Vector2d low;
+  Eigen::Vector2d high;
+};
+Bounds bounds_of(const Corners& corners);
+bool meet(const Bounds& a, const Bounds& b);
 
 /// Simple polygons that cover the area: where there are holes it is cut through them. Pieces
 /// smaller than `least_m2` are left out.

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "world/polygon.h"
+#include <utility>
 
 namespace throng::imports {
 
@@ -16,6 +15,35 @@ constexpr double kBodyM = 0.35;
 
 std::size_t cells_along(double length_m) {
   return static_cast<std::size_t>(std::max(1.0, std::ceil(length_m / FreeGround::kCellM)));
+}
+
+// The cell of a place along one axis; `count` for what is beyond.
+std::size_t cell_at(double metres, std::size_t count) {
+  const double cell = std::floor(metres / FreeGround::kCellM);
+  return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count)));
+}
+
+double distance_to_edge(const Vector2d& a, const Vector2d& b, const Vector2d& point) {
+  const Vector2d way = b - a;
+  const double length2 = way.squaredNorm();
+  const double share = length2 > 0 ? std::clamp((point - a).dot(way) / length2, 0.0, 1.0) : 0.0;
+  return (point - a - share * way).norm();
+}
+
+// Where along x the points lie that an edge can be near enough to, seen from a row at y.
+std::pair<double, double> reach_in_band(const Vector2d& a, const Vector2d& b, double y) {
+  const double rise = b.y() - a.y();
+  double from = 0;
+  double to = 1;
+  if (std::abs(rise) > 1e-9) {
+    const double low = (y - kBodyM - a.y()) / rise;
+    const double high = (y + kBodyM - a.y()) / rise;
+    from = std::clamp(std::min(low, high), 0.0, 1.0);
+    to = std::clamp(std::max(low, high), 0.0, 1.0);
+  }
+  const double x1 = a.x() + from * (b.x() - a.x());
+  const double x2 = a.x() + to * (b.x() - a.x());
+  return {std::min(x1, x2) - kBodyM, std::max(x1, x2) + kBodyM};
 }
 
 }  // namespace
@@ -36,24 +64,42 @@ Vector2d FreeGround::middle_of(std::size_t cell) const {
                                        static_cast<double>(cell / columns_) + 0.5);
 }
 
+// Row by row, so that a lake of a thousand corners costs its cells and its shore, not both
+// multiplied.
 void FreeGround::block(const Corners& obstacle) {
-  Vector2d low = obstacle.front();
-  Vector2d high = low;
-  for (const Vector2d& corner : obstacle) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
+  const auto row_of = [&](double y) { return cell_at(y - area_.min.y(), rows_); };
+  const auto column_of = [&](double x) { return cell_at(x - area_.min.x(), columns_); };
+  const Bounds bounds = bounds_of(obstacle);
+  const std::size_t first = row_of(bounds.low.y());
+  const std::size_t last = row_of(bounds.high.y() + kCellM);
+  std::vector<std::vector<double>> crossings(last - first);
+  for (std::size_t i = 0; i < obstacle.size(); ++i) {
+    const Vector2d& a = obstacle[i];
+    const Vector2d& b = obstacle[(i + 1) % obstacle.size()];
+    const double low = std::min(a.y(), b.y());
+    const double high = std::max(a.y(), b.y());
+    for (std::size_t row = row_of(low - kBodyM); row < row_of(high + kBodyM + kCellM); ++row) {
+      const double y = middle_of(row * columns_).y();
+      if (row >= first && row < last && y >= low && y < high) {
+        crossings[row - first].push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      }
+      const auto [from, to] = reach_in_band(a, b, y);
+      for (std::size_t column = column_of(from); column < column_of(to + kCellM); ++column) {
+        const std::size_t cell = row * columns_ + column;
+        if (distance_to_edge(a, b, middle_of(cell)) < kBodyM) region_[cell] = kBlocked;
+      }
+    }
   }
-  const auto cell_of = [&](double metres, double from, std::size_t count) {
-    const double cell = std::floor((metres - from) / kCellM);
-    return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count)));
-  };
-  const std::size_t last_column = cell_of(high.x() + kBodyM + kCellM, area_.min.x(), columns_);
-  const std::size_t last_row = cell_of(high.y() + kBodyM + kCellM, area_.min.y(), rows_);
-  for (std::size_t row = cell_of(low.y() - kBodyM, area_.min.y(), rows_); row < last_row; ++row) {
-    for (std::size_t column = cell_of(low.x() - kBodyM, area_.min.x(), columns_);
-         column < last_column; ++column) {
-      const std::size_t cell = row * columns_ + column;
-      if (world::distance_to(obstacle, middle_of(cell)) < kBodyM) region_[cell] = kBlocked;
+  for (std::size_t row = first; row < last; ++row) {
+    std::vector<double>& xs = crossings[row - first];
+    std::sort(xs.begin(), xs.end());
+    for (std::size_t i = 0; i + 1 < xs.size(); i += 2) {
+      for (std::size_t column = column_of(xs[i]); column < column_of(xs[i + 1] + kCellM);
+           ++column) {
+        const std::size_t cell = row * columns_ + column;
+        const double x = middle_of(cell).x();
+        if (x >= xs[i] && x <= xs[i + 1]) region_[cell] = kBlocked;
+      }
     }
   }
 }

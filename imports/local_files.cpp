@@ -19,7 +19,7 @@ std::optional<fs::path> LocalFiles::find(const std::string& uri, const fs::path&
   std::string name = uri;
   if (const std::size_t scheme = uri.find("://"); scheme != std::string::npos) {
     const std::string kind = uri.substr(0, scheme);
-    if (kind != "model" && kind != "file") return std::nullopt;
+    if (kind != "model" && kind != "file" && kind != "package") return std::nullopt;
     name = uri.substr(scheme + 3);
   }
   if (name.empty() || name.find('\0') != std::string::npos) return std::nullopt;

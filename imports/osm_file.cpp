@@ -8,11 +8,15 @@
 #include <osmium/area/assembler.hpp>
 #include <osmium/io/xml_input.hpp>
 #include <osmium/osm.hpp>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "base/error.h"
+#include "base/files.h"
+#include "imports/osm_rings.h"
+#include "imports/osm_text.h"
 
 namespace throng::imports {
 
@@ -54,7 +58,9 @@ class Projection {
 struct Extract {
   osmium::memory::Buffer buffer{1U << 16U, osmium::memory::Buffer::auto_grow::yes};
   osmium::Box bounds;
+  bool has_bounds = false;  // the file says
   std::unordered_map<std::int64_t, osmium::Location> nodes;
+  std::set<OsmId> deleted;
 };
 
 Tags tags_of(const osmium::TagList& list) {
@@ -71,11 +77,13 @@ bool is_area(const osmium::TagList& tags) {
   for (const char* key : kAreas) {
     if (tags.has_key(key)) return true;
   }
-  return false;
+  return tags.has_tag("waterway", "riverbank") || tags.has_tag("waterway", "dock");
 }
 
 void read_all(const fs::path& file, Extract& extract) {
-  osmium::io::Reader reader{osmium::io::File{file.string(), "osm"}};
+  OsmText plain = plain_osm(read_file(file));
+  extract.deleted = std::move(plain.deleted);
+  osmium::io::Reader reader{osmium::io::File{plain.text.data(), plain.text.size(), "osm"}};
   extract.bounds = reader.header().joined_boxes();
   while (osmium::memory::Buffer part = reader.read()) {
     extract.buffer.add_buffer(part);
@@ -85,6 +93,7 @@ void read_all(const fs::path& file, Extract& extract) {
   osmium::Box all;
   for (const osmium::Node& node : extract.buffer.select<osmium::Node>()) {
     if (!node.visible() || !node.location().valid()) continue;
+    if (extract.deleted.contains({'n', node.id()})) continue;
     extract.nodes[node.id()] = node.location();
     if (extract.nodes.size() > kMostNodes) {
       throw InputError(
@@ -92,7 +101,13 @@ void read_all(const fs::path& file, Extract& extract) {
     }
     all.extend(node.location());
   }
-  if (!extract.bounds.valid()) extract.bounds = all;
+  for (const osmium::Way& way : extract.buffer.select<osmium::Way>()) {
+    for (const osmium::NodeRef& node : way.nodes()) {  // as Overpass writes them by "out geom"
+      if (node.location().valid()) all.extend(node.location());
+    }
+  }
+  extract.has_bounds = extract.bounds.valid();
+  if (!extract.has_bounds) extract.bounds = all;
   if (!extract.bounds.valid()) {
     throw InputError({file.string(), "", "no bounds and no nodes", "an extract of OpenStreetMap"});
   }
@@ -112,22 +127,41 @@ class ExtractReader {
     }
     for (osmium::Way& way : extract_.buffer.select<osmium::Way>()) {
       locate(way);
-      ways_[way.id()] = &way;
+      if (is_there('w', way)) ways_[way.id()] = &way;
+    }
+    std::vector<const osmium::Relation*> multipolygons;
+    for (const osmium::Relation& relation : extract_.buffer.select<osmium::Relation>()) {
+      if (!relation.tags().has_tag("type", "multipolygon") || !is_there('r', relation)) continue;
+      multipolygons.push_back(&relation);
+      if (relation.tags().size() == 1) find_tags_of_outers(relation);
     }
     for (const auto& way : extract_.buffer.select<osmium::Way>()) {
-      if (!way.tags().empty()) add_way(way);
+      if (!way.tags().empty() && is_there('w', way)) add_way(way);
     }
-    for (const osmium::Relation& relation : extract_.buffer.select<osmium::Relation>()) {
-      if (relation.tags().has_tag("type", "multipolygon")) add_relation(relation);
-    }
+    for (const osmium::Relation* relation : multipolygons) add_relation(*relation);
     return std::move(result_);
   }
 
  private:
+  bool is_there(char kind, const osmium::OSMObject& object) const {
+    return object.visible() && !extract_.deleted.contains({kind, object.id()});
+  }
+
+  // Until 2017 a multipolygon's tags stood on its outer ways.
+  void find_tags_of_outers(const osmium::Relation& relation) {
+    for (const osmium::RelationMember& member : relation.members()) {
+      const auto way = ways_.find(member.ref());
+      if (member.type() != osmium::item_type::way || way == ways_.end()) continue;
+      if (std::string_view(member.role()) == "inner" || !is_area(way->second->tags())) continue;
+      tags_of_outers_.try_emplace(relation.id(), tags_of(way->second->tags()));
+      drawn_by_relations_.insert(way->first);
+    }
+  }
+
   void locate(osmium::Way& way) const {
     for (osmium::NodeRef& node : way.nodes()) {
       const auto known = extract_.nodes.find(node.ref());
-      node.set_location(known == extract_.nodes.end() ? osmium::Location{} : known->second);
+      if (known != extract_.nodes.end()) node.set_location(known->second);
     }
   }
 
@@ -145,11 +179,14 @@ class ExtractReader {
   void add_way(const osmium::Way& way) {
     const std::string name = fmt::format("way {}", way.id());
     if (way.nodes().size() >= 4 && way.is_closed() && is_area(way.tags())) {
+      if (drawn_by_relations_.contains(way.id())) return;
       if (!is_complete(way)) return skip(name, "some of its nodes are not in the file");
       osmium::area::Assembler assembler{config_};
       osmium::memory::Buffer made{1U << 12U, osmium::memory::Buffer::auto_grow::yes};
       assembler(way, made);
-      return add_areas(made, name);
+      const Tags tags = tags_of(way.tags());
+      if (!add_areas(made, name, tags)) repair({&way}, {}, name, tags);
+      if (!tags.contains("barrier")) return;  // else it is fenced, too
     }
     OsmLine line{way.id(), tags_of(way.tags()), {}, {}};
     for (const osmium::NodeRef& node : way.nodes()) {
@@ -163,6 +200,8 @@ class ExtractReader {
   void add_relation(const osmium::Relation& relation) {
     const std::string name = fmt::format("relation {}", relation.id());
     std::vector<const osmium::Way*> members;
+    std::vector<const osmium::Way*> outer;
+    std::vector<const osmium::Way*> inner;
     for (const osmium::RelationMember& member : relation.members()) {
       if (member.type() != osmium::item_type::way) continue;
       const auto way = ways_.find(member.ref());
@@ -170,15 +209,56 @@ class ExtractReader {
         return skip(name, fmt::format("way {} is not whole in the file", member.ref()));
       }
       members.push_back(way->second);
+      (std::string_view(member.role()) == "inner" ? inner : outer).push_back(way->second);
     }
+    if (outer.empty()) return skip(name, "a multipolygon without an outer way");
+    const auto lent = tags_of_outers_.find(relation.id());
+    const Tags tags = lent == tags_of_outers_.end() ? tags_of(relation.tags()) : lent->second;
     // The assembler counts ways and members alike.
-    if (members.empty() || members.size() != relation.members().size()) {
-      return skip(name, "a multipolygon of other things than ways");
+    if (members.size() == relation.members().size()) {
+      osmium::area::Assembler assembler{config_};
+      osmium::memory::Buffer made{1U << 12U, osmium::memory::Buffer::auto_grow::yes};
+      assembler(relation, members, made);
+      if (add_areas(made, name, tags)) return;
     }
-    osmium::area::Assembler assembler{config_};
-    osmium::memory::Buffer made{1U << 12U, osmium::memory::Buffer::auto_grow::yes};
-    assembler(relation, members, made);
-    add_areas(made, name);
+    repair(outer, inner, name, tags);
+  }
+
+  JoinedRings joined(const std::vector<const osmium::Way*>& ways) const {
+    std::vector<WayNodes> parts;
+    for (const osmium::Way* way : ways) {
+      WayNodes& part = parts.emplace_back();
+      for (const osmium::NodeRef& node : way->nodes()) {
+        part.nodes.push_back(node.ref());
+        part.places.push_back(projection_.at(node.location()));
+      }
+    }
+    return joined_rings(std::move(parts));
+  }
+
+  // What libosmium cannot assemble: taken apart where it crosses itself.
+  void repair(const std::vector<const osmium::Way*>& outer,
+              const std::vector<const osmium::Way*>& inner, const std::string& name,
+              const Tags& tags) {
+    const JoinedRings outlines = joined(outer);
+    const JoinedRings holes = joined(inner);
+    std::vector<Area> found;
+    for (const Corners& outline : outlines.rings) {
+      for (Area& area : repaired({outline, {}})) found.push_back(std::move(area));
+    }
+    std::vector<Area> cut;
+    for (const Corners& hole : holes.rings) {
+      for (Area& area : repaired({hole, {}})) cut.push_back(std::move(area));
+    }
+    bool any = false;
+    for (const Area& area : found) {
+      for (Area& rest : without(area, cut)) {
+        result_.areas.push_back({name, tags, std::move(rest)});
+        any = true;
+      }
+    }
+    if (!any) return skip(name, "its edges cross or do not close");
+    if (outlines.open + holes.open > 0) skip(name, "parts of it that do not close");
   }
 
   Corners corners_of_ring(const osmium::NodeRefList& ring) const {
@@ -188,7 +268,7 @@ class ExtractReader {
     return corners;
   }
 
-  void add_areas(const osmium::memory::Buffer& made, const std::string& name) {
+  bool add_areas(const osmium::memory::Buffer& made, const std::string& name, const Tags& tags) {
     bool any = false;
     for (const osmium::Area& found : made.select<osmium::Area>()) {
       for (const osmium::OuterRing& outer : found.outer_rings()) {
@@ -198,11 +278,11 @@ class ExtractReader {
         }
         const auto tidy = tidied(area);
         if (!tidy) continue;
-        result_.areas.push_back({name, tags_of(found.tags()), *tidy});
+        result_.areas.push_back({name, tags, *tidy});
         any = true;
       }
     }
-    if (!any) skip(name, "its edges cross or do not close");
+    return any;
   }
 
   std::string name_;
@@ -210,6 +290,8 @@ class ExtractReader {
   const Projection& projection_;
   osmium::area::AssemblerConfig config_;  // assemblers refer to it
   std::unordered_map<std::int64_t, const osmium::Way*> ways_;
+  std::unordered_map<std::int64_t, Tags> tags_of_outers_;  // by relation
+  std::set<std::int64_t> drawn_by_relations_;              // ways
   OsmFile result_;
 };
 
@@ -248,11 +330,13 @@ OsmFile read_osm_file(const fs::path& file, const std::optional<GeoPoint>& origi
     throw InputError({file.string(), "bounds",
                       fmt::format("{:.0f} m x {:.0f} m, {:.0f} m from the origin", extent.x(),
                                   extent.y(), farthest),
-                      "at most 5 km, near the origin and not at a pole"});
+                      "at most 5 km, near the origin and not at a pole (a smaller extract: `osmium "
+                      "extract -b`)"});
   }
   ExtractReader reader(file.string(), extract, projection);
   OsmFile result = reader.read();
   result.bounds = bounds;
+  result.has_bounds = extract.has_bounds;
   return result;
 }
 

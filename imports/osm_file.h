@@ -44,6 +44,7 @@ struct OsmArea {
 
 struct OsmFile {
   world::Rectangle bounds;  ///< as the file says, else of its nodes
+  bool has_bounds = false;  ///< the file says
   std::vector<OsmPoint> points;
   std::vector<OsmLine> lines;
   std::vector<OsmArea> areas;
@@ -52,8 +53,10 @@ struct OsmFile {
 
 /// Reads OSM XML by libosmium, all that has tags. x is east and y north of the origin (default: the
 /// middle of the bounds), by the ellipsoid's radii of curvature there: over 3 km off by less than a
-/// metre. Rings that cross themselves or are not closed are in `skipped`. Throws InputError for
-/// what is no such file, spans more than 5 km, or has more than 2 million nodes, and
+/// metre. Rings that cross themselves are repaired(); those
+/// that do not close, and what is not whole in the file, are in `skipped`. What JOSM marks as
+/// deleted is not there; a multipolygon without tags has those of its outer ways. Throws InputError
+/// for what is no such file, spans more than 5 km, or has more than 2 million nodes, and
 /// EnvironmentError.
 OsmFile read_osm_file(const std::filesystem::path& file, const std::optional<GeoPoint>& origin);
 

@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "imports/osm_buildings.h"
 #include "imports/osm_gates.h"
 #include "imports/osm_tags.h"
 #include "imports/place_writer.h"
+#include "imports/populate.h"
 #include "imports/solids.h"
 
 namespace throng::imports {
@@ -27,24 +29,6 @@ constexpr double kLeastPatchM2 = 0.2;
 constexpr std::size_t kMostProps = 20'000;
 const Vector3d kRoofRgb(0.35, 0.33, 0.3);
 const Vector3d kWaterRgb(0.05, 0.12, 0.2);
-
-struct Bounds {
-  Vector2d low;
-  Vector2d high;
-};
-
-Bounds bounds_of(const Corners& corners) {
-  Bounds bounds{corners.front(), corners.front()};
-  for (const Vector2d& corner : corners) {
-    bounds.low = bounds.low.cwiseMin(corner);
-    bounds.high = bounds.high.cwiseMax(corner);
-  }
-  return bounds;
-}
-
-bool meet(const Bounds& a, const Bounds& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-}
 
 class MapReader {
  public:
@@ -62,12 +46,15 @@ class MapReader {
   }
   void add_surface(const Area& area, const std::string& material,
                    std::vector<world::GroundArea>& to);
-  void add_building(const OsmArea& found);
+  void add_buildings();
+  void add_standing(const BuildingPiece& piece);
+  void add_hanging(const BuildingPiece& piece);
   void add_water(const OsmArea& found);
   void add_area(const OsmArea& found);
   void add_way(const OsmLine& line, const WayKind& kind);
   void add_crossings(const OsmLine& line, const WayKind& kind);
   void add_barrier(const OsmLine& line, const Barrier& barrier);
+  std::vector<Area> openings_near(const Area& area) const;
   void add_line(const OsmLine& line);
   void add_tree_row(const OsmLine& line);
   void add_prop(const OsmPoint& point);
@@ -97,26 +84,23 @@ void MapReader::add_surface(const Area& area, const std::string& material,
   }
 }
 
-// What stands there already is cut out, so that no two buildings overlap.
-void MapReader::add_building(const OsmArea& found) {
-  const double base = building_base_m(found.tags);
-  const double top = std::max(building_height_m(found.tags), base + 0.5);
-  const bool roof = value_of(found.tags, "building") == "roof";
-  if (base > kHeadM || roof) {
-    Thing& drawn = thing(found.name);
-    Solid& solid = drawn.solids.emplace_back();
-    solid.rgb = kRoofRgb;
-    constexpr double kRoofM = 0.3;
-    for (const Area& part : clipped(found.area, ground_)) {
-      for (const Corners& corners : simple_parts(part, kLeastBuildingM2)) {
-        const Triangles prism = prism_triangles(corners, base > kHeadM ? base : top - kRoofM, top);
-        solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
-      }
+void MapReader::add_hanging(const BuildingPiece& piece) {
+  Solid solid;
+  solid.rgb = kRoofRgb;
+  constexpr double kRoofM = 0.3;
+  const double from_m = piece.from_m > kHeadM ? piece.from_m : piece.to_m - kRoofM;
+  for (const Area& part : clipped(piece.area, ground_)) {
+    for (const Corners& corners : simple_parts(part, kLeastBuildingM2)) {
+      const Triangles prism = prism_triangles(corners, from_m, piece.to_m);
+      solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
     }
-    if (solid.triangles.empty()) place_.things.pop_back();
-    return;
   }
-  for (const Area& part : clipped(found.area, ground_)) {
+  if (!solid.triangles.empty()) thing(piece.name).solids.push_back(std::move(solid));
+}
+
+// What stands there already is cut out, so that no two buildings overlap.
+void MapReader::add_standing(const BuildingPiece& piece) {
+  for (const Area& part : clipped(piece.area, ground_)) {
     std::vector<Area> others;
     const Bounds bounds = bounds_of(part.outline);
     for (std::size_t i = 0; i < place_.buildings.size(); ++i) {
@@ -127,16 +111,35 @@ void MapReader::add_building(const OsmArea& found) {
       kept_m2 += size_m2(rest);
       for (Corners& corners : simple_parts(rest, kLeastBuildingM2)) {
         building_bounds_.push_back(bounds_of(corners));
-        place_.obstacles.push_back(corners);
+        if (!piece.part) place_.obstacles.push_back(corners);
         place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1),
-                                    std::move(corners), top, world::Facade::by_id});
+                                    std::move(corners), piece.to_m, world::Facade::by_id});
       }
     }
     const double cut_m2 = size_m2(part) - kept_m2;
-    if (cut_m2 > kLeastBuildingM2) {
-      skip(found.name, fmt::format("{:.0f} m² of it are in other buildings: cut off", cut_m2));
+    if (cut_m2 > kLeastBuildingM2 && !piece.part) {
+      skip(piece.name, fmt::format("{:.0f} m² of it are in other buildings: cut off", cut_m2));
     }
   }
+}
+
+void MapReader::add_buildings() {
+  MapBuildings found = buildings_of(file_.areas, source_);
+  for (const Area& outline : found.outlines) {
+    for (const Area& part : clipped(outline, ground_)) {
+      for (Corners& corners : simple_parts(part, kLeastBuildingM2)) {
+        place_.obstacles.push_back(std::move(corners));
+      }
+    }
+  }
+  for (const BuildingPiece& piece : found.pieces) {
+    if (piece.stands) {
+      add_standing(piece);
+    } else {
+      add_hanging(piece);
+    }
+  }
+  for (Skipped& skipped : found.skipped) place_.skipped.push_back(std::move(skipped));
 }
 
 void MapReader::add_water(const OsmArea& found) {
@@ -155,11 +158,9 @@ void MapReader::add_water(const OsmArea& found) {
 
 void MapReader::add_area(const OsmArea& found) {
   const Tags& tags = found.tags;
-  if (tags.contains("building") && value_of(tags, "building") != "no") return add_building(found);
-  if (tags.contains("building:part")) {
-    return skip(found.name, "a part of a building: the whole is drawn");
-  }
-  if (value_of(tags, "natural") == "water" || tags.contains("water")) return add_water(found);
+  if (is_building(tags) || is_building_part(tags)) return;  // add_buildings()
+  if (is_underground(tags)) return skip(found.name, "is underground");
+  if (is_water(tags)) return add_water(found);
   const std::string material = surface_of(tags);
   if (material == "grass") return add_surface(found.area, material, green_);
   if (!material.empty()) return add_surface(found.area, material, paved_);
@@ -202,11 +203,20 @@ void MapReader::add_way(const OsmLine& line, const WayKind& kind) {
   }
 }
 
+std::vector<Area> MapReader::openings_near(const Area& area) const {
+  const Bounds bounds = bounds_of(area.outline);
+  std::vector<Area> near;
+  for (const Area& opening : openings_) {
+    if (meet(bounds, bounds_of(opening.outline))) near.push_back(opening);
+  }
+  return near;
+}
+
 void MapReader::add_barrier(const OsmLine& line, const Barrier& barrier) {
   Solid solid;
   solid.rgb = barrier.rgb;
   for (const Area& whole : along(line.points, barrier.width_m)) {
-    for (const Area& closed : without(whole, openings_)) {
+    for (const Area& closed : without(whole, openings_near(whole))) {
       for (const Area& part : clipped(closed, ground_)) {
         for (const Corners& corners : simple_parts(part)) {
           const Triangles prism = prism_triangles(corners, 0, barrier.height_m);
@@ -307,6 +317,7 @@ Place MapReader::read() {
     }
     if (value_of(point.tags, "highway") == "crossing") crossings_.insert(point.id);
   }
+  add_buildings();
   for (const OsmArea& area : file_.areas) add_area(area);
   for (const OsmLine& line : file_.lines) add_line(line);
   for (const OsmPoint& point : file_.points) add_prop(point);
@@ -323,16 +334,36 @@ Place MapReader::read() {
 Place read_osm(const std::filesystem::path& file, const OsmOptions& options) {
   OsmFile extract = read_osm_file(file, options.origin);
   constexpr double kSmallestM = 20;
-  const Vector2d size = extract.bounds.max - extract.bounds.min;
-  if (!(size.minCoeff() >= kSmallestM)) {
+  constexpr double kAroundM = 8;
+  const Vector2d around = Vector2d::Constant(kAroundM);
+  const auto size = [&] { return Vector2d(extract.bounds.max - extract.bounds.min); };
+  const auto grow = [&] {
+    extract.bounds = {extract.bounds.min - around, extract.bounds.max + around};
+  };
+  if (!extract.has_bounds && size().minCoeff() < kSmallestM) grow();
+  if (!(size().minCoeff() >= kSmallestM)) {
     throw InputError({file.string(), "bounds",
-                      fmt::format("{:.1f} m x {:.1f} m", size.x(), size.y()),
+                      fmt::format("{:.1f} m x {:.1f} m", size().x(), size().y()),
                       "at least 20 m x 20 m"});
   }
-  Place place = MapReader(std::move(extract), file.string()).read();
+  const auto read = [&] {
+    Place place = MapReader(extract, file.string()).read();
+    place.gates_asked = !options.gates.empty();
+    if (place.gates_asked) place.gates = options.gates;
+    return place;
+  };
+  Place place = read();
+  // Larger ones are not walled up, and take long to look at.
+  constexpr double kSmallM = 500;
+  const bool small = size().maxCoeff() < kSmallM;
+  if (small && !place.gates_asked && open_ground_m2(place) == 0) {
+    grow();
+    place = read();
+    place.skipped.push_back(
+        {file.string(), 0, "edge", "walled up: there are 8 m of ground around"});
+  }
   place.name = place_name_of(file);
   place.description = fmt::format("Imported from {} (OpenStreetMap).", file.filename().string());
-  if (!options.gates.empty()) place.gates = options.gates;
   return place;
 }
 

@@ -20,8 +20,13 @@ struct NamedWay {
 };
 
 // Widths are usual ones of European towns.
-const std::array<NamedWay, 17>& ways() {
-  static const std::array<NamedWay, 17> kWays = {{{"primary", {9, "asphalt", true, true}},
+const std::array<NamedWay, 22>& ways() {
+  static const std::array<NamedWay, 22> kWays = {{{"primary", {9, "asphalt", true, true}},
+                                                  {"trunk", {10, "asphalt", true, true}},
+                                                  {"trunk_link", {5, "asphalt", true, false}},
+                                                  {"road", {6, "asphalt", true, false}},
+                                                  {"busway", {6, "asphalt", true, false}},
+                                                  {"bridleway", {2.5, "dirt", false, false}},
                                                   {"secondary", {8, "asphalt", true, true}},
                                                   {"tertiary", {7, "asphalt", true, true}},
                                                   {"primary_link", {5, "asphalt", true, false}},
@@ -72,6 +77,8 @@ constexpr std::array<Surface, 24> kSurfaces = {{{"highway", "", "pavers"},
                                                 {"natural", "sand", "dirt"},
                                                 {"natural", "bare_rock", "dirt"}}};
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 }  // namespace
 
 const std::string& value_of(const Tags& tags, const std::string& key) {
@@ -86,10 +93,24 @@ std::optional<double> length_in(std::string_view text) {
   double value = 0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || !(value >= 0 && value <= kLongest)) return std::nullopt;
-  std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
+  const char* const end = text.data() + text.size();
+  if (end - rest >= 2 && *rest == ',' && is_digit(rest[1])) {  // a decimal comma
+    std::string point(text);
+    point[static_cast<std::size_t>(rest - text.data())] = '.';
+    return length_in(point);
+  }
+  std::string_view unit(rest, static_cast<std::size_t>(end - rest));
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   if (unit.empty() || unit == "m") return value;
   if (unit == "ft" || unit == "'") return value * kFoot;
+  if (unit.front() == '\'' && unit.back() == '"') {
+    double inches = 0;
+    const char* const last = unit.data() + unit.size() - 1;
+    const auto [after, wrong] = std::from_chars(unit.data() + 1, last, inches);
+    if (wrong == std::errc() && after == last && inches >= 0 && inches < 12) {
+      return (value + inches / 12) * kFoot;
+    }
+  }
   return std::nullopt;
 }
 
@@ -116,7 +137,13 @@ double building_height_m(const Tags& tags) {
     return std::clamp(*height, kLowestBuildingM, kTallestM);
   }
   if (const auto levels = length_in(value_of(tags, "building:levels")); levels && *levels > 0) {
-    return std::clamp(*levels * kLevelM, kLowestBuildingM, kTallestM);
+    double roof = 0;
+    if (const auto height = length_in(value_of(tags, "roof:height"))) {
+      roof = *height;
+    } else if (const auto roofs = length_in(value_of(tags, "roof:levels"))) {
+      roof = *roofs * kLevelM;
+    }
+    return std::clamp(*levels * kLevelM + roof, kLowestBuildingM, kTallestM);
   }
   const std::string& kind = value_of(tags, "building");
   if (kind == "garage" || kind == "garages" || kind == "shed" || kind == "kiosk" ||
@@ -133,6 +160,19 @@ double building_base_m(const Tags& tags) {
   if (const auto base = length_in(value_of(tags, "min_height"))) return *base;
   if (const auto level = length_in(value_of(tags, "building:min_level"))) return *level * kLevelM;
   return 0;
+}
+
+bool is_water(const Tags& tags) {
+  const std::string& landuse = value_of(tags, "landuse");
+  return value_of(tags, "natural") == "water" || tags.contains("water") ||
+         value_of(tags, "waterway") == "riverbank" || value_of(tags, "waterway") == "dock" ||
+         landuse == "basin" || landuse == "reservoir" ||
+         value_of(tags, "leisure") == "swimming_pool";
+}
+
+bool is_underground(const Tags& tags) {
+  return value_of(tags, "location") == "underground" ||
+         value_of(tags, "parking") == "underground" || value_of(tags, "tunnel") == "yes";
 }
 
 std::string surface_of(const Tags& tags) {

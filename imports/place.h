@@ -54,6 +54,7 @@ struct Place {
   std::vector<Thing> things;
   std::vector<Corners> obstacles;  ///< where nobody can walk: buildings and all else; simple
   std::vector<Gate> gates;
+  bool gates_asked = false;  ///< by the user, not found in the file
   bool people_come = false;  ///< through the gates, as many as leave
   std::vector<Skipped> skipped;
 };

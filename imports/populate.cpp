@@ -27,19 +27,19 @@ constexpr std::size_t kMostFoundGates = 12;
 constexpr double kBeforeGateM = 1.5;  // where a gate's ground must be free, on both sides
 constexpr double kApartM = 0.9;
 constexpr double kFromEdgeM = 2;
+constexpr double kCellM2 = FreeGround::kCellM * FreeGround::kCellM;
 
-// Points before and behind a gate.
-std::pair<Vector2d, Vector2d> sides_of(const Gate& gate, const world::Rectangle& inside) {
-  const Vector2d middle = 0.5 * (gate.from + gate.to);
-  const Vector2d out = kBeforeGateM * outward_of(gate, inside);
-  return {middle - out, middle + out};
-}
-
-// The region that a gate leads into, if both its sides are free.
+// The region that a gate leads into, if it is free from before it to behind it. A wall on the line
+// itself may have the same region on both sides.
 int region_of(const Gate& gate, const world::Rectangle& inside, const FreeGround& ground) {
-  const auto [before, behind] = sides_of(gate, inside);
-  const int region = ground.region_at(before);
-  return ground.region_at(behind) == region ? region : FreeGround::kBlocked;
+  const Vector2d middle = 0.5 * (gate.from + gate.to);
+  const Vector2d out = outward_of(gate, inside);
+  const int region = ground.region_at(middle - kBeforeGateM * out);
+  constexpr double kStepM = 0.5 * FreeGround::kCellM;
+  for (double at = -kBeforeGateM; at <= kBeforeGateM; at += kStepM) {
+    if (ground.region_at(middle + at * out) != region) return FreeGround::kBlocked;
+  }
+  return region;
 }
 
 // Open stretches of one side of the rectangle, as gates no wider than people need.
@@ -96,10 +96,14 @@ int main_region(const std::vector<Gate>& gates, const world::Rectangle& inside,
   return best;
 }
 
-bool is_in_the_way(const world::Prop& prop, const Place& place, const std::vector<Gate>& gates) {
+bool is_in_the_way(const world::Prop& prop, const Place& place, const std::vector<Bounds>& bounds,
+                   const std::vector<Gate>& gates) {
   constexpr double kSlackM = 0.1;
-  for (const world::Building& building : place.buildings) {
-    if (world::distance_to(building.footprint, prop.position) < kSlackM) return true;
+  const Bounds around{prop.position - Vector2d::Constant(kSlackM),
+                      prop.position + Vector2d::Constant(kSlackM)};
+  for (std::size_t i = 0; i < place.buildings.size(); ++i) {
+    if (!meet(around, bounds[i])) continue;
+    if (world::distance_to(place.buildings[i].footprint, prop.position) < kSlackM) return true;
   }
   const double clear_m = world::kClearOfExitsM + kSlackM + prop.scale;
   for (const Gate& gate : gates) {
@@ -113,8 +117,12 @@ bool is_in_the_way(const world::Prop& prop, const Place& place, const std::vecto
 }
 
 void take_props_away(Place& place, const std::vector<Gate>& gates) {
+  std::vector<Bounds> bounds;
+  for (const world::Building& building : place.buildings) {
+    bounds.push_back(bounds_of(building.footprint));
+  }
   std::erase_if(place.props, [&](const world::Prop& prop) {
-    if (!is_in_the_way(prop, place, gates)) return false;
+    if (!is_in_the_way(prop, place, bounds, gates)) return false;
     place.skipped.push_back(
         {"", 0,
          fmt::format("{} at [{:.1f}, {:.1f}]",
@@ -129,6 +137,20 @@ std::vector<Corners> obstacles_with_props(const Place& place) {
   std::vector<Corners> obstacles = place.obstacles;
   for (const world::Prop& prop : place.props) obstacles.push_back(footprint_of(prop));
   return obstacles;
+}
+
+// Yards and rooms that nobody can leave are part of what the file has.
+void note_enclosed(Place& place, const FreeGround& ground, int main) {
+  constexpr double kWorthSayingM2 = 20;
+  double enclosed_m2 = 0;
+  for (int region = 0; region < ground.regions(); ++region) {
+    const double size = static_cast<double>(ground.size_of(region)) * kCellM2;
+    if (region != main && size >= kWorthSayingM2) enclosed_m2 += size;
+  }
+  if (enclosed_m2 == 0) return;
+  place.skipped.push_back(
+      {"", 0, "ground",
+       fmt::format("nobody is on {:.0f} m² that no exit can be reached from", enclosed_m2)});
 }
 
 // Cells in an order that the seed draws; one is taken where nobody taken before is near.
@@ -192,15 +214,36 @@ Vector2d outward_of(const Gate& gate, const world::Rectangle& inside) {
   return normal.dot(from_middle) >= 0 ? normal : Vector2d(-normal);
 }
 
+double open_ground_m2(const Place& place) {
+  const FreeGround ground(ground_of(place), obstacles_with_props(place));
+  int region = main_region(place.gates, place.inside, ground);
+  if (region == FreeGround::kBlocked && !place.gates_asked) {
+    region = main_region(find_gates(place.inside, ground), place.inside, ground);
+  }
+  if (region == FreeGround::kBlocked) return 0;
+  const std::vector<Vector2d> cells = ground.cells_of(region);
+  const auto inside = std::count_if(cells.begin(), cells.end(), [&](const Vector2d& cell) {
+    return place.inside.contains(cell);
+  });
+  return static_cast<double>(inside) * kCellM2;
+}
+
 Population populate(Place& place, const PopulateOptions& options) {
   const world::Rectangle ground_area = ground_of(place);
   const FreeGround ground(ground_area, obstacles_with_props(place));
-  const bool given = !place.gates.empty();
-  const std::vector<Gate> candidates = given ? place.gates : find_gates(place.inside, ground);
-  const int region = main_region(candidates, place.inside, ground);
+  std::vector<Gate> candidates = place.gates;
+  int region = main_region(candidates, place.inside, ground);
+  if (region == FreeGround::kBlocked && !place.gates_asked) {
+    if (!candidates.empty()) {
+      place.skipped.push_back({"", 0, "exits", "all ways out are walled up: open ground instead"});
+    }
+    candidates = find_gates(place.inside, ground);
+    region = main_region(candidates, place.inside, ground);
+  }
   if (region == FreeGround::kBlocked) {
-    throw InputError({place.name, "", given ? "exits that are walled up" : "no open edge",
-                      "a place with at least one way out, or an exit on free ground"});
+    throw InputError({place.name, "",
+                      place.gates_asked ? "exits that are walled up" : "no open edge",
+                      "a place with at least one way out, or an exit on free ground (--exit)"});
   }
   Population population;
   for (const Gate& gate : candidates) {
@@ -210,6 +253,7 @@ Population populate(Place& place, const PopulateOptions& options) {
       place.skipped.push_back({"", 0, text_of(gate), "cannot be reached from the other exits"});
     }
   }
+  note_enclosed(place, ground, region);
   take_props_away(place, population.gates);
   std::vector<Vector2d> cells = ground.cells_of(region);
   const Vector2d edge = Vector2d::Constant(kFromEdgeM);

@@ -26,6 +26,9 @@ struct Population {
 /// such props are taken away. Throws InputError for a place that nobody can leave.
 Population populate(Place& place, const PopulateOptions& options);
 
+/// How much ground populate() would find from where people can leave: 0 where it would throw (m²).
+double open_ground_m2(const Place& place);
+
 /// The way out through a gate: a unit vector away from the middle of the place.
 Eigen::Vector2d outward_of(const Gate& gate, const world::Rectangle& inside);
 

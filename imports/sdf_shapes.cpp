@@ -2,14 +2,18 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sdf/sdf.hh>
 
 #include "base/error.h"
+#include "imports/gazebo_colours.h"
 #include "imports/mesh_reader.h"
+#include "world/polygon.h"
 
 namespace throng::imports {
 
+using Eigen::Isometry3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -34,13 +38,13 @@ Vector3d size_within(const ignition::math::Vector3d& size) {
   return {size_within(size.X()), size_within(size.Y()), size_within(size.Z())};
 }
 
-bool is_upright(const Eigen::Isometry3d& pose) {
+bool is_upright(const Isometry3d& pose) {
   constexpr double kCosineOfADegree = 0.99985;
   return std::abs(pose.linear()(2, 2)) > kCosineOfADegree;
 }
 
 // A prism about the pose's z.
-Body prism(const Corners& outline, double length, const Eigen::Isometry3d& pose) {
+Body prism(const Corners& outline, double length, const Isometry3d& pose) {
   Body body;
   Solid solid;
   solid.triangles = prism_triangles(outline, -0.5 * length, 0.5 * length);
@@ -57,7 +61,7 @@ Body prism(const Corners& outline, double length, const Eigen::Isometry3d& pose)
   return body;
 }
 
-Body ball(const Vector3d& radii, double stretch, const Eigen::Isometry3d& pose) {
+Body ball(const Vector3d& radii, double stretch, const Isometry3d& pose) {
   Body body;
   Solid solid;
   solid.triangles = ball_triangles(radii, stretch);
@@ -66,7 +70,7 @@ Body ball(const Vector3d& radii, double stretch, const Eigen::Isometry3d& pose) 
   return body;
 }
 
-Body plane(const sdf::Plane& plane, const Eigen::Isometry3d& pose) {
+Body plane(const sdf::Plane& plane, const Isometry3d& pose) {
   const Vector3d up = pose.linear() * vector_of(plane.Normal());
   if (!(up.z() > 0.99)) reject("a plane that is not level", "a level plane");
   const double half_x = 0.5 * size_within(plane.Size().X());
@@ -81,7 +85,7 @@ Body plane(const sdf::Plane& plane, const Eigen::Isometry3d& pose) {
   return body;
 }
 
-Body mesh(const sdf::Mesh& mesh, const Eigen::Isometry3d& pose, const std::string& file,
+Body mesh(const sdf::Mesh& mesh, const Isometry3d& pose, const std::string& file,
           const LocalFiles& files) {
   const auto path = files.find(mesh.Uri(), file);
   if (!path) {
@@ -105,9 +109,75 @@ Body mesh(const sdf::Mesh& mesh, const Eigen::Isometry3d& pose, const std::strin
   return body;
 }
 
+// A cone about the pose's z, its tip up.
+Body cone(const sdf::ElementPtr& element, const Isometry3d& pose) {
+  Body body;
+  Solid solid;
+  solid.triangles = cone_triangles(size_within(element->Get<double>("radius")),
+                                   size_within(element->Get<double>("length")));
+  move(solid.triangles, pose);
+  body.solids.push_back(std::move(solid));
+  return body;
+}
+
+// Prisms over outlines, upwards from the pose; an outline within another is a hole in it.
+Body polylines(const sdf::ElementPtr& geometry, const Isometry3d& pose) {
+  std::vector<Area> areas;
+  double height = 0;
+  for (auto line = geometry->GetElement("polyline"); line;
+       line = line->GetNextElement("polyline")) {
+    height = size_within(line->Get<double>("height"));
+    Corners corners;
+    for (auto point = line->FindElement("point"); point; point = point->GetNextElement("point")) {
+      const auto at = point->Get<ignition::math::Vector2d>();
+      corners.emplace_back(at.X(), at.Y());
+      if (!(corners.back().norm() <= kLargestM)) reject("a point that is far away", "10 km");
+    }
+    for (Area& area : repaired({corners, {}})) areas.push_back(std::move(area));
+  }
+  std::stable_sort(areas.begin(), areas.end(),
+                   [](const Area& a, const Area& b) { return size_m2(a) > size_m2(b); });
+  std::vector<Area> whole;
+  for (const Area& area : areas) {
+    const auto around = std::find_if(whole.begin(), whole.end(), [&](const Area& other) {
+      return world::distance_to(other.outline, area.outline.front()) == 0;
+    });
+    if (around == whole.end()) {
+      whole.push_back(area);
+    } else {
+      around->holes.push_back(area.outline);
+    }
+  }
+  std::vector<Corners> parts;
+  for (const Area& area : whole) {
+    for (Corners& part : simple_parts(area)) parts.push_back(std::move(part));
+  }
+  if (parts.empty()) reject("a polyline without an area", "three points or more");
+  Isometry3d middle = pose;
+  middle.translation() += pose.linear() * Vector3d(0, 0, 0.5 * height);
+  Body body = prism(parts.front(), height, middle);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    Body more = prism(parts[i], height, middle);
+    body.solids.push_back(std::move(more.solids.front()));
+    body.footprint.reset();
+  }
+  return body;
+}
+
+// Kinds that libsdformat 12 has no class for.
+Body other_kind(const sdf::Geometry& geometry, const Isometry3d& pose) {
+  const sdf::ElementPtr element = geometry.Element();
+  if (element && element->HasElement("polyline")) return polylines(element, pose);
+  if (element && element->HasElement("cone")) return cone(element->GetElement("cone"), pose);
+  const sdf::ElementPtr kind = element ? element->GetFirstElement() : nullptr;
+  if (kind && kind->GetName() == "empty") return {};
+  reject(kind ? fmt::format("<{}>", kind->GetName()) : "no geometry",
+         "a box, cylinder, cone, sphere, ellipsoid, capsule, plane, polyline, mesh");
+}
+
 }  // namespace
 
-Body body_of(const sdf::Geometry& geometry, const Eigen::Isometry3d& pose, const std::string& file,
+Body body_of(const sdf::Geometry& geometry, const Isometry3d& pose, const std::string& file,
              const LocalFiles& files) {
   switch (geometry.Type()) {
     case sdf::GeometryType::BOX: {
@@ -129,14 +199,20 @@ Body body_of(const sdf::Geometry& geometry, const Eigen::Isometry3d& pose, const
     case sdf::GeometryType::MESH:
       return mesh(*geometry.MeshShape(), pose, file, files);
     default:
-      reject("a geometry of another kind",
-             "a box, cylinder, sphere, ellipsoid, capsule, plane, mesh");
+      return other_kind(geometry, pose);
   }
 }
 
 std::optional<Vector3d> colour_of(const sdf::Material* material) {
   if (material == nullptr) return std::nullopt;
-  const ignition::math::Color colour = material->Diffuse();
+  // libsdformat's default is black.
+  const sdf::ElementPtr element = material->Element();
+  const bool diffuse = element && element->HasElement("diffuse");
+  if (!diffuse) {
+    if (const auto rgb = gazebo_colour(material->ScriptName())) return rgb;
+    if (!element || !element->HasElement("ambient")) return std::nullopt;
+  }
+  const ignition::math::Color colour = diffuse ? material->Diffuse() : material->Ambient();
   const Vector3d rgb(colour.R(), colour.G(), colour.B());
   if (!rgb.allFinite()) return std::nullopt;
   return rgb.cwiseMax(0).cwiseMin(1);

@@ -29,12 +29,12 @@ struct Body {
 };
 
 /// A geometry at a pose; `file` is the one it stands in. Planes have a footprint, no height and no
-/// triangles. Throws InputError for one that there is no body for: unknown kinds, sizes that are no
-/// positive numbers below 10 km, meshes that cannot be read.
+/// triangles, <empty/> has nothing. Throws InputError for one that there is no body for: unknown
+/// kinds, sizes that are no positive numbers below 10 km, meshes that cannot be read.
 Body body_of(const sdf::Geometry& geometry, const Eigen::Isometry3d& pose, const std::string& file,
              const LocalFiles& files);
 
-/// The colour that a material gives, if it does.
+/// The colour that a material gives, if it does: diffuse, that of Gazebo's script, or ambient.
 std::optional<Eigen::Vector3d> colour_of(const sdf::Material* material);
 
 /// The ground's material that looks most like a colour.

@@ -13,9 +13,10 @@
 #include <utility>
 
 #include "base/error.h"
-#include "imports/free_ground.h"
 #include "imports/local_files.h"
 #include "imports/place_writer.h"
+#include "imports/populate.h"
+#include "imports/sdf_root.h"
 #include "imports/sdf_shapes.h"
 
 namespace throng::imports {
@@ -34,8 +35,6 @@ constexpr double kFarthestM = 5'000;
 constexpr double kLargestM = 3'000;
 constexpr std::size_t kMostBodies = 20'000;
 constexpr std::size_t kMostTriangles = 2'000'000;
-constexpr int kMostIncludes = 2'000;
-constexpr std::uintmax_t kLargestFile = 32U << 20U;
 
 using Words = std::set<std::string>;
 
@@ -68,6 +67,9 @@ class SdfReader {
  private:
   static std::vector<fs::path> folders_of(const fs::path& file, const SdfOptions& options) {
     std::vector<fs::path> folders = options.models;
+    // Where repositories of worlds have their models.
+    folders.push_back(file.parent_path() / "models");
+    folders.push_back(file.parent_path() / ".." / "models");
     folders.insert(folders.begin(), file.parent_path());
     return folders;
   }
@@ -91,7 +93,9 @@ class SdfReader {
   fs::path file_;
   std::vector<Gate> gates_;
   LocalFiles files_;
+  std::optional<SdfText> text_;
   Place place_;
+  std::vector<Bounds> building_bounds_;
   std::vector<FlatArea> flat_;
   Vector2d low_ = Vector2d::Constant(std::numeric_limits<double>::infinity());
   Vector2d high_ = -low_;
@@ -103,8 +107,10 @@ void SdfReader::skip(const sdf::ElementPtr& element, const std::string& what,
                      const std::string& why) {
   Skipped skipped{file_.string(), 0, what, why};
   if (element) {
-    if (!element->FilePath().empty()) skipped.file = element->FilePath();
-    skipped.line = element->LineNumber().value_or(0);
+    const int line = element->LineNumber().value_or(0);
+    const bool own = is_given_text(element->FilePath());
+    if (!own) skipped.file = element->FilePath();
+    skipped.line = own && line > 0 ? text_->line_of(line) : line;
   }
   place_.skipped.push_back(std::move(skipped));
 }
@@ -127,7 +133,10 @@ std::optional<Isometry3d> SdfReader::resolve(const sdf::SemanticPose& pose,
   const Vector3d at(found.Pos().X(), found.Pos().Y(), found.Pos().Z());
   Eigen::Quaterniond turn(found.Rot().W(), found.Rot().X(), found.Rot().Y(), found.Rot().Z());
   if (!errors.empty() || !at.allFinite() || !turn.coeffs().allFinite() || turn.norm() < 0.5) {
-    skip(element, path, errors.empty() ? "its pose is no pose" : errors.front().Message());
+    skip(element, path,
+         errors.empty()
+             ? "its pose is no pose"
+             : fmt::format("there is no \"{}\" that its pose is relative to", pose.RelativeTo()));
     return std::nullopt;
   }
   turn.normalize();
@@ -155,7 +164,7 @@ std::optional<Body> SdfReader::body(const Owner& owner, const Isometry3d& link,
   std::optional<Body> found;
   try {
     const std::string from = owner.Element() ? owner.Element()->FilePath() : "";
-    found = body_of(*owner.Geom(), *pose, from.empty() ? file_.string() : from, files_);
+    found = body_of(*owner.Geom(), *pose, is_given_text(from) ? file_.string() : from, files_);
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();
     skip(owner.Element(), name, fmt::format("{}, not {}", problem.found, problem.expected));
@@ -179,9 +188,13 @@ void SdfReader::reach(const Corners& corners) {
 // What is there already is cut out, so that no two buildings overlap.
 void SdfReader::add_building(const Body& body) {
   std::vector<Area> others;
-  for (const world::Building& other : place_.buildings) others.push_back({other.footprint, {}});
+  const Bounds bounds = bounds_of(*body.footprint);
+  for (std::size_t i = 0; i < place_.buildings.size(); ++i) {
+    if (meet(bounds, building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
+  }
   for (const Area& rest : without({*body.footprint, {}}, others)) {
     for (Corners& part : simple_parts(rest, kLeastBuildingM2)) {
+      building_bounds_.push_back(bounds_of(part));
       place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1), std::move(part),
                                   std::min(body.to_z, 900.0), world::Facade::by_id});
     }
@@ -259,17 +272,26 @@ void SdfReader::add_link(const sdf::Link& link, const Isometry3d& model, const s
   const auto pose = resolve(link.SemanticPose(), model, link.Element(), name);
   if (!pose) return;
   skip_unknown(link.Element(), name);
+  bool drawn = link.VisualCount() == 0;  // or meant to be invisible
   for (std::uint64_t i = 0; i < link.VisualCount(); ++i) {
     const sdf::Visual& visual = *link.VisualByIndex(i);
     auto seen = body(visual, *pose, name);
     if (!seen) continue;
+    drawn = true;
     if (link.CollisionCount() == 0) add_in_the_way(*seen);
     const auto rgb = colour_of(visual.Material());
     add_seen(std::move(*seen), rgb ? &*rgb : nullptr, thing);
   }
+  bool by_collisions = false;
   for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
-    if (const auto felt = body(*link.CollisionByIndex(i), *pose, name)) add_in_the_way(*felt);
+    auto felt = body(*link.CollisionByIndex(i), *pose, name);
+    if (!felt) continue;
+    add_in_the_way(*felt);
+    if (drawn) continue;
+    by_collisions = true;
+    add_seen(std::move(*felt), nullptr, thing);
   }
+  if (by_collisions) skip(link.Element(), name, "drawn by its collisions, for want of visuals");
   for (std::uint64_t i = 0; i < link.LightCount(); ++i) {
     add_light(*link.LightByIndex(i), *pose, name);
   }
@@ -281,6 +303,7 @@ void SdfReader::add_model(const sdf::Model& model, const Isometry3d& parent,
   const auto pose = resolve(model.SemanticPose(), parent, model.Element(), name);
   if (!pose) return;
   skip_unknown(model.Element(), name);
+  if (model.LinkCount() + model.ModelCount() == 0) skip(model.Element(), name, "has no links");
   Thing thing{name, {}};
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     add_link(*model.LinkByIndex(i), *pose, name, thing);
@@ -305,12 +328,12 @@ void SdfReader::finish() {
                       "at most 3 km, in metres"});
   }
   bool crowded = size.minCoeff() < kLeastM;
-  if (!crowded) {
-    const FreeGround ground(reached, place_.obstacles);
-    std::size_t free = 0;
-    for (int region = 0; region < ground.regions(); ++region) free += ground.size_of(region);
-    constexpr double kCellM2 = FreeGround::kCellM * FreeGround::kCellM;
-    crowded = static_cast<double>(free) * kCellM2 < kLeastFree * size.prod();
+  place_.inside = reached;
+  place_.gates = gates_;
+  place_.gates_asked = !gates_.empty();
+  if (!crowded && open_ground_m2(place_) < kLeastFree * size.prod()) {
+    skip(nullptr, "edge", "most of the ground is walled up or built on: 8 m more around it");
+    crowded = true;
   }
   if (crowded) {
     reached.min -= Vector2d::Constant(kAroundM);
@@ -326,46 +349,11 @@ void SdfReader::finish() {
       }
     }
   }
-  place_.gates = gates_;
 }
 
 Place SdfReader::read() {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file_, error);
-  if (error) throw EnvironmentError(fmt::format("cannot read {}", file_.string()));
-  if (size > kLargestFile) {
-    throw InputError({file_.string(), "", "a file of more than 32 MB", "a smaller world"});
-  }
-  sdf::Console::Instance()->SetQuiet(true);
-  sdf::ParserConfig config;
-  int includes = 0;
-  config.SetFindCallback([&](const std::string& uri) -> std::string {
-    // A model may include itself, and would for ever.
-    if (++includes > kMostIncludes) return "";
-    const auto found = files_.find(uri, file_);
-    return found ? found->string() : "";
-  });
   sdf::Root root;
-  sdf::Errors errors;
-  try {
-    errors = root.Load(fs::absolute(file_).string(), config);
-  } catch (const std::exception& wrong) {
-    throw InputError({file_.string(), "", wrong.what(), "a world of SDF"});
-  }
-  if (root.WorldCount() == 0 && root.Model() == nullptr) {
-    std::vector<Problem> problems;
-    for (const sdf::Error& wrong : errors) {
-      const int line = wrong.LineNumber().value_or(0);
-      problems.push_back({file_.string(), line > 0 ? fmt::format("line {}", line) : "",
-                          wrong.Message(), "a world of SDF"});
-    }
-    if (problems.empty()) problems.push_back({file_.string(), "", "no world", "a world of SDF"});
-    throw InputError(std::move(problems));
-  }
-  for (const sdf::Error& wrong : errors) {
-    place_.skipped.push_back({wrong.FilePath().value_or(file_.string()),
-                              wrong.LineNumber().value_or(0), "SDF", wrong.Message()});
-  }
+  text_ = load_root(file_, files_, root, place_.skipped);
   place_.name = place_name_of(file_);
   place_.description = fmt::format("Imported from {}.", file_.filename().string());
   if (root.WorldCount() == 0) {

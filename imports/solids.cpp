@@ -119,6 +119,21 @@ Triangles cylinder_triangles(double radius, double length) {
   return prism_triangles(circle(Vector2d::Zero(), radius), -0.5 * length, 0.5 * length);
 }
 
+Triangles cone_triangles(double radius, double length) {
+  const Corners base = circle(Vector2d::Zero(), radius);
+  const Vector3d tip(0, 0, 0.5 * length);
+  const Vector3d middle(0, 0, -0.5 * length);
+  Triangles triangles;
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    const Vector2d& next = base[(i + 1) % base.size()];
+    const Vector3d a(base[i].x(), base[i].y(), middle.z());
+    const Vector3d b(next.x(), next.y(), middle.z());
+    triangles.push_back({a, b, tip});
+    triangles.push_back({b, a, middle});
+  }
+  return triangles;
+}
+
 Triangles ball_triangles(const Vector3d& radii, double stretch) {
   constexpr int kRings = 12;
   const auto place = [&](int ring, int segment) -> Vector3d {

@@ -16,6 +16,7 @@ using Triangles = std::vector<Triangle>;
 /// About the origin, the axis of a cylinder along z; metres.
 Triangles box_triangles(const Eigen::Vector3d& size);
 Triangles cylinder_triangles(double radius, double length);
+Triangles cone_triangles(double radius, double length);
 /// An ellipsoid of these radii, pulled apart along z by `stretch` (a capsule).
 Triangles ball_triangles(const Eigen::Vector3d& radii, double stretch = 0);
 /// An upright prism over a simple polygon.

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "base/error.h"
 #include "metrics/number_in.h"
 #include "metrics/trajectory_file.h"
+#include "metrics/trajectory_words.h"
 
 namespace throng::metrics {
 
@@ -22,9 +24,10 @@ constexpr double kLatestS = 1e6;
 
 char separator_of(std::string_view line) {
   constexpr std::array kSeparators = {',', ';', '\t'};
-  return *std::max_element(kSeparators.begin(), kSeparators.end(), [&](char a, char b) {
+  const char most = *std::max_element(kSeparators.begin(), kSeparators.end(), [&](char a, char b) {
     return std::count(line.begin(), line.end(), a) < std::count(line.begin(), line.end(), b);
   });
+  return line.find(most) == std::string_view::npos ? ' ' : most;
 }
 
 std::string_view trimmed(std::string_view field) {
@@ -48,7 +51,34 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
     start = i + 1;
   }
   fields.push_back(trimmed(line.substr(start)));
+  if (separator == ' ') std::erase_if(fields, [](std::string_view field) { return field.empty(); });
   return fields;
+}
+
+// Names that others give to the columns whose default is the first one, as bare_name() has them.
+using Synonyms = std::vector<std::string_view>;
+const Synonyms& synonyms_of(const std::string& name) {
+  static const std::map<std::string, Synonyms> kNames = {
+      {"id",
+       {"id", "person", "personid", "pid", "ped", "pedid", "pedestrian", "pedestrianid", "agent",
+        "agentid", "track", "trackid", "name"}},
+      {"frame", {"frame", "fr", "frameid", "framenumber", "frameno", "frames"}},
+      {"time", {"time", "t", "times", "timestamp", "simtime", "seconds"}},
+      {"x", {"x", "posx", "xpos", "positionx", "xm", "locationx"}},
+      {"y", {"y", "posy", "ypos", "positiony", "ym", "locationy"}}};
+  static const Synonyms kNone;
+  const auto found = kNames.find(name);
+  return found == kNames.end() ? kNone : found->second;
+}
+
+// The number of a column of a table without names, from 0.
+std::optional<std::size_t> number_of_column(const std::string& name) {
+  constexpr double kMost = 1000;
+  const auto number = number_in(name);
+  if (!number || *number != std::floor(*number) || *number < 1 || *number > kMost) {
+    return std::nullopt;
+  }
+  return static_cast<std::size_t>(*number) - 1;
 }
 
 /// A person's places by time or, where the table has frames, by frame.
@@ -57,7 +87,15 @@ using Track = std::map<double, Vector2d>;
 class TableReader {
  public:
   TableReader(std::string_view text, const std::string& name, const TrajectoryFormat& format)
-      : text_(text), name_(name), format_(format), by_time_(!format.columns.time.empty()) {}
+      : text_(text), name_(name), format_(format), by_time_(!format.columns.time.empty()) {
+    const std::array<std::string, column_count> wanted = wanted_names();
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto number = number_of_column(wanted[i]);
+      if (!number) return;
+      column_[i] = *number;
+    }
+    has_names_ = false;
+  }
 
   std::vector<Track> read() {
     for (std::size_t at = 0; at < text_.size();) {
@@ -69,12 +107,26 @@ class TableReader {
     return std::move(tracks_);
   }
 
+  /// What it read of the table, after read().
+  bool by_time() const { return by_time_; }
+  std::optional<double> frames_per_s() const { return frames_per_s_; }
+  std::optional<double> unit_m() const { return unit_m_; }
+
  private:
   enum Column { person_column, when_column, x_column, y_column, column_count };
 
+  std::array<std::string, column_count> wanted_names() const {
+    const TrajectoryColumns& columns = format_.columns;
+    return {columns.person, by_time_ ? columns.time : columns.frame, columns.x, columns.y};
+  }
+
   void read_line(std::string_view line) {
-    if (trimmed(line).empty() || line.front() == '#') return;
-    if (separator_ == 0) return read_names(line);
+    if (trimmed(line).empty()) return;
+    if (line.front() == '#') return read_comment(line);
+    if (separator_ == 0) {
+      separator_ = separator_of(line);
+      if (has_names_) return read_names(line);
+    }
     const std::vector<std::string_view> fields = fields_of(line, separator_);
     const auto last = *std::max_element(column_.begin(), column_.end());
     if (fields.size() <= last) {
@@ -96,19 +148,41 @@ class TableReader {
     }
   }
 
+  void read_comment(std::string_view line) {
+    if (const auto rate = frame_rate_in(line)) frames_per_s_ = rate;
+    if (const auto unit = unit_in(line)) unit_m_ = unit;
+  }
+
   void read_names(std::string_view line) {
-    separator_ = separator_of(line);
     const std::vector<std::string_view> names = fields_of(line, separator_);
-    const TrajectoryColumns& columns = format_.columns;
-    const std::array<std::string, column_count> wanted = {
-        columns.person, by_time_ ? columns.time : columns.frame, columns.x, columns.y};
+    const std::array<std::string, column_count> wanted = wanted_names();
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const auto found = std::find(names.begin(), names.end(), wanted[i]);
-      if (found == names.end()) {
+      auto found = column_named(names, wanted[i]);
+      if (!found && i == when_column && wanted[i] == "frame") {
+        found = column_named(names, "time");
+        by_time_ = found.has_value();
+      }
+      if (!found) {
         reject(std::string(line.substr(0, 200)), fmt::format("a column \"{}\"", wanted[i]));
       }
-      column_[i] = static_cast<std::size_t>(found - names.begin());
+      column_[i] = *found;
     }
+    if (const auto unit = unit_in(names[column_[x_column]])) unit_m_ = unit;
+  }
+
+  // By its exact name, else by one that means the same.
+  static std::optional<std::size_t> column_named(const std::vector<std::string_view>& names,
+                                                 const std::string& wanted) {
+    const auto at = [&](auto found) { return static_cast<std::size_t>(found - names.begin()); };
+    const auto exact = std::find(names.begin(), names.end(), wanted);
+    if (exact != names.end()) return at(exact);
+    for (const std::string_view synonym : synonyms_of(wanted)) {
+      const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view name) {
+        return bare_name(name) == synonym;
+      });
+      if (found != names.end()) return at(found);
+    }
+    return std::nullopt;
   }
 
   double number(std::string_view field) const {
@@ -125,6 +199,9 @@ class TableReader {
   const std::string& name_;
   const TrajectoryFormat& format_;
   bool by_time_;
+  bool has_names_ = true;
+  std::optional<double> frames_per_s_;  // as comments say
+  std::optional<double> unit_m_;
   int line_ = 0;
   char separator_ = 0;  // 0: the names have not been read yet
   std::array<std::size_t, column_count> column_{};
@@ -173,15 +250,19 @@ std::map<std::int64_t, Vector2d> on_frames(const Track& track, double frames_per
 }  // namespace
 
 Recorded read_csv(std::string_view text, const std::string& name, const TrajectoryFormat& format) {
-  const std::vector<Track> tracks = TableReader(text, name, format).read();
-  const bool by_time = !format.columns.time.empty();
+  TableReader reader(text, name, format);
+  const std::vector<Track> tracks = reader.read();
+  const bool by_time = reader.by_time();
   Recorded recorded;
-  recorded.frames_per_s = format.frames_per_s.value_or(0);
-  if (by_time && !format.frames_per_s) {
+  recorded.frames_per_s = format.frames_per_s.value_or(reader.frames_per_s().value_or(0));
+  recorded.unit_m = reader.unit_m().value_or(1);
+  if (by_time && recorded.frames_per_s <= 0) {
     if (const auto step = median_step_s(tracks)) recorded.frames_per_s = 1 / *step;
   }
   if (!(recorded.frames_per_s > 0)) {
-    throw InputError({name, "", "no frame rate", "the number of frames per second, or times"});
+    throw InputError({name, "", "no frame rate",
+                      "the number of frames per second (a comment \"# framerate: 16\", or said by "
+                      "the user), or times"});
   }
   std::int64_t person = 0;
   for (const Track& track : tracks) {

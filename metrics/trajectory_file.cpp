@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "metrics/number_in.h"
+#include "metrics/trajectory_words.h"
 
 namespace throng::metrics {
 
@@ -24,7 +25,6 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kCentimetre = 0.01;
 constexpr std::int64_t kMostFrames = 10'000'000;
 constexpr std::size_t kMostPairs = 40'000'000;  ///< frames times people
 constexpr double kLargestPerson = 1e15;
@@ -42,20 +42,6 @@ std::vector<std::string_view> words_of(std::string_view line) {
     at = line.find_first_not_of(kBetween, end);
   }
   return words;
-}
-
-// Reads "framerate: 16.00 fps" and the like.
-std::optional<double> frame_rate_in(std::string_view comment) {
-  std::string lower(comment);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (lower.find("framerate") == std::string::npos && lower.find("fps") == std::string::npos) {
-    return std::nullopt;
-  }
-  for (const std::string_view word : words_of(lower)) {
-    const auto rate = number_in(word.substr(word.rfind(':') + 1));
-    if (rate && *rate > 0) return rate;
-  }
-  return std::nullopt;
 }
 
 class TextReader {
@@ -83,7 +69,7 @@ class TextReader {
     if (words.empty()) return;
     if (words.front().front() == '#') {
       if (const auto rate = frame_rate_in(line)) recorded_.frames_per_s = *rate;
-      if (line.find("x/cm") != std::string_view::npos) recorded_.unit_m = kCentimetre;
+      if (const auto unit = unit_in(line)) recorded_.unit_m = *unit;
       return;
     }
     std::vector<double> numbers;
@@ -226,14 +212,51 @@ void fill_database(const world::Trace& trace, SQLite::Database& database) {
   transaction.commit();
 }
 
+// Whether the first line that is no comment names columns.
+bool begins_with_names(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::vector<std::string_view> words = words_of(text.substr(at, end - at));
+    at = end + 1;
+    if (words.empty() || words.front().front() == '#') continue;
+    const char first = words.front().front();
+    return first == '"' || (first >= 'A' && first <= 'Z') || (first >= 'a' && first <= 'z');
+  }
+  return false;
+}
+
+// Who was filmed at 25 frames a second and noted down in each tenth of them is there in between:
+// frames are counted by the largest step that all have in common.
+void count_by_steps(Recorded& recorded) {
+  constexpr std::int64_t kLargestStep = 100;
+  std::optional<std::int64_t> first;
+  std::int64_t step = 0;
+  for (const auto& [id, places] : recorded.places) {
+    for (const auto& [frame, place] : places) {
+      if (!first) first = frame;
+      step = std::gcd(step, frame - *first);
+    }
+    if (step == 1) return;
+  }
+  if (step < 2 || step > kLargestStep) return;
+  for (auto& [id, places] : recorded.places) {
+    std::map<std::int64_t, Vector2d> counted;
+    for (const auto& [frame, place] : places) counted[(frame - *first) / step] = place;
+    places = std::move(counted);
+  }
+  recorded.frames_per_s /= static_cast<double>(step);
+}
+
 TrajectoryKind kind_of(const fs::path& file, std::string_view bytes) {
   if (file.extension() == ".scb") return TrajectoryKind::scb;
   if (file.extension() == ".csv") return TrajectoryKind::csv;
-  return bytes.starts_with(kDatabaseStart) ? TrajectoryKind::sqlite : TrajectoryKind::text;
+  if (bytes.starts_with(kDatabaseStart)) return TrajectoryKind::sqlite;
+  return begins_with_names(bytes) ? TrajectoryKind::csv : TrajectoryKind::text;
 }
 
 Recorded read_recorded(const fs::path& file, const TrajectoryFormat& format) {
-  const std::string bytes = read_file(file);
+  const std::string whole = read_file(file);
+  const std::string_view bytes = without_byte_order_mark(whole);
   switch (format.kind == TrajectoryKind::any ? kind_of(file, bytes) : format.kind) {
     case TrajectoryKind::scb: {
       Recorded recorded = read_scb(file);
@@ -273,6 +296,7 @@ void check_recorded(const std::string& file, const TrajectoryFormat& format, Rec
 world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers,
                              const TrajectoryFormat& format) {
   Recorded recorded = read_recorded(file, format);
+  count_by_steps(recorded);
   check_recorded(file.string(), format, recorded);
   if (recorded.places.empty()) {
     throw InputError({file.string(), "", "nobody", "at least one person in one frame"});

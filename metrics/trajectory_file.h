@@ -23,7 +23,8 @@ struct WalkerDefaults {
 /// What kind of file it is. any: by suffix and first bytes, as read_trajectory() says.
 enum class TrajectoryKind : std::uint8_t { any, text, sqlite, scb, csv };
 
-/// Names in the first line of a table. Either `frame` or `time` says when; the other is empty.
+/// Names in the first line of a table, or, where all are whole numbers, the columns of one without
+/// names, from 1. Either `frame` or `time` says when; the other is empty.
 struct TrajectoryColumns {
   std::string person = "id";
   std::string frame = "frame";
@@ -55,20 +56,24 @@ Recorded read_scb(const std::filesystem::path& file);
 void write_scb(const world::Trace& trace, const std::filesystem::path& file);
 
 /// Reads a table: the first line that is not empty and does not begin with # names the columns,
-/// which commas, semicolons or tabs separate (whichever that line has most of); fields may stand in
-/// double quotes. Persons are any words. With a column of times instead of frames, people are put
-/// on frames of `frames_per_s` (default: the median step between times) by linear interpolation;
-/// they are not there in gaps of more than 1 s.
+/// which commas, semicolons, tabs or, if it has none, spaces separate (whichever that line has most
+/// of); fields may stand in double quotes. A default name also stands for what means the same
+/// ("ped_id", "Pos_X [cm]"), and time for frame where there is none. Comments and the name of x may
+/// say frame rate and unit. Persons are any words. With a column of times instead of frames, people
+/// are put on frames of `frames_per_s` (default: as the file says, else the median step between
+/// times) by linear interpolation; they are not there in gaps of more than 1 s.
 Recorded read_csv(std::string_view text, const std::string& name, const TrajectoryFormat& format);
 
 /// Reads a file as a trace of people without states and intents. Tables (read_csv) by the suffix
 /// .csv and Menge's by .scb; SQLite by its first bytes: tables `trajectory_data` (frame, id, pos_x,
-/// pos_y in m) and `metadata` (fps). Else text: lines `id frame x y ...` with spaces, tabs or
-/// commas between, `#` before comments, of which `framerate: 16` (or `fps`) must be one, and `x/cm`
-/// says that lengths are in centimetres. Velocities are central differences over one frame before
-/// and after. People take part in the frames that have them. Refused are places more than 100 km
-/// from the origin, rates below 0.01 or above 10 000 a second, and more than 40 million pairs of
-/// frame and person. Throws InputError (file, line) and EnvironmentError.
+/// pos_y in m) and `metadata` (fps). Else, if the first line that is no comment begins with a
+/// letter, a table, or text: lines `id frame x y ...` with spaces, tabs or commas between, `#`
+/// before comments, of which `framerate: 16` (or `25 fps`) must be one, and `x/cm` or `in cm` says
+/// that lengths are in centimetres. Frames that are all a multiple of up to 100 apart are counted
+/// by it, at the rate divided by it. Velocities are central differences over one frame before and
+/// after. People take part in the frames that have them. Refused are places more than 100 km from
+/// the origin, rates below 0.01 or above 10 000 a second, and more than 40 million pairs of frame
+/// and person. Throws InputError (file, line) and EnvironmentError.
 world::Trace read_trajectory(const std::filesystem::path& file, const WalkerDefaults& walkers,
                              const TrajectoryFormat& format = {});
 

@@ -225,7 +225,8 @@ void check_drones(const Scenario& scenario, Findings& findings) {
 
 void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                   Findings& findings) {
-  constexpr double kCellsSlackM = 0.5;  // beside a wall, the nearest free cell may be the next one
+  // Beside a wall, the nearest free cell may be the next one, which on large grounds is far.
+  const double slack_m = std::max(0.5, 1.5 * static_cast<double>(routes.grid.cell_m));
   Sufferers in_walls;
   Sufferers in_buildings;
   Sufferers in_props;
@@ -254,7 +255,7 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
       }
     }
     if (routes.cell_at(at) == Routes::kNone) continue;  // outside: nothing to escape from
-    const int cell = routes.walkable_near(at, kCellsSlackM);
+    const int cell = routes.walkable_near(at, slack_m);
     if (cell == Routes::kNone ||
         routes.nearest_exit[static_cast<std::size_t>(cell)] == Routes::kNone) {
       locked_in.add(agent, at, "with no way to any open exit");

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "imports/populate.h"
 #include "tests/world/temporary_folder.h"
 #include "world/polygon.h"
 
@@ -115,6 +116,96 @@ TEST(Sdf, AModelThatIncludesItselfEnds) {
     EXPECT_TRUE(read_sdf(folder.path() / "w.sdf", {}).buildings.empty());
   } catch (const InputError&) {  // as good
   }
+}
+
+Place world_of(const std::string& body, const std::string& before = "",
+               const std::string& version = "1.7") {
+  const TemporaryFolder folder;
+  write_file_atomically(
+      folder.path() / "w.world",
+      before + "<sdf version='" + version + "'><world name='w'>" + body + "</world></sdf>");
+  return read_sdf(folder.path() / "w.world", {});
+}
+
+std::string model_of(const std::string& name, const std::string& geometry,
+                     const std::string& more = "") {
+  return "<model name='" + name + "'><link name='l'><visual name='v'><geometry>" + geometry +
+         "</geometry>" + more + "</visual></link></model>\n";
+}
+
+const std::string kTower = model_of("tower", "<box><size>4 4 6</size></box>");
+
+TEST(Sdf, OneOddElementCostsOnlyItself) {
+  const Place place = world_of(
+      kTower + "<model name='lost'><pose>1 two 3 0 0 0</pose><link name='l'/></model>\n" +
+      model_of("unsized", "<box><size>one</size></box>") + "<light name='untyped'/>\n" +
+      "<model><link name='nameless'/></model>\n<include><uri>model://nowhere</uri></include>" +
+      "<model name='tower'><link name='again'/></model>");
+  ASSERT_EQ(place.buildings.size(), 1U);
+  for (const auto& [words, line] :
+       {std::pair("model lost", 2), std::pair("unsized/link l/visual v", 3),
+        std::pair("light untyped", 4), std::pair("<model>", 5), std::pair("model://nowhere", 6)}) {
+    const Skipped* skipped = skipped_with(place, words);
+    ASSERT_NE(skipped, nullptr) << words;
+    EXPECT_EQ(skipped->line, line) << words;
+  }
+  EXPECT_NE(skipped_with(place, "name[tower] already exists"), nullptr);
+}
+
+TEST(Sdf, ReadsOldNewAndUntidyFiles) {
+  const std::string untidy = "<!-- by hand -->\n<?xml version='1.0' ?>\n";
+  EXPECT_EQ(world_of(kTower, untidy).buildings.size(), 1U);
+  for (const char* version : {"1.3", "1.4", "1.5", "1.6", "1.9", "1.11", "1.12"}) {
+    EXPECT_EQ(world_of(kTower, "", version).buildings.size(), 1U) << version;
+  }
+  try {
+    world_of("<model name='m'>\n</world>");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(error.problems().front().where.find("line"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Sdf, KnowsPolylinesConesAndGazebosColours) {
+  const Place place = world_of(
+      "<model name='hall'><pose>20 0 0 0 0 0</pose><link name='l'><visual name='v'><geometry>"
+      "<polyline><point>0 0</point><point>10 0</point><point>0 10</point><height>5</height>"
+      "</polyline></geometry></visual></link></model>" +
+      model_of("pylon", "<cone><radius>1</radius><length>1.5</length></cone>",
+               "<material><script><uri>file://media</uri><name>Gazebo/Orange</name></script>"
+               "</material>") +
+      model_of("plain", "<sphere><radius>1</radius></sphere>",
+               "<material><script><uri>a</uri><name>mine</name></script></material>"));
+  ASSERT_EQ(place.buildings.size(), 1U);
+  EXPECT_NEAR(place.buildings[0].height_m, 5, 1e-9);
+  EXPECT_EQ(world::distance_to(place.buildings[0].footprint, {22, 2}), 0);
+  EXPECT_GT(world::distance_to(place.buildings[0].footprint, {27, 7}), 1);
+  ASSERT_EQ(place.things.size(), 2U);
+  EXPECT_NEAR(place.things[0].solids.at(0).rgb.y(), 0.5, 0.05);  // orange
+  EXPECT_GT(place.things[1].solids.at(0).rgb.minCoeff(), 0.4);   // not black
+}
+
+TEST(Sdf, ALinkWithoutItsMeshIsDrawnByItsCollisions) {
+  const Place place = world_of(
+      "<model name='cafe'><link name='l'><visual name='v'><geometry><mesh>"
+      "<uri>model://cafe/cafe.dae</uri></mesh></geometry></visual><collision name='wall'>"
+      "<pose>0 0 1.5 0 0 0</pose><geometry><box><size>8 1 3</size></box></geometry></collision>"
+      "</link></model>");
+  EXPECT_EQ(place.buildings.size(), 1U);
+  EXPECT_NE(skipped_with(place, "drawn by its collisions"), nullptr);
+}
+
+TEST(Sdf, AClosedRoomHasGroundAroundIt) {
+  std::string walls;
+  for (const char* wall :
+       {"0 -10 1.5 0 0 0", "0 10 1.5 0 0 0", "-10 0 1.5 0 0 1.5708", "10 0 1.5 0 0 1.5708"}) {
+    walls += std::string("<collision name='c") + wall + "'><pose>" + wall +
+             "</pose><geometry><box><size>20.2 0.2 3</size></box></geometry></collision>";
+  }
+  Place place = world_of("<model name='room'><link name='l'>" + walls + "</link></model>");
+  EXPECT_NE(skipped_with(place, "walled up"), nullptr);
+  EXPECT_FALSE(populate(place, {10, 1}).gates.empty());
+  EXPECT_NE(skipped_with(place, "no exit can be reached from"), nullptr);
 }
 
 }  // namespace

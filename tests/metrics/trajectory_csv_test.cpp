@@ -60,6 +60,36 @@ TEST(TrajectoryCsv, PutsTimesOnFrames) {
   EXPECT_NEAR(table("id,t,x,y\n1,0,0,0\n1,0.1,1,0\n", format).position[1].x(), 0.5, 1e-6);
 }
 
+TEST(TrajectoryCsv, KnowsOtherNamesUnitsAndComments) {
+  const std::string mark = "\xEF\xBB\xBF";
+  const world::Trace trace =
+      table(mark + "# recorded at 10 fps\nPed_ID,FrameNumber,X [cm],Y [cm]\n7,3,100,250\n", {});
+  EXPECT_NEAR(trace.header.dt_s, 0.1, 1e-9);
+  EXPECT_NEAR(trace.position[0].x(), 1, 1e-6);
+  EXPECT_NEAR(trace.position[0].y(), 2.5, 1e-6);
+  const world::Trace timed = table("agent_id;Time;pos_x;pos_y\n1;0;0;0\n1;0.5;1;0\n", {});
+  EXPECT_NEAR(timed.header.dt_s, 0.5, 1e-9);
+  const world::Trace blanks = table("# framerate: 16\nID FR X Y Z\n1 0 3.5 1 0\n", {}, "walk.txt");
+  EXPECT_NEAR(blanks.position[0].x(), 3.5, 1e-6);
+}
+
+// obsmat.txt of ETH's BIWI data: frame, person, x, z, y and velocities, a line in ten frames.
+TEST(TrajectoryCsv, CountsColumnsOfTablesWithoutNames) {
+  TrajectoryFormat format = by_frames(25);
+  format.kind = TrajectoryKind::csv;
+  format.columns = {"2", "1", "", "3", "5"};
+  const world::Trace trace = table(
+      "   7.8000000e+02   1.0000000e+00   8.4568443e+00   0.0   3.5880664e+00  1.6 0.0 0.1\n"
+      "   7.9000000e+02   1.0000000e+00  +9.1256443e+00   0.0   3.6588664e+00  1.6 0.0 0.1\n"
+      "   8.0000000e+02   2.0000000e+00   9.7000000e+00   0.0   3.7000000e+00  1.6 0.0 0.1\n",
+      format, "obsmat.txt");
+  ASSERT_EQ(trace.agents(), 2U);
+  ASSERT_EQ(trace.steps(), 3U);  // each tenth frame is a step
+  EXPECT_NEAR(trace.header.dt_s, 0.4, 1e-9);
+  EXPECT_NEAR(trace.position[trace.at(0, 0)].y(), 3.5880664, 1e-5);
+  EXPECT_NEAR(trace.velocity[trace.at(0, 0)].x(), (9.1256443 - 8.4568443) / 0.4, 1e-4);
+}
+
 TEST(TrajectoryCsv, SaysWhatIsWrong) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"id,frame,x\n1,0,0\n", "line 1"},

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "base/error.h"
 #include "base/files.h"
 #include "metrics/exits.h"
@@ -68,6 +70,21 @@ TEST_P(TrajectoryRoundTrip, KeepsWhatTheFormatHolds) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, TrajectoryRoundTrip,
                          ::testing::Values("walk.txt", "walk.sqlite", "walk.scb"));
+
+TEST(TrajectoryFile, FindsRateAndUnitInCommentsOfAllKinds) {
+  const TemporaryFolder folder;
+  for (const auto& [comments, dt_s, unit] :
+       {std::tuple("# framerate: 25 fps\n# id frame x/m y/m z/m\n", 0.04, 1.0),
+        std::tuple("#framerate:\t16.00\n#ID\tFR\tX\tY\tZ\n", 0.0625, 1.0),
+        std::tuple("# PeTrack project: 040_fps.pet\n# 25fps\n# x/cm y/cm z/cm\n", 0.04, 0.01),
+        std::tuple("# frame rate = 10\n# coordinates in cm\n# z: height in m\n", 0.1, 0.01)}) {
+    write_file_atomically(folder.path() / "w.txt",
+                          std::string(comments) + "1\t0\t100\t0\t0\n1\t1\t110\t0\t0\n");
+    const world::Trace trace = read_trajectory(folder.path() / "w.txt", {});
+    EXPECT_NEAR(trace.header.dt_s, dt_s, 1e-9) << comments;
+    EXPECT_NEAR(trace.position[0].x(), 100 * unit, 1e-4) << comments;
+  }
+}
 
 TEST(TrajectoryFile, SaysWhichLineIsWrong) {
   const std::vector<std::pair<std::string, std::string>> cases = {

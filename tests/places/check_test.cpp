@@ -51,6 +51,17 @@ TEST_F(CheckYard, SeesWallsAcrossAnExit) {
   EXPECT_THAT(found[1].problem.found, HasSubstr("no way to any open exit"));
 }
 
+// On so large a ground the cells of ways are 0.8 m wide, and the free one next to people beside a
+// wall is farther off than on a small one.
+TEST_F(CheckYard, LetsPeopleStandBesideWallsOnLargeGround) {
+  yard.scenario["ground"] = {
+      {"min", {-1300, -1300}}, {"max", {1300, 1300}}, {"material", "pavers"}};
+  yard.scenario["inside"] = {{"min", {-1000, -600.5}}, {"max", {1000, 600}}};
+  yard.obstacles += Yard::box(-4, -5, 1, -3.3);
+  const std::vector<Finding> found = findings();
+  EXPECT_THAT(found, IsEmpty()) << (found.empty() ? "" : found.front().text());
+}
+
 TEST_F(CheckYard, SeesAnExitWithoutAWayToIt) {
   yard.scenario["exits"].push_back({{"id", "far"},
                                     {"from", {4, 5}},
