@@ -66,7 +66,7 @@ std::string_view name_of(Activity activity) {
 }
 
 Activity activity_of(std::string_view state, bool is_panicked, double speed_mps) {
-  if (render::is_down(state)) return Activity::lying;
+  if (world::is_down(state)) return Activity::lying;
   if (is_panicked) return Activity::panicking;
   if (speed_mps < kStandingMps) return Activity::waiting;
   if (says_follow(state)) return Activity::following;

@@ -32,7 +32,7 @@ for place in "${places[@]}"; do
       "$throng" validate "$out/dataset" > "$out.validation"
     fi
     jq -r --arg place "$place" --arg variant "$variant" --arg seconds "$(cat "$out.seconds")" \
-      '.runs[0] | "| \($place) | \($variant) | \(.people) | \(.people - .not_escaped) | \($seconds) s |"' \
+      '.runs[0] | "| \($place) | \($variant) | \(.people) | \(.people - .not_escaped - .casualties) | \($seconds) s |"' \
       "$out/dataset/metrics.json"
   done
 done

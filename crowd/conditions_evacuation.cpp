@@ -55,35 +55,74 @@ class Near : public Condition {
   float distance_;
 };
 
+/// How far an agent's effect reaches, and when.
+struct Reach {
+  std::size_t avoided = 0;  // agent
+  float distance = 0;       // m
+  float growth_rate = 0;    // m/s
+  float max_distance = 0;   // m
+  double start_s = 0;
+  double end_s = 0;
+
+  bool reaches(const Crowd& crowd, std::size_t agent) const {
+    const Agents& agents = crowd.agents;
+    const double since_start = crowd.time_s() - start_s;
+    constexpr double kRounding = 1e-6;  // s
+    if (crowd.time_s() > end_s + kRounding) return false;
+    if (since_start < -kRounding || agent == avoided || agents.present[avoided] == 0) return false;
+    const float grown = distance + growth_rate * static_cast<float>(since_start);
+    const float reach = agents[Property::radius][avoided] + std::min(grown, max_distance);
+    return (agents.position[agent] - agents.position[avoided]).squaredNorm() < reach * reach;
+  }
+};
+
 /// Within the reach of an agent's effect, which spreads.
 class Proximity : public Condition {
  public:
-  struct Spread {
-    float distance = 0;      // m
-    float growth_rate = 0;   // m/s
-    float max_distance = 0;  // m
-    double start_s = 0;
-    double end_s = 0;
-  };
-
-  Proximity(std::size_t avoided, const Spread& spread) : avoided_(avoided), spread_(spread) {}
-
+  explicit Proximity(const Reach& reach) : reach_(reach) {}
   bool holds(const Crowd& crowd, std::size_t agent) const override {
-    const Agents& agents = crowd.agents;
-    const double since_start = crowd.time_s() - spread_.start_s;
-    constexpr double kRounding = 1e-6;  // s
-    if (crowd.time_s() > spread_.end_s + kRounding) return false;
-    if (since_start < -kRounding || agent == avoided_ || agents.present[avoided_] == 0) {
-      return false;
-    }
-    const float grown = spread_.distance + spread_.growth_rate * static_cast<float>(since_start);
-    const float reach = agents[Property::radius][avoided_] + std::min(grown, spread_.max_distance);
-    return (agents.position[agent] - agents.position[avoided_]).squaredNorm() < reach * reach;
+    return reach_.reaches(crowd, agent);
   }
 
  private:
-  std::size_t avoided_;
-  Spread spread_;
+  Reach reach_;
+};
+
+/// For how long everybody has been within reach, in all and in whatever state.
+struct Exposures {
+  std::vector<double> within_s;  // by agent
+};
+
+class CountExposure : public Process {
+ public:
+  CountExposure(const Reach& reach, std::shared_ptr<Exposures> exposures)
+      : reach_(reach), exposures_(std::move(exposures)) {}
+  void after_motion(Crowd& crowd, Machine&) override {
+    const Agents& agents = crowd.agents;
+    for (std::size_t i = 0; i < agents.count(); ++i) {
+      if (agents.present[i] == 0 || !reach_.reaches(crowd, i)) continue;
+      exposures_->within_s[i] += crowd.dt_s;
+    }
+  }
+
+ private:
+  Reach reach_;
+  std::shared_ptr<Exposures> exposures_;
+};
+
+/// Has been within reach for so long.
+class Exposed : public Condition {
+ public:
+  Exposed(double after_s, std::shared_ptr<const Exposures> exposures)
+      : after_s_(after_s), exposures_(std::move(exposures)) {}
+  bool holds(const Crowd&, std::size_t agent) const override {
+    constexpr double kRounding = 1e-6;  // s
+    return exposures_->within_s[agent] > after_s_ - kRounding;
+  }
+
+ private:
+  double after_s_;
+  std::shared_ptr<const Exposures> exposures_;
 };
 
 /// The paper's authors' own: one reach for all agents of a transition, which grows whenever an
@@ -145,6 +184,21 @@ std::unique_ptr<Condition> make_via(const Element& element, const Attributes& at
                                 attributes.real("distance"));
 }
 
+/// Those of one reach, in whatever state, count together.
+std::unique_ptr<Condition> make_exposed(const Reach& reach, double after_s,
+                                        BehaviorContext& context) {
+  const std::string key =
+      fmt::format("{} {} {} {} {} {}", reach.avoided, reach.distance, reach.growth_rate,
+                  reach.max_distance, reach.start_s, reach.end_s);
+  const auto exposures = context.crowd.parts->get<Exposures>(key, [&] {
+    auto made = std::make_shared<Exposures>();
+    made->within_s.resize(context.agent_count);
+    context.processes.push_back(std::make_unique<CountExposure>(reach, made));
+    return made;
+  });
+  return std::make_unique<Exposed>(after_s, exposures);
+}
+
 std::unique_ptr<Condition> make_proximity(const Element& element, const Attributes& attributes,
                                           BehaviorContext& context) {
   element.require_no_children();
@@ -158,23 +212,26 @@ std::unique_ptr<Condition> make_proximity(const Element& element, const Attribut
     if (context.is_copy) return std::make_unique<Never>();
     return std::make_unique<ProximityAsHuang>(avoided, attributes.real("distance"));
   }
-  Proximity::Spread spread;
-  spread.distance = attributes.real("distance");
-  spread.growth_rate = attributes.real("growth_rate");
-  spread.start_s = attributes.number("start");
-  spread.end_s =
+  Reach reach;
+  reach.avoided = avoided;
+  reach.distance = attributes.real("distance");
+  reach.growth_rate = attributes.real("growth_rate");
+  reach.start_s = attributes.number("start");
+  reach.end_s =
       attributes.has("end") ? attributes.number("end") : std::numeric_limits<double>::infinity();
   if (attributes.has("max_distance")) {
-    spread.max_distance = attributes.real("max_distance");
-    if (spread.max_distance < spread.distance) {
-      element.fail_attribute("max_distance", fmt::format("{}", spread.max_distance),
-                             fmt::format("at least the distance, {}", spread.distance));
+    reach.max_distance = attributes.real("max_distance");
+    if (reach.max_distance < reach.distance) {
+      element.fail_attribute("max_distance", fmt::format("{}", reach.max_distance),
+                             fmt::format("at least the distance, {}", reach.distance));
     }
   } else {
-    spread.max_distance =
-        spread.growth_rate > 0 ? std::numeric_limits<float>::infinity() : spread.distance;
+    reach.max_distance =
+        reach.growth_rate > 0 ? std::numeric_limits<float>::infinity() : reach.distance;
   }
-  return std::make_unique<Proximity>(avoided, spread);
+  const double after_s = attributes.number("after");
+  if (after_s <= 0) return std::make_unique<Proximity>(reach);
+  return make_exposed(reach, after_s, context);
 }
 
 }  // namespace
@@ -195,7 +252,8 @@ std::vector<ConditionRegistry::Entry> evacuation_conditions() {
         optional(number("max_distance",
                         "up to which it grows in m; without it: no limit if it grows", 0)),
         optional(number("start", "before this time nobody notices, in s", 0), "0"),
-        optional(number("end", "after this time nobody does; without it: always, in s", 0))},
+        optional(number("end", "after this time nobody does; without it: always, in s", 0)),
+        optional(number("after", "s that one must have been so near, in all", 0), "0")},
        make_proximity},
   };
 }

@@ -21,10 +21,10 @@ std::size_t onset_of(const std::vector<ExitSample>& samples, const std::vector<d
   return onset;
 }
 
-// The step of the next passage, or the first one without demand.
+// The step of the next passage, or the first one without demand or with the door shut.
 std::size_t end_of(const std::vector<ExitSample>& samples, std::size_t from) {
   std::size_t end = from;
-  while (end < samples.size() && samples[end].demand &&
+  while (end < samples.size() && samples[end].demand && samples[end].state != ExitState::closed &&
          samples[end].since_crossing_s > world::kTimeSlackS) {
     ++end;
   }

@@ -33,10 +33,12 @@ std::vector<double> curve_of(const std::vector<double>& times, int people, doubl
   return curve;
 }
 
-std::vector<double> escape_times(const std::vector<PersonRecord>& people) {
+/// In order; of those to whom it happened.
+std::vector<double> times_of(const std::vector<PersonRecord>& people,
+                             std::optional<double> PersonRecord::*time_s) {
   std::vector<double> times_s;
   for (const PersonRecord& person : people) {
-    if (person.escaped_s) times_s.push_back(*person.escaped_s);
+    if (person.*time_s) times_s.push_back(*(person.*time_s));
   }
   std::sort(times_s.begin(), times_s.end());
   return times_s;
@@ -50,13 +52,16 @@ double restricted_mean_s(const std::vector<double>& times, int people, double un
   return sum_s / people;
 }
 
-RunMetrics::Horizon horizon_of(const std::vector<double>& times, int people, double duration_s,
-                               double at_s) {
-  const bool all_out = static_cast<int>(times.size()) == people;
-  if (duration_s < at_s - world::kTimeSlackS && !all_out) return {at_s, {}, {}};
-  const auto out = std::upper_bound(times.begin(), times.end(), at_s + world::kTimeSlackS);
-  return {at_s, people - static_cast<int>(out - times.begin()),
-          restricted_mean_s(times, people, at_s)};
+/// `hurt_s`: since when those lie there who lie at the run's end, in order.
+RunMetrics::Horizon horizon_of(const std::vector<double>& times, const std::vector<double>& hurt_s,
+                               int people, double duration_s, double at_s) {
+  const bool all_known = static_cast<int>(times.size() + hurt_s.size()) == people;
+  if (duration_s < at_s - world::kTimeSlackS && !all_known) return {at_s, {}, {}};
+  const auto until = [&](const std::vector<double>& sorted) {
+    const auto end = std::upper_bound(sorted.begin(), sorted.end(), at_s + world::kTimeSlackS);
+    return static_cast<int>(end - sorted.begin());
+  };
+  return {at_s, people - until(times) - until(hurt_s), restricted_mean_s(times, people, at_s)};
 }
 
 json seconds_or_null(const std::optional<double>& value) {
@@ -80,7 +85,8 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
                        const std::vector<ExitSeries>& exits) {
   RunMetrics metrics;
   metrics.persons = person_records(trace, scenario.inside);
-  metrics.escape_s = escape_times(metrics.persons);
+  metrics.escape_s = times_of(metrics.persons, &PersonRecord::escaped_s);
+  const std::vector<double> hurt_s = times_of(metrics.persons, &PersonRecord::hurt_s);
   const std::vector<PersonRecord>& people = metrics.persons;
   const std::vector<double>& times = metrics.escape_s;
   metrics.people = static_cast<int>(people.size());
@@ -89,12 +95,13 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   for (const int percent : kPercents) {
     metrics.percentiles.push_back({percent, time_by_which(times, metrics.people, percent)});
   }
-  metrics.not_escaped = metrics.people - static_cast<int>(times.size());
+  metrics.casualties = static_cast<int>(hurt_s.size());
+  metrics.not_escaped = metrics.people - static_cast<int>(times.size()) - metrics.casualties;
   metrics.mean_escape_time_s = restricted_mean_s(times, metrics.people, metrics.duration_s);
   for (const double at_s : kHorizonsS) {
-    metrics.horizons.push_back(horizon_of(times, metrics.people, metrics.duration_s, at_s));
+    metrics.horizons.push_back(horizon_of(times, hurt_s, metrics.people, metrics.duration_s, at_s));
   }
-  metrics.exits = exit_totals(exits, scenario, trace.header.dt_s);
+  metrics.exits = exit_totals(exits, trace.header.dt_s);
   metrics.balance = balance_of(metrics.exits);
   metrics.drones = drone_figures(trace);
   metrics.notification = notification_of(people, metrics.duration_s);
@@ -126,6 +133,7 @@ json to_json(const RunMetrics& metrics) {
           {"people", metrics.people},
           {"duration_s", metrics.duration_s},
           {"not_escaped", metrics.not_escaped},
+          {"casualties", metrics.casualties},
           {"falls", {{"struck", metrics.falls_struck}, {"crushed", metrics.falls_crushed}}},
           {"mean_escape_time_censored_s", metrics.mean_escape_time_s},
           {"escape_time_percentiles", percentiles},

@@ -31,8 +31,8 @@ struct RunMetrics {
     std::optional<double> time_s;
   };
   std::vector<Percentile> percentiles;
-  /// Who was still inside at 300 and 600 s, and the mean time until then (restricted mean survival
-  /// time); empty where the run ended before and not everybody was out.
+  /// Who was still inside, unhurt, at 300 and 600 s, and the mean time until then (restricted mean
+  /// survival time); empty where the run ended before and not everybody was out.
   struct Horizon {
     double at_s;
     std::optional<int> not_escaped;
@@ -40,9 +40,10 @@ struct RunMetrics {
   };
   std::vector<Horizon> horizons;
   double mean_escape_time_s = 0;  ///< censored at the end of the run
-  int not_escaped = 0;
-  int falls_struck = 0;   ///< by a drone
-  int falls_crushed = 0;  ///< by the crowd
+  int not_escaped = 0;            ///< still inside at the end, unhurt
+  int casualties = 0;             ///< lie there at the end in a state that says so (world::is_down)
+  int falls_struck = 0;           ///< by a drone
+  int falls_crushed = 0;          ///< by the crowd
   std::vector<ExitTotals> exits;
   std::optional<ExitBalance> balance;
   std::vector<DroneFigures> drones;
@@ -62,7 +63,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
                        const std::vector<ExitSeries>& exits);
 
 /// Raised whenever the meaning of a value in metrics.json or exits.csv changes (docs/metrics.md).
-inline constexpr int kDefinitionsVersion = 4;
+inline constexpr int kDefinitionsVersion = 5;
 
 /// metrics.json: every value with its unit in its name, and the version of the definitions.
 nlohmann::json to_json(const RunMetrics& metrics);

@@ -36,12 +36,11 @@ double clogging_index(const ExitSample& sample, const ExitDemand& demand, double
 
 double clog_after_s(double width_m) { return std::max(2.0, 3.0 / capacity_per_s(width_m)); }
 
-ExitStateMachine::ExitStateMachine(double width_m, bool open)
-    : clog_after_s_(clog_after_s(width_m)), open_(open) {}
+ExitStateMachine::ExitStateMachine(double width_m) : clog_after_s_(clog_after_s(width_m)) {}
 
-ExitState ExitStateMachine::step(double time_s, const ExitSample& sample,
+ExitState ExitStateMachine::step(double time_s, bool open, const ExitSample& sample,
                                  const ExitDemand& demand) {
-  if (!open_) return ExitState::closed;
+  if (!open) return state_ = ExitState::closed;
   const ExitState before = state_;
   if (demand.demand && before == ExitState::idle) demand_since_s_ = time_s;
   state_ = demand.demand ? next(time_s, sample, demand) : ExitState::idle;

@@ -23,19 +23,17 @@ double clogging_index(const ExitSample& sample, const ExitDemand& demand, double
 
 class ExitStateMachine {
  public:
-  /// A door that is not open is closed for ever.
-  explicit ExitStateMachine(double width_m, bool open = true);
+  explicit ExitStateMachine(double width_m);
 
   /// The state after a step at `time_s` with the sample's density, speed and time since the last
-  /// outward crossing.
-  ExitState step(double time_s, const ExitSample& sample, const ExitDemand& demand);
+  /// outward crossing. A door that is not open is closed.
+  ExitState step(double time_s, bool open, const ExitSample& sample, const ExitDemand& demand);
 
  private:
   ExitState next(double time_s, const ExitSample& sample, const ExitDemand& demand);
   bool relieved(double time_s, const ExitSample& sample, const ExitDemand& demand);
 
   double clog_after_s_;
-  bool open_;
   ExitState state_ = ExitState::idle;
   double demand_since_s_ = 0;
   double relief_since_s_ = -1;  ///< negative: not relieved now

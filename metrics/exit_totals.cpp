@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "metrics/exit_state.h"
 
 namespace throng::metrics {
@@ -34,11 +33,18 @@ void add(const ExitSample& sample, int crossed_now, double dt_s, ExitTotals& tot
       std::max(totals.max_voronoi_density_per_m2, sample.voronoi_density_per_m2);
 }
 
-ExitTotals totals_of(const ExitSeries& series, bool open, double dt_s) {
+// Of the run's time.
+double open_share(const std::vector<ExitSample>& samples) {
+  const auto open = std::count_if(samples.begin(), samples.end(), [](const ExitSample& sample) {
+    return sample.state != ExitState::closed;
+  });
+  return samples.empty() ? 0 : static_cast<double>(open) / static_cast<double>(samples.size());
+}
+
+ExitTotals totals_of(const ExitSeries& series, double dt_s) {
   ExitTotals totals;
   totals.exit_id = series.exit_id;
   totals.width_m = series.width_m;
-  totals.capacity_per_s = open ? capacity_per_s(series.width_m) : 0;
   if (!series.samples.empty()) totals.crossings = series.samples.back().crossed;
   int crossed_before = 0;
   int crossed_in_demand = 0;
@@ -49,6 +55,7 @@ ExitTotals totals_of(const ExitSeries& series, bool open, double dt_s) {
   const auto time_in = [&](ExitState state) {
     return totals.state_s[static_cast<std::size_t>(state)];
   };
+  totals.capacity_per_s = open_share(series.samples) * capacity_per_s(series.width_m);
   totals.clogged_s = time_in(ExitState::clogged);
   totals.congested_s = time_in(ExitState::congested) + totals.clogged_s;
   if (totals.demand_s > 0) {
@@ -89,13 +96,11 @@ json value_or_null(const std::optional<T>& value) {
 
 }  // namespace
 
-std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits,
-                                    const world::Scenario& scenario, double dt_s) {
-  check(exits.size() == scenario.exits.size(), "an exit has a series");
+std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits, double dt_s) {
   std::vector<ExitTotals> totals;
   double all = 0;
-  for (std::size_t i = 0; i < exits.size(); ++i) {
-    totals.push_back(totals_of(exits[i], scenario.exits[i].open, dt_s));
+  for (const ExitSeries& exit : exits) {
+    totals.push_back(totals_of(exit, dt_s));
     all += std::max(0, totals.back().crossings);
   }
   for (ExitTotals& exit : totals) {

@@ -9,14 +9,13 @@
 
 #include "metrics/exits.h"
 #include "metrics/gaps.h"
-#include "world/scenario.h"
 
 namespace throng::metrics {
 
 struct ExitTotals {
   std::string exit_id;
   double width_m = 0;
-  double capacity_per_s = 0;       ///< 0 for a closed door
+  double capacity_per_s = 0;       ///< mean over the run: none while it is closed
   int crossings = 0;               ///< signed sum: who came back in does not count
   double share = 0;                ///< of the crossings of all exits
   double mean_clogging_index = 0;  ///< over the time in which there is demand
@@ -46,9 +45,8 @@ struct ExitBalance {
   double last_spread_s = 0;  ///< between the last crossings of the exits that were used
 };
 
-/// One per series. `scenario` says which doors are open.
-std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits,
-                                    const world::Scenario& scenario, double dt_s);
+/// One per series.
+std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits, double dt_s);
 
 std::optional<ExitBalance> balance_of(const std::vector<ExitTotals>& exits);
 

@@ -68,7 +68,7 @@ class ExitObserver {
         mean_radius_m_(mean_radius_m(trace, people)),
         line_(exit, mean_radius_m_),
         capacity_per_s_(capacity_per_s(exit.width_m())),
-        state_(exit.width_m(), exit.open),
+        state_(exit.width_m()),
         pressure_(zone, trace.header.dt_s),
         counters_(people.size()) {
     if (people.empty()) return;
@@ -136,8 +136,9 @@ class ExitObserver {
     const double recent_flow = (sample.crossed - crossed_20s_ago) / kWaitWindowS;
     sample.predicted_wait_s = sample.queue / std::max(recent_flow, kLeastFlow * capacity_per_s_);
     const ExitDemand demand{sample.demand, desired_speed_mps_};
-    sample.state = state_.step(time_s, sample, demand);
-    if (exit_.open) sample.clogging_index = clogging_index(sample, demand, capacity_per_s_);
+    const bool open = exit_.is_open(time_s);
+    sample.state = state_.step(time_s, open, sample, demand);
+    if (open) sample.clogging_index = clogging_index(sample, demand, capacity_per_s_);
   }
 
   // Counts who crosses, and gathers who is near and who comes here.

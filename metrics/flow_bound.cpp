@@ -17,6 +17,11 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+/// Whether a door is closed from a second's beginning on.
+bool is_shut(const Departures& departures, std::size_t exit, int second) {
+  return !departures.shuts_s.empty() && second >= departures.shuts_s[exit];
+}
+
 /// Maximum flow from people through doors that opens one slot after another. The network: each
 /// person comes to each door in the second in which they can be there, and may wait from each
 /// second of a door to its next. Who has got a slot keeps one, if not always the same.
@@ -30,7 +35,10 @@ class DoorFlow {
       for (std::size_t e = 0; e < doors_.size(); ++e) {
         const double access_s = departures.access_s[person][e];
         if (departures.capacity_per_s[e] <= 0 || !std::isfinite(access_s)) continue;
-        entry[e] = std::max(0, static_cast<int>(std::ceil(access_s - 1)));
+        const int second = std::max(0, static_cast<int>(std::ceil(access_s - 1)));
+        if (is_shut(departures, e, second)) continue;
+        entry[e] = second;
+        last_entry_ = std::max(last_entry_, second);
         doors_[e].people.push_back(person);
         reaches = true;
       }
@@ -48,6 +56,8 @@ class DoorFlow {
 
   /// How many of those who can get out at all have no slot yet.
   std::size_t left() const { return left_; }
+  /// The last second in which anybody comes to any door.
+  int last_entry() const { return last_entry_; }
 
   /// Opens a slot of the door for `room` people; returns how many more are out.
   int open(std::size_t exit, int second, int room) {
@@ -175,6 +185,7 @@ class DoorFlow {
   std::vector<int> seen_;                ///< per person, the last search that did
   std::deque<Place> next_;
   int search_ = 0;
+  int last_entry_ = 0;
   std::size_t left_ = 0;
 };
 
@@ -185,19 +196,24 @@ std::vector<double> earliest_out_s(const Departures& departures) {
   check(departures.on_s.size() == exits, "every exit has a way out");
   DoorFlow flow(departures);
   std::vector<int> second(exits, 0);
+  // Doors that serve nobody any more: who has no slot cannot get there, and others shut too soon.
+  std::vector<bool> is_spent(exits, false);
   std::vector<double> out_s;
   while (flow.left() > 0) {
     std::size_t next = exits;
     for (std::size_t e = 0; e < exits; ++e) {
-      if (departures.capacity_per_s[e] <= 0) continue;
+      if (departures.capacity_per_s[e] <= 0 || is_spent[e]) continue;
+      if (is_shut(departures, e, second[e])) continue;
       const auto out_at_s = [&](std::size_t exit) { return second[exit] + departures.on_s[exit]; };
       if (next == exits || out_at_s(e) < out_at_s(next)) next = e;
     }
+    if (next == exits) break;
     // Rounded so that no people get lost over the seconds.
     const double rate = departures.capacity_per_s[next];
     const int now = second[next]++;
     const int room = static_cast<int>(std::ceil(rate * (now + 1)) - std::ceil(rate * now));
     const int more = flow.open(next, now, room);
+    is_spent[next] = room > 0 && more == 0 && now >= flow.last_entry();
     out_s.insert(out_s.end(), static_cast<std::size_t>(more), now + departures.on_s[next]);
   }
   out_s.resize(departures.access_s.size(), kNever);

@@ -13,6 +13,7 @@ struct Departures {
   std::vector<std::vector<double>> access_s;  ///< per person and exit; infinite: never
   std::vector<double> capacity_per_s;         ///< per exit, people; 0: closed
   std::vector<double> on_s;                   ///< per exit, from the door out of the place
+  std::vector<double> shuts_s = {};           ///< per exit, from when on it is closed; empty: none
 };
 
 /// When people are out at best, one time per person, in order; infinite for those who cannot get

@@ -77,7 +77,8 @@ std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& 
     const Vector2d start = trace.position[trace.at(first, person.agent)].cast<double>();
     journey.to_used_m = ways[journey.exit].from(start);
     for (std::size_t e = 0; e < exits.size(); ++e) {
-      const auto way = scenario.exits[e].open ? ways[e].from(start) : std::nullopt;
+      const auto way =
+          scenario.exits[e].is_open(journey.from_s) ? ways[e].from(start) : std::nullopt;
       if (way && (!journey.to_nearest_m || *way < *journey.to_nearest_m)) {
         journey.to_nearest_m = way;
       }

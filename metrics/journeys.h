@@ -19,7 +19,7 @@ struct Journey {
   double to_s = 0;
   double walked_m = 0;
   std::optional<double> to_used_m;     ///< shortest way around buildings to that door
-  std::optional<double> to_nearest_m;  ///< to the open door that is nearest on foot
+  std::optional<double> to_nearest_m;  ///< to the door nearest on foot, open at first
   double speed_ratio = 0;              ///< mean speed over mean desired speed; 0 if nothing desired
   int stops = 0;                       ///< times slower than 0.1 m/s for more than 1 s
 

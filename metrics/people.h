@@ -16,6 +16,7 @@ struct PersonRecord {
   double arrived_s = 0;
   std::optional<double> noticed_s;  ///< first heads for an exit, or follows a guide
   std::optional<double> escaped_s;  ///< first outside of Scenario::inside, or gone for good
+  std::optional<double> hurt_s;     ///< lies from then on in a state that says so, to the end
   double followed_s = 0;            ///< time in states whose name contains "follow"
   double followed_m = 0;            ///< way walked in them
 };

@@ -15,9 +15,9 @@ json nullable(const std::optional<double>& value) { return value ? json(*value) 
 json person_table(const std::vector<PersonRecord>& people, const std::vector<Journey>& journeys,
                   const std::vector<ExitTotals>& exits) {
   json table = json::object();
-  for (const char* column :
-       {"agent", "arrived_s", "noticed_s", "escaped_s", "followed_s", "followed_m", "exit",
-        "walked_m", "shortest_to_used_m", "shortest_to_nearest_m", "speed_ratio", "stops"}) {
+  for (const char* column : {"agent", "arrived_s", "noticed_s", "escaped_s", "hurt_s", "followed_s",
+                             "followed_m", "exit", "walked_m", "shortest_to_used_m",
+                             "shortest_to_nearest_m", "speed_ratio", "stops"}) {
     table[column] = json::array();
   }
   auto journey = journeys.begin();
@@ -26,6 +26,7 @@ json person_table(const std::vector<PersonRecord>& people, const std::vector<Jou
     table["arrived_s"].push_back(person.arrived_s);
     table["noticed_s"].push_back(nullable(person.noticed_s));
     table["escaped_s"].push_back(nullable(person.escaped_s));
+    table["hurt_s"].push_back(nullable(person.hurt_s));
     table["followed_s"].push_back(person.followed_s);
     table["followed_m"].push_back(person.followed_m);
     const bool went = journey != journeys.end() && journey->agent == person.agent;

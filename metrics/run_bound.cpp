@@ -69,6 +69,7 @@ std::optional<RunBound> run_bound(const world::Trace& trace, const world::Scenar
   Departures departures;
   for (const world::Exit& exit : scenario.exits) {
     departures.capacity_per_s.push_back(exit.open ? capacity_per_s(exit.width_m()) : 0);
+    departures.shuts_s.push_back(exit.shuts_s - bound.from_s);
     departures.on_s.push_back(way_out_m(scenario.inside, exit.middle()) / fastest_mps);
   }
   const double rest_s = trace.duration_s() - bound.from_s;

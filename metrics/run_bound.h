@@ -14,8 +14,8 @@
 namespace throng::metrics {
 
 /// From where and when each person noticed, at the greatest speed that they desired in the run, on
-/// the shortest way around buildings to any open exit; exits take their capacity. Who never noticed
-/// and escaped all the same sets out when they arrive, who did neither never does.
+/// the shortest way around buildings to any exit while it is open; exits take their capacity. Who
+/// never noticed and escaped all the same sets out when they arrive, who did neither never does.
 struct RunBound {
   double from_s = 0;          ///< the earliest notice; all times count from then
   std::vector<double> out_s;  ///< one per person, in order; infinite for those who never set out

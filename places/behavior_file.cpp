@@ -67,6 +67,7 @@ std::string goals_of(const Scenario& scenario, const People& people) {
   std::string away;
   std::string leaving;
   std::string fleeing;
+  const std::vector<BlockedDisc> discs = blocked_discs(people);
   for (std::size_t i = 0; i < scenario.exits.size(); ++i) {
     const Vector2d place = beyond(scenario.exits[i], scenario.inside);
     away += fmt::format(
@@ -74,7 +75,9 @@ std::string goals_of(const Scenario& scenario, const People& people) {
         "radius=\"2\"/>\n",
         i, place.x(), place.y());
     leaving += door_goal(scenario.exits[i], i);
-    if (!is_blocked(scenario.exits[i], people)) fleeing += door_goal(scenario.exits[i], i);
+    if (can_flee_by(first_to_reach(scenario.exits[i], discs))) {
+      fleeing += door_goal(scenario.exits[i], i);
+    }
   }
   const auto add = [&](const char* comment, int id, const std::string& goals) {
     text +=
@@ -211,37 +214,57 @@ bool hurts_anybody(const People& people) {
 std::string late_obstacles(const People& people) {
   std::string text;
   for (const BlockedDisc& disc : blocked_discs(people)) {
-    if (disc.obstacle_class == 2) continue;
+    if (disc.obstacle_class == kFirstClass) continue;
     text += fmt::format("    <Action type=\"add_obstacle_at\" operand=\"{}\" time=\"{:.2f}\"/>\n",
                         disc.obstacle_class, disc.from_s);
   }
   return text;
 }
 
-/// Who is caught: in an instant by an explosion, while it spreads by what comes down, at any time
-/// by an attacker.
-std::string hurting_transitions(const std::string& from, const People& people) {
+/// How what hurts spreads and when it ceases, as attributes of the condition that somebody is so
+/// near: an explosion after an instant, what comes down when it has; fire and gas stay, and an
+/// attacker goes on.
+std::string spread_of(const Danger& danger, double from_edge_m) {
   constexpr double kInstantS = 0.3;
+  const world::Disaster& seen = danger.seen;
+  const double grows_m = seen.growth_mps > 0 ? std::max(seen.most_m - seen.radius_m, 0.0) : 0.0;
+  const double spreads_s = grows_m > 0 ? grows_m / seen.growth_mps : 0.0;
+  std::string text;
+  switch (seen.kind) {
+    case world::DisasterKind::attacker:
+      return text;
+    case world::DisasterKind::explosion:
+      return fmt::format(" end=\"{:.6g}\"", seen.start_s + kInstantS);
+    case world::DisasterKind::collapse:
+      if (grows_m > 0) text = fmt::format(" growth_rate=\"{:.4g}\"", seen.growth_mps);
+      return text + fmt::format(" end=\"{:.6g}\"", seen.start_s + kInstantS + spreads_s);
+    case world::DisasterKind::fire:
+    case world::DisasterKind::gas:
+      break;
+  }
+  if (grows_m > 0) {
+    text = fmt::format(" growth_rate=\"{:.4g}\" max_distance=\"{:.4g}\"", seen.growth_mps,
+                       from_edge_m + grows_m);
+  }
+  if (danger.hurts_after_s > 0) text += fmt::format(" after=\"{:.4g}\"", danger.hurts_after_s);
+  return text;
+}
+
+/// Who is caught by what happens.
+std::string hurting_transitions(const std::string& from, const People& people) {
   constexpr double kAgentRadiusM = 0.3;  // of who stands for it; the condition counts from there
   std::string text;
   for (const Danger& danger : people.dangers) {
     if (danger.hurts_m <= 0) continue;
     const world::Disaster& seen = danger.seen;
-    std::string spread;
-    if (seen.kind == world::DisasterKind::collapse && seen.growth_mps > 0) {
-      const double grows_m = std::max(seen.most_m - seen.radius_m, 0.0);
-      spread = fmt::format(" growth_rate=\"{:.4g}\" end=\"{:.4g}\"", seen.growth_mps,
-                           seen.start_s + kInstantS + grows_m / seen.growth_mps);
-    } else if (seen.kind != world::DisasterKind::attacker) {
-      spread = fmt::format(" end=\"{:.4g}\"", seen.start_s + kInstantS);
-    }
     const double from_edge_m = seen.kind == world::DisasterKind::attacker
                                    ? danger.hurts_m
                                    : std::max(danger.hurts_m - kAgentRadiusM, 0.0);
-    text += transition(from, kHurtState,
-                       fmt::format("<Condition type=\"proximity\" distance=\"{:.4g}\" "
-                                   "agentToAvoid=\"{}\" start=\"{:.4g}\"{}/>",
-                                   from_edge_m, seen.agent, seen.start_s, spread));
+    text += transition(
+        from, kHurtState,
+        fmt::format("<Condition type=\"proximity\" distance=\"{:.4g}\" "
+                    "agentToAvoid=\"{}\" start=\"{:.6g}\"{}/>",
+                    from_edge_m, seen.agent, seen.start_s, spread_of(danger, from_edge_m)));
   }
   return text;
 }
@@ -281,7 +304,7 @@ std::string emergency_transitions(const Everyday& everyday, const People& people
     text += transition(
         everyday.names(), "React",
         fmt::format("<Condition type=\"proximity\" distance=\"{:.4g}\" agentToAvoid=\"{}\" "
-                    "growth_rate=\"{:.4g}\" start=\"{:.4g}\"/>",
+                    "growth_rate=\"{:.4g}\" start=\"{:.6g}\"/>",
                     danger.noticed_m, danger.seen.agent, danger.notice_growth_mps,
                     danger.seen.start_s));
   }

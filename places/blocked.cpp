@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace throng::places {
 
@@ -18,30 +19,74 @@ double growth_of(const world::Disaster& seen) {
   return std::clamp(seen.most_m - seen.radius_m, 0.0, seen.growth_mps * kLookAheadS);
 }
 
+bool does_grow(const Danger& danger) {
+  return danger.blocked_m > 0 && growth_of(danger.seen) > 0.5 * kDiscStepM;
+}
+
+/// As exact as files say it, so that all who read them agree.
+double file_time_s(double time_s) { return std::round(100 * time_s) / 100; }
+
+/// When the first disaster starts; nobody flees before.
+double first_start_s(const People& people) {
+  double first_s = std::numeric_limits<double>::infinity();
+  for (const Danger& danger : people.dangers) first_s = std::min(first_s, danger.seen.start_s);
+  return first_s;
+}
+
+double to_door_m(const Eigen::Vector2d& point, const world::Exit& exit) {
+  const Eigen::Vector2d along = exit.to - exit.from;
+  const double share = std::clamp((point - exit.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (exit.from + share * along - point).norm();
+}
+
 }  // namespace
 
 std::vector<BlockedDisc> blocked_discs(const People& people) {
+  const double first_s = first_start_s(people);
+  const auto starts_late = [&](const Danger& danger) {
+    return danger.blocked_m > 0 && danger.seen.start_s > first_s;
+  };
+  const auto late =
+      static_cast<int>(std::count_if(people.dangers.begin(), people.dangers.end(), starts_late));
+  const auto growing =
+      static_cast<int>(std::count_if(people.dangers.begin(), people.dangers.end(), does_grow));
+  const int most = std::min(kMostDiscSteps, (kMostLateDiscs - late) / std::max(1, growing));
   std::vector<BlockedDisc> discs;
-  int growing = 0;
+  std::uint32_t next_class = kFirstLateClass;
+  const auto take_class = [&] {
+    const std::uint32_t taken = next_class;
+    next_class *= 2;
+    return taken;
+  };
   for (const Danger& danger : people.dangers) {
     if (danger.blocked_m <= 0) continue;
-    discs.push_back({danger.seen.position, danger.blocked_m, danger.seen.start_s, 2});
-    if (growth_of(danger.seen) > 0.5 * kDiscStepM) ++growing;
-  }
-  if (growing == 0 || growing > kMostLateDiscs) return discs;
-  const int most = std::min(kMostDiscSteps, kMostLateDiscs / growing);
-  std::uint32_t next_class = kFirstLateClass;
-  for (const Danger& danger : people.dangers) {
-    const double grows_m = growth_of(danger.seen);
-    if (danger.blocked_m <= 0 || grows_m <= 0.5 * kDiscStepM) continue;
+    const world::Disaster& seen = danger.seen;
+    const bool is_apart = starts_late(danger) && late <= kMostLateDiscs;
+    discs.push_back({seen.position, danger.blocked_m, file_time_s(seen.start_s),
+                     is_apart ? take_class() : kFirstClass});
+    if (!does_grow(danger) || most < 1) continue;
+    const double grows_m = growth_of(seen);
     const int steps = std::clamp(static_cast<int>(std::lround(grows_m / kDiscStepM)), 1, most);
-    for (int k = 1; k <= steps; ++k, next_class *= 2) {
+    for (int k = 1; k <= steps; ++k) {
       const double more_m = grows_m * k / steps;
-      discs.push_back({danger.seen.position, danger.blocked_m + more_m,
-                       danger.seen.start_s + more_m / danger.seen.growth_mps, next_class});
+      discs.push_back({seen.position, danger.blocked_m + more_m,
+                       file_time_s(seen.start_s + more_m / seen.growth_mps), take_class()});
     }
   }
   return discs;
+}
+
+const BlockedDisc* first_to_reach(const world::Exit& exit, const std::vector<BlockedDisc>& discs) {
+  const BlockedDisc* first = nullptr;
+  for (const BlockedDisc& disc : discs) {
+    if (to_door_m(disc.middle, exit) >= disc.radius_m) continue;
+    if (first == nullptr || disc.from_s < first->from_s) first = &disc;
+  }
+  return first;
+}
+
+bool can_flee_by(const BlockedDisc* first) {
+  return first == nullptr || first->obstacle_class != kFirstClass;
 }
 
 }  // namespace throng::places

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "places/blocked.h"
 #include "places/crowd_files.h"
 #include "places/people.h"
 #include "places/shorthand.h"
@@ -83,11 +84,17 @@ world::Scenario read_place(json document, const std::string& source, const fs::p
 void add_emergency(const world::Scenario& place, const People& people, json& document) {
   if (people.dangers.empty()) return;
   document["disasters"] = disasters_json(people);
+  const std::vector<BlockedDisc> discs = blocked_discs(people);
   for (std::size_t i = 0; i < place.exits.size(); ++i) {
-    if (is_blocked(place.exits[i], people)) {
-      document["exits"][i]["open"] = false;
+    const world::Exit& exit = place.exits[i];
+    const BlockedDisc* const disc = first_to_reach(exit, discs);
+    json& written = document["exits"][i];
+    if (can_flee_by(disc)) written["goals"].push_back({kFleeingSet, i});
+    if (disc == nullptr || !exit.is_open(disc->from_s)) continue;
+    if (disc->from_s > 0) {
+      written["shuts_s"] = disc->from_s;
     } else {
-      document["exits"][i]["goals"].push_back({kFleeingSet, i});
+      written["open"] = false;
     }
   }
   for (std::size_t i = 0; i < place.drones.size(); ++i) {

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -20,6 +19,7 @@ namespace {
 
 constexpr double kClearanceM = 0.45;
 constexpr double kSourceBehindM = 6;  // beyond the door that people come in by
+constexpr double kSlimmestM = 0.195;  // radius
 
 std::string agent_group(const std::string& profile, const std::string& state,
                         const std::string& generators, const std::string& arrivals = "") {
@@ -137,16 +137,29 @@ std::string obstacle(const std::vector<Vector2d>& outline) {
   return text + "</Obstacle>\n";
 }
 
-std::vector<Vector2d> octagon(const Vector2d& middle, double radius_m) {
+/// About a disc: people keep their bodies out of it, and so their middles out of the disc.
+std::vector<Vector2d> octagon(const Vector2d& middle, double disc_m) {
+  const double side_m = std::max(disc_m - kSlimmestM, 0.5 * disc_m);
+  const double corner_m = side_m / std::cos(std::numbers::pi / 8);
   std::vector<Vector2d> corners;
   for (int i = 0; i < 8; ++i) {
     const double angle = std::numbers::pi * (i + 0.5) / 4;
-    corners.push_back(middle + radius_m * Vector2d(std::cos(angle), std::sin(angle)));
+    corners.push_back(middle + corner_m * Vector2d(std::cos(angle), std::sin(angle)));
   }
   return corners;
 }
 
-std::string obstacles_of(const People& people, const Solids& solids) {
+/// What shuts a door: from its line to beyond the place where those are bound who take it.
+std::vector<Vector2d> shutter(const Exit& exit) {
+  constexpr double kDeepM = 1.4;
+  const Vector2d along = exit.to - exit.from;
+  const bool leads_left = Vector2d(-along.y(), along.x()).dot(exit.outward) > 0;
+  const Vector2d right = leads_left ? exit.from : exit.to;
+  const Vector2d left = leads_left ? exit.to : exit.from;
+  return {right, left, left + kDeepM * exit.outward, right + kDeepM * exit.outward};
+}
+
+std::string obstacles_of(const Scenario& scenario, const People& people, const Solids& solids) {
   std::string text = "  <ObstacleSet type=\"explicit\" class=\"1\">\n";
   for (const auto& outline : solids.outlines()) text += obstacle(outline);
   text += "  </ObstacleSet>\n";
@@ -156,8 +169,12 @@ std::string obstacles_of(const People& people, const Solids& solids) {
         "  <!-- What is in the way of those who have noticed it, at first and as it grows. -->\n";
   }
   for (const BlockedDisc& disc : discs) {
+    std::string outlines = obstacle(octagon(disc.middle, disc.radius_m));
+    for (const Exit& exit : scenario.exits) {
+      if (first_to_reach(exit, discs) == &disc) outlines += obstacle(shutter(exit));
+    }
     text += fmt::format("  <ObstacleSet type=\"explicit\" class=\"{}\">\n{}  </ObstacleSet>\n",
-                        disc.obstacle_class, obstacle(octagon(disc.middle, disc.radius_m)));
+                        disc.obstacle_class, outlines);
   }
   return text;
 }
@@ -169,9 +186,9 @@ std::string profiles_of(const People& people) {
       "neighbor_dist=\"5\" class=\"1\"\n            max_speed=\"3\" max_accel=\"5\">\n"
       "      <Property name=\"pref_speed\" dist=\"n\" mean=\"{:.3g}\" stddev=\"{:.3g}\"/>\n"
       // So alike that all of them share one mesh of ways (crowd/auto_navigation.h).
-      "      <Property name=\"r\" dist=\"u\" min=\"0.195\" max=\"0.24\"/>\n"
+      "      <Property name=\"r\" dist=\"u\" min=\"{:.3g}\" max=\"0.24\"/>\n"
       "    </Common>\n  </AgentProfile>\n",
-      people.speed_mps, 0.19 * people.speed_mps);
+      people.speed_mps, 0.19 * people.speed_mps, kSlimmestM);
   if (people.dangers.empty()) return text;
   text +=
       "  <AgentProfile name=\"danger\">\n"
@@ -211,15 +228,6 @@ std::vector<Vector2d> usual_spots(const People& people, const Solids& solids) {
 
 }  // namespace
 
-bool is_blocked(const Exit& exit, const People& people) {
-  return std::any_of(people.dangers.begin(), people.dangers.end(), [&](const Danger& danger) {
-    const std::array<Vector2d, 3> door = {exit.from, exit.to, exit.middle()};
-    return std::any_of(door.begin(), door.end(), [&](const Vector2d& point) {
-      return (point - danger.seen.position).norm() < danger.blocked_m;
-    });
-  });
-}
-
 CrowdFiles write_crowd(const Scenario& scenario, const People& people,
                        std::vector<Problem>& problems) {
   const Solids solids(scenario);
@@ -234,8 +242,8 @@ CrowdFiles write_crowd(const Scenario& scenario, const People& people,
     files.scene += fmt::format("  <SocialGroups share=\"{:.3g}\"/>\n", people.in_groups);
   }
   files.scene += profiles_of(people) + dangers_of(people) + groups_of(people, solids, problems) +
-                 sources_of(scenario, people, solids, problems) + obstacles_of(people, solids) +
-                 "</Experiment>\n";
+                 sources_of(scenario, people, solids, problems) +
+                 obstacles_of(scenario, people, solids) + "</Experiment>\n";
   files.behavior = behavior_text(scenario, complete);
   return files;
 }

@@ -21,9 +21,6 @@ inline constexpr int kLeavingSet = 5;
 inline constexpr int kFleeingSet = 3;
 inline constexpr int kGuidesSet = 99;
 
-/// Whether a disaster makes an exit useless.
-bool is_blocked(const world::Exit& exit, const People& people);
-
 /// Writes the files. Adds to `problems` where people find no room.
 CrowdFiles write_crowd(const world::Scenario& scenario, const People& people,
                        std::vector<Problem>& problems);

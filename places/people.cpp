@@ -19,6 +19,7 @@ namespace {
 constexpr double kFarM = 100'000;
 constexpr int kMostPeople = 100'000;
 constexpr double kLongestS = 86'400;
+constexpr double kGasHurtsAfterS = 60;  // an assumption: real gases take a breath or many minutes
 constexpr std::array<std::string_view, 4> kDoings = {"stroll", "wait", "cross", "leave"};
 
 Doing read_doing(const JsonValue& value) {
@@ -99,7 +100,8 @@ Danger usual_danger(const world::Disaster& seen) {
     case world::DisasterKind::attacker:
       return {seen, 10, 0.8, 0, true, 0.5};
     case world::DisasterKind::gas:
-      return {seen, seen.radius_m, std::max(seen.growth_mps, 0.1), seen.radius_m, false, 0};
+      return {seen, seen.radius_m,  std::max(seen.growth_mps, 0.1), seen.radius_m, false,
+              0,    kGasHurtsAfterS};
     case world::DisasterKind::fire:
       break;
   }
@@ -107,8 +109,9 @@ Danger usual_danger(const world::Disaster& seen) {
 }
 
 Danger read_danger(const JsonValue& item, int agent) {
-  item.fields({"kind", "position"}, {"start_s", "radius_m", "growth_mps", "most_m", "noticed_m",
-                                     "notice_growth_mps", "blocked_m", "hurts_m", "panic"});
+  item.fields({"kind", "position"},
+              {"start_s", "radius_m", "growth_mps", "most_m", "noticed_m", "notice_growth_mps",
+               "blocked_m", "hurts_m", "hurts_after_s", "panic"});
   Danger danger = usual_danger(world::read_disaster(item, agent));
   const auto read = [&](std::string_view key, double& value) {
     if (item[key].exists()) value = item[key].number(0, 10'000);
@@ -117,6 +120,12 @@ Danger read_danger(const JsonValue& item, int agent) {
   read("notice_growth_mps", danger.notice_growth_mps);
   read("blocked_m", danger.blocked_m);
   read("hurts_m", danger.hurts_m);
+  read("hurts_after_s", danger.hurts_after_s);
+  const bool can_take_time =
+      danger.seen.kind == world::DisasterKind::fire || danger.seen.kind == world::DisasterKind::gas;
+  if (!can_take_time && danger.hurts_after_s > 0) {
+    item["hurts_after_s"].reject("0, or a fire or gas: other disasters hurt at once");
+  }
   if (item["panic"].exists()) danger.panic = item["panic"].boolean();
   return danger;
 }

@@ -54,6 +54,7 @@ struct Danger {
   double blocked_m = 0;          ///< nobody who has noticed it goes nearer than this
   bool panic = false;            ///< who flees panics, and others catch it
   double hurts_m = 0;            ///< who is within this lies hurt and stays
+  double hurts_after_s = 0;      ///< so long must one have been within, in all
 };
 
 struct People {

@@ -1,8 +1,6 @@
 #include "render/animator.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -115,23 +113,12 @@ bool is_drawn(world::AgentRole role) {
 
 }  // namespace
 
-bool is_down(std::string_view state_name) {
-  std::string lower(state_name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<std::string_view, 10> kWords = {
-      "fallen",  "incapacitated", "dead",  "unconscious", "collapsed",
-      "fainted", "casualty",      "lying", "trampled",    "killed"};
-  return std::any_of(kWords.begin(), kWords.end(),
-                     [&](std::string_view word) { return lower.find(word) != std::string::npos; });
-}
-
 Animator::Animator(const world::Trace& trace, const skinning::Population& population,
                    const skinning::Styling& styling)
     : trace_(&trace), stays_(trace.agents()) {
   std::vector<char> down_states;
   for (const std::string& name : trace.header.state_names) {
-    down_states.push_back(is_down(name) ? 1 : 0);
+    down_states.push_back(world::is_down(name) ? 1 : 0);
   }
   const Watcher watcher(trace, down_states);
   std::vector<Moment> moments;

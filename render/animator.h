@@ -12,10 +12,6 @@
 
 namespace throng::render {
 
-/// Whether somebody in a behaviour's state of this name cannot stand: its name contains one of the
-/// words in docs/trace.md, in upper or lower case.
-bool is_down(std::string_view state_name);
-
 /// Plans each agent's motion along the trace. The trace and population must outlive it.
 class Animator {
  public:

@@ -36,7 +36,7 @@ def main(folder):
 
     for file in sorted((folder / "metrics").glob("run*.json")):
         metrics = json.loads(file.read_text())
-        escaped = metrics["people"] - metrics["not_escaped"]
+        escaped = metrics["people"] - metrics["not_escaped"] - metrics["casualties"]
         print(f"escaped ({file.stem})     {escaped} of {metrics['people']} people in {metrics['duration_s']:.0f} s,"
               f" mean {metrics['mean_escape_time_censored_s']:.1f} s (who is still inside counts to the end)")
         times = metrics["escape_time_percentiles"]

@@ -53,6 +53,9 @@ class BalancePolicy : public Policy {
   void see(const WorldView& view) override {
     queues_.update(view, drone_);
     count_followers(view);
+    const bool on_a_trip =
+        stage_ == Stage::fly || stage_ == Stage::collect || stage_ == Stage::lead;
+    if (on_a_trip && !queues_.is_open(to_)) turn_from_shut_door(view);
     switch (stage_) {
       case Stage::wait:
         if (view.time_s >= decide_s_) decide(view);
@@ -142,14 +145,15 @@ class BalancePolicy : public Policy {
     if (person.guide >= 0) return person.guide == drone_;
     if (person.exit < 0) return place_.guides_alert;
     const world::Exit& exit = place_.exits[static_cast<std::size_t>(person.exit)];
-    return !exit.open || (person.position - exit.middle()).norm() > kAtTheDoorM;
+    return !queues_.is_open(person.exit) || (person.position - exit.middle()).norm() > kAtTheDoorM;
   }
 
   bool is_idle(const PersonSeen& person) const {
     if (person.exit < 0) return true;
     const world::Exit& exit = place_.exits[static_cast<std::size_t>(person.exit)];
     return person.velocity.norm() < kStandsMps &&
-           (!exit.open || (person.position - exit.middle()).norm() > 2 * kAtTheDoorM);
+           (!queues_.is_open(person.exit) ||
+            (person.position - exit.middle()).norm() > 2 * kAtTheDoorM);
   }
 
   void decide(const WorldView& view) {
@@ -273,6 +277,7 @@ class BalancePolicy : public Policy {
     if (here.all > batch_) return;
     const double fly_s = (pick - glide_.place()).norm() / kFlySpeedMps + 1;
     for (const int to : choice_) {
+      if (!queues_.is_open(to)) continue;
       const double lead_s =
           (routes_[static_cast<std::size_t>(to)].mouth() - pick).norm() / lead_mps_;
       const double arrive_s = fly_s + kCollectS + lead_s;
@@ -301,15 +306,41 @@ class BalancePolicy : public Policy {
   void collect(const WorldView& view) {
     const double collected_s = view.time_s - since_s_;
     if (near_ > 0 && collected_s >= kCollectS) {
-      const LeadRoute& route = routes_[static_cast<std::size_t>(to_)];
-      path_.assign(route.points.begin(), route.points.end());
-      rescues_ = 0;
       enter(Stage::lead, view.time_s);
-      start_leg(0);
+      set_out_with_followers();
     } else if (collected_s >= kLongestCollectS) {
       in_vain_.push_back({glide_.place(), view.time_s + kInVainS});
       enter(Stage::wait, view.time_s);
     }
+  }
+
+  // A disaster has reached the door: with those who follow to the one at which they are out
+  // soonest; without any, or without such a door, it gives up.
+  void turn_from_shut_door(const WorldView& view) {
+    int best = -1;
+    double best_s = std::numeric_limits<double>::infinity();
+    for (const int exit : choice_) {
+      if (!queues_.is_open(exit)) continue;
+      const Vector2d way = routes_[static_cast<std::size_t>(exit)].mouth() - glide_.place();
+      const double out_s = std::max(queues_.wait_s(exit), way.norm() / lead_mps_);
+      if (out_s >= best_s) continue;
+      best_s = out_s;
+      best = exit;
+    }
+    if (stage_ != Stage::lead || followers_ == 0 || best < 0) {
+      enter(Stage::wait, view.time_s);
+      glide_.stop();
+      return;
+    }
+    to_ = best;
+    set_out_with_followers();
+  }
+
+  void set_out_with_followers() {
+    const LeadRoute& route = routes_[static_cast<std::size_t>(to_)];
+    path_.assign(route.points.begin(), route.points.end());
+    rescues_ = 0;
+    start_leg(0);
   }
 
   void start_leg(std::size_t point) {

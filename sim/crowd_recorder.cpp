@@ -14,7 +14,8 @@ CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<
       intents_(roles.size(), -1),
       led_(roles.size(), false),
       arrived_(roles.size(), false),
-      escaped_(roles.size(), false) {}
+      escaped_(roles.size(), false),
+      down_(roles.size(), false) {}
 
 // Who heads for an exit intends it, also on the way on from there to safety. Who follows a drone
 // goes where it leads and intends none; who was led takes the exit at hand.
@@ -55,6 +56,12 @@ void CrowdRecorder::record(const CrowdSource& crowd, double time_s, RunObserver&
   world::CrowdStep step = crowd.now();
   step.time_s = time_s;
   step.exit_intent = intents_;
+  if (down_states_.empty()) {
+    for (const std::string& name : crowd.header(0).state_names) {
+      down_states_.push_back(world::is_down(name));
+    }
+  }
+  for (std::size_t i = 0; i < down_.size(); ++i) down_[i] = down_states_[step.state[i]];
   observer.step(step);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (roles_[i] != AgentRole::person || escaped_[i] || !arrived_[i]) continue;

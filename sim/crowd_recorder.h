@@ -25,6 +25,8 @@ class CrowdRecorder {
   const std::vector<std::int8_t>& intents() const { return intents_; }
   /// Per agent: whether it has got away.
   const std::vector<bool>& escaped() const { return escaped_; }
+  /// Per agent: whether it lies there, in a state whose name says so (world::is_down).
+  const std::vector<bool>& down() const { return down_; }
 
  private:
   void update_intent(std::size_t agent, const crowd::GoalId& goal, const Eigen::Vector2d& place);
@@ -37,6 +39,8 @@ class CrowdRecorder {
   std::vector<bool> led_;  ///< follows a drone
   std::vector<bool> arrived_;
   std::vector<bool> escaped_;
+  std::vector<bool> down_;
+  std::vector<bool> down_states_;  ///< by number of the state, from the first record on
 };
 
 }  // namespace throng::sim

@@ -19,7 +19,8 @@ struct LeadRoute {
 LeadRoute route_through(const world::Exit& exit, const std::vector<world::Building>& buildings,
                         double before_m = 3);
 
-/// The exits that a drone may lead to: those of these ids, or all, as far as they are open.
+/// The exits that a drone may lead to: those of these ids, or all, as far as they are open at
+/// first.
 std::vector<int> exits_to_lead_to(const world::Scenario& place,
                                   const std::vector<std::string>& ids);
 

@@ -61,9 +61,8 @@ void Lookout::look(const CrowdSource& crowd, const CrowdRecorder& recorder, doub
   view_.people.clear();
   std::vector<int> out(scenario_.exits.size());
   for (std::size_t i = 0; i < roles_.size(); ++i) {
-    if (roles_[i] != world::AgentRole::person || recorder.escaped()[i] || crowd.present()[i] == 0) {
-      continue;
-    }
+    const bool is_there = crowd.present()[i] != 0 && !recorder.escaped()[i];
+    if (roles_[i] != world::AgentRole::person || !is_there || recorder.down()[i]) continue;
     PersonSeen person;
     person.position = crowd.positions()[i].cast<double>();
     person.velocity = crowd.velocities()[i].cast<double>();

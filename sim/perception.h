@@ -12,8 +12,8 @@
 
 namespace throng::sim {
 
-/// The true view. Who has got away, is not there or is a danger is not in it, nor is who has gone
-/// through a door, unless a drone still leads them.
+/// The true view. Who has got away, is not there, lies hurt or is a danger is not in it, nor is who
+/// has gone through a door, unless a drone still leads them.
 class Lookout {
  public:
   /// `guide_goals`: per drone, the goal that it moves, if any. All must outlive the lookout.

@@ -32,6 +32,7 @@ QueueModel::QueueModel(const world::Scenario& place)
 }
 
 void QueueModel::update(const WorldView& view, int self) {
+  time_s_ = view.time_s;
   std::fill(people_.begin(), people_.end(), 0);
   std::vector<int> pressing(people_.size());
   learn_habits(view);
@@ -86,7 +87,7 @@ void QueueModel::expect(const PersonSeen& unaware) {
 
 std::size_t QueueModel::nearest_exit(const Eigen::Vector2d& place) const {
   const auto nearer = [&](const world::Exit& a, const world::Exit& b) {
-    if (a.open != b.open) return a.open;
+    if (a.is_open(time_s_) != b.is_open(time_s_)) return a.is_open(time_s_);
     return (a.middle() - place).squaredNorm() < (b.middle() - place).squaredNorm();
   };
   return static_cast<std::size_t>(
@@ -94,20 +95,19 @@ std::size_t QueueModel::nearest_exit(const Eigen::Vector2d& place) const {
 }
 
 int QueueModel::ends_up_at(const PersonSeen& person) const {
-  if (place_.exits[index(person.exit)].open) return person.exit;
+  if (is_open(person.exit)) return person.exit;
   return static_cast<int>(nearest_exit(place_.exits[index(person.exit)].middle()));
 }
 
 double QueueModel::wait_s(int exit) const {
-  const std::size_t e = index(exit);
-  return place_.exits[e].open ? people_[e] / capacity_per_s_[e] : kNeverS;
+  return is_open(exit) ? people_[index(exit)] / capacity_per_s_[index(exit)] : kNeverS;
 }
 
 // Who leaves a queue shortens it for those behind, who joins one lengthens it for whoever comes
 // after: m people led save m (wait_from - wait_to) - m²/2 (1/C_from + 1/C_to).
 double QueueModel::saving_s(int from, int to, double arrive_s, double people) const {
   const double difference_s = wait_s(from) - std::max(wait_s(to), arrive_s);
-  const double shorter_s = place_.exits[index(from)].open ? 1 / capacity_per_s_[index(from)] : 0;
+  const double shorter_s = is_open(from) ? 1 / capacity_per_s_[index(from)] : 0;
   const double longer_s = 1 / capacity_per_s_[index(to)];
   return people * difference_s - 0.5 * people * people * (shorter_s + longer_s);
 }

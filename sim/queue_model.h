@@ -25,6 +25,8 @@ class QueueModel {
   int ends_up_at(const PersonSeen& person) const;
   /// Time until everybody who wants this exit is out; far more than any run for a shut one.
   double wait_s(int exit) const;
+  /// Whether people can get out there as of the last update.
+  bool is_open(int exit) const { return place_.exits[index(exit)].is_open(time_s_); }
 
   /// What it would save in all (people times seconds) to lead `people` from one queue to another,
   /// which they reach in `arrive_s`; negative when it costs.
@@ -40,6 +42,7 @@ class QueueModel {
   static std::size_t index(int exit) { return static_cast<std::size_t>(exit); }
 
   const world::Scenario& place_;
+  double time_s_ = 0;
   std::vector<double> capacity_per_s_;
   std::vector<double> people_;  // who want each exit, with what is planned
   /// [nearest exit][exit that is chosen there]: looks at people, the latest counting most.

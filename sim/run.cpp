@@ -96,6 +96,16 @@ void report_falls(const CrowdSource& crowd, double time_s, RunObserver& observer
   }
 }
 
+// Doors that have been reached by a disaster since the step before.
+void report_shut_doors(const world::Scenario& scenario, double before_s, double time_s,
+                       RunObserver& observer) {
+  for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
+    const world::Exit& exit = scenario.exits[e];
+    if (!exit.is_open(before_s) || exit.is_open(time_s)) continue;
+    observer.event({time_s, "exit_shut", -1, -1, static_cast<double>(e)});
+  }
+}
+
 world::TraceHeader header_of(const world::Scenario& scenario, const RunSpec& spec,
                              const CrowdSource& crowd, const std::vector<world::AgentRole>& roles) {
   world::TraceHeader header = crowd.header(spec.seed);
@@ -199,6 +209,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
     props.look(crowd.positions(), there, time_s);
     recorder.record(crowd, time_s, observer);
     report_falls(crowd, time_s, observer);
+    report_shut_doors(scenario, static_cast<double>(step - 1) * dt_s, time_s, observer);
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
   }
   flight.finish();

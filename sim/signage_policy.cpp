@@ -36,6 +36,11 @@ class SignagePolicy : public Policy {
     time_s_ = view.time_s;
     const bool alarmed = std::any_of(view.people.begin(), view.people.end(),
                                      [](const PersonSeen& person) { return person.exit >= 0; });
+    if (to_ >= 0 && !queues_.is_open(to_)) {
+      to_ = -1;
+      choose_s_ = view.time_s;
+      glide_.stop();
+    }
     if (alarmed && view.time_s >= choose_s_) choose(view);
   }
 
@@ -63,7 +68,7 @@ class SignagePolicy : public Policy {
     int best = -1;
     double best_s = std::numeric_limits<double>::infinity();
     for (const int exit : choice_) {
-      if (has_a_sign(view, exit)) continue;
+      if (!queues_.is_open(exit) || has_a_sign(view, exit)) continue;
       const double wait_s = queues_.wait_s(exit) - (exit == to_ ? kBetterS : 0);
       if (wait_s < best_s) {
         best_s = wait_s;

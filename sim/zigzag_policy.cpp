@@ -32,6 +32,10 @@ class ZigzagPolicy : public Policy {
         std::count_if(view.people.begin(), view.people.end(),
                       [&](const PersonSeen& person) { return person.guide == drone_; }));
     time_s_ = view.time_s;
+    if (!path_.empty() && !is_open(to_)) {
+      path_.clear();
+      glide_.stop();
+    }
     if (path_.empty()) {
       plan_trip(view);
     } else if (glide_.arrived()) {
@@ -51,6 +55,10 @@ class ZigzagPolicy : public Policy {
   }
 
  private:
+  bool is_open(int exit) const {
+    return place_.exits[static_cast<std::size_t>(exit)].is_open(time_s_);
+  }
+
   void go_on() {
     if (point_ + 1 < path_.size()) {
       glide_.go(path_[++point_], speed_mps_);
@@ -68,12 +76,10 @@ class ZigzagPolicy : public Policy {
       if (person.exit >= 0) ++heading[static_cast<std::size_t>(person.exit)];
     }
     const auto most = std::max_element(heading.begin(), heading.end());
-    if (most == heading.end() || *most < kWorthATripPeople || choice_.empty()) return;
+    if (most == heading.end() || *most < kWorthATripPeople) return;
     from_ = static_cast<int>(most - heading.begin());
-    if (choice_.size() == 1 && choice_[0] == from_) return;
-    do {
-      to_ = choice_[turn_++ % choice_.size()];
-    } while (to_ == from_);
+    to_ = next_in_turn();
+    if (to_ < 0) return;
     Vector2d middle = Vector2d::Zero();
     for (const PersonSeen& person : view.people) {
       if (person.exit == from_) middle += person.position / static_cast<double>(*most);
@@ -91,6 +97,15 @@ class ZigzagPolicy : public Policy {
     point_ = 0;
     arrived_s_ = -1;
     glide_.go(path_[0], speed_mps_);
+  }
+
+  // Of the exits that are open but the one that they run to; -1: there is none.
+  int next_in_turn() {
+    for (std::size_t i = 0; i < choice_.size(); ++i) {
+      const int exit = choice_[turn_++ % choice_.size()];
+      if (exit != from_ && is_open(exit)) return exit;
+    }
+    return -1;
   }
 
   const world::Scenario& place_;

@@ -26,8 +26,10 @@ struct MetricRow {
 void add_escape_rows(const RunMetrics& example, std::vector<MetricRow>& rows) {
   rows.push_back(
       {"people", "1", "who took part", [](const RunMetrics& run) { return run.people; }});
-  rows.push_back({"not escaped", "1", "still inside when the run ended",
+  rows.push_back({"not escaped", "1", "still inside and unhurt when the run ended",
                   [](const RunMetrics& run) { return run.not_escaped; }});
+  rows.push_back({"casualties", "1", "lay hurt when the run ended",
+                  [](const RunMetrics& run) { return run.casualties; }});
   rows.push_back({"mean escape time", "s",
                   "until a person left the place; who did not counts with the run's duration",
                   [](const RunMetrics& run) { return run.mean_escape_time_s; }});

@@ -26,6 +26,7 @@ namespace {
 constexpr double kFarthestM = 100'000;
 constexpr double kHighestM = 1'000;
 constexpr double kNarrowestExitM = 0.1;
+constexpr double kLatestShuttingS = 1e6;
 constexpr int kLargestId = 1'000'000'000;
 
 class UniqueNames {
@@ -76,7 +77,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
   UniqueNames ids;
   std::set<std::pair<int, int>> claimed;
   for (const JsonValue& item : list.items()) {
-    item.fields({"id", "from", "to", "goals"}, {"outward", "open"});
+    item.fields({"id", "from", "to", "goals"}, {"outward", "open", "shuts_s"});
     Exit exit;
     exit.id = ids.read(item["id"]);
     exit.from = item["from"].vector2(kFarthestM);
@@ -87,6 +88,10 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
       exit.outward = read_outward(item["outward"], exit, inside);
     }
     if (item["open"].exists()) exit.open = item["open"].boolean();
+    if (item["shuts_s"].exists()) {
+      exit.shuts_s = item["shuts_s"].number(0, kLatestShuttingS);
+      if (!exit.open) item["shuts_s"].reject("a time, though the door is never open", "none");
+    }
     for (const JsonValue& goal : item["goals"].items(1)) {
       exit.goals.push_back(read_goal(goal));
       const GoalRef& ref = exit.goals.back();

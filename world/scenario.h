@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,16 @@ struct Exit {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();      ///< m
   Eigen::Vector2d to = Eigen::Vector2d::Zero();        ///< m
   Eigen::Vector2d outward = Eigen::Vector2d::UnitX();  ///< unit normal, pointing out of the place
-  bool open = true;                                    ///< otherwise nobody can get out here
+  bool open = true;                                    ///< otherwise nobody can ever get out here
   std::vector<GoalRef> goals;  ///< an agent heading for one of these intends this exit
+  /// From when on nobody can: a disaster has reached it (s).
+  double shuts_s = std::numeric_limits<double>::infinity();
 
+  /// Whether people can get out here at a time of the run (s), which is that of a step.
+  bool is_open(double time_s) const {
+    constexpr double kRoundingS = 1e-6;
+    return open && time_s < shuts_s - kRoundingS;
+  }
   double width_m() const { return (to - from).norm(); }
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
 };

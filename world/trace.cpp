@@ -1,10 +1,23 @@
 #include "world/trace.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 
 #include "base/error.h"
 
 namespace throng::world {
+
+bool is_down(std::string_view state_name) {
+  std::string lower(state_name);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::array<std::string_view, 10> kWords = {
+      "fallen",  "incapacitated", "dead",  "unconscious", "collapsed",
+      "fainted", "casualty",      "lying", "trampled",    "killed"};
+  return std::any_of(kWords.begin(), kWords.end(),
+                     [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
 
 DroneSample Trace::drone_at(std::size_t drone, double time) const {
   check(drone < drones.size() && !drones[drone].empty(), "the trace has samples of this drone");

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace throng::world {
@@ -27,6 +28,10 @@ enum class AgentRole : std::uint8_t {
 inline constexpr std::uint8_t kPresent = 1;
 inline constexpr std::uint8_t kPanicked = 2;
 inline constexpr std::uint8_t kFallen = 4;
+
+/// Whether somebody in a behaviour's state of this name cannot stand: its name contains one of the
+/// words in docs/trace.md, in upper or lower case.
+bool is_down(std::string_view state_name);
 
 /// What does not change during a run.
 struct TraceHeader {

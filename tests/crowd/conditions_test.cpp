@@ -213,5 +213,53 @@ TEST(Conditions, ProximityStopsGrowingAtItsMaximum) {
   EXPECT_LT(times[1], 0);
 }
 
+TEST(Conditions, ProximityAfterATimeWithin) {
+  const std::vector<double> times = notice_times(
+      R"(distance="3" growth_rate="1" max_distance="6" start="2" after="4")", {1, 3.2 + 2, 10});
+  EXPECT_NEAR(times[0], 2 + 4, 0.11);
+  EXPECT_NEAR(times[1], 2 + 2 + 4, 0.11) << "from when it has spread so far";
+  EXPECT_LT(times[2], 0);
+}
+
+TEST(Conditions, TimeWithinCountsInAllStatesAndAfterAPause) {
+  // To and fro between a place within reach of agent 0 and one beyond, at 2 m/s.
+  const std::string walker = R"(<AgentGroup><ProfileSelector type="const" name="a"/>
+      <StateSelector type="const" name="Start"/><Generator type="explicit">)" +
+                             agent_at(10, 0) + "</Generator></AgentGroup>";
+  Simulation crowd =
+      load(scene_with(agent_at(0, 0),
+                      R"(r="0.2" max_neighbors="0" max_speed="2" pref_speed="2" max_accel="100")",
+                      "Stay", walker),
+           R"(<BFSM>
+        <State name="Stay" final="1"><GoalSelector type="identity"/><VelComponent type="zero"/>
+          </State>
+        <GoalSet id="1"><Goal type="point" id="0" x="1" y="0"/></GoalSet>
+        <GoalSet id="2"><Goal type="point" id="0" x="10" y="0"/></GoalSet>
+        <State name="Start" final="0"><GoalSelector type="nearest" goal_set="1"/>
+          <VelComponent type="goal"/></State>
+        <State name="Back" final="0"><GoalSelector type="nearest" goal_set="2"/>
+          <VelComponent type="goal"/></State>
+        <State name="Hurt" final="1"/>
+        <Transition from="Start,Back" to="Hurt">
+          <Condition type="proximity" agentToAvoid="0" distance="3" after="5"/></Transition>
+        <Transition from="Start" to="Back"><Condition type="goal_reached" distance="0.2"/>
+          </Transition>
+        <Transition from="Back" to="Start"><Condition type="goal_reached" distance="0.2"/>
+          </Transition></BFSM>)");
+  double within_s = 0;
+  int visits = 0;
+  bool was_within = false;
+  while (state_of(crowd, 1) != "Hurt" && crowd.time_s() < 60) {
+    crowd.step();
+    const bool within = crowd.positions()[1].x() < 3.2F;
+    if (within) within_s += crowd.dt_s();
+    if (within && !was_within) ++visits;
+    was_within = within;
+  }
+  EXPECT_EQ(state_of(crowd, 1), "Hurt");
+  EXPECT_NEAR(within_s, 5, 0.21);
+  EXPECT_GE(visits, 2);
+}
+
 }  // namespace
 }  // namespace throng::crowd

@@ -69,6 +69,48 @@ TEST(RunMetrics, TheDisasterIsNotAPerson) {
   EXPECT_EQ(metrics.escape_curve.back(), 0);
 }
 
+TEST(RunMetrics, AnAttackerIsInNoFigure) {
+  world::Trace trace = trace_of({standing({0, 0}), walking({-5, 0}, {1, 0})});
+  trace.header.role[1] = world::AgentRole::attacker;
+  const RunMetrics metrics = measure(trace);
+  EXPECT_EQ(metrics.people, 1);
+  EXPECT_EQ(metrics.escape_curve.back(), 0);
+  EXPECT_EQ(metrics.exits.at(0).crossings, 0) << "though he walks through the door";
+  EXPECT_EQ(metrics.persons.size(), 1U);
+}
+
+TEST(RunMetrics, WhoLiesHurtIsCountedApart) {
+  // One lies from 10 s on, one faints and gets up again, one is hurt but is carried out.
+  world::Trace trace =
+      trace_of({standing({0, 0}), standing({1, 0}), walking({-5, 0}, {1, 0}), standing({2, 0})});
+  trace.header.state_names = {"Walk", "Casualty"};
+  for (std::size_t step = 100; step < trace.steps(); ++step) {
+    trace.state[trace.at(step, 0)] = 1;
+    if (step < 200) trace.state[trace.at(step, 1)] = 1;
+    trace.state[trace.at(step, 2)] = 1;
+  }
+  const RunMetrics metrics = measure(trace);
+  EXPECT_EQ(metrics.people, 4);
+  EXPECT_EQ(metrics.casualties, 1);
+  EXPECT_EQ(metrics.not_escaped, 2) << "neither hurt nor out";
+  ASSERT_TRUE(metrics.persons[0].hurt_s);
+  EXPECT_NEAR(*metrics.persons[0].hurt_s, 10, 1e-9);
+  for (const std::size_t person : {1U, 2U, 3U}) EXPECT_FALSE(metrics.persons[person].hurt_s);
+  const nlohmann::json json = to_json(metrics);
+  EXPECT_EQ(json.at("casualties"), 1);
+  EXPECT_NEAR(json.at("by_person").at("hurt_s").at(0), 10, 1e-9);
+  EXPECT_TRUE(json.at("by_person").at("hurt_s").at(1).is_null());
+}
+
+TEST(RunMetrics, WhereAllAreOutOrHurtWhatComesLaterIsKnown) {
+  world::Trace trace = trace_of({standing({0, 0}), walking({-5, 0}, {1, 0})});
+  trace.header.state_names = {"Walk", "Casualty"};
+  for (std::size_t step = 100; step < trace.steps(); ++step) trace.state[trace.at(step, 0)] = 1;
+  const RunMetrics metrics = measure(trace);
+  ASSERT_TRUE(metrics.horizons[0].not_escaped) << "the run ends before 300 s";
+  EXPECT_EQ(*metrics.horizons[0].not_escaped, 0);
+}
+
 TEST(RunMetrics, WhoLeavesAtASinkHasEscapedAndWhoNeverArrivesIsNoPerson) {
   world::Trace trace = trace_of({standing({0, 0}), standing({1, 0}), standing({2, 0})});
   for (std::size_t step = 0; step < trace.steps(); ++step) {

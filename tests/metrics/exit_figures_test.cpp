@@ -188,11 +188,30 @@ TEST(ExitTotals, AClosedDoorIsClosedAllTheTime) {
   const auto exits = exit_series(trace, scenario);
   for (const ExitSample& sample : exits[0].samples) EXPECT_EQ(sample.state, ExitState::closed);
   EXPECT_TRUE(exits[0].clogs.empty());
-  const ExitTotals totals = exit_totals(exits, scenario, 0.1).at(0);
+  const ExitTotals totals = exit_totals(exits, 0.1).at(0);
   EXPECT_NEAR(totals.state_s[4], 60.1, 1e-6);
   EXPECT_NEAR(totals.demand_s, 60.1, 1e-6);
   EXPECT_EQ(totals.clogging_index_s, 0);
   EXPECT_EQ(totals.capacity_per_s, 0);
+}
+
+TEST(ExitTotals, ADoorThatADisasterReachesIsClosedFromThenOn) {
+  world::Scenario scenario = place_with_door(2);
+  scenario.exits[0].shuts_s = 20;
+  const world::Trace trace = trace_of(two_who_get_through());
+  const auto exits = exit_series(trace, scenario);
+  const auto& samples = exits[0].samples;
+  for (std::size_t step = 0; step < samples.size(); ++step) {
+    EXPECT_EQ(samples[step].state == ExitState::closed, step >= 200) << step;
+    EXPECT_EQ(samples[step].state_offline == ExitState::closed, step >= 200) << step;
+    EXPECT_TRUE(step < 200 || samples[step].clogging_index == 0) << step;
+  }
+  ASSERT_FALSE(exits[0].clogs.empty());
+  EXPECT_LE(exits[0].clogs.back().until_s, 20 + 1e-9);
+  EXPECT_TRUE(exits[0].clogs.back().ended);
+  const ExitTotals totals = exit_totals(exits, 0.1).at(0);
+  EXPECT_NEAR(totals.state_s[4], 40.1, 1e-6);
+  EXPECT_NEAR(totals.capacity_per_s, 1.3 * 2 * 200 / 601, 1e-9) << "the mean over the run";
 }
 
 ExitTotals used(double capacity_per_s, int crossings, double share, double last_s) {
@@ -226,7 +245,7 @@ TEST(ExitBalance, OneOfTwoEqualDoorsIsHalf) {
 TEST(ExitTotals, JsonNamesWhatThereIs) {
   const world::Trace trace = trace_of(two_who_get_through());
   const world::Scenario scenario = place_with_door(2);
-  const auto totals = exit_totals(exit_series(trace, scenario), scenario, 0.1);
+  const auto totals = exit_totals(exit_series(trace, scenario), 0.1);
   const nlohmann::json json = to_json(totals.at(0));
   EXPECT_EQ(json.at("clogs").size(), 3U);
   EXPECT_EQ(json.at("clogs").at(0).at("members").size(), 44U);

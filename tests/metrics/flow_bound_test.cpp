@@ -79,6 +79,22 @@ TEST(EarliestOut, PeopleMakeRoomForThoseWhoHaveNoChoice) {
 
 // Against all assignments of a few people to doors: with an assignment, each door serves in the
 // order of arrival.
+TEST(EarliestOut, NobodyGetsOutByADoorThatIsShut) {
+  // Two a second until it shuts after 3 s; of two who can go to another door, one per second.
+  constexpr double never = std::numeric_limits<double>::infinity();
+  Departures departures;
+  departures.capacity_per_s = {2, 1};
+  departures.on_s = {0, 0};
+  departures.shuts_s = {3, never};
+  for (int i = 0; i < 8; ++i) departures.access_s.push_back({0, i < 2 ? 0 : never});
+  EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{0, 0, 0, 1, 1, 1, 2, 2}));
+  departures.shuts_s = {2, never};
+  EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{0, 0, 0, 1, 1, 1, never, never}));
+  departures.shuts_s = {-5, never};
+  EXPECT_EQ(earliest_out_s(departures),
+            (std::vector<double>{0, 1, never, never, never, never, never, never}));
+}
+
 TEST(EarliestOut, IsTheBestOfAllAssignmentsAtEveryTime) {
   Random random(3, Stream::wind);
   for (int trial = 0; trial < 60; ++trial) {

@@ -11,6 +11,7 @@
 #include "places/blocked.h"
 #include "places/check.h"
 #include "places/survey.h"
+#include "tests/places/square.h"
 #include "tests/world/temporary_folder.h"
 
 namespace throng::places {
@@ -18,31 +19,8 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using throng::testing::square;
 using throng::testing::TemporaryFolder;
-
-json square() {
-  return json::parse(R"({
-    "name": "Square",
-    "ground": {"min": [-60, -60], "max": [60, 60], "material": "pavers"},
-    "inside": {"min": [-30, -30], "max": [30, 30]},
-    "exits": [{"id": "east", "from": [20, -2], "to": [20, 2]},
-              {"id": "west", "from": [-20, 1.5], "to": [-20, -1.5]}],
-    "buildings": [
-      {"id": "north", "footprint": [[-24, 20], [24, 20], [24, 24], [-24, 24]], "height_m": 8},
-      {"id": "south", "footprint": [[-24, -24], [24, -24], [24, -20], [-24, -20]], "height_m": 8},
-      {"id": "ne", "footprint": [[20, 2], [24, 2], [24, 20], [20, 20]], "height_m": 8},
-      {"id": "se", "footprint": [[20, -20], [24, -20], [24, -2], [20, -2]], "height_m": 8},
-      {"id": "nw", "footprint": [[-24, 1.5], [-20, 1.5], [-20, 20], [-24, 20]], "height_m": 8},
-      {"id": "sw", "footprint": [[-24, -20], [-20, -20], [-20, -1.5], [-24, -1.5]], "height_m": 8}],
-    "props": [{"kind": "fountain", "position": [0, 0]}],
-    "drones": [{"id": "d1", "start": [0, 0, 25]}],
-    "people": {
-      "groups": [{"doing": "stroll", "area": [[-18, -18], [18, -18], [18, 18], [-18, 18]],
-                  "count": 150}],
-      "lines": [{"from": [10, 15], "to": [10, 10], "count": 6}],
-      "sources": [{"doing": "cross", "exit": "east", "per_minute": 30, "until_s": 60}]}
-  })");
-}
 
 class Blueprint : public ::testing::Test {
  protected:
@@ -274,6 +252,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"two_times", "/people/sources/0/table", json::parse("[[1, 2]]"),
                               "/people/sources/0", "one of them"},
                       Mistake{"menge_files", "/crowd", json::object(), "/crowd", "unknown"},
+                      Mistake{"slow_explosion", "/disasters",
+                              json::parse(R"([{"kind": "explosion", "position": [0, 0],
+                                               "hurts_after_s": 3}])"),
+                              "/disasters/0/hurts_after_s", "hurt at once"},
                       Mistake{"no_such_disaster", "/disasters",
                               json::parse(R"([{"kind": "rain", "position": [0, 0]}])"),
                               "/disasters/0/kind", "fire"}),

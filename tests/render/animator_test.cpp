@@ -127,15 +127,6 @@ TEST_F(AnimatorTest, WhoComesBackHasAPlanForEachStay) {
   EXPECT_EQ(animator.scene_at(3.5, 0).people.size(), 2U);
 }
 
-TEST(IsDown, KnowsTheWordsOfStatesInWhichNobodyStands) {
-  for (const char* name : {"Fallen", "incapacitated", "is_dead", "Collapsed2", "CASUALTY"}) {
-    EXPECT_TRUE(is_down(name)) << name;
-  }
-  for (const char* name : {"walk", "Wait", "flee", "GoToExit", ""}) {
-    EXPECT_FALSE(is_down(name)) << name;
-  }
-}
-
 class AnimatorWithClipsTest : public AnimatorTest {
  protected:
   /// As baked people have them, each of one frame.

@@ -185,6 +185,76 @@ TEST(Smoke, HidesFromTheEyeAndNotFromTheGroundTruth) {
   EXPECT_NE(drawn(0.8, 21).rgb, thick.rgb) << "it drifts";
 }
 
+/// The pixels that are redder than blue by more than `red`, with nobody about.
+Mask flames(const world::Disaster& disaster, double time_s, double smoke, int red) {
+  world::Scenario scenario = open_ground();
+  scenario.disasters = {disaster};
+  Environment lighting;
+  lighting.smoke = smoke;
+  Stage stage(scenario, lighting);
+  Scene scene;
+  scene.time_s = time_s;
+  const Frame frame = stage.renderer().draw(scene, camera_at({-16, 0, 7}, 0, -20));
+  Mask mask;
+  for (int y = 0; y < frame.height(); ++y) {
+    for (int x = 0; x < frame.width(); ++x) {
+      const std::uint8_t* const rgb = &frame.rgb[3 * index_of(frame, x, y)];
+      if (rgb[0] <= rgb[2] + red) continue;
+      ++mask.pixels;
+      mask.box.extend(Eigen::Vector2d(x, y));
+    }
+  }
+  return mask;
+}
+
+TEST(Flames, BurnWhereTheFireIsFromItsStartOn) {
+  // To the right of the camera, which looks along +x. Smoke dims old flames, but no other smoke or
+  // dust of a fire is as red.
+  constexpr int kRed = 30;
+  const world::Disaster fire{world::DisasterKind::fire, 0, {0, -5}, 10, 2, 0.2, 4};
+  EXPECT_EQ(flames(fire, 9.9, 1, kRed).pixels, 0U);
+  const Mask young = flames(fire, 11, 1, kRed);
+  EXPECT_GT(young.pixels, 500U);
+  const Eigen::Vector2d foot =
+      camera_at({-16, 0, 7}, 0, -20).project({fire.position.x(), fire.position.y(), 0.5}).pixel;
+  EXPECT_LT((young.box.center() - foot).norm(), 12);
+  EXPECT_GT(young.box.min().x(), 160) << "in the right half";
+  const Mask old = flames(fire, 40, 1, kRed);
+  EXPECT_GT(old.box.sizes().x(), 1.4 * young.box.sizes().x()) << "it has grown and burns on";
+  EXPECT_EQ(flames(fire, 40, 0, kRed).pixels, 0U) << "nobody asked for smoke";
+}
+
+TEST(Flames, AreThoseOfFireAndForAMomentOfAnExplosion) {
+  world::Disaster disaster{world::DisasterKind::explosion, 0, {0, -5}, 10, 2, 0, 2};
+  constexpr int kRed = 60;  // which gas is not
+  EXPECT_GT(flames(disaster, 10.5, 1, kRed).pixels, 100U);
+  EXPECT_EQ(flames(disaster, 15, 1, kRed).pixels, 0U);
+  for (const auto kind :
+       {world::DisasterKind::gas, world::DisasterKind::collapse, world::DisasterKind::attacker}) {
+    disaster.kind = kind;
+    EXPECT_EQ(flames(disaster, 11, 1, kRed).pixels, 0U);
+  }
+}
+
+TEST(Flames, ChangeNeitherIdsNorDepth) {
+  world::Scenario scenario = open_ground();
+  scenario.disasters = {{world::DisasterKind::fire, 0, {0, 0}, 0, 3, 0, 3}};
+  const auto drawn = [&](double smoke) {
+    Environment lighting;
+    lighting.smoke = smoke;
+    Stage stage(scenario, lighting);
+    Scene scene;
+    scene.time_s = 8;
+    scene.people = {stage.standing(3, 2, 0)};
+    return stage.renderer().draw(scene, camera_at({-16, 0, 7}, 0, -20));
+  };
+  const Frame clear = drawn(0);
+  const Frame burning = drawn(1);
+  EXPECT_NE(clear.rgb, burning.rgb);
+  EXPECT_EQ(clear.id, burning.id);
+  EXPECT_EQ(clear.depth_m, burning.depth_m);
+}
+
 TEST(Smoke, RisesFromADisasterFromItsStartOnAndAsFarAsItHasGrown) {
   world::Scenario scenario = open_ground();
   scenario.disasters = {{world::DisasterKind::gas, 0, {0, 0}, 10, 2, 0.5, 12}};

@@ -47,6 +47,51 @@ TEST(Rubble, IsInThePictureAndItsIdsOnceItHasFallen) {
   EXPECT_GT(pixels_at(9.1), first + 200);
 }
 
+TEST(Rubble, IsNearerThanTheGroundBehindItAndHidesIt) {
+  world::Scenario scenario = open_ground();
+  scenario.disasters = {falling_wall()};
+  Stage stage(scenario);
+  const camera::Camera camera = camera_at({0, 0, 8}, 0, -28);
+  Scene scene;
+  scene.time_s = 4.9;
+  const Frame before = stage.renderer().draw(scene, camera);
+  scene.time_s = 9.1;
+  const Frame after = stage.renderer().draw(scene, camera);
+  std::size_t rubble = 0;
+  std::size_t nearer = 0;
+  for (std::size_t i = 0; i < after.id.size(); ++i) {
+    if (after.id[i] != kIdProp) {
+      EXPECT_EQ(after.depth_m[i], before.depth_m[i]) << "nothing else has changed";
+      EXPECT_EQ(after.id[i], before.id[i]);
+      continue;
+    }
+    ++rubble;
+    if (after.depth_m[i] < before.depth_m[i] - 0.05F) ++nearer;
+    EXPECT_LE(after.depth_m[i], before.depth_m[i] + 1e-3F);
+  }
+  EXPECT_GT(rubble, 400U);
+  EXPECT_GT(nearer, rubble / 2) << "it stands up from the ground";
+}
+
+TEST(Rubble, OfTwoCollapsesHasAnIdEachAfterThoseOfTheProps) {
+  world::Scenario scenario = open_ground();
+  scenario.props = {{}};
+  scenario.props[0].position = {-30, -30};
+  scenario.placed_props = 1;
+  scenario.disasters = {falling_wall(), falling_wall()};
+  scenario.disasters[1].position = {14, 14};
+  scenario.disasters[1].agent = 1;
+  Stage stage(scenario);
+  Scene scene;
+  scene.time_s = 20;
+  const Frame frame = stage.renderer().draw(scene, camera_at({-6, 7, 14}, 0, -30));
+  const Mask right = mask_of(frame, kIdProp + 1);
+  const Mask left = mask_of(frame, kIdProp + 2);
+  ASSERT_GT(right.pixels, 200U);
+  ASSERT_GT(left.pixels, 200U);
+  EXPECT_GT(right.box.center().x(), left.box.center().x()) << "which is farther to the left";
+}
+
 TEST(LowWalls, HaveNeitherLampsNorMachinesOnTop) {
   for (const auto& [height_m, is_house] : {std::pair(0.1, false), {1.4, false}, {5.0, true}}) {
     const world::Scenario scenario = open_ground({block(5, 25, -10, 10, height_m)});

@@ -1,9 +1,11 @@
 // What a counting camera makes of the truth.
 #include "sim/perception.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "tests/sim/yard.h"
+#include "tests/world/temporary_folder.h"
 
 namespace throng::sim {
 namespace {
@@ -77,6 +79,37 @@ TEST(Perception, GuessesTheExitFromTheMotion) {
   EXPECT_EQ(seen.people[0].exit, 0) << "runs to the left, whatever is in its mind";
   EXPECT_EQ(seen.people[1].exit, 1);
   EXPECT_EQ(seen.people[2].exit, 1) << "stands: the nearest";
+}
+
+TEST(TheTruth, IsOfThoseWhoStandAndNotOfThoseWhoLieHurt) {
+  const throng::testing::TemporaryFolder folder;
+  const auto group = [](const char* state, double x) {
+    return fmt::format(R"(<AgentGroup><ProfileSelector type="const" name="a"/>
+        <StateSelector type="const" name="{}"/>
+        <Generator type="explicit"><Agent p_x="{}" p_y="0"/></Generator></AgentGroup>)",
+                       state, x);
+  };
+  folder.write("scene.xml", R"(<Experiment version="2.0"><SpatialQuery type="kd-tree"/>
+      <Common time_step="0.1"/><AgentProfile name="a"><Common r="0.2"/></AgentProfile>)" +
+                                group("Stand", 1) + group("Casualty", 3) + "</Experiment>");
+  folder.write("behavior.xml", R"(<BFSM>
+      <State name="Stand" final="1"><GoalSelector type="identity"/><VelComponent type="zero"/></State>
+      <State name="Casualty" final="1"><GoalSelector type="identity"/><VelComponent type="zero"/>
+      </State></BFSM>)");
+  world::Scenario place = testing::yard();
+  place.scene_file = folder.path() / "scene.xml";
+  place.behavior_file = folder.path() / "behavior.xml";
+  const auto crowd = simulated(load_crowd(place, 1, {}));
+  const std::vector<world::AgentRole> roles(2, world::AgentRole::person);
+  const std::vector<world::GoalRef> moving;
+  const std::vector<std::optional<world::GoalRef>> guides;
+  CrowdRecorder recorder(place, roles, moving);
+  Lookout lookout(place, roles, guides, crowd->dt_s());
+  RunObserver nobody;
+  recorder.record(*crowd, 0, nobody);
+  lookout.look(*crowd, recorder, 0);
+  ASSERT_EQ(lookout.view().people.size(), 1U);
+  EXPECT_NEAR(lookout.view().people[0].position.x(), 1, 1e-6);
 }
 
 }  // namespace

@@ -159,6 +159,63 @@ TEST(Policies, BalanceTakesPeopleFromALongQueueToAFreeExit) {
   EXPECT_GE(people_led_out("balance", 3, view, 60), 20);
 }
 
+class GuidesBesideAFire : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(GuidesBesideAFire, LeadNobodyToADoorFromWhenItShuts) {
+  // Everybody runs to the left door. The right one is the best of the others until it shuts.
+  constexpr double kShutsS = 20;
+  world::Scenario place = yard();
+  place.exits.push_back({"top", {11, 20}, {13, 20}, {0, 1}, true, {{3, 2}}});
+  place.exits[1].shuts_s = kShutsS;
+  DroneMission mission = mission_of(GetParam());
+  mission.speed_mps = 1.8;
+  IdealFlight flight(place, mission, {0, 0, 12});
+  WorldView view;
+  view.people = people_about({-13, 0}, 100, 0);
+  bool led_there = false;
+  bool leads_elsewhere = false;
+  while (flight.time_s() < 60) {
+    const double now_s = flight.time_s();
+    const Vector3d at = flight.step(view);
+    const bool leads = flight.policy().beacon();
+    const int to = flight.policy().plan().to;
+    if (now_s < kShutsS - 0.05) {
+      led_there = led_there || (leads && to == 1);
+    } else {
+      ASSERT_NE(to, 1) << now_s;
+      leads_elsewhere = leads_elsewhere || (leads && to == 2);
+    }
+    follow(view, at, leads);
+    for (PersonSeen& person : view.people) {
+      if (leads || person.guide < 0) continue;
+      person.guide = -1;  // who is let go runs where all run
+      person.exit = 0;
+    }
+  }
+  EXPECT_TRUE(led_there);
+  EXPECT_TRUE(leads_elsewhere);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GuidesBesideAFire, ::testing::Values("balance", "signage", "zigzag"),
+                         [](const auto& each) { return std::string(each.param); });
+
+TEST(Policies, BalanceTurnsWithThoseWhoFollowIt) {
+  world::Scenario place = yard();
+  place.exits.push_back({"top", {-1, 20}, {1, 20}, {0, 1}, true, {{3, 2}}});
+  IdealFlight flight(place, mission_of("balance"), {0, 0, 12});
+  WorldView view;
+  view.people = people_about({-13, 0}, 100, 0);
+  const auto step = [&] { follow(view, flight.step(view), flight.policy().beacon()); };
+  const auto leads = [&] { return flight.policy().plan().leads; };
+  while (flight.time_s() < 60 && !leads()) step();
+  ASSERT_TRUE(leads());
+  const int first = flight.policy().plan().to;
+  place.exits[static_cast<std::size_t>(first)].shuts_s = flight.time_s() + 2;
+  for (int i = 0; i < 25; ++i) step();
+  EXPECT_TRUE(leads()) << "they are not left alone";
+  EXPECT_NE(flight.policy().plan().to, first);
+}
+
 TEST(Policies, BalanceLeavesShortQueuesAlone) {
   WorldView view;
   view.people = people_about({-15, 0}, 10, 0);

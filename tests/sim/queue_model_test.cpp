@@ -37,6 +37,22 @@ TEST(QueueModel, WhoRunsToAShutDoorJoinsTheQueueOfTheNearestOpenOne) {
   EXPECT_GT(queues.wait_s(2), 500) << "nobody should be led there";
 }
 
+TEST(QueueModel, ADoorThatADisasterReachesIsShutFromThenOn) {
+  world::Scenario place = yard_with_third_door(true);
+  place.exits[2].shuts_s = 10;
+  QueueModel queues(place);
+  WorldView view = view_of(place, people_about({-5, 5}, 40, 2));
+  view.time_s = 9.9;
+  queues.update(view, 0);
+  EXPECT_EQ(queues.ends_up_at(view.people.front()), 2);
+  EXPECT_NEAR(queues.wait_s(2), 40 / queues.capacity_per_s(2), 1e-9);
+  view.time_s = 10;
+  queues.update(view, 0);
+  EXPECT_FALSE(queues.is_open(2));
+  EXPECT_EQ(queues.ends_up_at(view.people.front()), 0);
+  EXPECT_GT(queues.wait_s(2), 500);
+}
+
 TEST(QueueModel, WhoHasNotNoticedIsExpectedAtTheNearestOpenExit) {
   const world::Scenario place = yard_with_third_door(false);
   QueueModel queues(place);

@@ -87,6 +87,62 @@ TEST(Run, SameSpecGivesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(hashes.size(), 1U);
 }
 
+/// The events of a run of a shipped scenario, and what its header says.
+struct Told : public RunObserver {
+  void begin(const world::TraceHeader& told) override { header = told; }
+  void step(const world::CrowdStep& step) override { steps.push_back(step); }
+  void event(const world::TraceEvent& event) override { events.push_back(event); }
+
+  world::TraceHeader header;
+  std::vector<world::CrowdStep> steps;
+  std::vector<world::TraceEvent> events;
+};
+
+void watch(const world::Scenario& scenario, double duration_s, Told& told) {
+  RunSpec spec;
+  spec.duration_s = duration_s;
+  simulate(scenario, spec, told);
+}
+
+TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
+  world::Scenario street =
+      world::find_scenario(fs::path(THRONG_SOURCE_DIR) / "scenarios", "shopping_street/emergency");
+  // So small that he is outside of it as soon as he walks.
+  street.inside = {{4, -1}, {6, 1}};
+  Told told;
+  watch(street, 6, told);
+  ASSERT_EQ(told.header.role.at(0), AgentRole::attacker);
+  EXPECT_EQ(std::count(told.header.role.begin(), told.header.role.end(), AgentRole::person),
+            static_cast<std::ptrdiff_t>(told.header.role.size()) - 1);
+  EXPECT_EQ(told.steps.back().flags.at(0) & world::kPresent, world::kPresent);
+  EXPECT_FALSE(street.inside.contains(told.steps.back().position.at(0).cast<double>()));
+  int others = 0;
+  for (const world::TraceEvent& event : told.events) {
+    if (event.type != "agent_escaped") continue;
+    EXPECT_NE(event.agent, 0);
+    ++others;
+  }
+  EXPECT_GT(others, 0);
+}
+
+TEST(Run, TellsWhenADisasterReachesADoor) {
+  world::Scenario square = city_square();
+  square.exits[1].shuts_s = 1.25;
+  square.exits[2].open = false;
+  square.exits[3].shuts_s = 2;
+  Told told;
+  watch(square, 3, told);
+  std::vector<std::pair<double, double>> shut;
+  for (const world::TraceEvent& event : told.events) {
+    if (event.type == "exit_shut") shut.emplace_back(event.time_s, event.value);
+  }
+  ASSERT_EQ(shut.size(), 2U);
+  EXPECT_NEAR(shut[0].first, 1.3, 0.06) << "the first step from then on";
+  EXPECT_EQ(shut[0].second, 1);
+  EXPECT_NEAR(shut[1].first, 2, 1e-9);
+  EXPECT_EQ(shut[1].second, 3);
+}
+
 TEST(Run, AnotherSeedGivesAnotherRun) {
   RunSpec spec = short_run();
   const world::Trace one = trace_of(spec);

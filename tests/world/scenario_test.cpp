@@ -94,6 +94,18 @@ TEST_F(ScenarioFile, ReadsEverything) {
   EXPECT_THAT(s.disaster_agents, ElementsAre(7));
 }
 
+TEST_F(ScenarioFile, ADoorMayShutAtATime) {
+  json document = valid_scenario();
+  document["exits"][0]["shuts_s"] = 12.5;
+  const Scenario s = load(document);
+  EXPECT_TRUE(s.exits[0].is_open(12.4));
+  EXPECT_FALSE(s.exits[0].is_open(12.5));
+  EXPECT_FALSE(s.exits[0].is_open(125 * 0.1)) << "the step's time, however it was summed up";
+  EXPECT_TRUE(s.exits[1].is_open(1e9));
+  document["exits"][0]["open"] = false;
+  EXPECT_EQ(problems_of(document.dump()).front().where, "/exits/0/shuts_s");
+}
+
 TEST_F(ScenarioFile, OutwardIsAUnitNormalAsGivenOrAwayFromTheMiddle) {
   const Scenario s = load(valid_scenario());
   EXPECT_EQ(s.exits[0].outward, Eigen::Vector2d(1, 0));
@@ -179,6 +191,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"slanted_outward", "/exits/1/outward", {1, 1}, "/exits/1/outward", "right angles"},
         BadCase{"zero_outward", "/exits/1/outward", {0, 0}, "/exits/1/outward", "right angles"},
         BadCase{"word_as_open", "/exits/0/open", "no", "/exits/0/open", "true or false"},
+        BadCase{"shuts_in_the_past", "/exits/0/shuts_s", -1, "/exits/0/shuts_s", "a number"},
         BadCase{"no_goals", "/exits/0/goals", json::array(), "/exits/0/goals", "at least 1"},
         BadCase{"fractional_goal", "/exits/0/goals/0/1", 0.5, "/exits/0/goals/0/1", "an integer"},
         BadCase{"huge_goal", "/exits/0/goals/0/1", 18446744073709551615U, "/exits/0/goals/0/1",

@@ -295,5 +295,14 @@ TEST(TraceDeathTest, StepsOutOfOrderAreABug) {
   EXPECT_DEATH(writer.add(step_of(1, 3)), "dt apart");
 }
 
+TEST(IsDown, KnowsTheWordsOfStatesInWhichNobodyStands) {
+  for (const char* name : {"Fallen", "incapacitated", "is_dead", "Collapsed2", "CASUALTY"}) {
+    EXPECT_TRUE(is_down(name)) << name;
+  }
+  for (const char* name : {"walk", "Wait", "flee", "GoToExit", ""}) {
+    EXPECT_FALSE(is_down(name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace throng::world
