@@ -116,9 +116,9 @@ std::string opencv_yaml(const Calibration& calibration) {
     poses.insert(poses.end(), view.pose.rotation.begin(), view.pose.rotation.end());
     poses.insert(poses.end(), view.pose.translation.begin(), view.pose.translation.end());
   }
-  constexpr std::size_t kPoseNumbers = 6;
+  constexpr std::size_t kNumbersOfAPose = 6;
   return text + yaml_matrix("per_view_reprojection_errors", errors.size(), 1, errors) +
-         yaml_matrix("extrinsic_parameters", calibration.views.size(), kPoseNumbers, poses);
+         yaml_matrix("extrinsic_parameters", calibration.views.size(), kNumbersOfAPose, poses);
 }
 
 std::string ros_yaml(const Calibration& calibration, const std::string& camera_name) {
