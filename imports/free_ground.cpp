@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "world/polygon.h"
+
 namespace throng::imports {
 
 using Eigen::Vector2d;
@@ -21,13 +23,6 @@ std::size_t cells_along(double length_m) {
 std::size_t cell_at(double metres, std::size_t count) {
   const double cell = std::floor(metres / FreeGround::kCellM);
   return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count)));
-}
-
-double distance_to_edge(const Vector2d& a, const Vector2d& b, const Vector2d& point) {
-  const Vector2d way = b - a;
-  const double length2 = way.squaredNorm();
-  const double share = length2 > 0 ? std::clamp((point - a).dot(way) / length2, 0.0, 1.0) : 0.0;
-  return (point - a - share * way).norm();
 }
 
 // Where along x the points lie that an edge can be near enough to, seen from a row at y.
@@ -86,7 +81,7 @@ void FreeGround::block(const Corners& obstacle) {
       const auto [from, to] = reach_in_band(a, b, y);
       for (std::size_t column = column_of(from); column < column_of(to + kCellM); ++column) {
         const std::size_t cell = row * columns_ + column;
-        if (distance_to_edge(a, b, middle_of(cell)) < kBodyM) region_[cell] = kBlocked;
+        if (world::distance_to_segment(a, b, middle_of(cell)) < kBodyM) region_[cell] = kBlocked;
       }
     }
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "world/polygon.h"
+
 namespace throng::places {
 
 namespace {
@@ -31,12 +33,6 @@ double first_start_s(const People& people) {
   double first_s = std::numeric_limits<double>::infinity();
   for (const Danger& danger : people.dangers) first_s = std::min(first_s, danger.seen.start_s);
   return first_s;
-}
-
-double to_door_m(const Eigen::Vector2d& point, const world::Exit& exit) {
-  const Eigen::Vector2d along = exit.to - exit.from;
-  const double share = std::clamp((point - exit.from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (exit.from + share * along - point).norm();
 }
 
 }  // namespace
@@ -79,7 +75,7 @@ std::vector<BlockedDisc> blocked_discs(const People& people) {
 const BlockedDisc* first_to_reach(const world::Exit& exit, const std::vector<BlockedDisc>& discs) {
   const BlockedDisc* first = nullptr;
   for (const BlockedDisc& disc : discs) {
-    if (to_door_m(disc.middle, exit) >= disc.radius_m) continue;
+    if (world::distance_to_segment(exit.from, exit.to, disc.middle) >= disc.radius_m) continue;
     if (first == nullptr || disc.from_s < first->from_s) first = &disc;
   }
   return first;

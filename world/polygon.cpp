@@ -12,13 +12,6 @@ namespace {
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double distance_to_segment(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
-  const Vector2d along = b - a;
-  const double length2 = along.squaredNorm();
-  const double s = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - s * along).norm();
-}
-
 bool segments_touch(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
   const double from_c = cross(b - a, c - a);
   const double from_d = cross(b - a, d - a);
@@ -50,6 +43,13 @@ bool is_ear(std::span<const Vector2d> corners, std::span<const std::size_t> left
 }
 
 }  // namespace
+
+double distance_to_segment(const Vector2d& a, const Vector2d& b, const Vector2d& point) {
+  const Vector2d along = b - a;
+  const double length2 = along.squaredNorm();
+  const double s = length2 > 0 ? std::clamp((point - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (point - a - s * along).norm();
+}
 
 double signed_area(std::span<const Vector2d> corners) {
   double twice = 0;

@@ -14,6 +14,10 @@ double signed_area(std::span<const Eigen::Vector2d> corners);
 /// Whether no two edges touch except neighbours at their common corner, and no edge is empty.
 bool is_simple(std::span<const Eigen::Vector2d> corners);
 
+/// Distance of `point` from the segment between `a` and `b`, which may be one place (m).
+double distance_to_segment(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                           const Eigen::Vector2d& point);
+
 /// Distance to the polygon's area: 0 inside (m).
 double distance_to(std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& point);
 
