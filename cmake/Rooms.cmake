@@ -58,6 +58,8 @@ function(throng_test name)
   target_link_libraries(test_${name} PRIVATE throng_flags ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_compile_definitions(test_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # The tests' own code is compiled often and runs briefly.
+  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
     PROPERTIES LABELS "${name}" TIMEOUT 600)
 endfunction()

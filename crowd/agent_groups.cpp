@@ -178,7 +178,7 @@ void load_group(const Element& group, GroupContext& context, Crowd& crowd,
   for (const Element& child : group.children()) {
     if (child.name() == "Generator") {
       const std::vector<Eigen::Vector2f> more = generate_places(
-          child, context.seed, context.sequences, *crowd.parts, first + places.size());
+          child, {crowd, context.seed, first + places.size()}, context.sequences);
       places.insert(places.end(), more.begin(), more.end());
       // Each generator's agents are made at once: the order in which compatible runs draw.
       if (!arrivals) add_agents(more, *profile, *state, context, crowd);

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "crowd/agents.h"
 #include "crowd/nav_mesh_file.h"
+#include "crowd/obstacle_sets.h"
+#include "crowd/scatter.h"
 
 namespace throng::crowd {
 
@@ -166,7 +169,7 @@ std::unique_ptr<Generator> make_listed(const Element& element, const Attributes&
 std::unique_ptr<Generator> make_listed_on_mesh(const Element& element, const Attributes& attributes,
                                                GeneratorContext& context) {
   const auto mesh =
-      shared_nav_mesh(element.file_beside(attributes.text("file_name")), context.parts);
+      shared_nav_mesh(element.file_beside(attributes.text("file_name")), *context.crowd.parts);
   if (!attributes.has("group_name")) return make_listed_on(element, mesh.get(), kAnyGroup);
   const std::string& name = attributes.text("group_name");
   const auto found = std::find(mesh->groups.begin(), mesh->groups.end(), name);
@@ -204,6 +207,35 @@ std::unique_ptr<Generator> make_hex_lattice(const Element& element, const Attrib
                                            : Alignment::center;
   shape.along_x = attributes.text("row_direction") == "x";
   return std::make_unique<HexLattice>(shape);
+}
+
+std::unique_ptr<Generator> make_scattered(const Element& element, const Attributes& attributes,
+                                          GeneratorContext& context) {
+  ScatterSpec spec;
+  spec.area = read_polygon(element);
+  spec.count = static_cast<std::size_t>(attributes.integer("count"));
+  spec.apart_m = attributes.real("apart");
+  spec.clearance_m = attributes.real("clearance");
+  if (attributes.has("obstacleSet")) {
+    spec.obstacle_mask = static_cast<std::uint32_t>(attributes.integer("obstacleSet"));
+  }
+  const Agents& agents = context.crowd.agents;
+  std::vector<Eigen::Vector2f> taken;
+  for (std::size_t i = 0; i < agents.count(); ++i) {
+    if (agents.present[i] != 0) taken.push_back(agents.position[i]);
+  }
+  constexpr std::uint64_t kArea = std::uint64_t{1} << 63;  // apart from the agents' noise
+  std::vector<Eigen::Vector2f> places =
+      scatter(spec, context.crowd.obstacles, taken,
+              Random(context.seed, Stream::crowd_generator, kArea | context.first_agent));
+  if (places.size() < spec.count) {
+    element.fail_attribute(
+        "count", std::to_string(spec.count),
+        fmt::format("a number for which there is room: {} people found some that "
+                    "is {} m from others and {} m from walls",
+                    places.size(), spec.apart_m, spec.clearance_m));
+  }
+  return std::make_unique<Listed>(std::move(places));
 }
 
 constexpr std::string_view kNoisePrefix = "displace_";
@@ -271,27 +303,33 @@ const GeneratorRegistry& generator_registry() {
            {text("file_name", "a .nav file"),
             optional(text("group_name", "of polygons, on which they have to be"))},
            make_listed_on_mesh},
+          {"scatter",
+           "at random in the free part of a polygon of <Vertex> children, elsewhere for every seed",
+           {integer("count", "agents", 1, kMostAgents),
+            optional(number("apart", "least distance of two agents in m", 0.01, 1000), "0.5"),
+            optional(number("clearance", "least distance from walls in m", 0, 1000), "0.3"),
+            optional(integer("obstacleSet", "bits of the obstacle classes to keep out of; all", 0,
+                             std::numeric_limits<std::uint32_t>::max()))},
+           make_scattered},
       }},
       {optional(distribution(kNoisePrefix, "distance from the exact place in m"))});
   return kRegistry;
 }
 
-std::vector<Eigen::Vector2f> generate_places(const Element& element, std::uint64_t seed,
-                                             MengeSequences& sequences, SharedParts& parts,
-                                             std::size_t first_agent) {
-  GeneratorContext context{parts};
+std::vector<Eigen::Vector2f> generate_places(const Element& element, GeneratorContext context,
+                                             MengeSequences& sequences) {
   const GeneratorRegistry::Entry& entry = generator_registry().find(element);
   const Attributes attributes(element, entry.attributes);
   const std::unique_ptr<Generator> generator = entry.make(element, attributes, context);
   const std::size_t count = generator->count();
-  if (count > kMostAgents - std::min(first_agent, kMostAgents)) {
+  if (count > kMostAgents - std::min(context.first_agent, kMostAgents)) {
     element.fail(fmt::format("{} more agents", count),
                  fmt::format("at most {} agents in a scene", kMostAgents));
   }
-  const Noise noise(attributes, seed, sequences);
+  const Noise noise(attributes, context.seed, sequences);
   std::vector<Eigen::Vector2f> places(count);
   for (std::size_t i = 0; i < count; ++i) {
-    places[i] = generator->place(i, noise.draw(first_agent + i));
+    places[i] = generator->place(i, noise.draw(context.first_agent + i));
   }
   return places;
 }

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "crowd/crowd.h"
 #include "crowd/menge_random.h"
 #include "crowd/registry.h"
-#include "crowd/shared_parts.h"
 
 namespace throng::crowd {
 
@@ -22,17 +22,18 @@ class Generator {
   virtual Eigen::Vector2f place(std::size_t index, const Eigen::Vector2f& noise) const = 0;
 };
 
+/// What is there before a generator makes places.
 struct GeneratorContext {
-  SharedParts& parts;
+  const Crowd& crowd;  ///< its walls, and the people who have places already
+  std::uint64_t seed = 1;
+  std::size_t first_agent = 0;  ///< id of the first agent who gets a place
 };
 using GeneratorRegistry = Registry<Generator, GeneratorContext>;
-/// explicit, rect_grid, hex_lattice, nav_mesh_explicit.
+/// explicit, rect_grid, hex_lattice, nav_mesh_explicit, scatter.
 const GeneratorRegistry& generator_registry();
 
-/// The places of a <Generator>'s agents; `first_agent` is the id of the first of them. Compatible
-/// runs draw the noise from `sequences`.
-std::vector<Eigen::Vector2f> generate_places(const Element& element, std::uint64_t seed,
-                                             MengeSequences& sequences, SharedParts& parts,
-                                             std::size_t first_agent);
+/// The places of a <Generator>'s agents. Compatible runs draw the noise from `sequences`.
+std::vector<Eigen::Vector2f> generate_places(const Element& element, GeneratorContext context,
+                                             MengeSequences& sequences);
 
 }  // namespace throng::crowd

@@ -39,15 +39,7 @@ std::unique_ptr<ObstacleSet> make_explicit(const Element& element, const Attribu
     if (child.name() != "Obstacle") child.fail_unknown("<Obstacle>");
     const Attributes obstacle(child, {boolean("closed", "1: only closed polygons are known")});
     if (!obstacle.boolean("closed")) child.fail_attribute("closed", "0", "1");
-    std::vector<Eigen::Vector2f> corners;
-    for (const Element& vertex : child.children()) {
-      if (vertex.name() != "Vertex") vertex.fail_unknown("<Vertex>");
-      vertex.require_no_children();
-      const Attributes place(vertex, {number("p_x", "in m"), number("p_y", "in m")});
-      corners.emplace_back(place.real("p_x"), place.real("p_y"));
-    }
-    check_polygon(child, corners);
-    set->polygons.push_back({std::move(corners), child});
+    set->polygons.push_back({read_polygon(child), child});
   }
   return set;
 }
@@ -82,6 +74,18 @@ bool anybody_inside(const Crowd& crowd, const Polygon& polygon) {
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector2f> read_polygon(const Element& element) {
+  std::vector<Eigen::Vector2f> corners;
+  for (const Element& vertex : element.children()) {
+    if (vertex.name() != "Vertex") vertex.fail_unknown("<Vertex>");
+    vertex.require_no_children();
+    const Attributes place(vertex, {number("p_x", "in m"), number("p_y", "in m")});
+    corners.emplace_back(place.real("p_x"), place.real("p_y"));
+  }
+  check_polygon(element, corners);
+  return corners;
+}
 
 const ObstacleSetRegistry& obstacle_set_registry() {
   static const ObstacleSetRegistry kRegistry(

@@ -19,6 +19,10 @@ struct ObstacleSet {
   std::vector<Polygon> polygons;
 };
 
+/// The corners that an element's <Vertex> children give, counter-clockwise or clockwise. Throws
+/// InputError for fewer than three, for two in one place, and for a polygon without area.
+std::vector<Eigen::Vector2f> read_polygon(const Element& element);
+
 struct ObstacleSetContext {
   SharedParts& parts;
 };

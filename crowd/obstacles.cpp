@@ -127,4 +127,11 @@ bool Obstacles::is_solid(const Eigen::Vector2f& point, std::uint32_t class_mask)
   return any_outer_wall && !inside_outer_wall;
 }
 
+bool Obstacles::is_clear(const Eigen::Vector2f& point, float clearance_m,
+                         std::uint32_t class_mask) const {
+  std::vector<Near> walls;
+  near(point, clearance_m, class_mask, walls);
+  return walls.empty() && !is_solid(point, class_mask);
+}
+
 }  // namespace throng::crowd

@@ -75,6 +75,10 @@ class Obstacles {
   /// or outside of an outer wall.
   bool is_solid(const Eigen::Vector2f& point, std::uint32_t class_mask) const;
 
+  /// Whether a point is not in solid ground for who minds these classes, and no wall of theirs
+  /// nearer than `clearance_m`.
+  bool is_clear(const Eigen::Vector2f& point, float clearance_m, std::uint32_t class_mask) const;
+
   /// Whether a polygon has a point inside of its line.
   bool encloses(const Polygon& polygon, const Eigen::Vector2f& point) const;
 

@@ -100,9 +100,9 @@ Scene load_scene(const Element& experiment, const std::vector<std::string>& stat
   if (groups.empty()) experiment.fail("no <AgentGroup>", "at least one <AgentGroup>");
   Scene scene;
   GroupContext context{profiles, state_names, crowd.seed, sequences, social_groups};
+  crowd.obstacles.build();
   for (const Element& group : groups) load_group(group, context, crowd, scene.processes);
   if (social_groups) scene.modifiers.push_back(make_social_group_modifier(*social_groups));
-  crowd.obstacles.build();
   obstacles.report(crowd);
   for (Profile& profile : profiles) scene.profile_modifiers.push_back(std::move(profile.modifiers));
   return scene;

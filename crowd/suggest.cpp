@@ -9,13 +9,13 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr std::size_t kLongest = 40;  // letters; longer words are no misspelt ones
+constexpr std::size_t kLongestWord = 40;  // letters; longer words are no misspelt ones
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// Damerau and Levenshtein's distance (optimal string alignment), by three rows of its table.
 std::size_t distance(std::string_view a, std::string_view b) {
-  using Row = std::array<std::size_t, kLongest + 1>;
+  using Row = std::array<std::size_t, kLongestWord + 1>;
   Row before{};
   Row last{};
   Row row{};
@@ -39,11 +39,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> closest(std::string_view word,
                                         std::span<const std::string_view> candidates) {
-  if (word.empty() || word.size() > kLongest) return std::nullopt;
+  if (word.empty() || word.size() > kLongestWord) return std::nullopt;
   std::optional<std::string_view> best;
   std::size_t fewest = 0;
   for (const std::string_view candidate : candidates) {
-    if (candidate.empty() || candidate.size() > kLongest) continue;
+    if (candidate.empty() || candidate.size() > kLongestWord) continue;
     const std::size_t differ = distance(word, candidate);
     if (3 * differ > std::max(word.size(), candidate.size())) continue;
     if (!best || differ < fewest) {

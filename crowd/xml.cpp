@@ -13,10 +13,10 @@
 namespace throng::crowd {
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kLongestShown = 60;
   std::string out = "\"";
-  for (const char c : text.substr(0, kLongest)) out += (c >= ' ' && c <= '~') ? c : '?';
-  if (text.size() > kLongest) out += "...";
+  for (const char c : text.substr(0, kLongestShown)) out += (c >= ' ' && c <= '~') ? c : '?';
+  if (text.size() > kLongestShown) out += "...";
   return out + "\"";
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "formats/instances.h"
 #include "formats/makers.h"
 #include "formats/raster.h"
 
@@ -16,13 +17,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-// Values of the pictures of instances (docs/formats.md).
-constexpr std::uint32_t kFirstUmbrella = 0x400000;
-constexpr std::uint32_t kFirstBuilding = 0x800000;
-constexpr std::uint32_t kFirstProp = 0xC00000;
-constexpr std::uint32_t kFirstDrone = 0xE00000;
-constexpr std::uint32_t kGround = 0xFF0000;
 
 struct Segment {
   std::uint64_t area = 0;

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "formats/findings.h"
+#include "formats/instances.h"
 #include "formats/mask.h"
 #include "formats/npy.h"
 #include "formats/raster.h"
@@ -24,14 +25,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint32_t kFirstThing = 0x400000;
-constexpr std::uint32_t kFirstDroneId = 0xE00000;
-constexpr std::uint32_t kGroundId = 0xFF0000;
-
 /// Whether a pixel of the picture of instances shows what has an annotation.
-bool is_labelled(std::uint32_t id) {
-  return (id > 0 && id < kFirstThing) || (id >= kFirstDroneId && id < kGroundId);
-}
+bool is_labelled(std::uint32_t id) { return is_person(id) || (id >= kFirstDrone && id < kGround); }
 
 std::string relative(const DatasetInfo& info, const fs::path& path) {
   return path.lexically_relative(info.root).string();
@@ -198,7 +193,7 @@ std::uint32_t instance_of(const Person& thing) {
   const auto number = thing.number_in_run();
   const bool is_drone = number > annotate::kFirstDroneNumber;
   return static_cast<std::uint32_t>(
-      is_drone ? kFirstDroneId + number - annotate::kFirstDroneNumber - 1 : number);
+      is_drone ? kFirstDrone + number - annotate::kFirstDroneNumber - 1 : number);
 }
 
 void check_files(const DatasetInfo& info, const Image& image, Findings& findings) {

@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "camera/files.h"
 #include "formats/findings.h"
+#include "formats/instances.h"
 #include "formats/raster.h"
 
 namespace throng::formats {
@@ -119,9 +120,8 @@ void check_parts_and_normals(const DatasetInfo& info, const Image& image,
   look(
       "parts", 1,
       [](std::uint32_t id, const std::uint16_t* part) {
-        constexpr std::uint32_t kFirstUmbrella = 0x400000;
         constexpr std::uint16_t kLastPart = 9;
-        return (part[0] > 0) == (id > 0 && id < kFirstUmbrella) && part[0] <= kLastPart;
+        return (part[0] > 0) == is_person(id) && part[0] <= kLastPart;
       },
       "are of no person, or of one without a part");
   look(

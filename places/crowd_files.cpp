@@ -39,34 +39,16 @@ std::string explicit_places(const std::vector<Vector2d>& places) {
   return text + "    </Generator>\n";
 }
 
-std::string grid_generator(const PlaceGrid& grid) {
-  // Not in rank and file, but not nearer to a wall than people may be either.
-  const double stray_m = std::min(0.25 * grid.apart_m, 0.2);
-  return fmt::format(
-      "    <Generator type=\"rect_grid\" anchor_x=\"{:.3f}\" anchor_y=\"{:.3f}\" "
-      "offset_x=\"{:.3f}\" offset_y=\"{:.3f}\"\n               count_x=\"{}\" count_y=\"{}\" "
-      "displace_dist=\"u\" displace_min=\"0\" displace_max=\"{:.3f}\"/>\n",
-      grid.first.x(), grid.first.y(), grid.apart_m, grid.apart_m, grid.columns, grid.rows, stray_m);
+std::string vertices(const std::vector<Vector2d>& outline) {
+  std::string text;
+  for (const Vector2d& corner : outline) {
+    text += fmt::format("<Vertex p_x=\"{:.3f}\" p_y=\"{:.3f}\"/>", corner.x(), corner.y());
+  }
+  return text;
 }
 
-std::string groups_of(const People& people, const Solids& solids, std::vector<Problem>& problems) {
+std::string lines_of(const People& people, std::vector<Vector2d>& taken) {
   std::string text;
-  for (std::size_t i = 0; i < people.groups.size(); ++i) {
-    const Group& group = people.groups[i];
-    const std::vector<PlaceGrid> grids = spread(group.area, group.count, solids, kClearanceM);
-    std::string generators;
-    int count = 0;
-    for (const PlaceGrid& grid : grids) {
-      generators += grid_generator(grid);
-      count += grid.count();
-    }
-    if (count < group.count) {
-      problems.push_back({"", fmt::format("/people/groups/{}/count", i),
-                          std::to_string(group.count),
-                          fmt::format("at most {}, as many as have room in the area", count)});
-    }
-    if (count > 0) text += agent_group("person", state_of(group.doing), generators);
-  }
   for (const Line& line : people.lines) {
     std::vector<Vector2d> places;
     for (int i = 0; i < line.count; ++i) {
@@ -74,6 +56,28 @@ std::string groups_of(const People& people, const Solids& solids, std::vector<Pr
       places.push_back(line.from + share * (line.to - line.from));
     }
     text += agent_group("person", state_of(Doing::wait), explicit_places(places));
+    taken.insert(taken.end(), places.begin(), places.end());
+  }
+  return text;
+}
+
+std::string groups_of(const People& people, const Solids& solids, std::vector<Vector2d>& taken,
+                      std::vector<Problem>& problems) {
+  std::string text;
+  for (std::size_t i = 0; i < people.groups.size(); ++i) {
+    const Group& group = people.groups[i];
+    const Standing standing = stand(group.area, group.count, solids, kClearanceM, taken);
+    if (standing.count < group.count) {
+      problems.push_back(
+          {"", fmt::format("/people/groups/{}/count", i), std::to_string(group.count),
+           fmt::format("at most {}, as many as have room in the area", standing.count)});
+    }
+    if (standing.count == 0) continue;
+    const std::string generator = fmt::format(
+        "    <Generator type=\"scatter\" count=\"{}\" apart=\"{:.3f}\" clearance=\"{:.3f}\" "
+        "obstacleSet=\"1\">\n      {}\n    </Generator>\n",
+        standing.count, standing.apart_m, kClearanceM, vertices(group.area));
+    text += agent_group("person", state_of(group.doing), generator);
   }
   return text;
 }
@@ -130,11 +134,7 @@ std::string sources_of(const Scenario& scenario, const People& people, const Sol
 }
 
 std::string obstacle(const std::vector<Vector2d>& outline) {
-  std::string text = "    <Obstacle closed=\"1\">";
-  for (const Vector2d& corner : outline) {
-    text += fmt::format("<Vertex p_x=\"{:.3f}\" p_y=\"{:.3f}\"/>", corner.x(), corner.y());
-  }
-  return text + "</Obstacle>\n";
+  return fmt::format("    <Obstacle closed=\"1\">{}</Obstacle>\n", vertices(outline));
 }
 
 /// About a disc: people keep their bodies out of it, and so their middles out of the disc.
@@ -217,11 +217,7 @@ std::vector<Vector2d> usual_spots(const People& people, const Solids& solids) {
   std::vector<Vector2d> spots;
   for (const Group& group : people.groups) {
     if (group.doing != Doing::stroll) continue;
-    for (const PlaceGrid& grid : spread(group.area, kSpots, solids, 2 * kClearanceM)) {
-      for (int i = 0; i < grid.count(); ++i) {
-        spots.push_back(grid.first + grid.apart_m * Vector2d(i % grid.columns, i / grid.columns));
-      }
-    }
+    stand(group.area, kSpots, solids, 2 * kClearanceM, spots);
   }
   return spots;
 }
@@ -241,7 +237,9 @@ CrowdFiles write_crowd(const Scenario& scenario, const People& people,
   if (people.in_groups > 0) {
     files.scene += fmt::format("  <SocialGroups share=\"{:.3g}\"/>\n", people.in_groups);
   }
-  files.scene += profiles_of(people) + dangers_of(people) + groups_of(people, solids, problems) +
+  std::vector<Vector2d> taken;
+  files.scene += profiles_of(people) + dangers_of(people) + lines_of(people, taken);
+  files.scene += groups_of(people, solids, taken, problems) +
                  sources_of(scenario, people, solids, problems) +
                  obstacles_of(scenario, people, solids) + "</Experiment>\n";
   files.behavior = behavior_text(scenario, complete);

@@ -5,19 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "crowd/obstacles.h"
 #include "world/scenario.h"
 
 namespace throng::places {
-
-/// A rectangle of places, columns along x and rows along y.
-struct PlaceGrid {
-  Eigen::Vector2d first = Eigen::Vector2d::Zero();  ///< its lowest, leftmost place, m
-  double apart_m = 1;
-  int columns = 1;
-  int rows = 1;
-
-  int count() const { return columns * rows; }
-};
 
 /// What nobody walks through: buildings and the things that stand about.
 class Solids {
@@ -26,18 +17,26 @@ class Solids {
 
   /// The outlines, counter-clockwise: the crowd's obstacles.
   const std::vector<std::vector<Eigen::Vector2d>>& outlines() const { return outlines_; }
+  /// The same, as the crowd knows them.
+  const crowd::Obstacles& walls() const { return walls_; }
   /// Whether there is as much free ground about a point.
   bool is_clear(const Eigen::Vector2d& point, double clearance_m) const;
 
  private:
   std::vector<std::vector<Eigen::Vector2d>> outlines_;
-  std::vector<world::Rectangle> bounds_;
+  crowd::Obstacles walls_;
 };
 
-/// Exactly `count` places in an area, as far apart from each other as that allows (0.45 m at
-/// least) and at least `clearance_m` away from everything solid, as few rectangles. Fewer places
-/// where there is no room.
-std::vector<PlaceGrid> spread(std::span<const Eigen::Vector2d> area, int count,
-                              const Solids& solids, double clearance_m);
+/// How densely people can stand about in an area.
+struct Standing {
+  int count = 0;       ///< of those asked for
+  double apart_m = 1;  ///< from each other, so that every draw of their places succeeds
+};
+
+/// Finds room for `count` people in an area, `clearance_m` away from everything solid and from
+/// those in `taken`, to whom it adds one draw of their places: as far apart as they easily can be,
+/// but no farther than people care. Fewer where even a crush leaves no room for them.
+Standing stand(std::span<const Eigen::Vector2d> area, int count, const Solids& solids,
+               double clearance_m, std::vector<Eigen::Vector2d>& taken);
 
 }  // namespace throng::places
