@@ -5,15 +5,24 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "cli/commands.h"
+#include "cli/job_runner.h"
 #include "cli/scenario_import.h"
 #include "cli/scenario_named.h"
+#include "jobs/job_scenario.h"
+#include "jobs/pipeline.h"
 #include "places/blueprint.h"
 #include "places/check.h"
 #include "places/generate.h"
 #include "places/plan.h"
+#include "sim/planned_paths.h"
+#include "world/drone_path.h"
 
 namespace throng::cli {
 
@@ -46,18 +55,45 @@ void add_check(CLI::App& scenario) {
   });
 }
 
+struct PlanArguments {
+  std::string name;
+  std::string trace;
+  fs::path output;
+  int size_px = 1200;
+};
+
+/// Whether this is a job's file: only a job names a scenario.
+bool is_job(const std::string& name) {
+  if (fs::path(name).extension() != ".json" || !fs::is_regular_file(name)) return false;
+  const nlohmann::json value = nlohmann::json::parse(read_file(name), nullptr, false);
+  return value.is_object() && value.contains("scenario");
+}
+
+void draw_plan(const PlanArguments& arguments) {
+  std::vector<world::DronePath> paths;
+  std::optional<world::Scenario> scenario;
+  if (is_job(arguments.name)) {
+    const jobs::JobSpec job = read_job_file(arguments.name);
+    scenario = jobs::scenario_of(job, world::scenarios_folder());
+    paths = sim::planned_paths(*scenario, jobs::run_spec(job, 0));
+  } else {
+    scenario = scenario_named(arguments.name);
+  }
+  if (!arguments.trace.empty()) paths = world::flown_paths(world::read_trace(arguments.trace));
+  places::write_plan(places::draw_plan(*scenario, arguments.size_px, paths), arguments.output);
+}
+
 void add_plan(CLI::App& scenario) {
-  auto* command = scenario.add_subcommand("plan", "Draw a scenario's floor plan");
-  const auto name = std::make_shared<std::string>();
-  const auto output = std::make_shared<fs::path>();
-  const auto size_px = std::make_shared<int>(1200);
-  command->add_option("scenario", *name, "FILE.json or an id")->required();
-  command->add_option("-o,--output", *output, "PLAN.svg or PLAN.png")->required();
-  command->add_option("--size", *size_px, "the longer side in pixels")
+  auto* command = scenario.add_subcommand(
+      "plan", "Draw a scenario's floor plan, or a job's with the ways of its drones");
+  const auto arguments = std::make_shared<PlanArguments>();
+  command->add_option("scenario", arguments->name, "FILE.json, an id or a job's file")->required();
+  command->add_option("--trace", arguments->trace,
+                      "draw the ways that the drones of this run flew (TRACE.h5)");
+  command->add_option("-o,--output", arguments->output, "PLAN.svg or PLAN.png")->required();
+  command->add_option("--size", arguments->size_px, "the longer side in pixels")
       ->check(CLI::Range(200, 8000));
-  command->callback([name, output, size_px] {
-    places::write_plan(places::draw_plan(scenario_named(*name), *size_px), *output);
-  });
+  command->callback([arguments] { draw_plan(*arguments); });
 }
 
 void add_make(CLI::App& scenario) {

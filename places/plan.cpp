@@ -57,10 +57,6 @@ void draw_ground(const Scenario& scenario, Sheet& sheet) {
 void draw_things(const Scenario& scenario, Sheet& sheet) {
   for (const world::Building& building : scenario.buildings) {
     sheet.polygon(building.footprint, inks::kBuilding, inks::kInk);
-    Vector2d middle = Vector2d::Zero();
-    for (const Vector2d& corner : building.footprint) middle += corner;
-    sheet.words(middle / static_cast<double>(building.footprint.size()), {-12, 4}, building.id,
-                inks::kInk);
   }
   for (const world::Prop& prop : scenario.props) {
     const Vector2d half =
@@ -72,6 +68,15 @@ void draw_things(const Scenario& scenario, Sheet& sheet) {
     };
     sheet.polygon(std::array{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)},
                   inks::kProp, kNothing);
+  }
+}
+
+void name_buildings(const Scenario& scenario, Sheet& sheet) {
+  for (const world::Building& building : scenario.buildings) {
+    Vector2d middle = Vector2d::Zero();
+    for (const Vector2d& corner : building.footprint) middle += corner;
+    sheet.words(middle / static_cast<double>(building.footprint.size()), {-12, 4}, building.id,
+                inks::kInk);
   }
 }
 
@@ -105,30 +110,63 @@ void draw_goals(const Scenario& scenario, const crowd::Goals& goals, Sheet& shee
   }
 }
 
+/// How many people come at each place, by metre.
+using Arrivals = std::map<std::pair<long, long>, int>;
+
+/// Takes the places out that hang together with the first, none more than 2 m from the next, and
+/// says how many people come at them.
+int take_source(Arrivals& arrivals) {
+  int people = 0;
+  std::vector<std::pair<long, long>> reached = {arrivals.begin()->first};
+  while (!reached.empty()) {
+    const auto [x, y] = reached.back();
+    reached.pop_back();
+    for (long dx = -2; dx <= 2; ++dx) {
+      for (long dy = -2; dy <= 2; ++dy) {
+        const auto found = arrivals.find({x + dx, y + dy});
+        if (found == arrivals.end()) continue;
+        people += found->second;
+        reached.push_back(found->first);
+        arrivals.erase(found);
+      }
+    }
+  }
+  return people;
+}
+
+void draw_sources(Arrivals arrivals, Sheet& sheet) {
+  constexpr double kSourcePx = 4;
+  const auto at = [](const std::pair<long, long>& place) {
+    return Vector2d(static_cast<double>(place.first), static_cast<double>(place.second));
+  };
+  for (const auto& [place, count] : arrivals) sheet.dot(at(place), kSourcePx, inks::kSource);
+  while (!arrivals.empty()) {
+    const Vector2d first = at(arrivals.begin()->first);
+    sheet.words(first, {8, -6}, fmt::format("{} come", take_source(arrivals)), inks::kSource);
+  }
+}
+
 void draw_people(const LoadedCrowd& loaded, Sheet& sheet) {
   constexpr std::size_t kMostDots = 3000;
   constexpr double kPersonPx = 1.6;
-  constexpr double kSourcePx = 4;
   const std::size_t stride = 1 + loaded.count() / kMostDots;
-  std::map<std::pair<long, long>, int> sources;  // by metre
+  Arrivals arrivals;
   for (std::size_t agent = 0; agent < loaded.count(); ++agent) {
     const Vector2d at = loaded.place(agent);
     if (loaded.is_person[agent] == 0) {
       constexpr double kDangerPx = 7;
       sheet.dot(at, kDangerPx, inks::kDanger);
     } else if (loaded.crowd.agents.awaited[agent] != 0) {
-      ++sources[{std::lround(at.x()), std::lround(at.y())}];
+      ++arrivals[{std::lround(at.x()), std::lround(at.y())}];
     } else if (agent % stride == 0) {
       sheet.dot(at, kPersonPx, inks::kPerson);
     }
   }
-  for (const auto& [place, count] : sources) {
-    sheet.dot({static_cast<double>(place.first), static_cast<double>(place.second)}, kSourcePx,
-              inks::kSource);
-  }
+  draw_sources(std::move(arrivals), sheet);
 }
 
-/// For each exit an arrow from the middle of those who have it as their nearest, and their number.
+/// For each exit an arrow from the middle of those who are there from the start and have it as
+/// their nearest, and their number.
 void draw_flows(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                 Sheet& sheet) {
   struct Flow {
@@ -138,7 +176,7 @@ void draw_flows(const Scenario& scenario, const LoadedCrowd& loaded, const Route
   std::vector<Flow> flows(scenario.exits.size());
   int all = 0;
   for (std::size_t agent = 0; agent < loaded.count(); ++agent) {
-    if (loaded.is_person[agent] == 0) continue;
+    if (loaded.is_person[agent] == 0 || loaded.crowd.agents.awaited[agent] != 0) continue;
     const Vector2d at = loaded.place(agent);
     const int cell = routes.walkable_near(at, 1);
     const int exit =
@@ -160,33 +198,51 @@ void draw_flows(const Scenario& scenario, const LoadedCrowd& loaded, const Route
   }
 }
 
+void draw_start(const std::string& id, const Eigen::Vector3d& start, Sheet& sheet) {
+  constexpr double kDroneM = 1.2;
+  sheet.ring(start.head<2>(), kDroneM, inks::kDrone);
+  sheet.words(start.head<2>(), {8, 16}, fmt::format("{}, {:.3g} m up", id, start.z()),
+              inks::kDrone);
+}
+
 void draw_drones(const Scenario& scenario, Sheet& sheet) {
   for (const world::DroneStart& drone : scenario.drones) {
     const Vector2d at = drone.position.head<2>();
-    constexpr double kDroneM = 1.2;
     constexpr double kHeadingM = 3;
     const Vector2d heading(std::cos(drone.yaw_rad), std::sin(drone.yaw_rad));
-    sheet.ring(at, kDroneM, inks::kDrone);
     sheet.line(std::array<Vector2d, 2>{at, at + kHeadingM * heading}, inks::kDrone, 2, true);
-    sheet.words(at, {8, 16}, fmt::format("{}, {:.3g} m up", drone.id, drone.position.z()),
-                inks::kDrone);
+    draw_start(drone.id, drone.position, sheet);
+  }
+}
+
+void draw_paths(std::span<const world::DronePath> paths, Sheet& sheet) {
+  for (const world::DronePath& path : paths) {
+    std::vector<Vector2d> places;
+    for (const Eigen::Vector3d& place : path.places) places.emplace_back(place.head<2>());
+    if (places.size() > 1) sheet.line(places, inks::kDrone, 1.5, true);
+    draw_start(path.id, path.places.front(), sheet);
   }
 }
 
 }  // namespace
 
-Drawing draw_plan(const Scenario& scenario, int size_px) {
+Drawing draw_plan(const Scenario& scenario, int size_px, std::span<const world::DronePath> paths) {
   const LoadedCrowd loaded = load_crowd_of(scenario);
   const Routes routes = find_routes(scenario, loaded);
   Sheet sheet(scenario.ground, size_px);
   draw_ground(scenario, sheet);
   draw_things(scenario, sheet);
   draw_obstacles(loaded.crowd.obstacles, sheet);
+  name_buildings(scenario, sheet);
   draw_goals(scenario, loaded.crowd.goals, sheet);
   draw_people(loaded, sheet);
   draw_flows(scenario, loaded, routes, sheet);
   draw_exits(scenario, sheet);
-  draw_drones(scenario, sheet);
+  if (paths.empty()) {
+    draw_drones(scenario, sheet);
+  } else {
+    draw_paths(paths, sheet);
+  }
   sheet.finish(scenario.name);
   return sheet.take();
 }

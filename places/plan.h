@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "world/drone_path.h"
 #include "world/scenario.h"
 
 namespace throng::places {
@@ -39,9 +41,11 @@ struct Drawing {
 };
 
 /// Ground, buildings, obstacles, props, exits with ids and widths, goals, where people start and
-/// come in, how many have which exit as their nearest, drones, a scale and north (+y), a legend.
+/// come in and how many, how many have which exit as their nearest, a scale and north (+y), a legend; and the
+/// paths of a job's drones or, without a job, where the scenario has its drones start.
 /// `size_px` is its longer side without the legend. Throws as load_crowd_of().
-Drawing draw_plan(const world::Scenario& scenario, int size_px = 1200);
+Drawing draw_plan(const world::Scenario& scenario, int size_px,
+                  std::span<const world::DronePath> paths = {});
 
 /// The drawing as an SVG document.
 std::string to_svg(const Drawing& drawing);

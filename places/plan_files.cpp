@@ -18,6 +18,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kHeadPx = 10;  // of an arrow
+constexpr double kRimPx = 3;    // of letters
 
 std::string escaped(const std::string& text) {
   std::string safe;
@@ -93,9 +94,12 @@ std::string element_of(const Mark& mark) {
     case Mark::Kind::text:
       break;
   }
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.3g}\" {}>{}</text>\n",
-                     mark.points.front().x(), mark.points.front().y(), mark.width_px, paint(mark),
-                     escaped(mark.text));
+  // With a rim, since what it stands on has many colours.
+  return fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.3g}\" fill=\"{}\" stroke=\"#ffffff\" "
+      "stroke-width=\"{:.2g}\" stroke-linejoin=\"round\" paint-order=\"stroke\">{}</text>\n",
+      mark.points.front().x(), mark.points.front().y(), mark.width_px, colour(mark.fill), kRimPx,
+      escaped(mark.text));
 }
 
 /// Draws with OpenCV, several times as large, and makes it smaller in the end.
@@ -162,8 +166,13 @@ class Canvas {
   void write(const Mark& mark, const cv::Point& at) {
     constexpr double kCapitalsPx = 28;  // of the font at scale 1, as tall as SVG's letters
     const cv::Scalar rgb(mark.fill.rgb[0], mark.fill.rgb[1], mark.fill.rgb[2]);
-    cv::putText(picture_, mark.text, at, cv::FONT_HERSHEY_SIMPLEX,
-                kFiner * mark.width_px / kCapitalsPx, rgb, kFiner, cv::LINE_AA);
+    const auto put = [&](const cv::Scalar& ink, double width_px) {
+      cv::putText(picture_, mark.text, at, cv::FONT_HERSHEY_SIMPLEX,
+                  kFiner * mark.width_px / kCapitalsPx, ink,
+                  static_cast<int>(std::lround(kFiner * width_px)), cv::LINE_AA);
+    };
+    put(cv::Scalar(255, 255, 255), 1 + kRimPx);
+    put(rgb, 1);
   }
 
   cv::Mat picture_;  // RGB

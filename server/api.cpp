@@ -62,6 +62,7 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/jobs/{id}/files/{path}", Scope::read, &send_file},
       Route{Method::get, "/v1/jobs/{id}/metrics", Scope::read, &send_metrics},
       Route{Method::get, "/v1/jobs/{id}/report", Scope::read, &send_report},
+      Route{Method::get, "/v1/jobs/{id}/plan", Scope::read, &send_job_plan},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics", Scope::read, &send_run_metrics},
       Route{Method::get, "/v1/jobs/{id}/runs/{n}/metrics.csv", Scope::read, &send_run_metrics_csv},
       Route{Method::get, "/v1/events", Scope::read, &send_events},

@@ -7,10 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "jobs/job_scenario.h"
+#include "jobs/pipeline.h"
 #include "places/plan.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
+#include "sim/planned_paths.h"
 #include "world/scenario.h"
 
 namespace throng::server {
@@ -21,6 +24,8 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int kPlanPx = 1200;  // the longer side
 
 json upload_json(const ScenarioUpload& upload) {
   return {{"name", upload.name},
@@ -127,12 +132,23 @@ void send_scenario(const Call& call, const Request& request, Response& response)
   const std::string format = request.get_param_value("format");
   if (format == "svg") {
     const world::Scenario scenario = world::find_scenario(call.service.scenarios(), id);
-    return response.set_content(places::to_svg(places::draw_plan(scenario)), "image/svg+xml");
+    return response.set_content(places::to_svg(places::draw_plan(scenario, kPlanPx)),
+                                "image/svg+xml");
   }
   if (!format.empty() && format != "json") {
     throw HttpError{400, "format is wrong", {{"", "?format", format, "json or svg"}}};
   }
   write_json(response, 200, scenario_json(call, id));
+}
+
+void send_job_plan(const Call& call, const Request& request, Response& response) {
+  const jobs::JobRow row = find_job(call, request);
+  const fs::path& folder = call.service.scenarios();
+  const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", folder);
+  const world::Scenario scenario = jobs::scenario_of(job, folder);
+  const auto paths = sim::planned_paths(scenario, jobs::run_spec(job, 0));
+  response.set_content(places::to_svg(places::draw_plan(scenario, kPlanPx, paths)),
+                       "image/svg+xml");
 }
 
 void remove_scenarios(const Call& call, const Request& request, Response& response) {

@@ -51,6 +51,24 @@ def test_check_says_what_is_wrong(folder):
     assert "/drones/0/start" in said and "remedy" in said, said
 
 
+def test_a_plan_shows_the_ways_of_a_jobs_drones(folder):
+    guidance = {"policy": "waypoints", "waypoints": [[20, 10, 20], [20, -10, 20]], "speed_mps": 4}
+    job = {"scenario": "bridge/everyday", "capture": {"to_s": 10},
+           "drones": [{"id": "scout", "start": [-20, 10, 20], "guidance": guidance}]}
+    (folder / "plan_job.json").write_text(json.dumps(job))
+
+    def way(*arguments):
+        throng("scenario", "plan", *arguments, "-o", "plan.svg", cwd=folder)
+        svg = (folder / "plan.svg").read_text()
+        assert ">scout, 20 m up<" in svg and ">d1, " not in svg, arguments
+        lines = re.findall(r'<polyline points="([^"]*)"', svg)
+        return max(len(line.split()) for line in lines)
+
+    assert way("plan_job.json") > 50, "places of the planned way"
+    throng("simulate", "plan_job.json", "-o", "plan.h5", cwd=folder)
+    assert way("bridge/everyday", "--trace", "plan.h5") > 50, "places of the way that was flown"
+
+
 def test_a_generated_place_in_a_job(folder):
     job = {"scenario": {"generate": {"kind": "street", "seed": 4, "people": 30}}, "capture": {"to_s": 5}}
     (folder / "job.json").write_text(json.dumps(job))

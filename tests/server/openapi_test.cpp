@@ -138,6 +138,7 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
            {"/v1/jobs/{id}", ""},
            {"/v1/jobs/{id}/events", "/events"},
            {"/v1/jobs/{id}/report", "/report"},
+           {"/v1/jobs/{id}/plan", "/plan"},
            {"/v1/jobs/{id}/logs", "/logs"},
            {"/v1/jobs/{id}/logs/{name}", "/logs/run000_trace.log"},
            {"/v1/jobs/{id}/previews", "/previews"},

@@ -66,7 +66,14 @@ TEST_F(Uploads, AreUsedLikeThoseThatComeWithThrong) {
   EXPECT_EQ(plan->get_header_value("Content-Type"), "image/svg+xml");
   EXPECT_THAT(plan->body, HasSubstr("<svg"));
   expect_problem(get("/v1/scenarios/mine/yard?format=png"), 400);
-  EXPECT_EQ(client().Post("/v1/jobs", kMine, "application/json")->status, 201);
+  const httplib::Result job = client().Post("/v1/jobs", kMine, "application/json");
+  ASSERT_EQ(job->status, 201);
+  const std::string id = json::parse(job->body)["id"];
+  const httplib::Result ways = get("/v1/jobs/" + id + "/plan");
+  ASSERT_EQ(ways->status, 200) << ways->body;
+  EXPECT_EQ(ways->get_header_value("Content-Type"), "image/svg+xml");
+  EXPECT_THAT(ways->body, HasSubstr(">d1, "));
+  expect_problem(get("/v1/jobs/nowhere/plan"), 404);
 }
 
 TEST_F(Uploads, SurviveARestartAndLieInOneFolderOfTheirOwn) {

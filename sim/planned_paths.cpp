@@ -1,0 +1,39 @@
+#include "sim/planned_paths.h"
+
+#include "sim/plan.h"
+
+namespace throng::sim {
+
+namespace {
+
+world::DronePath path_of(const PlannedDrone& drone, double duration_s) {
+  constexpr double kStepS = 0.05;
+  world::DronePath path{drone.mission.id, {drone.start}};
+  const bool goes_by_people = (drone.policy->takes & kFieldPerception) != 0;
+  if (goes_by_people) return path;
+  const auto policy = drone.policy->make(
+      {drone.mission, drone.start, drone.yaw_rad, FlightLimits{}, drone.place, drone.index});
+  FlightState state;
+  state.position = drone.start;
+  const int steps = static_cast<int>(duration_s / kStepS);
+  for (int i = 0; i < steps; ++i) {
+    const Setpoint wanted = policy->next(state, kStepS);
+    state.position = wanted.position;
+    state.velocity = wanted.velocity;
+    path.add(state.position);
+  }
+  return path;
+}
+
+}  // namespace
+
+std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run) {
+  std::vector<Problem> problems;
+  const std::vector<PlannedDrone> drones = plan_drones(scenario, run.drones, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  std::vector<world::DronePath> paths;
+  for (const PlannedDrone& drone : drones) paths.push_back(path_of(drone, run.duration_s));
+  return paths;
+}
+
+}  // namespace throng::sim
