@@ -177,8 +177,8 @@ void load_group(const Element& group, GroupContext& context, Crowd& crowd,
   std::vector<Eigen::Vector2f> places;
   for (const Element& child : group.children()) {
     if (child.name() == "Generator") {
-      const std::vector<Eigen::Vector2f> more = generate_places(
-          child, {crowd, context.seed, first + places.size()}, context.sequences);
+      const std::vector<Eigen::Vector2f> more =
+          generate_places(child, {crowd, context.seed, first + places.size()}, context.sequences);
       places.insert(places.end(), more.begin(), more.end());
       // Each generator's agents are made at once: the order in which compatible runs draw.
       if (!arrivals) add_agents(more, *profile, *state, context, crowd);
