@@ -57,18 +57,10 @@ std::unique_ptr<ObstacleSet> make_of_mesh(const Element& element, const Attribut
 }
 
 bool anybody_inside(const Crowd& crowd, const Polygon& polygon) {
-  const std::vector<Segment>& segments = crowd.obstacles.segments();
-  Box bounds{segments[static_cast<std::size_t>(polygon.first)].begin,
-             segments[static_cast<std::size_t>(polygon.first)].begin};
-  for (int i = polygon.first; i < polygon.first + polygon.count; ++i) {
-    bounds.min = bounds.min.cwiseMin(segments[static_cast<std::size_t>(i)].begin);
-    bounds.max = bounds.max.cwiseMax(segments[static_cast<std::size_t>(i)].begin);
-  }
   const Agents& agents = crowd.agents;
   for (std::size_t i = 0; i < agents.count(); ++i) {
     if ((agents.obstacle_mask[i] & polygon.obstacle_class) == 0) continue;
-    const Eigen::Vector2f& place = agents.position[i];
-    if (bounds.contains(place) && crowd.obstacles.encloses(polygon, place)) return true;
+    if (crowd.obstacles.encloses(polygon, agents.position[i])) return true;
   }
   return false;
 }

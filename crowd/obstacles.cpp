@@ -34,6 +34,7 @@ void Obstacles::add_polygon(std::span<const Eigen::Vector2f> corners,
   const int count = static_cast<int>(corners.size());
   check(count >= 3, "an obstacle has three corners or more");
   double area = 0;
+  Box bounds{corners.front(), corners.front()};
   for (int i = 0; i < count; ++i) {
     const int next = (i + 1) % count;
     const int previous = (i + count - 1) % count;
@@ -46,9 +47,10 @@ void Obstacles::add_polygon(std::span<const Eigen::Vector2f> corners,
     segment.convex = cross(corners[i] - corners[previous], corners[next] - corners[i]) >= 0;
     segment.obstacle_class = obstacle_class;
     segments_.push_back(segment);
+    bounds = {bounds.min.cwiseMin(corners[i]), bounds.max.cwiseMax(corners[i])};
     area += cross(corners[i] - corners[0], corners[next] - corners[0]);
   }
-  polygons_.push_back({first, count, area >= 0, obstacle_class});
+  polygons_.push_back({first, count, area >= 0, obstacle_class, bounds});
 }
 
 void Obstacles::build() {
@@ -101,6 +103,7 @@ bool Obstacles::visible(const Eigen::Vector2f& from, const Eigen::Vector2f& to, 
 }
 
 bool Obstacles::encloses(const Polygon& polygon, const Eigen::Vector2f& point) const {
+  if (!polygon.bounds.contains(point)) return false;
   bool inside = false;
   for (int i = polygon.first; i < polygon.first + polygon.count; ++i) {
     const Eigen::Vector2f& a = segments_[i].begin;

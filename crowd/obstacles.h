@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crowd/box_tree.h"
+#include "crowd/shapes.h"
 
 namespace throng::crowd {
 
@@ -41,6 +42,7 @@ struct Polygon {
   int count = 0;
   bool solid = true;  ///< counter-clockwise; otherwise an outer wall, which keeps people inside
   std::uint32_t obstacle_class = 1;
+  Box bounds;
 };
 
 /// All walls, in a tree of bounding boxes.

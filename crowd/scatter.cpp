@@ -45,6 +45,18 @@ class Places {
   std::unordered_map<std::int64_t, std::vector<Vector2f>> cells_;
 };
 
+/// Neighbours on the ground become neighbours in memory, which is where their ways and each other
+/// are looked for: strip by strip, along each.
+void sort_by_strips(std::vector<Vector2f>& places) {
+  constexpr float kStripM = 4;
+  std::sort(places.begin(), places.end(), [](const Vector2f& a, const Vector2f& b) {
+    const float strip_a = std::floor(a.y() / kStripM);
+    const float strip_b = std::floor(b.y() / kStripM);
+    if (strip_a != strip_b) return strip_a < strip_b;
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+}
+
 }  // namespace
 
 std::vector<Vector2f> scatter(const ScatterSpec& spec, const Obstacles& walls,
@@ -74,6 +86,7 @@ std::vector<Vector2f> scatter(const ScatterSpec& spec, const Obstacles& walls,
     places.push_back(place);
     misses = -1;
   }
+  sort_by_strips(places);
   return places;
 }
 
