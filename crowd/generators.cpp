@@ -224,10 +224,16 @@ std::unique_ptr<Generator> make_scattered(const Element& element, const Attribut
   for (std::size_t i = 0; i < agents.count(); ++i) {
     if (agents.present[i] != 0) taken.push_back(agents.position[i]);
   }
-  constexpr std::uint64_t kArea = std::uint64_t{1} << 63;  // apart from the agents' noise
-  std::vector<Eigen::Vector2f> places =
-      scatter(spec, context.crowd.obstacles, taken,
-              Random(context.seed, Stream::crowd_generator, kArea | context.first_agent));
+  std::vector<Eigen::Vector2f> places;
+  // In a nook the first of a few people may stand in the way of the others.
+  constexpr std::uint64_t kMostDraws = 20;
+  for (std::uint64_t draw = 0; draw < kMostDraws && places.size() < spec.count; ++draw) {
+    constexpr std::uint64_t kArea = std::uint64_t{1} << 63;  // apart from the agents' noise
+    constexpr unsigned kDrawBit = 48;
+    const std::uint64_t stream = kArea | draw << kDrawBit | context.first_agent;
+    places = scatter(spec, context.crowd.obstacles, taken,
+                     Random(context.seed, Stream::crowd_generator, stream));
+  }
   if (places.size() < spec.count) {
     element.fail_attribute(
         "count", std::to_string(spec.count),

@@ -147,6 +147,13 @@ TEST(ScatterGenerator, MindsTheWallsOfItsClassesOnly) {
   EXPECT_GT(in_the_box(scattered(R"(count="40" obstacleSet="2")", 1)), 0);
 }
 
+TEST(ScatterGenerator, DrawsAgainWhereTheFirstStoodInTheWay) {
+  // About the hut there is room for five only if the first of them stand well: every other draw.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    EXPECT_EQ(scattered(R"(count="5" apart="2.6" clearance="0.2")", seed).size(), 6U) << seed;
+  }
+}
+
 TEST(ScatterGenerator, SaysForHowManyThereIsRoom) {
   try {
     scattered(R"(count="500" apart="1")", 1);

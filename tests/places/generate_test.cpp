@@ -41,6 +41,20 @@ TEST_P(Generated, IsValidWhateverTheSeed) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) expect_valid(spec_of(seed));
 }
 
+TEST_P(Generated, HasRoomForEverybodyWhateverTheRunsSeed) {
+  PlaceSpec spec = spec_of(1);
+  spec.clutter = 1;
+  spec.people = 400;
+  const auto file = make_scenario(generate_place(spec), "generated", folder.path(), "place");
+  const world::Scenario place = world::load_scenario(file, "place");
+  for (std::uint64_t run = 1; run <= 4; ++run) {
+    crowd::LoadOptions options;
+    options.seed = run;
+    const crowd::Simulation crowd(place.scene_file, place.behavior_file, options);
+    EXPECT_GE(crowd.positions().size(), 400U);
+  }
+}
+
 TEST_P(Generated, IsValidWhateverItIsToBeLike) {
   for (const double share : {0.0, 1.0}) {
     for (const int exits : {2, 8}) {
