@@ -32,6 +32,7 @@ std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, con
   const std::vector<PlannedDrone> drones = plan_drones(scenario, run.drones, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   std::vector<world::DronePath> paths;
+  paths.reserve(drones.size());
   for (const PlannedDrone& drone : drones) paths.push_back(path_of(drone, run.duration_s));
   return paths;
 }
