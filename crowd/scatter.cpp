@@ -64,16 +64,12 @@ std::vector<Vector2f> scatter(const ScatterSpec& spec, const Obstacles& walls,
   constexpr int kMostMisses = 5000;  // in a row
   Obstacles area;
   area.add_polygon(spec.area, 1);
-  Vector2f min = spec.area.front();
-  Vector2f max = min;
-  for (const Vector2f& corner : spec.area) {
-    min = min.cwiseMin(corner);
-    max = max.cwiseMax(corner);
-  }
+  const Polygon& outline = area.polygons().front();
+  const auto& [min, max] = outline.bounds;
   Places all(spec.apart_m);
   for (const Vector2f& place : taken) all.add(place);
   const auto is_free = [&](const Vector2f& place) {
-    return area.encloses(area.polygons().front(), place) && all.has_room(place) &&
+    return area.encloses(outline, place) && all.has_room(place) &&
            walls.is_clear(place, spec.clearance_m, spec.obstacle_mask);
   };
   std::vector<Vector2f> places;

@@ -33,9 +33,9 @@ struct Standing {
   double apart_m = 1;  ///< from each other, so that every draw of their places succeeds
 };
 
-/// Finds room for `count` people in an area, `clearance_m` away from everything solid and from
-/// those in `taken`, to whom it adds one draw of their places: as far apart as they easily can be,
-/// but no farther than people care. Fewer where even a crush leaves no room for them.
+/// Finds room for `count` people in an area, `clearance_m` away from everything solid, and as far
+/// from each other and from those in `taken` as they easily can be, but no farther than people
+/// care. Adds one draw of their places to `taken`. Fewer where even a crush leaves no room.
 Standing stand(std::span<const Eigen::Vector2d> area, int count, const Solids& solids,
                double clearance_m, std::vector<Eigen::Vector2d>& taken);
 
