@@ -45,7 +45,7 @@ void BM_Quad(benchmark::State& state) {
   const int drones = static_cast<int>(state.range(0));
   constexpr double kIntervalS = 0.1;
   std::vector<Problem> problems;
-  const auto plan = sim::plan_drones(city_square(), missions(drones), problems);
+  const auto plan = sim::plan_drones(city_square(), missions(drones), 60, problems);
   double checksum = 0;
   sim::Flight flight(
       city_square().buildings, plan, kIntervalS, 1 / kPhysicsHz,
@@ -76,7 +76,7 @@ void BM_QuadAbovePeople(benchmark::State& state) {
   mission.start = Eigen::Vector3d(0.5, 0.5, static_cast<double>(state.range(0)));
   std::vector<Problem> problems;
   const world::Scenario meadow;
-  const auto plan = sim::plan_drones(meadow, {mission}, problems);
+  const auto plan = sim::plan_drones(meadow, {mission}, 60, problems);
   sim::Flight flight(
       meadow.buildings, plan, kIntervalS, 1 / kPhysicsHz,
       {[](std::size_t, const world::DroneSample&) {}, [](const world::TraceEvent&) {}});

@@ -80,6 +80,7 @@ void read_guidance(const json& value, const std::string& source, const std::stri
     if (key == "lead_speed_mps") guidance.lead_speed_mps = field.get<double>();
     if (key == "batch") guidance.batch = field.get<int>();
     if (key == "perception") guidance.perception = perception_of(field);
+    if (key == "beacon") guidance.beacon = field.get<bool>();
     if (key == "setpoints") {
       for (const json& row : field) {
         guidance.setpoints.push_back(
@@ -111,6 +112,7 @@ json guidance_json(const sim::DroneMission& mission) {
   if (guidance.lead_speed_mps) value["lead_speed_mps"] = *guidance.lead_speed_mps;
   if (guidance.batch) value["batch"] = *guidance.batch;
   if (guidance.perception) value["perception"] = json_of(*guidance.perception);
+  if (guidance.beacon) value["beacon"] = *guidance.beacon;
   for (const sim::PilotSample& sample : guidance.setpoints) {
     value["setpoints"].push_back({sample.time_s, sample.position.x(), sample.position.y(),
                                   sample.position.z(), sample.yaw_rad / kGuidanceDegree,

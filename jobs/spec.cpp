@@ -226,7 +226,7 @@ void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
   }
   std::vector<sim::DroneMission> missions;
   for (const DroneSpec& drone : job.drones) missions.push_back(drone.mission);
-  sim::plan_drones(scenario, missions, problems);
+  sim::plan_drones(scenario, missions, job.capture.to_s, problems);
   try {
     crowd::find_model(job.crowd.model);
   } catch (const InputError& error) {
@@ -259,7 +259,7 @@ void check_runs(const JobSpec& job, const world::Scenario& scenario,
     if (run_job.agents.value_or(0) > largest.agents.value_or(0)) largest.agents = run_job.agents;
     std::vector<sim::DroneMission> missions;
     for (const DroneSpec& drone : run_job.drones) missions.push_back(drone.mission);
-    sim::plan_drones(scenario, missions, problems);
+    sim::plan_drones(scenario, missions, run_job.capture.to_s, problems);
   }
   if (problems.size() == before) check_with_simulation(largest, scenario, problems);
   for (std::size_t i = before; i < problems.size(); ++i) {

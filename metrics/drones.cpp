@@ -37,6 +37,10 @@ void count(const world::TraceEvent& event, DroneFigures& figures) {
   if (event.type == "battery_flat") figures.battery_flat_s = event.time_s;
   if (event.type == "near_miss") count_near_miss(event, figures);
   if (event.type == "downwash") figures.downwash_person_s += event.value;
+  if (event.type == "propeller_broken") ++figures.propellers_broken;
+  if (event.type == "structure_broken") figures.structure_broken = true;
+  if (event.type == "falling") figures.falling_s = event.time_s;
+  if (event.type == "fall_hazard") ++figures.fall_hazard_people;
   if (event.type == "collision") {
     ++figures.collisions[event.partner];
     figures.hardest_ns = std::max(figures.hardest_ns, event.extra);
@@ -83,7 +87,11 @@ json to_json(const DroneFigures& figures) {
           {"downwash_people", figures.downwash_people},
           {"downwash_person_s", figures.downwash_person_s},
           {"landed_s", or_null(figures.landed_s)},
-          {"battery_flat_s", or_null(figures.battery_flat_s)}};
+          {"battery_flat_s", or_null(figures.battery_flat_s)},
+          {"propellers_broken", figures.propellers_broken},
+          {"structure_broken", figures.structure_broken},
+          {"falling_s", or_null(figures.falling_s)},
+          {"fall_hazard_people", figures.fall_hazard_people}};
 }
 
 }  // namespace throng::metrics

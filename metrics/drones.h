@@ -27,6 +27,10 @@ struct DroneFigures {
   double downwash_person_s = 0;
   std::optional<double> landed_s;  ///< when a low battery had brought it down
   std::optional<double> battery_flat_s;
+  int propellers_broken = 0;
+  bool structure_broken = false;
+  std::optional<double> falling_s;  ///< when it began to fall
+  int fall_hazard_people = 0;       ///< near the place where the fall would end
 };
 
 /// One entry per drone of the trace. Two drones that come near each other have one near miss, which

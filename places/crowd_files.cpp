@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "places/behavior_file.h"
@@ -95,28 +96,43 @@ std::vector<Vector2d> places_along(const Vector2d& from, const Vector2d& to, con
   return places;
 }
 
-std::string arrivals_of(const Source& source) {
+/// When a disaster first reaches the segment; infinite when none does.
+double reached_s(const Vector2d& from, const Vector2d& to, const std::vector<BlockedDisc>& discs) {
+  Exit segment;
+  segment.from = from;
+  segment.to = to;
+  const BlockedDisc* const disc = first_to_reach(segment, discs);
+  return disc == nullptr ? std::numeric_limits<double>::infinity() : disc->from_s;
+}
+
+/// The arrivals before `end_s`; empty where there are none.
+std::string arrivals_of(const Source& source, double end_s) {
+  if (end_s <= 0) return "";
   if (source.table.empty()) {
     constexpr double kSecondsPerMinute = 60;
     return fmt::format("    <Arrivals type=\"rate\" per_second=\"{:.6g}\" end=\"{:.6g}\"/>\n",
-                       source.per_minute / kSecondsPerMinute, source.until_s);
+                       source.per_minute / kSecondsPerMinute, std::min(source.until_s, end_s));
   }
-  std::string text = "    <Arrivals type=\"table\">";
+  std::string rows;
   for (const auto& [time_s, count] : source.table) {
-    text += fmt::format("<At time=\"{:.6g}\" count=\"{}\"/>", time_s, count);
+    if (time_s < end_s) rows += fmt::format("<At time=\"{:.6g}\" count=\"{}\"/>", time_s, count);
   }
-  return text + "</Arrivals>\n";
+  if (rows.empty()) return "";
+  return "    <Arrivals type=\"table\">" + rows + "</Arrivals>\n";
 }
 
 std::string sources_of(const Scenario& scenario, const People& people, const Solids& solids,
                        std::vector<Problem>& problems) {
   std::string text;
+  const std::vector<BlockedDisc> discs = blocked_discs(people);
   for (std::size_t i = 0; i < people.sources.size(); ++i) {
     const Source& source = people.sources[i];
     Vector2d from = source.from;
     Vector2d to = source.to;
+    double end_s = std::numeric_limits<double>::infinity();
     if (source.exit) {
       const Exit& exit = scenario.exits[*source.exit];
+      end_s = reached_s(exit.from, exit.to, discs);
       from = exit.from + kSourceBehindM * exit.outward;
       to = exit.to + kSourceBehindM * exit.outward;
     }
@@ -126,9 +142,12 @@ std::string sources_of(const Scenario& scenario, const People& people, const Sol
                           "nothing but walls where people are to come from", "free ground there"});
       continue;
     }
+    // Nobody comes in by a door or a road that a disaster has reached.
+    const std::string arrivals = arrivals_of(source, std::min(end_s, reached_s(from, to, discs)));
+    if (arrivals.empty()) continue;
     const std::string state =
         source.towards ? state_towards(scenario.exits[*source.towards]) : state_of(source.doing);
-    text += agent_group("person", state, explicit_places(places), arrivals_of(source));
+    text += agent_group("person", state, explicit_places(places), arrivals);
   }
   return text;
 }

@@ -24,7 +24,7 @@ Airframe read_fields(const std::string& name, const world::JsonValue& value) {
                 "thrust_n_s2", "torque_per_thrust_m", "max_rotor_rad_s", "motor_up_s",
                 "motor_down_s", "rotor_drag_n_s2_m", "body_drag_n_s2_m2"},
                {"source", "attitude_gain_s2", "rate_gain_s", "rotor_efficiency", "avionics_w",
-                "battery_wh"});
+                "battery_wh", "propeller_limit_mps", "structure_limit_mps"});
   Airframe frame;
   frame.name = name;
   frame.mass_kg = value["mass_kg"].number(1e-3, 100);
@@ -50,6 +50,8 @@ Airframe read_fields(const std::string& name, const world::JsonValue& value) {
   read("rotor_efficiency", 0.01, 1, frame.rotor_efficiency);
   read("avionics_w", 0, 1e4, frame.avionics_w);
   read("battery_wh", 1e-3, 1e5, frame.battery_wh);
+  read("propeller_limit_mps", 0.1, 1e3, frame.propeller_limit_mps);
+  read("structure_limit_mps", 0.1, 1e3, frame.structure_limit_mps);
   if (value["arm_m"].exists() && frame.propeller_radius_m > frame.arm_m / std::sqrt(2.0)) {
     value["propeller_radius_m"].reject(
         fmt::format("{:g}", frame.propeller_radius_m),
@@ -109,7 +111,9 @@ nlohmann::json to_json(const Airframe& airframe) {
                           {"attitude_gain_s2", airframe.attitude_gain_s2},
                           {"rate_gain_s", airframe.rate_gain_s},
                           {"rotor_efficiency", airframe.rotor_efficiency},
-                          {"avionics_w", airframe.avionics_w}};
+                          {"avionics_w", airframe.avionics_w},
+                          {"propeller_limit_mps", airframe.propeller_limit_mps},
+                          {"structure_limit_mps", airframe.structure_limit_mps}};
   if (airframe.battery_wh > 0) value["battery_wh"] = airframe.battery_wh;
   return value;
 }

@@ -31,8 +31,12 @@ struct Airframe {
   double rotor_efficiency = 0.5;  ///< ideal power / electric power, blades to motor controllers
   double avionics_w = 0;          ///< power of everything but the rotors
   double battery_wh = 0;          ///< what a full battery holds; 0: not known
-  double attitude_gain_s2 = 70;   ///< angular acceleration per attitude error
-  double rate_gain_s = 14;        ///< angular acceleration per body rate
+  /// Speed of an impact on a rigid wall above which the propellers that it reaches break, and
+  /// above which the frame does, after which no rotor gives thrust.
+  double propeller_limit_mps = 2;
+  double structure_limit_mps = 6;
+  double attitude_gain_s2 = 70;  ///< angular acceleration per attitude error
+  double rate_gain_s = 14;       ///< angular acceleration per body rate
 
   double weight_n() const { return mass_kg * kGravity; }
   double max_thrust_n() const { return 4 * thrust_n_s2 * max_rotor_rad_s * max_rotor_rad_s; }

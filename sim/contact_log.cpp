@@ -17,21 +17,23 @@ const char* word_of(Obstacle obstacle) {
   return kWords.at(static_cast<std::size_t>(obstacle));
 }
 
-void ContactLog::note(std::size_t craft, Obstacle obstacle, int index, double speed_mps,
-                      const Eigen::Vector3d& push_ns, double impulse_ns) {
+void ContactLog::note(const Touch& touch) {
   const auto is_same = [&](const Contact& contact) {
-    return contact.impact.craft == craft && contact.impact.obstacle == obstacle &&
-           contact.impact.index == index;
+    return contact.impact.craft == touch.craft && contact.impact.obstacle == touch.obstacle &&
+           contact.impact.index == touch.index;
   };
   auto found = std::find_if(contacts_.begin(), contacts_.end(), is_same);
   if (found == contacts_.end()) {
-    contacts_.push_back({{craft, obstacle, index, speed_mps}});
+    contacts_.push_back({{touch.craft, touch.obstacle, touch.index, touch.speed_mps}});
     found = contacts_.end() - 1;
   }
   found->apart_s = 0;
   if (found->counted) return;
-  found->impact.impulse_ns += impulse_ns;
-  found->impact.push_ns += push_ns;
+  found->impact.impulse_ns += touch.impulse_ns;
+  found->impact.push_ns += touch.push_ns;
+  for (std::size_t rotor = 0; rotor < touch.rotor_ns.size(); ++rotor) {
+    found->impact.rotor_ns[rotor] += touch.rotor_ns[rotor];
+  }
 }
 
 void ContactLog::advance(double dt_s) {

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/quadcopter.h"
+
 namespace throng::sim {
 
 enum class Obstacle : std::uint8_t { ground, building, drone, person };
@@ -24,14 +26,25 @@ struct Impact {
   double impulse_ns = 0;  ///< given in the first 50 ms
   Eigen::Vector3d push_ns =
       Eigen::Vector3d::Zero();  ///< the same with its direction, on the obstacle
+  PerRotor rotor_ns{};          ///< the share of impulse_ns that came in through each propeller
   double ago_s = 0;             ///< how long ago it began
+};
+
+/// The contact of one pair of bodies during one step.
+struct Touch {
+  std::size_t craft = 0;
+  Obstacle obstacle = Obstacle::ground;
+  int index = -1;
+  double speed_mps = 0;
+  Eigen::Vector3d push_ns = Eigen::Vector3d::Zero();
+  double impulse_ns = 0;
+  PerRotor rotor_ns{};
 };
 
 class ContactLog {
  public:
-  /// One step's contact: call once per step and pair that pushes each other.
-  void note(std::size_t craft, Obstacle obstacle, int index, double speed_mps,
-            const Eigen::Vector3d& push_ns, double impulse_ns);
+  /// Call once per step and pair that pushes each other.
+  void note(const Touch& touch);
 
   /// Ends a step of `dt_s`.
   void advance(double dt_s);

@@ -60,6 +60,7 @@ Flight::Flight(const std::vector<world::Building>& buildings,
     pilots_.emplace_back(drone, FlightLimits{});
     gusts_.emplace_back(wind_, weather.seed, i);
     jets_.emplace_back(drone.airframe);
+    falls_.emplace_back(i);
     pilots_.back().trim(wind_.mean_at(drone.start.z()));
   }
   blow();
@@ -77,6 +78,7 @@ void Flight::advance(const PeopleView& people_at_end) {
     time_s_ = static_cast<double>(interval_) * interval_s_ + i * world_.dt_s();
     if (i == ticks_per_interval_) time_s_ = static_cast<double>(interval_ + 1) * interval_s_;
     if (!world_.impacts().empty()) record_impacts(world_.impacts());
+    watch_falls();
     if (i == ticks_per_interval_ || tick_ % ticks_per_sample_ == 0) {
       record_samples();
       watch_surroundings();
@@ -185,6 +187,32 @@ void Flight::record_impacts(std::span<const Impact> impacts) {
     if (is_person && log_.strike) {
       log_.strike(static_cast<std::size_t>(impact.index), impact.push_ns.head<2>());
     }
+    damage(impact);
+  }
+}
+
+// Breaks what does not withstand the impact.
+void Flight::damage(const Impact& impact) {
+  const Airframe& airframe = world_.airframe(impact.craft);
+  const Damage damage = damage_of(impact, airframe);
+  if (!damage.structure && !damage.any_propeller()) return;
+  const double speed_mps = wall_speed_mps(impact.impulse_ns, airframe);
+  for (std::size_t rotor = 0; rotor < damage.propeller.size(); ++rotor) {
+    if (!damage.structure && !damage.propeller[rotor]) continue;
+    world_.break_rotor(impact.craft, rotor);
+    if (damage.structure) continue;
+    report(impact.craft, "propeller_broken", speed_mps, static_cast<double>(rotor));
+  }
+  if (damage.structure) report(impact.craft, "structure_broken", speed_mps);
+  pilots_[impact.craft].damaged(damage, world_.state(impact.craft));
+}
+
+// Only whoever is near a fall is looked at, once, when it begins.
+void Flight::watch_falls() {
+  for (std::size_t i = 0; i < pilots_.size(); ++i) {
+    falls_[i].update(time_s_,
+                     {world_.state(i), pilots_[i].can_hold(), world_.airframe(i).radius_m()},
+                     people_, log_.event);
   }
 }
 
@@ -198,12 +226,13 @@ void Flight::watch_surroundings() {
   exposure_.flush(time_s_, false);
 }
 
-void Flight::report(std::size_t drone, std::string_view type, double value) {
+void Flight::report(std::size_t drone, std::string_view type, double value, double extra) {
   world::TraceEvent event;
   event.time_s = time_s_;
   event.type = type;
   event.drone = static_cast<std::int32_t>(drone);
   event.value = value;
+  event.extra = extra;
   log_.event(event);
 }
 

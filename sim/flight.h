@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/downwash_exposure.h"
+#include "sim/fall_warning.h"
 #include "sim/flight_world.h"
 #include "sim/near_misses.h"
 #include "sim/people_nearby.h"
@@ -58,8 +59,10 @@ class Flight {
   void blow();
   void record_samples();
   void record_impacts(std::span<const Impact> impacts);
+  void damage(const Impact& impact);
+  void watch_falls();
   void watch_surroundings();
-  void report(std::size_t drone, std::string_view type, double value);
+  void report(std::size_t drone, std::string_view type, double value, double extra = 0);
 
   int ticks_per_interval_;
   int ticks_per_control_;
@@ -75,6 +78,7 @@ class Flight {
   std::vector<Pilot> pilots_;
   std::vector<Gusts> gusts_;
   std::vector<Jet> jets_;
+  std::vector<FallWarning> falls_;
   std::vector<FlightState> states_;   ///< when the pilots last decided
   std::vector<Eigen::Vector3d> air_;  ///< wind at each drone, m/s
   std::vector<CraftInAir> crafts_;    ///< as of the last samples

@@ -3,6 +3,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "base/error.h"
+#include "sim/damage.h"
 #include "world/polygon.h"
 
 namespace throng::sim {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double kGroundHalfWidthM = 200'000;
 constexpr double kGroundHalfDepthM = 50;
-constexpr double kRestitution = 0.4;
 constexpr double kFriction = 0.5;
 
 btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -175,27 +175,38 @@ struct FlightWorld::Bodies {
   void note_contacts() {
     for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
       const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
-      double impulse_ns = 0;
-      btVector3 push_ns(0, 0, 0);  // on the second body
-      for (int point = 0; point < manifold.getNumContacts(); ++point) {
-        const btManifoldPoint& contact = manifold.getContactPoint(point);
-        impulse_ns += contact.getAppliedImpulse();
-        push_ns -= contact.getAppliedImpulse() * contact.m_normalWorldOnB;
-      }
-      // Bodies that are near but do not push yet do not touch.
-      if (impulse_ns <= 0) continue;
-      note_contact(*manifold.getBody0(), *manifold.getBody1(), to_eigen(push_ns), impulse_ns);
-      note_contact(*manifold.getBody1(), *manifold.getBody0(), -to_eigen(push_ns), impulse_ns);
+      note_contact(manifold, true);
+      note_contact(manifold, false);
     }
     contacts.advance(dt_s);
   }
 
-  void note_contact(const btCollisionObject& who, const btCollisionObject& what,
-                    const Vector3d& push_ns, double impulse_ns) {
-    if (obstacle_of(who) != Obstacle::drone) return;
-    const double speed_mps = (velocity_before(who) - velocity_before(what)).norm();
-    contacts.note(static_cast<std::size_t>(who.getUserIndex2()), obstacle_of(what),
-                  what.getUserIndex2(), speed_mps, push_ns, impulse_ns);
+  // The contact of two bodies as the first or the second of them, if that is a craft, meets it.
+  void note_contact(const btPersistentManifold& manifold, bool first) {
+    const btCollisionObject& craft = first ? *manifold.getBody0() : *manifold.getBody1();
+    const btCollisionObject& other = first ? *manifold.getBody1() : *manifold.getBody0();
+    if (obstacle_of(craft) != Obstacle::drone) return;
+    Touch touch;
+    touch.craft = static_cast<std::size_t>(craft.getUserIndex2());
+    touch.obstacle = obstacle_of(other);
+    touch.index = other.getUserIndex2();
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+      const btManifoldPoint& point = manifold.getContactPoint(i);
+      const double impulse_ns = point.getAppliedImpulse();
+      // The normal points from the second body to the first.
+      const btVector3 push = (first ? -1.0 : 1.0) * impulse_ns * point.m_normalWorldOnB;
+      touch.impulse_ns += impulse_ns;
+      touch.push_ns += to_eigen(push);
+      const btTransform& pose = craft.getWorldTransform();
+      const btVector3 at = first ? point.m_positionWorldOnA : point.m_positionWorldOnB;
+      const Contact contact{to_eigen(pose.invXform(at)),
+                            to_eigen(pose.getBasis().transpose() * -push)};
+      if (const auto rotor = propeller_hit(contact)) touch.rotor_ns[*rotor] += impulse_ns;
+    }
+    // Bodies that are near but do not push yet do not touch.
+    if (touch.impulse_ns <= 0) return;
+    touch.speed_mps = (velocity_before(craft) - velocity_before(other)).norm();
+    contacts.note(touch);
   }
 
   Vector3d velocity_before(const btCollisionObject& body) const {
@@ -252,6 +263,10 @@ void FlightWorld::set_air_velocity(std::size_t craft, const Vector3d& velocity) 
 
 void FlightWorld::set_downwash(std::size_t craft, const PerRotor& downwash_mps) {
   bodies_->crafts[craft]->downwash_mps = downwash_mps;
+}
+
+void FlightWorld::break_rotor(std::size_t craft, std::size_t rotor) {
+  bodies_->crafts[craft]->quadcopter.break_rotor(rotor);
 }
 
 void FlightWorld::set_people(std::span<const NearPerson> people) { bodies_->set_people(people); }

@@ -17,6 +17,8 @@ namespace throng::sim {
 /// People as crafts meet them: upright capsules that move as they please and cannot be pushed.
 inline constexpr double kPersonRadiusM = 0.25;
 inline constexpr double kPersonHeightM = 1.7;
+/// Of every contact: speed away from each other after it / speed towards each other before it.
+inline constexpr double kRestitution = 0.4;
 
 /// Somebody near a craft, where the next step begins.
 struct NearPerson {
@@ -42,6 +44,8 @@ class FlightWorld {
   void set_air_velocity(std::size_t craft, const Eigen::Vector3d& velocity);
   /// Air that others blow down on each of the craft's rotors (m/s); none until told otherwise.
   void set_downwash(std::size_t craft, const PerRotor& downwash_mps);
+  /// The rotor gives no thrust any more.
+  void break_rotor(std::size_t craft, std::size_t rotor);
   /// The people that crafts can touch from now on, moving on at their velocities. One that stays in
   /// the list goes on from where it is told to be.
   void set_people(std::span<const NearPerson> people);

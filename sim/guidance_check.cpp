@@ -38,6 +38,8 @@ constexpr std::array kFields{
           [](const DroneMission& m) { return m.guidance.batch.has_value(); }},
     Field{kFieldPerception, "perception", "what it sees",
           [](const DroneMission& m) { return m.guidance.perception.has_value(); }},
+    Field{kFieldBeacon, "beacon", "true or false",
+          [](const DroneMission& m) { return m.guidance.beacon.has_value(); }},
 };
 
 void check_exits(const DroneMission& mission, const world::Scenario& scenario,

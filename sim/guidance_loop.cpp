@@ -20,7 +20,7 @@ bool is_down(const Flight& flight, std::size_t drone) {
 
 bool leads(const Flight& flight, std::size_t drone) {
   const Pilot& pilot = flight.pilot(drone);
-  return pilot.is_on_mission() && pilot.policy().beacon() && !is_down(flight, drone);
+  return pilot.is_on_mission() && pilot.beacon() && !is_down(flight, drone);
 }
 
 }  // namespace

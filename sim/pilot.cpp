@@ -26,6 +26,8 @@ Pilot::Pilot(const PlannedDrone& drone, const FlightLimits& limits)
     : airframe_(drone.airframe),
       policy_(drone.policy->make(
           {drone.mission, drone.start, drone.yaw_rad, limits, drone.place, drone.index})),
+      guides_(guides(*drone.policy)),
+      beacon_asked_(drone.mission.guidance.beacon.value_or(false)),
       controller_(drone.airframe, limits),
       battery_(drone.airframe.battery_wh, drone.mission.battery_charge) {
   setpoint_.position = drone.start;
@@ -36,10 +38,19 @@ PerRotor Pilot::control(const FlightState& state, double dt_s, const Report& rep
   watch_battery(state, report);
   if (phase_ == Phase::flying) setpoint_ = policy_->next(state, dt_s);
   if (phase_ == Phase::landing) descend(state, dt_s, report);
+  if (phase_ == Phase::damaged) watch_attitude(state, dt_s);
   if (phase_ == Phase::stopped) return {};
   const PerRotor speeds = controller_.update(state, setpoint_, dt_s);
-  watch_hold(state, dt_s, report);
+  if (phase_ != Phase::damaged) watch_hold(state, dt_s, report);
   return speeds;
+}
+
+void Pilot::damaged(const Damage& damage, const FlightState& state) {
+  if (phase_ == Phase::stopped) return;
+  phase_ = damage.structure ? Phase::stopped : Phase::damaged;
+  setpoint_ = {};
+  setpoint_.position = state.position;
+  setpoint_.yaw_rad = std::atan2(state.rotation(1, 0), state.rotation(0, 0));
 }
 
 void Pilot::spend(const FlightState& state, double thrust_n, const Eigen::Vector3d& air_velocity,
@@ -76,7 +87,19 @@ void Pilot::descend(const FlightState& state, double dt_s, const Report& report)
   resting_s_ = rests ? resting_s_ + dt_s : 0;
   if (resting_s_ < kRestingS) return;
   phase_ = Phase::stopped;
+  has_landed_ = true;
   report("landed", state.position.z());
+}
+
+// As PX4's failure detector does by default: 60 degrees of tilt for 0.3 s mean that the drone is
+// lost. One that lies on the ground, tipped less, has its rotors stopped as well.
+void Pilot::watch_attitude(const FlightState& state, double dt_s) {
+  constexpr double kTippedUpZ = 0.5;  // cosine of 60 degrees
+  constexpr double kTippedS = 0.3;
+  const bool tipped = state.rotation(2, 2) < kTippedUpZ;
+  tipped_s_ = tipped ? tipped_s_ + dt_s : 0;
+  resting_s_ = state.velocity.norm() < kRestingMps ? resting_s_ + dt_s : 0;
+  if (tipped_s_ >= kTippedS || resting_s_ >= kRestingS) phase_ = Phase::stopped;
 }
 
 void Pilot::watch_hold(const FlightState& state, double dt_s, const Report& report) {

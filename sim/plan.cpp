@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/guidance_check.h"
+#include "sim/separation.h"
 #include "world/polygon.h"
 
 namespace throng::sim {
@@ -16,7 +17,7 @@ using Eigen::Vector3d;
 namespace {
 
 // Room to leave around a craft for its deviations from the path.
-constexpr double kClearanceM = 0.5;
+constexpr double kClearanceM = kFlightClearanceM;
 // A path is checked at points this far apart, less than the clearance.
 constexpr double kProbeM = 0.25;
 
@@ -167,6 +168,8 @@ class MissionCheck {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const std::string where = fmt::format("/guidance/setpoints/{}", i);
       if (!point_is_free(where, samples[i].position, drone.airframe)) return;
+      const Vector3d& from = i > 0 ? samples[i - 1].position : drone.start;
+      if (!check_leg(where, from, samples[i].position, drone.airframe)) return;
     }
   }
 
@@ -182,9 +185,9 @@ class MissionCheck {
   }
 
   // Where no building stands nothing needs probing, however long the leg.
-  void check_leg(const std::string& where, const Vector3d& from, const Vector3d& to,
+  bool check_leg(const std::string& where, const Vector3d& from, const Vector3d& to,
                  const Airframe& frame) {
-    if (scenario_.buildings.empty()) return;
+    if (scenario_.buildings.empty()) return true;
     const double probes = std::ceil((to - from).norm() / kProbeM);
     for (double i = 1; i < probes; ++i) {
       const Vector3d point = from + i / probes * (to - from);
@@ -192,9 +195,10 @@ class MissionCheck {
         add(where, fmt::format("a path from {} to {}", text_of(from), text_of(to)),
             fmt::format("a path at least {:.2g} m away from building \"{}\", which is {:g} m high",
                         frame.radius_m() + kClearanceM, building->id, building->height_m));
-        return;
+        return false;
       }
     }
+    return true;
   }
 
   const world::Scenario& scenario_;
@@ -207,9 +211,10 @@ class MissionCheck {
 }  // namespace
 
 std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
-                                      const std::vector<DroneMission>& missions,
+                                      const std::vector<DroneMission>& missions, double duration_s,
                                       std::vector<Problem>& problems) {
   const std::vector<Airframe> airframes = shipped_airframes();
+  const std::size_t before = problems.size();
   std::vector<PlannedDrone> drones;
   for (std::size_t i = 0; i < missions.size(); ++i) {
     drones.push_back(MissionCheck(scenario, missions[i], i, problems).plan(airframes));
@@ -230,6 +235,8 @@ std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
       }
     }
   }
+  // Paths mean something only where each drone can fly its own.
+  if (problems.size() == before) check_separation(drones, duration_s, problems);
   return drones;
 }
 

@@ -25,10 +25,12 @@ struct PlannedDrone {
   int index = 0;                           ///< among the run's drones
 };
 
-/// Checks every mission and adds what is wrong to `problems`, with JSON pointers as in a job
-/// ("/drones/0/guidance/waypoints/2"). The plan is usable only when nothing was added.
+/// Checks every mission, and that no two drones come too near to each other within `duration_s` as
+/// far as their paths are known (sim/separation.h). Adds what is wrong to `problems`, with JSON
+/// pointers as in a job ("/drones/0/guidance/waypoints/2"). The plan is usable only when nothing
+/// was added.
 std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
-                                      const std::vector<DroneMission>& missions,
+                                      const std::vector<DroneMission>& missions, double duration_s,
                                       std::vector<Problem>& problems);
 
 }  // namespace throng::sim

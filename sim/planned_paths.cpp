@@ -1,6 +1,7 @@
 #include "sim/planned_paths.h"
 
 #include "sim/plan.h"
+#include "sim/planned_motion.h"
 
 namespace throng::sim {
 
@@ -9,19 +10,10 @@ namespace {
 world::DronePath path_of(const PlannedDrone& drone, double duration_s) {
   constexpr double kStepS = 0.05;
   world::DronePath path{drone.mission.id, {drone.start}};
-  const bool goes_by_people = (drone.policy->takes & kFieldPerception) != 0;
-  if (goes_by_people) return path;
-  const auto policy = drone.policy->make(
-      {drone.mission, drone.start, drone.yaw_rad, FlightLimits{}, drone.place, drone.index});
-  FlightState state;
-  state.position = drone.start;
+  if (goes_by_people(*drone.policy)) return path;
+  PlannedMotion motion(drone);
   const int steps = static_cast<int>(duration_s / kStepS);
-  for (int i = 0; i < steps; ++i) {
-    const Setpoint wanted = policy->next(state, kStepS);
-    state.position = wanted.position;
-    state.velocity = wanted.velocity;
-    path.add(state.position);
-  }
+  for (int i = 0; i < steps; ++i) path.add(motion.advance(kStepS));
   return path;
 }
 
@@ -29,7 +21,8 @@ world::DronePath path_of(const PlannedDrone& drone, double duration_s) {
 
 std::vector<world::DronePath> planned_paths(const world::Scenario& scenario, const RunSpec& run) {
   std::vector<Problem> problems;
-  const std::vector<PlannedDrone> drones = plan_drones(scenario, run.drones, problems);
+  const std::vector<PlannedDrone> drones =
+      plan_drones(scenario, run.drones, run.duration_s, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   std::vector<world::DronePath> paths;
   paths.reserve(drones.size());

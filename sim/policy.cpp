@@ -18,11 +18,12 @@ namespace throng::sim {
 namespace {
 
 constexpr std::array kPolicies{
-    PolicyEntry{"hover", 0, 0, false, &make_hover_policy},
-    PolicyEntry{"waypoints", kFieldWaypoints, 0, false, &make_waypoints_policy},
-    PolicyEntry{"orbit", kFieldCentre | kFieldRadius, 0, true, &make_orbit_policy},
-    PolicyEntry{"survey", 0, kFieldArea | kFieldOverlap, true, &make_survey_policy},
-    PolicyEntry{"follow_density", 0, kFieldPerception, true, &make_follow_density_policy},
+    PolicyEntry{"hover", 0, kFieldBeacon, false, &make_hover_policy},
+    PolicyEntry{"waypoints", kFieldWaypoints, kFieldBeacon, false, &make_waypoints_policy},
+    PolicyEntry{"orbit", kFieldCentre | kFieldRadius, kFieldBeacon, true, &make_orbit_policy},
+    PolicyEntry{"survey", 0, kFieldArea | kFieldOverlap | kFieldBeacon, true, &make_survey_policy},
+    PolicyEntry{"follow_density", 0, kFieldPerception | kFieldBeacon, true,
+                &make_follow_density_policy},
     PolicyEntry{"pilot_log", kFieldSetpoints, 0, false, &make_pilot_log_policy},
     PolicyEntry{"signage", 0, kFieldExits | kFieldPerception, true, &make_signage_policy},
     PolicyEntry{"zigzag", 0, kFieldExits | kFieldPerception, true, &make_zigzag_policy},

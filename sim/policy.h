@@ -35,8 +35,9 @@ class Policy {
   virtual void see(const WorldView&) {}
   /// Where the drone should be `dt_s` after the last call, seeing where it is.
   virtual Setpoint next(const FlightState& state, double dt_s) = 0;
-  /// Whether people may follow the drone now. Off, the goal that it moves is out of sight.
-  virtual bool beacon() const { return true; }
+  /// Policies that guide: whether people may follow the drone now. Off, the goal that it moves is
+  /// out of sight.
+  virtual bool beacon() const { return false; }
   /// What the other drones should know.
   virtual LeadPlan plan() const { return {}; }
 };
@@ -53,6 +54,7 @@ inline constexpr GuidanceFields kFieldSetpoints = 1U << 6U;
 inline constexpr GuidanceFields kFieldLeadSpeed = 1U << 7U;
 inline constexpr GuidanceFields kFieldBatch = 1U << 8U;
 inline constexpr GuidanceFields kFieldPerception = 1U << 9U;
+inline constexpr GuidanceFields kFieldBeacon = 1U << 10U;
 
 struct PolicyEntry {
   std::string_view name;
@@ -61,6 +63,12 @@ struct PolicyEntry {
   bool flies_free;       ///< goes where it likes, so its height must clear every building
   std::unique_ptr<Policy> (*make)(const PolicyContext&);
 };
+
+/// Whether the policy itself decides when people may follow. The beacon of any other is off for the
+/// whole run, or on where the mission says so: a camera drone must not lead people astray.
+constexpr bool guides(const PolicyEntry& policy) {
+  return ((policy.needs | policy.takes) & kFieldBeacon) == 0;
+}
 
 /// Every policy there is.
 std::span<const PolicyEntry> policies();

@@ -52,7 +52,7 @@ Wrench Quadcopter::step(const FlightState& state, const PerRotor& commands,
     const RotorSeat& seat = kRotorSeats[i];
     const double x = seat.x * seat_m;
     const double y = seat.y * seat_m;
-    double rotor_n = airframe_.thrust_n_s2 * speeds_[i] * speeds_[i];
+    double rotor_n = works_[i] * airframe_.thrust_n_s2 * speeds_[i] * speeds_[i];
     const double reaction = seat.sense * airframe_.torque_per_thrust_m * rotor_n;
     if (upright) {
       const double height_m =
@@ -65,7 +65,7 @@ Wrench Quadcopter::step(const FlightState& state, const PerRotor& commands,
     }
     torque += Eigen::Vector3d(y * rotor_n, -x * rotor_n, -reaction);
     thrust_n += rotor_n;
-    speed_sum += speeds_[i];
+    speed_sum += works_[i] * speeds_[i];
   }
   thrust_n_ = thrust_n;
   Eigen::Vector3d through_air = state.velocity - air_velocity;

@@ -50,6 +50,9 @@ class Quadcopter {
   Wrench step(const FlightState& state, const PerRotor& commands,
               const Eigen::Vector3d& air_velocity, const PerRotor& downwash_mps = {});
 
+  /// From now on the rotor has no propeller: neither thrust nor torque.
+  void break_rotor(std::size_t rotor) { works_[rotor] = 0; }
+
   /// Of all rotors in the last step.
   double thrust_n() const { return thrust_n_; }
 
@@ -61,6 +64,7 @@ class Quadcopter {
   double keep_up_;  ///< share of the gap to a higher commanded speed that is left after a step
   double keep_down_;
   PerRotor speeds_;
+  PerRotor works_{1, 1, 1, 1};  ///< 0: without a propeller
   double thrust_n_;
 };
 

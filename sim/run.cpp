@@ -16,6 +16,7 @@
 #include "sim/participants.h"
 #include "sim/plan.h"
 #include "sim/prop_watch.h"
+#include "sim/separation.h"
 #include "sim/trace_recorder.h"
 #include "world/trace.h"
 
@@ -61,6 +62,21 @@ void check_goals(const std::vector<PlannedDrone>& drones, CrowdSource& crowd,
                           "a goal set and goal of the scenario's behaviour file"});
     }
   }
+}
+
+// A goal that a job lets a drone move although nobody can ever follow the drone.
+std::vector<Problem> idle_goals(const std::vector<PlannedDrone>& drones) {
+  std::vector<Problem> warnings;
+  for (std::size_t i = 0; i < drones.size(); ++i) {
+    const DroneMission& mission = drones[i].mission;
+    if (!mission.moves_goal || guides(*drones[i].policy) || mission.guidance.beacon) continue;
+    warnings.push_back({"", fmt::format("/drones/{}/moves_goal", i),
+                        fmt::format("a goal, but the policy \"{}\" keeps the beacon off, so nobody "
+                                    "follows this drone",
+                                    mission.policy),
+                        "\"beacon\": true in the drone's guidance, or no moves_goal"});
+  }
+  return warnings;
 }
 
 std::vector<world::GoalRef> goals_moved_by(const std::vector<PlannedDrone>& drones) {
@@ -161,7 +177,8 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   std::vector<Problem> problems;
   check_times(spec, problems);
   check_exits(scenario, problems);
-  const std::vector<PlannedDrone> drones = plan_drones(scenario, spec.drones, problems);
+  const std::vector<PlannedDrone> drones =
+      plan_drones(scenario, spec.drones, spec.duration_s, problems);
   const std::unique_ptr<CrowdSource> source =
       spec.recorded ? replayed(spec.recorded)
                     : simulated(load_crowd(scenario, spec.seed, spec.crowd));
@@ -214,6 +231,8 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   }
   flight.finish();
   std::vector<Problem> warnings = crowd.warnings();
+  for (auto& warning : idle_goals(drones)) warnings.push_back(std::move(warning));
+  for (auto& warning : possible_meetings(drones)) warnings.push_back(std::move(warning));
   warnings.insert(warnings.end(), hold.warnings().begin(), hold.warnings().end());
   warnings.insert(warnings.end(), props.problems().begin(), props.problems().end());
   return warnings;

@@ -48,6 +48,8 @@ struct GuidanceSpec {
   std::vector<std::string> exits;      ///< ids of exits to lead to; none given: all that are open
   std::vector<PilotSample> setpoints;  ///< pilot_log, by time
   std::optional<PerceptionSpec> perception;  ///< default: the truth
+  /// Policies that do not guide: whether people may follow the drone all the time. Default: no.
+  std::optional<bool> beacon;
 };
 
 /// The drone's camera as far as policies need it.

@@ -134,6 +134,7 @@ class Beacons : public RunObserver {
 TEST(Guidance, ADroneThatHasComeDownLeadsNobody) {
   std::vector<PlannedDrone> drones = {testing::planned_drone({0, 0, 20}, {}, 1),
                                       testing::planned_drone({5, 0, 20}, {}, 1)};
+  for (PlannedDrone& drone : drones) drone.mission.guidance.beacon = true;
   drones[1].airframe.mass_kg *= 4;  // more than its rotors lift, as after a crash
   const std::vector<world::AgentRole> roles;
   const world::Scenario place = square("nearest_exit");

@@ -35,7 +35,7 @@ std::vector<DroneMission> missions() {
 
 TEST(Plan, CompletesAMissionFromTheScenario) {
   std::vector<Problem> problems;
-  const auto drones = plan_drones(scenario(), missions(), problems);
+  const auto drones = plan_drones(scenario(), missions(), 60, problems);
   EXPECT_TRUE(problems.empty());
   ASSERT_EQ(drones.size(), 2U);
   EXPECT_EQ(drones[0].airframe.name, "f450");
@@ -60,7 +60,7 @@ TEST_P(BadMission, IsReportedWhereItStands) {
   std::vector<DroneMission> spoiled = missions();
   GetParam().spoil(spoiled);
   std::vector<Problem> problems;
-  plan_drones(scenario(), spoiled, problems);
+  plan_drones(scenario(), spoiled, 60, problems);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, GetParam().reported_at);
   EXPECT_THAT(problems[0].expected, HasSubstr(GetParam().expected));

@@ -256,6 +256,7 @@ TEST(Run, PeopleFollowTheDroneWhoseGoalTheyAreGiven) {
   spec.drones.emplace_back();
   spec.drones[0].id = "d1";
   spec.drones[0].start = Eigen::Vector3d(-8, 0, 5);
+  spec.drones[0].guidance.beacon = true;
   const world::Trace with = trace_of(spec);
   spec.drones[0].moves_goal = world::GoalRef{99, 0};
   EXPECT_EQ(with.position, trace_of(spec).position);  // the scenario's own choice for d1
