@@ -111,6 +111,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
     const std::vector<WalkingDistance> ways = ways_to_exits(scenario);
     metrics.journeys = journeys(trace, scenario, exits, people, ways);
     metrics.bound = run_bound(trace, scenario, people, ways);
+    metrics.remaining = remaining_of(trace, scenario, people, ways);
   }
   for (const world::TraceEvent& event : trace.events) {
     if (event.type != "fall") continue;
@@ -134,6 +135,7 @@ json to_json(const RunMetrics& metrics) {
           {"duration_s", metrics.duration_s},
           {"not_escaped", metrics.not_escaped},
           {"casualties", metrics.casualties},
+          {"remaining", to_json(metrics.remaining)},
           {"falls", {{"struck", metrics.falls_struck}, {"crushed", metrics.falls_crushed}}},
           {"mean_escape_time_censored_s", metrics.mean_escape_time_s},
           {"escape_time_percentiles", percentiles},

@@ -14,6 +14,7 @@
 #include "metrics/journeys.h"
 #include "metrics/notification.h"
 #include "metrics/people.h"
+#include "metrics/remaining.h"
 #include "metrics/run_bound.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -42,6 +43,7 @@ struct RunMetrics {
   double mean_escape_time_s = 0;  ///< censored at the end of the run
   int not_escaped = 0;            ///< still inside at the end, unhurt
   int casualties = 0;             ///< lie there at the end in a state that says so (world::is_down)
+  Remaining remaining;            ///< why people are inside at the end
   int falls_struck = 0;           ///< by a drone
   int falls_crushed = 0;          ///< by the crowd
   std::vector<ExitTotals> exits;

@@ -56,6 +56,9 @@ void CrowdRecorder::record(const CrowdSource& crowd, double time_s, RunObserver&
   world::CrowdStep step = crowd.now();
   step.time_s = time_s;
   step.exit_intent = intents_;
+  for (std::size_t i = 0; i < led_.size(); ++i) {
+    if (led_[i]) step.flags[i] |= world::kFollowing;
+  }
   if (down_states_.empty()) {
     for (const std::string& name : crowd.header(0).state_names) {
       down_states_.push_back(world::is_down(name));

@@ -24,10 +24,11 @@ enum class AgentRole : std::uint8_t {
 };
 
 /// Bits of Trace::flags, what an agent is at a step: takes part, i.e. has arrived and not left yet;
-/// is in panic; has fallen and lies on the ground.
+/// is in panic; has fallen and lies on the ground; heads for the goal that a drone moves.
 inline constexpr std::uint8_t kPresent = 1;
 inline constexpr std::uint8_t kPanicked = 2;
 inline constexpr std::uint8_t kFallen = 4;
+inline constexpr std::uint8_t kFollowing = 8;
 
 /// Whether somebody in a behaviour's state of this name cannot stand: its name contains one of the
 /// words in docs/trace.md, in upper or lower case.
@@ -59,7 +60,7 @@ struct CrowdStep {
   std::vector<float> desired_speed_mps;   ///< what the agent wants now
   std::vector<std::uint8_t> state;        ///< index into TraceHeader::state_names
   std::vector<std::int8_t> exit_intent;   ///< index into exit_ids; -1: none
-  std::vector<std::uint8_t> flags;        ///< kPresent, kPanicked, kFallen
+  std::vector<std::uint8_t> flags;        ///< kPresent, kPanicked, kFallen, kFollowing
 };
 
 /// One drone at one instant.
