@@ -47,14 +47,17 @@ json to_json(const CameraFile& camera) {
 }
 
 CameraFile camera_from_json(const json& value, const std::string& source) {
-  if (!value.is_object() || value.value("type", json()) != kType) {
-    throw InputError(Problem{
-        source, "/type", value.is_object() ? value.value("type", json()).dump() : value.type_name(),
-        fmt::format("a camera of throng calibrate: \"{}\"", kType)});
+  if (!value.is_object()) {
+    throw InputError(Problem{source, "", value.type_name(),
+                             "an object with the fields of a camera (docs/calibration.md)"});
   }
-  if (value.value("version", json()) != kVersion) {
-    throw InputError(Problem{source, "/version", value.value("version", json()).dump(),
-                             fmt::format("{}, which this program knows", kVersion)});
+  if (const json type = value.value("type", json(kType)); type != kType) {
+    throw InputError(
+        Problem{source, "/type", type.dump(), fmt::format("\"{}\", or no type", kType)});
+  }
+  if (const json version = value.value("version", json(kVersion)); version != kVersion) {
+    throw InputError(Problem{source, "/version", version.dump(),
+                             fmt::format("{}, which this program knows, or no version", kVersion)});
   }
   CameraFile camera;
   constexpr double kLargestSide = 20000;

@@ -4,8 +4,8 @@
 //    "fx": 533.9, "fy": 534.0, "cx": 342.9, "cy": 234.4, "skew": 0,
 //    "k1": -0.27, "k2": -0.02, "p1": 0.001, "p2": -0.0001, "k3": 0.2}
 //
-// fx to skew in pixels, the middle of the top-left pixel being (0, 0). Calibrations add more
-// (calibrate/result.h), which readers skip.
+// "type", "version" and "skew" may be left out. fx to skew in pixels, the middle of the top-left
+// pixel being (0, 0). Calibrations add more (calibrate/result.h), which readers skip.
 #pragma once
 
 #include <filesystem>

@@ -44,6 +44,33 @@ double flatness_to_line(const std::vector<Eigen::Vector3d>& points) {
   return extents[0] > 0 ? std::sqrt(extents[1] / extents[0]) : 0;
 }
 
+// A single point outside may be an outlier, which the solver finds; a tenth of all are not.
+bool is_of_another_size(const View& view, const ImageSize& size) {
+  constexpr double kShare = 0.1;
+  const auto outside = std::count_if(view.pixels.begin(), view.pixels.end(),
+                                     [&](const Eigen::Vector2d& p) { return is_outside(p, size); });
+  return static_cast<double>(outside) > kShare * static_cast<double>(view.pixels.size());
+}
+
+void check_image_size(const Correspondences& all) {
+  constexpr std::ptrdiff_t kOneIn = 4;
+  const auto wrong = std::count_if(all.views.begin(), all.views.end(), [&](const View& view) {
+    return all_finite(view) && is_of_another_size(view, all.size);
+  });
+  if (wrong == 0 || kOneIn * wrong < static_cast<std::ptrdiff_t>(all.views.size())) return;
+  Eigen::Vector2d most = Eigen::Vector2d::Zero();
+  for (const View& view : all.views) {
+    for (const Eigen::Vector2d& pixel : view.pixels) {
+      if (pixel.allFinite()) most = most.cwiseMax(pixel);
+    }
+  }
+  throw InputError(
+      Problem{"", "/size", fmt::format("{} x {}", all.size.width, all.size.height),
+              fmt::format("the images' own size: {} of {} images have points outside of this one, "
+                          "which reach to pixel ({:.0f}, {:.0f})",
+                          wrong, all.views.size(), most.x(), most.y())});
+}
+
 struct Reading {
   View view;
   std::vector<Problem> problems;
@@ -67,6 +94,12 @@ ImageSize image_size_of(const std::string& text, const std::string& source) {
   return size;
 }
 
+bool is_outside(const Eigen::Vector2d& pixel, const ImageSize& size) {
+  constexpr double kSlackPx = 1.5;  // the border lies half a pixel beyond the last pixel's center
+  return pixel.x() < -kSlackPx || pixel.x() > size.width - 1 + kSlackPx || pixel.y() < -kSlackPx ||
+         pixel.y() > size.height - 1 + kSlackPx;
+}
+
 std::vector<Problem> problems_of(const View& view, const ImageSize& size) {
   const auto problem = [&](std::string found, std::string expected) {
     return std::vector<Problem>{{view.name, "", std::move(found), std::move(expected)}};
@@ -82,14 +115,9 @@ std::vector<Problem> problems_of(const View& view, const ImageSize& size) {
   if (const std::size_t twins = twins_in(view.pixels); twins > 0) {
     return problem(fmt::format("{} pixels given twice", twins), "each pixel for one point");
   }
-  const auto outside = std::count_if(view.pixels.begin(), view.pixels.end(), [&](const auto& p) {
-    return p.x() < -size.width || p.x() > 2 * size.width || p.y() < -size.height ||
-           p.y() > 2 * size.height;
-  });
-  if (outside > 0) {
-    return problem(
-        fmt::format("{} pixels far outside an image of {} x {}", outside, size.width, size.height),
-        "pixels of an image of this size");
+  if (is_of_another_size(view, size)) {
+    return problem(fmt::format("pixels outside an image of {} x {}", size.width, size.height),
+                   "pixels of an image of this size");
   }
   constexpr double kLine = 1e-3;
   if (flatness_to_line(view.points) < kLine) return problem("points in a line", "points beside it");
@@ -97,6 +125,7 @@ std::vector<Problem> problems_of(const View& view, const ImageSize& size) {
 }
 
 void leave_out_bad_views(Correspondences& all) {
+  check_image_size(all);
   std::vector<View> good;
   for (View& view : all.views) {
     std::vector<Problem> problems = problems_of(view, all.size);

@@ -35,11 +35,15 @@ struct Correspondences {
 /// Fewest points of a view that fix its pose beside the lens.
 inline constexpr std::size_t kFewestPoints = 6;
 
-/// What is wrong with a view: too few points, pixels far outside the image, values that are not
-/// finite, points or pixels that occur twice, points in a line. Empty: nothing.
+/// Whether a pixel lies outside of an image's border by more than a pixel.
+bool is_outside(const Eigen::Vector2d& pixel, const ImageSize& size);
+
+/// What is wrong with a view: too few points, more than a tenth of them outside the image, values
+/// that are not finite, points or pixels that occur twice, points in a line. Empty: nothing.
 std::vector<Problem> problems_of(const View& view, const ImageSize& size);
 
-/// Moves views that have problems to `left_out`.
+/// Moves views that have problems to `left_out`. Throws InputError when a quarter of the views or
+/// more are of another image size: the size is wrong then, not these views.
 void leave_out_bad_views(Correspondences& all);
 
 /// Reads a table with a header that names at least the columns image, X, Y, Z, u, v (any order).

@@ -7,6 +7,7 @@
 
 #include "calibrate/initialise.h"
 #include "calibrate/model_choice.h"
+#include "calibrate/repeated_views.h"
 #include "calibrate/warnings.h"
 
 namespace throng::calibrate {
@@ -31,15 +32,42 @@ void require_enough_views(const Correspondences& all, const Rules& rules,
   int unknowns = 0;
   for (std::size_t i = 0; i <= kSkew; ++i) unknowns += rules.free[i] && !rules.priors[i] ? 1 : 0;
   int equations = 0;
-  for (const View& view : all.views) equations += plane_of(view.points) ? 2 : 5;
-  if (!all.views.empty() && equations >= unknowns) return;
+  std::size_t distinct = 0;
+  const std::vector<std::size_t> first = first_alike(all.views);
+  for (std::size_t v = 0; v < all.views.size(); ++v) {
+    if (first[v] != v) continue;
+    equations += plane_of(all.views[v].points) ? 2 : 5;
+    ++distinct;
+  }
+  if (distinct > 0 && equations >= unknowns) return;
+  std::string found = fmt::format("{} usable views", all.views.size());
+  if (distinct < all.views.size()) {
+    found += fmt::format(", of which {} show the object in different places", distinct);
+  }
   std::vector<Problem> problems = {
-      {source, "", fmt::format("{} usable views", all.views.size()),
-       fmt::format("at least {} of a flat object, since {} of fx, fy, cx, cy and skew are to be "
+      {source, "", std::move(found),
+       fmt::format("at least {} different ones of a flat object, since {} of fx, fy, cx, cy and "
+                   "skew are to be "
                    "estimated; more if parameters are not fixed, tied or given priors",
                    std::max(1, (unknowns + 1) / 2), unknowns)}};
   problems.insert(problems.end(), all.left_out.begin(), all.left_out.end());
   throw InputError(problems);
+}
+
+/// A lens is centered on its own image: the size of the images is wrong, or the points are.
+void require_principal_point_inside(const Calibration& result, const Rules& rules,
+                                    const std::string& source) {
+  const double cx = result.parameters[kCx];
+  const double cy = result.parameters[kCy];
+  const bool estimated = rules.free[kCx] || rules.free[kCy];
+  const bool inside =
+      cx >= 0 && cx <= result.size.width - 1 && cy >= 0 && cy <= result.size.height - 1;
+  if (inside || !estimated) return;
+  throw InputError(
+      Problem{source, "",
+              fmt::format("a principal point of ({:.1f}, {:.1f}) px, outside an image of {} x {}",
+                          cx, cy, result.size.width, result.size.height),
+              "the images' own size (--size), and points that belong to their pixels"});
 }
 
 Adjustment adjustment_of(const Correspondences& all, Lens lens, const Rules& rules,
@@ -112,6 +140,7 @@ void leave_out(Correspondences& all, const std::vector<std::size_t>& wrong) {
 
 Calibration calibrate_with(Correspondences all, Lens lens, const Rules& rules,
                            const IntrinsicsOptions& options) {
+  leave_out_copies(all);
   require_enough_views(all, rules, options.source);
   Solved solved = solve_views(all, lens, rules, options);
   for (auto wrong = wrong_views(solved); options.fit.reject && !wrong.empty();
@@ -128,6 +157,7 @@ Calibration calibrate_with(Correspondences all, Lens lens, const Rules& rules,
   names.reserve(all.views.size());
   for (const View& view : all.views) names.push_back(view.name);
   take_results(solved.adjustment, solved.fit, names, result);
+  require_principal_point_inside(result, rules, options.source);
   add_intrinsics_warnings(rules, solved.fit, result);
   return result;
 }

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "calibrate/initialise.h"
+#include "calibrate/repeated_views.h"
 
 namespace throng::calibrate {
 
@@ -68,6 +69,49 @@ void warn_of_views(const Rules& rules, Calibration& calibration) {
     say(calibration, fmt::format("points cover {:.0f} % of the image: outside of them the lens is "
                                  "extrapolated; show the board near borders and corners, too",
                                  100 * coverage));
+  }
+}
+
+void warn_of_repeated_views(Calibration& calibration) {
+  std::vector<View> views;
+  for (const ViewResult& result : calibration.views) {
+    View& view = views.emplace_back();
+    for (const PointResult& point : result.points) {
+      view.points.push_back(point.point);
+      view.pixels.push_back(point.pixel);
+    }
+  }
+  const std::size_t repeated = views.size() - distinct_views(views);
+  if (repeated == 0) return;
+  say(calibration,
+      fmt::format("{} of {} views show the object where another view shows it: they add nothing, "
+                  "and standard deviations come out too small",
+                  repeated, views.size()));
+}
+
+// What a wrong image size leads to.
+void warn_of_size(Calibration& calibration) {
+  std::size_t outside = 0;
+  for (const ViewResult& view : calibration.views) {
+    for (const PointResult& point : view.points) {
+      outside += is_outside(point.pixel, calibration.size) ? 1 : 0;
+    }
+  }
+  if (outside > 0) {
+    say(calibration, fmt::format("{} points lie outside of an image of {} x {}: is the size right?",
+                                 outside, calibration.size.width, calibration.size.height));
+  }
+  constexpr double kFarFromMiddle = 0.15;  // of the side
+  const auto far = [&](double center, int side) {
+    return std::abs(center - 0.5 * (side - 1)) > kFarFromMiddle * side;
+  };
+  const double cx = calibration.parameters[kCx];
+  const double cy = calibration.parameters[kCy];
+  if (far(cx, calibration.size.width) || far(cy, calibration.size.height)) {
+    say(calibration,
+        fmt::format("the principal point ({:.0f}, {:.0f}) is far from the middle of an "
+                    "image of {} x {}: is the size right, or the image cropped?",
+                    cx, cy, calibration.size.width, calibration.size.height));
   }
 }
 
@@ -160,6 +204,8 @@ double coverage_of(const Calibration& calibration) {
 
 void add_intrinsics_warnings(const Rules& rules, const Fit& fit, Calibration& calibration) {
   warn_of_views(rules, calibration);
+  warn_of_repeated_views(calibration);
+  warn_of_size(calibration);
   warn_of_parameters(fit, calibration);
   warn_of_outliers(calibration);
   if (!holds_at_border(calibration)) {

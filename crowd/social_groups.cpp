@@ -114,13 +114,14 @@ class SocialGroupForces : public VelModifier {
     const Eigen::Vector2f force = gaze(agents, agent, preferred, to_others) +
                                   cohesion(agents.position[agent], sum, others) +
                                   spec_.spacing * spacing;
-    const Eigen::Vector2f wanted = preferred.speed * preferred.direction + kRelaxationS * force;
+    Eigen::Vector2f wanted = preferred.speed * preferred.direction + kRelaxationS * force;
+    // Nobody stops for the group altogether: two members whose paths lead around an obstacle on
+    // different sides would hold each other there for ever.
+    constexpr float kLeastProgress = 0.3F;  // of the preferred speed, along the path
+    const float along = wanted.dot(preferred.direction);
+    const float least = kLeastProgress * preferred.speed;
+    if (along < least) wanted += (least - along) * preferred.direction;
     const float speed = wanted.norm();
-    constexpr float kStanding = 1e-3F;  // m/s
-    if (speed < kStanding) {
-      preferred.speed = 0;
-      return;
-    }
     preferred.direction = wanted / speed;
     // Who has fallen behind may hurry a little.
     constexpr float kHurry = 1.3F;

@@ -92,9 +92,25 @@ TEST_F(Files, TablesThatAreNoneAreRefused) {
   EXPECT_THAT(error_of([&] {
                 read_correspondences(write("c.csv", table(2)), {100, 50});
               }),
-              HasSubstr("far outside an image of 100 x 50"));
+              HasSubstr("2 of 2 images have points outside"));
   EXPECT_THROW(read_correspondences(base_ / "none.csv", {9, 9}), EnvironmentError);
   EXPECT_THAT(error_of([&] { image_size_of("640", "--size"); }), HasSubstr("WIDTHxHEIGHT"));
+}
+
+TEST_F(Files, ACameraNeedsOnlyWhatDescribesIt) {
+  const json camera = {{"width", 640}, {"height", 480}, {"lens", "pinhole"}, {"fx", 500},
+                       {"fy", 501},    {"cx", 320},     {"cy", 240}};
+  const fs::path file = write("camera.json", camera.dump());
+  EXPECT_EQ(read_camera_file(file).parameters[kFy], 501);
+  json other = camera;
+  other["type"] = "other-camera";
+  EXPECT_THAT(error_of([&] { camera_from_json(other, "camera.json"); }),
+              HasSubstr("\"throng-camera\", or no type"));
+  other = camera;
+  other["version"] = 2;
+  EXPECT_THAT(error_of([&] { camera_from_json(other, "camera.json"); }), HasSubstr("/version"));
+  EXPECT_THAT(error_of([&] { camera_from_json(json::array(), "camera.json"); }),
+              HasSubstr("an object"));
 }
 
 TEST_F(Files, ControlPointsSayWhatIsWrongWithThem) {

@@ -184,6 +184,64 @@ TEST(Intrinsics, RefuseTooFewViews) {
   EXPECT_NEAR(calibrate_intrinsics(views.all, options).parameters[kFx], 1200, 100);
 }
 
+std::string refusal_of(const Correspondences& all, const IntrinsicsOptions& options = {}) {
+  try {
+    calibrate_intrinsics(all, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Intrinsics, RefuseOneViewGivenManyTimes) {
+  for (const double noise_px : {0.0, 0.1, 0.5}) {
+    Correspondences all = synthetic_views({}, 1, 0.1, 3).all;
+    const View one = all.views[0];
+    for (std::uint64_t copy = 1; copy < 10; ++copy) {
+      View& view = all.views.emplace_back(one);
+      view.name = std::to_string(copy);
+      for (std::size_t i = 0; i < view.pixels.size(); ++i) {
+        Random random(9, Stream::bootstrap, 100 * copy + i);
+        view.pixels[i].x() += noise_px * random.normal();
+        view.pixels[i].y() += noise_px * random.normal();
+      }
+    }
+    EXPECT_THAT(refusal_of(all), HasSubstr("different ones")) << noise_px;
+  }
+}
+
+TEST(Intrinsics, ViewsThatRepeatOthersAreNamed) {
+  Correspondences all = synthetic_views({}, 12, 0.1, 3).all;
+  View moved = all.views[4];
+  moved.name = "again";
+  for (Eigen::Vector2d& pixel : moved.pixels) pixel.x() += 0.3;
+  all.views.push_back(moved);
+  all.views.push_back(all.views[2]);
+  const Calibration result = calibrate_intrinsics(all, {});
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("1 of 13 views show the object")));
+  ASSERT_EQ(result.left_out.size(), 1U);
+  EXPECT_THAT(result.left_out[0].found, HasSubstr("the same pixels as in image"));
+}
+
+TEST(Intrinsics, RefuseAPrincipalPointOutsideTheImage) {
+  SyntheticCamera camera;
+  Correspondences all = synthetic_views(camera, 12, 0.1, 3).all;
+  for (View& view : all.views) {
+    for (Eigen::Vector2d& pixel : view.pixels) pixel.x() += 1000;
+  }
+  EXPECT_THAT(refusal_of(all), HasSubstr("principal point"));
+  camera.parameters[kCx] = 1400;
+  EXPECT_THAT(calibrate_intrinsics(synthetic_views(camera, 12, 0.1, 3).all, {}).warnings,
+              Contains(HasSubstr("far from the middle")));
+}
+
+TEST(Intrinsics, RefusePointsOfAnotherImageSize) {
+  Correspondences all = synthetic_views({}, 12, 0.1, 3).all;
+  all.size = {960, 540};
+  EXPECT_THAT([&] { leave_out_bad_views(all); },
+              ::testing::ThrowsMessage<InputError>(HasSubstr("the images' own size")));
+}
+
 TEST(Intrinsics, LeaveOutAViewThatIsWrong) {
   SyntheticViews views = synthetic_views({}, 12, 0.2, 8);
   Random random(1, Stream::bootstrap);

@@ -179,5 +179,35 @@ TEST(SocialGroups, ShareTheirGoals) {
   }
 }
 
+// Shortest paths lead the left one around the left corner and the right one around the right one:
+// cohesion alone held such pairs before the obstacle for ever.
+TEST(SocialGroups, APairBeforeAnObstacleGetsAround) {
+  for (const char* const model : {"weidmann", "orca"}) {
+    const std::string scene = fmt::format(R"(<Experiment version="2.0">
+  <SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
+  <SocialGroups share="1" pairs="1" threes="0" fours="0"/>
+  <AgentProfile name="a"><Common r="0.2" max_speed="2" max_accel="5" pref_speed="{}" class="1"
+    obstacleSet="1"/></AgentProfile>
+  <ObstacleSet type="explicit" class="1"><Obstacle closed="1">
+    <Vertex p_x="-1.5" p_y="0"/><Vertex p_x="1.5" p_y="0"/><Vertex p_x="1.5" p_y="2"/>
+    <Vertex p_x="-1.5" p_y="2"/></Obstacle></ObstacleSet>
+  <AgentGroup>
+    <ProfileSelector type="const" name="a"/><StateSelector type="const" name="Walk"/>
+    <Generator type="explicit"><Agent p_x="-1.2" p_y="-0.3"/><Agent p_x="1.2" p_y="-0.3"/></Generator>
+  </AgentGroup>
+</Experiment>)",
+                                          1.4);
+    Simulation crowd = test::load(scene, R"(<BFSM>
+  <GoalSet id="0"><Goal id="0" type="circle" x="0" y="20" radius="0.5"/></GoalSet>
+  <State name="Walk" final="0"><GoalSelector type="explicit" goal_set="0" goal="0"/>
+    <VelComponent type="auto" cell_size="0.12"/></State></BFSM>)",
+                                  {.model = model});
+    ASSERT_EQ(crowd.social_groups()[0], crowd.social_groups()[1]) << model;
+    for (int step = 0; step < 400; ++step) crowd.step();
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_GT(crowd.positions()[i].y(), 10) << model << ' ' << i;
+  }
+}
+
 }  // namespace
 }  // namespace throng::crowd
