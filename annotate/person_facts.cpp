@@ -65,9 +65,9 @@ std::string_view name_of(Activity activity) {
   return kNames.at(static_cast<std::size_t>(activity));
 }
 
-Activity activity_of(std::string_view state, bool is_panicked, double speed_mps) {
-  if (world::is_down(state)) return Activity::lying;
-  if (is_panicked) return Activity::panicking;
+Activity activity_of(std::string_view state, std::uint8_t flags, double speed_mps) {
+  if ((flags & world::kFallen) != 0) return Activity::lying;
+  if ((flags & world::kPanicked) != 0) return Activity::panicking;
   if (speed_mps < kStandingMps) return Activity::waiting;
   if (says_follow(state)) return Activity::following;
   return speed_mps > kRunningMps ? Activity::running : Activity::walking;
@@ -103,9 +103,8 @@ void PersonFacts::append(std::string& text, std::uint32_t agent, double time_s,
   const std::size_t at = trace_->at(step_at(time_s), agent);
   const std::size_t state = trace_->state.empty() ? 0 : trace_->state[at];
   const bool is_named = state < behaviour_.size();
-  const bool is_panicked = (trace_->flags[at] & world::kPanicked) != 0;
   const Activity activity =
-      activity_of(is_named ? trace_->header.state_names[state] : "", is_panicked, speed_mps);
+      activity_of(is_named ? trace_->header.state_names[state] : "", trace_->flags[at], speed_mps);
   const int exit = trace_->exit_intent.empty() ? -1 : trace_->exit_intent[at];
   const bool has_exit = exit >= 0 && static_cast<std::size_t>(exit) < exit_.size();
   fmt::format_to(std::back_inserter(text), R"(,"state":"{}")", name_of(activity));
