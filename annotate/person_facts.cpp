@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -37,6 +38,28 @@ bool says_follow(std::string_view state) {
   return found != state.end();
 }
 
+/// Surface of the finest mesh that is drawn in a tint, m².
+double tinted_m2(const skinning::Character& character, skinning::Tint tint) {
+  if (character.levels.empty()) return 0;
+  const skinning::Mesh& mesh = character.levels.front();
+  const auto corner = [&](std::uint32_t index) {
+    return Eigen::Vector3f(mesh.vertices[mesh.indices[index]].position.data()).cast<double>();
+  };
+  double twice_m2 = 0;
+  for (const skinning::Part& part : mesh.parts) {
+    if (part.tint != tint && part.tint != skinning::Tint::portrait) continue;
+    for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3) {
+      const std::uint32_t first = part.first_index + i;
+      const Eigen::Vector3d a = corner(first);
+      twice_m2 += (corner(first + 1) - a).cross(corner(first + 2) - a).norm();
+    }
+  }
+  return twice_m2 / 2;
+}
+
+/// Less of a colour, like a bald man's eyebrows, is none that somebody would name.
+constexpr double kLeastTintedM2 = 0.01;
+
 nlohmann::json attributes_of(const skinning::Character& character,
                              const skinning::Appearance& appearance) {
   nlohmann::json attributes = {
@@ -49,7 +72,7 @@ nlohmann::json attributes_of(const skinning::Character& character,
   for (const skinning::Tint tint :
        {skinning::Tint::top, skinning::Tint::bottom, skinning::Tint::hair, skinning::Tint::shoes}) {
     const auto index = static_cast<std::size_t>(tint);
-    if (character.tints[index].empty()) continue;
+    if (character.tints[index].empty() || tinted_m2(character, tint) < kLeastTintedM2) continue;
     const skinning::Rgb& colour = appearance.tint[index];
     attributes[std::string(skinning::kTintNames[index]) + "_colour"] =
         fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
