@@ -34,6 +34,16 @@ bool shows(const render::Frame& frame, std::uint32_t agent, const Eigen::Vector3
   return false;
 }
 
+/// Whether the camera sees a keypoint's place as it is recorded: where a lens's model ends,
+/// rounding may decide that.
+bool is_recorded_seen(const render::Frame& frame, const render::PersonInView& person,
+                      std::size_t keypoint) {
+  if (!frame.camera.intrinsics.distortion || person.keypoints_px) return true;
+  const Eigen::Vector3d place = person.keypoints[keypoint].cast<double>().unaryExpr(
+      [](double metres) { return rounded(metres, kMetreDecimals); });
+  return frame.camera.project(place).visible;
+}
+
 }  // namespace
 
 void add_keypoints(const render::Frame& frame, FrameLabels& labels) {
@@ -42,7 +52,7 @@ void add_keypoints(const render::Frame& frame, FrameLabels& labels) {
     const skinning::Keypoints seen = render::keypoints_in(label.person, frame.camera);
     label.keypoints.assign(seen.size(), {});
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (!seen[i].allFinite()) continue;
+      if (!seen[i].allFinite() || !is_recorded_seen(frame, label.person, i)) continue;
       // As the record has it: rounding must not move a labelled point onto the image's edge.
       const double x = rounded(static_cast<double>(seen[i].x()), kPixelDecimals);
       const double y = rounded(static_cast<double>(seen[i].y()), kPixelDecimals);

@@ -35,7 +35,7 @@ const std::string kWait = R"(<BFSM>
   <State name="Wait" final="0"><GoalSelector type="identity"/><VelComponent type="goal"/></State>
   <State name="Go" final="1"><GoalSelector type="explicit" goal_set="0" goal="0"/>
     <VelComponent type="goal"/></State>
-  <Transition from="Wait" to="Go"><Condition type="timer" dist="c" value="20"/></Transition>
+  <Transition from="Wait" to="Go"><Condition type="timer" dist="c" value="20" per_agent="0"/></Transition>
 </BFSM>)";
 
 Simulation crowd_of(const std::string& facing, std::uint64_t seed = 1,
