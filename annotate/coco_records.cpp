@@ -93,7 +93,7 @@ void append_lens(std::string& text, const std::optional<camera::Distortion>& dis
 void append_people(std::string& text, const CocoImage& image, const FrameLabels& labels) {
   const auto truncated =
       std::count_if(labels.people.begin(), labels.people.end(), [&](const PersonLabel& label) {
-        return truncation_of(label.person.amodal_box, image.camera.intrinsics) > 0;
+        return recorded_truncation(label.person.amodal_box, image.camera.intrinsics) > 0;
       });
   append(text, R"(,"counts":{{"all":{},"visible":{},"truncated":{})",
          labels.people.size() + labels.hidden.size(), labels.people.size(), truncated);

@@ -73,14 +73,35 @@ std::vector<Eigen::Vector3d> in_front(const std::vector<Eigen::Vector2d>& polygo
   return kept;
 }
 
+/// The polygon's corners as the camera sees them; edges end where the lens's model does.
+std::vector<Eigen::Vector2d> seen_corners(const std::vector<Eigen::Vector3d>& polygon,
+                                          const camera::Camera& camera) {
+  const auto last_seen = [&](Eigen::Vector3d from, Eigen::Vector3d to) {
+    constexpr int kHalvings = 24;
+    for (int i = 0; i < kHalvings; ++i) {
+      const Eigen::Vector3d middle = 0.5 * (from + to);
+      (camera.project(middle).visible ? from : to) = middle;
+    }
+    return camera.project(from).pixel;
+  };
+  std::vector<Eigen::Vector2d> corners;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d& next = polygon[(i + 1) % polygon.size()];
+    const camera::Camera::Projection here = camera.project(polygon[i]);
+    const bool is_next_seen = camera.project(next).visible;
+    if (here.visible) corners.push_back(here.pixel);
+    if (here.visible && !is_next_seen) corners.push_back(last_seen(polygon[i], next));
+    if (!here.visible && is_next_seen) corners.push_back(last_seen(next, polygon[i]));
+  }
+  return corners;
+}
+
 void append_polygon(std::string& text, const std::vector<Eigen::Vector2d>& polygon,
                     const camera::Camera& camera) {
   Eigen::AlignedBox2d bounds;
   std::string corners;
-  for (const Eigen::Vector3d& point : in_front(polygon, camera)) {
-    const camera::Camera::Projection seen = camera.project(point);
-    if (!seen.visible) continue;
-    const Eigen::Vector2d at = seen.pixel.array() + 0.5;
+  for (const Eigen::Vector2d& pixel : seen_corners(in_front(polygon, camera), camera)) {
+    const Eigen::Vector2d at = pixel.array() + 0.5;
     bounds.extend(at);
     fmt::format_to(std::back_inserter(corners), "{}[{:.2f},{:.2f}]", corners.empty() ? "" : ",",
                    at.x(), at.y());

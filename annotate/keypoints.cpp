@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "annotate/decimals.h"
 #include "base/error.h"
 
 namespace throng::annotate {
@@ -33,6 +34,16 @@ bool shows(const render::Frame& frame, std::uint32_t agent, const Eigen::Vector3
   return false;
 }
 
+/// Whether the camera sees a keypoint's place as it is recorded: where a lens's model ends,
+/// rounding may decide that.
+bool is_recorded_seen(const render::Frame& frame, const render::PersonInView& person,
+                      std::size_t keypoint) {
+  if (!frame.camera.intrinsics.distortion || person.keypoints_px) return true;
+  const Eigen::Vector3d place = person.keypoints[keypoint].cast<double>().unaryExpr(
+      [](double metres) { return rounded(metres, kMetreDecimals); });
+  return frame.camera.project(place).visible;
+}
+
 }  // namespace
 
 void add_keypoints(const render::Frame& frame, FrameLabels& labels) {
@@ -41,13 +52,14 @@ void add_keypoints(const render::Frame& frame, FrameLabels& labels) {
     const skinning::Keypoints seen = render::keypoints_in(label.person, frame.camera);
     label.keypoints.assign(seen.size(), {});
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      const Eigen::Vector3f& at = seen[i];
-      const bool is_inside = at.allFinite() && at.x() >= 0 && at.y() >= 0 &&
-                             at.x() < static_cast<float>(frame.width()) &&
-                             at.y() < static_cast<float>(frame.height());
-      if (!is_inside) continue;
+      if (!seen[i].allFinite() || !is_recorded_seen(frame, label.person, i)) continue;
+      // As the record has it: rounding must not move a labelled point onto the image's edge.
+      const double x = rounded(static_cast<double>(seen[i].x()), kPixelDecimals);
+      const double y = rounded(static_cast<double>(seen[i].y()), kPixelDecimals);
+      if (!(x >= 0 && y >= 0 && x < frame.width() && y < frame.height())) continue;
+      const Eigen::Vector3f at(static_cast<float>(x), static_cast<float>(y), seen[i].z());
       const bool is_visible = shows(frame, label.agent, at, kDepthInBodyM[i]);
-      label.keypoints[i] = {at.x(), at.y(), is_visible ? 2 : 1};
+      label.keypoints[i] = {x, y, is_visible ? 2 : 1};
     }
   }
 }

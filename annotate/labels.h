@@ -24,8 +24,8 @@ using RunLengths = std::vector<std::uint32_t>;
 
 /// One of COCO's keypoints in the picture.
 struct Keypoint {
-  float x = 0;  ///< box coordinates; 0 when not labelled
-  float y = 0;
+  double x = 0;  ///< box coordinates, rounded to kPixelDecimals; 0 when not labelled
+  double y = 0;
   /// COCO's: 0 not labelled (outside the image), 1 hidden, by others or by the own body, 2 visible.
   int visibility = 0;
 };

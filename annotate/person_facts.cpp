@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -37,6 +38,28 @@ bool says_follow(std::string_view state) {
   return found != state.end();
 }
 
+/// Surface of the finest mesh that is drawn in a tint, m².
+double tinted_m2(const skinning::Character& character, skinning::Tint tint) {
+  if (character.levels.empty()) return 0;
+  const skinning::Mesh& mesh = character.levels.front();
+  const auto corner = [&](std::uint32_t index) {
+    return Eigen::Vector3f(mesh.vertices[mesh.indices[index]].position.data()).cast<double>();
+  };
+  double twice_m2 = 0;
+  for (const skinning::Part& part : mesh.parts) {
+    if (part.tint != tint && part.tint != skinning::Tint::portrait) continue;
+    for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3) {
+      const std::uint32_t first = part.first_index + i;
+      const Eigen::Vector3d a = corner(first);
+      twice_m2 += (corner(first + 1) - a).cross(corner(first + 2) - a).norm();
+    }
+  }
+  return twice_m2 / 2;
+}
+
+/// Less of a colour, like a bald man's eyebrows, is none that somebody would name.
+constexpr double kLeastTintedM2 = 0.01;
+
 nlohmann::json attributes_of(const skinning::Character& character,
                              const skinning::Appearance& appearance) {
   nlohmann::json attributes = {
@@ -49,7 +72,7 @@ nlohmann::json attributes_of(const skinning::Character& character,
   for (const skinning::Tint tint :
        {skinning::Tint::top, skinning::Tint::bottom, skinning::Tint::hair, skinning::Tint::shoes}) {
     const auto index = static_cast<std::size_t>(tint);
-    if (character.tints[index].empty()) continue;
+    if (character.tints[index].empty() || tinted_m2(character, tint) < kLeastTintedM2) continue;
     const skinning::Rgb& colour = appearance.tint[index];
     attributes[std::string(skinning::kTintNames[index]) + "_colour"] =
         fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
@@ -65,9 +88,9 @@ std::string_view name_of(Activity activity) {
   return kNames.at(static_cast<std::size_t>(activity));
 }
 
-Activity activity_of(std::string_view state, bool is_panicked, double speed_mps) {
-  if (world::is_down(state)) return Activity::lying;
-  if (is_panicked) return Activity::panicking;
+Activity activity_of(std::string_view state, std::uint8_t flags, double speed_mps) {
+  if ((flags & world::kFallen) != 0) return Activity::lying;
+  if ((flags & world::kPanicked) != 0) return Activity::panicking;
   if (speed_mps < kStandingMps) return Activity::waiting;
   if (says_follow(state)) return Activity::following;
   return speed_mps > kRunningMps ? Activity::running : Activity::walking;
@@ -103,9 +126,8 @@ void PersonFacts::append(std::string& text, std::uint32_t agent, double time_s,
   const std::size_t at = trace_->at(step_at(time_s), agent);
   const std::size_t state = trace_->state.empty() ? 0 : trace_->state[at];
   const bool is_named = state < behaviour_.size();
-  const bool is_panicked = (trace_->flags[at] & world::kPanicked) != 0;
   const Activity activity =
-      activity_of(is_named ? trace_->header.state_names[state] : "", is_panicked, speed_mps);
+      activity_of(is_named ? trace_->header.state_names[state] : "", trace_->flags[at], speed_mps);
   const int exit = trace_->exit_intent.empty() ? -1 : trace_->exit_intent[at];
   const bool has_exit = exit >= 0 && static_cast<std::size_t>(exit) < exit_.size();
   fmt::format_to(std::back_inserter(text), R"(,"state":"{}")", name_of(activity));

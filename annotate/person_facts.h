@@ -17,11 +17,11 @@ namespace throng::annotate {
 enum class Activity : std::uint8_t { waiting, walking, running, following, panicking, lying };
 std::string_view name_of(Activity activity);
 
-/// Lying if they are in a state of those in docs/trace.md, else panicking if in panic, else
-/// following if the state's name says that they follow somebody; else as fast as they are: below
-/// 0.2 m/s they wait, and above 2.07 m/s they run (Hreljac, 1993: where people change from walking
-/// to running).
-Activity activity_of(std::string_view state, bool is_panicked, double speed_mps);
+/// Of somebody in a behaviour's state of this name, with the trace's flags: lying with
+/// world::kFallen, else panicking with world::kPanicked, else by speed: below 0.2 m/s they wait;
+/// faster they follow if the state's name says so, and above 2.07 m/s they run (Hreljac, 1993:
+/// where people change from walking to running).
+Activity activity_of(std::string_view state, std::uint8_t flags, double speed_mps);
 
 class PersonFacts {
  public:

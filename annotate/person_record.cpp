@@ -13,6 +13,16 @@ double truncation_of(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k
   return inside.isEmpty() ? 1 : std::clamp(1 - inside.volume() / box.volume(), 0.0, 1.0);
 }
 
+Eigen::AlignedBox2d recorded_box(const Eigen::AlignedBox2d& box) {
+  const auto pixels = [](double value) { return rounded(value, kPixelDecimals); };
+  const Eigen::Vector2d first = box.min().unaryExpr(pixels);
+  return {first, Eigen::Vector2d(first + box.sizes().unaryExpr(pixels))};
+}
+
+double recorded_truncation(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k) {
+  return rounded(truncation_of(recorded_box(box), k), kShareDecimals);
+}
+
 namespace {
 
 void append_keypoints(std::string& text, const PersonLabel& label) {
@@ -21,9 +31,9 @@ void append_keypoints(std::string& text, const PersonLabel& label) {
   for (std::size_t i = 0; i < label.keypoints.size(); ++i) {
     const Keypoint& point = label.keypoints[i];
     if (i > 0) text.push_back(',');
-    append_decimal(text, static_cast<double>(point.x), kPixelDecimals);
+    append_decimal(text, point.x, kPixelDecimals);
     text.push_back(',');
-    append_decimal(text, static_cast<double>(point.y), kPixelDecimals);
+    append_decimal(text, point.y, kPixelDecimals);
     text.push_back(',');
     text.push_back(static_cast<char>('0' + point.visibility));
     if (point.visibility > 0) ++labelled;
@@ -39,7 +49,7 @@ void append_keypoints(std::string& text, const PersonLabel& label) {
 }  // namespace
 
 void append_pose_members(std::string& text, const CocoImage& image, const Placed& placed) {
-  const double truncation = truncation_of(placed.amodal_box, image.camera.intrinsics);
+  const double truncation = recorded_truncation(placed.amodal_box, image.camera.intrinsics);
   if (truncation > 0) {
     text += R"(,"truncation":)";
     append_decimal(text, truncation, kShareDecimals);

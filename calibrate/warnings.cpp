@@ -210,8 +210,10 @@ void add_intrinsics_warnings(const Rules& rules, const Fit& fit, Calibration& ca
   warn_of_outliers(calibration);
   if (!holds_at_border(calibration)) {
     say(calibration,
-        "the lens's model folds within the image: pictures cannot be rendered with it; take views "
-        "with points near the borders, or a lens with fewer coefficients");
+        "the lens's model folds or ends (at most 80 degrees off its axis) within the image: "
+        "rendered "
+        "pictures are black beyond; take views with points near the borders, or a lens with fewer "
+        "coefficients, if the real camera shows more");
   }
 }
 

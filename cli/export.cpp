@@ -43,7 +43,7 @@ std::pair<std::string, std::string> sides_of(const std::string& text, const std:
 /// train=0.8, val=0.2 or val=run003: shares or runs.
 formats::SplitOptions splits_of(const std::vector<std::string>& words) {
   formats::SplitOptions splits;
-  bool has_shares = false;
+  bool has_train = false;
   for (const std::string& word : words) {
     const auto [name, value] = sides_of(word, "--split");
     const auto found = std::find(formats::kSplitNames.begin(), formats::kSplitNames.end(), name);
@@ -55,18 +55,17 @@ formats::SplitOptions splits_of(const std::vector<std::string>& words) {
       splits.runs[value] = static_cast<formats::Split>(index);
       continue;
     }
-    if (!has_shares) splits.share = {0, 0, 0};
-    has_shares = true;
+    has_train = has_train || index == static_cast<std::size_t>(formats::Split::train);
     char* end = nullptr;
     splits.share[index] = std::strtod(value.c_str(), &end);
-    if (value.empty() || *end != '\0' ||
-        !(splits.share[index] >= 0 && splits.share[index] <= 1e6)) {
-      throw InputError({"", "--split " + name, value, "a share, or a run such as run003"});
+    if (value.empty() || *end != '\0' || !(splits.share[index] >= 0 && splits.share[index] <= 1)) {
+      throw InputError(
+          {"", "--split " + name, value, "a share from 0 to 1, or a run such as run003"});
     }
   }
-  if (splits.share[0] + splits.share[1] + splits.share[2] <= 0) {
-    throw InputError({"", "--split", "shares that are all 0", "one above 0"});
-  }
+  std::vector<Problem> problems;
+  formats::settle_shares(has_train, "--split", splits, problems);
+  if (!problems.empty()) throw InputError(std::move(problems));
   return splits;
 }
 
@@ -93,6 +92,9 @@ void export_formats(const ExportArguments& arguments) {
   StagingFolder staging(arguments.output);
   formats::export_dataset(info, chosen, staging.path());
   staging.commit();
+  for (const Problem& warning : formats::split_warnings(info, chosen)) {
+    fmt::print(stderr, "throng: warning: {}\n", warning.text());
+  }
   for (const formats::Format* format : chosen) {
     fmt::print("{}\n", (fs::path(arguments.output) / format->name).string());
   }
@@ -111,7 +113,8 @@ void add_export(CLI::App& app) {
       ->delimiter(',');
   command
       ->add_option("--split", arguments->splits,
-                   "Shares of the runs or runs: train=0.8,val=0.2 or test=run003")
+                   "Shares of the runs or runs: train=0.8,val=0.2 or test=run003; without train it "
+                   "gets what the others leave")
       ->delimiter(',');
   command
       ->add_option("--min-visibility", arguments->min_visibility,

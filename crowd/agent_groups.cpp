@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "crowd/arrivals.h"
+#include "crowd/facing.h"
 #include "crowd/generators.h"
 
 namespace throng::crowd {
@@ -135,8 +136,19 @@ Element only(const Element& group, std::string_view name) {
   return *found;
 }
 
+/// Where a group's agents face while they stand; nothing: the way, as Menge has it.
+std::unique_ptr<Facing> facing_of(const Element& group, const GroupContext& context,
+                                  const Crowd& crowd) {
+  FacingContext facing{context.seed};
+  if (const std::optional<Element> given = at_most_one(group, "Facing")) {
+    return facing_registry().make(*given, facing);
+  }
+  return crowd.compat == Compat::none ? any_facing(context.seed) : nullptr;
+}
+
 void add_agents(const std::vector<Eigen::Vector2f>& places, ProfileSelector& profile,
-                StateSelector& state, const GroupContext& context, Crowd& crowd) {
+                StateSelector& state, const Facing* facing, const GroupContext& context,
+                Crowd& crowd) {
   Agents& agents = crowd.agents;
   const std::size_t first = agents.count();
   agents.resize(first + places.size(), context.profiles.front().model_parameters.size());
@@ -147,6 +159,7 @@ void add_agents(const std::vector<Eigen::Vector2f>& places, ProfileSelector& pro
     agents.profile[agent] = static_cast<std::uint32_t>(chosen);
     agents.position[agent] = places[i];
     agents.state[agent] = state.select(agent);
+    if (facing != nullptr) agents.facing[agent] = facing->direction(agent, places[i]);
   }
 }
 
@@ -172,6 +185,7 @@ void load_group(const Element& group, GroupContext& context, Crowd& crowd,
   const Attributes no_attributes(group, {});
   const auto profile = profile_selector_registry().make(only(group, "ProfileSelector"), context);
   const auto state = state_selector_registry().make(only(group, "StateSelector"), context);
+  const std::unique_ptr<Facing> facing = facing_of(group, context, crowd);
   const std::size_t first = crowd.agents.count();
   const std::optional<Element> arrivals = at_most_one(group, "Arrivals");
   std::vector<Eigen::Vector2f> places;
@@ -181,10 +195,10 @@ void load_group(const Element& group, GroupContext& context, Crowd& crowd,
           generate_places(child, {crowd, context.seed, first + places.size()}, context.sequences);
       places.insert(places.end(), more.begin(), more.end());
       // Each generator's agents are made at once: the order in which compatible runs draw.
-      if (!arrivals) add_agents(more, *profile, *state, context, crowd);
+      if (!arrivals) add_agents(more, *profile, *state, facing.get(), context, crowd);
     } else if (child.name() != "ProfileSelector" && child.name() != "StateSelector" &&
-               child.name() != "Arrivals") {
-      child.fail_unknown("<ProfileSelector>, <StateSelector>, <Generator> or <Arrivals>");
+               child.name() != "Arrivals" && child.name() != "Facing") {
+      child.fail_unknown("<ProfileSelector>, <StateSelector>, <Generator>, <Facing> or <Arrivals>");
     }
   }
   if (places.empty()) group.fail("no <Generator>", "at least one <Generator>");
@@ -197,7 +211,7 @@ void load_group(const Element& group, GroupContext& context, Crowd& crowd,
   ArrivalPlan plan = load_arrivals(*arrivals, places, first, context.seed);
   std::vector<Eigen::Vector2f> entrances(plan.time_s.size());
   for (std::size_t i = 0; i < entrances.size(); ++i) entrances[i] = places[i % places.size()];
-  add_agents(entrances, *profile, *state, context, crowd);
+  add_agents(entrances, *profile, *state, facing.get(), context, crowd);
   if (context.social_groups) {
     form_arriving_groups(*context.social_groups, first, plan.time_s, context.seed, crowd);
   }

@@ -13,6 +13,7 @@ void Agents::resize(std::size_t count, std::size_t model_parameter_count) {
   velocity.resize(count, zero);
   orientation.resize(count, Eigen::Vector2f::UnitX());
   yaw_rad.resize(count, 0);
+  facing.resize(count, zero);
   preferred_direction.resize(count, Eigen::Vector2f::UnitX());
   preferred_speed.resize(count, 0);
   for (std::vector<float>& values : properties) values.resize(count, 0);

@@ -72,6 +72,8 @@ struct Agents {
   std::vector<Eigen::Vector2f> velocity;     ///< m/s
   std::vector<Eigen::Vector2f> orientation;  ///< unit
   std::vector<float> yaw_rad;
+  /// Unit: where somebody faces who stands where they began, see Facing; 0: where they go.
+  std::vector<Eigen::Vector2f> facing;
 
   /// Where each would go if alone: a unit vector and m/s.
   std::vector<Eigen::Vector2f> preferred_direction;

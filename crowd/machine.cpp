@@ -37,6 +37,11 @@ void Machine::arrive(Crowd& crowd, std::size_t agent) {
 }
 
 void Machine::face_the_way(Agents& agents, std::size_t agent) {
+  if (agents.preferred_speed[agent] > 0) {
+    agents.facing[agent].setZero();
+  } else if (!agents.facing[agent].isZero()) {
+    agents.preferred_direction[agent] = agents.facing[agent];
+  }
   agents.orientation[agent] = agents.preferred_direction[agent];
   agents.yaw_rad[agent] = std::atan2(agents.orientation[agent].y(), agents.orientation[agent].x());
 }
@@ -84,6 +89,7 @@ void Machine::follow_chain(Crowd& crowd, std::size_t agent, int transition) {
 
 void Machine::change_state(Crowd& crowd, std::size_t agent, std::uint8_t state) {
   leave(crowd, agent);
+  crowd.agents.facing[agent].setZero();
   crowd.agents.previous_state[agent] = crowd.agents.state[agent];
   enter(crowd, agent, state);
 }

@@ -72,6 +72,13 @@ Vector<Float> facing(const Vector<Float>& velocity, const Vector<Float>& preferr
   return select(speed < kStanding, preferred, select(3 * speed >= pref_speed, moving, slow));
 }
 
+/// Whether somebody who looks somewhere (`watched`, 0: nowhere) shuffles at most.
+template <typename Float>
+auto keeps_facing(const Vector<Float>& velocity, const Vector<Float>& watched) {
+  constexpr float kShuffle = 0.5F;  // m/s: one step a second, sideways or back
+  return (dot(velocity, velocity) < kShuffle * kShuffle) & (dot(watched, watched) > 0.5F);
+}
+
 /// `from` turned towards `to` by at most `most_rad`.
 Vector<float> turn(const Vector<float>& from, const Vector<float>& to, float most_rad) {
   const float sine = from.x * to.y - from.y * to.x;
@@ -127,6 +134,7 @@ struct Mover {
   Vector<Float> orientation;
   Vector<Float> wanted;  ///< velocity
   Vector<Float> preferred;
+  Vector<Float> watched;  ///< where those look who stand
   Float pref_speed;
   Float most_accel;  ///< m/s^2
   Float most_turn_rad;
@@ -178,6 +186,7 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
   read(&agents.orientation[i], mover.orientation);
   read(&new_velocity[i], mover.wanted);
   read(&agents.preferred_direction[i], mover.preferred);
+  read(&agents.facing[i], mover.watched);
   read(&agents[Property::pref_speed][i], mover.pref_speed);
   read(&agents[Property::max_accel][i], mover.most_accel);
   read(&agents[Property::max_angle_vel][i], mover.most_turn_rad);
@@ -186,6 +195,7 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
   const Float step_s = dt_s - Float{};
   const Vector<Float> velocity = approach(mover.velocity, mover.wanted, step_s * mover.most_accel);
   Vector<Float> ahead = facing(velocity, mover.preferred, mover.orientation, mover.pref_speed);
+  ahead = select(keeps_facing(velocity, mover.watched), mover.watched, ahead);
   write(velocity, &agents.velocity[i]);
   write(mover.position + step_s * velocity, &agents.position[i]);
 

@@ -9,6 +9,7 @@
 #include "crowd/behavior.h"
 #include "crowd/elevation.h"
 #include "crowd/events.h"
+#include "crowd/facing.h"
 #include "crowd/generators.h"
 #include "crowd/goals.h"
 #include "crowd/model.h"
@@ -206,6 +207,8 @@ std::vector<VocabularyKind> vocabulary() {
       of(state_selector_registry(), "State selectors",
          "<StateSelector> in <AgentGroup> or <Effect>"),
       of(generator_registry(), "Generators", "<Generator> in <AgentGroup>"),
+      of(facing_registry(), "Facing",
+         "<Facing> in <AgentGroup>: of those who stand when they begin"),
       of(arrival_registry(), "Arrivals", "<Arrivals> in <AgentGroup>"),
       of(goal_registry(), "Goals", "<Goal> in <GoalSet>"),
       of(goal_selector_registry(), "Goal selectors", "<GoalSelector> in <State>"),

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string>
 
+#include "formats/image_camera.h"
 #include "formats/makers.h"
 #include "formats/sequences.h"
 
@@ -25,8 +26,9 @@ class DroneCrowdExporter : public Exporter {
     output_.link(fmt::format("{}/images/{}/{:06}.jpg", split, image.sequence(), image.frame + 1),
                  info_.root / image.file);
     std::string lines;
+    const camera::Camera camera = camera_of(image);
     for (const Person& person : image.people) {
-      if (!person.is_ignored && person.head) append(lines, image, person);
+      if (!person.is_ignored && person.head) append(lines, image, camera, person);
     }
     texts_.annotations_of(image).write(lines);
   }
@@ -34,11 +36,11 @@ class DroneCrowdExporter : public Exporter {
 
  private:
   /// frame,head,x,y,width,height,out,occluded,-1,-1; x and y are the box's left upper corner.
-  static void append(std::string& lines, const Image& image, const Person& person) {
+  static void append(std::string& lines, const Image& image, const camera::Camera& camera,
+                     const Person& person) {
     const Eigen::Vector2d& at = *person.head;
     if (at.x() < 0 || at.y() < 0 || at.x() >= image.width || at.y() >= image.height) return;
-    const double depth_m = std::max((image.R * person.box_middle + image.t).z(), 0.1);
-    const double size = std::max(kHeadM * image.camera_matrix(0, 0) / depth_m, 1.0);
+    const double size = std::max(pixels_across(camera, person.box_middle, kHeadM), 1.0);
     const bool is_hidden = person.visibility < 0.5;
     fmt::format_to(std::back_inserter(lines), "{},{},{:.2f},{:.2f},{:.2f},{:.2f},0,{},-1,-1\n",
                    image.frame + 1, person.number_in_run(), at.x() - size / 2, at.y() - size / 2,

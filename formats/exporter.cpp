@@ -87,6 +87,25 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
   return chosen;
 }
 
+std::vector<Problem> split_warnings(const DatasetInfo& info,
+                                    const std::vector<const Format*>& formats) {
+  const std::vector<Split> used = info.splits();
+  std::vector<std::string_view> empty;
+  for (const Split split : {Split::train, Split::val}) {
+    if (std::find(used.begin(), used.end(), split) == used.end()) empty.push_back(name_of(split));
+  }
+  std::vector<Problem> warnings;
+  if (empty.empty()) return warnings;
+  for (const Format* format : formats) {
+    if (!format->name.starts_with("yolo-")) continue;
+    warnings.push_back(
+        {"", std::string(format->name) + "/data.yaml",
+         fmt::format("no run in the split {}, which it does not name", fmt::join(empty, " or ")),
+         "runs in train and in val, which Ultralytics wants for training"});
+  }
+  return warnings;
+}
+
 void export_dataset(const DatasetInfo& info, const std::vector<const Format*>& formats,
                     const std::filesystem::path& output, Exporter* also) {
   std::vector<std::unique_ptr<Exporter>> exporters;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
 #include "formats/dataset.h"
 #include "formats/output.h"
 
@@ -43,6 +44,10 @@ const Format* find_format(std::string_view name);
 std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
                                           const std::vector<std::string>& annotations,
                                           const std::string& where);
+
+/// What is worth saying of splits without a run: formats whose programs want them.
+std::vector<Problem> split_warnings(const DatasetInfo& info,
+                                    const std::vector<const Format*>& formats);
 
 /// One pass over the dataset: each format below `output`, in a folder of its name. `also` is fed
 /// with them, if given.

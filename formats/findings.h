@@ -10,6 +10,7 @@
 
 #include "camera/camera.h"
 #include "formats/dataset.h"
+#include "formats/image_camera.h"
 #include "formats/npy.h"
 #include "formats/validate.h"
 
@@ -58,9 +59,6 @@ void check_exports(const DatasetInfo& info, const nlohmann::json& manifest, Find
 
 /// R is a rotation, and the centre is where R and t put it.
 void check_camera(const Image& image, Findings& findings);
-
-/// The image's camera, with its lens.
-camera::Camera camera_of(const Image& image);
 
 /// The run's calibration files against the image's lens.
 void check_camera_files(const DatasetInfo& info, const Image& image, Findings& findings);

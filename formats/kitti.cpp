@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "formats/image_camera.h"
 #include "formats/makers.h"
 
 namespace throng::formats {
@@ -46,7 +47,23 @@ void append_label(std::string& text, const Image& image, const Person& person) {
                  person.box_size.x(), at.x(), at.y(), at.z(), rotation_y);
 }
 
-/// P2 projects camera coordinates; the world's are in what this adds to KITTI's lines.
+/// The lens's coefficients in OpenCV's order, on a line whose name says the model; "" for a
+/// pinhole. KITTI's own pictures are rectified and have no such line.
+std::string distortion_line(const Image& image) {
+  const auto distortion = camera_of(image).intrinsics.distortion;
+  if (!distortion) return "";
+  using Model = camera::Distortion::Model;
+  const bool is_fisheye = distortion->model() == Model::fisheye;
+  constexpr std::size_t kFisheyeCoefficients = 4;
+  std::string text = is_fisheye ? "D2_fisheye:" : "D2_brown_conrady:";
+  const auto& coefficients = distortion->coefficients();
+  const std::size_t count = is_fisheye ? kFisheyeCoefficients : coefficients.size();
+  for (std::size_t i = 0; i < count; ++i) text += fmt::format(" {:.9e}", coefficients[i]);
+  return text + "\n";
+}
+
+/// P2 projects camera coordinates; the world's are in what this adds to KITTI's lines, and so is
+/// the lens's distortion.
 std::string calibration(const Image& image) {
   std::string text;
   const auto append_row = [&](const auto& row, double last) {
@@ -63,8 +80,16 @@ std::string calibration(const Image& image) {
   }
   text += "R0_rect: 1 0 0 0 1 0 0 0 1\n";
   append("Tr_world_to_cam:", image.R, image.t);
-  return text;
+  return text + distortion_line(image);
 }
+
+constexpr std::string_view kLensNote =
+    "Pictures of this dataset are distorted by a lens, unlike KITTI's: P0 to P3 alone do not\n"
+    "project into them. The last line of a calib file has OpenCV's coefficients of its picture:\n"
+    "D2_brown_conrady: k1 k2 p1 p2 k3 k4 k5 k6   (cv::projectPoints with K = P2's left 3 x 3)\n"
+    "D2_fisheye: k1 k2 k3 k4                     (cv::fisheye::projectPoints)\n"
+    "Files without such a line are a pinhole's. Boxes of label_2 are those of the distorted\n"
+    "pictures; places, sizes and rotation_y are those of the camera's frame.\n";
 
 class KittiExporter : public Exporter {
  public:
@@ -78,12 +103,16 @@ class KittiExporter : public Exporter {
     for (const Person& person : image.people) append_label(labels, image, person);
     output_.write(fmt::format("{}/label_2/{}.txt", split, stem), labels);
     output_.write(fmt::format("{}/calib/{}.txt", split, stem), calibration(image));
+    has_lens_ = has_lens_ || camera_of(image).intrinsics.distortion.has_value();
   }
-  void finish() override {}
+  void finish() override {
+    if (has_lens_) output_.write("README.txt", kLensNote);
+  }
 
  private:
   const DatasetInfo& info_;
   Output output_;
+  bool has_lens_ = false;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
 
 #include "annotate/labels.h"
@@ -14,55 +13,6 @@ namespace {
 
 [[noreturn]] void refuse_counts(std::string_view counts, const std::string& expected) {
   throw InputError({"", "segmentation/counts", std::string(counts.substr(0, 40)), expected});
-}
-
-/// A directed edge along pixels, the mask on its right side.
-struct Edges {
-  // From each corner the corners that edges lead to: at most two, where two pixels touch.
-  std::map<Corner, std::vector<Corner>> from;
-
-  void add(Corner begin, Corner end) { from[begin].push_back(end); }
-};
-
-Edges edges_of(const Bitmap& mask) {
-  Edges edges;
-  for (int y = mask.y; y < mask.y + mask.height; ++y) {
-    for (int x = mask.x; x < mask.x + mask.width; ++x) {
-      if (!mask.at(x, y)) continue;
-      if (!mask.at(x, y - 1)) edges.add({x, y}, {x + 1, y});
-      if (!mask.at(x + 1, y)) edges.add({x + 1, y}, {x + 1, y + 1});
-      if (!mask.at(x, y + 1)) edges.add({x + 1, y + 1}, {x, y + 1});
-      if (!mask.at(x - 1, y)) edges.add({x, y + 1}, {x, y});
-    }
-  }
-  return edges;
-}
-
-bool is_straight(const Corner& a, const Corner& b, const Corner& c) {
-  return (a.first == b.first && b.first == c.first) ||
-         (a.second == b.second && b.second == c.second);
-}
-
-/// Follows edges until the start is met again; takes them away.
-std::vector<Corner> take_ring(Edges& edges) {
-  std::vector<Corner> ring;
-  const Corner start = edges.from.begin()->first;
-  Corner at = start;
-  do {
-    const auto found = edges.from.find(at);
-    check(found != edges.from.end(), "the edges of a mask form rings");
-    const Corner next = found->second.back();
-    found->second.pop_back();
-    if (found->second.empty()) edges.from.erase(found);
-    if (ring.size() >= 2 && is_straight(ring[ring.size() - 2], ring.back(), at)) {
-      ring.back() = at;
-    } else {
-      ring.push_back(at);
-    }
-    at = next;
-  } while (at != start);
-  if (ring.size() >= 3 && is_straight(ring[ring.size() - 2], ring.back(), start)) ring.pop_back();
-  return ring;
 }
 
 }  // namespace
@@ -160,25 +110,6 @@ std::vector<std::uint32_t> runs_of(const std::vector<Bitmap>& bitmaps, int width
     }
   }
   return runs;
-}
-
-std::vector<Corner> polygon_of(const Bitmap& mask) {
-  Edges edges = edges_of(mask);
-  std::vector<Corner> polygon;
-  while (!edges.from.empty()) {
-    const std::vector<Corner> ring = take_ring(edges);
-    if (polygon.empty()) {
-      polygon = ring;
-      if (!edges.from.empty()) polygon.push_back(ring.front());
-      continue;
-    }
-    polygon.insert(polygon.end(), ring.begin(), ring.end());
-    polygon.push_back(ring.front());
-    polygon.push_back(polygon.front());
-  }
-  // The polygon closes by itself.
-  if (polygon.size() > 1 && polygon.back() == polygon.front()) polygon.pop_back();
-  return polygon;
 }
 
 }  // namespace throng::formats

@@ -1,10 +1,9 @@
-// Masks: COCO's compressed run lengths, as runs, as pixels and as polygons.
+// Masks: COCO's compressed run lengths, as runs and as pixels.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "formats/dataset.h"
@@ -36,12 +35,5 @@ Bitmap bitmap_of(const std::vector<std::uint32_t>& runs, int image_height);
 
 /// Run lengths of the union of bitmaps of one image.
 std::vector<std::uint32_t> runs_of(const std::vector<Bitmap>& bitmaps, int width, int height);
-
-using Corner = std::pair<int, int>;  ///< x, y of a pixel's corner
-
-/// The mask as one polygon along the pixels' edges, which holds all of its pieces and holes: rings
-/// are joined by lines of no width to the first ring's first corner. Filled by the even-odd rule it
-/// is the mask again. Empty for an empty mask.
-std::vector<Corner> polygon_of(const Bitmap& mask);
 
 }  // namespace throng::formats

@@ -27,6 +27,24 @@ const std::vector<Property>& properties() {
 
 }  // namespace
 
+void settle_shares(bool has_train, const std::string& where, SplitOptions& splits,
+                   std::vector<Problem>& problems) {
+  constexpr double kRounding = 1e-9;  // of decimals that sum to 1
+  double& train = splits.share[static_cast<std::size_t>(Split::train)];
+  double others = 0;
+  for (const Split split : {Split::val, Split::test}) {
+    others += splits.share[static_cast<std::size_t>(split)];
+  }
+  if (!has_train) train = others < 1 - kRounding ? 1 - others : 0;
+  const double sum = train + others;
+  if (!(sum <= 1 + kRounding)) {
+    problems.push_back(
+        {"", where, fmt::format("shares that sum to {:g}", sum), "shares that sum to at most 1"});
+  } else if (sum <= 0) {
+    problems.push_back({"", where, "no share above 0", "at least one"});
+  }
+}
+
 std::vector<std::string> class_values(std::string_view property) {
   for (const auto& [name, values] : properties()) {
     if (name == property) return values;

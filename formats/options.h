@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
+
 namespace throng::formats {
 
 enum class Split : std::uint8_t { train, val, test };
@@ -18,12 +20,17 @@ inline std::string_view name_of(Split split) {
 
 /// Whole runs go to one split: frames of one run resemble each other too much to be apart.
 struct SplitOptions {
-  /// Shares of the runs, in their order; normalised. Each split begins at the run that the shares
-  /// before it round to.
+  /// Shares of the runs, in their order; at most 1 in all, and scaled to that if they are less.
+  /// Each split begins at the run that the shares before it round to.
   std::array<double, 3> share = {1, 0, 0};
   /// Runs that are asked for by name ("run003"); the others are shared out.
   std::map<std::string, Split> runs;
 };
+
+/// Gives training what the others leave, unless its share is given, and adds to `problems` shares
+/// that are none or more than everything. `where` says where they stand.
+void settle_shares(bool has_train, const std::string& where, SplitOptions& splits,
+                   std::vector<Problem>& problems);
 
 /// Who is worth a label. The rest become ignore regions where a format has them.
 struct FilterOptions {

@@ -9,6 +9,7 @@
 
 #include "annotate/density.h"
 #include "base/error.h"
+#include "formats/image_camera.h"
 #include "formats/makers.h"
 #include "formats/mat_file.h"
 #include "world/hdf5_file.h"
@@ -26,7 +27,7 @@ constexpr double kLeastSigmaPx = 0.5;
 
 struct Heads {
   std::vector<Eigen::Vector2d> place;  ///< box coordinates, inside the image
-  std::vector<double> depth_m;         ///< of the people
+  std::vector<Eigen::Vector3d> body;   ///< middles of the people, m, world
 };
 
 Heads heads_of(const Image& image) {
@@ -36,7 +37,7 @@ Heads heads_of(const Image& image) {
     const Eigen::Vector2d& at = *person.head;
     if (at.x() < 0 || at.y() < 0 || at.x() >= image.width || at.y() >= image.height) continue;
     heads.place.push_back(at);
-    heads.depth_m.push_back((image.R * person.box_middle + image.t).z());
+    heads.body.push_back(person.box_middle);
   }
   return heads;
 }
@@ -67,10 +68,11 @@ std::vector<double> adaptive_sigmas(const Heads& heads, const Image& image) {
 /// 0.2 m at the head's distance (Zhang et al., 2015: 0.2 times the pixels of a metre).
 std::vector<double> perspective_sigmas(const Heads& heads, const Image& image) {
   constexpr double kSigma_m = 0.2;
+  const camera::Camera camera = camera_of(image);
   std::vector<double> sigmas;
-  sigmas.reserve(heads.depth_m.size());
-  for (const double depth_m : heads.depth_m) {
-    sigmas.push_back(kSigma_m * image.camera_matrix(0, 0) / std::max(depth_m, 0.1));
+  sigmas.reserve(heads.body.size());
+  for (const Eigen::Vector3d& body : heads.body) {
+    sigmas.push_back(pixels_across(camera, body, kSigma_m));
   }
   return sigmas;
 }

@@ -62,29 +62,6 @@ void check_field(const fs::path& root, const std::string& path, const json& grid
 
 }  // namespace
 
-camera::Camera camera_of(const Image& image) {
-  using camera::Distortion;
-  camera::Camera camera;
-  const Eigen::Matrix3d& K = image.camera_matrix;
-  camera.intrinsics = {image.width, image.height, K(0, 0), K(1, 1), K(0, 2), K(1, 2)};
-  camera.intrinsics.skew_px = K(0, 1);
-  camera.pose = {image.R, image.t};
-  const json& record = image.record.at("camera");
-  const std::string model = record.value("model", "pinhole");
-  if (model == "pinhole") return camera;
-  const bool is_fisheye = model == "fisheye";
-  Distortion::Coefficients coefficients{};
-  std::size_t i = 0;
-  for (const char* name :
-       {"k1", "k2", is_fisheye ? "k3" : "p1", is_fisheye ? "k4" : "p2", "k3", "k4", "k5", "k6"}) {
-    if (is_fisheye && i == 4) break;
-    coefficients.at(i++) = record.at("distortion").value(name, 0.0);
-  }
-  camera.intrinsics.distortion.emplace(
-      is_fisheye ? Distortion::Model::fisheye : Distortion::Model::brown_conrady, coefficients);
-  return camera;
-}
-
 void check_camera_files(const DatasetInfo& info, const Image& image, Findings& findings) {
   const std::string place = fmt::format("cameras/{}/{}", image.run, image.camera);
   if (!fs::exists(info.root / (place + ".opencv.yaml"))) return;

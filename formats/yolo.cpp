@@ -8,6 +8,7 @@
 
 #include "formats/makers.h"
 #include "formats/mask.h"
+#include "formats/polygon.h"
 #include "skinning/landmarks.h"
 
 namespace throng::formats {
@@ -21,6 +22,10 @@ enum class Task : std::uint8_t { detect, segment, pose };
 /// The keypoint that each becomes when a picture is mirrored.
 constexpr std::array<int, skinning::kKeypointCount> kMirrored = {0,  2, 1,  4,  3,  6,  5,  8, 7,
                                                                  10, 9, 12, 11, 14, 13, 16, 15};
+
+/// Where in a pixel a polygon's point is written: whether loaders cut off or round, they come to
+/// this pixel, whose middle is a whole number for OpenCV.
+constexpr double kInPixel = 0.25;
 
 double share(double value, int size) { return std::clamp(value / size, 0.0, 1.0); }
 
@@ -45,15 +50,10 @@ class YoloExporter : public Exporter {
   }
 
   void finish() override {
-    // A trainer wants both of these; what has no split of its own is looked at again.
-    const std::vector<Split> splits = info_.splits();
-    const auto folder_of = [&](Split split) {
-      const bool is_there = std::find(splits.begin(), splits.end(), split) != splits.end();
-      return fmt::format("images/{}", name_of(is_there ? split : splits.front()));
-    };
-    std::string yaml =
-        fmt::format("train: {}\nval: {}\n", folder_of(Split::train), folder_of(Split::val));
-    if (splits.back() == Split::test) yaml += "test: images/test\n";
+    // A split without pictures is left out: a trainer that wants it must not get another one's.
+    std::string yaml;
+    for (const Split split : info_.splits())
+      yaml += fmt::format("{0}: images/{0}\n", name_of(split));
     std::vector<std::string> names = info_.categories;
     if (info_.sees_drones && task_ != Task::pose) names.emplace_back(kDroneClass);
     yaml += fmt::format("nc: {}\nnames:\n", names.size());
@@ -76,7 +76,8 @@ class YoloExporter : public Exporter {
       const auto pixels =
           static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
       for (const auto& [x, y] : polygon_of(bitmap_of(runs_of(person.mask, pixels), image.height))) {
-        fmt::format_to(out, " {:.6f} {:.6f}", share(x, image.width), share(y, image.height));
+        fmt::format_to(out, " {:.6f} {:.6f}", share(x + kInPixel, image.width),
+                       share(y + kInPixel, image.height));
       }
     } else {
       const Box& box = person.box;

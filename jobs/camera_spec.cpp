@@ -323,11 +323,16 @@ void check_lens(const CameraSpec& run_camera, const std::string& pointer,
   const std::string at = pointer + "/distortion";
   const std::optional<camera::Intrinsics> k = intrinsics_of(run_camera);
   const Eigen::Vector2i size = k ? render::wide_size(*k) : Eigen::Vector2i::Zero();
-  if (size.minCoeff() == 0) {
+  if (!k) {
     problems.push_back({"", at,
-                        "a lens whose model folds or ends (at most 80 degrees off its axis) "
-                        "within the image",
-                        "a lens that holds in the whole image"});
+                        fmt::format("a lens whose model folds or ends (at most 80 degrees off its "
+                                    "axis) within a field of view of {:g} degrees",
+                                    run_camera.hfov_deg),
+                        "a smaller field of view, or fx_px, with which the lens may show less than "
+                        "the whole image"});
+  } else if (size.minCoeff() == 0) {
+    problems.push_back({"", at, "a lens whose model holds nowhere in the image",
+                        "one that shows something of it"});
   } else if (k->distortion && size.maxCoeff() > kWidestPicture) {
     problems.push_back(
         {"", at,

@@ -140,9 +140,11 @@ class Collector {
         formats::describe_dataset(staging_.path(), manifest, job_.outputs.exports);
     formats::DatasetCard card(info, manifest, formats::Output(staging_.path()));
     const fs::path folder = staging_.path() / "formats";
-    formats::export_dataset(
-        info, formats::choose_formats(job_.outputs.formats, job_.outputs.annotations, ""), folder,
-        &card);
+    const auto chosen = formats::choose_formats(job_.outputs.formats, job_.outputs.annotations, "");
+    for (const Problem& warning : formats::split_warnings(info, chosen)) {
+      fmt::print(stderr, "warning: {}\n", warning.text());
+    }
+    formats::export_dataset(info, chosen, folder, &card);
     for (const char* path : {"dataset.json", "README.md"}) list(path);
     if (!fs::exists(folder)) return;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -22,11 +22,9 @@ std::string runs_key(Split split) { return std::string(formats::name_of(split)) 
 
 void read_splits(const json& value, int runs, formats::SplitOptions& splits,
                  std::vector<Problem>& problems) {
-  double sum = 0;
   for (const Split split : kSplits) {
     double& share = splits.share[static_cast<std::size_t>(split)];
     share = value.value(std::string(formats::name_of(split)), share);
-    sum += share;
     const json named = value.value(runs_key(split), json::array());
     for (std::size_t i = 0; i < named.size(); ++i) {
       const int run = named[i].get<int>();
@@ -40,7 +38,8 @@ void read_splits(const json& value, int runs, formats::SplitOptions& splits,
       }
     }
   }
-  if (sum <= 0) problems.push_back({"", "/outputs/splits", "no share above 0", "at least one"});
+  formats::settle_shares(value.contains(formats::name_of(Split::train)), "/outputs/splits", splits,
+                         problems);
 }
 
 void read_classes(const json& value, formats::ClassOptions& classes,

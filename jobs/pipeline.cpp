@@ -11,6 +11,7 @@
 
 #include "annotate/exits_csv.h"
 #include "annotate/ground_field.h"
+#include "annotate/png.h"
 #include "base/error.h"
 #include "base/redact.h"
 #include "camera/files.h"
@@ -19,6 +20,7 @@
 #include "jobs/publication.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
+#include "render/lens_map.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -111,6 +113,10 @@ void add_flights(const JobSpec& job, int run, const world::Trace& trace, Publica
     const std::string place = fmt::format("{}/{}", run_name(run), id);
     output.add("cameras/" + place + ".opencv.yaml", camera::opencv_yaml(*lens));
     output.add("cameras/" + place + ".ros.yaml", camera::ros_yaml(*lens, id));
+    if (!render::shows_everywhere(*lens)) {
+      output.add("cameras/" + place + ".mask.png",
+                 annotate::png_bytes({lens->width, lens->height, 1}, render::shown_pixels(*lens)));
+    }
     if (!wants(job, "sensors")) continue;
     const auto& ids = trace.header.drone_ids;
     const auto drone =

@@ -22,12 +22,37 @@ constexpr double kClearanceM = 0.45;
 constexpr double kSourceBehindM = 6;  // beyond the door that people come in by
 constexpr double kSlimmestM = 0.195;  // radius
 
+/// `more` is what the group has beside its generators.
 std::string agent_group(const std::string& profile, const std::string& state,
-                        const std::string& generators, const std::string& arrivals = "") {
+                        const std::string& generators, const std::string& more = "") {
   return fmt::format(
       "  <AgentGroup>\n    <ProfileSelector type=\"const\" name=\"{}\"/>\n"
       "    <StateSelector type=\"const\" name=\"{}\"/>\n{}{}  </AgentGroup>\n",
-      profile, state, generators, arrivals);
+      profile, state, generators, more);
+}
+
+std::string facing_element(const Facing& facing) {
+  switch (facing.kind) {
+    case Facing::Kind::towards:
+      return fmt::format(
+          "    <Facing type=\"towards\" x=\"{:.2f}\" y=\"{:.2f}\" spread=\"{:.4g}\"/>\n",
+          facing.point.x(), facing.point.y(), facing.spread_deg);
+    case Facing::Kind::direction:
+      return fmt::format("    <Facing type=\"direction\" angle=\"{:.4g}\" spread=\"{:.4g}\"/>\n",
+                         facing.angle_deg, facing.spread_deg);
+    case Facing::Kind::random:
+      break;
+  }
+  return "    <Facing type=\"random\"/>\n";
+}
+
+/// Those who stand in line look to its head unless it says otherwise.
+Facing facing_of(const Line& line) {
+  if (line.facing) return *line.facing;
+  const Vector2d ahead = line.from - line.to;
+  if (ahead.norm() == 0) return {};
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  return {Facing::Kind::direction, {}, kDegrees * std::atan2(ahead.y(), ahead.x())};
 }
 
 std::string agent_at(const Vector2d& place) {
@@ -56,7 +81,8 @@ std::string lines_of(const People& people, std::vector<Vector2d>& taken) {
       const double share = line.count > 1 ? static_cast<double>(i) / (line.count - 1) : 0;
       places.push_back(line.from + share * (line.to - line.from));
     }
-    text += agent_group("person", state_of(Doing::wait), explicit_places(places));
+    text += agent_group("person", state_of(Doing::wait), explicit_places(places),
+                        facing_element(facing_of(line)));
     taken.insert(taken.end(), places.begin(), places.end());
   }
   return text;
@@ -78,7 +104,8 @@ std::string groups_of(const People& people, const Solids& solids, std::vector<Ve
         "    <Generator type=\"scatter\" count=\"{}\" apart=\"{:.3f}\" clearance=\"{:.3f}\" "
         "obstacleSet=\"1\">\n      {}\n    </Generator>\n",
         standing.count, standing.apart_m, kClearanceM, vertices(group.area));
-    text += agent_group("person", state_of(group.doing), generator);
+    text += agent_group("person", state_of(group.doing), generator,
+                        group.doing == Doing::wait ? facing_element(group.facing) : "");
   }
   return text;
 }

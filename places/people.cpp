@@ -52,15 +52,46 @@ std::optional<std::size_t> read_exit(const JsonValue& value,
   return std::nullopt;
 }
 
+/// "random", {"towards": [x, y]} or {"direction_deg": a}; the latter two with "spread_deg".
+Facing read_facing(const JsonValue& value) {
+  Facing facing;
+  const bool is_word = !value["towards"].exists() && !value["direction_deg"].exists();
+  if (is_word) {
+    if (value.text() != "random") {
+      value.reject("\"random\", or an object with \"towards\" or \"direction_deg\"");
+    }
+    return facing;
+  }
+  value.fields({}, {"towards", "direction_deg", "spread_deg"});
+  if (value["towards"].exists() && value["direction_deg"].exists()) {
+    value.reject("both \"towards\" and \"direction_deg\"", "one of them");
+  } else if (value["towards"].exists()) {
+    facing.kind = Facing::Kind::towards;
+    facing.point = value["towards"].vector2(kFarM);
+  } else {
+    facing.kind = Facing::Kind::direction;
+    facing.angle_deg = value["direction_deg"].number(-360, 360);
+  }
+  if (value["spread_deg"].exists()) facing.spread_deg = value["spread_deg"].number(0, 180);
+  return facing;
+}
+
 Group read_group(const JsonValue& item) {
-  item.fields({"doing", "area", "count"});
-  return {read_doing(item["doing"]), read_outline(item["area"]),
-          item["count"].integer(1, kMostPeople)};
+  item.fields({"doing", "area", "count"}, {"facing"});
+  Group group{read_doing(item["doing"]), read_outline(item["area"]),
+              item["count"].integer(1, kMostPeople)};
+  if (item["facing"].exists()) {
+    if (group.doing != Doing::wait) item["facing"].reject("a group that is doing \"wait\"");
+    group.facing = read_facing(item["facing"]);
+  }
+  return group;
 }
 
 Line read_line(const JsonValue& item) {
-  item.fields({"from", "to", "count"});
-  return {item["from"].vector2(kFarM), item["to"].vector2(kFarM), item["count"].integer(1, 1000)};
+  item.fields({"from", "to", "count"}, {"facing"});
+  Line line{item["from"].vector2(kFarM), item["to"].vector2(kFarM), item["count"].integer(1, 1000)};
+  if (item["facing"].exists()) line.facing = read_facing(item["facing"]);
+  return line;
 }
 
 Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits) {

@@ -20,11 +20,21 @@ enum class Doing {
   leave    ///< go out by the exit that looks fastest
 };
 
+/// Where people look who wait.
+struct Facing {
+  enum class Kind { random, direction, towards };
+  Kind kind = Kind::random;
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< m; of `towards`
+  double angle_deg = 0;                             ///< of `direction`, counter-clockwise from +x
+  double spread_deg = 10;                           ///< standard deviation about it
+};
+
 /// People who are there from the start, spread over an area.
 struct Group {
   Doing doing = Doing::stroll;
   std::vector<Eigen::Vector2d> area;  ///< m
   int count = 0;
+  Facing facing = {};  ///< of those who wait
 };
 
 /// People who stand in line.
@@ -32,6 +42,7 @@ struct Line {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< its head, m
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
   int count = 0;
+  std::optional<Facing> facing = std::nullopt;  ///< nothing: to the line's head
 };
 
 /// People who come: at an exit, from outside, or at places along a segment.

@@ -73,8 +73,7 @@ Gaze gaze_at(const Eigen::Vector3d& drone, const Eigen::Vector2f& from, float ya
 /// One agent of a trace as its motion sees it.
 class Watcher {
  public:
-  Watcher(const world::Trace& trace, const std::vector<char>& down_states)
-      : trace_(trace), down_states_(down_states), drones_(trace.steps()) {
+  explicit Watcher(const world::Trace& trace) : trace_(trace), drones_(trace.steps()) {
     for (std::size_t step = 0; step < trace.steps(); ++step) {
       for (std::size_t drone = 0; drone < trace.drones.size(); ++drone) {
         if (trace.drones[drone].empty()) continue;
@@ -90,9 +89,6 @@ class Watcher {
     moment.yaw_rad = trace_.yaw_rad[at];
     moment.down = (trace_.flags[at] & world::kFallen) != 0;
     moment.panicked = (trace_.flags[at] & world::kPanicked) != 0;
-    if (at < trace_.state.size() && trace_.state[at] < down_states_.size()) {
-      moment.down = moment.down || down_states_[trace_.state[at]] != 0;
-    }
     if (!curiosity.at(trace_.time_s[step])) return moment;
     for (const Eigen::Vector3d& drone : drones_[step]) {
       moment.gaze = gaze_at(drone, moment.position, moment.yaw_rad);
@@ -103,7 +99,6 @@ class Watcher {
 
  private:
   const world::Trace& trace_;
-  const std::vector<char>& down_states_;
   std::vector<std::vector<Eigen::Vector3d>> drones_;  ///< [step]
 };
 
@@ -116,11 +111,7 @@ bool is_drawn(world::AgentRole role) {
 Animator::Animator(const world::Trace& trace, const skinning::Population& population,
                    const skinning::Styling& styling)
     : trace_(&trace), stays_(trace.agents()) {
-  std::vector<char> down_states;
-  for (const std::string& name : trace.header.state_names) {
-    down_states.push_back(world::is_down(name) ? 1 : 0);
-  }
-  const Watcher watcher(trace, down_states);
+  const Watcher watcher(trace);
   std::vector<Moment> moments;
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     appearance_.push_back(skinning::appearance_of(population, trace.header.seed,

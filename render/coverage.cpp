@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "render/shelves.h"
 #include "render/silhouettes.h"
@@ -31,15 +32,21 @@ CoverageCounter::CoverageCounter()
       pixels_(static_cast<std::size_t>(kAtlasSize) * kAtlasSize) {}
 
 std::vector<CoverageCounter::Tile> CoverageCounter::tiles_of(
-    std::span<const CoverageRequest> requests) {
+    std::span<const CoverageRequest> requests, const camera::Intrinsics& image) {
+  // One pixel less: what is limited ends there.
+  const Eigen::Vector2i size(image.width, image.height);
+  const Eigen::AlignedBox2i unlimited(Eigen::Vector2i(-size.array() + 1),
+                                      Eigen::Vector2i(2 * size.array() - 1));
   std::vector<Tile> tiles;
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const Eigen::AlignedBox2i& bounds = requests[i].bounds;
     const Eigen::Vector2i end = bounds.max();
+    const bool is_one = (bounds.sizes().array() + kBlock <= kAtlasSize).all();
+    const bool holds_all = is_one && unlimited.contains(bounds);
     for (int y = block_below(bounds.min().y()); y < end.y(); y += kAtlasSize) {
       for (int x = block_below(bounds.min().x()); x < end.x(); x += kAtlasSize) {
-        const Eigen::Vector2i size = (end - Eigen::Vector2i(x, y)).cwiseMin(kAtlasSize);
-        tiles.push_back({i, {x, y}, size, Eigen::Vector2i::Zero()});
+        const Eigen::Vector2i tile_size = (end - Eigen::Vector2i(x, y)).cwiseMin(kAtlasSize);
+        tiles.push_back({i, {x, y}, tile_size, Eigen::Vector2i::Zero(), holds_all});
       }
     }
   }
@@ -81,12 +88,24 @@ void CoverageCounter::draw_and_add(PeoplePass& pass, std::span<const PersonInsta
   const std::array<float, 4> nothing{};
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, nothing.data());
   std::vector<PersonDraw> draws;
+  std::vector<std::pair<PersonDraw, Tile>> larger;  // than their tiles
   for (const Tile& tile : tiles) {
     PersonDraw draw = requests[tile.request].draw;
     draw.shift = {tile.atlas.x() - tile.image.x(), tile.atlas.y() - tile.image.y()};
-    draws.push_back(draw);
+    if (tile.holds_all) {
+      draws.push_back(draw);
+    } else {
+      larger.emplace_back(draw, tile);
+    }
   }
   pass.draw(PeoplePass::Purpose::coverage, people, std::move(draws));
+  // The rest of these must not reach into others' tiles.
+  if (!larger.empty()) glEnable(GL_SCISSOR_TEST);
+  for (const auto& [draw, tile] : larger) {
+    glScissor(tile.atlas.x(), tile.atlas.y(), tile.size.x(), tile.size.y());
+    pass.draw(PeoplePass::Purpose::coverage, people, {draw});
+  }
+  glDisable(GL_SCISSOR_TEST);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, kAtlasSize, used_rows, GL_RED, GL_UNSIGNED_BYTE, pixels_.data());
   for (const Tile& tile : tiles) {
@@ -119,7 +138,7 @@ std::vector<std::uint64_t> CoverageCounter::count(PeoplePass& pass,
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
   glDisable(GL_DEPTH_TEST);
-  std::vector<Tile> tiles = tiles_of(requests);
+  std::vector<Tile> tiles = tiles_of(requests, camera.intrinsics);
   for (std::size_t first = 0; first < tiles.size();) {
     int used_rows = 0;
     const std::size_t end = place(tiles, first, used_rows);

@@ -16,7 +16,8 @@
 
 namespace throng::render {
 
-/// Whom to measure, and the image pixels [min, max) that the silhouette cannot leave.
+/// Whom to measure, and the image pixels [min, max) of the silhouette, limited as that is
+/// (render/person_geometry.h).
 struct CoverageRequest {
   PersonDraw draw;
   Eigen::AlignedBox2i bounds;
@@ -42,9 +43,11 @@ class CoverageCounter {
     Eigen::Vector2i image = Eigen::Vector2i::Zero();  ///< its first pixel
     Eigen::Vector2i size = Eigen::Vector2i::Zero();
     Eigen::Vector2i atlas = Eigen::Vector2i::Zero();
+    bool holds_all = true;  ///< the whole silhouette, which is neither cut into tiles nor limited
   };
 
-  static std::vector<Tile> tiles_of(std::span<const CoverageRequest> requests);
+  static std::vector<Tile> tiles_of(std::span<const CoverageRequest> requests,
+                                    const camera::Intrinsics& image);
   /// Places tiles from `first` on in rows until the atlas is full; returns the end of the placed.
   static std::size_t place(std::vector<Tile>& tiles, std::size_t first, int& used_rows);
   std::uint64_t covered_in(const Tile& tile, const PixelWeights* weights) const;

@@ -23,6 +23,7 @@ constexpr float kUnknownFlow = std::numeric_limits<float>::quiet_NaN();
 struct Projected {
   std::vector<Vector2d> vertices;
   Eigen::AlignedBox2d box;
+  bool is_cut = false;  ///< some vertices are nowhere in the picture
 };
 
 Projected projected(const PropMesh& mesh, const camera::Camera& camera) {
@@ -35,6 +36,7 @@ Projected projected(const PropMesh& mesh, const camera::Camera& camera) {
     seen.vertices.emplace_back(is_seen ? Vector2d(place.pixel.array() + 0.5)
                                        : Vector2d::Constant(std::nan("")));
     if (is_seen) seen.box.extend(seen.vertices.back());
+    seen.is_cut = seen.is_cut || !is_seen;
   }
   return seen;
 }
@@ -166,6 +168,7 @@ void measure_drones(const Scene& scene, const Rows& rows, Frame& frame) {
     const Vector3d ahead = instance.orientation * Vector3d::UnitX();
     drone.yaw_rad = std::atan2(ahead.y(), ahead.x());
     drone.amodal_box = is_whole ? seen.box : bounds;
+    if (is_whole && seen.is_cut) drone.amodal_box.extend(bounds);
     drone.whole_mask = std::make_shared<PixelMask>(inside(mask, frame));
     set_box(mesh, drone);
     frame.drones.push_back(std::move(drone));

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "render/depth_between.h"
 #include "render/drones_in_view.h"
 
 namespace throng::render {
@@ -63,9 +64,17 @@ Eigen::Vector2f flow_through(const camera::Intrinsics& lens, const camera::Intri
 /// What of the wide picture is not interpolated.
 void copy_nearest(const Frame& wide, std::size_t from, std::size_t to, Frame& image) {
   image.id[to] = wide.id[from];
-  image.depth_m[to] = wide.depth_m[from];
   if (!image.part.empty()) image.part[to] = wide.part[from];
   if (!image.normal.empty()) std::copy_n(&wide.normal[from * 3], 3, &image.normal[to * 3]);
+}
+
+/// What a pixel shows that the lens's model does not reach.
+void show_nothing(std::size_t pixel, Frame& image) {
+  image.id[pixel] = kIdNothing;
+  image.depth_m[pixel] = std::numeric_limits<float>::infinity();
+  if (image.flow.empty()) return;
+  image.flow[2 * pixel] = std::numeric_limits<float>::quiet_NaN();
+  image.flow[2 * pixel + 1] = std::numeric_limits<float>::quiet_NaN();
 }
 
 /// Looks pixels [begin, end) of the image up in the wide picture.
@@ -74,6 +83,10 @@ void look_up(const LensMap& map, const camera::Intrinsics& lens, const Frame& wi
   constexpr int kChannels = 3;
   const auto width = static_cast<std::size_t>(wide.width());
   for (std::size_t i = begin; i < end; ++i) {
+    if (!map.shows(i)) {
+      show_nothing(i, image);
+      continue;
+    }
     const float x = map.position[2 * i];
     const float y = map.position[2 * i + 1];
     const auto column = static_cast<std::size_t>(x);
@@ -89,6 +102,8 @@ void look_up(const LensMap& map, const camera::Intrinsics& lens, const Frame& wi
     const std::size_t nearest =
         static_cast<std::size_t>(near.y()) * width + static_cast<std::size_t>(near.x());
     copy_nearest(wide, nearest, i, image);
+    image.depth_m[i] = depth_between(
+        wide, near, {x - static_cast<float>(near.x()), y - static_cast<float>(near.y())});
     if (image.flow.empty()) continue;
     const Eigen::Vector2f flow = flow_through(lens, map.wide, near.cast<double>(),
                                               {wide.flow[2 * nearest], wide.flow[2 * nearest + 1]});
@@ -191,6 +206,7 @@ PixelMask seen_through(const LensMap* map, const camera::Intrinsics& lens, const
         const std::size_t pixel =
             static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(lens.width) +
             static_cast<std::size_t>(x);
+        if (!map->shows(pixel)) continue;
         at = {static_cast<int>(std::lround(map->position[2 * pixel])),
               static_cast<int>(std::lround(map->position[2 * pixel + 1]))};
       }
@@ -249,13 +265,18 @@ void Lens::measure_boxes(const Scene& scene, const Rows& rows, Frame& frame) con
     const PersonInstance& instance = *instances.at(person.agent);
     const skinning::Character& character = population_->characters[instance.appearance.character];
     const skinning::Mesh& mesh = character.levels[person.level];
+    bool is_cut = false;
     const Eigen::AlignedBox2d box =
         shown_box(mesh, parts_of(character, mesh, Share::body),
-                  blended_palette(*population_, instance), instance, frame.camera, rows);
+                  blended_palette(*population_, instance), instance, frame.camera, rows, is_cut);
     const bool shows = visible.contains(id_of_agent(person.agent));
     if (!shows && (box.isEmpty() || !box.intersects(image))) continue;
-    // Of somebody right at the camera the model may show triangles but no corner of them.
-    person.amodal_box = box.isEmpty() ? visible_box(frame, rows, person.agent) : box;
+    // Of somebody right at the camera, or where the lens's model ends, it may show triangles but no
+    // corner of them.
+    person.amodal_box = box;
+    if (shows && (box.isEmpty() || is_cut)) {
+      person.amodal_box.extend(visible_box(frame, rows, person.agent));
+    }
     kept.push_back(std::move(person));
   }
   frame.people = std::move(kept);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -35,7 +36,7 @@ double magnification(const camera::Intrinsics& lens) {
   for (int y = 0; y < lens.height; y += kCoarse) {
     for (int x = 0; x < lens.width; x += kCoarse) {
       const auto direction = lens.direction_of({x, y});
-      check(direction.has_value(), "a lens's model holds in its whole image");
+      if (!direction) continue;
       most =
           std::max(most, lens.distortion->derivatives(*direction).jacobiSvd().singularValues()[0]);
     }
@@ -75,12 +76,16 @@ std::vector<Vector2d> directions_of(const camera::Intrinsics& lens,
   return directions;
 }
 
-/// The pinhole picture that holds all these directions, with a pixel more at each side for the
-/// interpolation.
+/// The pinhole picture that holds all these directions but NaN, with a pixel more at each side for
+/// the interpolation.
 camera::Intrinsics wide_pinhole(const camera::Intrinsics& lens,
                                 const std::vector<Vector2d>& directions) {
   Eigen::AlignedBox2d field;
-  for (const Vector2d& direction : directions) field.extend(direction);
+  for (const Vector2d& direction : directions) {
+    if (!direction.hasNaN()) field.extend(direction);
+  }
+  // Rows that show nothing still are a picture.
+  if (field.isEmpty()) field.extend(Vector2d(0, 0));
   const double finer = magnification(lens);
   camera::Intrinsics wide;
   wide.fx_px = lens.fx_px * finer;
@@ -91,6 +96,21 @@ camera::Intrinsics wide_pinhole(const camera::Intrinsics& lens,
   wide.width = static_cast<int>(std::ceil(field.max().x() * wide.fx_px + wide.cx_px)) + 2;
   wide.height = static_cast<int>(std::ceil(field.max().y() * wide.fy_px + wide.cy_px)) + 2;
   return wide;
+}
+
+/// Adds the farthest directions that the lens's model reaches, as far as they are in the image.
+void extend_to_limit(const camera::Intrinsics& lens, std::vector<Vector2d>& directions) {
+  constexpr int kDirections = 256;
+  constexpr double kInside = 1 - 1e-9;
+  const double limit = kInside * lens.distortion->limit();
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kDirections;
+    const Vector2d direction = limit * Vector2d(std::cos(angle), std::sin(angle));
+    const auto pixel = lens.pixel_of(direction);
+    const bool is_in_image = pixel && pixel->x() > -0.5 && pixel->y() > -0.5 &&
+                             pixel->x() < lens.width - 0.5 && pixel->y() < lens.height - 0.5;
+    if (is_in_image) directions.push_back(direction);
+  }
 }
 
 /// Where in the wide picture a direction is seen. Floats, since it is kept for every pixel.
@@ -134,29 +154,50 @@ PixelWeights weights_of(const camera::Intrinsics& lens, const Rows& rows,
 
 Eigen::Vector2i wide_size(const camera::Intrinsics& lens) {
   if (!lens.distortion) return {lens.width, lens.height};
-  // A picture that does not fold has its extremes at its border; the grid inside finds folds.
+  // The extremes are at the border of the image, or at that of what the lens shows, which a grid
+  // finds but for one step: at most that much of the widest direction is missing.
   std::vector<Vector2d> directions;
   const auto step = [](int at, int size) { return std::min(at + kCoarse, size - 1); };
   for (int y = 0;; y = step(y, lens.height)) {
     for (int x = 0;; x = step(x, lens.width)) {
-      const auto direction = lens.direction_of({x, y});
-      if (!direction) return Eigen::Vector2i::Zero();
-      directions.push_back(*direction);
+      if (const auto direction = lens.direction_of({x, y})) directions.push_back(*direction);
       if (x == lens.width - 1) break;
     }
     if (y == lens.height - 1) break;
   }
+  if (directions.empty()) return Eigen::Vector2i::Zero();
+  if (!shows_everywhere(lens)) extend_to_limit(lens, directions);
   const camera::Intrinsics wide = wide_pinhole(lens, directions);
   return {wide.width, wide.height};
+}
+
+bool shows_everywhere(const camera::Intrinsics& lens) {
+  if (!lens.distortion) return true;
+  // What a lens shows is round: an image whose border is within it is so, too.
+  for (int x = 0; x < lens.width; ++x) {
+    if (!lens.direction_of({x, 0}) || !lens.direction_of({x, lens.height - 1})) return false;
+  }
+  for (int y = 0; y < lens.height; ++y) {
+    if (!lens.direction_of({0, y}) || !lens.direction_of({lens.width - 1, y})) return false;
+  }
+  return true;
+}
+
+std::vector<std::uint8_t> shown_pixels(const camera::Intrinsics& lens) {
+  std::vector<std::uint8_t> shown(cells(lens.width, lens.height), 255);
+  if (!lens.distortion) return shown;
+  const std::vector<Vector2d> directions =
+      directions_of(lens, {Eigen::Vector2i::Zero(), Eigen::Vector2i(lens.width, lens.height)});
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (directions[i].hasNaN()) shown[i] = 0;
+  }
+  return shown;
 }
 
 LensMap lens_map(const camera::Intrinsics& lens, const Rows& rows) {
   check(lens.distortion.has_value(), "only a lens that distorts has a map");
   const std::vector<Vector2d> directions =
       directions_of(lens, {Eigen::Vector2i(0, rows.first), Eigen::Vector2i(lens.width, rows.end)});
-  check(std::none_of(directions.begin(), directions.end(),
-                     [](const Vector2d& direction) { return direction.hasNaN(); }),
-        "a lens's model holds in its whole image");
   LensMap map;
   map.wide = wide_pinhole(lens, directions);
   map.position.reserve(directions.size() * 2);

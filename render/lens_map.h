@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "camera/camera.h"
@@ -12,17 +15,28 @@ namespace throng::render {
 
 /// Which pinhole picture a distorted image comes from, and where in it each pixel lies.
 struct LensMap {
-  camera::Intrinsics wide;      ///< the smallest that covers the image as finely everywhere
-  std::vector<float> position;  ///< x, y in the wide picture (OpenCV's pixels) of each image pixel
-  PixelWeights weights;         ///< how many pixels of the image come from each wide one
+  camera::Intrinsics wide;  ///< the smallest that covers the image as finely everywhere
+  /// x, y in the wide picture (OpenCV's pixels) of each image pixel; NaN where the lens's model
+  /// does not hold and nothing is shown.
+  std::vector<float> position;
+  PixelWeights weights;  ///< how many pixels of the image come from each wide one
+
+  bool shows(std::size_t pixel) const { return !std::isnan(position[2 * pixel]); }
 };
 
-/// Rows of the image of a camera with distortion. The model must hold in the whole image: check().
-/// The weights also count pixels around the image, up to a quarter of its size away.
+/// Rows of the image of a camera with distortion. The weights also count pixels around the image,
+/// up to a quarter of its size away.
 LensMap lens_map(const camera::Intrinsics& lens, const Rows& rows);
 
 /// Size of the wide picture that such a camera's images need: the image's own for a pinhole, 0 if
-/// the lens's model does not hold somewhere in the image.
+/// the lens's model holds nowhere in the image.
 Eigen::Vector2i wide_size(const camera::Intrinsics& lens);
+
+/// Whether the lens's model holds in the whole image.
+bool shows_everywhere(const camera::Intrinsics& lens);
+
+/// Which pixels of the image show something: 255, and 0 where the lens's model does not hold. Rows
+/// top-down.
+std::vector<std::uint8_t> shown_pixels(const camera::Intrinsics& lens);
 
 }  // namespace throng::render

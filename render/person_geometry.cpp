@@ -199,32 +199,58 @@ Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
   return seen;
 }
 
+namespace {
+
+/// Where a camera shows points of a pinhole's picture of directions (u z, v z, z), in box
+/// coordinates; nothing before the near plane and where the lens's model does not hold.
+std::optional<Eigen::Vector2d> shown_place(const camera::Intrinsics& k, const Eigen::Vector4f& p) {
+  if (p.z() < kNear) return std::nullopt;
+  std::optional<Eigen::Vector2d> shown =
+      k.pixel_of(p.head<2>().cast<double>() / static_cast<double>(p.z()));
+  if (shown) shown->array() += 0.5;
+  return shown;
+}
+
+/// The last place that is shown on the way from one point, which is, to another, which is not.
+Eigen::Vector2d last_shown(const camera::Intrinsics& k, Eigen::Vector4f from, Eigen::Vector4f to) {
+  constexpr int kHalvings = 16;
+  for (int i = 0; i < kHalvings; ++i) {
+    const Eigen::Vector4f middle = 0.5F * (from + to);
+    (shown_place(k, middle) ? from : to) = middle;
+  }
+  return *shown_place(k, from);
+}
+
+}  // namespace
+
 Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
                               const skinning::Palette& palette, const PersonInstance& person,
-                              const camera::Camera& camera, const Rows& rows) {
+                              const camera::Camera& camera, const Rows& rows, bool& is_cut) {
   const camera::Intrinsics& k = camera.intrinsics;
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   const double top = rows.first == 0 ? -kEverywhere : rows.first;
   const double bottom = rows.end == k.height ? kEverywhere : rows.end;
   // A camera without lens, whose "pixels" are directions.
   const camera::Camera directions{{1, 1, 1, 1, -0.5, -0.5}, camera.pose};
+  const std::vector<Eigen::Vector4f> places =
+      projected_vertices(mesh, Projector(palette, image_from_model(person, directions)));
   std::vector<std::optional<Eigen::Vector2d>> shown;
-  shown.reserve(mesh.vertices.size());
-  for (const Eigen::Vector4f& p :
-       projected_vertices(mesh, Projector(palette, image_from_model(person, directions)))) {
-    shown.push_back(p.z() < kNear
-                        ? std::nullopt
-                        : k.pixel_of(p.head<2>().cast<double>() / static_cast<double>(p.z())));
-    if (shown.back()) shown.back()->array() += 0.5;
-  }
+  shown.reserve(places.size());
+  for (const Eigen::Vector4f& place : places) shown.push_back(shown_place(k, place));
+  is_cut = std::find(shown.begin(), shown.end(), std::nullopt) != shown.end();
   Eigen::AlignedBox2d box;
   for_each_side(mesh, parts, [&](std::uint32_t from, std::uint32_t to) {
+    if (!shown[from]) std::swap(from, to);
     const auto& a = shown[from];
-    const auto& b = shown[to];
+    std::optional<Eigen::Vector2d> b = shown[to];
     if (!a) return;
     if (a->y() >= top && a->y() <= bottom) box.extend(*a);
+    if (!b) {
+      b = last_shown(k, places[from], places[to]);
+      if (b->y() >= top && b->y() <= bottom) box.extend(*b);
+    }
     for (const double border : {top, bottom}) {
-      if (!b || (a->y() < border) == (b->y() < border)) continue;
+      if ((a->y() < border) == (b->y() < border)) continue;
       box.extend(Eigen::Vector2d(*a + (*b - *a) * ((border - a->y()) / (b->y() - a->y()))));
     }
   });

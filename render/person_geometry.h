@@ -73,10 +73,11 @@ struct Rows {
 };
 
 /// Bounds in box coordinates of what a camera with any lens shows of these parts of a mesh in these
-/// rows of its image, from their vertices and edges; limited like Silhouette::box. Empty if there
-/// is nothing.
+/// rows of its image, from their vertices and edges, which end where the lens's model does; limited
+/// like Silhouette::box. Empty if there is nothing. Sets `is_cut` if some of the vertices are
+/// nowhere in the picture.
 Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
                               const skinning::Palette& palette, const PersonInstance& person,
-                              const camera::Camera& camera, const Rows& rows);
+                              const camera::Camera& camera, const Rows& rows, bool& is_cut);
 
 }  // namespace throng::render

@@ -47,8 +47,9 @@ std::unique_ptr<CrowdSource> simulated(crowd::Simulation crowd);
 
 /// A recording (world::Trace without intents), played once at dt_s = replay_step_s(recording).
 /// Between recorded frames people move straight; who is not in both frames around a time is not
-/// there. After the last frame nobody is.
-std::unique_ptr<CrowdSource> replayed(std::shared_ptr<const world::Trace> recording);
+/// there. After the last frame nobody is. Who never gets anywhere faces anywhere, by the seed.
+std::unique_ptr<CrowdSource> replayed(std::shared_ptr<const world::Trace> recording,
+                                      std::uint64_t seed);
 
 /// The step of a replay: that of the recording if it has 5 to 60 frames a second, else the nearest
 /// of its whole multiples or parts that has.

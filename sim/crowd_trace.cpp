@@ -19,6 +19,14 @@ world::TraceHeader named(world::TraceHeader header, const std::string& name) {
   return header;
 }
 
+/// By number of the state: whether people in it lie on the ground.
+std::vector<bool> lying_states(const crowd::Simulation& crowd) {
+  std::vector<bool> lying;
+  lying.reserve(crowd.state_names().size());
+  for (const std::string& name : crowd.state_names()) lying.push_back(world::is_down(name));
+  return lying;
+}
+
 }  // namespace
 
 world::TraceHeader crowd_header(const crowd::Simulation& crowd, std::uint64_t seed) {
@@ -45,10 +53,12 @@ world::CrowdStep crowd_step(const crowd::Simulation& crowd) {
   step.state = copied(crowd.states());
   step.exit_intent.assign(count, -1);
   step.flags.resize(count);
+  const std::vector<bool> lies_in_state = lying_states(crowd);
   for (std::size_t i = 0; i < count; ++i) {
+    const bool is_lying = crowd.fallen()[i] != 0 || lies_in_state[step.state[i]];
     step.flags[i] = static_cast<std::uint8_t>((crowd.present()[i] != 0 ? world::kPresent : 0) |
                                               (crowd.panicked()[i] != 0 ? world::kPanicked : 0) |
-                                              (crowd.fallen()[i] != 0 ? world::kFallen : 0));
+                                              (is_lying ? world::kFallen : 0));
   }
   return step;
 }

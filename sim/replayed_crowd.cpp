@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/random.h"
 #include "base/version.h"
 #include "sim/crowd_source.h"
 
@@ -19,8 +20,21 @@ constexpr double kMostStepsPerS = 60;
 constexpr double kFacingWindowS = 0.5;
 constexpr float kTurnsM = 0.15F;
 
+float any_facing_rad(std::uint64_t seed, std::size_t agent) {
+  constexpr std::uint64_t kFacingPart = 0x666163696e67;  // apart from other draws of the stream
+  Random random(derive_seed(seed, Stream::crowd_generator, kFacingPart), Stream::crowd_generator,
+                agent);
+  return static_cast<float>(random.uniform(-EIGEN_PI, EIGEN_PI));
+}
+
+void face(const world::Trace& recording, std::size_t agent, float yaw, std::vector<float>& yaws) {
+  for (std::size_t step = 0; step < recording.steps(); ++step) {
+    yaws[recording.at(step, agent)] = yaw;
+  }
+}
+
 /// Which way everybody faces in every frame: along the way around it, else as before.
-std::vector<float> facings(const world::Trace& recording) {
+std::vector<float> facings(const world::Trace& recording, std::uint64_t seed) {
   std::vector<float> yaws(recording.position.size(), 0);
   const auto reach =
       static_cast<std::size_t>(std::max(1L, std::lround(kFacingWindowS / recording.header.dt_s)));
@@ -46,7 +60,10 @@ std::vector<float> facings(const world::Trace& recording) {
       }
       yaws[recording.at(step, agent)] = yaw;
     }
-    if (faced_from == recording.steps()) continue;
+    if (faced_from == recording.steps()) {
+      face(recording, agent, any_facing_rad(seed, agent), yaws);
+      continue;
+    }
     // Who stands at first faces where they will go.
     for (std::size_t step = 0; step < faced_from; ++step) {
       yaws[recording.at(step, agent)] = yaws[recording.at(faced_from, agent)];
@@ -62,9 +79,9 @@ float blend_yaw(float from, float to, float share) {
 
 class ReplayedCrowd : public CrowdSource {
  public:
-  explicit ReplayedCrowd(std::shared_ptr<const world::Trace> recording)
+  ReplayedCrowd(std::shared_ptr<const world::Trace> recording, std::uint64_t seed)
       : recording_(std::move(recording)),
-        recorded_yaws_(facings(*recording_)),
+        recorded_yaws_(facings(*recording_, seed)),
         dt_s_(replay_step_s(recording_->header.dt_s)),
         allowed_(recording_->agents(), true),
         positions_(recording_->agents(), Vector2f::Zero()),
@@ -181,8 +198,9 @@ double replay_step_s(double recorded_dt_s) {
   return recorded_dt_s;
 }
 
-std::unique_ptr<CrowdSource> replayed(std::shared_ptr<const world::Trace> recording) {
-  return std::make_unique<ReplayedCrowd>(std::move(recording));
+std::unique_ptr<CrowdSource> replayed(std::shared_ptr<const world::Trace> recording,
+                                      std::uint64_t seed) {
+  return std::make_unique<ReplayedCrowd>(std::move(recording), seed);
 }
 
 }  // namespace throng::sim

@@ -180,7 +180,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
   const std::vector<PlannedDrone> drones =
       plan_drones(scenario, spec.drones, spec.duration_s, problems);
   const std::unique_ptr<CrowdSource> source =
-      spec.recorded ? replayed(spec.recorded)
+      spec.recorded ? replayed(spec.recorded, spec.seed)
                     : simulated(load_crowd(scenario, spec.seed, spec.crowd));
   CrowdSource& crowd = *source;
   const std::vector<world::AgentRole> roles = roles_of(scenario, spec, crowd, problems);

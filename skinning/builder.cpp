@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the same package and options would give other people.
-constexpr int kBuilderVersion = 18;
+constexpr int kBuilderVersion = 19;
 
 void check_options(const BuildOptions& options) {
   constexpr int kMost = 1000;

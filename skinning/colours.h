@@ -8,8 +8,7 @@
 
 namespace throng::skinning {
 
-/// Something that is coloured from one palette. `suit` holds faint tints for a picture that has
-/// colours of its own.
+/// Something that is coloured from one palette.
 enum class Dye : std::uint8_t {
   shirt,
   dress,
@@ -17,8 +16,8 @@ enum class Dye : std::uint8_t {
   trousers,
   skirt,
   workwear,
-  suit,
   leather,
+  trainers,
   bag,
   umbrella
 };

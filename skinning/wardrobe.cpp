@@ -211,10 +211,8 @@ void Wardrobe::add_shoes(const Key& key, Worn& worn) {
   const Proxy& proxy = load("clothes", key.name);
   worn.proxy = &proxy;
   const fs::path folder = proxy_folder(makehuman_->folder(), "clothes", key.name);
-  const bool leather = key.name == "shoes01" || key.name == "shoes03" || key.name == "shoes04";
-  const Cloth cloth = leather ? Cloth::print : Cloth::own;
-  Garment shoes{&proxy, {}, leather ? Tint::shoes : Tint::none, false, {}};
-  Garment socks{&proxy, {}, shoes.tint, false, {}};
+  Garment shoes{&proxy, {}, Tint::shoes, false, {}};
+  Garment socks{&proxy, {}, Tint::shoes, false, {}};
   for (const auto& quads : connected_pieces(proxy)) {
     float shin = 0;
     for (const Quad& quad : quads) {
@@ -224,7 +222,7 @@ void Wardrobe::add_shoes(const Key& key, Worn& worn) {
     const bool sock = shin > 0.3F * static_cast<float>(quads.size());
     append(sock ? socks.quads : shoes.quads, quads);
   }
-  if (!shoes.quads.empty()) add_piece(worn, std::move(shoes), cloth, folder);
+  if (!shoes.quads.empty()) add_piece(worn, std::move(shoes), Cloth::print, folder);
   if (!socks.quads.empty()) add_piece(worn, std::move(socks), Cloth::print, folder);
 }
 
@@ -252,8 +250,10 @@ void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::pat
     Mask covered = covered_by(faces, image);
     if (skirt) {
     } else if (cloth == Cloth::print) {
-      // Painted hair darkens so much towards its tips that grey hair would look two-coloured.
-      reduce_to_shade(image, covered, garment.tint == Tint::hair ? 0.5 : 0.9);
+      // Painted hair darkens so much towards its tips, and trainers are so black and white, that
+      // they would look two-coloured.
+      const bool is_soft = garment.tint == Tint::hair || garment.tint == Tint::shoes;
+      reduce_to_shade(image, covered, is_soft ? 0.5 : 0.9);
     } else if (cloth != Cloth::own) {
       image = plain_cloth(folder, covered);
       covered = covered_by(faces, image);

@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/error.h"
 #include "world/hdf5_file.h"
@@ -114,6 +116,17 @@ class Reader {
     }
     for (const std::int8_t exit : trace.exit_intent) {
       require_index(exit, -1, trace.header.exit_ids.size(), "crowd/exit_intent");
+    }
+    mark_lying(trace);
+  }
+
+  /// Files written before kFallen covered the states whose names say that people lie.
+  static void mark_lying(Trace& trace) {
+    std::vector<bool> is_lying;
+    for (const std::string& name : trace.header.state_names) is_lying.push_back(is_down(name));
+    if (std::find(is_lying.begin(), is_lying.end(), true) == is_lying.end()) return;
+    for (std::size_t i = 0; i < trace.state.size(); ++i) {
+      if (is_lying[trace.state[i]]) trace.flags[i] |= kFallen;
     }
   }
 

@@ -249,6 +249,31 @@ TEST_F(Coco, TracksSayOnceWhatStaysTheSame) {
   EXPECT_FALSE(coco["annotations"][0].contains("attributes"));
 }
 
+TEST_F(Coco, WhoLiesIsLabelledSoWhateverTheirStateIsCalled) {
+  skinning::Population population;
+  population.characters.resize(3);
+  world::Trace trace;
+  trace.header.state_names = {"Walk"};
+  trace.header.role.resize(30);
+  trace.time_s = {0, 0.1, 0.2};
+  trace.state.assign(90, 0);
+  trace.flags.assign(90, world::kPresent);
+  for (std::size_t agent = 0; agent < 30; agent += 2) {
+    trace.flags[trace.at(1, agent)] |= world::kFallen;
+  }
+  const PersonFacts facts(trace, population, {});
+  for (std::uint32_t agent = 0; agent < 30; ++agent) {
+    const auto state_at = [&](double time_s) {
+      std::string text = "{\"agent\":0";
+      facts.append(text, agent, time_s, 0.0);
+      return json::parse(text + "}").at("state").get<std::string>();
+    };
+    EXPECT_EQ(state_at(0.05), "waiting");
+    EXPECT_EQ(state_at(0.15), agent % 2 == 0 ? "lying" : "waiting");
+    EXPECT_EQ(state_at(0.25), "waiting");
+  }
+}
+
 TEST_F(Coco, DronesHaveACategoryAndTracksOfTheirOwn) {
   render::Frame& frame = frames[0];
   render::DroneInView drone;

@@ -154,13 +154,16 @@ TEST(Keypoints, OutsideOfTheImageAreNotLabelled) {
   EXPECT_GT(record.at("truncation"), 0.2);
 }
 
-TEST(PersonFacts, ActivityFollowsFromStatePanicAndSpeed) {
-  EXPECT_EQ(activity_of("Fallen", true, 0), Activity::lying);
-  EXPECT_EQ(activity_of("Walk", true, 3), Activity::panicking);
-  EXPECT_EQ(activity_of("FollowDrone", false, 1), Activity::following);
-  EXPECT_EQ(activity_of("FollowDrone", false, 0.1), Activity::waiting);
-  EXPECT_EQ(activity_of("Walk", false, 1.3), Activity::walking);
-  EXPECT_EQ(activity_of("Walk", false, 2.5), Activity::running);
+TEST(PersonFacts, ActivityFollowsFromStateFlagsAndSpeed) {
+  constexpr std::uint8_t kCalm = world::kPresent;
+  constexpr std::uint8_t kFell = world::kPresent | world::kFallen;
+  EXPECT_EQ(activity_of("Walk", kFell, 0), Activity::lying);
+  EXPECT_EQ(activity_of("Flee", kFell | world::kPanicked, 1), Activity::lying);
+  EXPECT_EQ(activity_of("Walk", kCalm | world::kPanicked, 3), Activity::panicking);
+  EXPECT_EQ(activity_of("FollowDrone", kCalm, 1), Activity::following);
+  EXPECT_EQ(activity_of("FollowDrone", kCalm, 0.1), Activity::waiting);
+  EXPECT_EQ(activity_of("Walk", kCalm, 1.3), Activity::walking);
+  EXPECT_EQ(activity_of("Walk", kCalm, 2.5), Activity::running);
   EXPECT_EQ(name_of(Activity::running), "running");
 }
 

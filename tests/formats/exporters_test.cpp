@@ -43,42 +43,6 @@ TEST_F(Exports, YoloBoxesAreTheVisibleOnes) {
   EXPECT_THAT(read_file(out / "data.yaml"), testing::HasSubstr("  0: \"person\""));
 }
 
-// The even-odd rule at a pixel's middle, over the edges of the one polygon.
-bool is_inside(const std::vector<double>& line, double x, double y) {
-  bool inside = false;
-  const std::size_t corners = (line.size() - 1) / 2;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const std::size_t j = (i + 1) % corners;
-    const double ax = line[1 + 2 * i] * 160;
-    const double ay = line[2 + 2 * i] * 120;
-    const double bx = line[1 + 2 * j] * 160;
-    const double by = line[2 + 2 * j] * 120;
-    if ((ay > y) != (by > y) && x < ax + (bx - ax) * (y - ay) / (by - ay)) inside = !inside;
-  }
-  return inside;
-}
-
-TEST_F(Exports, YoloPolygonsHoldExactlyTheMask) {
-  const fs::path out = exported("yolo-segment");
-  for (const auto& [stem, people] : people_by_stem(coco())) {
-    const auto lines = lines_of(out / "labels/train" / (stem + ".txt"));
-    ASSERT_EQ(lines.size(), people.size());
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const std::vector<double> line = numbers_of(lines[i]);
-      ASSERT_GE(line.size(), 7U);
-      const auto mask = annotate::mask_of_runs(
-          annotate::runs_of_counts(people[i].at("segmentation").at("counts")), 160, 120);
-      int wrong = 0;
-      for (int y = 0; y < 120; ++y) {
-        for (int x = 0; x < 160; ++x) {
-          wrong += is_inside(line, x + 0.5, y + 0.5) != mask[static_cast<std::size_t>(y) * 160 + x];
-        }
-      }
-      EXPECT_EQ(wrong, 0) << stem << " line " << i;
-    }
-  }
-}
-
 TEST_F(Exports, YoloPosesAreTheKeypoints) {
   const fs::path out = exported("yolo-pose");
   EXPECT_THAT(read_file(out / "data.yaml"), testing::HasSubstr("kpt_shape: [17, 3]"));
@@ -350,6 +314,50 @@ TEST_F(Exports, SplitsKeepRunsTogether) {
   EXPECT_THROW(info(options), InputError);
 }
 
+TEST_F(Exports, YoloNamesOnlySplitsThatHavePictures) {
+  ExportOptions options;
+  for (const std::string format : {"yolo-detect", "yolo-segment", "yolo-pose"}) {
+    const std::string yaml = read_file(exported(format, options) / "data.yaml");
+    EXPECT_THAT(yaml, testing::HasSubstr("train: images/train\n"));
+    EXPECT_THAT(yaml, testing::Not(testing::HasSubstr("val:")));
+    EXPECT_THAT(yaml, testing::Not(testing::HasSubstr("test:")));
+    const auto warnings = split_warnings(info(options), {find_format(format), find_format("mot")});
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_THAT(warnings[0].text(), testing::HasSubstr(format + "/data.yaml"));
+    EXPECT_THAT(warnings[0].text(), testing::HasSubstr("val"));
+  }
+  options.splits.runs = {{"run000", Split::test}, {"run001", Split::val}};
+  const std::string yaml = read_file(exported("yolo-detect", options) / "data.yaml");
+  EXPECT_THAT(yaml, testing::Not(testing::HasSubstr("train:")));
+  EXPECT_THAT(yaml, testing::HasSubstr("val: images/val\ntest: images/test\n"));
+  options.splits.runs = {{"run001", Split::val}};
+  EXPECT_TRUE(split_warnings(info(options), {find_format("yolo-pose")}).empty());
+}
+
+TEST(Splits, SharesAreAtMostEverything) {
+  const auto settled = [](std::array<double, 3> share, bool has_train,
+                          std::vector<Problem>& problems) {
+    SplitOptions splits;
+    splits.share = share;
+    settle_shares(has_train, "/outputs/splits", splits, problems);
+    return splits.share;
+  };
+  std::vector<Problem> problems;
+  EXPECT_THAT(settled({0.7, 0.2, 0.1}, true, problems), testing::ElementsAre(0.7, 0.2, 0.1));
+  EXPECT_THAT(settled({1, 0.2, 0.1}, false, problems),
+              testing::ElementsAre(testing::DoubleEq(0.7), 0.2, 0.1))
+      << "train gets what the others leave";
+  EXPECT_THAT(settled({1, 1, 0}, false, problems), testing::ElementsAre(0, 1, 0));
+  EXPECT_TRUE(problems.empty());
+  settled({1, 0.2, 0}, true, problems);
+  settled({1, 0.7, 0.4}, false, problems);
+  settled({0, 0, 0}, true, problems);
+  ASSERT_EQ(problems.size(), 3U);
+  for (const Problem& problem : problems) EXPECT_EQ(problem.where, "/outputs/splits");
+  EXPECT_THAT(problems[0].found, testing::HasSubstr("1.2"));
+  EXPECT_THAT(problems[1].found, testing::HasSubstr("1.1"));
+}
+
 TEST_F(Exports, UnknownFormatsAndMissingNeedsAreNamed) {
   try {
     choose_formats({"mot", "docx", "mot", "yolo-pose"}, {"coco"}, "/outputs/formats");
@@ -374,21 +382,6 @@ TEST_F(Exports, ADamagedRecordIsNamedByItsLine) {
     EXPECT_THAT(error.problems()[0].where, testing::StartsWith("line "));
     EXPECT_THAT(error.problems()[0].found, testing::HasSubstr("bbox"));
   }
-}
-
-TEST(Mask, PolygonsOfHolesAndPiecesAreOneLine) {
-  // A ring, and a pixel that touches it by a corner.
-  const Bitmap ring{3, 2, 4, 4, {1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 0, 0, 1}};
-  const std::vector<Corner> polygon = polygon_of(ring);
-  EXPECT_GE(polygon.size(), 12U);
-  double twice_area = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Corner& a = polygon[i];
-    const Corner& b = polygon[(i + 1) % polygon.size()];
-    twice_area += a.first * b.second - b.first * a.second;
-  }
-  EXPECT_EQ(twice_area, 2 * 9);
-  EXPECT_TRUE(polygon_of(Bitmap{}).empty());
 }
 
 TEST(Mask, CountsGoThereAndBack) {

@@ -140,6 +140,37 @@ TEST_F(MoreExports, KittiPutsPeopleWhereTheirBoxesAre) {
   EXPECT_GT(ignored, 3);
 }
 
+TEST_F(MoreExports, KittiSaysWhatTheLensIs) {
+  const auto distort = [&](const json& lens) {
+    std::string text = read_file(root_ / kCocoFile);
+    const std::string pinhole = R"("model":"pinhole")";
+    const std::string members = lens.dump();
+    for (std::size_t at = text.find(pinhole); at != std::string::npos;
+         at = text.find(pinhole, at + 1)) {
+      text.replace(at, pinhole.size(), members.substr(1, members.size() - 2));
+    }
+    write_file_atomically(root_ / kCocoFile, text);
+  };
+  const auto last_line = [](const fs::path& out) {
+    for (const auto& file : fs::directory_iterator(out / "train/calib")) {
+      return lines_of(file.path()).back();
+    }
+    return std::string();
+  };
+  fs::path out = exported("kitti");
+  EXPECT_THAT(last_line(out), testing::StartsWith("Tr_world_to_cam:"));
+  EXPECT_FALSE(fs::exists(out / "README.txt"));
+  fs::remove_all(out);
+  distort({{"model", "brown_conrady"},
+           {"distortion", {{"k1", -0.2}, {"k2", 0.03}, {"p1", 0.001}, {"p2", 0}, {"k3", 0.5}}}});
+  out = exported("kitti");
+  const std::string line = last_line(out);
+  EXPECT_THAT(line, testing::StartsWith("D2_brown_conrady: "));
+  EXPECT_THAT(numbers_of(line.substr(line.find(' '))),
+              testing::ElementsAre(-0.2, 0.03, 0.001, 0, 0.5, 0, 0, 0));
+  EXPECT_THAT(read_file(out / "README.txt"), testing::HasSubstr("distorted"));
+}
+
 TEST_F(MoreExports, VocCountsFromOneWithBothEndsInside) {
   const fs::path out = exported("voc");
   const auto people = people_by_stem(coco());

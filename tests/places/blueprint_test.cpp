@@ -86,6 +86,47 @@ TEST_F(Blueprint, GivesTheSameBytesAgain) {
   EXPECT_EQ(read_file(folder.path() / "sq_behavior.xml"), behavior);
 }
 
+TEST_F(Blueprint, WhoWaitsLooksWhereItSays) {
+  blueprint["people"] = {{"groups",
+                          {{{"doing", "wait"},
+                            {"box", {-15, -15, -5, -5}},
+                            {"count", 60},
+                            {"facing", {{"towards", {-10, 18}}, {"spread_deg", 0}}}},
+                           {{"doing", "wait"},
+                            {"box", {5, -15, 15, -5}},
+                            {"count", 60},
+                            {"facing", {{"direction_deg", 180}, {"spread_deg", 0}}}},
+                           {{"doing", "wait"}, {"box", {-15, 5, -5, 15}}, {"count", 60}}}},
+                         {"lines", {{{"from", {10, 15}}, {"to", {10, 10}}, {"count", 6}}}}};
+  const world::Scenario scenario = make();
+  EXPECT_EQ(faults(), "");
+  crowd::LoadOptions options;
+  options.model = "weidmann";
+  crowd::Simulation crowd(scenario.scene_file, scenario.behavior_file, options);
+  ASSERT_EQ(crowd.agent_count(), 186U);
+  for (const double until_s : {0.0, 20.0}) {
+    while (crowd.time_s() < until_s) crowd.step();
+    double east = 0;
+    for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
+      const Eigen::Vector2d at = crowd.positions()[i].cast<double>();
+      const auto yaw = static_cast<double>(crowd.yaws_rad()[i]);
+      const auto off = [&](double wanted) {
+        return std::abs(std::remainder(yaw - wanted, 2 * EIGEN_PI));
+      };
+      if (i < 6) {
+        EXPECT_LT(off(EIGEN_PI / 2), 0.7) << "a queue looks to its head";
+      } else if (at.y() < 0 && at.x() < 0) {
+        EXPECT_LT(off(std::atan2(18 - at.y(), -10 - at.x())), 0.05);
+      } else if (at.y() < 0) {
+        EXPECT_LT(off(EIGEN_PI), 0.05);
+      } else if (off(0) < EIGEN_PI / 4) {
+        ++east;
+      }
+    }
+    EXPECT_LT(east, 30) << "of 60 who look anywhere";
+  }
+}
+
 TEST_F(Blueprint, PeopleWhoCrossLeaveAndStrollersStay) {
   const std::size_t gone = gone_after(make(), 90);
   EXPECT_GT(gone, 5U);
@@ -246,6 +287,13 @@ INSTANTIATE_TEST_SUITE_P(
                               "at most"},
                       Mistake{"no_such_doing", "/people/groups/0/doing", "fly",
                               "/people/groups/0/doing", "stroll, wait"},
+                      Mistake{"strollers_face_the_way", "/people/groups/0/facing", "random",
+                              "/people/groups/0/facing", "wait"},
+                      Mistake{"no_such_facing", "/people/lines/0/facing", "up",
+                              "/people/lines/0/facing", "towards"},
+                      Mistake{"two_facings", "/people/lines/0/facing",
+                              json::parse(R"({"towards": [1, 2], "direction_deg": 3})"),
+                              "/people/lines/0/facing", "one of them"},
                       Mistake{"no_such_exit", "/people/sources/0/exit", "up",
                               "/people/sources/0/exit", "east, west"},
                       Mistake{"nobody", "/people", json::object(), "/people", "nobody"},

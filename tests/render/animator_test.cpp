@@ -146,12 +146,12 @@ class AnimatorWithClipsTest : public AnimatorTest {
   }
 };
 
-TEST_F(AnimatorWithClipsTest, StatesThatSaySoMakePeopleLie) {
+TEST_F(AnimatorWithClipsTest, TheTracesFlagMakesPeopleLie) {
   add_clip("fall_forwards", 4);
   add_clip("fall_backwards", 4);
-  trace_.header.state_names = {"walking", "incapacitated"};
-  trace_.state.assign(trace_.flags.size(), 0);
-  for (std::size_t step = 20; step < trace_.steps(); ++step) trace_.state[trace_.at(step, 1)] = 1;
+  for (std::size_t step = 20; step < trace_.steps(); ++step) {
+    trace_.flags[trace_.at(step, 1)] |= world::kFallen;
+  }
   const Animator animator(trace_, people_);
   EXPECT_EQ(clip_of(animator, 1.0, 1), "idle");
   EXPECT_EQ(clip_of(animator, 4.5, 1).substr(0, 4), "fall");

@@ -285,8 +285,13 @@ TEST(Lens, KnowsHowWideItSees) {
   EXPECT_LT(wide_size(lens).x(), 1000);
   const LensMap map = lens_map(lens, {0, lens.height});
   EXPECT_EQ(wide_size(lens), Eigen::Vector2i(map.wide.width, map.wide.height));
+  EXPECT_TRUE(shows_everywhere(lens));
   lens.distortion.emplace(Model::brown_conrady, Distortion::Coefficients{-0.9});
-  EXPECT_EQ(wide_size(lens), Eigen::Vector2i(0, 0)) << "folds within the image";
+  EXPECT_FALSE(shows_everywhere(lens)) << "folds within the image";
+  EXPECT_GT(wide_size(lens).minCoeff(), 300);
+  lens.cx_px = -9000;
+  EXPECT_EQ(wide_size(lens), Eigen::Vector2i(0, 0)) << "shows nothing of it";
+  lens.cx_px = 319.5;
   lens.distortion.reset();
   EXPECT_EQ(wide_size(lens), Eigen::Vector2i(640, 480));
 }

@@ -110,6 +110,9 @@ TEST(TheTruth, IsOfThoseWhoStandAndNotOfThoseWhoLieHurt) {
   lookout.look(*crowd, recorder, 0);
   ASSERT_EQ(lookout.view().people.size(), 1U);
   EXPECT_NEAR(lookout.view().people[0].position.x(), 1, 1e-6);
+  EXPECT_EQ(crowd->now().flags,
+            (std::vector<std::uint8_t>{world::kPresent, world::kPresent | world::kFallen}))
+      << "the trace says who lies";
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(Replay, KeepsTheStepOfUsualRecordingsAndDividesOthers) {
 TEST(Replay, PeopleAreThereInTheFramesThatHaveThem) {
   // One a second: replayed five times a second. The second person comes late and goes early.
   const auto recording = recording_of(1.0, 4, {{0, 3, {0, 0}, {1, 0}}, {1, 2, {0, 5}, {0, 1}}});
-  const auto crowd = replayed(recording);
+  const auto crowd = replayed(recording, 1);
   EXPECT_DOUBLE_EQ(crowd->dt_s(), 0.2);
   std::vector<int> there;
   for (int step = 0; step <= 20; ++step) {
@@ -51,7 +51,7 @@ TEST(Replay, FacesTheWayWalkedHoweverTheHeadSways) {
     swaying->position[swaying->at(step, 0)].y() += sway;
     swaying->position[swaying->at(step, 1)].y() += sway;
   }
-  const auto crowd = replayed(swaying);
+  const auto crowd = replayed(swaying, 1);
   const float stands = crowd->now().yaw_rad[1];
   for (int step = 0; step <= 100; ++step) {
     EXPECT_NEAR(crowd->now().yaw_rad[0], 0, 0.2) << step;
@@ -62,7 +62,7 @@ TEST(Replay, FacesTheWayWalkedHoweverTheHeadSways) {
 
 TEST(Replay, WhoDoesNotTakePartStaysAway) {
   const auto crowd =
-      replayed(recording_of(0.1, 11, {{0, 10, {0, 0}, {1, 0}}, {0, 10, {5, 0}, {1, 0}}}));
+      replayed(recording_of(0.1, 11, {{0, 10, {0, 0}, {1, 0}}, {0, 10, {5, 0}, {1, 0}}}), 1);
   crowd->set_present(0, false);
   crowd->step();
   EXPECT_EQ(crowd->present()[0], 0);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -45,6 +47,75 @@ TEST_F(PeopleTest, AreAtLeastEightAndAllDifferent) {
   }
   EXPECT_EQ(names.size(), people_->characters.size());
   EXPECT_GE(statures_mm.size(), 8U);
+}
+
+/// Surface of a part's triangles, m², of those only that `counts` by their first corner.
+template <typename Counts>
+double area_m2(const Mesh& mesh, const Part& part, const Counts& counts) {
+  double sum = 0;
+  const auto corner = [&](std::uint32_t at) -> const Vertex& {
+    return mesh.vertices[mesh.indices[part.first_index + at]];
+  };
+  for (std::uint32_t at = 0; at + 2 < part.index_count; at += 3) {
+    if (!counts(corner(at))) continue;
+    const Eigen::Vector3f a(corner(at).position.data());
+    const Eigen::Vector3f b(corner(at + 1).position.data());
+    const Eigen::Vector3f c(corner(at + 2).position.data());
+    sum += static_cast<double>((b - a).cross(c - a).norm()) / 2;
+  }
+  return sum;
+}
+
+TEST_F(PeopleTest, ShoesAreDyedWhateverTheyAre) {
+  const auto is_foot = [](const Vertex& vertex) {
+    const auto bone = static_cast<Bone>(vertex.bones[0]);
+    return bone == Bone::left_foot || bone == Bone::left_toe || bone == Bone::right_foot ||
+           bone == Bone::right_toe;
+  };
+  for (const Character& character : people_->characters) {
+    const Mesh& mesh = character.levels.front();
+    double dyed = 0;
+    double all = 0;
+    for (const Part& part : mesh.parts) {
+      const double feet = area_m2(mesh, part, is_foot);
+      all += feet;
+      if (part.tint == Tint::shoes) dyed += feet;
+    }
+    EXPECT_GT(dyed, 0.8 * all) << character.name << ": " << character.wears;
+  }
+}
+
+TEST_F(PeopleTest, ColoursAreThoseOfWhatIsDrawn) {
+  const auto everything = [](const Vertex&) { return true; };
+  for (const Character& character : people_->characters) {
+    const Mesh& mesh = character.levels.front();
+    std::array<double, kTintCount> drawn{};
+    for (const Part& part : mesh.parts) {
+      if (part.tint == Tint::portrait) continue;
+      const auto tint = static_cast<std::size_t>(part.tint);
+      drawn[tint] += area_m2(mesh, part, everything);
+      if (part.tint == Tint::none || character.tints[tint].empty()) continue;
+      // Light and shade only: the colour is the instance's.
+      const Texture& texture = people_->textures[static_cast<std::size_t>(part.texture)];
+      for (std::uint32_t at = 0; at < part.index_count; ++at) {
+        const auto& uv = mesh.vertices[mesh.indices[part.first_index + at]].uv;
+        const auto texel = [&](float share) {
+          const auto place = static_cast<int>(share * static_cast<float>(people_->texture_size));
+          return static_cast<std::size_t>(std::clamp(place, 0, people_->texture_size - 1));
+        };
+        const std::size_t place =
+            4 * (texel(uv[1]) * static_cast<std::size_t>(people_->texture_size) + texel(uv[0]));
+        ASSERT_EQ(texture.rgba[place], texture.rgba[place + 1]) << character.name;
+        ASSERT_EQ(texture.rgba[place], texture.rgba[place + 2]) << character.name;
+      }
+    }
+    for (const Tint tint : {Tint::top, Tint::bottom, Tint::shoes}) {
+      const auto index = static_cast<std::size_t>(tint);
+      if (!character.tints[index].empty()) {
+        EXPECT_GT(drawn[index], 0.02) << character.name << ": " << character.wears;
+      }
+    }
+  }
 }
 
 TEST_F(PeopleTest, MeshesAreSound) {

@@ -295,6 +295,23 @@ TEST(TraceDeathTest, StepsOutOfOrderAreABug) {
   EXPECT_DEATH(writer.add(step_of(1, 3)), "dt apart");
 }
 
+TEST(Trace, OlderFilesGetTheFlagOfThoseWhoseStateSaysThatTheyLie) {
+  const TemporaryFolder folder;
+  TraceHeader header = header_of(3);
+  header.state_names = {"Walk", "Casualty", "Done"};
+  {
+    TraceWriter writer(folder.path() / "run.h5", header);
+    CrowdStep step = step_of(0, 3);
+    step.state = {0, 1, 2};
+    step.flags = {kPresent | kFallen, kPresent, kPresent};
+    writer.add(step);
+    writer.finish();
+  }
+  const Trace trace = read_trace(folder.path() / "run.h5");
+  EXPECT_EQ(trace.flags,
+            (std::vector<std::uint8_t>{kPresent | kFallen, kPresent | kFallen, kPresent}));
+}
+
 TEST(IsDown, KnowsTheWordsOfStatesInWhichNobodyStands) {
   for (const char* name : {"Fallen", "incapacitated", "is_dead", "Collapsed2", "CASUALTY"}) {
     EXPECT_TRUE(is_down(name)) << name;
