@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "calibrate/request.h"
 #include "server/answers.h"
 #include "server/http.h"
@@ -51,8 +52,7 @@ Sent sent_as_form(const Request& request) {
 }
 
 Sent sent_as_json(const Request& request) {
-  json value = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
-  if (!value.is_object()) throw HttpError{400, "the body is no JSON object"};
+  json value = json_body_of(request);
   Sent sent;
   const json files = value.value("files", json::object());
   for (const auto& [name, text] : files.items()) {
@@ -81,7 +81,7 @@ void submit_calibration(const Call& call, const Request& request, Response& resp
 }
 
 void list_calibrations(const Call& call, const Request& request, Response& response) {
-  static const json kSchema = json::parse(calibrate::request_schema());
+  static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
   const int limit = limit_of(request);
   const std::vector<jobs::JobRow> rows = call.service.list(
       {.kind = jobs::JobKind::calibration, .after = after_of(request), .limit = limit});
@@ -100,7 +100,8 @@ void send_calibration(const Call& call, const Request& request, Response& respon
   json value = calibration_json(row, call.service.retention());
   if (row.state == jobs::JobState::succeeded) {
     value["camera"] =
-        json::parse(read_file(call.service.calibration_folder(row.id) / calibrate::kCameraName));
+        parse_own_json(read_file(call.service.calibration_folder(row.id) / calibrate::kCameraName),
+                       calibrate::kCameraName);
   }
   write_json(response, 200, value);
 }

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 #include "base/redact.h"
 #include "calibrate/request.h"
 #include "jobs/calibrations.h"
@@ -114,7 +115,7 @@ void JobService::note_queued() {
 
 JobRow JobService::submit_calibration(std::string_view request_json,
                                       const std::vector<Upload>& files) {
-  const json request = json::parse(request_json, nullptr, /*allow_exceptions=*/false);
+  const json request = parse_json(request_json, "", kRequestJsonLimits);
   if (!request.is_object()) {
     throw InputError(Problem{"", "", "no JSON object", "a request: see docs/calibration.md"});
   }
@@ -150,7 +151,7 @@ json JobService::camera_of(const std::string& id) const {
   if (row->state != JobState::succeeded) {
     throw EnvironmentError(fmt::format("the calibration is {}", name_of(row->state)));
   }
-  return json::parse(read_file(place_of(*row) / calibrate::kCameraName));
+  return parse_own_json(read_file(place_of(*row) / calibrate::kCameraName), calibrate::kCameraName);
 }
 
 void JobService::complete(JobRow& row) const {

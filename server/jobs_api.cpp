@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "jobs/job_id.h"
 #include "jobs/plan.h"
 #include "jobs/spec.h"
@@ -194,7 +195,7 @@ void send_job(const Call& call, const Request& request, Response& response) {
 void change_job(const Call& call, const Request& request, Response& response) {
   require_json(request);
   const jobs::JobRow row = find_own(call, request);
-  const json change = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
+  const json change = json_body_of(request);
   const auto wrong = [](const std::string& pointer, const std::string& found,
                         const std::string& expected) {
     return HttpError{400, "the change is wrong", {{"", pointer, found, expected}}};
@@ -241,12 +242,10 @@ void retry_job(const Call& call, const Request& request, Response& response) {
 
 void clone_job(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
-  json job = json::parse(row.spec_json);
+  json job = parse_own_json(row.spec_json, "the job");
   if (!request.body.empty()) {
     require_json(request);
-    const json patch = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
-    if (!patch.is_object()) throw HttpError{400, "a change of the job is a JSON object"};
-    job.merge_patch(patch);
+    job.merge_patch(json_body_of(request));
   }
   const std::string text = text_of(job);
   queue(call, {text, row.priority, row.labels, key_of(request)}, response);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "jobs/job_id.h"
 #include "server/answers.h"
 #include "server/http.h"
@@ -56,6 +57,17 @@ void require_json(const Request& request) {
   if (type.substr(0, type.find(';')) != "application/json") {
     throw HttpError{415, "this is sent with Content-Type: application/json"};
   }
+}
+
+json json_body_of(const Request& request) {
+  json body;
+  try {
+    body = parse_json(request.body, "", kRequestJsonLimits);
+  } catch (const InputError& error) {
+    throw HttpError{400, "the body is not the JSON that can be read here", error.problems()};
+  }
+  if (!body.is_object()) throw HttpError{400, "the body is no JSON object"};
+  return body;
 }
 
 std::string after_of(const Request& request) {

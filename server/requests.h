@@ -29,6 +29,9 @@ std::string after_of(const httplib::Request& request);
 /// submitting: a browser asks before it sends this type.
 void require_json(const httplib::Request& request);
 
+/// The body, which has to be a JSON object. Throws HttpError and InputError.
+nlohmann::json json_body_of(const httplib::Request& request);
+
 /// The job that the path names. Throws HttpError 404.
 jobs::JobRow find_job(const Call& call, const httplib::Request& request);
 
