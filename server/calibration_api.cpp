@@ -75,7 +75,9 @@ void submit_calibration(const Call& call, const Request& request, Response& resp
     throw HttpError{415, "a calibration is sent as multipart/form-data or application/json"};
   }
   const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
-  const jobs::JobRow row = call.service.submit_calibration(sent.request, sent.files);
+  const jobs::JobRow row = call.service.submit_calibration(
+      sent.request, sent.files,
+      {call.caller.key_id, call.caller.most_active, call.caller.most_bytes});
   response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
   write_json(response, 201, calibration_json(row, call.service.retention()));
 }
@@ -107,7 +109,9 @@ void send_calibration(const Call& call, const Request& request, Response& respon
 }
 
 void remove_calibration(const Call& call, const Request& request, Response& response) {
-  if (!call.service.remove(find_row(call.service, request, jobs::JobKind::calibration).id)) {
+  const jobs::JobRow row = find_row(call.service, request, jobs::JobKind::calibration);
+  require_own(call, row);
+  if (!call.service.remove(row.id)) {
     throw HttpError{404, "already removed"};
   }
   response.status = 204;

@@ -29,9 +29,7 @@ constexpr std::size_t kLongestKey = 200;
 /// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
 jobs::JobRow find_own(const Call& call, const Request& request) {
   jobs::JobRow row = find_job(call, request);
-  if (call.caller.scope < Scope::admin && row.owner != call.caller.key_id) {
-    throw HttpError{403, "the job is another's: only its owner and administrators may change it"};
-  }
+  require_own(call, row);
   return row;
 }
 

@@ -82,6 +82,13 @@ jobs::JobRow find_job(const Call& call, const Request& request) {
   return find_row(call.service, request, jobs::JobKind::dataset);
 }
 
+void require_own(const Call& call, const jobs::JobRow& row) {
+  if (call.caller.scope >= Scope::admin || row.owner == call.caller.key_id) return;
+  throw HttpError{
+      403, fmt::format("the {} is another's: only its owner and administrators may change it",
+                       row.kind == jobs::JobKind::dataset ? "job" : "calibration")};
+}
+
 jobs::JobRow find_row(JobService& service, const Request& request, jobs::JobKind kind) {
   const std::string id = request.matches[1];
   std::optional<jobs::JobRow> row;

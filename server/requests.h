@@ -35,6 +35,9 @@ nlohmann::json json_body_of(const httplib::Request& request);
 /// The job that the path names. Throws HttpError 404.
 jobs::JobRow find_job(const Call& call, const httplib::Request& request);
 
+/// Throws HttpError 403 unless the caller owns the job or calibration, or is an administrator.
+void require_own(const Call& call, const jobs::JobRow& row);
+
 /// The job or calibration that the path names. Throws HttpError 404.
 jobs::JobRow find_row(JobService& service, const httplib::Request& request, jobs::JobKind kind);
 

@@ -3,6 +3,7 @@ and that honest clients notice nothing of what keeps them out."""
 import concurrent.futures
 import gzip
 import http.client
+import io
 import json
 import pathlib
 import re
@@ -14,6 +15,7 @@ import tempfile
 import time
 import unittest
 import urllib.error
+import zipfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 import hostile  # noqa: E402
@@ -198,6 +200,78 @@ class Attacks:
             self.assertEqual(raised.exception.code, 400, path)
             self.assertIn("64", raised.exception.read().decode())
         self.assert_unharmed("nested JSON")
+
+    def test_nested_json_in_archives_ends_nothing(self):
+        deep = "[" * 150_000 + "]" * 150_000
+        for name, text in (("deep.json", deep), ("deep.json", '{"crowd": %s}' % deep), ("deep.json", '{"base": %s}' % deep)):
+            archive = io.BytesIO()
+            with zipfile.ZipFile(archive, "w") as bundle:
+                bundle.writestr(name, text)
+            form = (b'--B\r\nContent-Disposition: form-data; name="job"\r\n\r\n{"scenario": "bundle/deep", "crowd": {"agents": 3}}'
+                    b'\r\n--B\r\nContent-Disposition: form-data; name="scenario"; filename="a.zip"\r\n\r\n'
+                    + archive.getvalue() + b"\r\n--B--\r\n")
+            for path, body, kind in (("/v1/scenarios?name=deep", archive.getvalue(), "application/zip"),
+                                     ("/v1/jobs", form, "multipart/form-data; boundary=B")):
+                with self.assertRaises(urllib.error.HTTPError) as raised:
+                    self.ask(path, body, "POST", {"Content-Type": kind})
+                self.assertEqual(raised.exception.code, 400, path)
+        self.assert_unharmed("nested JSON in an archive")
+
+    def test_forms_that_cannot_be_read(self):
+        """The library gives up before the body: what is left of it must not become a request."""
+        inner = self.victims_request() + b"y\r\nAuthorization: Bearer " + self.throng.key.encode() + b"\r\n\r\n"
+        key = b"Authorization: Bearer " + self.throng.key.encode() + b"\r\n"
+        part = b'Content-Disposition: form-data; name="job"\r\n'
+        for kind, body in ((b"multipart/form-data", inner), (b"multipart/form-data; boundary=", inner),
+                           (b"multipart/form-data; boundary=\"", inner),
+                           (b"multipart/form-data; boundary=" + b"x" * 4000, inner),
+                           (b"multipart/form-data; boundary=(.*)*", b"--(.*)*\r\n" + part + b"\r\n" + inner),
+                           (b"multipart/form-data; boundary=B", b"--B\r\nX: " + b"y" * 9000 + b"\r\n\r\n" + inner),
+                           (b"multipart/form-data; boundary=B", b"--B\r\n" + part + b"\r\nx\r\n--B--\r\n" + inner),
+                           (b"application/x-www-form-urlencoded", b"a=" + b"b" * 20_000 + inner),
+                           (b"application/x-www-form-urlencoded", b"%" * 3000 + inner)):
+            head = (b"POST /v1/jobs HTTP/1.1\r\n" + HOST + key + b"Content-Type: " + kind
+                    + b"\r\nContent-Length: %d\r\n\r\n" % len(body))
+            with self.subTest(kind=kind[:60]):
+                answers = exchange(self.front, head + body)
+                self.assertEqual(len(statuses(answers)), 1, answers[:400])
+                self.assertGreaterEqual(statuses(answers)[0], 400)
+                self.assert_unharmed(kind[:60])
+
+    def test_lengths_that_lie(self):
+        inner = self.victims_request() + b"y\r\n\r\n"
+        start = b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: application/json\r\n"
+        key = b"Authorization: Bearer " + self.throng.key.encode() + b"\r\n"
+        for body, length in ((b"{}", 100), (b"{}" + inner, 2), (b"", 5)):
+            answers = exchange(self.front, start + key + b"Content-Length: %d\r\n\r\n" % length + body)
+            self.assertTrue(all(status >= 400 for status in statuses(answers)), answers[:300])
+            self.assert_unharmed(body)
+
+    def test_old_clients(self):
+        self.assertEqual(statuses(exchange(self.front, b"GET /v1/version HTTP/1.0\r\n\r\n")), [200])
+        kept = b"GET /v1/version HTTP/1.0\r\nConnection: keep-alive\r\n\r\n"
+        self.assertEqual(statuses(exchange(self.front, kept * 2)), [200, 200])
+
+    def test_escaped_line_ends_stay_escaped(self):
+        """The library decodes percent escapes in header fields."""
+        inner = b"x%0d%0aAuthorization: Bearer " + self.throng.key.encode()
+        answers = exchange(self.front, b"GET /v1/jobs HTTP/1.1\r\n" + HOST + b"X: " + inner + b"\r\nConnection: close\r\n\r\n")
+        self.assertEqual(statuses(answers), [401])
+        for length in (b"%30", b"0%0d%0aX: y"):
+            head = b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Length: " + length + b"\r\n\r\n"
+            self.assert_refused(head, self.victims_request(), (400, 401, 411))
+
+    def test_other_spellings_of_the_path(self):
+        """Scopes are those of the route that answers, however its path is written."""
+        for path in ("/v1/%77ebhooks", "/v1//webhooks", "/v1/./webhooks", "/v1/jobs/../webhooks", "/v1/webhooks/",
+                     "/V1/webhooks", "/v1/webhooks;x", "/v1/webhooks%3f", "/v1/webhooks%20", "/v1/jobs/..%2fwebhooks"):
+            for method, body in (("GET", b""), ("POST", b'{"url": "http://a"}')):
+                head = (f"{method} {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\nAuthorization: Bearer {self.reader}\r\n"
+                        f"Content-Type: application/json\r\n").encode()
+                head += b"Content-Length: %d\r\n" % len(body) if body else b""
+                answers = exchange(self.front, head + b"\r\n" + body)
+                self.assertEqual(len(statuses(answers)), 1)
+                self.assertIn(statuses(answers)[0], (400, 403, 404, 405), path)
 
     def curl(self, *arguments, data=None):
         scheme = "https" if self.front.context else "http"
