@@ -12,6 +12,7 @@
 #include "annotate/keypoints.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 
 namespace throng::annotate {
 
@@ -69,7 +70,7 @@ ShardCounts read_counts(const fs::path& folder) {
         fmt::format("shard {} is unfinished: it has no {}", folder.string(), kShardFile));
   }
   try {
-    const nlohmann::json json = nlohmann::json::parse(read_file(path));
+    const nlohmann::json json = parse_own_json(read_file(path), path.string());
     return {json.at("images").get<std::size_t>(), json.at("annotations").get<std::size_t>(),
             json.at("tracks").get<std::size_t>()};
   } catch (const nlohmann::json::exception& error) {
@@ -93,7 +94,7 @@ class ShardLines {
     ++number_;
     if (stream_.eof()) fail(number_, "the line is cut off");
     if (number_ > expected_) fail(number_, "the file goes on");
-    if (line.empty() || line.front() != '{' || !nlohmann::json::accept(line)) {
+    if (line.empty() || line.front() != '{' || !is_own_json(line)) {
       fail(number_, "the line is no JSON object");
     }
     return true;
@@ -129,7 +130,7 @@ void merge_tracks(Output& output, const std::vector<fs::path>& folders,
   for (std::size_t i = 0; i < folders.size(); ++i) {
     ShardLines lines(folders[i] / kTracksFile, counts[i].tracks);
     while (lines.next(line)) {
-      const auto id = nlohmann::json::parse(line).at("id").get<std::int64_t>();
+      const auto id = parse_own_json(line, kTracksFile).at("id").get<std::int64_t>();
       if (!of_run.empty() && of_run.begin()->first / kTrackIdsPerRun != id / kTrackIdsPerRun) {
         check(of_run.rbegin()->first < id, "shards are merged by run");
         flush();

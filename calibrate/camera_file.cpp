@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 
 namespace throng::calibrate {
 
@@ -77,15 +78,7 @@ CameraFile camera_from_json(const json& value, const std::string& source) {
 }
 
 CameraFile read_camera_file(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
-  json value;
-  try {
-    value = json::parse(text);
-  } catch (const json::parse_error& error) {
-    throw InputError(Problem{file.string(), fmt::format("byte {}", error.byte), "no JSON",
-                             "a camera of throng calibrate"});
-  }
-  return camera_from_json(value, file.string());
+  return camera_from_json(parse_json(read_file(file), file.string()), file.string());
 }
 
 }  // namespace throng::calibrate

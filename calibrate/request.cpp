@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "calibrate/camera_file.h"
 #include "calibrate/picture.h"
 #include "calibrate/pose.h"
@@ -147,7 +148,7 @@ std::string_view request_schema() { return embedded::kCalibrationSchema; }
 
 Request request_from_json(const json& value, const fs::path& folder) {
   if (!value.is_object()) refuse("", value, "an object");
-  static const json kFields = json::parse(request_schema()).at("properties");
+  static const json kFields = parse_own_json(request_schema(), "the schema").at("properties");
   for (const auto& entry : value.items()) {
     if (!kFields.contains(entry.key())) {
       refuse("/" + entry.key(), entry.value(), "no such field: see docs/calibration.md");
@@ -206,7 +207,7 @@ Calibration carry_out(const Request& request, const OnProgress& on_progress) {
 
 void carry_out_in(const fs::path& folder, const OnProgress& on_progress,
                   const std::function<bool()>& go_on) {
-  const json value = json::parse(read_file(folder / "request.json"));
+  const json value = parse_json(read_file(folder / "request.json"), "request.json");
   Request request = request_from_json(value, folder / "files");
   request.options.fit.go_on = go_on;
   const Calibration calibration = carry_out(request, on_progress);

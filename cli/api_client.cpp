@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "server/http.h"
 
 namespace throng::cli {
@@ -30,7 +31,7 @@ std::string variable(const char* name, const char* otherwise) {
 
 /// What a problem document says, with every mistake in a line of its own.
 std::vector<Problem> problems_in(const httplib::Response& response, const std::string& path) {
-  const json document = json::parse(response.body, nullptr, /*allow_exceptions=*/false);
+  const json document = parse_json_or_discard(response.body);
   std::vector<Problem> problems;
   if (document.is_object()) problems = problems_of(document.value("errors", json::array()));
   if (problems.empty()) {
@@ -101,7 +102,20 @@ const httplib::Response& checked(const httplib::Result& result, const std::strin
 
 }  // namespace
 
-json ApiClient::get(const std::string& path) { return json::parse(get_text(path)); }
+namespace {
+
+// What answers is not necessarily throng.
+json answer_json(const std::string& body, const std::string& path) {
+  try {
+    return parse_json(body, path);
+  } catch (const InputError& error) {
+    throw EnvironmentError(fmt::format("the answer cannot be read: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+json ApiClient::get(const std::string& path) { return answer_json(get_text(path), path); }
 
 std::string ApiClient::get_text(const std::string& path) {
   return checked(connection_->client.Get(path, connection_->headers), url_, path).body;
@@ -122,13 +136,15 @@ json ApiClient::post(const std::string& path, const std::string& body,
                      const std::pair<std::string, std::string>& header) {
   httplib::Headers headers = connection_->headers;
   if (!header.first.empty()) headers.insert(header);
-  return json::parse(
-      checked(connection_->client.Post(path, headers, body, "application/json"), url_, path).body);
+  return answer_json(
+      checked(connection_->client.Post(path, headers, body, "application/json"), url_, path).body,
+      path);
 }
 
 json ApiClient::upload(const std::string& path, const std::string& bytes, const std::string& type) {
-  return json::parse(
-      checked(connection_->client.Post(path, connection_->headers, bytes, type), url_, path).body);
+  return answer_json(
+      checked(connection_->client.Post(path, connection_->headers, bytes, type), url_, path).body,
+      path);
 }
 
 json ApiClient::post_form(const std::string& path, const std::vector<Part>& parts,
@@ -140,7 +156,8 @@ json ApiClient::post_form(const std::string& path, const std::vector<Part>& part
   for (const Part& part : parts) {
     items.push_back({part.name, part.bytes, part.file_name, part.type});
   }
-  return json::parse(checked(connection_->client.Post(path, headers, items), url_, path).body);
+  return answer_json(checked(connection_->client.Post(path, headers, items), url_, path).body,
+                     path);
 }
 
 void ApiClient::remove(const std::string& path) {

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "cli/commands.h"
 #include "cli/job_runner.h"
 #include "cli/scenario_import.h"
@@ -65,7 +66,7 @@ struct PlanArguments {
 /// Whether this is a job's file: only a job names a scenario.
 bool is_job(const std::string& name) {
   if (fs::path(name).extension() != ".json" || !fs::is_regular_file(name)) return false;
-  const nlohmann::json value = nlohmann::json::parse(read_file(name), nullptr, false);
+  const nlohmann::json value = parse_json_or_discard(read_file(name));
   return value.is_object() && value.contains("scenario");
 }
 

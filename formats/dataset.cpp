@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 
 namespace throng::formats {
 
@@ -186,11 +187,7 @@ json read_manifest(const fs::path& root) {
   if (!fs::is_regular_file(file)) {
     throw InputError({root.string(), "", "no manifest.json", "a finished dataset"});
   }
-  try {
-    return json::parse(read_file(file));
-  } catch (const json::exception& error) {
-    throw InputError({file.string(), "", error.what(), "the JSON that throng wrote"});
-  }
+  return parse_json(read_file(file), file.string(), kOwnJsonLimits);
 }
 
 DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
@@ -257,7 +254,7 @@ class DatasetReader::Lines {
     ++number_;
     if (line_.starts_with(']')) return nullptr;
     if (line_.ends_with(',')) line_.pop_back();
-    json record = json::parse(line_, nullptr, false);
+    json record = parse_json_or_discard(line_);
     if (!record.is_object()) fail("no JSON object", "a record");
     return record;
   }

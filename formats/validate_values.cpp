@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "camera/files.h"
 #include "formats/findings.h"
 #include "formats/instances.h"
@@ -121,7 +122,8 @@ void check_fields(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
     const std::string description = "fields/" + run + ".json";
     try {
-      const json grid = json::parse(read_file(info.root / description));
+      const json grid =
+          parse_json(read_file(info.root / description), (info.root / description).string());
       for (std::size_t frame = 0; frame < grid.at("people").size(); ++frame) {
         check_field(info.root, fmt::format("fields/{}/{:06}.npy", run, frame), grid, frame,
                     findings);

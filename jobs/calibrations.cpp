@@ -5,13 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_text.h"
 
 namespace throng::jobs {
 
 using nlohmann::json;
 
 std::string with_calibrations(std::string_view job_json, const FindCamera& find) {
-  json job = json::parse(job_json, nullptr, /*allow_exceptions=*/false);
+  json job = parse_json_or_discard(job_json, kJobJsonLimits);
   if (!job.is_object() || !job.contains("drones") || !job["drones"].is_array()) {
     return std::string(job_json);
   }

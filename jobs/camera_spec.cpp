@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "base/angle.h"
+#include "base/json_text.h"
 #include "render/lens.h"
 
 namespace throng::embedded {
@@ -135,7 +136,7 @@ const std::vector<Field>& fields() {
 json::json_pointer below(const std::string& name) { return json::json_pointer("/" + name); }
 
 const json& presets() {
-  static const json list = json::parse(embedded::kCameras).at("cameras");
+  static const json list = parse_own_json(embedded::kCameras, "the list of cameras").at("cameras");
   return list;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "jobs/plan.h"
 
 namespace throng::jobs {
@@ -26,7 +27,7 @@ void write_failed_runs(const JobFolder& folder, const std::vector<FailedRun>& ru
 std::vector<FailedRun> read_failed_runs(const JobFolder& folder) {
   std::vector<FailedRun> runs;
   if (!fs::exists(file_in(folder))) return runs;
-  for (const json& entry : json::parse(read_file(file_in(folder)))) {
+  for (const json& entry : parse_own_json(read_file(file_in(folder)), file_in(folder).string())) {
     runs.push_back({entry.at("run"), entry.at("task")});
   }
   return runs;

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 
 namespace throng::jobs {
 
@@ -13,18 +14,11 @@ namespace {
 using nlohmann::json;
 
 /// The list's entries are taken as they are parsed: all of them as JSON need ten times the memory.
-std::vector<FileEntry> files_in(const std::string& text) {
+std::vector<FileEntry> files_in(const std::string& text, const std::string& source) {
   std::vector<FileEntry> files;
-  bool in_files = false;
-  const auto take = [&](int depth, json::parse_event_t event, json& parsed) {
-    constexpr int kFieldDepth = 1;
-    constexpr int kEntryDepth = 2;
-    if (event == json::parse_event_t::key && depth == kFieldDepth) in_files = parsed == "files";
-    if (!in_files || event != json::parse_event_t::object_end || depth != kEntryDepth) return true;
-    files.push_back(parsed.get<FileEntry>());
-    return false;
-  };
-  static_cast<void>(json::parse(text, take).at("files"));
+  const json rest = parse_own_json_list(
+      text, source, "files", [&](const json& entry) { files.push_back(entry.get<FileEntry>()); });
+  static_cast<void>(rest.at("files"));
   return files;
 }
 
@@ -35,7 +29,7 @@ Manifest read_manifest(const std::filesystem::path& dataset) {
   const std::string text = read_file(file);
   try {
     return {
-        files_in(text),
+        files_in(text, file.string()),
         {kManifestName, static_cast<std::int64_t>(text.size()), sha256_hex(text), crc32_of(text)}};
   } catch (const json::exception& error) {
     throw EnvironmentError(fmt::format("{} is damaged: {}", file.string(), error.what()));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/json_text.h"
 
 namespace throng::jobs {
 
@@ -43,7 +44,7 @@ std::string profile_table(const JobFolder& folder, const JobSpec& job) {
     for (const Shard& shard : plan_shards(job, run.index)) {
       const auto file = profile_of(folder, {Task::Kind::render, run.index, shard.index});
       if (!std::filesystem::exists(file)) continue;
-      const json profile = json::parse(read_file(file));
+      const json profile = parse_own_json(read_file(file), file.string());
       images += profile.at("images").get<std::int64_t>();
       for (const auto& [stage, time] : profile.at("stages").items()) {
         times[stage].cpu_s += time.at("cpu_s").get<double>();

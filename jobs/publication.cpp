@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 
 namespace throng::jobs {
 
@@ -58,7 +59,7 @@ void Publication::publish(json record) {
 
 json read_record(const fs::path& output) {
   try {
-    return json::parse(read_file(output / kRecord));
+    return parse_own_json(read_file(output / kRecord), (output / kRecord).string());
   } catch (const json::exception& error) {
     throw EnvironmentError(
         fmt::format("{} is damaged: {}", (output / kRecord).string(), error.what()));

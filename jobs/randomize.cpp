@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "jobs/spec.h"
 #include "world/json_reader.h"
 
@@ -19,7 +20,7 @@ constexpr const char* kInPlace = "x-distribution";
 constexpr const char* kElsewhere = "x-randomize";
 
 const json& rules_of_job() {
-  static const json document = json::parse(job_schema());
+  static const json document = parse_own_json(job_schema(), "the schema");
   return document;
 }
 

@@ -13,6 +13,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "base/json_text.h"
 #include "jobs/spec.h"
 #include "world/json_reader.h"
 
@@ -23,7 +24,7 @@ using nlohmann::json;
 namespace {
 
 const json& schema_document() {
-  static const json document = json::parse(job_schema());
+  static const json document = parse_own_json(job_schema(), "the schema");
   return document;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "crowd/model.h"
 #include "crowd/project.h"
 #include "crowd/simulation.h"
@@ -324,7 +325,7 @@ double JobSpec::frame_time_s(std::int64_t frame) const {
 
 JobSpec parse_job(std::string_view text, const std::string& source,
                   const std::filesystem::path& scenarios) {
-  json value = world::parse_json(text, source);
+  json value = parse_json(text, source, kJobJsonLimits);
   std::vector<Problem> problems = schema_problems(value, source);
   if (!problems.empty()) throw InputError(std::move(problems));
   std::vector<RandomField> randomize = take_randomize(value, problems);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_text.h"
 
 namespace throng::jobs {
 
@@ -25,8 +26,8 @@ JobRow row_of(SQLite::Statement& query) {
   const bool calibration = query.getColumn(10).getString() == name_of(JobKind::calibration);
   row.kind = calibration ? JobKind::calibration : JobKind::dataset;
   row.priority = query.getColumn(11);
-  row.labels =
-      nlohmann::json::parse(query.getColumn(12).getString()).get<std::vector<std::string>>();
+  row.labels = parse_own_json(query.getColumn(12).getString(), "a row of the store")
+                   .get<std::vector<std::string>>();
   row.owner = query.getColumn(13).getString();
   row.bytes = query.getColumn(14);
   row.keep = query.getColumn(15).getInt() != 0;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "base/problem_json.h"
 
 namespace throng::jobs {
@@ -24,7 +25,7 @@ std::string sign_of_life_line() { return "{}"; }
 WorkerMessage read_worker_message(const std::string& line) {
   WorkerMessage message;
   try {
-    const json value = json::parse(line);
+    const json value = parse_json(line, "");
     if (value.contains("error")) {
       const json& error = value["error"];
       message.error = WorkerError{error.value("kind", "bug"), error.value("message", ""),
@@ -33,6 +34,8 @@ WorkerMessage read_worker_message(const std::string& line) {
       message.progress =
           TaskProgress{value.at("done").get<double>(), value.at("total").get<double>()};
     }
+  } catch (const InputError&) {
+    return {};
   } catch (const json::exception&) {
     return {};
   }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "places/blocked.h"
 #include "places/crowd_files.h"
 #include "places/people.h"
@@ -105,7 +106,7 @@ void add_emergency(const world::Scenario& place, const People& people, json& doc
 }  // namespace
 
 json load_blueprint(const fs::path& file) {
-  json document = world::parse_json(read_file(file), file.string());
+  json document = parse_json(read_file(file), file.string());
   if (!document.is_object() || !document.contains("extends")) return document;
   std::vector<Problem> problems;
   const world::JsonValue name = world::JsonValue(document, file.string(), problems)["extends"];
@@ -114,7 +115,7 @@ json load_blueprint(const fs::path& file) {
     name.reject("the name of a file in the same folder");
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  json base = world::parse_json(read_file(base_file), base_file.string());
+  json base = parse_json(read_file(base_file), base_file.string());
   document.erase("extends");
   base.merge_patch(document);
   return base;

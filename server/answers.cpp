@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "jobs/plan.h"
 
 namespace throng::server {
@@ -22,7 +23,7 @@ json time_json(std::int64_t unix_ms) {
 namespace {
 
 json parsed_or(const std::string& text, json otherwise) {
-  return text.empty() ? std::move(otherwise) : json::parse(text);
+  return text.empty() ? std::move(otherwise) : parse_own_json(text, "a row of the store");
 }
 
 // Where the job is: the stage of its least advanced run, but simulating once any run is. Runs that
@@ -40,45 +41,6 @@ json with_pace(json value, const jobs::Pace& pace) {
   value["frames_per_s"] = pace.images_per_s;
   value["remaining_s"] = pace.remaining_s ? json(*pace.remaining_s) : json(nullptr);
   return value;
-}
-
-const char* title_of(int status) {
-  switch (status) {
-    case 400:
-      return "Bad Request";
-    case 401:
-      return "Unauthorized";
-    case 403:
-      return "Forbidden";
-    case 404:
-      return "Not Found";
-    case 405:
-      return "Method Not Allowed";
-    case 409:
-      return "Conflict";
-    case 411:
-      return "Length Required";
-    case 413:
-      return "Content Too Large";
-    case 415:
-      return "Unsupported Media Type";
-    case 416:
-      return "Range Not Satisfiable";
-    case 422:
-      return "Unprocessable Content";
-    case 429:
-      return "Too Many Requests";
-    case 503:
-      return "Service Unavailable";
-    case 421:
-      return "Misdirected Request";
-    case 507:
-      return "Insufficient Storage";
-    case 500:
-      return "Internal Server Error";
-    default:
-      return "Error";
-  }
 }
 
 /// What all that is queued has.
@@ -102,6 +64,57 @@ json row_json(const jobs::JobRow& row, const Retention& retention) {
 }
 
 }  // namespace
+
+const char* title_of(int status) {
+  switch (status) {
+    case 400:
+      return "Bad Request";
+    case 401:
+      return "Unauthorized";
+    case 403:
+      return "Forbidden";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 409:
+      return "Conflict";
+    case 408:
+      return "Request Timeout";
+    case 411:
+      return "Length Required";
+    case 413:
+      return "Content Too Large";
+    case 414:
+      return "URI Too Long";
+    case 415:
+      return "Unsupported Media Type";
+    case 416:
+      return "Range Not Satisfiable";
+    case 417:
+      return "Expectation Failed";
+    case 422:
+      return "Unprocessable Content";
+    case 429:
+      return "Too Many Requests";
+    case 431:
+      return "Request Header Fields Too Large";
+    case 501:
+      return "Not Implemented";
+    case 503:
+      return "Service Unavailable";
+    case 421:
+      return "Misdirected Request";
+    case 505:
+      return "HTTP Version Not Supported";
+    case 507:
+      return "Insufficient Storage";
+    case 500:
+      return "Internal Server Error";
+    default:
+      return "Error";
+  }
+}
 
 json progress_json(const jobs::JobProgress& progress) {
   json runs = json::array();
@@ -147,7 +160,7 @@ json event_json(const jobs::EventRow& event) {
           {"job", event.job},
           {"at", time_json(event.at_ms)},
           {"type", event.type},
-          {"data", json::parse(event.data_json)}};
+          {"data", parse_own_json(event.data_json, "an event")}};
 }
 
 json problems_json(const std::vector<Problem>& problems) {
@@ -183,7 +196,7 @@ json partial_error_json(const std::vector<jobs::RunFailure>& failures) {
 json calibration_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/calibrations/" + row.id;
   json value = row_json(row, retention);
-  value["request"] = json::parse(row.spec_json);
+  value["request"] = parse_own_json(row.spec_json, "the job");
   value["links"] = {{"self", self}};
   if (row.state == jobs::JobState::succeeded) {
     for (const char* result : {"camera", "opencv", "ros", "residuals"}) {
@@ -196,7 +209,7 @@ json calibration_json(const jobs::JobRow& row, const Retention& retention) {
 json job_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/jobs/" + row.id;
   json value = row_json(row, retention);
-  value["job"] = json::parse(row.spec_json);
+  value["job"] = parse_own_json(row.spec_json, "the job");
   value["links"] = {{"self", self}};
   if (has_dataset(row.state)) {
     value["links"]["archive"] = self + "/archive";

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -99,17 +100,17 @@ std::span<const Route> routes() {
 namespace {
 
 // The library answers 404 for a method that a path does not know.
-void write_library_error(const Request& request, Response& response, int status,
-                         const std::string& detail) {
+void write_library_error(const Request& request, Response& response, const HttpError& error) {
   forget_ranges(request);
-  if (status == 404) {
+  if (error.status == 503) response.set_header("Retry-After", "5");
+  if (error.status == 404 && error.detail.empty()) {
     if (const std::string methods = allowed_methods(routes(), request.path); !methods.empty()) {
       response.set_header("Allow", methods);
       return write_problem(response, {405, fmt::format("{} is not possible here", request.method)});
     }
     return write_problem(response, {404, "there is nothing at this path"});
   }
-  write_problem(response, {status, detail});
+  write_problem(response, error);
 }
 
 // Runs a handler; turns what it throws into an answer.
@@ -159,23 +160,9 @@ std::optional<Caller> caller_in(const Keys& keys, const Request& request) {
                                                     : std::string());
 }
 
-constexpr std::size_t kLargestPictures = 256 << 20;
-constexpr std::size_t kLargestBundle = 64 << 20;
-constexpr std::size_t kLargestText = 1 << 20;
-
-std::size_t largest_body(const Keys& keys, const Request& request) {
-  // Of strangers little is read before they are turned away.
-  const bool is_upload =
-      request.method == "POST" && (request.path == kCalibrations || request.path == kScenarios ||
-                                   (request.path == kJobs && request.is_multipart_form_data()));
-  if (!is_upload || !caller_in(keys, request)) return kLargestText;
-  return request.path == kCalibrations ? kLargestPictures : kLargestBundle;
-}
-
-HttpOptions with_uploads(HttpOptions options, const Keys& keys) {
-  options.largest_body = [&keys](const Request& request) { return largest_body(keys, request); };
-  return options;
-}
+constexpr std::size_t kMaxPicturesBytes = 256 << 20;
+constexpr std::size_t kMaxBundleBytes = 64 << 20;
+constexpr std::size_t kMaxTextBytes = 1 << 20;
 
 // A browser sends forms of other sites' pages without asking, and says where they are from.
 void refuse_other_sites(const Request& request) {
@@ -201,20 +188,53 @@ Caller admitted(const Keys& keys, const Request& request, Scope needed) {
   return *caller;
 }
 
+const Route* route_of(const Request& request) {
+  const auto all = routes();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Route& route) {
+    return name_of(route.method) == request.method && fits(route.path, request.path);
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
+// Who may call a route, whatever the call says. Throws HttpError.
+Caller checked_caller(const Keys& keys, const Request& request, const Route& route, bool loopback) {
+  if (loopback && !names_this_machine(request)) {
+    throw HttpError{421, "this service is for its own machine"};
+  }
+  if (route.method != Method::get) refuse_other_sites(request);
+  return admitted(keys, request, route.scope);
+}
+
+// Nothing is read of a body whose sender may not do what they ask for. Throws HttpError.
+std::size_t max_body_bytes(const Keys& keys, const Request& request, bool loopback) {
+  const Route* route = route_of(request);
+  if (route == nullptr) throw HttpError{404, ""};
+  static_cast<void>(checked_caller(keys, request, *route, loopback));
+  if (route->method != Method::post) return kMaxTextBytes;
+  if (request.path == kCalibrations) return kMaxPicturesBytes;
+  const bool is_bundle =
+      request.path == kScenarios || (request.path == kJobs && request.is_multipart_form_data());
+  return is_bundle ? kMaxBundleBytes : kMaxTextBytes;
+}
+
+HttpOptions with_body_limits(HttpOptions options, const Keys& keys) {
+  const bool loopback = is_loopback(options.host);
+  options.max_body_bytes = [&keys, loopback](const Request& request) {
+    return max_body_bytes(keys, request, loopback);
+  };
+  return options;
+}
+
 }  // namespace
 
 Api::Api(JobService& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options)
-    : server_(with_uploads(options, keys), &write_library_error) {
+    : server_(with_body_limits(options, keys), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [&service, &keys, &hooks, loopback](const Route& entry) {
     return [&service, &keys, &hooks, loopback, entry](const Request& request, Response& response) {
       forget_ranges(request);
       guarded(service, request, response, [&] {
-        if (loopback && !names_this_machine(request)) {
-          throw HttpError{421, "this service is for its own machine"};
-        }
-        if (entry.method != Method::get) refuse_other_sites(request);
-        const Caller caller = admitted(keys, request, entry.scope);
+        const Caller caller = checked_caller(keys, request, entry, loopback);
         entry.handler({service, hooks, caller}, request, response);
       });
     };

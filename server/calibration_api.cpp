@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/json_text.h"
 #include "calibrate/request.h"
 #include "server/answers.h"
 #include "server/http.h"
@@ -51,8 +52,7 @@ Sent sent_as_form(const Request& request) {
 }
 
 Sent sent_as_json(const Request& request) {
-  json value = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
-  if (!value.is_object()) throw HttpError{400, "the body is no JSON object"};
+  json value = json_body_of(request);
   Sent sent;
   const json files = value.value("files", json::object());
   for (const auto& [name, text] : files.items()) {
@@ -75,13 +75,15 @@ void submit_calibration(const Call& call, const Request& request, Response& resp
     throw HttpError{415, "a calibration is sent as multipart/form-data or application/json"};
   }
   const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
-  const jobs::JobRow row = call.service.submit_calibration(sent.request, sent.files);
+  const jobs::JobRow row = call.service.submit_calibration(
+      sent.request, sent.files,
+      {call.caller.key_id, call.caller.most_active, call.caller.most_bytes});
   response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
   write_json(response, 201, calibration_json(row, call.service.retention()));
 }
 
 void list_calibrations(const Call& call, const Request& request, Response& response) {
-  static const json kSchema = json::parse(calibrate::request_schema());
+  static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
   const int limit = limit_of(request);
   const std::vector<jobs::JobRow> rows = call.service.list(
       {.kind = jobs::JobKind::calibration, .after = after_of(request), .limit = limit});
@@ -100,13 +102,16 @@ void send_calibration(const Call& call, const Request& request, Response& respon
   json value = calibration_json(row, call.service.retention());
   if (row.state == jobs::JobState::succeeded) {
     value["camera"] =
-        json::parse(read_file(call.service.calibration_folder(row.id) / calibrate::kCameraName));
+        parse_own_json(read_file(call.service.calibration_folder(row.id) / calibrate::kCameraName),
+                       calibrate::kCameraName);
   }
   write_json(response, 200, value);
 }
 
 void remove_calibration(const Call& call, const Request& request, Response& response) {
-  if (!call.service.remove(find_row(call.service, request, jobs::JobKind::calibration).id)) {
+  const jobs::JobRow row = find_row(call.service, request, jobs::JobKind::calibration);
+  require_own(call, row);
+  if (!call.service.remove(row.id)) {
     throw HttpError{404, "already removed"};
   }
   response.status = 204;

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "base/problem_json.h"
 #include "calibrate/request.h"
 #include "jobs/child_process.h"
@@ -29,7 +30,7 @@ constexpr const char* kProblemsName = "problems.json";
 constexpr int kPollMs = 50;
 
 std::vector<Problem> read_problems(const fs::path& file) {
-  return json::parse(read_file(file)).get<std::vector<Problem>>();
+  return parse_own_json(read_file(file), file.string()).get<std::vector<Problem>>();
 }
 
 void write_problems(const fs::path& file, const std::vector<Problem>& problems) {

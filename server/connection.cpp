@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 namespace throng::server {
 
@@ -45,70 +47,100 @@ void read_name(socket_t socket, NameOf name_of, std::string& ip, int& port) {
 
 }  // namespace
 
-void Connection::begin_request() {
-  began_ = Clock::now();
-  header_bytes_ = 0;
-  body_bytes_ = 0;
-  line_bytes_ = 0;
-  in_header_ = true;
-}
-
-milliseconds Connection::patience() const {
-  if (!in_header_) return limits_.silence;
-  const auto left =
-      limits_.header_time - std::chrono::duration_cast<milliseconds>(Clock::now() - began_);
-  return std::min(limits_.silence, left);
-}
-
-bool Connection::is_within_bounds() const {
-  const std::chrono::duration<double> passed = Clock::now() - began_;
-  if (in_header_) return header_bytes_ <= limits_.header_bytes && passed <= limits_.header_time;
-  const std::chrono::duration<double> slow = passed - limits_.body_patience;
-  return static_cast<double>(body_bytes_) >= slow.count() * limits_.body_bytes_per_s;
-}
-
-bool Connection::receive() {
-  if (!waits_for(socket_, POLLIN, patience())) return false;
+bool Connection::receive(milliseconds patience) {
+  if (next_ == end_) next_ = end_ = 0;
+  if (end_ == buffer_.size()) {
+    std::memmove(buffer_.data(), buffer_.data() + next_, end_ - next_);
+    end_ -= next_;
+    next_ = 0;
+  }
+  if (!waits_for(socket_, POLLIN, patience)) return false;
   ssize_t count = 0;
   do {
-    count = ::recv(socket_, buffer_.data(), buffer_.size(), 0);
+    count = ::recv(socket_, buffer_.data() + end_, buffer_.size() - end_, 0);
   } while (count < 0 && errno == EINTR);
   if (count <= 0) return false;
-  next_ = 0;
-  end_ = static_cast<std::size_t>(count);
+  end_ += static_cast<std::size_t>(count);
   return true;
 }
 
-// The headers end with the first line that is empty, as the library sees it.
-void Connection::count(const char* bytes, std::size_t size) {
-  std::size_t i = 0;
-  for (; i < size && in_header_; ++i) {
-    ++header_bytes_;
-    if (bytes[i] == '\n') {
-      if (line_bytes_ == 0) {
-        in_header_ = false;
-        began_ = Clock::now();
-      }
-      line_bytes_ = 0;
-    } else if (bytes[i] != '\r') {
-      ++line_bytes_;
+std::variant<RequestHead, HeadError, Connection::Ended> Connection::read_head() {
+  constexpr std::string_view kEmptyLine = "\r\n";
+  constexpr std::string_view kHeadEnd = "\r\n\r\n";
+  const auto end = Clock::now() + limits_.head_time;
+  bool may_skip = true;  // old clients end a body with an empty line that is not of it
+  std::size_t searched = 0;
+  while (true) {
+    if (may_skip && pending().starts_with(kEmptyLine)) {
+      next_ += kEmptyLine.size();
+      may_skip = false;
+    }
+    const std::string_view bytes = pending();
+    if (const auto at = bytes.find(kHeadEnd, searched); at != bytes.npos) {
+      next_ += at + kHeadEnd.size();
+      auto head = parse_request_head(bytes.substr(0, at + kHeadEnd.size()));
+      if (auto* error = std::get_if<HeadError>(&head)) return std::move(*error);
+      return std::get<RequestHead>(std::move(head));
+    }
+    if (!bytes.empty() && bytes != kEmptyLine.substr(0, 1)) {
+      if (HeadError error = check_head_start(bytes); error.status != 0) return error;
+    }
+    searched = bytes.size() - std::min(bytes.size(), kHeadEnd.size() - 1);
+    const auto left = std::chrono::ceil<milliseconds>(end - Clock::now());
+    if (!receive(std::min(left, limits_.silence))) {
+      if (Clock::now() < end || pending().empty()) return Ended{};
+      return HeadError{408, "the request's head took too long"};
     }
   }
-  body_bytes_ += size - i;
+}
+
+void Connection::begin_request(const RequestHead& head) {
+  head_ = library_text_of(head);
+  head_next_ = 0;
+  body_left_ = head.content_length;
+  body_bytes_ = 0;
+  awaits_continue_ = head.expects_continue;
+  began_ = Clock::now();
+}
+
+bool Connection::is_body_in_time() const {
+  const std::chrono::duration<double> slow = Clock::now() - began_ - limits_.body_patience;
+  return static_cast<double>(body_bytes_) >= slow.count() * limits_.body_bytes_per_s;
 }
 
 ssize_t Connection::read(char* bytes, std::size_t size) {
-  if (!is_within_bounds()) return -1;
-  if (!has_pending() && !receive()) return -1;
-  const std::size_t given = std::min(size, end_ - next_);
+  if (head_next_ < head_.size()) {
+    const std::size_t given = std::min(size, head_.size() - head_next_);
+    std::memcpy(bytes, head_.data() + head_next_, given);
+    head_next_ += given;
+    return static_cast<ssize_t>(given);
+  }
+  if (body_left_ == 0 || !is_body_in_time()) return -1;
+  if (!has_pending()) {
+    // The library reads the body only once nothing speaks against it.
+    constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+    if (std::exchange(awaits_continue_, false) && !write_all(kContinue)) return -1;
+    if (!receive(limits_.silence)) return -1;
+  }
+  const std::size_t given = std::min({size, end_ - next_, body_left_});
   std::memcpy(bytes, buffer_.data() + next_, given);
   next_ += given;
-  count(bytes, given);
+  body_left_ -= given;
+  body_bytes_ += given;
   return static_cast<ssize_t>(given);
 }
 
+bool Connection::write_all(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = write(bytes.data(), bytes.size());
+    if (count < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
 bool Connection::is_readable() const {
-  return has_pending() || waits_for(socket_, POLLIN, patience());
+  return has_pending() || waits_for(socket_, POLLIN, limits_.silence);
 }
 
 bool Connection::is_writable() const {

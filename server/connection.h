@@ -1,21 +1,25 @@
-// A client's connection with bounds that cpp-httplib lacks: a request's headers have so many bytes
-// and so much time, and its body does not trickle in for ever.
+// The filter between a client's socket and cpp-httplib, which reads requests loosely. This class
+// reads a request's head from the socket, has it checked (server/request_head.h), and hands the
+// library a head and a body that cannot be misread: the library gets no byte that is not of this
+// request, and after it has left one unread the connection is of no more use. Heads and bodies have
+// limits in bytes and in time.
 #pragma once
 
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <variant>
 
 #include "server/http.h"
+#include "server/request_head.h"
 
 namespace throng::server {
 
 struct ConnectionLimits {
-  std::size_t header_bytes = 64 << 10;           ///< of a request's first line and headers together
-  std::chrono::milliseconds header_time{5'000};  ///< from their first byte to their last
-  std::chrono::milliseconds silence{10'000};     ///< in which nothing arrives
-  std::chrono::milliseconds stalled{30'000};     ///< in which nothing can be sent
+  std::chrono::milliseconds head_time{5'000};  ///< from a head's first byte to its last
+  std::chrono::milliseconds silence{10'000};   ///< in which nothing arrives
+  std::chrono::milliseconds stalled{30'000};   ///< in which nothing can be sent
   /// A body may be slower than this for so long.
   double body_bytes_per_s = 16'384;
   std::chrono::milliseconds body_patience{10'000};
@@ -25,15 +29,23 @@ class Connection : public httplib::Stream {
  public:
   Connection(socket_t socket, const ConnectionLimits& limits) : socket_(socket), limits_(limits) {}
 
-  /// What arrives from now on is a new request.
-  void begin_request();
+  /// Nothing can be read or sent any more.
+  struct Ended {};
+  /// Reads the next request's head from the socket.
+  std::variant<RequestHead, HeadError, Ended> read_head();
+  /// What the library reads from now on is this request, its body included.
+  void begin_request(const RequestHead& head);
+  /// Whether the library has read the request to its end, so that another may follow.
+  bool is_consumed() const { return head_next_ == head_.size() && body_left_ == 0; }
   /// Whether bytes wait that have been received with the last request.
   bool has_pending() const { return next_ < end_; }
+  /// False once the connection has broken.
+  bool write_all(std::string_view bytes);
 
   bool is_readable() const override;
   /// Whether the client still listens.
   bool is_writable() const override;
-  /// -1 once a bound has been broken, and for broken connections.
+  /// -1 at the request's end, once a bound has been broken, and for broken connections.
   ssize_t read(char* bytes, std::size_t size) override;
   ssize_t write(const char* bytes, std::size_t size) override;
   void get_remote_ip_and_port(std::string& ip, int& port) const override;
@@ -43,21 +55,21 @@ class Connection : public httplib::Stream {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool receive();
-  bool is_within_bounds() const;
-  std::chrono::milliseconds patience() const;
-  void count(const char* bytes, std::size_t size);
+  bool receive(std::chrono::milliseconds patience);
+  std::string_view pending() const { return {buffer_.data() + next_, end_ - next_}; }
+  bool is_body_in_time() const;
 
   socket_t socket_;
   const ConnectionLimits& limits_;
-  std::array<char, 16 << 10> buffer_{};
+  std::array<char, kMaxHeadBytes> buffer_{};  ///< received; [next_, end_) has not been handed on
   std::size_t next_ = 0;
   std::size_t end_ = 0;
-  Clock::time_point began_;       ///< the headers, then the body
-  std::size_t header_bytes_ = 0;  ///< of this request, handed on so far
-  std::size_t body_bytes_ = 0;
-  std::size_t line_bytes_ = 0;  ///< of the header's line, without its end
-  bool in_header_ = true;
+  std::string head_;  ///< as the library reads it
+  std::size_t head_next_ = 0;
+  std::size_t body_left_ = 0;   ///< bytes that the library has not read yet
+  std::size_t body_bytes_ = 0;  ///< that it has read
+  bool awaits_continue_ = false;
+  Clock::time_point began_;  ///< the head, then the body
 };
 
 /// Ends a connection so that the last answer arrives though the client still sends: closing with

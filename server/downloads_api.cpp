@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 #include "jobs/archive.h"
 #include "jobs/folder.h"
 #include "jobs/manifest.h"
@@ -50,7 +51,7 @@ void send_run_file(const Call& call, const Request& request, Response& response,
   const std::string number = request.matches[2];
   constexpr std::size_t kMostDigits = 6;
   const int run = number.size() <= kMostDigits ? std::stoi(number) : -1;
-  if (run < 0 || run >= json::parse(row.spec_json).at("runs").get<int>()) {
+  if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
     throw HttpError{404, fmt::format("the job has no run {}", number)};
   }
   const fs::path root = complete ? call.service.dataset_of(row.id)
@@ -76,9 +77,10 @@ jobs::ArchiveFormat format_of(const Request& request) {
 /// Numbers of the runs that are in a split, as dataset.json says.
 std::vector<int> runs_of_split(const fs::path& dataset, const std::string& split) {
   const fs::path card = dataset / "dataset.json";
-  const json splits = fs::exists(card)
-                          ? json::parse(read_file(card)).value("splits", json::object())
-                          : json::object();
+  const json splits =
+      fs::exists(card)
+          ? parse_own_json(read_file(card), "dataset.json").value("splits", json::object())
+          : json::object();
   if (!splits.contains(split)) {
     std::vector<std::string> names;
     for (const auto& [name, runs] : splits.items()) names.push_back(name);
@@ -169,7 +171,8 @@ void send_archive(const Call& call, const Request& request, Response& response) 
   const std::string name = jobs::slug(row.name);
   const jobs::ArchiveFormat format = format_of(request);
   const auto archive = call.service.datasets().archive_of(
-      dataset, name, format, selection_of(request, dataset, json::parse(row.spec_json)));
+      dataset, name, format,
+      selection_of(request, dataset, parse_own_json(row.spec_json, "the job")));
   // The manifest holds the hash of every file; what was chosen of them is in the query.
   const std::string chosen =
       request.target.substr(std::min(request.target.find('?'), request.target.size()));

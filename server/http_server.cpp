@@ -5,16 +5,14 @@
 #include <poll.h>
 #include <sys/socket.h>
 
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <thread>
 #include <utility>
 
 #include "base/error.h"
+#include "server/answers.h"
 #include "server/connection.h"
 #include "server/http.h"
 
@@ -29,58 +27,24 @@ constexpr std::chrono::milliseconds kIdle(2'000);  // between requests
 constexpr int kIdleStepMs = 100;                   // bounds how long stop() takes
 constexpr std::size_t kSmallBody = 1 << 20;        // not worth to be counted
 
-bool is_number(const std::string& text) {
-  constexpr std::size_t kMostDigits = 12;
-  return !text.empty() && text.size() <= kMostDigits &&
-         std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isdigit(c) != 0; });
+httplib::Request request_of(const RequestHead& head) {
+  httplib::Request request;
+  request.method = head.method;
+  request.target = head.target;
+  request.path = head.path;
+  for (const HeaderField& field : head.fields) request.headers.emplace(field.name, field.value);
+  return request;
 }
 
-struct Refusal {
-  int status;
-  std::string detail;
-};
-
-// Why a request is not read on: its body cannot be bounded or its length is unclear.
-std::optional<Refusal> refusal_of(const httplib::Request& request) {
-  constexpr const char* kWhy =
-      "a request with a body needs one Content-Length and no Transfer-Encoding";
-  if (request.has_header("Transfer-Encoding")) return Refusal{411, kWhy};
-  const std::size_t lengths = request.get_header_value_count("Content-Length");
-  if (lengths > 1) return Refusal{400, kWhy};
-  if (lengths == 1 && !is_number(request.get_header_value("Content-Length"))) {
-    return Refusal{400, kWhy};
+/// The last answer of a connection.
+std::string text_of_answer(const httplib::Request& request, const httplib::Response& response) {
+  std::string text = fmt::format("HTTP/1.1 {} {}\r\nContent-Length: {}\r\nConnection: close\r\n",
+                                 response.status, title_of(response.status), response.body.size());
+  for (const auto& [name, value] : response.headers) {
+    text += fmt::format("{}: {}\r\n", name, value);
   }
-  return std::nullopt;
-}
-
-// A request that says nothing of a body has none (RFC 9112, 6.3): `curl -X POST`. The library would
-// read on until the connection ends.
-void say_that_there_is_no_body(const httplib::Request& request) {
-  if (request.has_header("Content-Length")) return;
-  // The library owns the request and made it non-const.
-  const_cast<httplib::Request&>(request)  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-      .set_header("Content-Length", "0");
-}
-
-std::size_t length_of(const httplib::Request& request) {
-  const std::string text = request.get_header_value("Content-Length");
-  return text.empty() ? 0 : std::stoull(text);
-}
-
-// The library would keep the connection and read the unread body as the next request. It closes
-// when a content provider fails, so the body is handed out by one that then does.
-void close_after(httplib::Response& response) {
-  const auto body = std::make_shared<std::string>(std::move(response.body));
-  const std::string type = response.get_header_value("Content-Type");
-  response.body.clear();
-  response.headers.erase("Content-Type");
-  response.set_header("Connection", "close");
-  response.set_content_provider(body->size(), type,
-                                [body](std::size_t, std::size_t, httplib::DataSink& sink) {
-                                  sink.write(body->data(), body->size());
-                                  return false;
-                                });
+  text += "\r\n";
+  return request.method == "HEAD" ? text : text + response.body;
 }
 
 }  // namespace
@@ -91,36 +55,77 @@ bool is_loopback(const std::string& host) {
          (host.starts_with("127.") && ::inet_pton(AF_INET, host.c_str(), &address) == 1);
 }
 
-/// The library's server with bounded connections, and a bound to what bodies take together.
+/// The library's server with filtered connections, and a limit to what bodies take together.
 class HttpServer::BoundedServer : public httplib::Server {
  public:
-  explicit BoundedServer(std::int64_t most_body_bytes) : most_body_bytes_(most_body_bytes) {}
-
-  /// Notes the memory that this thread's request will take; false when there is too little left.
-  bool reserve(std::size_t bytes) {
-    if (bytes <= kSmallBody) return true;
-    const auto wanted = static_cast<std::int64_t>(bytes);
-    if (body_bytes_.fetch_add(wanted) + wanted > most_body_bytes_) {
-      body_bytes_ -= wanted;
-      return false;
-    }
-    reserved_ += wanted;
-    return true;
-  }
+  BoundedServer(HttpOptions options, ErrorWriter write_error)
+      : options_(std::move(options)), write_error_(std::move(write_error)) {}
 
  private:
   bool process_and_close_socket(socket_t socket) override {
     Connection connection(socket, limits_);
     bool served = false;
     for (std::size_t left = kRequestsPerConnection; left > 0 && is_next(connection); --left) {
-      connection.begin_request();
-      bool is_closed = false;
-      served = process_request(connection, left == 1, is_closed, nullptr);
-      body_bytes_ -= std::exchange(reserved_, 0);
-      if (!served || is_closed) break;
+      auto head = connection.read_head();
+      if (std::holds_alternative<Connection::Ended>(head)) break;
+      if (const auto* error = std::get_if<HeadError>(&head)) {
+        refuse(connection, {}, {error->status, error->detail});
+        break;
+      }
+      const RequestHead& request = std::get<RequestHead>(head);
+      const bool is_last = left == 1 || !request.keeps_connection;
+      served = serve(connection, request, is_last);
+      if (!served || is_last || !connection.is_consumed()) break;
     }
     close_gently(socket);
     return served;
+  }
+
+  /// False when the connection has to end.
+  bool serve(Connection& connection, const RequestHead& head, bool is_last) {
+    if (head.content_length > 0) {
+      const httplib::Request request = request_of(head);
+      try {
+        admit_body(request, head.content_length);
+      } catch (const HttpError& error) {
+        refuse(connection, request, error);
+        return false;
+      }
+    }
+    connection.begin_request(head);
+    bool is_closed = false;
+    const bool served = process_request(connection, is_last, is_closed, nullptr);
+    body_bytes_ -= std::exchange(reserved_, 0);
+    return served && !is_closed;
+  }
+
+  void refuse(Connection& connection, const httplib::Request& request, const HttpError& error) {
+    httplib::Response response;
+    write_error_(request, response, error);
+    connection.write_all(text_of_answer(request, response));
+  }
+
+  /// Throws HttpError for a body that is not to be read.
+  void admit_body(const httplib::Request& request, std::size_t bytes) {
+    if (options_.max_body_bytes) {
+      if (const std::size_t max = options_.max_body_bytes(request); bytes > max) {
+        throw HttpError{413, fmt::format("a body may have {} bytes here", max)};
+      }
+    }
+    if (!reserve(bytes))
+      throw HttpError{503, "other uploads take all the memory there is for them"};
+  }
+
+  /// Notes the memory that this thread's request will take; false when there is too little left.
+  bool reserve(std::size_t bytes) {
+    if (bytes <= kSmallBody) return true;
+    const auto wanted = static_cast<std::int64_t>(bytes);
+    if (body_bytes_.fetch_add(wanted) + wanted > options_.max_all_body_bytes) {
+      body_bytes_ -= wanted;
+      return false;
+    }
+    reserved_ += wanted;
+    return true;
   }
 
   /// Waits for another request of this connection.
@@ -135,7 +140,8 @@ class HttpServer::BoundedServer : public httplib::Server {
   }
 
   const ConnectionLimits limits_;
-  const std::int64_t most_body_bytes_;
+  const HttpOptions options_;
+  const ErrorWriter write_error_;
   std::atomic<std::int64_t> body_bytes_ = 0;
   static thread_local std::int64_t reserved_;  ///< by the request that this thread works on
 };
@@ -143,7 +149,7 @@ class HttpServer::BoundedServer : public httplib::Server {
 thread_local std::int64_t HttpServer::BoundedServer::reserved_ = 0;
 
 HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_error)
-    : server_(std::make_unique<BoundedServer>(options.most_body_bytes)) {
+    : server_(std::make_unique<BoundedServer>(options, write_error)) {
   server_->new_task_queue = [] {
     return std::make_unique<httplib::ThreadPool>(kThreads).release();
   };
@@ -156,30 +162,10 @@ HttpServer::HttpServer(const HttpOptions& options, const ErrorWriter& write_erro
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
     listener = socket;
   });
-  server_->set_pre_routing_handler(
-      [this, write_error, largest = options.largest_body](const httplib::Request& request,
-                                                          httplib::Response& response) {
-        std::optional<Refusal> refusal = refusal_of(request);
-        if (!refusal && largest && length_of(request) > largest(request)) {
-          refusal = {413, fmt::format("a body may have {} bytes here", largest(request))};
-        }
-        if (!refusal && !server_->reserve(length_of(request))) {
-          response.set_header("Retry-After", "5");
-          refusal = {503, "other uploads take all the memory there is for them"};
-        }
-        if (!refusal) {
-          say_that_there_is_no_body(request);
-          return httplib::Server::HandlerResponse::Unhandled;
-        }
-        response.status = refusal->status;
-        write_error(request, response, refusal->status, refusal->detail);
-        close_after(response);
-        return httplib::Server::HandlerResponse::Handled;
-      });
   server_->set_error_handler(
       [write_error](const httplib::Request& request, httplib::Response& response) {
         if (response.body.empty() && !response.content_provider_) {
-          write_error(request, response, response.status, "");
+          write_error(request, response, {response.status, ""});
         }
       });
 

@@ -1,7 +1,7 @@
-// cpp-httplib, hardened. Debian's 0.11.4 needs care in its defaults (8 threads, 5 requests per
-// connection) and in what it lets through: chunked bodies of any size, contradictory lengths,
-// endless and slow headers and bodies (server/connection.h). It speaks no TLS and counts no
-// requests per client: the bare port is for loopback.
+// cpp-httplib behind a filter. Debian's 0.11.4 needs care in its defaults (8 threads, 5 requests
+// per connection) and reads requests loosely: server/connection.h and server/request_head.h close
+// that in front of it. It speaks no TLS and counts no requests per client: the bare port is for
+// loopback.
 #pragma once
 
 #include <atomic>
@@ -11,19 +11,22 @@
 #include <memory>
 #include <string>
 
+#include "server/http_error.h"
 #include "server/http_fwd.h"
+#include "server/request_head.h"
 
 namespace throng::server {
 
 struct HttpOptions {
   std::string host = "127.0.0.1";
   int port = 0;  ///< 0: any that is free
-  /// Bytes that a request's body may have, asked when its headers have been read; a longer one is
-  /// refused unread, with 413.
-  std::function<std::size_t(const httplib::Request&)> largest_body = {};
+  /// Bytes that a request's body may have; asked for each that has one, when its head has been read
+  /// and before any of its body is. The request holds method, path and headers. A longer body is
+  /// refused with 413. Throws HttpError to refuse the request.
+  std::function<std::size_t(const httplib::Request&)> max_body_bytes = {};
   /// Bytes that all bodies above a megabyte may have together while they are read and worked on;
   /// one more is refused with 503.
-  std::int64_t most_body_bytes = 512 << 20;
+  std::int64_t max_all_body_bytes = 512 << 20;
 };
 
 /// Whether an address can only be reached from this machine.
@@ -31,9 +34,9 @@ bool is_loopback(const std::string& host);
 
 class HttpServer {
  public:
-  /// Writes an error answer for a status that the library, and not a handler, has chosen.
-  using ErrorWriter = std::function<void(const httplib::Request&, httplib::Response&, int status,
-                                         const std::string& detail)>;
+  /// Writes the answer to a request that was refused before a handler saw it.
+  using ErrorWriter =
+      std::function<void(const httplib::Request&, httplib::Response&, const HttpError& error)>;
 
   /// Binds at once: clients may connect, and wait until run(). Throws EnvironmentError.
   HttpServer(const HttpOptions& options, const ErrorWriter& write_error);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
 #include "server/job_service.h"
@@ -22,7 +23,7 @@ constexpr int kJobsAtOnce = 500;
 
 /// The upload that a job's scenario may belong to; "" for a calibration.
 std::string upload_of_job(const JobRow& row) {
-  const json spec = json::parse(row.spec_json, nullptr, /*allow_exceptions=*/false);
+  const json spec = parse_json_or_discard(row.spec_json);
   const auto named = spec.is_object() ? spec.find("scenario") : spec.end();
   if (!spec.is_object() || named == spec.end() || !named->is_string()) return "";
   return upload_of(named->get<std::string>());
@@ -30,7 +31,7 @@ std::string upload_of_job(const JobRow& row) {
 
 /// The job with its "bundle/NAME" as the bundle's own name.
 std::string naming(const std::string& bundle, std::string_view job_json) {
-  json job = json::parse(job_json, nullptr, /*allow_exceptions=*/false);
+  json job = parse_json(job_json, "", kJobJsonLimits);
   if (!job.is_object()) throw InputError(Problem{"", "", "no JSON object", "a job"});
   const json scenario = job.value("scenario", json());
   const std::string name = scenario.is_string() ? scenario.get<std::string>() : "";

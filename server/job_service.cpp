@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 #include "base/redact.h"
 #include "calibrate/request.h"
 #include "jobs/calibrations.h"
@@ -113,8 +114,8 @@ void JobService::note_queued() {
 }
 
 JobRow JobService::submit_calibration(std::string_view request_json,
-                                      const std::vector<Upload>& files) {
-  const json request = json::parse(request_json, nullptr, /*allow_exceptions=*/false);
+                                      const std::vector<Upload>& files, const Quota& quota) {
+  const json request = parse_json(request_json, "", kRequestJsonLimits);
   if (!request.is_object()) {
     throw InputError(Problem{"", "", "no JSON object", "a request: see docs/calibration.md"});
   }
@@ -133,7 +134,14 @@ JobRow JobService::submit_calibration(std::string_view request_json,
   {
     // Under the lock, so that it is not begun before its files are in their place.
     const std::lock_guard lock(mutex_);
-    row = store_.add({request.value("name", ""), text_of(request), jobs::JobKind::calibration}).row;
+    const jobs::Added added = store_.add({.name = request.value("name", ""),
+                                          .spec_json = text_of(request),
+                                          .kind = jobs::JobKind::calibration,
+                                          .owner = quota.owner,
+                                          .most_active = quota.most_active,
+                                          .most_bytes = quota.most_bytes});
+    if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
+    row = added.row;
     fs::rename(staging.path(), place_of(row));
   }
   spdlog::info("calibration {} queued", row.id);
@@ -150,7 +158,7 @@ json JobService::camera_of(const std::string& id) const {
   if (row->state != JobState::succeeded) {
     throw EnvironmentError(fmt::format("the calibration is {}", name_of(row->state)));
   }
-  return json::parse(read_file(place_of(*row) / calibrate::kCameraName));
+  return parse_own_json(read_file(place_of(*row) / calibrate::kCameraName), calibrate::kCameraName);
 }
 
 void JobService::complete(JobRow& row) const {

@@ -65,6 +65,13 @@ struct Submission {
   std::int64_t most_bytes = 0;  ///< that the owner's jobs may take already; 0: any
 };
 
+/// Whose submission it is, and what all of theirs may be.
+struct Quota {
+  std::string owner = {};       ///< the id of the caller's key
+  int most_active = 0;          ///< that may wait or run; 0: any number
+  std::int64_t most_bytes = 0;  ///< that all may take already; 0: any
+};
+
 /// Somebody has as many jobs as they may have. Answered with 429.
 class QuotaError : public std::runtime_error {
  public:
@@ -113,8 +120,9 @@ class JobService {
   bool remove_scenarios(const std::string& name);
 
   /// Queues a calibration (calibrate/request.h) of the files that came with it; durable when it
-  /// returns. Throws InputError.
-  jobs::JobRow submit_calibration(std::string_view request_json, const std::vector<Upload>& files);
+  /// returns. Counts among the owner's jobs. Throws InputError and QuotaError.
+  jobs::JobRow submit_calibration(std::string_view request_json, const std::vector<Upload>& files,
+                                  const Quota& quota = {});
 
   /// A job or calibration with its newest progress.
   std::optional<jobs::JobRow> get(const std::string& id) const;

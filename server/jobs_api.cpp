@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "jobs/job_id.h"
 #include "jobs/plan.h"
 #include "jobs/spec.h"
@@ -28,9 +29,7 @@ constexpr std::size_t kLongestKey = 200;
 /// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
 jobs::JobRow find_own(const Call& call, const Request& request) {
   jobs::JobRow row = find_job(call, request);
-  if (call.caller.scope < Scope::admin && row.owner != call.caller.key_id) {
-    throw HttpError{403, "the job is another's: only its owner and administrators may change it"};
-  }
+  require_own(call, row);
   return row;
 }
 
@@ -194,7 +193,7 @@ void send_job(const Call& call, const Request& request, Response& response) {
 void change_job(const Call& call, const Request& request, Response& response) {
   require_json(request);
   const jobs::JobRow row = find_own(call, request);
-  const json change = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
+  const json change = json_body_of(request);
   const auto wrong = [](const std::string& pointer, const std::string& found,
                         const std::string& expected) {
     return HttpError{400, "the change is wrong", {{"", pointer, found, expected}}};
@@ -241,12 +240,10 @@ void retry_job(const Call& call, const Request& request, Response& response) {
 
 void clone_job(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
-  json job = json::parse(row.spec_json);
+  json job = parse_own_json(row.spec_json, "the job");
   if (!request.body.empty()) {
     require_json(request);
-    const json patch = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
-    if (!patch.is_object()) throw HttpError{400, "a change of the job is a JSON object"};
-    job.merge_patch(patch);
+    job.merge_patch(json_body_of(request));
   }
   const std::string text = text_of(job);
   queue(call, {text, row.priority, row.labels, key_of(request)}, response);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "jobs/job_id.h"
 #include "server/answers.h"
 #include "server/http.h"
@@ -58,6 +59,17 @@ void require_json(const Request& request) {
   }
 }
 
+json json_body_of(const Request& request) {
+  json body;
+  try {
+    body = parse_json(request.body, "", kRequestJsonLimits);
+  } catch (const InputError& error) {
+    throw HttpError{400, "the body is not the JSON that can be read here", error.problems()};
+  }
+  if (!body.is_object()) throw HttpError{400, "the body is no JSON object"};
+  return body;
+}
+
 std::string after_of(const Request& request) {
   std::string after = request.get_param_value("after");
   if (!after.empty() && !jobs::is_job_id(after)) {
@@ -68,6 +80,13 @@ std::string after_of(const Request& request) {
 
 jobs::JobRow find_job(const Call& call, const Request& request) {
   return find_row(call.service, request, jobs::JobKind::dataset);
+}
+
+void require_own(const Call& call, const jobs::JobRow& row) {
+  if (call.caller.scope >= Scope::admin || row.owner == call.caller.key_id) return;
+  throw HttpError{
+      403, fmt::format("the {} is another's: only its owner and administrators may change it",
+                       row.kind == jobs::JobKind::dataset ? "job" : "calibration")};
 }
 
 jobs::JobRow find_row(JobService& service, const Request& request, jobs::JobKind kind) {

@@ -29,8 +29,14 @@ std::string after_of(const httplib::Request& request);
 /// submitting: a browser asks before it sends this type.
 void require_json(const httplib::Request& request);
 
+/// The body, which has to be a JSON object. Throws HttpError and InputError.
+nlohmann::json json_body_of(const httplib::Request& request);
+
 /// The job that the path names. Throws HttpError 404.
 jobs::JobRow find_job(const Call& call, const httplib::Request& request);
+
+/// Throws HttpError 403 unless the caller owns the job or calibration, or is an administrator.
+void require_own(const Call& call, const jobs::JobRow& row);
 
 /// The job or calibration that the path names. Throws HttpError 404.
 jobs::JobRow find_row(JobService& service, const httplib::Request& request, jobs::JobKind kind);

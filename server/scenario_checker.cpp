@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "base/problem_json.h"
 #include "jobs/child_process.h"
 #include "jobs/scenario_check.h"
@@ -105,9 +106,11 @@ ScenarioChecker scenario_checker_in_child(std::vector<std::string> command) {
           fmt::format("scenarios at which the reader was ended by signal {}", status.signal),
           "ones that load within 4 GiB of memory and two minutes"});
     }
-    if (status.code == 0) return checked_from(json::parse(read_file(work / kResultName)));
+    if (status.code == 0)
+      return checked_from(parse_own_json(read_file(work / kResultName), kResultName));
     if (status.code == kRefusedExit) {
-      throw InputError(json::parse(read_file(work / kResultName)).get<std::vector<Problem>>());
+      throw InputError(
+          parse_own_json(read_file(work / kResultName), kResultName).get<std::vector<Problem>>());
     }
     throw EnvironmentError("the scenarios could not be checked");
   };

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 #include "server/answers.h"
 
 namespace throng::server {
@@ -45,7 +46,7 @@ std::string note_of(const ScenarioUpload& upload) {
 }
 
 ScenarioUpload read_note(const fs::path& folder) {
-  const json note = json::parse(read_file(folder / kNoteName));
+  const json note = parse_own_json(read_file(folder / kNoteName), (folder / kNoteName).string());
   return {folder.filename().string(), note.at("owner"), note.at("created_ms"),
           note.at("bytes"),           note.at("files"), note.at("ids")};
 }

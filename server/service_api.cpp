@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "formats/exporter.h"
 #include "jobs/spec.h"
 #include "server/answers.h"
@@ -45,7 +46,7 @@ std::int64_t free_bytes(const Call& call) { return free_bytes_of(call.service.da
 
 /// The part of the job's schema at a pointer: how a job names what a list holds.
 json schema_at(const char* pointer) {
-  static const json kSchema = json::parse(jobs::job_schema());
+  static const json kSchema = parse_own_json(jobs::job_schema(), "the schema");
   return kSchema.at(json::json_pointer(pointer));
 }
 

@@ -58,6 +58,8 @@ Delivery post(const Webhook& webhook, std::int64_t event, const std::string& typ
     return false;
   };
   const auto result = client.send(request);
+  // The library does not call the handler for answers without a body (204).
+  if (delivery.status == 0 && result) delivery.status = result->status;
   if (delivery.status == 0) delivery.error = httplib::to_string(result.error());
   delivery.took_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
                          std::chrono::steady_clock::now() - begun)

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "server/private_database.h"
 
 namespace throng::server {
@@ -60,7 +61,7 @@ Webhook webhook_of(SQLite::Statement& query) {
   webhook.id = query.getColumn(0).getString();
   webhook.url = query.getColumn(1).getString();
   webhook.events =
-      nlohmann::json::parse(query.getColumn(2).getString()).get<std::vector<std::string>>();
+      parse_own_json(query.getColumn(2).getString(), "a webhook").get<std::vector<std::string>>();
   webhook.secret = query.getColumn(3).getString();
   webhook.created_ms = query.getColumn(4);
   webhook.after = query.getColumn(5);

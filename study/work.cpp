@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "base/run_items.h"
 #include "jobs/pipeline.h"
 
@@ -71,7 +72,7 @@ class Work {
   // A result of another version of the study, or one that is damaged, is none.
   std::optional<Outcome> known_result(const Item& item, const fs::path& file) const {
     if (!fs::exists(file)) return {};
-    const json value = json::parse(read_file(file), nullptr, false);
+    const json value = parse_json_or_discard(read_file(file));
     if (!value.is_object() || value.value("fingerprint", "") != fingerprint(item)) return {};
     try {
       return outcome_from(value.at("outcome"));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 namespace throng::world {
 
@@ -27,13 +26,6 @@ std::string escaped(std::string_view key) {
   return text;
 }
 
-std::string line_and_column(std::string_view text, std::size_t byte) {
-  const std::string_view before = text.substr(0, std::min(byte, text.size()));
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 = 0: the first line
-  return fmt::format("line {}, column {}", line, before.size() - line_start + 1);
-}
-
 std::string joined(std::initializer_list<std::string_view> first,
                    std::initializer_list<std::string_view> second) {
   std::string text;
@@ -53,42 +45,6 @@ std::string describe(const json& value) {
   std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
   if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
   return text;
-}
-
-json parse_json(std::string_view text, const std::string& source) {
-  // nlohmann keeps the last of two equal keys; a file that has both is a mistake.
-  std::vector<std::set<std::string>> keys;
-  std::string duplicate;
-  const auto watch = [&](int, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::object_start) {
-      keys.emplace_back();
-    } else if (event == json::parse_event_t::object_end) {
-      keys.pop_back();
-    } else if (event == json::parse_event_t::key && duplicate.empty()) {
-      const auto& key = parsed.get_ref<const std::string&>();
-      if (!keys.back().insert(key).second) duplicate = key;
-    }
-    return true;
-  };
-  try {
-    json document = json::parse(text.begin(), text.end(), watch);
-    if (!duplicate.empty()) {
-      throw InputError(Problem{source, "",
-                               fmt::format("the key \"{}\" twice in one object", duplicate),
-                               "every key once"});
-    }
-    return document;
-  } catch (const json::parse_error& error) {
-    // The byte is counted from 1 and is the last one read.
-    const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;
-    std::string what = error.what();
-    if (const auto start = what.find("syntax error"); start != std::string::npos) {
-      what = what.substr(start);
-    }
-    throw InputError(Problem{source, line_and_column(text, byte), what, "valid JSON"});
-  } catch (const json::exception& error) {  // e.g. a number that no double can hold
-    throw InputError(Problem{source, "", error.what(), "valid JSON"});
-  }
 }
 
 JsonValue::JsonValue(const json& document, const std::string& source,

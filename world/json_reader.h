@@ -14,10 +14,6 @@
 
 namespace throng::world {
 
-/// Parses a document. Throws InputError with line and column for malformed JSON and for a key that
-/// an object holds twice. `source` is the file's name for messages.
-nlohmann::json parse_json(std::string_view text, const std::string& source);
-
 /// What stands somewhere, short enough for a message: "an array of 3", "-1", "\"red\"".
 std::string describe(const nlohmann::json& value);
 

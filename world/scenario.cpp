@@ -13,6 +13,7 @@
 #include "base/confine.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/json_text.h"
 #include "base/resources.h"
 #include "world/json_reader.h"
 #include "world/polygon.h"

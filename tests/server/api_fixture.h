@@ -56,14 +56,21 @@ class ApiTest : public ServiceFixture {
   }
 
   // Sends bytes as they are and returns all that comes back until the server closes.
-  std::string raw(const std::string& request) const {
+  std::string raw(const std::string& request) const { return raw_in_parts({request}); }
+
+  // With a pause before each part but the first.
+  std::string raw_in_parts(const std::vector<std::string>& parts,
+                           std::chrono::milliseconds pause = std::chrono::milliseconds(300)) const {
     const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(api.port()));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     EXPECT_EQ(::connect(socket, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
-    ::send(socket, request.data(), request.size(), MSG_NOSIGNAL);
+    for (const std::string& part : parts) {
+      if (&part != &parts.front()) std::this_thread::sleep_for(pause);
+      ::send(socket, part.data(), part.size(), MSG_NOSIGNAL);
+    }
     std::string answer;
     char block[4096];
     for (ssize_t count = 0; (count = ::recv(socket, block, sizeof(block), 0)) > 0;) {

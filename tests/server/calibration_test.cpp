@@ -197,5 +197,44 @@ TEST(CalibrationChild, FailuresOfTheChildAreTold) {
   }
 }
 
+TEST_F(CalibrationApi, BelongToTheKeyThatSentThem) {
+  const std::string owner = keys.create("owner", Scope::submit, 1);
+  const std::string other = keys.create("other", Scope::submit);
+  const std::string admin = keys.create("admin", Scope::admin);
+  const auto as = [](const std::string& key) {
+    return httplib::Headers{{"Authorization", "Bearer " + key}};
+  };
+  const httplib::MultipartFormDataItems items = {
+      {"request", request().dump(), "", "application/json"},
+      {"file", grid_table(), "points.csv", "text/csv"}};
+  const std::string path = client().Post(kRoute, as(owner), items)->get_header_value("Location");
+  const auto state = [&] {
+    return json::parse(client().Get(path, as(admin))->body)["state"].get<std::string>();
+  };
+  ASSERT_TRUE(wait_until([&] { return state() == "succeeded"; }));
+  EXPECT_EQ(json::parse(client().Get(path, as(admin))->body)["owner"], owner.substr(7, 8));
+  EXPECT_EQ(client().Get(path, as(other))->status, 200);
+  EXPECT_EQ(client().Delete(path, as(other))->status, 403);
+  EXPECT_EQ(client().Get(path, as(owner))->status, 200);
+  EXPECT_EQ(client().Delete(path, as(owner))->status, 204);
+  const std::string next = client().Post(kRoute, as(owner), items)->get_header_value("Location");
+  EXPECT_EQ(client().Delete(next, as(admin))->status, 204);
+}
+
+TEST_F(CalibrationApi, CountAmongTheJobsOfAKey) {
+  const std::string few = keys.create("few", Scope::submit, 2);
+  const httplib::Headers headers = {{"Authorization", "Bearer " + few}};
+  const httplib::MultipartFormDataItems items = {
+      {"request", request().dump(), "", "application/json"},
+      {"file", grid_table(), "points.csv", "text/csv"}};
+  Gate gate(executor);
+  // The first is worked on and holds the queue.
+  EXPECT_EQ(client().Post("/v1/jobs", headers, kJob, "application/json")->status, 201);
+  EXPECT_EQ(client().Post(kRoute, headers, items)->status, 201);
+  EXPECT_EQ(client().Post(kRoute, headers, items)->status, 429);
+  EXPECT_EQ(client().Post("/v1/jobs", headers, kJob, "application/json")->status, 429);
+  gate.open();
+}
+
 }  // namespace
 }  // namespace throng::server

@@ -32,8 +32,8 @@ TEST_F(HostileClients, LargeBodiesAreRefusedUnread) {
   keys.create("somebody", Scope::admin);
   EXPECT_THAT(raw("POST /v1/calibrations HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
                   "application/json\r\nContent-Length: 2000000\r\n\r\n"),
-              StartsWith("HTTP/1.1 413"))
-      << "strangers may not send large bodies anywhere";
+              StartsWith("HTTP/1.1 401"))
+      << "strangers may not send bodies anywhere";
 }
 
 TEST_F(HostileClients, RequestsSentTogetherAreAllAnswered) {
@@ -49,10 +49,10 @@ TEST_F(HostileClients, RequestsSentTogetherAreAllAnswered) {
 
 TEST_F(HostileClients, UploadsShareTheMemoryThereIs) {
   HttpOptions options;
-  options.largest_body = [](const httplib::Request&) { return std::size_t{64} << 20U; };
-  options.most_body_bytes = 3 << 20;
-  HttpServer small(options, [](const httplib::Request&, httplib::Response& response, int status,
-                               const std::string&) { response.status = status; });
+  options.max_body_bytes = [](const httplib::Request&) { return std::size_t{64} << 20U; };
+  options.max_all_body_bytes = 3 << 20;
+  HttpServer small(options, [](const httplib::Request&, httplib::Response& response,
+                               const HttpError& error) { response.status = error.status; });
   small.routes().Post("/", [](const httplib::Request& request, httplib::Response& response) {
     response.set_content(std::to_string(request.body.size()), "text/plain");
   });

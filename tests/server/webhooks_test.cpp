@@ -132,6 +132,24 @@ TEST_F(WebhooksTest, WhatIsNotTakenIsSentAgain) {
   EXPECT_EQ(quick.webhooks().get(hook.id)->failures, 0);
 }
 
+TEST_F(WebhooksTest, AnyStatusOf200To299TakesAnEvent) {
+  const std::string self = create({{"url", receiver.url()}, {"events", {"*"}}})["links"]["self"];
+  // 204 and 205 have no body; neither has this 202.
+  receiver.answer_with({204, 202, 205, 201, 299, 204});
+  submit_and_wait();
+  const std::string id = submit_and_wait();
+  client().Delete("/v1/jobs/" + id);
+  ASSERT_TRUE(wait_until([&] {
+    return !receiver.requests().empty() && types_of(receiver.requests()).back() == "removed";
+  }));
+  const json deliveries = get_json(self + "/deliveries")["deliveries"];
+  for (const json& delivery : deliveries) {
+    EXPECT_EQ(delivery["attempt"], 1);
+    EXPECT_TRUE(delivery["succeeded"]) << delivery.dump();
+    EXPECT_TRUE(delivery["error"].is_null());
+  }
+}
+
 TEST_F(WebhooksTest, AnAddressThatFailsForTooLongIsLeftAloneUntilItIsEnabled) {
   WebhookSender quick(service, {.first_rest = 1ms, .longest_rest = 2ms, .patience = 30ms});
   // Nobody listens there.
