@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Every shipped scenario runs for 600 s, and nobody is inside at the end without a reason.
+
+The drones of the scenario hover, as a job without drones has it. 250 people each keep it short; bench/shipped_runs.py
+does the same with everybody and more seeds. The paper's own files (huang2016, in the paper's mode) are left out: some of
+their people start in a wall (docs/places.md).
+usage: test_shipped.py THRONG
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+THRONG = sys.argv[1]
+# The blueprint's, city_square/nearest_exit and its three cases, and the same with walls around obstacles.
+PAPERS_OWN = ("huang2016/crowded_exit_blocked", "huang2016/nearest_exit", "huang2016/second_nearest",
+              "huang2016/side_exit_blocked")
+
+
+def shipped():
+    """Ids of all scenarios but the paper's own."""
+    folder = ROOT / "scenarios"
+    for file in sorted(folder.rglob("*.json")):
+        name = str(file.relative_to(folder).with_suffix(""))
+        is_scenario = not file.name.endswith((".job.json", ".place.json")) and file.name != "study.json"
+        if is_scenario and not name.endswith(PAPERS_OWN):
+            yield name
+
+
+def metrics_of(scenario, folder, drones=None):
+    """metrics.json of a run of 600 s with 250 people."""
+    job = {"scenario": scenario, "seed": 90210, "crowd": {"agents": 250},
+           "capture": {"rate_hz": 1, "from_s": 0, "to_s": 600}}
+    if drones:
+        job["drones"] = drones
+    job_file, trace = pathlib.Path(folder) / "job.json", pathlib.Path(folder) / "run.h5"
+    job_file.write_text(json.dumps(job))
+    subprocess.run([THRONG, "simulate", job_file, "-o", trace], check=True, capture_output=True, cwd=ROOT)
+    said = subprocess.run([THRONG, "metrics", trace], check=True, capture_output=True, cwd=ROOT, text=True)
+    trace.unlink()
+    return json.loads(said.stdout)
+
+
+class Shipped(unittest.TestCase):
+    def test_nobody_is_trapped(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for scenario in shipped():
+                with self.subTest(scenario=scenario):
+                    metrics = metrics_of(scenario, folder)
+                    remaining = metrics["remaining"]
+                    self.assertGreater(metrics["people"], 0)
+                    for reason in ("guided", "blocked", "stalled"):
+                        self.assertEqual(remaining[reason], 0, remaining)
+                    if not scenario.endswith("everyday"):
+                        # Arrivals in the last seconds may not have noticed yet.
+                        self.assertLessEqual(remaining["waiting"], 5, remaining)
+
+    def test_a_lit_beacon_is_asked_for_and_named(self):
+        drones = [{"id": "d1", "start": [0, -10, 25], "moves_goal": [99, 0], "guidance": {"policy": "hover", "beacon": True}}]
+        with tempfile.TemporaryDirectory() as folder:
+            remaining = metrics_of("city_square/nearest_exit", folder, drones)["remaining"]
+        self.assertGreater(remaining["guided"], 10)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
