@@ -23,9 +23,9 @@ struct JsonLimits {
 
 /// What comes over the network: at most about 20 MB of memory for the values beside the text.
 inline constexpr JsonLimits kRequestJsonLimits = {.max_values = 200'000, .max_object_keys = 10'000};
-/// A job, wherever it comes from.
+/// A job, wherever it comes from; with room for what is filled in before it is stored.
 inline constexpr JsonLimits kJobJsonLimits = {
-    .max_bytes = 1 << 20, .max_values = 200'000, .max_object_keys = 10'000};
+    .max_bytes = 16 << 20, .max_values = 1'000'000, .max_object_keys = 10'000};
 /// What this program has written itself, such as the manifest of a large dataset.
 inline constexpr JsonLimits kOwnJsonLimits = {.max_bytes = std::size_t{16} << 30,
                                               .max_values = 1'000'000'000};

@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <fmt/core.h>
 #include <poll.h>
+#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
 #include <chrono>
@@ -63,6 +64,19 @@ class HttpServer::BoundedServer : public httplib::Server {
 
  private:
   bool process_and_close_socket(socket_t socket) override {
+    bool served = false;
+    try {
+      served = serve_all(socket);
+    } catch (const std::exception& error) {  // nothing above this catches
+      spdlog::error("a connection: {}", error.what());
+    }
+    body_bytes_ -= std::exchange(reserved_, 0);
+    close_gently(socket);
+    return served;
+  }
+
+  /// Whether the last request was answered.
+  bool serve_all(socket_t socket) {
     Connection connection(socket, limits_);
     bool served = false;
     for (std::size_t left = kRequestsPerConnection; left > 0 && is_next(connection); --left) {
@@ -77,7 +91,6 @@ class HttpServer::BoundedServer : public httplib::Server {
       served = serve(connection, request, is_last);
       if (!served || is_last || !connection.is_consumed()) break;
     }
-    close_gently(socket);
     return served;
   }
 
@@ -89,6 +102,10 @@ class HttpServer::BoundedServer : public httplib::Server {
         admit_body(request, head.content_length);
       } catch (const HttpError& error) {
         refuse(connection, request, error);
+        return false;
+      } catch (const std::exception& error) {  // e.g. the keys cannot be read
+        spdlog::error("{} {}: {}", request.method, request.path, error.what());
+        refuse(connection, request, {503, "the request cannot be checked now; try again"});
         return false;
       }
     }

@@ -1,6 +1,7 @@
 // What the bare port does with clients that mean no good.
 #include <gmock/gmock.h>
 
+#include "base/error.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {
@@ -67,6 +68,23 @@ TEST_F(HostileClients, UploadsShareTheMemoryThereIs) {
   EXPECT_EQ(honest.Post("/", std::string(4 << 20, 'x'), "text/plain")->status, 503);
   EXPECT_TRUE(is_taken());
   small.stop();
+}
+
+TEST_F(HostileClients, WhatCannotBeCheckedIsRefused) {
+  HttpOptions options;
+  options.max_body_bytes = [](const httplib::Request& request) -> std::size_t {
+    if (request.path == "/locked") throw EnvironmentError("the database is locked");
+    throw HttpError{418, "no tea"};
+  };
+  HttpServer server(options, [](const httplib::Request&, httplib::Response& response,
+                                const HttpError& error) { response.status = error.status; });
+  const std::jthread serving([&] { server.run(); });
+  httplib::Client client("127.0.0.1", server.port());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(client.Post("/locked", "x", "text/plain")->status, 503);
+    EXPECT_EQ(client.Post("/", "x", "text/plain")->status, 418);
+  }
+  server.stop();
 }
 
 }  // namespace
