@@ -78,8 +78,8 @@ void check_run(const world::Scenario& scenario, int number, std::uint64_t seed, 
   const int variant = number % 3;
   sim::RunSpec spec;
   spec.seed = seed;
-  spec.duration_s = variant == 0 ? 60 : 100;
-  spec.people = variant == 2 ? 240 : 60 + 60 * variant;
+  spec.duration_s = variant == 0 ? 40 : 60;
+  spec.people = 40 * (variant + 1);
   if (scenario.id.find("huang2016") != std::string::npos &&
       scenario.id.find("navigated") == std::string::npos) {
     spec.crowd.compat = crowd::Compat::huang2016;
@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
     const std::size_t which = static_cast<std::size_t>(i) % ids.size();
     const int round = i / static_cast<int>(ids.size());
     check_run(scenarios[which], round, static_cast<std::uint64_t>(first_seed + round), rows[which]);
-    if ((i + 1) % static_cast<int>(10 * ids.size()) == 0) print();
+    if ((i + 1) % static_cast<int>(5 * ids.size()) == 0) print();
   }
   print();
 }

@@ -315,7 +315,7 @@ class RecordedBottleneck(unittest.TestCase):
         (base / "place.json").write_text(json.dumps(cls.place))
         cls.figures = json.loads(throng("metrics", "--trajectory", base / "walk.txt", "--scenario",
                                         base / "place.json", "--csv", base / "exits.csv"))
-        cls.rows = list(csv.DictReader((base / "exits.csv").open()))
+        cls.rows = list(csv.DictReader((base / "exits.csv").read_text().splitlines()))
         cls.base = base
 
     @classmethod

@@ -256,5 +256,25 @@ TEST(ExitTotals, JsonNamesWhatThereIs) {
   EXPECT_EQ(json.at("gaps").at("tail").at("valid"), false);
 }
 
+// One goes out, comes back and goes out again, another comes in and stays.
+TEST(ExitCrossings, AreCountedInBothDirections) {
+  const Walk to_and_fro = [](double time_s) -> Eigen::Vector2d {
+    return {std::abs(std::fmod(time_s, 4) - 2) - 1, 0};
+  };
+  CrowdOfTest crowd;
+  crowd.duration_s = 7.5;
+  const world::Trace trace = trace_of({to_and_fro, walking({2, 0.5}, {-1, 0})}, crowd);
+  // |x| falls from 1 at 0 s to -1 at 2 s and so on: in at 1 s, out at 3 s, in at 5 s, out at 7 s.
+  const world::Scenario scenario = place_with_door(2);
+  const auto totals = exit_totals(exit_series(trace, scenario), 0.1);
+  EXPECT_EQ(totals[0].crossings.out, 2);
+  EXPECT_EQ(totals[0].crossings.in, 3);
+  EXPECT_EQ(totals[0].net_out(), -1);
+  const nlohmann::json json = to_json(totals[0]);
+  EXPECT_EQ(json.at("crossings").at("out"), 2);
+  EXPECT_EQ(json.at("crossings").at("in"), 3);
+  EXPECT_EQ(json.at("net_out"), -1);
+}
+
 }  // namespace
 }  // namespace throng::metrics

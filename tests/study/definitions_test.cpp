@@ -87,8 +87,8 @@ TEST_P(Definitions, OfStudyAndMetricsAreOne) {
   const world::Scenario scenario = world::find_scenario(kScenarioFolder, GetParam());
   sim::RunSpec spec;
   spec.seed = 90210;
-  spec.duration_s = 45;
-  spec.people = GetParam().rfind("city_square", 0) == 0 ? 250 : 120;
+  spec.duration_s = 40;
+  spec.people = GetParam().rfind("city_square", 0) == 0 ? 120 : 60;
   if (GetParam().find("huang2016") != std::string::npos) {
     spec.crowd.compat = crowd::Compat::huang2016;
   }
