@@ -28,7 +28,8 @@ std::string csv_field(const std::string& text) {
 std::string exits_csv(const std::vector<metrics::ExitSeries>& exits,
                       std::span<const double> step_times_s, std::span<const FrameTime> frames) {
   std::string text =
-      "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed,flow,"
+      "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed_out,crossed_in,"
+      "flow,"
       "since_crossing,state,clogging_index,voronoi_density,specific_flow,demand,queue,"
       "queue_length,predicted_wait,pressure,state_offline\n";
   if (step_times_s.empty()) return text;
@@ -39,11 +40,11 @@ std::string exits_csv(const std::vector<metrics::ExitSeries>& exits,
       const metrics::ExitSample& sample = exit.samples[step];
       fmt::format_to(
           std::back_inserter(text),
-          "{},{},{},{},{:.4f},{:.4f},{:.4f},{},{:.2f},{:.2f},{},{:.4f},"
+          "{},{},{},{},{:.4f},{:.4f},{:.4f},{},{},{:.2f},{:.2f},{},{:.4f},"
           "{:.4f},{:.3f},{},{},{:.2f},{:.2f},{:.5f},{}\n",
           frame.frame_index, frame.time_s, csv_field(exit.exit_id), sample.in_zone,
           sample.density_per_m2, sample.normalised_density, sample.approach_speed_mps,
-          sample.crossed, sample.flow_per_s, sample.since_crossing_s,
+          sample.crossed_out, sample.crossed_in, sample.flow_per_s, sample.since_crossing_s,
           metrics::name_of(sample.state), sample.clogging_index, sample.voronoi_density_per_m2,
           sample.specific_flow_per_ms, sample.demand ? 1 : 0, sample.queue, sample.queue_length_m,
           sample.predicted_wait_s, sample.pressure_per_s2, metrics::name_of(sample.state_offline));

@@ -16,10 +16,10 @@ struct FrameTime {
 };
 
 /// One row per frame and exit: frame, time_s, exit, in_zone, density, normalised_density,
-/// approach_speed, crossed, flow, since_crossing, state, clogging_index, voronoi_density,
-/// specific_flow, demand, queue, queue_length, predicted_wait, pressure, state_offline (units:
-/// docs/metrics.md), below a header line. `step_times_s` are the times of the samples in `exits`; a
-/// frame gets the last sample at or before it, or the first one.
+/// approach_speed, crossed_out, crossed_in, flow, since_crossing, state, clogging_index,
+/// voronoi_density, specific_flow, demand, queue, queue_length, predicted_wait, pressure,
+/// state_offline (units: docs/metrics.md), below a header line. `step_times_s` are the times of the
+/// samples in `exits`; a frame gets the last sample at or before it, or the first one.
 std::string exits_csv(const std::vector<metrics::ExitSeries>& exits,
                       std::span<const double> step_times_s, std::span<const FrameTime> frames);
 

@@ -9,7 +9,6 @@
 
 #include "metrics/percents.h"
 #include "metrics/person_table.h"
-#include "metrics/survival.h"
 #include "metrics/walking_distance.h"
 #include "world/trace.h"
 
@@ -33,35 +32,19 @@ std::vector<double> curve_of(const std::vector<double>& times, int people, doubl
   return curve;
 }
 
-/// In order; of those to whom it happened.
-std::vector<double> times_of(const std::vector<PersonRecord>& people,
-                             std::optional<double> PersonRecord::*time_s) {
+std::vector<double> escape_times_of_run(const std::vector<PersonRecord>& people) {
   std::vector<double> times_s;
   for (const PersonRecord& person : people) {
-    if (person.*time_s) times_s.push_back(*(person.*time_s));
+    if (person.escaped_s) times_s.push_back(*person.escaped_s);
   }
   std::sort(times_s.begin(), times_s.end());
   return times_s;
 }
 
-// Mean of the times, none of which counts for more than `until_s`: the area above the escape curve.
-double restricted_mean_s(const std::vector<double>& times, int people, double until_s) {
-  if (people == 0) return 0;
-  double sum_s = (people - static_cast<double>(times.size())) * until_s;
-  for (const double time : times) sum_s += std::min(time, until_s);
-  return sum_s / people;
-}
-
-/// `hurt_s`: since when those lie there who lie at the run's end, in order.
-RunMetrics::Horizon horizon_of(const std::vector<double>& times, const std::vector<double>& hurt_s,
-                               int people, double duration_s, double at_s) {
-  const bool all_known = static_cast<int>(times.size() + hurt_s.size()) == people;
-  if (duration_s < at_s - world::kTimeSlackS && !all_known) return {at_s, {}, {}};
-  const auto until = [&](const std::vector<double>& sorted) {
-    const auto end = std::upper_bound(sorted.begin(), sorted.end(), at_s + world::kTimeSlackS);
-    return static_cast<int>(end - sorted.begin());
-  };
-  return {at_s, people - until(times) - until(hurt_s), restricted_mean_s(times, people, at_s)};
+RunMetrics::Horizon horizon_of(const EscapeTimes& escapes, double at_s) {
+  const auto mean_s = escapes.restricted_mean_s(at_s);
+  if (!mean_s) return {at_s, {}, {}};
+  return {at_s, escapes.inside_after(at_s), mean_s};
 }
 
 json seconds_or_null(const std::optional<double>& value) {
@@ -82,35 +65,39 @@ json horizons_json(const std::vector<RunMetrics::Horizon>& horizons) {
 }  // namespace
 
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
-                       const std::vector<ExitSeries>& exits) {
+                       const std::vector<ExitSeries>& exits, const std::optional<Alarm>& given) {
+  const Alarm alarm = given ? *given : alarm_of(scenario);
   RunMetrics metrics;
-  metrics.persons = person_records(trace, scenario.inside);
-  metrics.escape_s = times_of(metrics.persons, &PersonRecord::escaped_s);
-  const std::vector<double> hurt_s = times_of(metrics.persons, &PersonRecord::hurt_s);
+  metrics.persons = person_records(trace, scenario, alarm);
   const std::vector<PersonRecord>& people = metrics.persons;
-  const std::vector<double>& times = metrics.escape_s;
   metrics.people = static_cast<int>(people.size());
   metrics.duration_s = trace.duration_s();
-  metrics.escape_curve = curve_of(times, metrics.people, metrics.duration_s);
+  metrics.alarm_s = alarm.at_s;
+  metrics.escapes = escape_times(people, metrics.duration_s);
+  metrics.escape_curve = curve_of(escape_times_of_run(people), metrics.people, metrics.duration_s);
   for (const int percent : kPercents) {
-    metrics.percentiles.push_back({percent, time_by_which(times, metrics.people, percent)});
+    metrics.percentiles.push_back({percent, metrics.escapes.percentile_s(percent)});
   }
-  metrics.casualties = static_cast<int>(hurt_s.size());
-  metrics.not_escaped = metrics.people - static_cast<int>(times.size()) - metrics.casualties;
-  metrics.mean_escape_time_s = restricted_mean_s(times, metrics.people, metrics.duration_s);
+  metrics.casualties = static_cast<int>(metrics.escapes.casualties.size());
+  metrics.not_escaped = metrics.escapes.not_escaped();
+  metrics.mean_escape_time_s = metrics.escapes.mean_censored_s();
   for (const double at_s : kHorizonsS) {
-    metrics.horizons.push_back(horizon_of(times, hurt_s, metrics.people, metrics.duration_s, at_s));
+    metrics.horizons.push_back(horizon_of(metrics.escapes, at_s));
   }
   metrics.exits = exit_totals(exits, trace.header.dt_s);
   metrics.balance = balance_of(metrics.exits);
   metrics.drones = drone_figures(trace);
-  metrics.notification = notification_of(people, metrics.duration_s);
+  if (alarm.at_s) metrics.notification = notification_of(people, metrics.duration_s);
   metrics.guidance = guidance_of(people, metrics.drones);
   metrics.exposure = exposure_of(trace, scenario, people);
   if (!people.empty()) {
     const std::vector<WalkingDistance> ways = ways_to_exits(scenario);
     metrics.journeys = journeys(trace, scenario, exits, people, ways);
-    metrics.bound = run_bound(trace, scenario, people, ways);
+    metrics.lower_bound =
+        lower_bound(scenario, people, alarm, metrics.duration_s,
+                    {scenario.crowd_model, max_radius_m(trace.header), Knowledge::as_noticed});
+    metrics.reference =
+        reference_time(scenario, people, alarm, metrics.duration_s, Knowledge::as_noticed, ways);
     metrics.remaining = remaining_of(trace, scenario, people, ways);
   }
   for (const world::TraceEvent& event : trace.events) {
@@ -132,6 +119,8 @@ json to_json(const RunMetrics& metrics) {
   for (const DroneFigures& drone : metrics.drones) drones.push_back(to_json(drone));
   return {{"definitions_version", kDefinitionsVersion},
           {"people", metrics.people},
+          {"left_before_alarm", metrics.escapes.left_before_alarm},
+          {"alarm_s", seconds_or_null(metrics.alarm_s)},
           {"duration_s", metrics.duration_s},
           {"not_escaped", metrics.not_escaped},
           {"casualties", metrics.casualties},
@@ -139,16 +128,20 @@ json to_json(const RunMetrics& metrics) {
           {"falls", {{"struck", metrics.falls_struck}, {"crushed", metrics.falls_crushed}}},
           {"mean_escape_time_censored_s", metrics.mean_escape_time_s},
           {"escape_time_percentiles", percentiles},
-          {"escape_curve", {{"rate_hz", 1}, {"escaped_share", metrics.escape_curve}}},
+          {"escape_curve",
+           {{"rate_hz", 1},
+            {"escaped_share", metrics.escape_curve},
+            {"escaped_share_since_start", metrics.escapes.curve()}}},
           {"exits", exits},
           {"exit_balance", to_json(metrics.balance)},
           {"drones", drones},
           {"horizons", horizons_json(metrics.horizons)},
-          {"notification", to_json(metrics.notification)},
+          {"notification", metrics.notification ? to_json(*metrics.notification) : json(nullptr)},
           {"journeys", to_json(metrics.journeys)},
           {"exposure", to_json(metrics.exposure)},
           {"guidance", to_json(metrics.guidance)},
-          {"lower_bound", to_json(metrics.bound, metrics.escape_s)},
+          {"lower_bound", to_json(metrics.lower_bound, metrics.escapes)},
+          {"reference_time", to_json(metrics.reference, metrics.escapes)},
           {"by_person", person_table(metrics.persons, metrics.journeys, metrics.exits)}};
 }
 

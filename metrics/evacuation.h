@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "metrics/alarm.h"
 #include "metrics/drones.h"
+#include "metrics/escape_times.h"
 #include "metrics/exit_totals.h"
 #include "metrics/exits.h"
 #include "metrics/exposure.h"
@@ -24,23 +26,26 @@ namespace throng::metrics {
 struct RunMetrics {
   int people = 0;
   double duration_s = 0;
-  /// Share of people who have ever left Scenario::inside, at 0, 1, 2, ... s.
+  std::optional<double> alarm_s;  ///< by the run's clock; empty: nothing happens here
+  EscapeTimes escapes;            ///< each from the later of alarm and arrival
+  /// Share of people who have ever left Scenario::inside, at 0, 1, 2, ... s of the run's clock.
   std::vector<double> escape_curve;
-  /// Times at which 25, 50, 75, 90, 95, 99 and 100 % have escaped; empty if not reached.
+  /// Of `escapes`: times at which 25, 50, 75, 80, 90, 95, 99 and 100 % have escaped; empty if not
+  /// reached.
   struct Percentile {
     int percent;
     std::optional<double> time_s;
   };
   std::vector<Percentile> percentiles;
-  /// Who was still inside, unhurt, at 300 and 600 s, and the mean time until then (restricted mean
-  /// survival time); empty where the run ended before and not everybody was out.
+  /// Of `escapes`: who was still inside, unhurt, after 300 and 600 s, and the restricted mean until
+  /// then; empty where nobody was watched for so long and not everybody was out.
   struct Horizon {
     double at_s;
     std::optional<int> not_escaped;
     std::optional<double> restricted_mean_s;
   };
   std::vector<Horizon> horizons;
-  double mean_escape_time_s = 0;  ///< censored at the end of the run
+  double mean_escape_time_s = 0;  ///< of `escapes`, censored at the end of the run
   int not_escaped = 0;            ///< still inside at the end, unhurt
   int casualties = 0;             ///< lie there at the end in a state that says so (world::is_down)
   Remaining remaining;            ///< why people are inside at the end
@@ -49,23 +54,24 @@ struct RunMetrics {
   std::vector<ExitTotals> exits;
   std::optional<ExitBalance> balance;
   std::vector<DroneFigures> drones;
-  Notification notification;
+  std::optional<Notification> notification;  ///< empty without an alarm
   GuidanceFigures guidance;
   std::vector<Journey> journeys;
   Exposure exposure;
-  /// How soon people could have been out; empty when nobody noticed.
-  std::optional<RunBound> bound;
-  std::vector<PersonRecord> persons;  ///< by number of the agent
-  std::vector<double> escape_s;       ///< of those who escaped, in order
+  std::optional<BestTimes> lower_bound;  ///< no run of these people can be quicker
+  std::optional<BestTimes> reference;    ///< through doors that pass their mean capacity
+  std::vector<PersonRecord> persons;     ///< by number of the agent
 };
 
 /// `exits` is exit_series() of the same trace and scenario. Disasters are not people; everything is
-/// 0 (and no percentile reached) when there is nobody.
+/// 0 (and no percentile reached) when there is nobody. Without `alarm` it is alarm_of(scenario),
+/// whose exceptions pass.
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
-                       const std::vector<ExitSeries>& exits);
+                       const std::vector<ExitSeries>& exits,
+                       const std::optional<Alarm>& alarm = {});
 
 /// Raised whenever the meaning of a value in metrics.json or exits.csv changes (docs/metrics.md).
-inline constexpr int kDefinitionsVersion = 5;
+inline constexpr int kDefinitionsVersion = 6;
 
 /// metrics.json: every value with its unit in its name, and the version of the definitions.
 nlohmann::json to_json(const RunMetrics& metrics);

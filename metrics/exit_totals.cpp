@@ -15,14 +15,14 @@ using nlohmann::json;
 namespace {
 
 // Adds one step that lasts dt_s.
-void add(const ExitSample& sample, int crossed_now, double dt_s, ExitTotals& totals,
-         int& crossed_in_demand) {
+void add(const ExitSample& sample, int net_out_now, double dt_s, ExitTotals& totals,
+         int& net_out_in_demand) {
   totals.state_s[static_cast<std::size_t>(sample.state)] += dt_s;
   totals.clogging_index_s += sample.clogging_index * dt_s;
   const bool shut = sample.state == ExitState::closed;
   if (shut ? sample.demand : sample.state != ExitState::idle) {
     totals.demand_s += dt_s;
-    crossed_in_demand += crossed_now;
+    net_out_in_demand += net_out_now;
   }
   if (sample.state_offline == ExitState::clogged) totals.clogged_offline_s += dt_s;
   totals.max_queue = std::max(totals.max_queue, sample.queue);
@@ -45,12 +45,14 @@ ExitTotals totals_of(const ExitSeries& series, double dt_s) {
   ExitTotals totals;
   totals.exit_id = series.exit_id;
   totals.width_m = series.width_m;
-  if (!series.samples.empty()) totals.crossings = series.samples.back().crossed;
-  int crossed_before = 0;
-  int crossed_in_demand = 0;
+  if (!series.samples.empty()) {
+    totals.crossings = {series.samples.back().crossed_out, series.samples.back().crossed_in};
+  }
+  int net_out_before = 0;
+  int net_out_in_demand = 0;
   for (const ExitSample& sample : series.samples) {
-    add(sample, sample.crossed - crossed_before, dt_s, totals, crossed_in_demand);
-    crossed_before = sample.crossed;
+    add(sample, sample.net_out() - net_out_before, dt_s, totals, net_out_in_demand);
+    net_out_before = sample.net_out();
   }
   const auto time_in = [&](ExitState state) {
     return totals.state_s[static_cast<std::size_t>(state)];
@@ -60,7 +62,7 @@ ExitTotals totals_of(const ExitSeries& series, double dt_s) {
   totals.congested_s = time_in(ExitState::congested) + totals.clogged_s;
   if (totals.demand_s > 0) {
     totals.mean_clogging_index = totals.clogging_index_s / totals.demand_s;
-    totals.demand_flow_per_s = crossed_in_demand / totals.demand_s;
+    totals.demand_flow_per_s = net_out_in_demand / totals.demand_s;
   }
   std::vector<double> crossings_s;
   for (const Passage& passage : series.passages) crossings_s.push_back(passage.time_s);
@@ -101,10 +103,10 @@ std::vector<ExitTotals> exit_totals(const std::vector<ExitSeries>& exits, double
   double all = 0;
   for (const ExitSeries& exit : exits) {
     totals.push_back(totals_of(exit, dt_s));
-    all += std::max(0, totals.back().crossings);
+    all += std::max(0, totals.back().net_out());
   }
   for (ExitTotals& exit : totals) {
-    if (all > 0) exit.share = std::max(0, exit.crossings) / all;
+    if (all > 0) exit.share = std::max(0, exit.net_out()) / all;
   }
   return totals;
 }
@@ -114,7 +116,7 @@ std::optional<ExitBalance> balance_of(const std::vector<ExitTotals>& exits) {
   double people = 0;
   for (const ExitTotals& exit : exits) {
     capacity += exit.capacity_per_s;
-    people += std::max(0, exit.crossings);
+    people += std::max(0, exit.net_out());
   }
   if (capacity <= 0 || people <= 0) return std::nullopt;
   double distance = 0;
@@ -126,7 +128,7 @@ std::optional<ExitBalance> balance_of(const std::vector<ExitTotals>& exits) {
     distance += std::abs(exit.share - exit.capacity_per_s / capacity);
     if (exit.last_crossing_s) last_s.push_back(*exit.last_crossing_s);
     if (exit.capacity_per_s <= 0) continue;
-    const double load = std::max(0, exit.crossings) / exit.capacity_per_s;
+    const double load = std::max(0, exit.net_out()) / exit.capacity_per_s;
     sum += load;
     squares += load * load;
     ++open;
@@ -153,8 +155,9 @@ json to_json(const ExitTotals& totals) {
   return {{"id", totals.exit_id},
           {"width_m", totals.width_m},
           {"capacity_per_s", totals.capacity_per_s},
-          {"crossings", totals.crossings},
-          {"share_of_crossings", totals.share},
+          {"crossings", {{"out", totals.crossings.out}, {"in", totals.crossings.in}}},
+          {"net_out", totals.net_out()},
+          {"share_of_net_out", totals.share},
           {"mean_clogging_index", totals.mean_clogging_index},
           {"clogging_index_s", totals.clogging_index_s},
           {"demand_s", totals.demand_s},

@@ -9,6 +9,7 @@
 
 #include "metrics/exits.h"
 #include "metrics/gaps.h"
+#include "metrics/people.h"
 
 namespace throng::metrics {
 
@@ -16,8 +17,8 @@ struct ExitTotals {
   std::string exit_id;
   double width_m = 0;
   double capacity_per_s = 0;       ///< mean over the run: none while it is closed
-  int crossings = 0;               ///< signed sum: who came back in does not count
-  double share = 0;                ///< of the crossings of all exits
+  DoorCounts crossings;            ///< in both directions
+  double share = 0;                ///< of the net number gone out by all exits
   double mean_clogging_index = 0;  ///< over the time in which there is demand
   double clogging_index_s = 0;     ///< integral over time
   double demand_s = 0;
@@ -25,7 +26,7 @@ struct ExitTotals {
   double clogged_s = 0;
   std::array<double, 5> state_s{};  ///< time in each ExitState
   double clogged_offline_s = 0;
-  std::optional<double> demand_flow_per_s;  ///< crossings while there was demand over that time
+  std::optional<double> demand_flow_per_s;  ///< net, while there was demand, over that time
   int max_queue = 0;
   double max_queue_length_m = 0;
   double max_wait_s = 0;
@@ -36,12 +37,14 @@ struct ExitTotals {
   EdieRegion edie;  ///< of the zone under demand
   GapFigures gaps;
   std::vector<ClogEvent> clogs;
+
+  int net_out() const { return crossings.out - crossings.in; }
 };
 
 /// How the exits' use compares with what they can take. Empty without crossings or open exits.
 struct ExitBalance {
   double balance = 0;        ///< 1 - half the sum of |share - share of the capacity|; 1: perfect
-  double jain = 0;           ///< fairness of crossings per capacity (Jain, Chiu and Hawe 1984)
+  double jain = 0;           ///< fairness of net_out() per capacity (Jain, Chiu and Hawe 1984)
   double last_spread_s = 0;  ///< between the last crossings of the exits that were used
 };
 

@@ -16,6 +16,7 @@
 #include "metrics/crossings.h"
 #include "metrics/exit_state.h"
 #include "metrics/near_people.h"
+#include "metrics/people.h"
 #include "metrics/pressure.h"
 #include "metrics/queue.h"
 #include "metrics/voronoi.h"
@@ -27,8 +28,6 @@ namespace {
 using world::Trace;
 
 constexpr double kFlowWindowS = 4.0;
-constexpr double kWaitWindowS = 20.0;
-constexpr double kLeastFlow = 0.1;  // of the capacity, for the predicted wait
 constexpr double kMemberWidths = 1.5;
 constexpr double kCellGridM = 0.8;
 
@@ -38,12 +37,6 @@ std::vector<std::size_t> people_of(const Trace& trace) {
     if (trace.header.role[agent] == world::AgentRole::person) people.push_back(agent);
   }
   return people;
-}
-
-double mean_radius_m(const Trace& trace, const std::vector<std::size_t>& people) {
-  double sum = 0;
-  for (const std::size_t person : people) sum += trace.header.radius_m[person];
-  return people.empty() ? 0.0 : sum / static_cast<double>(people.size());
 }
 
 // What the trace calls this exit in Trace::exit_intent, if it knows it.
@@ -65,11 +58,12 @@ class ExitObserver {
         zone_(zone),
         exit_(exit),
         intent_(intent_of(trace, exit.id)),
-        mean_radius_m_(mean_radius_m(trace, people)),
+        mean_radius_m_(mean_radius_m(trace.header)),
         line_(exit, mean_radius_m_),
         capacity_per_s_(capacity_per_s(exit.width_m())),
         state_(exit.width_m()),
         pressure_(zone, trace.header.dt_s),
+        wait_(capacity_per_s_, trace.header.dt_s),
         counters_(people.size()) {
     if (people.empty()) return;
     const double fills_door = exit.width_m() / (2 * mean_radius_m_);
@@ -82,9 +76,8 @@ class ExitObserver {
     series.samples.reserve(trace_.steps());
     for (std::size_t step = 0; step < trace_.steps(); ++step) {
       const double flow = change_over(series.samples, step, kFlowWindowS);
-      const double wait_flow = change_over(series.samples, step, kWaitWindowS);
       series.samples.push_back(observe_step(step, series.passages));
-      finish(series.samples.back(), trace_.time_s[step], flow, wait_flow);
+      finish(series.samples.back(), trace_.time_s[step], flow);
       if (series.samples.back().demand && step + 1 < trace_.steps()) add_walks(step, series.edie);
     }
     find_clogs(series, trace_.time_s);
@@ -93,18 +86,19 @@ class ExitObserver {
   }
 
  private:
-  // How many had crossed a window before this step.
+  // Net number gone out a window before this step.
   double change_over(const std::vector<ExitSample>& samples, std::size_t step,
                      double window_s) const {
     const auto window = static_cast<std::size_t>(std::lround(window_s / trace_.header.dt_s));
-    return step > window ? samples[step - window].crossed : 0;
+    return step > window ? samples[step - window].net_out() : 0;
   }
 
   // What can be measured at the step itself.
   ExitSample observe_step(std::size_t step, std::vector<Passage>& passages) {
     look_around(step, passages);
     ExitSample sample;
-    sample.crossed = crossed_;
+    sample.crossed_out = doors_.out;
+    sample.crossed_in = doors_.in;
     desired_speed_mps_ = 0;
     for (const NearPerson& person : queuing_) {
       if (!zone_.contains(person.place)) continue;
@@ -129,12 +123,11 @@ class ExitObserver {
   }
 
   // What depends on earlier steps as well.
-  void finish(ExitSample& sample, double time_s, double crossed_4s_ago, double crossed_20s_ago) {
-    sample.flow_per_s = (sample.crossed - crossed_4s_ago) / kFlowWindowS;
+  void finish(ExitSample& sample, double time_s, double net_out_4s_ago) {
+    sample.flow_per_s = (sample.net_out() - net_out_4s_ago) / kFlowWindowS;
     sample.specific_flow_per_ms = sample.flow_per_s / exit_.width_m();
     sample.since_crossing_s = time_s - last_outward_s_;
-    const double recent_flow = (sample.crossed - crossed_20s_ago) / kWaitWindowS;
-    sample.predicted_wait_s = sample.queue / std::max(recent_flow, kLeastFlow * capacity_per_s_);
+    sample.predicted_wait_s = wait_.step(sample.queue, sample.crossed_out);
     const ExitDemand demand{sample.demand, desired_speed_mps_};
     const bool open = exit_.is_open(time_s);
     sample.state = state_.step(time_s, open, sample, demand);
@@ -154,8 +147,9 @@ class ExitObserver {
       const std::size_t at = trace_.at(step, people_[i]);
       const Eigen::Vector2d place = trace_.position[at].cast<double>();
       const int crossing = counters_[i].step(line_, place, time_s);
-      crossed_ += crossing;
+      if (crossing < 0) ++doors_.in;
       if (crossing > 0) {
+        ++doors_.out;
         last_outward_s_ = time_s;
         passages.push_back({counters_[i].crossed_at_s(), people_[i]});
       }
@@ -243,12 +237,13 @@ class ExitObserver {
   double capacity_per_s_;
   ExitStateMachine state_;
   PressureMeter pressure_;
+  WaitPredictor wait_;
   std::vector<CrossingCounter> counters_;
   std::vector<NearPerson> near_;     ///< whoever may matter for density and pressure in the zone
   std::vector<NearPerson> queuing_;  ///< who intends this exit, wherever they are
   double desired_speed_mps_ = 0;     ///< mean over the zone
   int demand_from_ = 1;
-  int crossed_ = 0;
+  DoorCounts doors_;
   double last_outward_s_ = 0;
 };
 

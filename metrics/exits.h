@@ -28,8 +28,9 @@ struct ExitSample {
   double density_per_m2 = 0;      ///< in_zone / zone area
   double normalised_density = 0;  ///< density / close packing of the people's discs
   double approach_speed_mps = 0;  ///< mean speed towards the exit's middle
-  int crossed = 0;                ///< cumulative signed crossings, outward positive
-  double flow_per_s = 0;          ///< crossings per second over the last 4 s
+  int crossed_out = 0;            ///< outward crossings since the start
+  int crossed_in = 0;             ///< inward crossings since the start
+  double flow_per_s = 0;          ///< growth of net_out() per second over the last 4 s
   double since_crossing_s = 0;    ///< since the last outward crossing (or since the start)
   ExitState state = ExitState::idle;
   double clogging_index = 0;          ///< in [0, 1]
@@ -38,9 +39,11 @@ struct ExitSample {
   bool demand = false;                ///< enough people in the zone to fill the door
   int queue = 0;                      ///< people (metrics/queue.h)
   double queue_length_m = 0;
-  double predicted_wait_s = 0;                ///< queue over the flow of the last 20 s
+  double predicted_wait_s = 0;                ///< metrics/queue.h
   double pressure_per_s2 = 0;                 ///< greatest in the zone (metrics/pressure.h)
   ExitState state_offline = ExitState::idle;  ///< not causal: the whole gap of a clog is clogged
+
+  int net_out() const { return crossed_out - crossed_in; }
 };
 
 /// A time without passages long enough to be a clog.

@@ -24,8 +24,6 @@ namespace {
 
 constexpr double kMeanS = 1.0;
 constexpr double kSquareM = std::numbers::sqrt2;
-constexpr double kCrushPacking = 0.85;
-constexpr double kCrushSpeed = 0.1;
 constexpr double kGridM = 0.8;
 
 /// Mean density of squares of 2 m² over the last second.
@@ -103,17 +101,21 @@ class SquareMeter {
   std::deque<People> last_;
 };
 
-void add_person(double density, double packing, bool hardly_moves, double dt_s,
-                Exposure& exposure) {
+void add_person(double density, double packing, double pressure, double dt_s, Exposure& exposure) {
   for (std::size_t i = 0; i < kExposureDensities.size(); ++i) {
     if (density > kExposureDensities[i]) exposure.above_person_s[i] += dt_s;
   }
   for (std::size_t i = 0; i < kExposurePacking.size(); ++i) {
-    if (packing > kExposurePacking[i]) exposure.packed_person_s[i] += dt_s;
+    if (packing > kExposurePacking[i]) exposure.disc_packing_person_s[i] += dt_s;
   }
   const auto* level = std::lower_bound(kServiceDensities.begin(), kServiceDensities.end(), density);
   exposure.service_person_s[static_cast<std::size_t>(level - kServiceDensities.begin())] += dt_s;
-  if (packing > kCrushPacking && hardly_moves) exposure.crush_proxy_person_s += dt_s;
+  for (std::size_t i = 0; i < kExposurePressures.size(); ++i) {
+    if (pressure > kExposurePressures[i]) exposure.pressure_person_s[i] += dt_s;
+  }
+  if (pressure <= kExposurePressures.front()) return;
+  if (density > kExposureDensities[kCrushDensityIndex]) exposure.turbulent_5_person_s += dt_s;
+  if (density > kExposureDensities.back()) exposure.turbulent_6_person_s += dt_s;
 }
 
 }  // namespace
@@ -143,18 +145,17 @@ Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,
       agents.push_back(person.agent);
       pressure.add(places.back(), trace.velocity[at].cast<double>());
     }
+    // The pressure about each person is needed, so it comes first.
+    exposure.max_pressure_per_s2 = std::max(exposure.max_pressure_per_s2, pressure.finish_step());
     const PointGrid grid(places, kGridM);
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!scenario.inside.contains(places[i])) continue;
       cutter.cut(grid, i, cell);
-      const std::size_t at = trace.at(step, agents[i]);
       add_person(cell.density_per_m2(), cell.density_per_m2() * close_packing_m2,
-                 trace.velocity[at].norm() < kCrushSpeed * trace.desired_speed_mps[at], dt_s,
-                 exposure);
+                 pressure.mean_at(places[i]), dt_s, exposure);
       squares.add(cell);
     }
     exposure.max_density_per_m2 = std::max(exposure.max_density_per_m2, squares.finish_step());
-    exposure.max_pressure_per_s2 = std::max(exposure.max_pressure_per_s2, pressure.finish_step());
   }
   return exposure;
 }
@@ -165,9 +166,15 @@ json to_json(const Exposure& exposure) {
     above[fmt::format("above_{}_per_m2_person_s", kExposureDensities[i])] =
         exposure.above_person_s[i];
   }
+  json packing = json::object();
   for (std::size_t i = 0; i < kExposurePacking.size(); ++i) {
-    above[fmt::format("above_{}_of_packing_person_s", kExposurePacking[i])] =
-        exposure.packed_person_s[i];
+    packing[fmt::format("above_{}_person_s", kExposurePacking[i])] =
+        exposure.disc_packing_person_s[i];
+  }
+  json pressure = json::object();
+  for (std::size_t i = 0; i < kExposurePressures.size(); ++i) {
+    pressure[fmt::format("above_{}_per_s2_person_s", kExposurePressures[i])] =
+        exposure.pressure_person_s[i];
   }
   json service = json::object();
   for (std::size_t i = 0; i < exposure.service_person_s.size(); ++i) {
@@ -175,7 +182,10 @@ json to_json(const Exposure& exposure) {
         exposure.service_person_s[i];
   }
   above["level_of_service"] = std::move(service);
-  above["crush_proxy_person_s"] = exposure.crush_proxy_person_s;
+  above["pressure"] = std::move(pressure);
+  above["turbulent_above_5_per_m2_person_s"] = exposure.turbulent_5_person_s;
+  above["turbulent_above_6_per_m2_person_s"] = exposure.turbulent_6_person_s;
+  above["disc_packing"] = std::move(packing);
   above["max_density_2m2_per_m2"] = exposure.max_density_per_m2;
   above["max_pressure_per_s2"] = exposure.max_pressure_per_s2;
   return above;

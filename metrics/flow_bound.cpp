@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/error.h"
@@ -20,6 +19,20 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Whether a door is closed from a second's beginning on.
 bool is_shut(const Departures& departures, std::size_t exit, int second) {
   return !departures.shuts_s.empty() && second >= departures.shuts_s[exit];
+}
+
+/// How many can pass in a slot. Rounded so that no people get lost over the seconds.
+int room_of(const Departures& departures, std::size_t exit, int second, int first_entry) {
+  const double rate = departures.capacity_per_s[exit];
+  if (departures.burst.empty()) {
+    return static_cast<int>(std::ceil(rate * (second + 1)) - std::ceil(rate * second));
+  }
+  const auto passed_after = [&](int slots) {
+    constexpr double kRounding = 1e-9;
+    return slots <= 0 ? 0.0 : std::floor(departures.burst[exit] + rate * slots + kRounding);
+  };
+  const int slots = second - first_entry;
+  return static_cast<int>(passed_after(slots + 1) - passed_after(slots));
 }
 
 /// Maximum flow from people through doors that opens one slot after another. The network: each
@@ -58,6 +71,12 @@ class DoorFlow {
   std::size_t left() const { return left_; }
   /// The last second in which anybody comes to any door.
   int last_entry() const { return last_entry_; }
+
+  /// The first second in which anybody can be at the door; 0 if nobody ever is.
+  int first_entry(std::size_t exit) const {
+    const Door& door = doors_[exit];
+    return door.people.empty() ? 0 : entry_[door.people.front()][exit];
+  }
 
   /// Opens a slot of the door for `room` people; returns how many more are out.
   int open(std::size_t exit, int second, int room) {
@@ -208,10 +227,8 @@ std::vector<double> earliest_out_s(const Departures& departures) {
       if (next == exits || out_at_s(e) < out_at_s(next)) next = e;
     }
     if (next == exits) break;
-    // Rounded so that no people get lost over the seconds.
-    const double rate = departures.capacity_per_s[next];
     const int now = second[next]++;
-    const int room = static_cast<int>(std::ceil(rate * (now + 1)) - std::ceil(rate * now));
+    const int room = room_of(departures, next, now, flow.first_entry(next));
     const int more = flow.open(next, now, room);
     is_spent[next] = room > 0 && more == 0 && now >= flow.last_entry();
     out_s.insert(out_s.end(), static_cast<std::size_t>(more), now + departures.on_s[next]);
@@ -220,34 +237,10 @@ std::vector<double> earliest_out_s(const Departures& departures) {
   return out_s;
 }
 
-double way_out_m(const world::Rectangle& inside, const Vector2d& door) {
-  const Vector2d to_min = door - inside.min;
-  const Vector2d to_max = inside.max - door;
+double way_out_m(const world::Rectangle& inside, const Vector2d& place) {
+  const Vector2d to_min = place - inside.min;
+  const Vector2d to_max = inside.max - place;
   return std::max(0.0, std::min(to_min.minCoeff(), to_max.minCoeff()));
-}
-
-FlowBound flow_bound(const world::Scenario& place, const std::vector<Vector2d>& people,
-                     const BoundSpec& spec) {
-  if (people.empty()) return {};
-  Departures departures;
-  for (std::size_t e = 0; e < place.exits.size(); ++e) {
-    const world::Exit& exit = place.exits[e];
-    departures.capacity_per_s.push_back(exit.open ? spec.capacity_per_s[e] : 0);
-    departures.on_s.push_back(way_out_m(place.inside, exit.middle()) / spec.speed_mps);
-  }
-  for (const Vector2d& person : people) {
-    auto& row = departures.access_s.emplace_back();
-    for (const world::Exit& exit : place.exits) {
-      row.push_back((person - exit.middle()).norm() / spec.speed_mps);
-    }
-  }
-  const std::vector<double> out_s = earliest_out_s(departures);
-  const auto by_share = [&](double share) {
-    const double count = std::ceil(share * static_cast<double>(out_s.size()));
-    return out_s[static_cast<std::size_t>(count) - 1];
-  };
-  return {by_share(0.5), by_share(0.9), out_s.back(),
-          std::accumulate(out_s.begin(), out_s.end(), 0.0) / static_cast<double>(out_s.size())};
 }
 
 }  // namespace throng::metrics

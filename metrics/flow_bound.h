@@ -14,6 +14,11 @@ struct Departures {
   std::vector<double> capacity_per_s;         ///< per exit, people; 0: closed
   std::vector<double> on_s;                   ///< per exit, from the door out of the place
   std::vector<double> shuts_s = {};           ///< per exit, from when on it is closed; empty: none
+  /// Per exit, people beyond `capacity_per_s` times any length of time that pass in it; empty:
+  /// none. Then t seconds from the slot on in which the first person can be at the door let
+  /// floor(burst + capacity_per_s * t) people pass: the arrival curve of Cruz (IEEE Trans. Inf.
+  /// Theory 37, 1991). Without it the slots take capacity_per_s each, rounded up.
+  std::vector<double> burst = {};
 };
 
 /// When people are out at best, one time per person, in order; infinite for those who cannot get
@@ -24,26 +29,7 @@ struct Departures {
 /// time is too long.
 std::vector<double> earliest_out_s(const Departures& departures);
 
-/// From a door's middle to beyond the nearest side of the rectangle (m); 0 outside.
-double way_out_m(const world::Rectangle& inside, const Eigen::Vector2d& door);
-
-struct BoundSpec {
-  double speed_mps = 2;                ///< of everybody, from the alarm on
-  std::vector<double> capacity_per_s;  ///< per exit of the scenario, people
-};
-
-/// Times from the alarm (s).
-struct FlowBound {
-  double t50_s = 0;
-  double t90_s = 0;
-  double t100_s = 0;
-  double mean_s = 0;
-};
-
-/// For any guidance whatever: everybody knows of the alarm at once, goes straight to any open exit
-/// through all walls, queues there at most as the exit's capacity demands, and goes straight on out
-/// of `Scenario::inside`. Zeros when there is nobody; infinite when no exit is open.
-FlowBound flow_bound(const world::Scenario& place, const std::vector<Eigen::Vector2d>& people,
-                     const BoundSpec& spec);
+/// From a place to beyond the nearest side of the rectangle (m); 0 outside.
+double way_out_m(const world::Rectangle& inside, const Eigen::Vector2d& place);
 
 }  // namespace throng::metrics

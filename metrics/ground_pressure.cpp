@@ -86,4 +86,13 @@ double GroundPressure::finish_step() {
   return most / static_cast<double>(last_.size());
 }
 
+double GroundPressure::mean_at(const Vector2d& place) const {
+  const Vector2d cell = (place - lattice_.first) / lattice_.pitch_m;
+  const long column = std::lround(cell.x());
+  const long row = std::lround(cell.y());
+  if (column < 0 || row < 0 || column >= lattice_.columns || row >= lattice_.rows) return 0;
+  const std::size_t at = lattice_.index(static_cast<int>(column), static_cast<int>(row));
+  return std::max(0.0, sums_[at].mean) / static_cast<double>(last_.size());
+}
+
 }  // namespace throng::metrics

@@ -25,6 +25,9 @@ class GroundPressure {
   /// The greatest mean once everybody of a step was added (1/s²). In the first second the mean is
   /// over what there was.
   double finish_step();
+  /// After finish_step(): the mean at the place of the lattice that is nearest to a point (1/s²).
+  /// 0 outside of the rectangle.
+  double mean_at(const Eigen::Vector2d& place) const;
 
  private:
   /// Sums over the people near a place of the lattice, each weighted by the kernel.

@@ -62,6 +62,7 @@ json to_json(const GuidanceFigures& guidance) {
 LeadEffect lead_effect(const world::Trace& trace, const world::Trace& without_guides,
                        const world::Scenario& scenario) {
   check_pair(trace.header, without_guides.header);
+  const Alarm alarm = alarm_of(scenario);
   const double end_s = std::min(trace.duration_s(), without_guides.duration_s());
   const auto out_by = [&](const PersonRecord& person) {
     return std::min(person.escaped_s.value_or(end_s), end_s);
@@ -69,10 +70,10 @@ LeadEffect lead_effect(const world::Trace& trace, const world::Trace& without_gu
   const auto censored = [&](const PersonRecord& person) {
     return !person.escaped_s || *person.escaped_s > end_s;
   };
-  const std::vector<PersonRecord> plain = person_records(without_guides, scenario.inside);
+  const std::vector<PersonRecord> plain = person_records(without_guides, scenario, alarm);
   LeadEffect effect;
   auto other = plain.begin();
-  for (const PersonRecord& person : person_records(trace, scenario.inside)) {
+  for (const PersonRecord& person : person_records(trace, scenario, alarm)) {
     while (other != plain.end() && other->agent < person.agent) ++other;
     // Somebody who had not arrived by the end of one of the runs has no time to compare.
     if (other == plain.end() || other->agent != person.agent) continue;

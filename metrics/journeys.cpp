@@ -67,7 +67,7 @@ std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& 
     const auto found = by_agent.find(person.agent);
     if (found == by_agent.end()) continue;
     Journey& journey = found->second;
-    journey.from_s = person.noticed_s.value_or(person.arrived_s);
+    journey.from_s = person.noticed_s.value_or(person.start_s);
     // Who wandered out before noticing anything did not travel to a door.
     if (journey.from_s > journey.to_s) continue;
     const auto first =

@@ -11,7 +11,8 @@
 
 namespace throng::metrics {
 
-/// From when the person noticed (or arrived, if they never did) to the last passage of a door.
+/// From when the person noticed (from the later of alarm and arrival, if they never did) to the
+/// last passage of a door.
 struct Journey {
   std::size_t agent = 0;
   std::size_t exit = 0;  ///< the door, as number of the scenario's exit

@@ -28,14 +28,16 @@ json percentiles_of(const std::vector<Watched>& people) {
 Notification notification_of(const std::vector<PersonRecord>& people, double end_s) {
   Notification notification;
   for (const PersonRecord& person : people) {
+    if (person.left_before_alarm()) continue;
     const double gone_s = person.escaped_s.value_or(end_s);
     notification.notice.push_back(
-        {person.noticed_s.value_or(gone_s) - person.arrived_s, person.noticed_s.has_value()});
+        {std::max(0.0, person.noticed_s.value_or(gone_s) - person.start_s),
+         person.noticed_s.has_value()});
     if (!person.noticed_s) {
       ++notification.never;
       continue;
     }
-    notification.times_s.push_back(*person.noticed_s - person.arrived_s);
+    notification.times_s.push_back(*person.noticed_s - person.start_s);
     notification.first_s =
         std::min(notification.first_s.value_or(*person.noticed_s), *person.noticed_s);
     notification.escape.push_back({gone_s - *person.noticed_s, person.escaped_s.has_value()});

@@ -1,4 +1,4 @@
-// When people first headed for an exit or followed a guide, and what came after.
+// When people noticed the alarm, and what came after.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,11 +10,12 @@
 
 namespace throng::metrics {
 
+/// Of the evacuees: all but those who left before the alarm.
 struct Notification {
   int never = 0;                  ///< people who did not, in the time that the run had
-  std::vector<double> times_s;    ///< of the others since they arrived, in order
+  std::vector<double> times_s;    ///< of the others, from the later of alarm and arrival, in order
   std::optional<double> first_s;  ///< the earliest of all, by the run's clock
-  /// Of everybody since they arrived: until they noticed, or escaped without, or the run ended.
+  /// Of all evacuees by the same clock: until they noticed, or escaped without, or the run ended.
   std::vector<Watched> notice;
   /// Of those who noticed since then: until they escaped, or the run ended.
   std::vector<Watched> escape;

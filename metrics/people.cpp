@@ -3,75 +3,183 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <utility>
 
 namespace throng::metrics {
 
+using Eigen::Vector2d;
+
 namespace {
 
-/// What the names of states say, by their numbers.
-struct States {
-  std::vector<bool> follows;
-  std::vector<bool> is_down;
+std::string in_lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
-  explicit States(const world::TraceHeader& header) {
-    for (std::string name : header.state_names) {
-      is_down.push_back(world::is_down(name));
-      for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      follows.push_back(name.find("follow") != std::string::npos);
-    }
-  }
-};
-
-PersonRecord record_of(const world::Trace& trace, std::size_t agent, const world::Rectangle& inside,
-                       const States& states) {
-  PersonRecord record;
-  record.agent = agent;
-  record.first_step = trace.steps();
-  for (std::size_t step = 0; step < trace.steps(); ++step) {
-    const std::size_t at = trace.at(step, agent);
-    const bool present = trace.present(step, agent);
-    if (record.first_step == trace.steps()) {
-      if (!present) continue;
-      record.first_step = step;
-      record.arrived_s = trace.time_s[step];
-    }
-    if (!present || !inside.contains(trace.position[at].cast<double>())) {
-      record.escaped_s = trace.time_s[step];
-      record.hurt_s.reset();
-      return record;
-    }
-    const std::uint8_t state = trace.state[at];
-    const bool is_known = state < states.follows.size();
-    if (!is_known || !states.is_down[state]) {
-      record.hurt_s.reset();
-    } else if (!record.hurt_s) {
-      record.hurt_s = trace.time_s[step];
-    }
-    const bool following = is_known && states.follows[state];
-    if (!record.noticed_s && (following || trace.exit_intent[at] >= 0)) {
-      record.noticed_s = trace.time_s[step];
-    }
-    if (!following) continue;
-    record.followed_s += trace.header.dt_s;
-    if (step > record.first_step) {
-      record.followed_m += (trace.position[at] - trace.position[trace.at(step - 1, agent)]).norm();
-    }
-  }
-  return record;
+// A state that the header does not name has none of the properties that names tell.
+bool says(const std::vector<bool>& states, std::uint8_t state) {
+  return state < states.size() && states[state];
 }
 
 }  // namespace
 
-std::vector<PersonRecord> person_records(const world::Trace& trace,
-                                         const world::Rectangle& inside) {
-  const States states(trace.header);
+double mean_radius_m(const world::TraceHeader& header) {
+  double sum_m = 0;
+  int people = 0;
+  for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
+    if (header.role[agent] != world::AgentRole::person) continue;
+    sum_m += header.radius_m[agent];
+    ++people;
+  }
+  return people == 0 ? 0.0 : sum_m / people;
+}
+
+double max_radius_m(const world::TraceHeader& header) {
+  double max_m = 0;
+  for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
+    if (header.role[agent] != world::AgentRole::person) continue;
+    max_m = std::max(max_m, static_cast<double>(header.radius_m[agent]));
+  }
+  return max_m;
+}
+
+PeopleTracker::PeopleTracker(const world::TraceHeader& header, const world::Scenario& scenario,
+                             Alarm alarm)
+    : scenario_(scenario),
+      alarm_(std::move(alarm)),
+      dt_s_(header.dt_s),
+      doors_(scenario.exits.size()) {
+  for (const std::string& name : header.state_names) {
+    const auto& aware = alarm_.aware_states;
+    follows_.push_back(in_lower_case(name).find("follow") != std::string::npos);
+    is_down_.push_back(world::is_down(name));
+    is_aware_.push_back(std::find(aware.begin(), aware.end(), name) != aware.end());
+  }
+  const double margin_m = mean_radius_m(header);
+  for (const world::Exit& exit : scenario.exits) lines_.emplace_back(exit, margin_m);
+  for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {
+    if (header.role[agent] != world::AgentRole::person) continue;
+    Person& person = people_.emplace_back();
+    person.record.agent = agent;
+    person.counters.resize(lines_.size());
+  }
+}
+
+void PeopleTracker::step(const PeopleStep& step) {
+  time_s_ = step.time_s;
+  for (Person& person : people_) {
+    const bool present = (step.flags[person.record.agent] & world::kPresent) != 0;
+    if (present && !person.arrived) {
+      person.arrived = true;
+      person.record.first_step = steps_;
+      person.record.arrived_s = step.time_s;
+      person.record.start_s = std::max(alarm_.at_s.value_or(step.time_s), step.time_s);
+    }
+    if (!person.arrived) continue;
+    if (!person.record.escaped_s) follow(person, step, present);
+    if (present) count_doors(person, step);
+    if (present) person.last_place = step.position[person.record.agent].cast<double>();
+    person.present_before = present;
+  }
+  ++steps_;
+}
+
+void PeopleTracker::follow(Person& person, const PeopleStep& step, bool present) {
+  PersonRecord& record = person.record;
+  const Vector2d place = step.position[record.agent].cast<double>();
+  const bool has_started = step.time_s >= record.start_s - world::kTimeSlackS;
+  if (present && has_started && !person.started) {
+    person.started = true;
+    record.start_place = place;
+  }
+  if (present) add_motion(person, step);
+  if (!present || !scenario_.inside.contains(place)) {
+    record.escaped_s = step.time_s;
+    record.hurt_s.reset();
+    ++escaped_;
+    return;
+  }
+  const std::uint8_t state = step.state[record.agent];
+  if (!says(is_down_, state)) {
+    record.hurt_s.reset();
+  } else if (!record.hurt_s) {
+    record.hurt_s = step.time_s;
+  }
+  if (!has_started) {
+    person.intent_before_alarm = step.exit_intent[record.agent];
+  } else if (!record.noticed_s && notices(person, step)) {
+    record.noticed_s = step.time_s;
+    record.noticed_place = place;
+  }
+  if (!says(follows_, state)) return;
+  record.followed_s += dt_s_;
+  if (person.present_before) record.followed_m += (place - person.last_place).norm();
+}
+
+void PeopleTracker::add_motion(Person& person, const PeopleStep& step) {
+  PersonRecord& record = person.record;
+  const double desired_mps = step.desired_speed_mps[record.agent];
+  record.max_desired_mps = std::max(record.max_desired_mps, desired_mps);
+  if (!person.started) return;
+  const double velocity_mps = step.velocity[record.agent].cast<double>().norm();
+  record.max_speed_mps = std::max({record.max_speed_mps, desired_mps, velocity_mps});
+  // Displacements count from the start's place on.
+  if (!person.present_before || step.time_s < record.start_s + 0.5 * dt_s_) return;
+  const Vector2d place = step.position[record.agent].cast<double>();
+  record.max_speed_mps = std::max(record.max_speed_mps, (place - person.last_place).norm() / dt_s_);
+}
+
+bool PeopleTracker::notices(const Person& person, const PeopleStep& step) const {
+  if (!alarm_.at_s) return false;
+  const std::uint8_t state = step.state[person.record.agent];
+  if (!alarm_.aware_states.empty()) return says(is_aware_, state);
+  const std::int8_t intent = step.exit_intent[person.record.agent];
+  return says(follows_, state) || (intent >= 0 && intent != person.intent_before_alarm);
+}
+
+void PeopleTracker::count_doors(Person& person, const PeopleStep& step) {
+  PersonRecord& record = person.record;
+  const Vector2d place = step.position[record.agent].cast<double>();
+  for (std::size_t e = 0; e < lines_.size(); ++e) {
+    const int crossing = person.counters[e].step(lines_[e], place, step.time_s);
+    if (crossing == 0) continue;
+    ++(crossing > 0 ? doors_[e].out : doors_[e].in);
+    const double crossed_s = person.counters[e].crossed_at_s();
+    // A crossing is known 0.2 m beyond the line only, by when the person may have escaped.
+    const bool before_escape = !record.escaped_s || crossed_s <= *record.escaped_s;
+    if (crossing < 0 || crossed_s < record.start_s || !before_escape) continue;
+    if (!record.last_out || crossed_s > record.last_out->time_s) {
+      record.last_out = DoorPassage{e, crossed_s};
+    }
+  }
+}
+
+std::vector<PersonRecord> PeopleTracker::records() const {
   std::vector<PersonRecord> records;
-  for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
-    if (trace.header.role[agent] != world::AgentRole::person) continue;
-    PersonRecord record = record_of(trace, agent, inside, states);
-    if (record.first_step < trace.steps()) records.push_back(record);
+  for (const Person& person : people_) {
+    if (person.arrived) records.push_back(person.record);
   }
   return records;
+}
+
+PeopleTracker tracked(const world::Trace& trace, const world::Scenario& scenario,
+                      const Alarm& alarm) {
+  PeopleTracker tracker(trace.header, scenario, alarm);
+  const std::size_t agents = trace.agents();
+  for (std::size_t step = 0; step < trace.steps(); ++step) {
+    const auto row = [&](const auto& values) {
+      return std::span(values).subspan(step * agents, agents);
+    };
+    tracker.step({trace.time_s[step], row(trace.position), row(trace.velocity),
+                  row(trace.desired_speed_mps), row(trace.state), row(trace.exit_intent),
+                  row(trace.flags)});
+  }
+  return tracker;
+}
+
+std::vector<PersonRecord> person_records(const world::Trace& trace, const world::Scenario& scenario,
+                                         const Alarm& alarm) {
+  return tracked(trace, scenario, alarm).records();
 }
 
 }  // namespace throng::metrics

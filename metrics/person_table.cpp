@@ -15,8 +15,8 @@ json nullable(const std::optional<double>& value) { return value ? json(*value) 
 json person_table(const std::vector<PersonRecord>& people, const std::vector<Journey>& journeys,
                   const std::vector<ExitTotals>& exits) {
   json table = json::object();
-  for (const char* column : {"agent", "arrived_s", "noticed_s", "escaped_s", "hurt_s", "followed_s",
-                             "followed_m", "exit", "walked_m", "shortest_to_used_m",
+  for (const char* column : {"agent", "arrived_s", "start_s", "noticed_s", "escaped_s", "hurt_s",
+                             "followed_s", "followed_m", "exit", "walked_m", "shortest_to_used_m",
                              "shortest_to_nearest_m", "speed_ratio", "stops"}) {
     table[column] = json::array();
   }
@@ -24,6 +24,7 @@ json person_table(const std::vector<PersonRecord>& people, const std::vector<Jou
   for (const PersonRecord& person : people) {
     table["agent"].push_back(person.agent);
     table["arrived_s"].push_back(person.arrived_s);
+    table["start_s"].push_back(person.start_s);
     table["noticed_s"].push_back(nullable(person.noticed_s));
     table["escaped_s"].push_back(nullable(person.escaped_s));
     table["hurt_s"].push_back(nullable(person.hurt_s));

@@ -102,4 +102,31 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
   return ways.queue();
 }
 
+WaitPredictor::WaitPredictor(double capacity_per_s, double dt_s)
+    : capacity_per_s_(capacity_per_s),
+      dt_s_(dt_s),
+      window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kWindowS / dt_s)))) {}
+
+double WaitPredictor::step(int queue, int crossed_out) {
+  // Who crosses in a step was in the queue at the step before.
+  const Step now{had_queue_, crossed_out - crossed_out_};
+  crossed_out_ = crossed_out;
+  had_queue_ = queue > 0;
+  last_.push_back(now);
+  if (now.queued) {
+    ++queued_steps_;
+    served_ += now.out;
+  }
+  if (last_.size() > window_) {
+    if (last_.front().queued) {
+      --queued_steps_;
+      served_ -= last_.front().out;
+    }
+    last_.pop_front();
+  }
+  const double queued_s = static_cast<double>(queued_steps_) * dt_s_;
+  const double rate = (served_ + capacity_per_s_ * kPriorS) / (queued_s + kPriorS);
+  return queue / rate;
+}
+
 }  // namespace throng::metrics

@@ -1,6 +1,7 @@
 // The queue before an exit.
 #pragma once
 
+#include <deque>
 #include <span>
 
 #include "metrics/control_zone.h"
@@ -18,5 +19,34 @@ struct Queue {
 /// person to person over links, from the first one in the zone straight to the exit's middle.
 Queue queue_before(const ControlZone& zone, const Eigen::Vector2d& outward,
                    std::span<const NearPerson> people);
+
+/// How long the last one of a queue will wait: the queue over the rate at which the door serves it.
+/// The rate is that of the last 20 s, of the times in which there was a queue only, together with
+/// kPriorS seconds at the capacity: what nobody has measured yet is taken to be as doors are. (The
+/// mean of a gamma distribution of the rate after so much time, with that prior.)
+class WaitPredictor {
+ public:
+  static constexpr double kWindowS = 20;
+  static constexpr double kPriorS = 10;
+
+  WaitPredictor(double capacity_per_s, double dt_s);
+
+  /// After one more step (s). `crossed_out`: outward crossings since the start.
+  double step(int queue, int crossed_out);
+
+ private:
+  struct Step {
+    bool queued = false;
+    int out = 0;
+  };
+
+  double capacity_per_s_, dt_s_;
+  std::size_t window_;
+  std::deque<Step> last_;
+  std::size_t queued_steps_ = 0;  ///< of the window
+  int served_ = 0;                ///< outward crossings in those
+  int crossed_out_ = 0;
+  bool had_queue_ = false;  ///< at the step before
+};
 
 }  // namespace throng::metrics

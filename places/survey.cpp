@@ -120,6 +120,10 @@ void walk_from_doors(const world::Scenario& scenario, Routes& routes) {
 }  // namespace
 
 LoadedCrowd load_crowd_of(const world::Scenario& scenario) {
+  if (scenario.scene_file.empty() || scenario.behavior_file.empty()) {
+    throw InputError({scenario.id, "/crowd", "nothing: a place for recorded people",
+                      "the scene and behavior of a crowd"});
+  }
   LoadedCrowd loaded;
   const crowd::XmlFile scene(scenario.scene_file, "Experiment");
   const crowd::XmlFile behavior(scenario.behavior_file, "BFSM");

@@ -44,7 +44,7 @@ def main(folder):
             f"{key[1:-2]} % at {times[key]:.1f} s" if times[key] is not None else f"{key[1:-2]} % not reached"
             for key in sorted(times, key=lambda key: int(key[1:-2]))))
         for exit_ in metrics["exits"]:
-            print(f"  {exit_['id']:<18} {exit_['crossings']:>3} crossings, mean clogging index"
+            print(f"  {exit_['id']:<18} {exit_['crossings']['out']:>3} out, {exit_['crossings']['in']:>3} in, mean clogging index"
                   f" {exit_['mean_clogging_index']:.2f}, congested {exit_['congested_s']:.1f} s")
 
     print("annotated previews")

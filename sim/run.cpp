@@ -161,6 +161,10 @@ std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
 
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
                              const CrowdSpec& spec) {
+  if (scenario.scene_file.empty() || scenario.behavior_file.empty()) {
+    throw InputError({scenario.id, "/crowd", "nothing: a place for recorded people",
+                      "the scene and behavior of a crowd to simulate"});
+  }
   crowd::LoadOptions options;
   options.seed = seed;
   options.model = model_for(scenario, spec);

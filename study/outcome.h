@@ -6,26 +6,36 @@
 #include <string>
 #include <vector>
 
-#include "metrics/flow_bound.h"
+#include "metrics/alarm.h"
+#include "metrics/escape_times.h"
+#include "metrics/people.h"
+#include "metrics/run_bound.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 
 namespace throng::study {
 
-struct Outcome {
-  int people = 0;
-  double duration_s = 0;         ///< of the run; who is not out by then is censored
-  double alarm_s = 0;            ///< all other times count from here
-  std::vector<double> escape_s;  ///< of those who got out, in order
-  std::vector<int> exit_use;     ///< per exit: who went through its door, less who came back
-  int followed = 0;              ///< how many were in a state "Follow" at some time
-  metrics::FlowBound bound;
+/// Times by which people could have been out (metrics/run_bound.h); infinite if never.
+struct BestFigures {
+  double t50_s = 0;
+  double t75_s = 0;
+  double t90_s = 0;
+  double t95_s = 0;
+  double t100_s = 0;
+  double mean_s = 0;
+};
 
-  int not_escaped() const { return people - static_cast<int>(escape_s.size()); }
-  /// With `duration_s - alarm_s` for those who did not get out.
-  double mean_escape_s() const;
+struct Outcome {
+  metrics::EscapeTimes escapes;               ///< as in metrics.json
+  std::vector<metrics::DoorCounts> exit_use;  ///< per exit
+  int followed = 0;                           ///< people who followed a guide at some time
+  BestFigures bound;                          ///< with people who know of the alarm at once
+  BestFigures reference;
+
   /// When so many percent are out; infinite if never.
   double percentile_s(int percent) const;
+  /// NaN where it is not known.
+  double restricted_mean_s(double until_s) const;
 };
 
 nlohmann::json to_json(const Outcome& outcome);
@@ -35,29 +45,25 @@ Outcome outcome_from(const nlohmann::json& value);
 /// Watches a run for its outcome; has seen enough when everybody is out.
 class OutcomeObserver : public sim::RunObserver {
  public:
-  /// `bound_spec`: for the bound, which counts from where people are at the alarm.
-  OutcomeObserver(const world::Scenario& scenario, double duration_s, double alarm_s,
-                  metrics::BoundSpec bound_spec);
+  /// The scenario outlives it. `model`: the pedestrian model of the run (crowd/model.h).
+  OutcomeObserver(const world::Scenario& scenario, metrics::Alarm alarm,
+                  metrics::ReferenceSpec reference, std::string model);
   ~OutcomeObserver() override;
 
   void begin(const world::TraceHeader& header) override;
   void step(const world::CrowdStep& step) override;
-  void event(const world::TraceEvent& event) override;
   bool done() const override;
 
-  Outcome take();
+  /// Once the run has ended.
+  Outcome take() const;
 
  private:
-  struct Doors;
-
   const world::Scenario& scenario_;
-  metrics::BoundSpec bound_spec_;
-  Outcome outcome_;
-  std::vector<world::AgentRole> roles_;
-  std::vector<bool> follows_;  // per state of the behaviour: its name is "Follow"
-  std::vector<bool> followed_;
-  std::unique_ptr<Doors> doors_;
-  bool bound_done_ = false;
+  metrics::Alarm alarm_;
+  metrics::ReferenceSpec reference_;
+  std::string model_;
+  double max_radius_m_ = 0;
+  std::unique_ptr<metrics::PeopleTracker> tracker_;
 };
 
 }  // namespace throng::study

@@ -34,10 +34,12 @@ json point(const Vector2d& place) { return {rounded(place.x(), 2), rounded(place
 json escape_figures(const std::vector<MeasuredRun>& runs) {
   std::size_t seconds = 0;
   json curves = json::array();
+  std::vector<std::vector<double>> of_runs;
   for (const MeasuredRun& run : runs) {
-    seconds = std::max(seconds, run.metrics.escape_curve.size());
+    const std::vector<double>& curve = of_runs.emplace_back(run.metrics.escapes.curve());
+    seconds = std::max(seconds, curve.size());
     json share = json::array();
-    for (const double value : run.metrics.escape_curve) share.push_back(rounded(100 * value));
+    for (const double value : curve) share.push_back(rounded(100 * value));
     curves.push_back({{"name", run.name}, {"share", std::move(share)}});
   }
   json middle = json::array();
@@ -45,9 +47,8 @@ json escape_figures(const std::vector<MeasuredRun>& runs) {
   json high = json::array();
   for (std::size_t second = 0; second < seconds; ++second) {
     std::vector<double> shares;
-    for (const MeasuredRun& run : runs) {
-      const std::vector<double>& curve = run.metrics.escape_curve;
-      if (!curve.empty()) shares.push_back(100 * curve[std::min(second, curve.size() - 1)]);
+    for (const std::vector<double>& curve : of_runs) {
+      shares.push_back(100 * curve[std::min(second, curve.size() - 1)]);
     }
     middle.push_back(rounded(median(shares)));
     low.push_back(rounded(quantile(shares, 0.25)));

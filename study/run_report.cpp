@@ -26,7 +26,7 @@ std::string runs_table(const std::vector<MeasuredRun>& runs) {
   for (const auto& percentile : runs.front().metrics.percentiles) {
     html += fmt::format("<th>T{} (s)</th>", percentile.percent);
   }
-  html += "<th>balance</th><th>crush proxy (person s)</th></tr>\n";
+  html += "<th>balance</th><th>above 5/m² (person s)</th></tr>\n";
   for (const MeasuredRun& run : runs) {
     html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>",
                         escaped_markup(run.name), run.metrics.people, run.metrics.not_escaped,
@@ -36,14 +36,16 @@ std::string runs_table(const std::vector<MeasuredRun>& runs) {
     }
     html += run.metrics.balance ? fmt::format("<td>{:.2f}</td>", run.metrics.balance->balance)
                                 : "<td></td>";
-    html += fmt::format("<td>{:.0f}</td></tr>\n", run.metrics.exposure.crush_proxy_person_s);
+    html += fmt::format("<td>{:.0f}</td></tr>\n",
+                        run.metrics.exposure.above_person_s[metrics::kCrushDensityIndex]);
   }
   return html + "</table>\n";
 }
 
 std::string exits_table(const MeasuredRun& run) {
   std::string html =
-      "<table><tr><th>exit</th><th>width (m)</th><th>crossings</th><th>flow with demand (1/s)</th>"
+      "<table><tr><th>exit</th><th>width (m)</th><th>crossings out / in</th><th>flow with demand "
+      "(1/s)</th>"
       "<th>specific (1/(m s))</th><th>demand (s)</th><th>congested (s)</th><th>clogged (s)</th>"
       "<th>clogs</th><th>clogging index</th><th>longest queue</th><th>longest gap (s)</th>"
       "<th>max density (1/m²)</th><th>max pressure (1/s²)</th></tr>\n";
@@ -54,12 +56,12 @@ std::string exits_table(const MeasuredRun& run) {
       return flow ? fmt::format("{:.2f}", *flow / per) : std::string();
     };
     html += fmt::format(
-        "<tr><td>{}</td><td>{:.2f}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.1f}</td>"
+        "<tr><td>{}</td><td>{:.2f}</td><td>{} / {}</td><td>{}</td><td>{}</td><td>{:.1f}</td>"
         "<td>{:.1f}</td><td>{:.1f}</td><td>{}</td><td>{:.2f}</td><td>{}</td><td>{}</td>"
         "<td>{:.2f}</td><td>{:.3f}</td></tr>\n",
-        escaped_markup(exit.exit_id), exit.width_m, exit.crossings, flow_cell(1),
-        flow_cell(exit.width_m), exit.demand_s, exit.congested_s, exit.clogged_s, exit.clogs.size(),
-        exit.mean_clogging_index, exit.max_queue,
+        escaped_markup(exit.exit_id), exit.width_m, exit.crossings.out, exit.crossings.in,
+        flow_cell(1), flow_cell(exit.width_m), exit.demand_s, exit.congested_s, exit.clogged_s,
+        exit.clogs.size(), exit.mean_clogging_index, exit.max_queue,
         exit.gaps.longest_s ? fmt::format("{:.1f}", *exit.gaps.longest_s) : "",
         exit.max_voronoi_density_per_m2, exit.max_pressure_per_s2);
   }

@@ -117,4 +117,22 @@ SignedRank wilcoxon_signed_rank(const std::vector<double>& differences) {
   return result;
 }
 
+std::vector<double> holm_adjusted(const std::vector<double>& p_values) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < p_values.size(); ++i) {
+    if (!std::isnan(p_values[i])) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
+    return p_values[one] < p_values[other];
+  });
+  std::vector<double> adjusted = p_values;
+  double greatest = 0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const double tests_left = static_cast<double>(order.size() - rank);
+    greatest = std::max(greatest, std::min(1.0, tests_left * p_values[order[rank]]));
+    adjusted[order[rank]] = greatest;
+  }
+  return adjusted;
+}
+
 }  // namespace throng::study

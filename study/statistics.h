@@ -31,4 +31,9 @@ struct SignedRank {
 };
 SignedRank wilcoxon_signed_rank(const std::vector<double>& differences);
 
+/// P-values of several tests adjusted so that the probability of any false rejection among them
+/// stays at the level (Holm, Scand. J. Stat. 6, 1979), in the order given. NaN stays NaN and counts
+/// as no test.
+std::vector<double> holm_adjusted(const std::vector<double>& p_values);
+
 }  // namespace throng::study

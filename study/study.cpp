@@ -44,7 +44,7 @@ class StudyReader {
         root_(document, source, problems_) {}
 
   Study read() {
-    root_.fields({"cases", "policies"}, {"name", "seed", "runs", "baseline"});
+    root_.fields({"cases", "policies"}, {"name", "seed", "runs", "baseline", "horizons_s"});
     study_.name = root_["name"].exists() ? root_["name"].text() : "study";
     if (root_["seed"].exists()) {
       study_.seed = static_cast<std::uint64_t>(root_["seed"].integer(0, 1'000'000'000));
@@ -87,15 +87,18 @@ class StudyReader {
   void read_cases() {
     std::set<std::string> ids;
     for (const JsonValue& item : root_["cases"].items(1)) {
-      item.fields({"id", "scenario"}, {"title", "crowd", "alarm_s", "duration_s", "bound"});
+      item.fields({"id", "scenario"},
+                  {"title", "crowd", "alarm_s", "duration_s", "reference", "bound"});
       Case one;
       one.id = item["id"].identifier();
       check_unique(item["id"], one.id, ids);
       one.title = item["title"].exists() ? item["title"].text() : one.id;
       if (item["duration_s"].exists()) one.duration_s = item["duration_s"].number(1, kLongestRunS);
-      if (item["alarm_s"].exists()) one.alarm_s = item["alarm_s"].number(0, one.duration_s);
       one.scenario = read_scenario(item["scenario"]);
-      read_bound(item["bound"], one);
+      one.alarm = metrics::alarm_of(one.scenario);
+      if (item["alarm_s"].exists()) one.alarm.at_s = item["alarm_s"].number(0, one.duration_s);
+      read_reference(item, one);
+      read_horizons(item, one);
       study_.cases.push_back(std::move(one));
     }
   }
@@ -104,7 +107,12 @@ class StudyReader {
     const std::string id = value.text();
     if (id.empty()) return {};
     try {
-      return world::find_scenario(scenarios_, id);
+      world::Scenario scenario = world::find_scenario(scenarios_, id);
+      if (scenario.scene_file.empty()) {
+        value.reject(fmt::format("\"{}\", a place for recorded people", id),
+                     "a scenario with a crowd to simulate");
+      }
+      return scenario;
     } catch (const InputError& error) {
       const Problem& problem = error.problems().front();
       if (!problem.source.empty()) throw;  // the scenario's own file is wrong
@@ -113,32 +121,65 @@ class StudyReader {
     }
   }
 
-  void read_bound(const JsonValue& value, Case& one) {
+  // Those of the file must be watched for in every case. By default the longer one is as long as
+  // the case is watched, and the shorter one, which few stragglers reach, 150 s or half of that.
+  void read_horizons(const JsonValue& item, Case& one) {
+    constexpr double kShorterS = 150;
+    const double watched_s = one.duration_s - one.alarm.at_s.value_or(0);
+    if (watched_s <= 0) {
+      const bool own_alarm = item["alarm_s"].exists();
+      item[own_alarm ? "alarm_s" : "duration_s"].reject(
+          fmt::format("an end of the run ({} s) after the alarm ({} s)", one.duration_s,
+                      one.alarm.at_s.value_or(0)));
+      return;
+    }
+    one.horizons_s = {std::min(kShorterS, 0.5 * watched_s), watched_s};
+    if (!root_["horizons_s"].exists()) return;
+    const auto given = root_["horizons_s"].tuple(2, "two times, the shorter one first");
+    if (given.size() != 2) return;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      one.horizons_s[i] = given[i].number(1, kLongestRunS);
+      if (one.horizons_s[i] > watched_s) {
+        given[i].reject(fmt::format("at most the {} s from the alarm to the end of case \"{}\"",
+                                    watched_s, one.id));
+      }
+    }
+    if (one.horizons_s[0] >= one.horizons_s[1]) given[1].reject("a time after the first one");
+  }
+
+  void read_reference(const JsonValue& item, Case& one) {
     constexpr double kFastestMps = 20;
     constexpr double kMostPerSecond = 1000;
     constexpr double kPerMeterSecond = 1.3;  // people; as in docs/metrics.md
     for (const world::Exit& exit : one.scenario.exits) {
-      one.bound.capacity_per_s.push_back(kPerMeterSecond * exit.width_m());
+      one.reference.capacity_per_s.push_back(kPerMeterSecond * exit.width_m());
     }
+    // "bound" is what it was called when it was taken for one.
+    const bool has_old_name = item["bound"].exists();
+    if (has_old_name && item["reference"].exists()) {
+      item["bound"].reject("only \"reference\", the new name of the same");
+    }
+    const JsonValue value = item[has_old_name ? "bound" : "reference"];
     if (!value.exists()) return;
     value.fields({}, {"speed_mps", "capacity_per_s"});
     if (value["speed_mps"].exists()) {
-      one.bound.speed_mps = value["speed_mps"].number(0.1, kFastestMps);
+      one.reference.speed_mps = value["speed_mps"].number(0.1, kFastestMps);
     }
     if (!value["capacity_per_s"].exists()) return;
     const auto rates = value["capacity_per_s"].tuple(
         one.scenario.exits.size(),
         fmt::format("one number for each of the {} exits", one.scenario.exits.size()));
     for (std::size_t e = 0; e < rates.size(); ++e) {
-      one.bound.capacity_per_s[e] = rates[e].number(0, kMostPerSecond);
+      one.reference.capacity_per_s[e] = rates[e].number(0, kMostPerSecond);
     }
   }
 
   void make_jobs() {
     for (std::size_t c = 0; c < study_.cases.size(); ++c) {
       const Case& one = study_.cases[c];
-      std::string inputs = fmt::format("{} {} {}", kGenerator, one.alarm_s, one.bound.speed_mps);
-      for (const double rate : one.bound.capacity_per_s) inputs += fmt::format(" {}", rate);
+      std::string inputs = fmt::format("{} outcome 2 {} {}", kGenerator,
+                                       one.alarm.at_s.value_or(-1), one.reference.speed_mps);
+      for (const double rate : one.reference.capacity_per_s) inputs += fmt::format(" {}", rate);
       inputs += read_file(one.scenario.scene_file) + read_file(one.scenario.behavior_file);
       inputs += read_file(scenarios_ / (one.scenario.id + ".json"));
       auto& jobs = study_.jobs.emplace_back();

@@ -1,13 +1,15 @@
 // A study: cases times policies times seeds, compared pair by pair. The file that describes it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "jobs/spec.h"
-#include "metrics/flow_bound.h"
+#include "metrics/alarm.h"
+#include "metrics/run_bound.h"
 #include "world/scenario.h"
 
 namespace throng::study {
@@ -16,10 +18,12 @@ namespace throng::study {
 struct Case {
   std::string id;
   std::string title;
-  double alarm_s = 0;  ///< from when evacuation counts
+  metrics::Alarm alarm;  ///< the scenario's, at the time that the study's file gives, if it does
   double duration_s = 900;
   world::Scenario scenario;
-  metrics::BoundSpec bound;
+  metrics::ReferenceSpec reference;
+  /// Up to which restricted means are taken, the shorter one first (s from the alarm).
+  std::array<double, 2> horizons_s{};
 };
 
 /// One way to guide people; or none.

@@ -84,7 +84,8 @@ class Work {
   Outcome simulate(const Item& item, const std::stop_token& stop) const {
     const Case& one = study_.cases[item.one_case];
     const sim::RunSpec spec = jobs::run_spec(study_.jobs[item.one_case][item.policy], item.run);
-    OutcomeObserver observer(one.scenario, one.duration_s, one.alarm_s, one.bound);
+    OutcomeObserver observer(one.scenario, one.alarm, one.reference,
+                             sim::model_for(one.scenario, spec.crowd));
     sim::simulate(one.scenario, spec, observer, {}, stop);
     return observer.take();
   }

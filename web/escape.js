@@ -4,7 +4,7 @@ import { axis, colours, escaped, number, timeZoom } from './charts.js';
 const layout = (names) => ({
   grid: { left: 62, right: 24, top: 56, bottom: 76 },
   legend: { top: 22, data: names, type: 'scroll' },
-  xAxis: axis('time (s)', { min: 0, max: 'dataMax' }),
+  xAxis: axis('time from the later of alarm and arrival (s)', { min: 0, max: 'dataMax' }),
   yAxis: axis('share of the people (%)', { min: 0, max: 100, nameGap: 38 }),
   dataZoom: timeZoom(),
 });

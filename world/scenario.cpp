@@ -78,7 +78,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
   UniqueNames ids;
   std::set<std::pair<int, int>> claimed;
   for (const JsonValue& item : list.items()) {
-    item.fields({"id", "from", "to", "goals"}, {"outward", "open", "shuts_s"});
+    item.fields({"id", "from", "to"}, {"goals", "outward", "open", "shuts_s"});
     Exit exit;
     exit.id = ids.read(item["id"]);
     exit.from = item["from"].vector2(kFarthestM);
@@ -93,7 +93,9 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
       exit.shuts_s = item["shuts_s"].number(0, kLatestShuttingS);
       if (!exit.open) item["shuts_s"].reject("a time, though the door is never open", "none");
     }
-    for (const JsonValue& goal : item["goals"].items(1)) {
+    // A place for recorded people has no goals to name.
+    const auto goals = item["goals"].exists() ? item["goals"].items(1) : std::vector<JsonValue>();
+    for (const JsonValue& goal : goals) {
       exit.goals.push_back(read_goal(goal));
       const GoalRef& ref = exit.goals.back();
       if (!claimed.insert({ref.set, ref.goal}).second) goal.reject("a goal of this exit only");
@@ -260,10 +262,11 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   const nlohmann::json document = read_document(file, source);
   std::vector<Problem> problems;
   const JsonValue root(document, source, problems);
-  root.fields({"name", "crowd", "ground", "inside", "exits"},
-              {"description", "buildings", "drones", "disaster_agents", "disasters", "guides_alert",
-               "meshes", "props", "scatter"});
-  root["crowd"].fields({"scene", "behavior"}, {"model"});
+  root.fields({"name", "ground", "inside", "exits"},
+              {"crowd", "description", "buildings", "drones", "disaster_agents", "disasters",
+               "guides_alert", "meshes", "props", "scatter"});
+  const bool has_crowd = root["crowd"].exists();
+  if (has_crowd) root["crowd"].fields({"scene", "behavior"}, {"model"});
   root["ground"].fields({"min", "max", "material"}, {"areas", "markings"});
   root["inside"].fields({"min", "max"});
 
@@ -271,8 +274,10 @@ Scenario load_scenario(const fs::path& file, std::string id) {
   scenario.id = std::move(id);
   scenario.name = root["name"].text();
   scenario.description = root["description"].text();
-  scenario.scene_file = read_companion(root["crowd"]["scene"], file);
-  scenario.behavior_file = read_companion(root["crowd"]["behavior"], file);
+  if (has_crowd) {
+    scenario.scene_file = read_companion(root["crowd"]["scene"], file);
+    scenario.behavior_file = read_companion(root["crowd"]["behavior"], file);
+  }
   if (root["crowd"]["model"].exists()) scenario.crowd_model = root["crowd"]["model"].text();
   scenario.ground = read_rectangle(root["ground"]);
   scenario.ground_material = read_ground_material(root["ground"]["material"]);

@@ -14,14 +14,14 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Exits whose `crossed` tells the step.
+// Exits whose `crossed_out` tells the step.
 std::vector<metrics::ExitSeries> two_exits(std::size_t steps) {
   std::vector<metrics::ExitSeries> exits(2);
   exits[0].exit_id = "north";
   exits[1].exit_id = "a \"b\", c";
   for (metrics::ExitSeries& exit : exits) {
     exit.samples.resize(steps);
-    for (std::size_t i = 0; i < steps; ++i) exit.samples[i].crossed = static_cast<int>(i);
+    for (std::size_t i = 0; i < steps; ++i) exit.samples[i].crossed_out = static_cast<int>(i);
   }
   return exits;
 }
@@ -36,7 +36,7 @@ TEST(ExitsCsv, HasARowPerFrameAndExit) {
   const auto lines = lines_of(exits_csv(exits, times, frames));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0],
-            "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed,flow,"
+            "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed_out,crossed_in,flow,"
             "since_crossing,state,clogging_index,voronoi_density,specific_flow,demand,queue,"
             "queue_length,predicted_wait,pressure,state_offline");
   EXPECT_EQ(lines[1],
@@ -53,7 +53,7 @@ TEST(ExitsCsv, TakesTheLastStepAtOrBeforeTheFrame) {
   const std::vector<FrameTime> frames = {{0, -1}, {1, 0}, {2, 0.3}, {3, 0.39}, {4, 99}};
   const auto lines = lines_of(exits_csv(two_exits(10), times, frames));
   ASSERT_EQ(lines.size(), 11U);
-  const std::vector<std::string> crossed = {",0,", ",0,", ",3,", ",3,", ",9,"};
+  const std::vector<std::string> crossed = {",0,0,", ",0,0,", ",3,0,", ",3,0,", ",9,0,"};
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_NE(lines[1 + 2 * i].find("0.0000" + crossed[i] + "0.00,"), std::string::npos)
         << lines[1 + 2 * i];

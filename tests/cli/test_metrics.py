@@ -1,9 +1,11 @@
 """What `throng metrics` says of a run, against an implementation of the same definitions (docs/metrics.md) written
 anew with NumPy, and the trajectories that it writes, read with Python's own library. Skipped without h5py."""
 import csv
+import gzip
 import importlib.util
 import json
 import math
+import os
 import pathlib
 import sqlite3
 import struct
@@ -90,7 +92,7 @@ class Metrics(unittest.TestCase):
         crossed = self.crossed()
         self.assertEqual(crossed[0], 0)
         self.assertGreater(crossed[-1], 60)
-        numpy.testing.assert_array_equal(self.column("crossed"), crossed)
+        numpy.testing.assert_array_equal(self.column("crossed_out"), crossed)
         earlier = numpy.concatenate([numpy.zeros(40), crossed[:-40]])
         numpy.testing.assert_allclose(self.column("flow"), (crossed - earlier) / 4, atol=0.006)
         numpy.testing.assert_allclose(self.column("specific_flow"), (crossed - earlier) / 4 / WIDTH, atol=6e-4)
@@ -161,8 +163,10 @@ class Metrics(unittest.TestCase):
             queue = numpy.isfinite(way)
             self.assertEqual(float(self.rows[step]["queue"]), queue.sum(), f"step {step}")
             self.assertAlmostEqual(float(self.rows[step]["queue_length"]), way[queue].max(initial=0), delta=6e-3)
-            flow = (crossed[step] - (crossed[step - 200] if step > 200 else 0)) / 20
-            wait = queue.sum() / max(flow, 0.1 * 1.3 * WIDTH)
+            # Of the last 200 steps those that began with a queue, and 10 s at the capacity.
+            last = [s for s in range(max(1, step - 199), step + 1) if float(self.rows[s - 1]["queue"]) > 0]
+            served = sum(crossed[s] - crossed[s - 1] for s in last)
+            wait = queue.sum() / ((served + 10 * 1.3 * WIDTH) / (0.1 * len(last) + 10))
             self.assertAlmostEqual(float(self.rows[step]["predicted_wait"]), wait, delta=0.01 + 1e-3 * wait)
             compared += queue.sum() > 5
         self.assertGreater(compared, 10, "there were queues to compare")
@@ -289,6 +293,70 @@ class Metrics(unittest.TestCase):
         self.assertIn("--unit-m 0.01", done.stderr)
         done = subprocess.run([*command, "--unit-m", "0.01"], capture_output=True, text=True, timeout=60)
         self.assertEqual(json.loads(done.stdout)["people"], 1)
+
+
+EXPERIMENTS = pathlib.Path(__file__).parents[2] / "../shared/data/experiments"
+RECORDING = EXPERIMENTS / "040_c_56_h-.txt.gz"
+
+
+@unittest.skipUnless(RECORDING.exists(), "the recordings are not here")
+class RecordedBottleneck(unittest.TestCase):
+    """75 people before an opening, all of whom are through after 65 s. The place says nothing of a crowd."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        base = pathlib.Path(cls.folder.name)
+        (base / "walk.txt").write_bytes(gzip.decompress(RECORDING.read_bytes()))
+        cls.place = {
+            "name": "bottleneck", "ground": {"min": [-9, -9], "max": [9, 9], "material": "concrete"},
+            "inside": {"min": [-5, 0], "max": [5, 8]},
+            "exits": [{"id": "opening", "from": [-0.25, 0], "to": [0.25, 0], "outward": [0, -1]}]}
+        (base / "place.json").write_text(json.dumps(cls.place))
+        cls.figures = json.loads(throng("metrics", "--trajectory", base / "walk.txt", "--scenario",
+                                        base / "place.json", "--csv", base / "exits.csv"))
+        cls.rows = list(csv.DictReader((base / "exits.csv").read_text().splitlines()))
+        cls.base = base
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_everybody_goes_out_and_nobody_in(self):
+        door = self.figures["exits"][0]
+        self.assertEqual(door["crossings"], {"out": 75, "in": 0})
+        self.assertEqual(door["net_out"], 75)
+        self.assertEqual(door["share_of_net_out"], 1)
+        self.assertIsNone(self.figures["notification"])
+        self.assertIsNone(self.figures["alarm_s"])
+
+    def test_predicted_waits_are_those_that_come(self):
+        """What was said of the last one in the queue, and when so many had in fact passed."""
+        passed = numpy.array([int(row["crossed_out"]) for row in self.rows])
+        time = numpy.array([float(row["time_s"]) for row in self.rows])
+        predicted, actual = [], []
+        for step, row in enumerate(self.rows):
+            queue = int(row["queue"])
+            later = numpy.flatnonzero(passed >= passed[step] + queue)
+            if queue < 5 or not len(later):
+                continue
+            predicted.append(float(row["predicted_wait"]))
+            actual.append(time[later[0]] - time[step])
+        self.assertGreater(len(actual), 300)
+        ratio = numpy.array(predicted) / numpy.array(actual)
+        self.assertTrue(0.75 < numpy.median(ratio) < 1.35, numpy.median(ratio))
+        self.assertLess(numpy.quantile(ratio, 0.95), 2)
+        self.assertGreater(numpy.quantile(ratio, 0.05), 0.5)
+        self.assertLess(self.figures["exits"][0]["max_predicted_wait_s"], 2 * time[-1])
+
+    def test_such_a_place_is_not_simulated(self):
+        job = {"scenario": "place", "capture": {"to_s": 2}, "drones": [{"id": "d", "start": [0, 0, 20]}]}
+        (self.base / "job.json").write_text(json.dumps(job))
+        done = subprocess.run([THRONG, "simulate", str(self.base / "job.json"), "-o", str(self.base / "run.h5")],
+                              capture_output=True, text=True, timeout=60,
+                              env={**os.environ, "THRONG_SCENARIOS": str(self.base)})
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("place for recorded people", done.stderr)
 
 
 if __name__ == "__main__":

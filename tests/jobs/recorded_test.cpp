@@ -91,7 +91,7 @@ TEST_F(RecordedJob, TheMetricsOfItsRunAreThoseOfTheFile) {
   };
   const json of_run = figures(run);
   const json of_file = figures(file);
-  EXPECT_EQ(of_file["exits"][0]["crossings"], 12);
+  EXPECT_EQ(of_file["exits"][0]["crossings"]["out"], 12);
   for (const char* part : {"exits", "escape_curve", "escape_time_percentiles", "exposure",
                            "journeys", "not_escaped", "people", "duration_s"}) {
     EXPECT_EQ(of_run[part], of_file[part]) << part;

@@ -75,7 +75,7 @@ TEST(RunMetrics, AnAttackerIsInNoFigure) {
   const RunMetrics metrics = measure(trace);
   EXPECT_EQ(metrics.people, 1);
   EXPECT_EQ(metrics.escape_curve.back(), 0);
-  EXPECT_EQ(metrics.exits.at(0).crossings, 0) << "though he walks through the door";
+  EXPECT_EQ(metrics.exits.at(0).crossings.out, 0) << "though he walks through the door";
   EXPECT_EQ(metrics.persons.size(), 1U);
 }
 
@@ -135,8 +135,8 @@ TEST(RunMetrics, SumsUpEachExit) {
   const world::Trace trace = trace_of(walks);
   const RunMetrics metrics = run_metrics(trace, scenario, exit_series(trace, scenario));
   ASSERT_EQ(metrics.exits.size(), 2U);
-  EXPECT_EQ(metrics.exits[0].crossings, 2);
-  EXPECT_EQ(metrics.exits[1].crossings, 1);
+  EXPECT_EQ(metrics.exits[0].crossings.out, 2);
+  EXPECT_EQ(metrics.exits[1].crossings.out, 1);
   EXPECT_NEAR(metrics.exits[0].share, 2.0 / 3, 1e-12);
   EXPECT_NEAR(metrics.exits[1].share, 1.0 / 3, 1e-12);
   EXPECT_DOUBLE_EQ(metrics.exits[1].width_m, 4);

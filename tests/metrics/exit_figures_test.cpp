@@ -38,8 +38,8 @@ TEST(ExitQueue, GoesAsFarAsTheLinksReach) {
   const ExitSample sample = series_of(walks).samples.front();
   EXPECT_EQ(sample.queue, 8);
   EXPECT_NEAR(sample.queue_length_m, 1 + 7 * 1.1, 1e-5);
-  // Nobody has crossed: a tenth of the capacity of 2.6 /s.
-  EXPECT_NEAR(sample.predicted_wait_s, 8 / 0.26, 1e-9);
+  // Nothing was measured yet: the capacity of 2.6 /s.
+  EXPECT_NEAR(sample.predicted_wait_s, 8 / 2.6, 1e-9);
 }
 
 TEST(ExitQueue, AroundACornerIsAsLongAsTheWay) {
@@ -61,7 +61,8 @@ TEST(ExitQueue, TheWaitIsTheQueueOverTheFlow) {
   for (int i = 0; i < 40; ++i) walks.push_back(walking({-0.55 - i, 0.9}, {1, 0}));
   const ExitSample sample = series_of(walks).samples.at(300);
   EXPECT_EQ(sample.queue, 6);
-  EXPECT_NEAR(sample.predicted_wait_s, 6, 0.31);
+  // 20 people in the last 20 s, and 10 s at the capacity of 2.6 /s.
+  EXPECT_NEAR(sample.predicted_wait_s, 6 / ((20 + 26.0) / 30), 0.1);
 }
 
 TEST(ExitPressure, IsDensityTimesVariance) {
@@ -217,7 +218,7 @@ TEST(ExitTotals, ADoorThatADisasterReachesIsClosedFromThenOn) {
 ExitTotals used(double capacity_per_s, int crossings, double share, double last_s) {
   ExitTotals totals;
   totals.capacity_per_s = capacity_per_s;
-  totals.crossings = crossings;
+  totals.crossings.out = crossings;
   totals.share = share;
   totals.last_crossing_s = last_s;
   return totals;
@@ -253,6 +254,26 @@ TEST(ExitTotals, JsonNamesWhatThereIs) {
   EXPECT_NEAR(json.at("gaps").at("median_s"), 10, 1e-3);
   EXPECT_EQ(json.at("gaps").at("list_s").size(), 1U);
   EXPECT_EQ(json.at("gaps").at("tail").at("valid"), false);
+}
+
+// One goes out, comes back and goes out again, another comes in and stays.
+TEST(ExitCrossings, AreCountedInBothDirections) {
+  const Walk to_and_fro = [](double time_s) -> Eigen::Vector2d {
+    return {std::abs(std::fmod(time_s, 4) - 2) - 1, 0};
+  };
+  CrowdOfTest crowd;
+  crowd.duration_s = 7.5;
+  const world::Trace trace = trace_of({to_and_fro, walking({2, 0.5}, {-1, 0})}, crowd);
+  // |x| falls from 1 at 0 s to -1 at 2 s and so on: in at 1 s, out at 3 s, in at 5 s, out at 7 s.
+  const world::Scenario scenario = place_with_door(2);
+  const auto totals = exit_totals(exit_series(trace, scenario), 0.1);
+  EXPECT_EQ(totals[0].crossings.out, 2);
+  EXPECT_EQ(totals[0].crossings.in, 3);
+  EXPECT_EQ(totals[0].net_out(), -1);
+  const nlohmann::json json = to_json(totals[0]);
+  EXPECT_EQ(json.at("crossings").at("out"), 2);
+  EXPECT_EQ(json.at("crossings").at("in"), 3);
+  EXPECT_EQ(json.at("net_out"), -1);
 }
 
 }  // namespace

@@ -42,14 +42,14 @@ TEST(ExitSeries, AnEvenStreamHasItsFlow) {
   EXPECT_EQ(series.exit_id, "door");
   EXPECT_DOUBLE_EQ(series.width_m, 2);
   ASSERT_EQ(series.samples.size(), 601U);
-  EXPECT_EQ(series.samples.front().crossed, 0);
-  EXPECT_EQ(series.samples.back().crossed, 40);
+  EXPECT_EQ(series.samples.front().net_out(), 0);
+  EXPECT_EQ(series.samples.back().net_out(), 40);
   for (int step = 100; step <= 200; ++step) {
     EXPECT_NEAR(series.samples[step].flow_per_s, 2.0, 0.26) << step;
     EXPECT_LE(series.samples[step].since_crossing_s, 0.51) << step;
   }
   EXPECT_DOUBLE_EQ(series.samples[150].flow_per_s,
-                   (series.samples[150].crossed - series.samples[110].crossed) / 4.0);
+                   (series.samples[150].net_out() - series.samples[110].net_out()) / 4.0);
   // The last one, at 22.55 s, counts when 0.2 m beyond the line, at the step after that.
   EXPECT_NEAR(series.samples.back().since_crossing_s, 60 - 22.8, 1e-6);
   EXPECT_DOUBLE_EQ(series.samples.back().flow_per_s, 0);
@@ -101,7 +101,7 @@ TEST(ExitSeries, IsCausal) {
   const auto all = observe(trace_of(walks)).samples;
   const auto first = observe(trace_of(walks, half)).samples;
   for (std::size_t step = 0; step < first.size(); ++step) {
-    EXPECT_EQ(first[step].crossed, all[step].crossed);
+    EXPECT_EQ(first[step].net_out(), all[step].net_out());
     EXPECT_EQ(first[step].state, all[step].state);
     EXPECT_EQ(first[step].clogging_index, all[step].clogging_index);
   }
@@ -112,8 +112,8 @@ TEST(ExitSeries, WhoComesBackIsSubtractedAndWhoPassesBesideIsNotCounted) {
   walks.push_back(walking({10, 0}, {-1, 0}));
   walks.push_back(walking({-5, 4}, {1, 0}));
   const auto samples = observe(trace_of(walks)).samples;
-  EXPECT_EQ(samples[90].crossed, 3);
-  EXPECT_EQ(samples.back().crossed, 2);
+  EXPECT_EQ(samples[90].net_out(), 3);
+  EXPECT_EQ(samples.back().net_out(), 2);
   // Coming in is no outward crossing: the last was at 4 s and counted at 4.2 s.
   EXPECT_NEAR(samples.back().since_crossing_s, 60 - 4.2, 0.11);
 }
@@ -180,7 +180,7 @@ TEST(ExitSeries, ACrowdThatStopsFlowsCongestsClogsAndRecovers) {
 
   EXPECT_EQ(at(0).state, ExitState::idle);
   EXPECT_EQ(at(9.9).state, ExitState::flowing);
-  EXPECT_EQ(at(10).crossed, 21);
+  EXPECT_EQ(at(10).net_out(), 21);
   EXPECT_EQ(at(10.1).state, ExitState::congested);
   EXPECT_EQ(at(11.9).state, ExitState::congested);
   EXPECT_EQ(at(12).state, ExitState::clogged);
@@ -189,7 +189,7 @@ TEST(ExitSeries, ACrowdThatStopsFlowsCongestsClogsAndRecovers) {
   EXPECT_EQ(at(20.9).state, ExitState::congested);
   EXPECT_EQ(at(21).state, ExitState::flowing) << "one second at 0.77 of the desired speed";
   EXPECT_EQ(samples.back().state, ExitState::idle);
-  EXPECT_EQ(samples.back().crossed, 63);
+  EXPECT_EQ(samples.back().net_out(), 63);
 
   // Standing: no flow, no speed, so only the density limits the index.
   EXPECT_NEAR(at(16).clogging_index, at(16).normalised_density / 0.6, 1e-6);
@@ -238,7 +238,7 @@ TEST(ExitSeries, AnOutwardCrossingEndsAClog) {
   const auto samples = observe(trace_of(walks)).samples;
   EXPECT_EQ(samples[100].state, ExitState::clogged);
   EXPECT_EQ(samples[106].state, ExitState::congested);
-  EXPECT_EQ(samples[106].crossed, 1);
+  EXPECT_EQ(samples[106].net_out(), 1);
   EXPECT_EQ(samples[122].state, ExitState::congested);
   EXPECT_EQ(samples[126].state, ExitState::clogged);
 }

@@ -15,43 +15,51 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Two doors in the sides of a square of 20 m; out is right behind them.
-world::Scenario hall() {
-  world::Scenario place;
-  place.inside = {{-10, -10}, {10, 10}};
-  place.exits = {{"left", {-10, -1}, {-10, 1}, {-1, 0}, true, {}},
-                 {"right", {10, -1}, {10, 1}, {1, 0}, true, {}}};
-  return place;
+/// Two doors in the sides of a square of 20 m, straight walks at 2 m/s; out is right behind them.
+Departures hall(const std::vector<Vector2d>& people, double left_per_s, double right_per_s) {
+  Departures departures;
+  departures.capacity_per_s = {left_per_s, right_per_s};
+  departures.on_s = {0, 0};
+  for (const Vector2d& person : people) {
+    departures.access_s.push_back(
+        {(person - Vector2d(-10, 0)).norm() / 2, (person - Vector2d(10, 0)).norm() / 2});
+  }
+  return departures;
 }
 
-TEST(FlowBound, ManyAtADoorAreLimitedByTheDoors) {
-  const std::vector<Vector2d> people(100, Vector2d(-10, 0));
-  world::Scenario place = hall();
-  place.exits[1].open = false;
-  const FlowBound bound = flow_bound(place, people, {2, {2, 5}});
-  EXPECT_NEAR(bound.t100_s, 50, 1);
-  EXPECT_NEAR(bound.t50_s, 25, 1);
-  EXPECT_NEAR(bound.mean_s, 25, 1);
+TEST(EarliestOut, ManyAtADoorAreLimitedByTheDoors) {
+  const auto out_s = earliest_out_s(hall(std::vector<Vector2d>(100, Vector2d(-10, 0)), 2, 0));
+  EXPECT_NEAR(out_s.back(), 50, 1);
+  EXPECT_NEAR(out_s[49], 25, 1);
 }
 
-TEST(FlowBound, FewFarAwayAreLimitedByTheirSpeed) {
-  const FlowBound bound = flow_bound(hall(), {{0, 0}, {0, 0}}, {2, {5, 5}});
-  EXPECT_NEAR(bound.t100_s, 5, 1);
-  EXPECT_NEAR(bound.mean_s, 5, 1);
+TEST(EarliestOut, FewFarAwayAreLimitedByTheirSpeed) {
+  EXPECT_NEAR(earliest_out_s(hall({{0, 0}, {0, 0}}, 5, 5)).back(), 5, 1);
 }
 
-TEST(FlowBound, TheBestShareUsesBothDoors) {
+TEST(EarliestOut, TheBestShareUsesBothDoors) {
   // All stand at the left door; 10 s on foot from the right one. Rates 2 and 2: until T the left
   // lets out 2 T, the right 2 (T - 10): 100 in all for T = 30.
   const std::vector<Vector2d> people(100, Vector2d(-10, 0));
-  EXPECT_NEAR(flow_bound(hall(), people, {2, {2, 2}}).t100_s, 30, 1.5);
+  EXPECT_NEAR(earliest_out_s(hall(people, 2, 2)).back(), 30, 1.5);
 }
 
-TEST(FlowBound, PeopleGoWhereTheyAreNeeded) {
+TEST(EarliestOut, PeopleGoWhereTheyAreNeeded) {
   // 30 near the left door and 30 in the middle: who is in the middle must all go right.
   std::vector<Vector2d> people(30, Vector2d(-10, 0));
   people.insert(people.end(), 30, Vector2d(0, 0));
-  EXPECT_NEAR(flow_bound(hall(), people, {2, {1, 1}}).t100_s, 33, 2);
+  EXPECT_NEAR(earliest_out_s(hall(people, 1, 1)).back(), 33, 2);
+}
+
+// The slots of a door with burst 3 and 0.5 /s, from the second in which the first one comes: 3 at
+// once, the fourth after 2 s more, and so on.
+TEST(EarliestOut, ABurstPassesAtOnceAndOnlyFromTheFirstArrivalOn) {
+  Departures departures;
+  departures.capacity_per_s = {0.5};
+  departures.burst = {3};
+  departures.on_s = {1};
+  for (int i = 0; i < 6; ++i) departures.access_s.push_back({10.5});
+  EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{11, 11, 11, 12, 14, 16}));
 }
 
 // One door of 2 /s and people who come as they come: the k-th of them is out when they are there,
@@ -132,11 +140,9 @@ TEST(EarliestOut, IsTheBestOfAllAssignmentsAtEveryTime) {
   }
 }
 
-TEST(FlowBound, NobodyOrNoWayOut) {
-  world::Scenario place = hall();
-  EXPECT_EQ(flow_bound(place, {}, {2, {1, 1}}).t100_s, 0);
-  for (world::Exit& exit : place.exits) exit.open = false;
-  EXPECT_TRUE(std::isinf(flow_bound(place, {{0, 0}}, {2, {1, 1}}).t90_s));
+TEST(EarliestOut, NobodyOrNoWayOut) {
+  EXPECT_TRUE(earliest_out_s(hall({}, 1, 1)).empty());
+  EXPECT_TRUE(std::isinf(earliest_out_s(hall({{0, 0}}, 0, 0)).front()));
 }
 
 }  // namespace

@@ -59,5 +59,27 @@ TEST(TimeByWhich, WhoWasNotWatchedForLongCountsAsTheOthers) {
   EXPECT_EQ(time_by_which(people, 100), 20);
 }
 
+TEST(RestrictedMean, IsTheMeanOfTheCutTimesWhereAllWereWatched) {
+  const std::vector<Watched> people = {{3, true}, {8, true}, {12, true}, {20, false}, {20, false}};
+  EXPECT_DOUBLE_EQ(*restricted_mean_s(people, 10), (3 + 8 + 10 + 10 + 10) / 5.0);
+  EXPECT_DOUBLE_EQ(*restricted_mean_s(people, 20), (3 + 8 + 12 + 20 + 20) / 5.0);
+  EXPECT_DOUBLE_EQ(*restricted_mean_s(people, 2), 2);
+  EXPECT_FALSE(restricted_mean_s(people, 21)) << "nobody knows";
+  EXPECT_FALSE(restricted_mean_s({}, 5));
+  EXPECT_DOUBLE_EQ(*restricted_mean_s({{3, true}, {5, true}}, 100), 4) << "all are out";
+}
+
+// Closed form: survival 1 until 6 weeks and the steps of the published estimate from there on.
+TEST(RestrictedMean, IsTheAreaBelowAPublishedEstimate) {
+  std::vector<Watched> people;
+  for (const double weeks : {6, 6, 6, 7, 10, 13, 16, 22, 23}) people.push_back({weeks, true});
+  for (const double weeks : {6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35}) {
+    people.push_back({weeks, false});
+  }
+  const double expected = 6 + 0.857143 * 1 + 0.806723 * 3 + 0.752941 * 3 + 0.690196 * 3 +
+                          0.627451 * 6 + 0.537815 * 1 + 0.448179 * 12;
+  EXPECT_NEAR(*restricted_mean_s(people, 35), expected, 1e-4);
+}
+
 }  // namespace
 }  // namespace throng::metrics

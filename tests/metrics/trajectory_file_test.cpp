@@ -63,7 +63,7 @@ TEST_P(TrajectoryRoundTrip, KeepsWhatTheFormatHolds) {
   const auto expected = exit_series(trace, scenario).at(0).samples;
   const auto measured = exit_series(again, scenario).at(0).samples;
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(measured[i].crossed, expected[i].crossed);
+    EXPECT_EQ(measured[i].crossed_out, expected[i].crossed_out);
     EXPECT_NEAR(measured[i].voronoi_density_per_m2, expected[i].voronoi_density_per_m2, 1e-4);
   }
 }

@@ -73,6 +73,13 @@ inline world::Exit door(double width_m) {
   return exit;
 }
 
+/// The same place, where something happens at a time.
+inline void add_alarm(world::Scenario& scenario, double at_s) {
+  world::Disaster disaster;
+  disaster.start_s = at_s;
+  scenario.disasters.push_back(disaster);
+}
+
 inline world::Scenario place_with_door(double width_m) {
   world::Scenario scenario;
   scenario.id = "test";

@@ -15,13 +15,15 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Outcome run_with(std::vector<double> escape_s, int people) {
+/// Of two people, all watched for 100 s.
+Outcome run_with(std::vector<double> escape_s) {
   Outcome outcome;
-  outcome.people = people;
-  outcome.duration_s = 100;
-  outcome.escape_s = std::move(escape_s);
-  outcome.exit_use = {people};
-  outcome.bound = {1, 10, 20, 5};
+  outcome.escapes.people = 2;
+  outcome.escapes.inside_s.assign(2 - escape_s.size(), 100);
+  outcome.escapes.escape_s = std::move(escape_s);
+  outcome.exit_use = {{3, 1}};
+  outcome.bound = {1, 2, 10, 15, 20, 5};
+  outcome.reference = {2, 4, 20, 30, 40, 10};
   return outcome;
 }
 
@@ -33,15 +35,16 @@ struct Example {
     study.cases.resize(1);
     study.cases[0].id = "yard";
     study.cases[0].title = "a < b";
+    study.cases[0].horizons_s = {30, 100};
     study.cases[0].scenario.exits.resize(1);
     study.cases[0].scenario.exits[0].id = "door";
     study.policies = {{"none", "no drone"}, {"quick", "quick"}};
     outcomes.assign(1, std::vector<std::vector<Outcome>>(2));
     for (int i = 0; i < 8; ++i) {
-      outcomes[0][0].push_back(run_with({20.0 + i, 40.0 + i}, 2));
-      outcomes[0][1].push_back(run_with({15.0 + i, 35.0 + i}, 2));
+      outcomes[0][0].push_back(run_with({20.0 + i, 40.0 + i}));
+      outcomes[0][1].push_back(run_with({15.0 + i, 35.0 + i}));
     }
-    outcomes[0][0][0].escape_s.pop_back();  // one who never gets out
+    outcomes[0][0][0] = run_with({20});  // one who never gets out
   }
 
   Study study;
@@ -54,12 +57,27 @@ TEST(Report, ComparesPairByPair) {
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].all_out, 7);
   EXPECT_EQ(rows[1].all_out, 8);
-  EXPECT_DOUBLE_EQ(rows[1].mean_escape.median, 28.5);
-  EXPECT_DOUBLE_EQ(rows[1].difference, (-35.0 - 7 * 5) / 8);
-  EXPECT_DOUBLE_EQ(rows[1].test.p_value, 2.0 / 256) << "all eight pairs point one way";
-  EXPECT_LT(rows[1].difference_95.high, 0);
+  EXPECT_DOUBLE_EQ(rows[0].not_escaped, 1.0 / 8);
+  EXPECT_DOUBLE_EQ(rows[1].not_escaped, 0);
+  // To 100 s: means of i + 25, but 60 for the first pair of the baseline.
+  const MeanAtHorizon& whole = rows[1].means[1];
+  EXPECT_DOUBLE_EQ(whole.at_s, 100);
+  EXPECT_DOUBLE_EQ(whole.spread.median, 28.5);
+  EXPECT_DOUBLE_EQ(whole.difference_s, (-35.0 - 7 * 5) / 8);
+  EXPECT_DOUBLE_EQ(whole.test.p_value, 2.0 / 256) << "all eight pairs point one way";
+  EXPECT_DOUBLE_EQ(whole.holm_p, 4.0 / 256) << "the least of two";
+  EXPECT_LT(whole.difference_95.high, 0);
+  EXPECT_DOUBLE_EQ(rows[0].means[1].inside, 1.0 / 8);
+  // To 30 s the straggler counts like anybody who takes longer than that: 5 s less for the first
+  // of the two, nothing for the second.
+  const MeanAtHorizon& early = rows[1].means[0];
+  EXPECT_DOUBLE_EQ(early.difference_s, -2.5);
+  EXPECT_DOUBLE_EQ(rows[0].means[0].inside, 1);
+  EXPECT_DOUBLE_EQ(early.test.p_value, 2.0 / 256);
+  EXPECT_DOUBLE_EQ(early.holm_p, 4.0 / 256);
   EXPECT_DOUBLE_EQ(rows[1].t90_to_bound, 3.85);
-  EXPECT_DOUBLE_EQ(rows[0].ratio_to_baseline, 1);
+  EXPECT_DOUBLE_EQ(rows[1].t90_to_reference, 3.85 / 2);
+  EXPECT_DOUBLE_EQ(rows[0].means[1].ratio_to_baseline, 1);
   EXPECT_DOUBLE_EQ(rows[1].exit_use[0], 2);
 }
 
@@ -69,10 +87,13 @@ TEST(Report, WritesTableAndCharts) {
   write_report(example.study, example.outcomes, folder.path());
   const std::string table = read_file(folder.path() / "summary.md");
   EXPECT_THAT(table, HasSubstr("| quick |"));
-  EXPECT_THAT(table, HasSubstr("0.0078"));
+  EXPECT_THAT(table, HasSubstr("| mean to 30 s |"));
+  EXPECT_THAT(table, HasSubstr("| 0.0078 | 0.016 |"));
   EXPECT_THAT(read_file(folder.path() / "summary.csv"), HasSubstr("yard,quick,8,"));
   const auto summary = nlohmann::json::parse(read_file(folder.path() / "summary.json"));
   EXPECT_EQ(summary["rows"][1]["exit_use"]["door"], 2);
+  EXPECT_EQ(summary["rows"][1]["restricted_means"][1]["until_s"], 100);
+  EXPECT_EQ(summary["rows"][1]["restricted_means"][1]["holm_p"], 4.0 / 256);
   const std::string page = read_file(folder.path() / "report.html");
   EXPECT_THAT(page, HasSubstr("<h2>a &lt; b</h2>"));
   EXPECT_THAT(page, HasSubstr("data-chart=\"policies\" data-case=\"0\""));

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "base/random.h"
 
 namespace throng::study {
 namespace {
@@ -74,6 +78,43 @@ TEST(Statistics, TheBootstrapCoversTheMean) {
   EXPECT_NEAR(interval.low, 3.94, 0.06);
   EXPECT_NEAR(interval.high, 5.06, 0.06);
   EXPECT_EQ(interval.low, bootstrap_mean(values, 0.95, 1).low) << "the same for the same seed";
+}
+
+// The definition, one hypothesis after the other: those with smaller p-values first, each of them
+// against the level over the number of hypotheses that are left, until one is not rejected.
+TEST(Holm, RejectsWhatTheStepDownProcedureRejects) {
+  Random random(3, Stream::bootstrap);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> p_values(1 + random.below(8));
+    for (double& p : p_values) p = std::pow(random.uniform(), 3);
+    const std::vector<double> adjusted = holm_adjusted(p_values);
+    for (const double level : {0.01, 0.05, 0.1, 0.3}) {
+      std::vector<double> sorted = p_values;
+      std::sort(sorted.begin(), sorted.end());
+      std::size_t rejected = 0;
+      while (rejected < sorted.size() &&
+             sorted[rejected] <= level / static_cast<double>(sorted.size() - rejected)) {
+        ++rejected;
+      }
+      for (std::size_t i = 0; i < p_values.size(); ++i) {
+        const bool expected = rejected > 0 && p_values[i] <= sorted[rejected - 1];
+        EXPECT_EQ(adjusted[i] <= level, expected) << trial << ' ' << i;
+      }
+    }
+  }
+}
+
+// R: p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")
+TEST(Holm, AgreesWithAPublishedExample) {
+  const std::vector<double> adjusted = holm_adjusted({0.01, 0.04, 0.03, 0.005});
+  const std::vector<double> expected = {0.03, 0.06, 0.06, 0.02};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(adjusted[i], expected[i], 1e-12);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> with_unknown = holm_adjusted({0.4, nan, 0.6});
+  EXPECT_NEAR(with_unknown[0], 0.8, 1e-12);
+  EXPECT_TRUE(std::isnan(with_unknown[1]));
+  EXPECT_NEAR(with_unknown[2], 0.8, 1e-12);
+  EXPECT_TRUE(holm_adjusted({}).empty());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -78,7 +79,13 @@ TEST_F(StudyFile, MistakesAreNamedWhereTheyStand) {
   EXPECT_EQ(where("/cases/0/scenario", "atlantis"), "/cases/0/scenario");
   EXPECT_EQ(where("/cases/0/crowd", {{"agents", -1}}), "/cases/0/crowd/agents");
   EXPECT_EQ(where("/cases/0/alarm_s", 30), "/cases/0/alarm_s");
+  EXPECT_EQ(where("/cases/0/reference", {{"capacity_per_s", {1, 2}}}),
+            "/cases/0/reference/capacity_per_s");
   EXPECT_EQ(where("/cases/0/bound", {{"capacity_per_s", {1, 2}}}), "/cases/0/bound/capacity_per_s");
+  EXPECT_EQ(where("/horizons_s", {5}), "/horizons_s");
+  EXPECT_EQ(where("/horizons_s", {5, 30}), "/horizons_s/1") << "the run ends at 20 s";
+  EXPECT_EQ(where("/horizons_s", {15, 10}), "/horizons_s/1");
+  EXPECT_EQ(where("/horizons_s", {-1, 10}), "/horizons_s/0");
   EXPECT_EQ(where("/policies/1/id", "none"), "/policies/1/id");
   EXPECT_EQ(where("/policies/1/drones/0/guidance/policy", "dance"),
             "/policies/1/drones/0/guidance/policy");
@@ -118,7 +125,7 @@ TEST_F(StudyWork, GoesOnWhereItStoppedAndRedoesWhatIsDamaged) {
   write_file_atomically(run_file("guide", "000.json"), "{\"fingerprint\": ");
   const Outcomes outcomes = do_runs(study, out, 2);
   EXPECT_EQ(outcomes[0][0][0].followed, 12345);
-  EXPECT_EQ(outcomes[0][1][0].people, 30);
+  EXPECT_EQ(outcomes[0][1][0].escapes.people, 30);
 
   // Another study in the same folder has no use for any of them.
   json other = small_study();
@@ -134,19 +141,47 @@ TEST_F(StudyWork, ResultsDoNotDependOnTheThreads) {
   EXPECT_EQ(one, read_file(folder.path() / "again" / "runs" / "a" / "guide" / "001.json"));
 }
 
+TEST_F(StudyFile, HorizonsAreThoseOfTheFileOrOfTheTimeWatched) {
+  EXPECT_EQ(load(small_study()).cases[0].horizons_s, (std::array<double, 2>{10, 20}));
+  json document = small_study();
+  document["cases"][0]["duration_s"] = 900;
+  document["cases"][0]["alarm_s"] = 100;
+  EXPECT_EQ(load(document).cases[0].horizons_s, (std::array<double, 2>{150, 800}));
+  document["horizons_s"] = {60, 300};
+  EXPECT_EQ(load(document).cases[0].horizons_s, (std::array<double, 2>{60, 300}));
+}
+
+TEST_F(StudyFile, TheAlarmIsTheScenariosUnlessTheFileSaysOtherwise) {
+  json document = small_study();
+  document["cases"][0]["scenario"] = "station/emergency";
+  document["cases"][0].erase("crowd");
+  document["policies"].erase(1);
+  EXPECT_EQ(load(document).cases[0].alarm.at_s, 6);
+  document["cases"][0]["alarm_s"] = 3;
+  EXPECT_EQ(load(document).cases[0].alarm.at_s, 3);
+  document["cases"][0]["scenario"] = "station/everyday";
+  document["cases"][0].erase("alarm_s");
+  EXPECT_FALSE(load(document).cases[0].alarm.at_s);
+}
+
 TEST_F(StudyWork, AnOutcomeSurvivesItsFile) {
   Outcome outcome;
-  outcome.people = 3;
-  outcome.duration_s = 100;
-  outcome.alarm_s = 10;
-  outcome.escape_s = {5, 20};
-  outcome.exit_use = {1, 1};
+  outcome.escapes.people = 4;
+  outcome.escapes.left_before_alarm = 1;
+  outcome.escapes.escape_s = {5, 20};
+  outcome.escapes.casualties = {{90, 7}};
+  outcome.exit_use = {{1, 0}, {2, 1}};
   outcome.bound.t90_s = std::numeric_limits<double>::infinity();
+  outcome.reference.t75_s = 12;
   const Outcome read = outcome_from(json::parse(to_json(outcome).dump()));
-  EXPECT_DOUBLE_EQ(read.mean_escape_s(), (5 + 20 + 90) / 3.0);
+  EXPECT_DOUBLE_EQ(read.escapes.mean_censored_s(), (5 + 20 + 90) / 3.0);
+  EXPECT_EQ(read.escapes.people, 4);
+  EXPECT_EQ(read.escapes.casualties[0].hurt_s, 7);
   EXPECT_DOUBLE_EQ(read.percentile_s(50), 20);
   EXPECT_TRUE(std::isinf(read.percentile_s(90)));
   EXPECT_TRUE(std::isinf(read.bound.t90_s));
+  EXPECT_EQ(read.reference.t75_s, 12);
+  EXPECT_EQ(read.exit_use[1].in, 1);
 }
 
 }  // namespace

@@ -55,6 +55,18 @@ class ScenarioFile : public ::testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(ScenarioFile, APlaceForRecordedPeopleNeedsNeitherCrowdNorGoals) {
+  json document = valid_scenario();
+  document.erase("crowd");
+  for (json& exit : document["exits"]) exit.erase("goals");
+  const Scenario s = load(document);
+  EXPECT_TRUE(s.scene_file.empty());
+  EXPECT_TRUE(s.behavior_file.empty());
+  EXPECT_TRUE(s.exits.at(0).goals.empty());
+  document["exits"][0]["goals"] = json::array();
+  EXPECT_EQ(problems_of(document.dump()).at(0).where, "/exits/0/goals") << "given, but none";
+}
+
 TEST_F(ScenarioFile, ReadsDisastersWhoseAgentsAreNotPeople) {
   json document = valid_scenario();
   document["disasters"] = json::parse(R"([{"kind": "gas", "agent": 3, "position": [1, 2],

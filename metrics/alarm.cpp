@@ -1,0 +1,149 @@
+#include "metrics/alarm.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "crowd/xml.h"
+#include "world/trace.h"
+
+namespace throng::metrics {
+
+namespace {
+
+using crowd::Element;
+using Names = std::set<std::string>;
+
+std::string text_of(const Element& element, std::string_view attribute) {
+  return std::string(element.attribute(attribute).value_or(""));
+}
+
+double number_of(const Element& element, std::string_view attribute) {
+  const std::string text = text_of(element, attribute);
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) {
+    const std::size_t from = word.find_first_not_of(" \t\r\n");
+    if (from == std::string::npos) continue;
+    words.push_back(word.substr(from, word.find_last_not_of(" \t\r\n") - from + 1));
+  }
+  return words;
+}
+
+/// What a behavior says of states, as far as the alarm needs it.
+struct StateGraph {
+  struct Edge {
+    std::string from;
+    std::string to;
+  };
+  std::vector<Edge> ordinary;
+  std::vector<Edge> telling;  ///< transitions by which people get to know of the alarm
+  Names told_by_events;
+  std::optional<double> first_proximity_s;
+
+  Names reached_from(Names states, bool by_telling) const {
+    for (bool grows = true; grows;) {
+      grows = false;
+      const auto follow = [&](const std::vector<Edge>& edges) {
+        for (const Edge& edge : edges) {
+          if (states.count(edge.from) != 0 && states.insert(edge.to).second) grows = true;
+        }
+      };
+      follow(ordinary);
+      if (by_telling) follow(telling);
+    }
+    return states;
+  }
+};
+
+// Whether a condition, or any part of it, is about the disaster, panic or a guide. A part that is
+// negated (the guide is gone) tells nobody anything.
+bool tells(const Element& element, StateGraph& graph) {
+  const std::string type = text_of(element, "type");
+  if (element.name() == "Condition" && type == "not") return false;
+  bool found = false;
+  if (element.name() == "Condition") {
+    if (type == "proximity") {
+      const double start_s = number_of(element, "start");
+      graph.first_proximity_s = std::min(graph.first_proximity_s.value_or(start_s), start_s);
+    }
+    found = type == "proximity" || type == "panicked" || type == "follow";
+  }
+  for (const Element& child : element.children()) found = tells(child, graph) || found;
+  return found;
+}
+
+void gather_targets(const Element& element, Names& targets) {
+  for (const Element& child : element.children()) {
+    if (child.name() == "State") targets.insert(text_of(child, "name"));
+    gather_targets(child, targets);
+  }
+}
+
+void read_transition(const Element& element, StateGraph& graph) {
+  Names targets;
+  for (const std::string& to : words_of(text_of(element, "to"))) targets.insert(to);
+  bool telling = false;
+  for (const Element& child : element.children()) {
+    if (child.name() == "Condition") telling = tells(child, graph) || telling;
+    if (child.name() == "Target") gather_targets(child, targets);
+  }
+  auto& edges = telling ? graph.telling : graph.ordinary;
+  for (const std::string& from : words_of(text_of(element, "from"))) {
+    for (const std::string& to : targets) edges.push_back({from, to});
+  }
+}
+
+void read_behavior(const Element& element, StateGraph& graph) {
+  for (const Element& child : element.children()) {
+    if (child.name() == "Transition") {
+      read_transition(child, graph);
+      continue;
+    }
+    const std::string type = text_of(child, "type");
+    if (type == "change_state") graph.told_by_events.insert(text_of(child, "state"));
+    if (child.name() == "StateSelector") graph.told_by_events.insert(text_of(child, "name"));
+    read_behavior(child, graph);
+  }
+}
+
+// Every state that a selector of the scene names.
+void gather_initial(const Element& element, bool in_selector, Names& states) {
+  for (const Element& child : element.children()) {
+    const bool selects = in_selector || child.name() == "StateSelector";
+    if (selects) states.insert(text_of(child, "name"));
+    gather_initial(child, selects, states);
+  }
+}
+
+}  // namespace
+
+Alarm alarm_of(const world::Scenario& scenario) {
+  Alarm alarm;
+  for (const world::Disaster& disaster : scenario.disasters) {
+    alarm.at_s = std::min(alarm.at_s.value_or(disaster.start_s), disaster.start_s);
+  }
+  if (scenario.behavior_file.empty() || scenario.scene_file.empty()) return alarm;
+  StateGraph graph;
+  read_behavior(crowd::XmlFile(scenario.behavior_file, "BFSM").root(), graph);
+  if (!alarm.at_s && !scenario.disaster_agents.empty()) alarm.at_s = graph.first_proximity_s;
+  Names initial;
+  gather_initial(crowd::XmlFile(scenario.scene_file, "Experiment").root(), false, initial);
+  const Names unaware = graph.reached_from(std::move(initial), false);
+  Names told = graph.told_by_events;
+  for (const StateGraph::Edge& edge : graph.telling) told.insert(edge.to);
+  for (const std::string& state : graph.reached_from(std::move(told), true)) {
+    if (unaware.count(state) == 0 && !world::is_down(state)) alarm.aware_states.push_back(state);
+  }
+  return alarm;
+}
+
+}  // namespace throng::metrics

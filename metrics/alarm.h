@@ -1,0 +1,27 @@
+// When the alarm of a scenario is, and which states of its behavior only people who know of it
+// reach.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "world/scenario.h"
+
+namespace throng::metrics {
+
+struct Alarm {
+  /// The earliest start of a disaster; where the scenario places none, the earliest start of the
+  /// behavior's conditions "proximity" (s). Empty: nothing ever happens here.
+  std::optional<double> at_s;
+  /// Names of the states that are reached only by way of a transition whose condition asks for the
+  /// reach of a disaster, for panic or for a guide, or of an event that changes states; states of
+  /// people who cannot stand are left out. Empty where the behavior has no such transition.
+  std::vector<std::string> aware_states = {};
+};
+
+/// Reads the scenario's scene and behavior files, if it names any. Throws EnvironmentError for
+/// files that cannot be read and InputError for files that are not well-formed.
+Alarm alarm_of(const world::Scenario& scenario);
+
+}  // namespace throng::metrics
