@@ -50,8 +50,11 @@ void check_people(const Image& image, Findings& findings);
 /// Where the people of a picture are in the world, against their boxes.
 void check_bodies(const Image& image, Findings& findings);
 
-/// One picture's files: its size, its density map and its values per pixel, against its people.
-void check_files(const DatasetInfo& info, const Image& image, Findings& findings);
+struct Pixels;  // formats/pixels.h
+
+/// One picture's density map and values per pixel against its people.
+void check_files(const DatasetInfo& info, const Image& image, const Pixels& pixels,
+                 Findings& findings);
 
 /// Everything below formats/, dataset.json and README.md, made again from the annotations and
 /// compared byte by byte; of a dataset that this version of the program wrote.
@@ -64,11 +67,7 @@ void check_camera(const Image& image, Findings& findings);
 void check_camera_files(const DatasetInfo& info, const Image& image, Findings& findings);
 
 /// Parts are where people are, and normals have length 1.
-void check_parts_and_normals(const DatasetInfo& info, const Image& image,
-                             const std::vector<std::uint32_t>& ids, Findings& findings);
-
-/// Densities on the ground against how many people there are.
-void check_fields(const DatasetInfo& info, Findings& findings);
+void check_parts_and_normals(const Image& image, const Pixels& pixels, Findings& findings);
 
 /// A density map against the heads of the records.
 void check_density_is_heads(const Image& image, const std::string& path, const FloatMap& map,
@@ -95,29 +94,6 @@ class FormatCheck {
                          const std::filesystem::path& folder, bool with_drones, Findings& findings);
 
   std::map<std::string, std::ifstream> texts_;  ///< of sequences, read as far as their images
-};
-
-/// Whether flow leads each person's pixels to where they are in the next frame. Fed frame by frame;
-/// remembers one frame of each camera.
-class FlowCheck {
- public:
-  void add(const DatasetInfo& info, const Image& image, Findings& findings);
-
- private:
-  /// Where a person's pixels go.
-  struct Led {
-    double left = 1e9;
-    double top = 1e9;
-    double right = -1e9;
-    double bottom = -1e9;
-  };
-  struct Before {
-    std::string run;
-    std::int64_t frame = 0;
-    std::string file;
-    std::map<std::int64_t, Led> people;  ///< by track
-  };
-  std::map<std::string, Before> cameras_;
 };
 
 /// The corners of a person's upright box, m, in the camera's axes; 1 cm farther out than recorded,

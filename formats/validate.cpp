@@ -1,9 +1,11 @@
 #include "formats/validate.h"
+#include "formats/image_camera.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
@@ -11,6 +13,9 @@
 #include "base/hash.h"
 #include "formats/dataset.h"
 #include "formats/findings.h"
+#include "formats/flight_checks.h"
+#include "formats/run_checks.h"
+#include "formats/shot.h"
 
 namespace throng::formats {
 
@@ -134,6 +139,81 @@ class IdCheck {
   std::set<std::int64_t> images_;
 };
 
+/// Checks of one picture at a time and of pairs, fed in the order of the COCO file.
+class ShotChecks {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) {
+    Shot shot;
+    shot.pixels = read_pixels(info, image, findings);
+    shot.image = image;
+    shot.camera = camera_of(image);
+    shot.is_plain = is_plain(image);
+    shot.at_once = is_shot_at_once(image);
+    check_files(info, image, shot.pixels, findings);
+    check_buildings(shot, findings);
+    check_normals(shot, findings);
+    alignment_.add(shot);
+    check_whole_bodies(shot, findings);
+    check_skeletons(shot, findings);
+    check_facing_motion(shot, findings);
+    if (image.frame + 1 == info.frames_per_camera) check_last_flow(shot, findings);
+    for (const auto& [camera, other] : last_) {
+      if (other.image.run != image.run) continue;
+      const bool is_before = camera == image.camera && other.image.frame + 1 == image.frame;
+      const bool is_same = camera != image.camera && other.image.frame == image.frame;
+      if (is_before || is_same) check_still_surfaces(other, shot, findings);
+      if (is_same) check_same_instant(other, shot, findings);
+      if (!is_before) continue;
+      check_flow_between(other, shot, findings);
+      check_motion(other, shot, findings);
+    }
+    last_.insert_or_assign(image.camera, std::move(shot));
+  }
+  void finish(Findings& findings) const { alignment_.finish(findings); }
+  /// Nothing is compared with a camera's last picture any more.
+  void forget(const std::string& camera) { last_.erase(camera); }
+
+ private:
+  AlignmentCheck alignment_;
+  std::map<std::string, Shot> last_;  ///< each camera's
+};
+
+/// Checks of the records without masks and pictures.
+class RecordChecks {
+ public:
+  explicit RecordChecks(const json& manifest) : constancy_(manifest) {}
+
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) {
+    check_flight(image, findings);
+    const auto before = last_.find(image.camera);
+    if (before != last_.end() && before->second.run == image.run &&
+        before->second.frame + 1 == image.frame) {
+      check_flight_between(before->second, image, findings);
+    }
+    Image light = image;
+    light.people.clear();
+    last_.insert_or_assign(image.camera, std::move(light));
+    sensors_.add(info, image, findings);
+    exits_.add(info, image, findings);
+    fields_.add(info, image);
+    constancy_.add(info, image, findings);
+    presence_.add(image, findings);
+    check_preview(info, image, findings);
+  }
+  void finish(const DatasetInfo& info, Findings& findings) {
+    constancy_.finish(info, findings);
+    fields_.finish(info, findings);
+  }
+
+ private:
+  std::map<std::string, Image> last_;  ///< each camera's, without people
+  SensorTableCheck sensors_;
+  ExitsCheck exits_;
+  FieldsCheck fields_;
+  ConstancyCheck constancy_;
+  PresenceCheck presence_;
+};
+
 }  // namespace
 
 Validation validate_dataset(const fs::path& root) {
@@ -143,8 +223,9 @@ Validation validate_dataset(const fs::path& root) {
   Findings findings(validation);
   check_manifest(root, manifest, findings);
   IdCheck ids;
-  FlowCheck flow;
+  ShotChecks shots;
   FormatCheck other_formats;
+  RecordChecks records(manifest);
   try {
     DatasetReader reader(info);
     Image image;
@@ -157,18 +238,21 @@ Validation validate_dataset(const fs::path& root) {
       check_camera_files(info, image, findings);
       other_formats.add(info, image, findings);
       check_bodies(image, findings);
+      records.add(info, image, findings);
       const std::size_t before = validation.found;
       check_people(image, findings);
       // What is said of broken masks would only be repeated.
-      if (validation.found > before) continue;
-      check_files(info, image, findings);
-      if (info.has("flow") && is_plain(image) && validation.found == before) {
-        flow.add(info, image, findings);
+      if (validation.found > before) {
+        shots.forget(image.camera);
+        continue;
       }
+      shots.add(info, image, findings);
     }
+    shots.finish(findings);
     other_formats.finish(findings);
     check_counts(manifest, validation, findings);
-    check_fields(info, findings);
+    records.finish(info, findings);
+    check_metrics(info, manifest, findings);
     check_exports(info, manifest, findings);
   } catch (const InputError& error) {
     const Problem& problem = error.problems().front();

@@ -1,11 +1,15 @@
+// Flow against depth, cameras and people.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
 
-#include "base/error.h"
-#include "formats/findings.h"
 #include "formats/mask.h"
-#include "formats/raster.h"
+#include "formats/shot.h"
 
 namespace throng::formats {
 
@@ -13,53 +17,217 @@ namespace {
 
 constexpr double kFlowScale = 64;
 constexpr double kFlowZero = 32768;
+constexpr double kFlowReachPx = 511;  ///< farther is not written
 /// Rounding of flow and boxes, and pixels whose middle is just outside of the outline.
 constexpr double kFlowSlackPx = 2;
 
+std::optional<Eigen::Vector2d> flow_at(const Pixels& pixels, std::size_t pixel) {
+  const std::uint16_t* sample = &pixels.flow[3 * pixel];
+  if (sample[2] == 0) return std::nullopt;
+  return Eigen::Vector2d(sample[0] - kFlowZero, sample[1] - kFlowZero) / kFlowScale;
+}
+
+/// Of the pixels that show what stands still, and of sky.
+struct StillFlow {
+  std::size_t looked_at = 0;
+  std::size_t wrong = 0;
+  std::size_t unknown = 0;
+  Eigen::Vector2d found = Eigen::Vector2d::Zero();  ///< at the first wrong one
+  Eigen::Vector2d expected = Eigen::Vector2d::Zero();
+};
+
+void look_at_still(const Shot& before, const Shot& after, int x, int y, StillFlow& tally) {
+  const Pixels& pixels = before.pixels;
+  const std::size_t pixel = pixels.at(x, y);
+  const bool is_sky = pixels.ids[pixel] == 0;
+  if (!is_sky && (!is_still(pixels.ids[pixel]) || pixels.depth_cm[pixel] == 0)) return;
+  constexpr double kFar_m = 1e7;
+  const double z = is_sky ? kFar_m : pixels.depth_m(pixel);
+  const auto moved_to = [&](double depth_m) {
+    return after.camera.project(before.camera.unproject({x, y}, depth_m));
+  };
+  const auto seen = moved_to(z);
+  const auto beside = moved_to(z + 0.01);
+  if (!seen.visible || !beside.visible || !(seen.depth_m > 0.5)) return;
+  const Eigen::Vector2d expected = seen.pixel - Eigen::Vector2d(x, y);
+  if (!(expected.cwiseAbs().maxCoeff() < kFlowReachPx)) return;
+  ++tally.looked_at;
+  const auto flow = flow_at(pixels, pixel);
+  if (!flow) {
+    ++tally.unknown;
+    return;
+  }
+  // A lens is looked up at the nearest pixel of a pinhole picture.
+  const double slack_px = (before.is_plain ? 0.1 : 1.2) + (beside.pixel - seen.pixel).norm();
+  if ((*flow - expected).norm() <= slack_px + 0.01 * expected.norm()) return;
+  if (tally.wrong++ == 0) {
+    tally.found = *flow;
+    tally.expected = expected;
+  }
+}
+
+void check_still_flow(const Shot& before, const Shot& after, Findings& findings) {
+  const Pixels& pixels = before.pixels;
+  constexpr int kMostPoints = 6000;
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostPoints)));
+  std::map<bool, StillFlow> tallies;  // by whether it is the ground
+  for (int y = 0; y < pixels.height; y += step) {
+    for (int x = y % step; x < pixels.width; x += step) {
+      look_at_still(before, after, x, y, tallies[pixels.ids[pixels.at(x, y)] == kGround]);
+    }
+  }
+  for (const auto& [is_ground, tally] : tallies) {
+    constexpr std::size_t kFewest = 20;
+    constexpr double kMostWrong = 0.03;
+    if (tally.looked_at < kFewest) continue;
+    const double most = kMostWrong * static_cast<double>(tally.looked_at);
+    if (static_cast<double>(tally.wrong) > most) {
+      findings.add("flow-of-still", raster_name("flow", before.image), before.record(),
+                   fmt::format("{} of {} still pixels do not move as depth and cameras say: "
+                               "({:.2f}, {:.2f}), expected ({:.2f}, {:.2f})",
+                               tally.wrong, tally.looked_at, tally.found.x(), tally.found.y(),
+                               tally.expected.x(), tally.expected.y()));
+    }
+    if (static_cast<double>(tally.unknown) > most) {
+      findings.add(
+          "flow-of-still", raster_name("flow", before.image), before.record(),
+          fmt::format("flow of {} of {} still pixels is unknown", tally.unknown, tally.looked_at));
+    }
+  }
+}
+
+/// Where a person's pixels go.
+struct Led {
+  double left = 1e9;
+  double top = 1e9;
+  double right = -1e9;
+  double bottom = -1e9;
+  std::size_t known = 0;
+  std::size_t pixels = 0;
+  std::size_t on_body = 0;  ///< of the known ones, if there is a mask to look at
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+};
+
+Led lead(const Shot& before, const Person& person, const Bitmap& body) {
+  Led led;
+  const Pixels& pixels = before.pixels;
+  const Bitmap mask = bitmap_of(runs_of(person.mask, pixels.count()), pixels.height);
+  for (int y = mask.y; y < mask.y + mask.height; ++y) {
+    for (int x = mask.x; x < mask.x + mask.width; ++x) {
+      if (!mask.at(x, y)) continue;
+      ++led.pixels;
+      const auto flow = flow_at(pixels, pixels.at(x, y));
+      if (!flow) continue;
+      ++led.known;
+      led.sum += *flow;
+      const double u = x + 0.5 + flow->x();
+      const double v = y + 0.5 + flow->y();
+      led.left = std::min(led.left, u);
+      led.right = std::max(led.right, u);
+      led.top = std::min(led.top, v);
+      led.bottom = std::max(led.bottom, v);
+      const int column = static_cast<int>(std::floor(u));
+      const int row = static_cast<int>(std::floor(v));
+      bool is_on = false;
+      for (int dy = -1; dy <= 1 && !is_on; ++dy) {
+        for (int dx = -1; dx <= 1 && !is_on; ++dx) is_on = body.at(column + dx, row + dy);
+      }
+      led.on_body += is_on ? 1 : 0;
+    }
+  }
+  return led;
+}
+
+/// The whole body's mask in the next frame, if it is known and in the image.
+Bitmap whole_mask(const Shot& shot, const Person& person) {
+  const auto amodal = person.record.find("amodal_segmentation");
+  const Box& box = person.amodal;
+  const bool is_inside = box.x >= 0 && box.y >= 0 && box.x + box.width <= shot.image.width &&
+                         box.y + box.height <= shot.image.height;
+  if (!is_inside) return {};
+  if (amodal != person.record.end()) {
+    return bitmap_of(runs_of(amodal->at("counts").get<std::string>(), shot.pixels.count()),
+                     shot.image.height);
+  }
+  constexpr double kWhole = 0.99;
+  if (person.visibility < kWhole) return {};
+  return bitmap_of(runs_of(person.mask, shot.pixels.count()), shot.image.height);
+}
+
+void check_person_flow(const Shot& before, const Shot& after, const Person& then, const Person& now,
+                       Findings& findings) {
+  const std::string file = raster_name("flow", before.image);
+  const std::string record = fmt::format("annotation {}", then.id);
+  const Bitmap body = whole_mask(after, now);
+  const Led led = lead(before, then, body);
+  constexpr std::size_t kFewest = 12;
+  if (led.pixels < kFewest) return;
+  const Box& box = now.amodal;
+  const Eigen::Vector2d moved(box.x + box.width / 2 - then.amodal.x - then.amodal.width / 2,
+                              box.y + box.height / 2 - then.amodal.y - then.amodal.height / 2);
+  if (static_cast<double>(led.known) < 0.9 * static_cast<double>(led.pixels)) {
+    if (moved.cwiseAbs().maxCoeff() < 0.8 * kFlowReachPx) {
+      findings.add("flow-leads-to-boxes", file, record,
+                   fmt::format("flow of {} of {} pixels is unknown, but the person is in the next "
+                               "frame",
+                               led.pixels - led.known, led.pixels));
+    }
+    return;
+  }
+  if (led.left < box.x - kFlowSlackPx || led.top < box.y - kFlowSlackPx ||
+      led.right > box.x + box.width + kFlowSlackPx ||
+      led.bottom > box.y + box.height + kFlowSlackPx) {
+    findings.add("flow-leads-to-boxes", file, record,
+                 fmt::format("flow leads to [{:.1f}, {:.1f}] x [{:.1f}, {:.1f}], out of its "
+                             "bbox_amodal in the next frame",
+                             led.left, led.right, led.top, led.bottom));
+    return;
+  }
+  if (body.width > 0 && led.known >= 20 &&
+      static_cast<double>(led.on_body) < 0.7 * static_cast<double>(led.known)) {
+    findings.add(
+        "flow-leads-to-boxes", file, record,
+        fmt::format("flow leads {} of {} pixels beside the person's mask in the next frame",
+                    led.known - led.on_body, led.known));
+    return;
+  }
+  // What shows all of the body moves as the body does.
+  constexpr double kMostlyWhole = 0.9;
+  if (then.visibility < kMostlyWhole || !before.is_plain || then.truncation > 0 ||
+      now.truncation > 0) {
+    return;
+  }
+  const Eigen::Vector2d mean = led.sum / static_cast<double>(led.known);
+  const double slack_px = 2 + 0.3 * std::max(box.width, box.height);
+  if ((mean - moved).norm() > slack_px) {
+    findings.add("flow-leads-to-boxes", file, record,
+                 fmt::format("flow is ({:.1f}, {:.1f}) on the average, but its box moves by "
+                             "({:.1f}, {:.1f})",
+                             mean.x(), mean.y(), moved.x(), moved.y()));
+  }
+}
+
 }  // namespace
 
-void FlowCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
-  Before& before = cameras_[image.camera];
-  const bool follows = before.run == image.run && before.frame + 1 == image.frame;
-  for (const Person& person : image.people) {
-    const auto led = before.people.find(person.track_id);
-    if (!follows || led == before.people.end()) continue;
-    const Led& to = led->second;
-    const Box& box = person.amodal;
-    if (to.left < box.x - kFlowSlackPx || to.top < box.y - kFlowSlackPx ||
-        to.right > box.x + box.width + kFlowSlackPx ||
-        to.bottom > box.y + box.height + kFlowSlackPx) {
-      findings.add("flow-leads-to-boxes", before.file, fmt::format("annotation {}", person.id),
-                   fmt::format("flow leads to [{:.1f}, {:.1f}] x [{:.1f}, {:.1f}], out of its "
-                               "bbox_amodal in the next frame",
-                               to.left, to.right, to.top, to.bottom));
-    }
+void check_flow_between(const Shot& before, const Shot& after, Findings& findings) {
+  if (before.pixels.flow.empty() || !before.at_once || !after.at_once) return;
+  if (!before.pixels.ids.empty() && !before.pixels.depth_cm.empty()) {
+    check_still_flow(before, after, findings);
   }
-  const std::filesystem::path file = raster_path(info.root, "flow", image.file);
-  before = {image.run, image.frame, file.lexically_relative(info.root).string(), {}};
-  const Raster flow = read_raster(file);
-  const auto pixels =
-      static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-  if (flow.samples.size() != 3 * pixels) return;  // a finding of another rule
-  for (const Person& person : image.people) {
-    const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
-    Led led;
-    for (int y = mask.y; y < mask.y + mask.height; ++y) {
-      for (int x = mask.x; x < mask.x + mask.width; ++x) {
-        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                               static_cast<std::size_t>(x);
-        const std::uint16_t* sample = flow.samples.data() + 3 * at;
-        if (!mask.at(x, y) || sample[2] == 0) continue;
-        const double u = x + 0.5 + (sample[0] - kFlowZero) / kFlowScale;
-        const double v = y + 0.5 + (sample[1] - kFlowZero) / kFlowScale;
-        led.left = std::min(led.left, u);
-        led.right = std::max(led.right, u);
-        led.top = std::min(led.top, v);
-        led.bottom = std::max(led.bottom, v);
-      }
-    }
-    if (led.left <= led.right) before.people[person.track_id] = led;
+  for (const Person& then : before.image.people) {
+    const Person* now = after.find(then.track_id);
+    if (now != nullptr) check_person_flow(before, after, then, *now, findings);
   }
+}
+
+void check_last_flow(const Shot& shot, Findings& findings) {
+  const Pixels& pixels = shot.pixels;
+  std::size_t known = 0;
+  for (std::size_t i = 2; i < pixels.flow.size(); i += 3) known += pixels.flow[i] != 0 ? 1 : 0;
+  if (known == 0) return;
+  findings.add("flow", raster_name("flow", shot.image), shot.record(),
+               fmt::format("flow of {} pixels is known, but no frame follows", known));
 }
 
 }  // namespace throng::formats

@@ -9,6 +9,7 @@
 #include "annotate/person_record.h"
 #include "base/error.h"
 #include "formats/findings.h"
+#include "formats/image_camera.h"
 #include "formats/mask.h"
 
 namespace throng::formats {

@@ -1,0 +1,57 @@
+// The drone that carries the camera: its record with each picture, and the tables of its sensors.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "formats/dataset.h"
+#include "formats/findings.h"
+
+namespace throng::formats {
+
+/// The truth of a moment and what the sensors read then: m, m/s, rad/s, m/s², µT, Pa; body's frame
+/// where the sensor has it.
+struct SensorSample {
+  Eigen::Vector3d position;
+  Eigen::Vector3d velocity;
+  Eigen::Quaterniond orientation;  ///< body to world
+  Eigen::Vector3d body_rates;
+  Eigen::Vector3d specific_force;
+  Eigen::Vector3d gyro;
+  Eigen::Vector3d accelerometer;
+  Eigen::Vector3d magnetometer;
+  double pressure_pa;
+  double height_m;
+  Eigen::Vector3d gps_position;
+  Eigen::Vector3d gps_velocity;
+};
+
+/// What is not within six standard deviations of the sensors' errors; "" if nothing. The readings
+/// are at most `age_s` older than the truth, the GPS fix `gps_age_s`.
+std::string implausible_reading(const SensorSample& sample, double latitude_deg, double age_s,
+                                double gps_age_s);
+
+/// A picture's flight record: camera, gimbal, sensors.
+void check_flight(const Image& image, Findings& findings);
+
+/// Flight records of consecutive frames of one camera.
+void check_flight_between(const Image& before, const Image& after, Findings& findings);
+
+/// sensors/RUN/DRONE.csv: rows follow from each other, readings from the truth, and the flight
+/// records of the pictures are between the rows.
+class SensorTableCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+
+ private:
+  struct Table {
+    std::vector<std::vector<double>> rows;  ///< 39 columns
+    bool is_read = false;
+  };
+  std::map<std::string, Table> tables_;
+};
+
+}  // namespace throng::formats

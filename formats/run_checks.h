@@ -1,0 +1,113 @@
+// Files that hold a whole run, against the pictures' records and against themselves. Fed picture by
+// picture in the order of the COCO file.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "formats/csv_table.h"
+#include "formats/dataset.h"
+#include "formats/findings.h"
+
+namespace throng::formats {
+
+/// exits/RUN.csv: its columns against each other, over time and against the pictures' `exits`; and
+/// the polygons of these against each other.
+class ExitsCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+
+ private:
+  struct Row {
+    std::size_t line = 0;
+    std::map<std::string, double> value;  ///< NaN for texts
+    std::string state;
+    std::string state_offline;
+  };
+  /// Of one exit in one run, by frame.
+  using Series = std::map<std::int64_t, Row>;
+  struct Run {
+    std::map<std::string, Series> exits;
+    std::vector<std::string> order;
+    std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks, by frame
+    std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< seen there, by frame and exit
+  };
+  /// On the ground, m.
+  struct Place {
+    std::vector<Eigen::Vector2d> door;
+    std::vector<Eigen::Vector2d> zone;
+  };
+
+  Run& read(const DatasetInfo& info, const std::string& run, Findings& findings);
+  void check_series(const std::string& file, const std::string& exit, const Series& series,
+                    Findings& findings) const;
+  void check_polygons(const Image& image, const nlohmann::json& exit, Findings& findings);
+  static void check_values(const std::string& file, const Image& image, const nlohmann::json& exit,
+                           const Run& run, Findings& findings);
+  void count_people(const std::string& file, const Image& image, Run& run,
+                    Findings& findings) const;
+
+  std::map<std::string, Run> runs_;
+  std::map<std::string, Place> places_;  ///< by exit; the place is one in all runs
+};
+
+/// fields/RUN/FRAME.npy against the people that cameras see.
+class FieldsCheck {
+ public:
+  void add(const DatasetInfo& info, const Image& image);
+  void finish(const DatasetInfo& info, Findings& findings) const;
+
+ private:
+  struct Walker {
+    Eigen::Vector2d position;
+    Eigen::Vector2d velocity;
+  };
+  std::map<std::string, std::map<std::int64_t, std::map<std::int64_t, Walker>>> runs_;
+};
+
+/// What stays the same: a run's environment, a camera's lens, a person's attributes and bones.
+class ConstancyCheck {
+ public:
+  explicit ConstancyCheck(const nlohmann::json& manifest) : manifest_(manifest) {}
+  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+  void finish(const DatasetInfo& info, Findings& findings);
+
+ private:
+  void check_environment(const Image& image, Findings& findings);
+  void check_camera(const Image& image, Findings& findings);
+  void check_person(const Person& person, Findings& findings);
+  void check_track(const Person& person, Findings& findings);
+
+  const nlohmann::json& manifest_;
+  std::map<std::string, nlohmann::json> lenses_;       ///< by run and camera
+  std::map<std::int64_t, std::vector<double>> bones_;  ///< m, by track
+  std::map<std::string, std::pair<std::int64_t, nlohmann::json>> characters_;
+  std::set<std::int64_t> tracks_;
+  std::map<std::string, std::set<std::int64_t>> tracks_of_run_;
+  std::map<std::string, std::set<std::int64_t>> frames_;  ///< by run and camera
+};
+
+/// Whoever is in the records of the frames before and after is in those of the frame between.
+class PresenceCheck {
+ public:
+  void add(const Image& image, Findings& findings);
+
+ private:
+  struct Moment {
+    Image image;  ///< without pictures and masks
+  };
+  std::map<std::string, std::vector<Moment>> last_;  ///< two of each camera
+};
+
+/// metrics.json against metrics/RUN.json and the tables that it sums up.
+void check_metrics(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
+
+/// previews/ against the pictures and boxes that they show.
+void check_preview(const DatasetInfo& info, const Image& image, Findings& findings);
+
+}  // namespace throng::formats

@@ -1,0 +1,77 @@
+// One picture of a dataset with everything that belongs to it, as checks take it, alone or in
+// pairs.
+#pragma once
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "camera/camera.h"
+#include "formats/findings.h"
+#include "formats/instances.h"
+#include "formats/pixels.h"
+
+namespace throng::formats {
+
+struct Shot {
+  Image image;
+  Pixels pixels;
+  camera::Camera camera;
+  bool is_plain = true;  ///< no lens distortion, no rolling shutter
+  bool at_once = true;   ///< no rolling shutter
+
+  std::string record() const { return "image " + std::to_string(image.id); }
+  const Person* find(std::int64_t track_id) const;
+};
+
+/// Whether a pixel shows something that never moves: the ground, a building or a prop.
+inline bool is_still(std::uint32_t id) {
+  return (id >= kFirstBuilding && id < kFirstDrone) || id == kGround;
+}
+inline bool is_building(std::uint32_t id) { return id >= kFirstBuilding && id < kFirstProp; }
+
+/// Depth and ids of what stands still, seen twice: no picture sees through what another one shows,
+/// and one place has one id. Of two pictures of one run.
+void check_still_surfaces(const Shot& a, const Shot& b, Findings& findings);
+/// Buildings stand on the ground and not below it.
+void check_buildings(const Shot& shot, Findings& findings);
+/// Normals face the camera and are those of the surface that the depth shows.
+void check_normals(const Shot& shot, Findings& findings);
+/// Flow of `before` against depth, cameras and people of `after`, the next frame of its camera.
+void check_flow_between(const Shot& before, const Shot& after, Findings& findings);
+/// The last frame has no flow.
+void check_last_flow(const Shot& shot, Findings& findings);
+/// Whole bodies: amodal masks, boxes in the world and heads.
+void check_whole_bodies(const Shot& shot, Findings& findings);
+/// Keypoints in the world against box, heading and parts.
+void check_skeletons(const Shot& shot, Findings& findings);
+/// People of consecutive frames of one camera: places, velocities, who is left out.
+/// Walkers face where they go.
+void check_facing_motion(const Shot& shot, Findings& findings);
+void check_motion(const Shot& before, const Shot& after, Findings& findings);
+/// People of two cameras' pictures of one instant.
+void check_same_instant(const Shot& a, const Shot& b, Findings& findings);
+
+/// Outlines of labels are where the pictures have edges. Judged when all of a dataset is seen:
+/// pictures that can tell (not too dark, foggy or noisy) say what the others must be like.
+class AlignmentCheck {
+ public:
+  void add(const Shot& shot);
+  void finish(Findings& findings) const;
+
+ private:
+  struct Score {
+    std::string file;
+    std::string record;
+    double here = 0;  ///< standard deviations above other places
+    double best = 0;  ///< the same at the best place
+    int best_x = 0;   ///< px away
+    int best_y = 0;
+    bool can_tell = false;  ///< by light, weather and sensor
+  };
+  /// By run, camera, and whether it is people's outlines.
+  std::map<std::tuple<std::string, std::string, bool>, std::vector<Score>> scores_;
+};
+
+}  // namespace throng::formats

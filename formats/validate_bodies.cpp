@@ -1,0 +1,148 @@
+// Whole bodies, hidden or not: amodal masks, boxes in the world, heads.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "formats/mask.h"
+#include "formats/shot.h"
+
+namespace throng::formats {
+
+namespace {
+
+/// Outlines of masks are pixels whose middles are inside; thin ends of limbs have none.
+constexpr double kOutlineSlackPx = 2.5;
+
+double farthest_m(const Shot& shot, const Person& person) {
+  return corners_in_camera(shot.image, person).row(2).maxCoeff();
+}
+
+/// The mask of the whole body fills its box, and what hides it is nearer than the body.
+void check_whole_mask_place(const Shot& shot, const Person& person, Findings& findings) {
+  const auto found = person.record.find("amodal_segmentation");
+  if (found == person.record.end()) return;
+  const Pixels& pixels = shot.pixels;
+  const Bitmap whole =
+      bitmap_of(runs_of(found->at("counts").get<std::string>(), pixels.count()), shot.image.height);
+  const Box& box = person.amodal;
+  const bool is_inside = box.x >= 0 && box.y >= 0 && box.x + box.width <= shot.image.width &&
+                         box.y + box.height <= shot.image.height;
+  const std::array<double, 4> off = {whole.x - box.x, whole.y - box.y,
+                                     box.x + box.width - (whole.x + whole.width),
+                                     box.y + box.height - (whole.y + whole.height)};
+  const double most = *std::max_element(off.begin(), off.end());
+  // Small bodies lose whole limbs between the pixels.
+  constexpr std::uint64_t kFewestPixels = 60;
+  const double slack_px = kOutlineSlackPx + 0.05 * std::max(box.width, box.height);
+  if (is_inside && whole.area() >= kFewestPixels && most > slack_px) {
+    findings.add("amodal-mask-fills-box", person,
+                 fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", most));
+    return;
+  }
+  if (pixels.ids.empty() || pixels.depth_cm.empty()) return;
+  const double far_m = farthest_m(shot, person) + 0.1 + (shot.at_once ? 0 : 1);
+  const std::uint32_t own = instance_of(person);
+  std::size_t hidden = 0;
+  std::size_t open = 0;
+  for (int y = whole.y; y < whole.y + whole.height; ++y) {
+    for (int x = whole.x; x < whole.x + whole.width; ++x) {
+      const std::size_t pixel = pixels.at(x, y);
+      if (!whole.at(x, y) || pixels.ids[pixel] == own) continue;
+      ++hidden;
+      open += pixels.depth_cm[pixel] == 0 || pixels.depth_m(pixel) > far_m ? 1 : 0;
+    }
+  }
+  const auto outline = static_cast<double>(whole.width + whole.height);
+  if (static_cast<double>(open) > 2 + 0.15 * outline) {
+    findings.add("hidden-by-nearer", person,
+                 fmt::format("{} of {} pixels of amodal_segmentation that show somebody or "
+                             "something else show what is farther away",
+                             open, hidden));
+  }
+}
+
+/// Each side of box_3d touches the body, so that bbox_amodal reaches what the side projects to.
+void check_box_is_tight(const Shot& shot, const Person& person, Findings& findings) {
+  const Eigen::Matrix<double, 3, 8> corners =
+      shot.image.camera_matrix * corners_in_camera(shot.image, person);
+  if (!(corners.row(2).minCoeff() > 0.5)) return;
+  const Eigen::Matrix<double, 2, 8> seen = corners.colwise().hnormalized().array() + 0.5;
+  const Box& box = person.amodal;
+  // The box is that of a coarser mesh than the drawn one.
+  const double focal_px = shot.image.camera_matrix(0, 0);
+  const double slack_px = 1.5 + 0.05 * focal_px / corners.row(2).minCoeff();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      Eigen::AlignedBox2d face;
+      for (int i = 0; i < 8; ++i) {
+        if (((i >> axis) & 1) == side) face.extend(Eigen::Vector2d(seen.col(i)));
+      }
+      const double off = std::max({face.min().x() - (box.x + box.width), box.x - face.max().x(),
+                                   face.min().y() - (box.y + box.height), box.y - face.max().y()});
+      if (off <= slack_px) continue;
+      findings.add("box-3d", person,
+                   fmt::format("bbox_amodal ends {:.1f} px before a side of box_3d, which touches "
+                               "the body",
+                               off));
+      return;
+    }
+  }
+}
+
+/// The head is seen near the upper end of an upright body, and among its keypoints.
+void check_head(const Shot& shot, const Person& person, Findings& findings) {
+  if (!person.head || !shot.at_once) return;
+  const Eigen::Vector3d centre = shot.camera.pose.centre();
+  const Eigen::Vector3d at = shot.camera.unproject(Eigen::Vector2d(person.head->array() - 0.5), 1);
+  if (!at.allFinite()) return;
+  const Eigen::ParametrizedLine<double, 3> ray(centre, (at - centre).normalized());
+  Eigen::Vector3d expected = person.box_middle;
+  double slack_m = 0.5;
+  const auto keypoints = person.record.find("keypoints_3d");
+  if (keypoints != person.record.end()) {
+    constexpr std::size_t kFacePoints = 5;  // nose, eyes, ears
+    expected.setZero();
+    for (std::size_t i = 0; i < kFacePoints; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        expected[c] += keypoints->at(i).at(static_cast<std::size_t>(c)).get<double>() / kFacePoints;
+      }
+    }
+    slack_m = 0.16;
+  } else {
+    const double height = person.box_size.z();
+    if (height < 1.3 * person.box_size.head<2>().maxCoeff()) return;  // lies or bends
+    constexpr double kHeadShare = 0.42;                               // above the middle
+    expected.z() += kHeadShare * height;
+  }
+  const double depth_m = (centre - expected).norm();
+  const double off = ray.distance(expected);
+  if (off <= slack_m + 0.01 * depth_m / shot.image.camera_matrix(0, 0)) return;
+  findings.add("head", person,
+               fmt::format("head is seen {:.2f} m beside the middle of the face{}", off,
+                           keypoints == person.record.end() ? " that box_3d suggests" : ""));
+}
+
+}  // namespace
+
+const Person* Shot::find(std::int64_t track_id) const {
+  for (const std::vector<Person>* things : {&image.people, &image.drones}) {
+    for (const Person& thing : *things) {
+      if (thing.track_id == track_id) return &thing;
+    }
+  }
+  return nullptr;
+}
+
+void check_whole_bodies(const Shot& shot, Findings& findings) {
+  for (const Person& person : shot.image.people) {
+    check_whole_mask_place(shot, person, findings);
+    if (shot.is_plain) check_box_is_tight(shot, person, findings);
+    check_head(shot, person, findings);
+  }
+}
+
+}  // namespace throng::formats

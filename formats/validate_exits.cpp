@@ -1,0 +1,357 @@
+// Exits: table, records of pictures and polygons. Definitions: docs/metrics.md.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "base/error.h"
+#include "formats/image_camera.h"
+#include "formats/run_checks.h"
+
+namespace throng::formats {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kCapacity_per_ms = 1.3;
+constexpr double kFullDensity = 0.6;
+constexpr double kFreeSpeed = 0.6;
+
+double value_of(const std::map<std::string, double>& row, const char* name) {
+  const auto found = row.find(name);
+  return found == row.end() ? std::nan("") : found->second;
+}
+
+/// The middle value of ratios of columns, which are one number but for rounding; NaN without any.
+double common_ratio(std::vector<double> ratios) {
+  if (ratios.empty()) return std::nan("");
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
+/// Where a point of the picture is on the ground.
+std::optional<Vector2d> on_ground(const camera::Camera& camera, const json& point) {
+  const Vector2d pixel(point.at(0).get<double>() - 0.5, point.at(1).get<double>() - 0.5);
+  const Vector3d at = camera.unproject(pixel, 1);
+  const Vector3d centre = camera.pose.centre();
+  const double down = centre.z() - at.z();
+  if (!at.allFinite() || !(down > 1e-6)) return std::nullopt;
+  return Vector2d((centre + (at - centre) * (centre.z() / down)).head<2>());
+}
+
+std::vector<Vector2d> polygon_on_ground(const camera::Camera& camera, const json& polygon) {
+  std::vector<Vector2d> corners;
+  for (const json& point : polygon) {
+    const auto corner = on_ground(camera, point);
+    if (!corner) return {};
+    corners.push_back(*corner);
+  }
+  return corners;
+}
+
+/// Whether every corner of the polygon is where the place's is seen.
+double farthest_corner_px(const camera::Camera& camera, const std::vector<Vector2d>& place,
+                          const json& polygon) {
+  double off_px = 0;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const auto seen = camera.project({place[i].x(), place[i].y(), 0});
+    if (!seen.visible) return 0;
+    const Vector2d at(polygon.at(i).at(0).get<double>(), polygon.at(i).at(1).get<double>());
+    off_px = std::max(off_px, (at - Vector2d(seen.pixel.array() + 0.5)).norm());
+  }
+  return off_px;
+}
+
+}  // namespace
+
+ExitsCheck::Run& ExitsCheck::read(const DatasetInfo& info, const std::string& name,
+                                  Findings& findings) {
+  const auto [entry, is_new] = runs_.try_emplace(name);
+  Run& run = entry->second;
+  const std::string file = "exits/" + name + ".csv";
+  if (!is_new || !std::filesystem::is_regular_file(info.root / file)) return run;
+  const CsvTable table = read_csv(info.root / file);
+  const auto column = [&](const char* wanted) {
+    const std::size_t found = table.find(wanted);
+    if (found == table.columns.size()) {
+      throw InputError({(info.root / file).string(), "line 1", fmt::format("no column {}", wanted),
+                        "the columns of docs/formats.md"});
+    }
+    return found;
+  };
+  const std::size_t frame = column("frame");
+  const std::size_t exit = column("exit");
+  const std::size_t state = column("state");
+  const std::size_t offline = column("state_offline");
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const std::vector<std::string>& cells = table.rows[i];
+    Row row{i + 2, {}, cells[state], cells[offline]};
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      row.value[table.columns[c]] = number_of(cells[c]);
+    const auto number = static_cast<std::int64_t>(number_of(cells[frame]));
+    if (!run.exits.contains(cells[exit])) run.order.push_back(cells[exit]);
+    const double time_s = info.from_s + static_cast<double>(number) / info.rate_hz;
+    if (!(std::abs(value_of(row.value, "time_s") - time_s) <= 1e-6)) {
+      findings.add("exits", file, fmt::format("line {}", i + 2),
+                   fmt::format("time_s {}, but frame {} is of {} s", value_of(row.value, "time_s"),
+                               number, time_s));
+    }
+    if (!run.exits[cells[exit]].emplace(number, std::move(row)).second) {
+      findings.add("exits", file, fmt::format("line {}", i + 2),
+                   "a frame and exit that come twice");
+    }
+  }
+  for (const auto& [id, series] : run.exits) {
+    if (static_cast<std::int64_t>(series.size()) != info.frames_per_camera) {
+      findings.add(
+          "exits", file, id,
+          fmt::format("{} rows, but there are {} frames", series.size(), info.frames_per_camera));
+    }
+    check_series(file, id, series, findings);
+  }
+  return run;
+}
+
+void ExitsCheck::check_series(const std::string& file, const std::string& exit,
+                              const Series& series, Findings& findings) const {
+  std::vector<double> areas;
+  std::vector<double> packings;
+  std::vector<double> widths;
+  for (const auto& [frame, row] : series) {
+    const auto v = [&, &row = row](const char* name) { return value_of(row.value, name); };
+    if (v("density") > 0.02) areas.push_back(v("in_zone") / v("density"));
+    if (v("density") > 0.1) packings.push_back(v("normalised_density") / v("density"));
+    if (std::abs(v("specific_flow")) > 0.05) widths.push_back(v("flow") / v("specific_flow"));
+  }
+  const double area = common_ratio(areas);
+  const double packing = common_ratio(packings);
+  const double width = common_ratio(widths);
+  const Row* last = nullptr;
+  for (const auto& [frame, row] : series) {
+    const auto v = [&, &row = row](const char* name) { return value_of(row.value, name); };
+    const auto fault = [&, &row = row](const std::string& what) {
+      findings.add("exits", file, fmt::format("line {}", row.line),
+                   fmt::format("{}: {}", exit, what));
+    };
+    const auto differs = [](double a, double b, double slack) { return std::abs(a - b) > slack; };
+    if (differs(v("density") * area, v("in_zone"), 0.02 + 0.01 * v("in_zone"))) {
+      fault(fmt::format("density {} is not in_zone {} over the zone's {:.2f} m2", v("density"),
+                        v("in_zone"), area));
+    }
+    if (differs(v("normalised_density"), v("density") * packing, 2e-4 + 0.005 * v("density"))) {
+      fault(fmt::format("normalised_density {} is not density {} times {:.4f}",
+                        v("normalised_density"), v("density"), packing));
+    }
+    if (differs(v("specific_flow") * width, v("flow"), 0.02 + 0.003 * width)) {
+      fault(fmt::format("specific_flow {} is not flow {} over {:.2f} m", v("specific_flow"),
+                        v("flow"), width));
+    }
+    const bool demand = v("demand") > 0;
+    const bool is_closed = row.state == "closed";
+    if (!is_closed && demand == (row.state == "idle")) {
+      fault(fmt::format("state {} with demand {}", row.state, v("demand")));
+    }
+    if ((row.state_offline == "closed") != is_closed ||
+        (row.state_offline == "idle") != (row.state == "idle") ||
+        (row.state == "clogged" && row.state_offline != "clogged")) {
+      fault(fmt::format("state_offline {} where state is {}", row.state_offline, row.state));
+    }
+    const double index = v("clogging_index");
+    if (!demand && index != 0) fault(fmt::format("clogging_index {} without demand", index));
+    if (demand && std::isfinite(width)) {
+      const double full = std::min(1.0, v("normalised_density") / kFullDensity);
+      const double flow_lack = std::clamp(1 - v("flow") / (kCapacity_per_ms * width), 0.0, 1.0);
+      const double low = 0.5 * full * flow_lack;
+      const double high = low + 0.5 * full;
+      const double slack = 0.004 + 0.01 * full;
+      const double speed_lack = full > 0 ? std::clamp((index - low) / (0.5 * full), 0.0, 1.0) : 0;
+      // The mean desired speed that the index would stand for.
+      const double desired =
+          speed_lack < 1 ? v("approach_speed") / (kFreeSpeed * (1 - speed_lack)) : 1;
+      const bool is_between = index >= low - slack && index <= high + slack;
+      constexpr double kSlowest_mps = 0.2;
+      constexpr double kFastest_mps = 5;
+      const bool is_plausible = full < 0.05 || speed_lack < 0.02 || speed_lack > 0.98 ||
+                                (desired > kSlowest_mps && desired < kFastest_mps);
+      const bool is_full_lack = v("approach_speed") > -0.01 || index >= high - slack;
+      if (!is_between || !is_plausible || !is_full_lack) {
+        fault(
+            fmt::format("clogging_index {}, but density, flow and approach speed give {:.3f} to "
+                        "{:.3f}",
+                        index, low, high));
+      }
+    }
+    if (v("queue") == 0 && (v("queue_length") != 0 || v("predicted_wait") != 0)) {
+      fault("a queue of nobody with a length or a wait");
+    }
+    if (std::isfinite(width) &&
+        v("predicted_wait") > v("queue") / (0.1 * kCapacity_per_ms * width) * 1.01 + 0.02) {
+      fault(fmt::format("predicted_wait {} s for a queue of {}", v("predicted_wait"), v("queue")));
+    }
+    if (last != nullptr) {
+      const auto before = [&](const char* name) { return value_of(last->value, name); };
+      const double dt_s = v("time_s") - before("time_s");
+      const double grown = before("since_crossing") + dt_s;
+      if (v("since_crossing") > dt_s + 0.11 && differs(v("since_crossing"), grown, 0.11)) {
+        fault(fmt::format("since_crossing {} s, {} s before it was {} s", v("since_crossing"), dt_s,
+                          before("since_crossing")));
+      }
+      if (v("crossed") > before("crossed") && v("since_crossing") > dt_s + 0.11) {
+        fault(fmt::format("crossed grows, but since_crossing is {} s", v("since_crossing")));
+      }
+      if (last->state == "closed" && !is_closed) fault("a closed exit that opens");
+    }
+    constexpr std::int64_t kFlowFrames = 4;  // seconds that flow is taken over
+    const std::int64_t back = last == nullptr
+                                  ? 0
+                                  : std::llround(static_cast<double>(kFlowFrames) /
+                                                 (v("time_s") - value_of(last->value, "time_s")));
+    const auto then = back > 0 ? series.find(frame - back) : series.end();
+    if (then != series.end() &&
+        std::abs(v("time_s") - value_of(then->second.value, "time_s") - kFlowFrames) < 1e-6) {
+      const double expected =
+          (v("crossed") - value_of(then->second.value, "crossed")) / kFlowFrames;
+      // A crossing at the border of the 4 s may be in or out.
+      if (differs(v("flow"), expected, 0.26)) {
+        fault(fmt::format("flow {} /s, but crossed changed by {} /s", v("flow"), expected));
+      }
+    }
+    last = &row;
+  }
+}
+
+void ExitsCheck::check_values(const std::string& file, const Image& image, const json& exit,
+                              const Run& run, Findings& findings) {
+  const std::string id = exit.at("id");
+  const std::string record = fmt::format("image {}", image.id);
+  const auto series = run.exits.find(id);
+  if (series == run.exits.end() || !series->second.contains(image.frame)) {
+    findings.add("exits", kCocoFile, record,
+                 fmt::format("exit {} is not in {} for frame {}", id, file, image.frame));
+    return;
+  }
+  const Row& row = series->second.at(image.frame);
+  struct Pair {
+    const char* key;
+    const char* column;
+    double slack;
+  };
+  for (const Pair& pair :
+       {Pair{"in_zone", "in_zone", 0}, Pair{"queue", "queue", 0},
+        Pair{"queue_length_m", "queue_length", 1e-6},
+        Pair{"clogging_index", "clogging_index", 1e-6}, Pair{"flow_per_s", "flow", 1e-6}}) {
+    if (!exit.contains(pair.key)) continue;
+    const double found = exit.at(pair.key).get<double>();
+    const double expected = value_of(row.value, pair.column);
+    if (!std::isfinite(expected) || std::abs(found - expected) <= pair.slack) continue;
+    findings.add("exits", kCocoFile, record,
+                 fmt::format("{} of {} is {}, but {} line {} says {}", pair.key, id, found, file,
+                             row.line, expected));
+  }
+  if (exit.at("state") != row.state) {
+    findings.add("exits", kCocoFile, record,
+                 fmt::format("state of {} is {}, but {} line {} says {}", id,
+                             exit.at("state").dump(), file, row.line, row.state));
+  }
+}
+
+void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& findings) {
+  const camera::Camera camera = camera_of(image);
+  Place& place = places_[exit.at("id").get<std::string>()];
+  for (const char* key : {"door", "zone"}) {
+    const json& polygon = exit.at(key);
+    if (polygon.empty()) continue;
+    std::vector<Vector2d>& known = key[0] == 'd' ? place.door : place.zone;
+    if (known.empty()) {
+      known = polygon_on_ground(camera, polygon);
+      continue;
+    }
+    if (known.size() != polygon.size()) continue;  // cut off by the camera's plane
+    const double off_px = farthest_corner_px(camera, known, polygon);
+    // Corners are written to 0.01 px, and read from a picture that may be farther away.
+    constexpr double kSlackPx = 0.5;
+    if (off_px <= kSlackPx) continue;
+    findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
+                 fmt::format("{} of {} is {:.1f} px from where other pictures have it", key,
+                             exit.at("id").get<std::string>(), off_px));
+  }
+  if (place.door.size() < 4 || place.zone.size() < 3) return;
+  // The zone is a half disc about the middle of the door.
+  const double zone_m = [&] {
+    double most = 0;
+    for (const Vector2d& a : place.zone) {
+      for (const Vector2d& b : place.zone) most = std::max(most, (a - b).norm());
+    }
+    return most;
+  }();
+  double nearest_m = 1e9;
+  for (const Vector2d& a : place.door) {
+    for (const Vector2d& b : place.zone) nearest_m = std::min(nearest_m, (a - b).norm());
+  }
+  if (nearest_m > 0.6 && zone_m > 4) {
+    findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
+                 fmt::format("door and zone of {} are {:.1f} m apart",
+                             exit.at("id").get<std::string>(), nearest_m));
+  }
+}
+
+void ExitsCheck::count_people(const std::string& file, const Image& image, Run& run,
+                              Findings& findings) const {
+  std::set<std::int64_t>& counted = run.counted[image.frame];
+  for (const Person& person : image.people) {
+    const auto exit = person.record.find("exit");
+    if (exit == person.record.end()) continue;
+    const std::string id = *exit;
+    if (!run.exits.contains(id)) {
+      findings.add("exits", person, "exit is none of the scenario's: " + id);
+      continue;
+    }
+    const auto place = places_.find(id);
+    if (place == places_.end() || place->second.zone.empty()) continue;
+    if (!counted.insert(person.track_id).second) continue;
+    // Well inside: the table is of the last crowd step before the frame.
+    const std::vector<Vector2d>& zone = place->second.zone;
+    bool is_inside = true;
+    for (std::size_t i = 0; i < zone.size(); ++i) {
+      const Vector2d side = zone[(i + 1) % zone.size()] - zone[i];
+      const Vector2d to = person.position.head<2>() - zone[i];
+      if (side.norm() < 1e-6) continue;
+      constexpr double kMargin_m = 0.4;
+      is_inside = is_inside && (side.x() * to.y() - side.y() * to.x()) / side.norm() > kMargin_m;
+    }
+    if (!is_inside) continue;
+    const int found = ++run.in_zone[image.frame][id];
+    const auto row = run.exits.at(id).find(image.frame);
+    if (row == run.exits.at(id).end()) continue;
+    if (found > value_of(row->second.value, "in_zone")) {
+      findings.add("exits", file, fmt::format("line {}", row->second.line),
+                   fmt::format("{}: in_zone {}, but pictures show {} there who head for it", id,
+                               value_of(row->second.value, "in_zone"), found));
+    }
+  }
+}
+
+void ExitsCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
+  if (!info.has("exits")) return;
+  const std::string file = "exits/" + image.run + ".csv";
+  Run& run = read(info, image.run, findings);
+  const auto exits = image.record.find("exits");
+  if (exits == image.record.end()) return;
+  for (const json& exit : *exits) {
+    check_values(file, image, exit, run, findings);
+    check_polygons(image, exit, findings);
+  }
+  if (exits->size() != run.order.size()) {
+    findings.add("exits", kCocoFile, fmt::format("image {}", image.id),
+                 fmt::format("{} exits, but {} has {}", exits->size(), file, run.order.size()));
+  }
+  count_people(file, image, run, findings);
+}
+
+}  // namespace throng::formats

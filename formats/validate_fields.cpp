@@ -1,0 +1,236 @@
+// Fields on the ground against the people that the records place there.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json_text.h"
+#include "formats/run_checks.h"
+
+namespace throng::formats {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using nlohmann::json;
+
+namespace {
+
+struct Grid {
+  Vector2d origin_m;
+  double cell_m = 0;
+  double kernel_m = 0;
+  int rows = 0;
+  int columns = 0;
+
+  std::size_t cells() const {
+    return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+  }
+};
+
+/// Planes of fields/RUN/FRAME.npy.
+struct Field {
+  std::vector<float> values;
+  std::size_t cells = 0;
+
+  double density(std::size_t i) const { return static_cast<double>(values[i]); }
+  Vector2d velocity(std::size_t i) const {
+    return {static_cast<double>(values[cells + i]), static_cast<double>(values[2 * cells + i])};
+  }
+  double voronoi(std::size_t i) const { return static_cast<double>(values[3 * cells + i]); }
+};
+
+Field read_field(const fs::path& file, const Grid& grid) {
+  if (!fs::is_regular_file(file)) throw InputError({file.string(), "", "no such file", "a field"});
+  const std::string bytes = read_file(file);
+  constexpr std::size_t kPreamble = 10;
+  const std::string shape = fmt::format("'shape': (4, {}, {})", grid.rows, grid.columns);
+  const auto header = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const std::size_t start =
+      bytes.size() < kPreamble ? bytes.size() : kPreamble + header(8) + 256U * header(9);
+  constexpr std::size_t kPlanes = 4;
+  if (start + kPlanes * grid.cells() * sizeof(float) != bytes.size() ||
+      bytes.find(shape) == std::string::npos || bytes.find("'<f4'") == std::string::npos) {
+    throw InputError({file.string(), "", "another shape or type",
+                      fmt::format("float32 of shape (4, {}, {})", grid.rows, grid.columns)});
+  }
+  Field field{std::vector<float>(kPlanes * grid.cells()), grid.cells()};
+  std::memcpy(field.values.data(), bytes.data() + start, bytes.size() - start);
+  return field;
+}
+
+/// What the people whom cameras see add to density and momentum, were nothing built.
+struct Share {
+  std::vector<double> density;
+  std::vector<Vector2d> momentum;
+};
+
+template <typename People>
+Share share_of(const People& people, const Grid& grid) {
+  Share share{std::vector<double>(grid.cells()),
+              std::vector<Vector2d>(grid.cells(), Vector2d::Zero())};
+  constexpr double kReach = 3;
+  const int reach = static_cast<int>(std::ceil(kReach * grid.kernel_m / grid.cell_m)) + 1;
+  for (const auto& [track, person] : people) {
+    const Vector2d at = (person.position - grid.origin_m) / grid.cell_m;
+    if (at.minCoeff() < 0 || at.x() >= grid.columns || at.y() >= grid.rows) continue;
+    double sum = 0;
+    const auto each = [&](const auto& body) {
+      for (int y = static_cast<int>(at.y()) - reach; y <= static_cast<int>(at.y()) + reach; ++y) {
+        for (int x = static_cast<int>(at.x()) - reach; x <= static_cast<int>(at.x()) + reach; ++x) {
+          if (x < 0 || y < 0 || x >= grid.columns || y >= grid.rows) continue;
+          const double r_m = grid.cell_m * (Vector2d(x + 0.5, y + 0.5) - at).norm();
+          if (r_m > kReach * grid.kernel_m) continue;
+          body(static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns) +
+                   static_cast<std::size_t>(x),
+               std::exp(-r_m * r_m / (grid.kernel_m * grid.kernel_m)));
+        }
+      }
+    };
+    each([&](std::size_t /*cell*/, double weight) { sum += weight; });
+    each([&](std::size_t cell, double weight) {
+      const double density = weight / sum / (grid.cell_m * grid.cell_m);
+      share.density[cell] += density;
+      share.momentum[cell] += density * person.velocity;
+    });
+  }
+  return share;
+}
+
+class FieldFile {
+ public:
+  FieldFile(std::string path, const Grid& grid, const Field& field, Findings& findings)
+      : path_(std::move(path)), grid_(grid), field_(field), findings_(findings) {}
+
+  void check_sums(double people) const {
+    double density = 0;
+    double voronoi = 0;
+    bool is_finite = true;
+    for (std::size_t i = 0; i < grid_.cells(); ++i) {
+      density += field_.density(i);
+      voronoi += field_.voronoi(i);
+      is_finite = is_finite && std::isfinite(field_.density(i) + field_.voronoi(i)) &&
+                  field_.velocity(i).allFinite() && field_.density(i) >= 0;
+    }
+    const double cell_m2 = grid_.cell_m * grid_.cell_m;
+    density *= cell_m2;
+    voronoi *= cell_m2;
+    if (!is_finite || !(std::abs(density - people) <= 1e-3 * std::max(people, 1.0))) {
+      fault(fmt::format("the densities sum to {} people, but there are {}", density, people));
+    }
+    // Cells of people in dense crowds are few cells of the grid large.
+    if (std::abs(voronoi - people) > 2 + 0.35 * people) {
+      fault(fmt::format("the Voronoi densities sum to {:.1f} people, but there are {}", voronoi,
+                        people));
+    }
+  }
+
+  template <typename People>
+  void check_people(const People& people) const {
+    if (people.empty()) return;
+    const Share share = share_of(people, grid_);
+    double expected = 0;
+    double missing = 0;
+    double dot = 0;
+    double squares = 0;
+    double off = 0;
+    std::size_t explained = 0;
+    for (std::size_t i = 0; i < grid_.cells(); ++i) {
+      if (share.density[i] <= 0) continue;
+      expected += share.density[i];
+      const double found = field_.density(i);
+      // What falls on buildings is elsewhere.
+      if (found > 0) missing += std::max(0.0, share.density[i] - found);
+      if (found <= 0 || found > 1.05 * share.density[i] || share.density[i] < 0.02) continue;
+      const Vector2d mean = share.momentum[i] / share.density[i];
+      ++explained;
+      dot += mean.dot(field_.velocity(i));
+      squares += mean.squaredNorm();
+      off += (mean - field_.velocity(i)).norm();
+    }
+    const double cell_m2 = grid_.cell_m * grid_.cell_m;
+    double on_nothing = 0;
+    for (std::size_t i = 0; i < grid_.cells(); ++i) {
+      if (field_.density(i) <= 0) on_nothing += share.density[i] * cell_m2;
+    }
+    expected *= cell_m2;
+    missing *= cell_m2;
+    if (missing > 1.5 + 0.1 * expected || on_nothing > 1.5 + 0.3 * expected) {
+      fault(
+          fmt::format("of {:.0f} people whom cameras see, the density lacks {:.1f} where they "
+                      "are, and {:.1f} are where it is 0",
+                      expected, missing, on_nothing));
+      return;
+    }
+    constexpr std::size_t kFewest = 60;
+    if (explained < kFewest) return;
+    const double mean_off = off / static_cast<double>(explained);
+    const double mean_speed = std::sqrt(squares / static_cast<double>(explained));
+    if (mean_off > 0.05 + 0.12 * mean_speed ||
+        (mean_speed > 0.3 && std::abs(dot / squares - 1) > 0.04)) {
+      fault(
+          fmt::format("velocities are {:.2f} m/s off those of the people there, {:.3f} times as "
+                      "large ({} cells)",
+                      mean_off, dot / squares, explained));
+    }
+  }
+
+ private:
+  void fault(const std::string& what) const { findings_.add("fields", path_, "", what); }
+
+  std::string path_;
+  const Grid& grid_;
+  const Field& field_;
+  Findings& findings_;
+};
+
+}  // namespace
+
+void FieldsCheck::add(const DatasetInfo& info, const Image& image) {
+  if (!info.has("fields") || !is_shot_at_once(image)) return;
+  auto& people = runs_[image.run][image.frame];
+  for (const Person& person : image.people) {
+    people.insert_or_assign(person.track_id, Walker{person.position.head<2>(), person.velocity});
+  }
+}
+
+void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) const {
+  if (!info.has("fields")) return;
+  for (const std::string& run : info.runs) {
+    const std::string description = "fields/" + run + ".json";
+    try {
+      const json record = parse_own_json(read_file(info.root / description), description);
+      const Grid grid{
+          {record.at("origin_m").at(0).get<double>(), record.at("origin_m").at(1).get<double>()},
+          record.at("cell_m").get<double>(),
+          record.at("kernel_m").get<double>(),
+          record.at("rows").get<int>(),
+          record.at("columns").get<int>()};
+      const json& people = record.at("people");
+      if (static_cast<std::int64_t>(people.size()) != info.frames_per_camera) {
+        findings.add("fields", description, "", "people of another number of frames");
+      }
+      for (std::size_t frame = 0; frame < people.size(); ++frame) {
+        const std::string path = fmt::format("fields/{}/{:06}.npy", run, frame);
+        const Field field = read_field(info.root / path, grid);
+        const FieldFile file(path, grid, field, findings);
+        file.check_sums(people.at(frame).get<double>());
+        const auto seen = runs_.find(run);
+        if (seen == runs_.end()) continue;
+        const auto here = seen->second.find(static_cast<std::int64_t>(frame));
+        if (here != seen->second.end()) file.check_people(here->second);
+      }
+    } catch (const InputError& error) {
+      const Problem& problem = error.problems().front();
+      findings.add("fields", fs::path(problem.source).lexically_relative(info.root).string(), "",
+                   problem.found);
+    } catch (const std::runtime_error& error) {
+      findings.add("fields", description, "", error.what());
+    }
+  }
+}
+
+}  // namespace throng::formats

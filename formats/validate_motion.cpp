@@ -1,0 +1,160 @@
+// How people move: between consecutive frames of one camera, and at one instant in several.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "formats/shot.h"
+
+namespace throng::formats {
+
+namespace {
+
+using Eigen::Vector2d;
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double angle_off(const Person& person) {
+  return std::abs(std::remainder(
+      std::atan2(person.velocity.y(), person.velocity.x()) - person.heading_rad, 2 * EIGEN_PI));
+}
+
+/// Velocities of people who go on as they do are their displacements.
+void check_velocities(const Shot& before, const Shot& after, Findings& findings) {
+  const double dt_s = after.image.time_s - before.image.time_s;
+  constexpr double kLongest_s = 1.1;  // in longer times people turn and stop
+  if (!(dt_s > 0) || dt_s > kLongest_s) return;
+  std::vector<double> ratios;
+  for (const Person& now : after.image.people) {
+    const Person* then = before.find(now.track_id);
+    if (then == nullptr) continue;
+    const Vector2d moved = (now.position - then->position).head<2>() / dt_s;
+    const Vector2d mean = 0.5 * (now.velocity + then->velocity);
+    const double change = (now.velocity - then->velocity).norm();
+    // Whoever changes the pace within the frame can be off by as much as that change.
+    constexpr double kMostOff_mps = 1.5;
+    const double off = (moved - mean).norm();
+    if (off > kMostOff_mps + 0.5 * change) {
+      findings.add("velocity-is-motion", now,
+                   fmt::format("moved ({:.2f}, {:.2f}) m/s since the last frame, but velocity is "
+                               "({:.2f}, {:.2f}) m/s now and ({:.2f}, {:.2f}) then",
+                               moved.x(), moved.y(), now.velocity.x(), now.velocity.y(),
+                               then->velocity.x(), then->velocity.y()));
+    }
+    constexpr double kSteady_mps = 0.1;
+    constexpr double kWalking_mps = 0.5;
+    if (change < kSteady_mps && mean.norm() > kWalking_mps) {
+      ratios.push_back(moved.dot(mean) / mean.squaredNorm());
+    }
+  }
+  constexpr std::size_t kFewest = 6;
+  if (ratios.size() < kFewest) return;
+  const double ratio = median_of(ratios);
+  constexpr double kMostRatioOff = 0.03;
+  if (std::abs(ratio - 1) > kMostRatioOff) {
+    findings.add("velocity-is-motion", kCocoFile, after.record(),
+                 fmt::format("steady walkers move {:.3f} times as fast as their velocity says "
+                             "(median of {})",
+                             ratio, ratios.size()));
+  }
+}
+
+/// Walkers face where they go.
+void check_headings(const Shot& shot, Findings& findings) {
+  std::vector<double> angles;
+  constexpr double kWalking_mps = 0.6;
+  for (const Person& person : shot.image.people) {
+    if (person.velocity.norm() < kWalking_mps) continue;
+    angles.push_back(angle_off(person));
+    constexpr double kBackwards_rad = 2.85;
+    if (person.velocity.norm() > 2 * kWalking_mps && angles.back() > kBackwards_rad) {
+      findings.add("heading-is-motion", person,
+                   fmt::format("walks backwards: heading {:.2f}, velocity ({:.2f}, {:.2f})",
+                               person.heading_rad, person.velocity.x(), person.velocity.y()));
+    }
+  }
+  constexpr std::size_t kFewest = 5;
+  if (angles.size() < kFewest) return;
+  const double angle = median_of(angles);
+  constexpr double kMostOff_rad = 0.25;
+  if (angle > kMostOff_rad) {
+    findings.add("heading-is-motion", kCocoFile, shot.record(),
+                 fmt::format("walkers face {:.2f} rad away from where they go (median of {})",
+                             angle, angles.size()));
+  }
+}
+
+bool is_known(const Shot& shot, std::int64_t track_id) {
+  return shot.find(track_id) != nullptr ||
+         std::any_of(shot.image.hidden.begin(), shot.image.hidden.end(),
+                     [&](const HiddenPerson& person) { return person.track_id == track_id; });
+}
+
+/// Whoever one camera shows and the other one must see is in that one's records.
+void check_who_is_there(const Shot& shot, const Shot& other, Findings& findings) {
+  for (const Person& person : shot.image.people) {
+    const auto seen = other.camera.project(person.box_middle);
+    const Vector2d at = seen.pixel.array() + 0.5;
+    if (!seen.visible || !(seen.depth_m > 1)) continue;
+    const double margin_px = 4;
+    const bool is_inside = at.x() > margin_px && at.y() > margin_px &&
+                           at.x() < other.image.width - margin_px &&
+                           at.y() < other.image.height - margin_px;
+    if (is_inside && !is_known(other, person.track_id)) {
+      findings.add("nobody-left-out", kCocoFile, other.record(),
+                   fmt::format("track {} is at ({:.1f}, {:.1f}) there by image {}, but neither has "
+                               "an annotation nor is among the hidden",
+                               person.track_id, at.x(), at.y(), shot.image.id));
+    }
+    for (const HiddenPerson& hidden : other.image.hidden) {
+      if (hidden.track_id != person.track_id) continue;
+      const Box& box = hidden.amodal;
+      constexpr double kSlackPx = 1.5;
+      if (at.x() >= box.x - kSlackPx && at.y() >= box.y - kSlackPx &&
+          at.x() <= box.x + box.width + kSlackPx && at.y() <= box.y + box.height + kSlackPx) {
+        continue;
+      }
+      findings.add("hidden-box", kCocoFile, other.record(),
+                   fmt::format("bbox_amodal of hidden track {} is not where image {} has them, "
+                               "at ({:.1f}, {:.1f})",
+                               person.track_id, shot.image.id, at.x(), at.y()));
+    }
+  }
+}
+
+}  // namespace
+
+void check_motion(const Shot& before, const Shot& after, Findings& findings) {
+  check_velocities(before, after, findings);
+}
+
+void check_facing_motion(const Shot& shot, Findings& findings) { check_headings(shot, findings); }
+
+void check_same_instant(const Shot& a, const Shot& b, Findings& findings) {
+  if (!a.at_once || !b.at_once) return;
+  for (const Person& person : a.image.people) {
+    const Person* same = b.find(person.track_id);
+    if (same == nullptr) continue;
+    for (const char* key : {"position", "velocity", "heading", "box_3d", "keypoints_3d", "state",
+                            "behaviour", "exit"}) {
+      const auto one = person.record.find(key);
+      const auto two = same->record.find(key);
+      const bool has_one = one != person.record.end();
+      const bool has_two = two != same->record.end();
+      if (has_one == has_two && (!has_one || *one == *two)) continue;
+      findings.add("one-instant", *same,
+                   fmt::format("{} is not that of annotation {}, the same person at the same time",
+                               key, person.id));
+      break;
+    }
+  }
+  check_who_is_there(a, b, findings);
+  check_who_is_there(b, a, findings);
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,131 @@
+// Normals against the surface that the depth shows.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "formats/shot.h"
+
+namespace throng::formats {
+
+namespace {
+
+enum class Kind : std::uint8_t { ground, building, prop, person };
+constexpr std::array kKindNames = {"the ground", "buildings", "props", "people"};
+
+std::optional<Kind> kind_of(std::uint32_t id) {
+  if (id == kGround) return Kind::ground;
+  if (is_building(id)) return Kind::building;
+  if (id >= kFirstProp && id < kFirstDrone) return Kind::prop;
+  if (is_person(id)) return Kind::person;
+  return std::nullopt;
+}
+
+Eigen::Vector3d normal_at(const Pixels& pixels, std::size_t pixel) {
+  constexpr double kZero = 128;
+  constexpr double kScale = 127;
+  const std::uint16_t* n = &pixels.normals[3 * pixel];
+  return Eigen::Vector3d(n[0] - kZero, n[1] - kZero, n[2] - kZero) / kScale;
+}
+
+/// The normal of the plane through the points `reach` pixels away on all four sides, facing the
+/// camera; nothing where they are of something else or no plane.
+std::optional<Eigen::Vector3d> normal_by_depth(const Shot& shot, int x, int y, int reach) {
+  const Pixels& pixels = shot.pixels;
+  if (!pixels.holds(x, y, reach)) return std::nullopt;
+  const std::uint32_t id = pixels.ids[pixels.at(x, y)];
+  std::array<Eigen::Vector3d, 5> points;
+  const std::array<std::array<int, 2>, 5> offsets = {
+      {{0, 0}, {-reach, 0}, {reach, 0}, {0, -reach}, {0, reach}}};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int u = x + offsets[i][0];
+    const int v = y + offsets[i][1];
+    const std::size_t pixel = pixels.at(u, v);
+    if (pixels.ids[pixel] != id || pixels.depth_cm[pixel] == 0) return std::nullopt;
+    points[i] = shot.camera.unproject({u, v}, pixels.depth_m(pixel));
+    if (!points[i].allFinite()) return std::nullopt;
+  }
+  const Eigen::Vector3d across = points[2] - points[1];
+  const Eigen::Vector3d down = points[4] - points[3];
+  const double size = std::min(across.norm(), down.norm());
+  // Depth is in whole centimetres: a small patch has no direction.
+  constexpr double kLeast_m = 0.15;
+  const auto bend = [&](std::size_t a, std::size_t b) {
+    return (0.5 * (points[a] + points[b]) - points[0]).norm();
+  };
+  if (size < kLeast_m || bend(1, 2) > 0.06 * size || bend(3, 4) > 0.06 * size) return std::nullopt;
+  Eigen::Vector3d normal = across.cross(down).normalized();
+  if (normal.dot(points[0] - shot.camera.pose.centre()) > 0) normal = -normal;
+  return normal;
+}
+
+struct NormalTally {
+  std::size_t looked_at = 0;
+  std::size_t away = 0;  ///< from the camera
+  std::vector<double> angles_rad;
+};
+
+}  // namespace
+
+void check_normals(const Shot& shot, Findings& findings) {
+  const Pixels& pixels = shot.pixels;
+  if (!shot.at_once || pixels.normals.empty() || pixels.ids.empty() || pixels.depth_cm.empty()) {
+    return;
+  }
+  constexpr int kMostPoints = 20000;
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostPoints)));
+  std::map<Kind, NormalTally> tallies;
+  const Eigen::Vector3d centre = shot.camera.pose.centre();
+  for (int y = 1; y < pixels.height; y += step) {
+    for (int x = 1 + y % step; x < pixels.width; x += step) {
+      const std::size_t pixel = pixels.at(x, y);
+      const std::optional<Kind> kind = kind_of(pixels.ids[pixel]);
+      if (!kind || pixels.depth_cm[pixel] == 0) continue;
+      const Eigen::Vector3d ray = shot.camera.unproject({x, y}, 1) - centre;
+      if (!ray.allFinite()) continue;
+      const Eigen::Vector3d normal = normal_at(pixels, pixel);
+      NormalTally& tally = tallies[*kind];
+      ++tally.looked_at;
+      // Edge on, rounding decides.
+      if (normal.dot(ray.normalized()) > 0.1) ++tally.away;
+      const int reach = *kind == Kind::person ? 2 : 4;
+      const auto by_depth = normal_by_depth(shot, x, y, reach);
+      if (by_depth) {
+        tally.angles_rad.push_back(
+            std::acos(std::clamp(by_depth->dot(normal.normalized()), -1.0, 1.0)));
+      }
+    }
+  }
+  for (auto& [kind, tally] : tallies) {
+    constexpr std::size_t kFewest = 30;
+    const char* name = kKindNames.at(static_cast<std::size_t>(kind));
+    const std::string file = raster_name("normals", shot.image);
+    const double most_away = kind == Kind::person ? 0.25 : 0.05;
+    if (tally.looked_at >= kFewest &&
+        static_cast<double>(tally.away) > most_away * static_cast<double>(tally.looked_at)) {
+      findings.add("normals-face-camera", file, shot.record(),
+                   fmt::format("{} of {} pixels of {} face away from the camera", tally.away,
+                               tally.looked_at, name));
+    }
+    if (tally.angles_rad.size() < kFewest) continue;
+    const auto middle =
+        tally.angles_rad.begin() + static_cast<std::ptrdiff_t>(tally.angles_rad.size() / 2);
+    std::nth_element(tally.angles_rad.begin(), middle, tally.angles_rad.end());
+    // People are round, and props have many small faces.
+    const double most_rad = kind == Kind::prop ? 0.9 : kind == Kind::person ? 0.6 : 0.09;
+    if (*middle > most_rad) {
+      findings.add("normals-are-surface", file, shot.record(),
+                   fmt::format("normals of {} are {:.1f} degrees off the surface that the depth "
+                               "shows (median of {})",
+                               name, *middle * 180 / EIGEN_PI, tally.angles_rad.size()));
+    }
+  }
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,221 @@
+// The tables of drones' sensors against themselves and against the pictures' flight records.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "formats/csv_table.h"
+#include "formats/flight_checks.h"
+#include "formats/json_vectors.h"
+
+namespace throng::formats {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kColumns = 39;
+// First columns of the values.
+constexpr std::size_t kTime = 0;
+constexpr std::size_t kPosition = 1;
+constexpr std::size_t kVelocity = 4;
+constexpr std::size_t kOrientation = 7;
+constexpr std::size_t kRates = 11;
+constexpr std::size_t kForce = 14;
+constexpr std::size_t kAir = 17;
+constexpr std::size_t kEnergy = 20;
+constexpr std::size_t kGyro = 21;
+constexpr std::size_t kAccelerometer = 24;
+constexpr std::size_t kMagnetometer = 27;
+constexpr std::size_t kPressure = 30;
+constexpr std::size_t kHeight = 31;
+constexpr std::size_t kGpsTime = 32;
+constexpr std::size_t kGpsPosition = 33;
+constexpr std::size_t kGpsVelocity = 36;
+
+using Row = std::vector<double>;
+
+Vector3d at(const Row& row, std::size_t first) {
+  return {row[first], row[first + 1], row[first + 2]};
+}
+
+Quaterniond orientation_of(const Row& row) {
+  return {row[kOrientation], row[kOrientation + 1], row[kOrientation + 2], row[kOrientation + 3]};
+}
+
+SensorSample sample_of_row(const Row& row) {
+  return {at(row, kPosition), at(row, kVelocity), orientation_of(row),     at(row, kRates),
+          at(row, kForce),    at(row, kGyro),     at(row, kAccelerometer), at(row, kMagnetometer),
+          row[kPressure],     row[kHeight],       at(row, kGpsPosition),   at(row, kGpsVelocity)};
+}
+
+/// What of a row does not follow from the one before; "" if nothing.
+std::string break_between(const Row& a, const Row& b) {
+  const double dt_s = b[kTime] - a[kTime];
+  if (!(dt_s > 0)) return fmt::format("time_s {} after {}", b[kTime], a[kTime]);
+  // Forces of the air and of rotors change within a step, and a crash stops a drone at once.
+  const Vector3d moved = at(b, kPosition) - at(a, kPosition);
+  const Vector3d mean = 0.5 * (at(a, kVelocity) + at(b, kVelocity));
+  const double off_m = (moved - mean * dt_s).norm();
+  const double change_mps = (at(b, kVelocity) - at(a, kVelocity)).norm();
+  if (off_m > 0.002 + 0.6 * change_mps * dt_s) {
+    return fmt::format("moved by {:.4f} m more or less than its velocity says", off_m);
+  }
+  constexpr double kGravity = 9.81;
+  const Vector3d force = orientation_of(a) * at(a, kForce);
+  const Vector3d force_then = orientation_of(b) * at(b, kForce);
+  const Vector3d expected = 0.5 * (force + force_then) - Vector3d(0, 0, kGravity);
+  const Vector3d acceleration = (at(b, kVelocity) - at(a, kVelocity)) / dt_s;
+  const double off_mps2 = (acceleration - expected).norm();
+  if (off_mps2 > 1.5 + (force - force_then).norm() + 0.2 * expected.norm()) {
+    return fmt::format("velocity changes by {:.2f} m/s2 other than true_f says", off_mps2);
+  }
+  const Eigen::AngleAxisd turn(orientation_of(a).conjugate() * orientation_of(b));
+  const Vector3d turned = std::remainder(turn.angle(), 2 * EIGEN_PI) * turn.axis();
+  const Vector3d rates = 0.5 * (at(a, kRates) + at(b, kRates));
+  const double off_rad_s = (turned / dt_s - rates).norm();
+  if (off_rad_s > 0.1 + (at(a, kRates) - at(b, kRates)).norm()) {
+    return fmt::format("turns by {:.3f} rad/s other than true_w says", off_rad_s);
+  }
+  constexpr double kMost_w = 5000;
+  const double power_w = (b[kEnergy] - a[kEnergy]) / dt_s;
+  if (!(power_w >= -1e-6 && power_w < kMost_w)) {
+    return fmt::format("energy_j grows by {:.0f} W", power_w);
+  }
+  if (b[kGpsTime] < a[kGpsTime] || b[kGpsTime] > b[kTime] + 1e-6 || b[kTime] - b[kGpsTime] > 0.5) {
+    return fmt::format("gps_time_s {}", b[kGpsTime]);
+  }
+  if (b[kGpsTime] == a[kGpsTime] &&
+      (at(b, kGpsPosition) != at(a, kGpsPosition) || at(b, kGpsVelocity) != at(a, kGpsVelocity))) {
+    return "another GPS position at the same gps_time_s";
+  }
+  constexpr double kMostGust_mps2 = 400;
+  if ((at(b, kAir) - at(a, kAir)).norm() > 0.5 + kMostGust_mps2 * dt_s) {
+    return "air velocity jumps";
+  }
+  return "";
+}
+
+/// The row at or before a time.
+std::size_t row_at(const std::vector<Row>& rows, double time_s) {
+  const auto after = std::upper_bound(rows.begin(), rows.end(), time_s + 1e-6,
+                                      [](double t, const Row& row) { return t < row[kTime]; });
+  return after == rows.begin() ? 0 : static_cast<std::size_t>(after - rows.begin()) - 1;
+}
+
+bool are_equal(const Vector3d& a, const Vector3d& b, double slack) {
+  return (a - b).cwiseAbs().maxCoeff() <= slack + 1e-7 * b.cwiseAbs().maxCoeff();
+}
+
+/// What of a picture's readings is not in the row; "" if nothing.
+std::string other_reading(const json& measured, const Row& row) {
+  struct Reading {
+    const char* name;
+    std::size_t column;
+    json value;
+  };
+  const json& gps = measured.at("gps");
+  for (const Reading& reading :
+       {Reading{"gyro", kGyro, measured.at("gyro")},
+        Reading{"accelerometer", kAccelerometer, measured.at("accelerometer")},
+        Reading{"magnetometer_ut", kMagnetometer, measured.at("magnetometer_ut")},
+        Reading{"gps.position", kGpsPosition, gps.at("position")},
+        Reading{"gps.velocity", kGpsVelocity, gps.at("velocity")}}) {
+    if (!are_equal(numbers_at<3>(reading.value), at(row, reading.column), 1e-6)) {
+      return reading.name;
+    }
+  }
+  const auto differ = [&](const json& value, std::size_t column) {
+    return std::abs(value.get<double>() - row[column]) > 1e-6 * (1 + std::abs(row[column]));
+  };
+  if (differ(measured.at("time_s"), kTime)) return "time_s";
+  if (differ(measured.at("pressure_pa"), kPressure)) return "pressure_pa";
+  if (differ(measured.at("height_m"), kHeight)) return "height_m";
+  if (differ(gps.at("time_s"), kGpsTime)) return "gps.time_s";
+  return "";
+}
+
+/// What of a picture's truth is not between two rows; "" if nothing.
+std::string other_truth(const json& truth, const Row& a, const Row& b) {
+  const double dt_s = b[kTime] - a[kTime];
+  const double time_s = truth.at("time_s").get<double>();
+  const double share = dt_s > 0 ? std::clamp((time_s - a[kTime]) / dt_s, 0.0, 1.0) : 0;
+  struct Value {
+    const char* name;
+    std::size_t column;
+  };
+  for (const Value& value :
+       {Value{"position", kPosition}, Value{"velocity", kVelocity}, Value{"body_rates", kRates},
+        Value{"specific_force", kForce}, Value{"air_velocity", kAir}}) {
+    const Vector3d expected =
+        at(a, value.column) + share * (at(b, value.column) - at(a, value.column));
+    if (!are_equal(numbers_at<3>(truth.at(value.name)), expected, 1e-5)) return value.name;
+  }
+  const Quaterniond expected = orientation_of(a).slerp(share, orientation_of(b));
+  if (expected.angularDistance(quaternion_at(truth.at("orientation_wxyz"))) > 1e-4) {
+    return "orientation_wxyz";
+  }
+  const double energy_j = a[kEnergy] + share * (b[kEnergy] - a[kEnergy]);
+  constexpr double kJoules = 3600;
+  if (std::abs(truth.at("energy_wh").get<double>() * kJoules - energy_j) > 1e-6 * (1 + energy_j)) {
+    return "energy_wh";
+  }
+  return "";
+}
+
+}  // namespace
+
+void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
+  if (!info.has("sensors") || !image.record.contains("flight")) return;
+  const std::string name = fmt::format("sensors/{}/{}.csv", image.run, image.camera);
+  Table& table = tables_[name];
+  if (!table.is_read) {
+    table.is_read = true;
+    const CsvTable csv = read_csv(info.root / name);
+    for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+      Row row;
+      for (const std::string& cell : csv.rows[i]) row.push_back(number_of(cell));
+      if (row.size() != kColumns ||
+          !std::all_of(row.begin(), row.end(), [](double v) { return std::isfinite(v); })) {
+        findings.add("sensors", name, fmt::format("line {}", i + 2), "not 39 numbers");
+        table.rows.clear();
+        return;
+      }
+      table.rows.push_back(std::move(row));
+    }
+    const double latitude_deg =
+        image.record.value("environment", json::object()).value("latitude_deg", 45.0);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      std::string what = i == 0 ? "" : break_between(table.rows[i - 1], table.rows[i]);
+      constexpr double kGpsAge_s = 0.45;
+      if (what.empty()) {
+        what = implausible_reading(sample_of_row(table.rows[i]), latitude_deg, 0, kGpsAge_s);
+      }
+      if (what.empty()) continue;
+      findings.add("sensors", name, fmt::format("line {}", i + 2), what);
+      break;  // the rest would only be repeated
+    }
+  }
+  if (table.rows.empty()) return;
+  const json& flight = image.record.at("flight");
+  const std::size_t row = row_at(table.rows, image.time_s);
+  const std::string reading = other_reading(flight.at("measured"), table.rows[row]);
+  if (!reading.empty()) {
+    findings.add("sensors", name, fmt::format("line {}", row + 2),
+                 fmt::format("{} is not what flight.measured of image {} says", reading, image.id));
+  }
+  const Row& next = table.rows[std::min(row + 1, table.rows.size() - 1)];
+  const std::string truth = other_truth(flight.at("true"), table.rows[row], next);
+  if (!truth.empty()) {
+    findings.add("sensors", name, fmt::format("line {}", row + 2),
+                 fmt::format("{} is not what flight.true of image {} says", truth, image.id));
+  }
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,196 @@
+// Depth and ids of what stands still, seen from two places or at two times.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "formats/shot.h"
+
+namespace throng::formats {
+
+namespace {
+
+constexpr int kMostSamples = 4000;
+
+/// Depth and ids in the 3 x 3 pixels around one.
+struct Patch {
+  double near_m = 1e9;
+  double far_m = 0;  ///< infinite where one of them is sky
+  bool has_id = false;
+};
+
+Patch patch_at(const Pixels& pixels, int x, int y, std::uint32_t id) {
+  Patch patch;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const std::size_t pixel = pixels.at(x + dx, y + dy);
+      const double depth = pixels.depth_cm[pixel] == 0 ? 1e9 : pixels.depth_m(pixel);
+      patch.near_m = std::min(patch.near_m, depth);
+      patch.far_m = std::max(patch.far_m, depth);
+      patch.has_id |= pixels.ids.empty() || pixels.ids[pixel] == id;
+    }
+  }
+  return patch;
+}
+
+/// How the still points of one picture look in another one.
+struct Tally {
+  std::size_t seen = 0;          ///< points within the other picture
+  std::size_t seen_through = 0;  ///< where it shows something farther
+  std::size_t same_place = 0;    ///< where it shows that depth
+  std::size_t other_id = 0;      ///< of these, with another id
+};
+
+using Tallies = std::map<std::uint32_t, Tally>;
+
+void tally_point(const Shot& from, const Shot& to, int x, int y, Tallies& tallies) {
+  const Pixels& pixels = from.pixels;
+  const std::size_t pixel = pixels.at(x, y);
+  const std::uint32_t id = pixels.ids[pixel];
+  if (!is_still(id) || pixels.depth_cm[pixel] == 0) return;
+  const double z = pixels.depth_m(pixel);
+  const Patch here = patch_at(pixels, x, y, id);
+  // At an edge, or where the surface is seen from its side, a pixel says little.
+  constexpr double kSmooth = 0.03;
+  if (here.far_m - here.near_m > kSmooth * z) return;
+  const Eigen::Vector3d point = from.camera.unproject({x, y}, z);
+  if (!point.allFinite()) return;
+  const auto seen = to.camera.project(point);
+  if (!seen.visible || !(seen.depth_m > 0)) return;
+  const int u = static_cast<int>(std::lround(seen.pixel.x()));
+  const int v = static_cast<int>(std::lround(seen.pixel.y()));
+  if (!to.pixels.holds(u, v, 1)) return;
+  const Patch there = patch_at(to.pixels, u, v, id);
+  const double slack_m = 0.03 + 0.004 * seen.depth_m + (here.far_m - here.near_m);
+  Tally& tally = tallies[id];
+  ++tally.seen;
+  if (there.near_m > seen.depth_m + slack_m) ++tally.seen_through;
+  const bool is_there =
+      there.near_m <= seen.depth_m + slack_m && there.far_m >= seen.depth_m - slack_m;
+  if (!is_there) return;
+  ++tally.same_place;
+  if (!there.has_id) ++tally.other_id;
+}
+
+Tallies tally(const Shot& from, const Shot& to) {
+  Tallies tallies;
+  const Pixels& pixels = from.pixels;
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostSamples)));
+  for (int y = 1; y + 1 < pixels.height; y += step) {
+    for (int x = 1 + y % step; x + 1 < pixels.width; x += step) {
+      tally_point(from, to, x, y, tallies);
+    }
+  }
+  return tallies;
+}
+
+std::string name_of_still(std::uint32_t id) {
+  if (id == kGround) return "the ground";
+  return is_building(id) ? fmt::format("building {}", id - kFirstBuilding)
+                         : fmt::format("prop {}", id - kFirstProp);
+}
+
+void judge(const Shot& from, const Shot& to, Findings& findings) {
+  constexpr std::size_t kFewest = 12;
+  // Rounded pixels meet edges: a few in a hundred are off in sound pictures.
+  constexpr double kMostThrough = 0.25;
+  constexpr double kMostOtherId = 0.25;
+  for (const auto& [id, tally] : tally(from, to)) {
+    if (tally.seen < kFewest) continue;
+    const auto through = static_cast<double>(tally.seen_through);
+    if (through > kMostThrough * static_cast<double>(tally.seen)) {
+      findings.add(
+          "depth-agrees", raster_name("depth", to.image), to.record(),
+          fmt::format("{} of {} points of {} that {} shows are seen through", tally.seen_through,
+                      tally.seen, name_of_still(id), raster_name("depth", from.image)));
+    }
+    if (tally.same_place >= kFewest && static_cast<double>(tally.other_id) >
+                                           kMostOtherId * static_cast<double>(tally.same_place)) {
+      findings.add(
+          "ids-agree", raster_name("instances", to.image), to.record(),
+          fmt::format("{} of {} points that are {} in {} have another id", tally.other_id,
+                      tally.same_place, name_of_still(id), raster_name("instances", from.image)));
+    }
+  }
+}
+
+bool has_geometry(const Shot& shot) {
+  return shot.at_once && !shot.pixels.ids.empty() && !shot.pixels.depth_cm.empty();
+}
+
+/// Camera z at which a pixel's ray meets the ground.
+std::optional<double> ground_depth_at(const Shot& shot, int x, int y) {
+  const Eigen::Vector3d at = shot.camera.unproject({x, y}, 1);
+  if (!at.allFinite()) return std::nullopt;
+  const Eigen::Vector3d centre = shot.camera.pose.centre();
+  const double down = centre.z() - at.z();
+  if (!(down > 1e-3)) return std::nullopt;
+  return centre.z() / down;
+}
+
+}  // namespace
+
+void check_still_surfaces(const Shot& a, const Shot& b, Findings& findings) {
+  if (!has_geometry(a) || !has_geometry(b)) return;
+  judge(a, b, findings);
+  judge(b, a, findings);
+}
+
+void check_buildings(const Shot& shot, Findings& findings) {
+  if (!has_geometry(shot)) return;
+  const Pixels& pixels = shot.pixels;
+  struct Foot {
+    std::size_t looked_at = 0;
+    std::size_t touching = 0;
+    std::size_t points = 0;
+    std::size_t below = 0;
+  };
+  std::map<std::uint32_t, Foot> feet;
+  constexpr int kStep = 3;
+  for (int y = 1; y + 1 < pixels.height; ++y) {
+    for (int x = 1; x + 1 < pixels.width; ++x) {
+      const std::size_t pixel = pixels.at(x, y);
+      const std::uint32_t id = pixels.ids[pixel];
+      if (!is_building(id) || pixels.depth_cm[pixel] == 0) continue;
+      const double z = pixels.depth_m(pixel);
+      if (x % kStep == 0 && y % kStep == 0) {
+        const Eigen::Vector3d point = shot.camera.unproject({x, y}, z);
+        Foot& foot = feet[id];
+        ++foot.points;
+        if (point.z() < -0.05 - 0.004 * z) ++foot.below;
+      }
+      // Ground right below in the picture and nearer: the wall stands there.
+      if (pixels.ids[pixels.at(x, y + 1)] != kGround) continue;
+      const std::optional<double> ground = ground_depth_at(shot, x, y);
+      const std::optional<double> nearer = ground_depth_at(shot, x, y + 1);
+      if (!ground || !nearer || !(*nearer < *ground)) continue;
+      Foot& foot = feet[id];
+      ++foot.looked_at;
+      if (std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * (*ground - *nearer)) ++foot.touching;
+    }
+  }
+  constexpr std::size_t kFewest = 40;
+  Foot all;
+  for (const auto& [id, foot] : feet) {
+    all.looked_at += foot.looked_at;
+    all.touching += foot.touching;
+    if (foot.points >= kFewest && foot.below > 1 + foot.points / 50) {
+      findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),
+                   fmt::format("{} of {} pixels of {} are below the ground", foot.below,
+                               foot.points, name_of_still(id)));
+    }
+  }
+  // Some buildings hang over the ground; all of them never do.
+  if (all.looked_at >= kFewest &&
+      static_cast<double>(all.touching) < 0.25 * static_cast<double>(all.looked_at)) {
+    findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),
+                 fmt::format("buildings stand on the ground at {} of {} pixels of their feet only",
+                             all.touching, all.looked_at));
+  }
+}
+
+}  // namespace throng::formats
