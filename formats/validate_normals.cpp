@@ -66,7 +66,8 @@ std::optional<Eigen::Vector3d> normal_by_depth(const Shot& shot, int x, int y, i
 
 struct NormalTally {
   std::size_t looked_at = 0;
-  std::size_t away = 0;  ///< from the camera
+  std::size_t away = 0;    ///< from the camera
+  std::size_t not_up = 0;  ///< of the ground
   std::vector<double> angles_rad;
 };
 
@@ -94,6 +95,8 @@ void check_normals(const Shot& shot, Findings& findings) {
       ++tally.looked_at;
       // Edge on, rounding decides.
       if (normal.dot(ray.normalized()) > 0.1) ++tally.away;
+      constexpr double kUp = 0.95;
+      if (normal.z() < kUp) ++tally.not_up;
       const int reach = *kind == Kind::person ? 2 : 4;
       const auto by_depth = normal_by_depth(shot, x, y, reach);
       if (by_depth) {
@@ -113,6 +116,16 @@ void check_normals(const Shot& shot, Findings& findings) {
                    fmt::format("{} of {} pixels of {} face away from the camera", tally.away,
                                tally.looked_at, name));
     }
+    // At the edge of something nearer, a pixel of the ground may have another normal.
+    if (kind == Kind::ground && tally.looked_at >= 10 * kFewest &&
+        static_cast<double>(tally.not_up) > 0.015 * static_cast<double>(tally.looked_at)) {
+      findings.add("normals-are-surface", file, shot.record(),
+                   fmt::format("normals of {} of {} pixels of the ground do not point up",
+                               tally.not_up, tally.looked_at));
+    }
+    if (getenv("TDBG") && kind == Kind::ground)
+      fmt::print("NOTUP {} {:.5f}\n", file,
+                 static_cast<double>(tally.not_up) / static_cast<double>(tally.looked_at));
     if (tally.angles_rad.size() < kFewest) continue;
     const auto middle =
         tally.angles_rad.begin() + static_cast<std::ptrdiff_t>(tally.angles_rad.size() / 2);
