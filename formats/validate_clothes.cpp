@@ -100,9 +100,6 @@ void ClothesCheck::finish(Findings& findings) const {
       pictures += b.squaredNorm();
     }
     const double correlation = both / std::max(1e-9, std::sqrt(labels * pictures));
-    if (getenv("TDBG"))
-      fmt::print("CLOTHES {} n {} sd {:.2f} corr {:.2f}\n", run, pairs.size(),
-                 std::sqrt(labels / count), correlation);
     // Grey shirts, and pictures without color by night, say nothing.
     constexpr double kColorful = 0.4;
     constexpr double kLeastCorrelation = 0.35;

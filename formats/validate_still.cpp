@@ -171,8 +171,6 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   const double strength = std::sqrt(std::max(then, now) / number);
   const double weakness = std::sqrt(std::min(then, now) / number);
   const double likeness = both / std::max(1e-9, std::sqrt(then * now));
-  if (getenv("TDBG"))
-    fmt::print("COLOR {} {:.2f} {:.2f} {:.3f}\n", after.image.file, strength, weakness, likeness);
   // Grey places say nothing.
   constexpr double kColorful = 7;
   if (strength < kColorful || (likeness > 0.3 && weakness > 0.3 * strength)) return;
