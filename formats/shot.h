@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -52,6 +53,21 @@ void check_facing_motion(const Shot& shot, Findings& findings);
 void check_motion(const Shot& before, const Shot& after, Findings& findings);
 /// People of two cameras' pictures of one instant.
 void check_same_instant(const Shot& a, const Shot& b, Findings& findings);
+
+/// Colors of clothes are those that the pictures show, more or less. Judged for each run.
+class ClothesCheck {
+ public:
+  void add(const Shot& shot);
+  void finish(Findings& findings) const;
+
+ private:
+  struct Shirt {
+    std::optional<Eigen::Vector3d> label;           ///< linear light
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< of the pixels of the torso
+    std::size_t pixels = 0;
+  };
+  std::map<std::string, std::map<std::int64_t, Shirt>> runs_;  ///< by track
+};
 
 /// Outlines of labels are where the pictures have edges. Judged when all of a dataset is seen:
 /// pictures that can tell (not too dark, foggy or noisy) say what the others must be like.

@@ -153,6 +153,7 @@ class ShotChecks {
     check_buildings(shot, findings);
     check_normals(shot, findings);
     alignment_.add(shot);
+    clothes_.add(shot);
     check_whole_bodies(shot, findings);
     check_skeletons(shot, findings);
     check_facing_motion(shot, findings);
@@ -169,12 +170,16 @@ class ShotChecks {
     }
     last_.insert_or_assign(image.camera, std::move(shot));
   }
-  void finish(Findings& findings) const { alignment_.finish(findings); }
+  void finish(Findings& findings) const {
+    alignment_.finish(findings);
+    clothes_.finish(findings);
+  }
   /// Nothing is compared with a camera's last picture any more.
   void forget(const std::string& camera) { last_.erase(camera); }
 
  private:
   AlignmentCheck alignment_;
+  ClothesCheck clothes_;
   std::map<std::string, Shot> last_;  ///< each camera's
 };
 

@@ -43,6 +43,23 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
                  fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", most));
     return;
   }
+  // Joints are inside of the body.
+  int outside = 0;
+  for (const Keypoint& point : person.keypoints) {
+    if (point.visibility == 0) continue;
+    bool is_on = false;
+    for (int dy = -2; dy <= 2 && !is_on; ++dy) {
+      for (int dx = -2; dx <= 2 && !is_on; ++dx) {
+        is_on = whole.at(static_cast<int>(point.x) + dx, static_cast<int>(point.y) + dy);
+      }
+    }
+    outside += is_on ? 0 : 1;
+  }
+  if (outside >= 2) {
+    findings.add("amodal-mask-fills-box", person,
+                 fmt::format("{} keypoints are outside of amodal_segmentation", outside));
+    return;
+  }
   if (pixels.ids.empty() || pixels.depth_cm.empty()) return;
   const double far_m = farthest_m(shot, person) + 0.1 + (shot.at_once ? 0 : 1);
   const std::uint32_t own = instance_of(person);
@@ -140,6 +157,8 @@ const Person* Shot::find(std::int64_t track_id) const {
 void check_whole_bodies(const Shot& shot, Findings& findings) {
   for (const Person& person : shot.image.people) {
     check_whole_mask_place(shot, person, findings);
+    // Of characters, whose shape is known.
+    if (!person.track->contains("attributes")) continue;
     if (shot.is_plain) check_box_is_tight(shot, person, findings);
     check_head(shot, person, findings);
   }

@@ -182,7 +182,11 @@ void ConstancyCheck::check_track(const Person& person, Findings& findings) {
   const double upright = person.box_size.head<2>().maxCoeff();
   // Headgear and hair add a little; whoever lies, bends or sits has a lower box.
   const double height_m = person.box_size.z();
-  if (height_m > stature_m + 0.35 || (height_m > 1.8 * upright && height_m < 0.82 * stature_m)) {
+  // Walkers neither raise their arms nor bend.
+  const bool is_upright = person.state == "walking" && height_m > 1.5 * upright;
+  const double highest_m = is_upright ? 1.07 * stature_m : stature_m + 0.35;
+  const double lowest_m = is_upright ? 0.88 * stature_m : 0;
+  if (height_m > highest_m || height_m < lowest_m) {
     fault(fmt::format("stature_m {}, but box_3d of annotation {} is {:.2f} m high", stature_m,
                       person.id, height_m));
   }

@@ -290,14 +290,24 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
     }
     return most;
   }();
-  double nearest_m = 1e9;
+  double door_m = 0;
   for (const Vector2d& a : place.door) {
-    for (const Vector2d& b : place.zone) nearest_m = std::min(nearest_m, (a - b).norm());
+    for (const Vector2d& b : place.door) door_m = std::max(door_m, (a - b).norm());
   }
-  if (nearest_m > 0.6 && zone_m > 4) {
+  constexpr double kDoorDepth_m = 0.5;
+  const double width_m = std::sqrt(std::max(0.0, door_m * door_m - kDoorDepth_m * kDoorDepth_m));
+  const double expected_m = 2 * (std::max(width_m, 2.0) + 1);
+  Vector2d door_middle = Vector2d::Zero();
+  for (const Vector2d& a : place.door) door_middle += a / static_cast<double>(place.door.size());
+  double reach_m = 0;
+  for (const Vector2d& a : place.zone) reach_m = std::max(reach_m, (a - door_middle).norm());
+  // Cut off by the camera's plane, they are smaller.
+  const double slack_m = 0.25 + 0.05 * expected_m;
+  if (zone_m > expected_m + slack_m || reach_m > 0.5 * expected_m + 0.5 + slack_m) {
     findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
-                 fmt::format("door and zone of {} are {:.1f} m apart",
-                             exit.at("id").get<std::string>(), nearest_m));
+                 fmt::format("the zone of {} is {:.1f} m wide and reaches {:.1f} m from the door's "
+                             "middle, but the door is {:.1f} m wide",
+                             exit.at("id").get<std::string>(), zone_m, reach_m, width_m));
   }
 }
 

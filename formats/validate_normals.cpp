@@ -66,7 +66,9 @@ std::optional<Eigen::Vector3d> normal_by_depth(const Shot& shot, int x, int y, i
 
 struct NormalTally {
   std::size_t looked_at = 0;
-  std::size_t away = 0;  ///< from the camera
+  std::size_t away = 0;    ///< from the camera
+  std::size_t not_up = 0;  ///< of the ground
+  std::size_t flat = 0;    ///< exactly upwards
   std::vector<double> angles_rad;
 };
 
@@ -94,6 +96,10 @@ void check_normals(const Shot& shot, Findings& findings) {
       ++tally.looked_at;
       // Edge on, rounding decides.
       if (normal.dot(ray.normalized()) > 0.1) ++tally.away;
+      constexpr double kUp = 0.95;
+      if (normal.z() < kUp) ++tally.not_up;
+      const std::uint16_t* written = &pixels.normals[3 * pixel];
+      if (written[0] == 128 && written[1] == 128 && written[2] == 255) ++tally.flat;
       const int reach = *kind == Kind::person ? 2 : 4;
       const auto by_depth = normal_by_depth(shot, x, y, reach);
       if (by_depth) {
@@ -112,6 +118,20 @@ void check_normals(const Shot& shot, Findings& findings) {
       findings.add("normals-face-camera", file, shot.record(),
                    fmt::format("{} of {} pixels of {} face away from the camera", tally.away,
                                tally.looked_at, name));
+    }
+    // At the edge of something nearer, a pixel of the ground may have another normal.
+    if (kind == Kind::ground && tally.looked_at >= 10 * kFewest &&
+        static_cast<double>(tally.not_up) > 0.04 * static_cast<double>(tally.looked_at)) {
+      findings.add("normals-are-surface", file, shot.record(),
+                   fmt::format("normals of {} of {} pixels of the ground do not point up",
+                               tally.not_up, tally.looked_at));
+    }
+    // Bodies are round: what is exactly flat is the ground of another picture.
+    if (kind == Kind::person && tally.looked_at >= 2 * kFewest &&
+        static_cast<double>(tally.flat) > 0.15 * static_cast<double>(tally.looked_at)) {
+      findings.add("normals-are-surface", file, shot.record(),
+                   fmt::format("normals of {} of {} pixels of people are those of flat ground",
+                               tally.flat, tally.looked_at));
     }
     if (tally.angles_rad.size() < kFewest) continue;
     const auto middle =

@@ -161,6 +161,10 @@ void check_visible_keypoints(const Image& image, const Person& person, Findings&
 
 void check_keypoints(const Image& image, const Person& person, Findings& findings) {
   if (person.keypoints.empty()) return;
+  // Joints of the skeleton may lie outside of the coarsest meshes, which have 64 triangles.
+  constexpr double kCoarseShare = 0.1;
+  const double slack_px =
+      kBoxSlackPx + kCoarseShare * std::max(person.amodal.width, person.amodal.height);
   int labelled = 0;
   for (const Keypoint& point : person.keypoints) {
     if (point.visibility == 0) {
@@ -171,7 +175,7 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
     }
     ++labelled;
     if (point.x < 0 || point.y < 0 || point.x > image.width || point.y > image.height ||
-        !holds(person.amodal, point.x, point.y, kBoxSlackPx)) {
+        !holds(person.amodal, point.x, point.y, slack_px)) {
       findings.add("keypoints", person, "a keypoint outside of bbox_amodal or the image");
     }
   }

@@ -77,6 +77,8 @@ void check_facing(const Person& person, Findings& findings) {
 struct Sides {
   int own = 0;
   int opposite = 0;
+  int kind = 0;        ///< arms at elbows and wrists, legs at knees and ankles
+  int other_kind = 0;  ///< the other way round
 };
 
 Sides sides_of(const Pixels& pixels, const Person& person) {
@@ -90,6 +92,7 @@ Sides sides_of(const Pixels& pixels, const Person& person) {
       if (point.visibility != 2 || !pixels.holds(x, y, 1)) continue;
       bool has_own = false;
       bool has_opposite = false;
+      bool has_other_kind = false;
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
           const std::size_t pixel = pixels.at(x + dx, y + dy);
@@ -101,10 +104,15 @@ Sides sides_of(const Pixels& pixels, const Person& person) {
           };
           has_own |= is_part(limb.left_part + side);
           has_opposite |= is_part(limb.left_part + 1 - side);
+          const bool is_arm = part == 3 || part == 4;
+          const bool is_leg = part >= 5 && part <= 8;
+          has_other_kind |= limb.left_part == 3 ? is_leg : is_arm;
         }
       }
       sides.own += has_own && !has_opposite ? 1 : 0;
       sides.opposite += has_opposite && !has_own ? 1 : 0;
+      sides.kind += (has_own || has_opposite) && !has_other_kind ? 1 : 0;
+      sides.other_kind += has_other_kind && !has_own && !has_opposite ? 1 : 0;
     }
   }
   return sides;
@@ -112,14 +120,15 @@ Sides sides_of(const Pixels& pixels, const Person& person) {
 
 void check_sides(const Shot& shot, Findings& findings) {
   if (shot.pixels.parts.empty()) return;
-  int own = 0;
-  int opposite = 0;
+  Sides all;
   constexpr int kFewest = 4;
   for (const Person& person : shot.image.people) {
     if (person.keypoints.size() <= kLimbs.back().left_keypoint + 1) continue;
     const Sides sides = sides_of(shot.pixels, person);
-    own += sides.own;
-    opposite += sides.opposite;
+    all.own += sides.own;
+    all.opposite += sides.opposite;
+    all.kind += sides.kind;
+    all.other_kind += sides.other_kind;
     if (sides.opposite >= kFewest && sides.opposite > 4 * sides.own) {
       findings.add("parts-at-keypoints", person,
                    fmt::format("{} shows the other side's limbs at {} of {} visible keypoints",
@@ -128,11 +137,49 @@ void check_sides(const Shot& shot, Findings& findings) {
     }
   }
   constexpr int kFewestOfAll = 12;
-  if (own + opposite >= kFewestOfAll && opposite > own) {
-    findings.add("parts-at-keypoints", raster_name("parts", shot.image), shot.record(),
-                 fmt::format("{} of {} visible keypoints of limbs are on the other side's",
-                             opposite, own + opposite));
+  const auto judge = [&](int right, int wrong, const char* what) {
+    if (right + wrong < kFewestOfAll || wrong <= right) return;
+    findings.add(
+        "parts-at-keypoints", raster_name("parts", shot.image), shot.record(),
+        fmt::format("{} of {} visible keypoints of limbs are on {}", wrong, right + wrong, what));
+  };
+  judge(all.own, all.opposite, "the other side's");
+  judge(all.kind, all.other_kind, "arms instead of legs or legs instead of arms");
+}
+
+/// Keypoints are visible where the depth shows the person's surface at them, and hidden where not.
+void check_visibility_of_keypoints(const Shot& shot, const Person& person, Findings& findings) {
+  const Pixels& pixels = shot.pixels;
+  const std::uint32_t id = instance_of(person);
+  int contradictions = 0;
+  for (std::size_t i = 0; i < person.keypoints.size(); ++i) {
+    const Keypoint& point = person.keypoints[i];
+    const int x = static_cast<int>(point.x);
+    const int y = static_cast<int>(point.y);
+    if (point.visibility == 0 || !pixels.holds(x, y, 2)) continue;
+    const double z = shot.camera.project(keypoint_at(person, i)).depth_m;
+    // A joint is up to 20 cm inside of the body; depth is written in centimetres.
+    bool is_at_surface = false;
+    bool may_be_seen = false;
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const std::size_t pixel = pixels.at(x + dx, y + dy);
+        if (pixels.ids[pixel] != id) continue;
+        const double behind_m = z - pixels.depth_m(pixel);
+        is_at_surface |= dx == 0 && dy == 0 && behind_m > -0.06 && behind_m < 0.025;
+        may_be_seen |= behind_m > -0.13 && behind_m < 0.23;
+      }
+    }
+    contradictions += (point.visibility == 1 && is_at_surface) ||
+                              (point.visibility == 2 && !may_be_seen && shot.is_plain)
+                          ? 1
+                          : 0;
   }
+  if (contradictions < 2) return;
+  findings.add("keypoints", person,
+               fmt::format("{} keypoints are called hidden where the depth shows them, or visible "
+                           "where it does not",
+                           contradictions));
 }
 
 /// Heads are labelled where heads are.
@@ -166,6 +213,9 @@ void check_skeletons(const Shot& shot, Findings& findings) {
     if (!person.record.contains("keypoints_3d")) continue;
     check_in_box(person, findings);
     check_facing(person, findings);
+    if (shot.at_once && !shot.pixels.ids.empty() && !shot.pixels.depth_cm.empty()) {
+      check_visibility_of_keypoints(shot, person, findings);
+    }
   }
   check_sides(shot, findings);
   check_heads_are_heads(shot, findings);

@@ -132,12 +132,61 @@ std::optional<double> ground_depth_at(const Shot& shot, int x, int y) {
   return centre.z() / down;
 }
 
+/// Colors of the same still points in consecutive pictures of one camera.
+void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
+  const Pixels& pixels = before.pixels;
+  if (pixels.rgb.empty() || after.pixels.rgb.empty()) return;
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostSamples)));
+  double both = 0;
+  double then = 0;
+  double now = 0;
+  std::size_t count = 0;
+  for (int y = 1; y + 1 < pixels.height; y += step) {
+    for (int x = 1 + y % step; x + 1 < pixels.width; x += step) {
+      const std::size_t pixel = pixels.at(x, y);
+      if (!is_still(pixels.ids[pixel]) || pixels.depth_cm[pixel] == 0) continue;
+      const auto seen =
+          after.camera.project(before.camera.unproject({x, y}, pixels.depth_m(pixel)));
+      if (!seen.visible || !(seen.depth_m > 0)) continue;
+      const int u = static_cast<int>(std::lround(seen.pixel.x()));
+      const int v = static_cast<int>(std::lround(seen.pixel.y()));
+      if (!after.pixels.holds(u, v) ||
+          after.pixels.ids[after.pixels.at(u, v)] != pixels.ids[pixel]) {
+        continue;
+      }
+      const std::uint8_t* a = &pixels.rgb[3 * pixel];
+      const std::uint8_t* b = &after.pixels.rgb[3 * after.pixels.at(u, v)];
+      const double warm_a = static_cast<double>(a[0]) - a[2];
+      const double warm_b = static_cast<double>(b[0]) - b[2];
+      both += warm_a * warm_b;
+      then += warm_a * warm_a;
+      now += warm_b * warm_b;
+      ++count;
+    }
+  }
+  constexpr std::size_t kFewest = 200;
+  if (count < kFewest) return;
+  const auto number = static_cast<double>(count);
+  const double strength = std::sqrt(std::max(then, now) / number);
+  const double weakness = std::sqrt(std::min(then, now) / number);
+  const double likeness = both / std::max(1e-9, std::sqrt(then * now));
+  // Grey places say nothing.
+  constexpr double kColorful = 7;
+  if (strength < kColorful || (likeness > 0.3 && weakness > 0.3 * strength)) return;
+  findings.add("picture-colors", after.image.file, after.record(),
+               fmt::format("red minus blue of still points was {:.1f} (rms) in the picture before "
+                           "and is {:.1f}, with a correlation of {:.2f}",
+                           std::sqrt(then / number), std::sqrt(now / number), likeness));
+}
+
 }  // namespace
 
 void check_still_surfaces(const Shot& a, const Shot& b, Findings& findings) {
   if (!has_geometry(a) || !has_geometry(b)) return;
   judge(a, b, findings);
   judge(b, a, findings);
+  if (a.image.camera == b.image.camera) compare_colors(a, b, findings);
 }
 
 void check_buildings(const Shot& shot, Findings& findings) {

@@ -65,7 +65,12 @@ class SmallDataset : public testing::Test {
     picture.index = frame;
     picture.time_s = 0.5 * frame;
     picture.depth_m = depth_of(picture);
+    // Every picture is another scene: nobody is in two.
+    const auto first = static_cast<std::uint32_t>(100 * (kFrames * camera + frame));
+    for (std::uint32_t& id : picture.id) id += render::is_agent(id) ? first : 0;
     for (render::PersonInView& person : picture.people) {
+      person.agent += first;
+      person.velocity *= 0.05;  // they stand
       person.keypoints.fill(person.hips.cast<float>());
       set_box(picture.camera, person);
     }

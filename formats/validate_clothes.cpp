@@ -1,0 +1,114 @@
+// Colors of clothes in the tracks against those in the pictures.
+//
+// What a picture shows of a shirt is its color times the light, more or less veiled. So the colors
+// themselves are not compared, but whose shirt is redder or bluer than the others': over many
+// people, label and picture agree.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "formats/shot.h"
+
+namespace throng::formats {
+
+namespace {
+
+constexpr std::uint16_t kTorso = 2;
+
+double linear(double srgb) {
+  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+/// Redness and blueness against green, of linear light.
+Eigen::Vector2d chroma_of(const Eigen::Vector3d& rgb) {
+  constexpr double kDark = 0.005;
+  const Eigen::Vector3d light = (rgb.array() + kDark).log();
+  return {light[0] - light[1], light[2] - light[1]};
+}
+
+std::optional<Eigen::Vector3d> color_of(const nlohmann::json& track) {
+  const std::string text =
+      track.value("attributes", nlohmann::json::object()).value("top_colour", "");
+  if (text.size() != 7 || text.find_first_not_of("0123456789abcdef", 1) != std::string::npos) {
+    return std::nullopt;
+  }
+  Eigen::Vector3d rgb;
+  for (int c = 0; c < 3; ++c) {
+    rgb[c] =
+        linear(std::stoi(text.substr(1 + 2 * static_cast<std::size_t>(c), 2), nullptr, 16) / 255.0);
+  }
+  return rgb;
+}
+
+const std::array<double, 256>& linear_table() {
+  static const std::array<double, 256> table = [] {
+    std::array<double, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values.at(i) = linear(static_cast<double>(i) / 255);
+    }
+    return values;
+  }();
+  return table;
+}
+
+}  // namespace
+
+void ClothesCheck::add(const Shot& shot) {
+  const Pixels& pixels = shot.pixels;
+  if (pixels.rgb.empty() || pixels.parts.empty() || pixels.ids.empty()) return;
+  std::map<std::uint32_t, const Person*> people;
+  for (const Person& person : shot.image.people) people[instance_of(person)] = &person;
+  for (std::size_t i = 0; i < pixels.parts.size(); ++i) {
+    if (pixels.parts[i] != kTorso) continue;
+    const auto person = people.find(pixels.ids[i]);
+    if (person == people.end()) continue;
+    Shirt& shirt = runs_[shot.image.run][person->second->track_id];
+    if (shirt.pixels++ == 0) shirt.label = color_of(*person->second->track);
+    for (int c = 0; c < 3; ++c) {
+      shirt.sum[c] += linear_table().at(pixels.rgb[3 * i + static_cast<std::size_t>(c)]);
+    }
+  }
+}
+
+void ClothesCheck::finish(Findings& findings) const {
+  for (const auto& [run, shirts] : runs_) {
+    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pairs;  // label, picture
+    Eigen::Vector2d mean_label = Eigen::Vector2d::Zero();
+    Eigen::Vector2d mean_picture = Eigen::Vector2d::Zero();
+    constexpr std::size_t kFewestPixels = 60;
+    for (const auto& [track, shirt] : shirts) {
+      if (shirt.pixels < kFewestPixels || !shirt.label) continue;
+      pairs.emplace_back(chroma_of(*shirt.label),
+                         chroma_of(shirt.sum / static_cast<double>(shirt.pixels)));
+      mean_label += pairs.back().first;
+      mean_picture += pairs.back().second;
+    }
+    constexpr std::size_t kFewestPeople = 15;
+    if (pairs.size() < kFewestPeople) continue;
+    const auto count = static_cast<double>(pairs.size());
+    double both = 0;
+    double labels = 0;
+    double pictures = 0;
+    for (const auto& [label, picture] : pairs) {
+      const Eigen::Vector2d a = label - mean_label / count;
+      const Eigen::Vector2d b = picture - mean_picture / count;
+      both += a.dot(b);
+      labels += a.squaredNorm();
+      pictures += b.squaredNorm();
+    }
+    const double correlation = both / std::max(1e-9, std::sqrt(labels * pictures));
+    // Grey shirts, and pictures without color by night, say nothing.
+    constexpr double kColorful = 0.4;
+    constexpr double kLeastCorrelation = 0.35;
+    if (std::sqrt(labels / count) < kColorful || correlation >= kLeastCorrelation) continue;
+    findings.add("colors-are-clothes", kCocoFile, run,
+                 fmt::format("top_colour of {} people and the colors of their torsos in the "
+                             "pictures have a correlation of {:.2f}",
+                             pairs.size(), correlation));
+  }
+}
+
+}  // namespace throng::formats

@@ -1,0 +1,72 @@
+"""`throng validate` believes no manifest: a dataset with everything is damaged in one way after the other, with its
+hashes put right each time (damages.py), and the damage is found; the dataset itself is not found fault with."""
+import concurrent.futures
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+import damages
+
+ANNOTATIONS = ["coco", "keypoints", "amodal", "density", "exits", "fields", "depth", "instances", "parts", "normals",
+               "flow", "sensors"]
+
+
+def camera(**more):
+    return {"width": 384, "height": 240, "hfov_deg": 62, **more}
+
+
+JOB = {
+    "name": "damages",
+    "scenario": "city_square/nearest_exit",
+    "seed": 5,
+    "runs": 2,
+    "crowd": {"agents": 130, "model": "orca"},
+    "capture": {"rate_hz": 2, "from_s": 29, "to_s": 31},
+    "drones": [
+        {"id": "d1", "start": [8, -3, 15], "camera": camera(yaw_deg=90, pitch_deg=-38)},
+        {
+            "id": "d2",
+            "start": [4, 12, 15],
+            "guidance": {"policy": "orbit", "centre": [-4, 0], "radius_m": 14, "speed_mps": 2},
+            "camera": camera(yaw_deg=180, pitch_deg=-42),
+        },
+    ],
+    "outputs": {"annotations": ANNOTATIONS, "previews": 1, "formats": ["mot", "yolo-detect", "kitti", "table"]},
+}
+# Nothing else in the dataset says what these change.
+NOT_FOUND = set()
+
+
+def test_everything(throng, folder):
+    job = folder / "job.json"
+    job.write_text(json.dumps(JOB))
+    subprocess.run([throng, "run", job, "-o", folder / "out"], check=True, capture_output=True, timeout=300)
+    dataset = folder / "out" / "dataset"
+    intact = subprocess.run([throng, "validate", dataset], capture_output=True, text=True, check=False)
+    assert intact.returncode == 0, intact.stdout
+
+    def run(name):
+        with tempfile.TemporaryDirectory(dir=folder) as place:
+            code, lines = damages.run(throng, dataset, place, name)
+        assert code in (0, 2), (name, code, lines[-3:])
+        return name, sorted({line[line.rindex("[") + 1 : -1] for line in lines if line.endswith("]")})
+
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = list(pool.map(run, damages.KINDS))
+    for name, rules in results:
+        assert rules != ["manifest"], f"{name}: the manifest was not put right"
+        print(f"{name:62} {'found by ' + ', '.join(rules) if rules else 'NOT FOUND'}")
+    missed = {name for name, rules in results if not rules}
+    print(f"found {len(results) - len(missed)} of {len(results)}")
+    assert missed <= NOT_FOUND, missed - NOT_FOUND
+
+
+if __name__ == "__main__":
+    started = time.monotonic()
+    with tempfile.TemporaryDirectory() as temporary:
+        test_everything(sys.argv[1], pathlib.Path(temporary))
+    print(f"{time.monotonic() - started:.0f} s")
