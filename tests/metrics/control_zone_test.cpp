@@ -64,7 +64,7 @@ TEST(ControlZone, HasNoAreaInsideABuilding) {
 }
 
 // Buildings that overlap, share edges, are concave, stick out of the disc or miss it.
-class ZoneAmongBuildings : public testing::TestWithParam<std::vector<Building>> {};
+class ZoneAmongBuildings : public ::testing::TestWithParam<std::vector<Building>> {};
 
 TEST_P(ZoneAmongBuildings, AreaAgreesWithWhereItsPointsAre) {
   const ControlZone zone(door(2), GetParam());
@@ -81,7 +81,7 @@ TEST_P(ZoneAmongBuildings, AreaAgreesWithWhereItsPointsAre) {
 
 INSTANTIATE_TEST_SUITE_P(
     Layouts, ZoneAmongBuildings,
-    testing::Values(
+    ::testing::Values(
         std::vector<Building>{box({-6, 1}, {0, 15}), box({-6, -15}, {0, -1})},
         std::vector<Building>{box({-2, -1}, {-1, 1}), box({-1.5, 0}, {-0.5, 2})},
         std::vector<Building>{box({-2, -1}, {-1, 1}), box({-1, -1}, {-0.5, 1}),
