@@ -87,7 +87,8 @@ TEST_P(Definitions, OfStudyAndMetricsAreOne) {
   const world::Scenario scenario = world::find_scenario(kScenarioFolder, GetParam());
   sim::RunSpec spec;
   spec.seed = 90210;
-  spec.duration_s = 40;
+  const bool is_large = GetParam().rfind("concert", 0) == 0 || GetParam().rfind("stadium", 0) == 0;
+  spec.duration_s = is_large ? 16 : 40;
   spec.people = GetParam().rfind("city_square", 0) == 0 ? 120 : 60;
   if (GetParam().find("huang2016") != std::string::npos) {
     spec.crowd.compat = crowd::Compat::huang2016;
