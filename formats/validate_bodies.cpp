@@ -55,7 +55,9 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
     }
     outside += is_on ? 0 : 1;
   }
-  if (outside >= 2) {
+  constexpr std::uint64_t kLargePixels = 200;
+  constexpr int kMostOutside = 3;  // thin limbs between the pixels
+  if (whole.area() >= kLargePixels && outside > kMostOutside) {
     findings.add("amodal-mask-fills-box", person,
                  fmt::format("{} keypoints are outside of amodal_segmentation", outside));
     return;

@@ -27,6 +27,12 @@ double value_of(const std::map<std::string, double>& row, const char* name) {
   return found == row.end() ? std::nan("") : found->second;
 }
 
+double out_of(const std::map<std::string, double>& row) { return value_of(row, "crossed_out"); }
+/// People gone out less people come in.
+double net_of(const std::map<std::string, double>& row) {
+  return out_of(row) - value_of(row, "crossed_in");
+}
+
 /// The middle value of ratios of columns, which are one number but for rounding; NaN without any.
 double common_ratio(std::vector<double> ratios) {
   if (ratios.empty()) return std::nan("");
@@ -202,8 +208,12 @@ void ExitsCheck::check_series(const std::string& file, const std::string& exit,
         fault(fmt::format("since_crossing {} s, {} s before it was {} s", v("since_crossing"), dt_s,
                           before("since_crossing")));
       }
-      if (v("crossed") > before("crossed") && v("since_crossing") > dt_s + 0.11) {
-        fault(fmt::format("crossed grows, but since_crossing is {} s", v("since_crossing")));
+      if (out_of(row.value) < out_of(last->value) ||
+          value_of(row.value, "crossed_in") < value_of(last->value, "crossed_in")) {
+        fault("fewer crossings than before");
+      }
+      if (out_of(row.value) > out_of(last->value) && v("since_crossing") > dt_s + 0.11) {
+        fault(fmt::format("crossed_out grows, but since_crossing is {} s", v("since_crossing")));
       }
       if (last->state == "closed" && !is_closed) fault("a closed exit that opens");
     }
@@ -215,11 +225,10 @@ void ExitsCheck::check_series(const std::string& file, const std::string& exit,
     const auto then = back > 0 ? series.find(frame - back) : series.end();
     if (then != series.end() &&
         std::abs(v("time_s") - value_of(then->second.value, "time_s") - kFlowFrames) < 1e-6) {
-      const double expected =
-          (v("crossed") - value_of(then->second.value, "crossed")) / kFlowFrames;
+      const double expected = (net_of(row.value) - net_of(then->second.value)) / kFlowFrames;
       // A crossing at the border of the 4 s may be in or out.
       if (differs(v("flow"), expected, 0.26)) {
-        fault(fmt::format("flow {} /s, but crossed changed by {} /s", v("flow"), expected));
+        fault(fmt::format("flow {} /s, but crossings changed by {} /s", v("flow"), expected));
       }
     }
     last = &row;

@@ -88,6 +88,7 @@ void check_instances(const Image& image, const std::vector<std::uint32_t>& ids,
 void check_depth(const Image& image, const Pixels& pixels, Findings& findings) {
   const std::string path = raster_name("depth", image);
   const std::vector<std::uint32_t>& ids = pixels.ids;
+  if (is_plain(image)) check_ground_depth(image, path, ids, pixels.depth_cm, findings);
   std::map<std::uint32_t, std::pair<double, double>> range;  // nearest and farthest, m
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (!is_labelled(ids[i])) continue;

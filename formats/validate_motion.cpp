@@ -98,6 +98,7 @@ bool is_known(const Shot& shot, std::int64_t track_id) {
 /// Whoever one camera shows and the other one must see is in that one's records.
 void check_who_is_there(const Shot& shot, const Shot& other, Findings& findings) {
   for (const Person& person : shot.image.people) {
+    if (!person.track->contains("attributes")) continue;  // no character
     const auto seen = other.camera.project(person.box_middle);
     const Vector2d at = seen.pixel.array() + 0.5;
     if (!seen.visible || !(seen.depth_m > 1)) continue;

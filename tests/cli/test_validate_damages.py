@@ -37,8 +37,9 @@ JOB = {
     ],
     "outputs": {"annotations": ANNOTATIONS, "previews": 1, "formats": ["mot", "yolo-detect", "kitti", "table"]},
 }
-# Nothing else in the dataset says what these change.
-NOT_FOUND = set()
+# Of two people with all that belongs to them, and of places that little else depends on, nothing else tells.
+NOT_FOUND = {"attributes of two people exchanged", "exits of people exchanged", "field one cell off",
+             "doors and zones exchanged"}
 
 
 def test_everything(throng, folder):
@@ -53,7 +54,11 @@ def test_everything(throng, folder):
         with tempfile.TemporaryDirectory(dir=folder) as place:
             code, lines = damages.run(throng, dataset, place, name)
         assert code in (0, 2), (name, code, lines[-3:])
-        return name, sorted({line[line.rindex("[") + 1 : -1] for line in lines if line.endswith("]")})
+        # That exports are no longer those of the records would find nearly everything.
+        told = [line for line in lines if line.endswith("]")]
+        if not name.startswith("formats"):
+            told = [line for line in told if not line.startswith("formats/")]
+        return name, sorted({line[line.rindex("[") + 1 : -1] for line in told})
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(run, damages.KINDS))

@@ -206,11 +206,11 @@ TEST_F(Validate, DepthThatIsSomewhereElse) {
   expect("depth", "depth/run000/d1/000000.png", "annotation ");
 }
 
-// In the fixture nobody is where flow would lead them: every frame is another scene.
+// In the fixture nothing moves, but flow says so.
 TEST_F(Validate, FlowThatLeadsElsewhere) {
   annotations_.emplace_back("flow");
   write_manifest();
-  expect("flow-leads-to-boxes", "flow/run000/d1/000000.png", "annotation ");
+  expect("flow-of-still", "flow/run000/d1/000000.png", "image 1");
   write_file_atomically(root_ / "flow/run000/d1/000001.png",
                         annotate::png_bytes({160, 120, 3}, std::vector<std::uint16_t>(57600, 7)));
   write_manifest();
