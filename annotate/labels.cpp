@@ -7,6 +7,7 @@
 #include <span>
 
 #include "annotate/drone_labels.h"
+#include "annotate/person_record.h"
 #include "base/error.h"
 
 namespace throng::annotate {
@@ -216,7 +217,7 @@ FrameLabels label_people(const render::Frame& frame) {
   for (std::size_t p = 0; p < frame.people.size(); ++p) {
     const std::span<const RowRun> runs = grouped.of(p);
     if (runs.empty()) {
-      const Eigen::AlignedBox2d& box = frame.people[p].amodal_box;
+      const Eigen::AlignedBox2d box = recorded_box(frame.people[p].amodal_box);
       const Eigen::AlignedBox2d inside = box.intersection(image);
       if (!inside.isEmpty() && inside.volume() > 0)
         labels.hidden.push_back({frame.people[p].agent, box});

@@ -38,8 +38,26 @@ bool says_follow(std::string_view state) {
   return found != state.end();
 }
 
-/// Surface of the finest mesh that is drawn in a tint, m².
-double tinted_m2(const skinning::Character& character, skinning::Tint tint) {
+/// Whether a texture is light and shade only at a part's corners, so that the tint is the colour.
+bool is_shade(const skinning::Population& population, const skinning::Mesh& mesh,
+              const skinning::Part& part) {
+  if (part.texture < 0 || population.textures.empty()) return true;
+  const auto& texels = population.textures[static_cast<std::size_t>(part.texture)].rgba;
+  const int size = population.texture_size;
+  const auto place = [size](float share) {
+    return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
+  };
+  for (std::uint32_t i = 0; i < part.index_count; ++i) {
+    const auto& uv = mesh.vertices[mesh.indices[part.first_index + i]].uv;
+    const std::size_t at = 4 * static_cast<std::size_t>(place(uv[1]) * size + place(uv[0]));
+    if (texels[at] != texels[at + 1] || texels[at] != texels[at + 2]) return false;
+  }
+  return true;
+}
+
+/// Surface of the finest mesh whose colour is a tint, m².
+double tinted_m2(const skinning::Population& population, const skinning::Character& character,
+                 skinning::Tint tint) {
   if (character.levels.empty()) return 0;
   const skinning::Mesh& mesh = character.levels.front();
   const auto corner = [&](std::uint32_t index) {
@@ -47,7 +65,7 @@ double tinted_m2(const skinning::Character& character, skinning::Tint tint) {
   };
   double twice_m2 = 0;
   for (const skinning::Part& part : mesh.parts) {
-    if (part.tint != tint && part.tint != skinning::Tint::portrait) continue;
+    if (part.tint != tint || !is_shade(population, mesh, part)) continue;
     for (std::uint32_t i = 0; i + 2 < part.index_count; i += 3) {
       const std::uint32_t first = part.first_index + i;
       const Eigen::Vector3d a = corner(first);
@@ -60,7 +78,8 @@ double tinted_m2(const skinning::Character& character, skinning::Tint tint) {
 /// Less of a colour, like a bald man's eyebrows, is none that somebody would name.
 constexpr double kLeastTintedM2 = 0.01;
 
-nlohmann::json attributes_of(const skinning::Character& character,
+nlohmann::json attributes_of(const skinning::Population& population,
+                             const skinning::Character& character,
                              const skinning::Appearance& appearance) {
   nlohmann::json attributes = {
       {"sex", character.male ? "male" : "female"},
@@ -72,7 +91,8 @@ nlohmann::json attributes_of(const skinning::Character& character,
   for (const skinning::Tint tint :
        {skinning::Tint::top, skinning::Tint::bottom, skinning::Tint::hair, skinning::Tint::shoes}) {
     const auto index = static_cast<std::size_t>(tint);
-    if (character.tints[index].empty() || tinted_m2(character, tint) < kLeastTintedM2) continue;
+    if (character.tints[index].empty() || tinted_m2(population, character, tint) < kLeastTintedM2)
+      continue;
     const skinning::Rgb& colour = appearance.tint[index];
     attributes[std::string(skinning::kTintNames[index]) + "_colour"] =
         fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
@@ -107,9 +127,9 @@ PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& 
     const skinning::Appearance appearance = skinning::appearance_of(
         population, trace.header.seed, static_cast<std::uint32_t>(agent), styling);
     const std::int32_t group = agent < trace.header.group.size() ? trace.header.group[agent] : -1;
-    fixed_.push_back(
-        fmt::format(R"(,"group":{},"attributes":{})", group < 0 ? "null" : std::to_string(group),
-                    attributes_of(population.characters[appearance.character], appearance).dump()));
+    fixed_.push_back(fmt::format(
+        R"(,"group":{},"attributes":{})", group < 0 ? "null" : std::to_string(group),
+        attributes_of(population, population.characters[appearance.character], appearance).dump()));
   }
 }
 

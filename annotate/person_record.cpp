@@ -14,6 +14,7 @@ double truncation_of(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k
 }
 
 Eigen::AlignedBox2d recorded_box(const Eigen::AlignedBox2d& box) {
+  if (box.isEmpty()) return box;
   const auto pixels = [](double value) { return rounded(value, kPixelDecimals); };
   const Eigen::Vector2d first = box.min().unaryExpr(pixels);
   return {first, Eigen::Vector2d(first + box.sizes().unaryExpr(pixels))};

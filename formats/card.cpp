@@ -160,10 +160,12 @@ json DatasetCard::statistics() const {
 }
 
 json DatasetCard::description() const {
-  json places_here = {{"images", "images/RUN/CAMERA/FRAME.jpg"},
-                      {"metrics", "metrics.json"},
-                      {"cameras", "cameras/RUN/CAMERA.opencv.yaml and .ros.yaml"},
-                      {"files", "manifest.json: size and SHA-256 of each file"}};
+  json places_here = {
+      {"images", "images/RUN/CAMERA/FRAME.jpg"},
+      {"metrics", "metrics.json"},
+      {"cameras",
+       "cameras/RUN/CAMERA.opencv.yaml and .ros.yaml; .mask.png: 0 where the lens shows nothing"},
+      {"files", "manifest.json: size and SHA-256 of each file"}};
   for (const std::string& kind : info_.annotations) {
     if (const auto place = places().find(kind); place != places().end()) {
       places_here[kind] = place->second;

@@ -43,6 +43,8 @@ constexpr Swatch kWorkwear[] = {{{56, 74, 112}, 6},
 constexpr Swatch kLeather[] = {{{40, 38, 38}, 8},    {{58, 46, 40}, 5},  {{112, 76, 52}, 4},
                                {{148, 104, 68}, 3},  {{36, 36, 40}, 5},  {{90, 86, 84}, 3},
                                {{186, 176, 162}, 1}, {{96, 48, 42}, 1.5}};
+constexpr Swatch kSuit[] = {
+    {{255, 255, 255}, 5}, {{178, 196, 255}, 4}, {{255, 234, 206}, 2}, {{216, 220, 232}, 3}};
 constexpr Swatch kTrainers[] = {{{236, 236, 232}, 8}, {{40, 40, 44}, 7},    {{134, 136, 140}, 4},
                                 {{92, 94, 98}, 3},    {{44, 56, 96}, 3},    {{70, 104, 160}, 1.5},
                                 {{158, 46, 48}, 1.5}, {{196, 182, 160}, 2}, {{96, 112, 86}, 1},
@@ -75,6 +77,8 @@ std::span<const Swatch> swatches_of(Dye dye) {
       return kSkirt;
     case Dye::workwear:
       return kWorkwear;
+    case Dye::suit:
+      return kSuit;
     case Dye::leather:
       return kLeather;
     case Dye::trainers:

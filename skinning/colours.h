@@ -8,7 +8,8 @@
 
 namespace throng::skinning {
 
-/// Something that is coloured from one palette.
+/// Something that is coloured from one palette. `suit` holds faint tints for a picture that has
+/// colours of its own.
 enum class Dye : std::uint8_t {
   shirt,
   dress,
@@ -16,6 +17,7 @@ enum class Dye : std::uint8_t {
   trousers,
   skirt,
   workwear,
+  suit,
   leather,
   trainers,
   bag,

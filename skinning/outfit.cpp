@@ -82,7 +82,7 @@ class Stylist {
     outfit_.top = outfit_.bottom = suit->name;
     outfit_.one_piece = true;
     // Dark cloth with a white shirt and a tie cannot be told apart by brightness alone: the suit
-    // keeps its colours.
+    // keeps its colours, and its tints are faint.
     outfit_.top_cloth = suit->name == "male_elegantsuit01" ? Cloth::own : Cloth::plain;
     outfit_.bottom_cloth = outfit_.top_cloth;
   }
@@ -196,16 +196,17 @@ class Stylist {
 
   void pick_colours() {
     const bool overall = outfit_.top == "male_worksuit01";
-    const Dye top = overall ? Dye::workwear : outfit_.one_piece ? Dye::dress : Dye::shirt;
-    // Only what is drawn in a colour has one: it becomes a label.
-    if (outfit_.top_cloth != Cloth::own) {
-      set_colours(Tint::top, draw_colours(top, kColours, random_));
-    }
+    const bool suit = outfit_.top_cloth == Cloth::own;
+    const Dye top = suit                ? Dye::suit
+                    : overall           ? Dye::workwear
+                    : outfit_.one_piece ? Dye::dress
+                                        : Dye::shirt;
+    set_colours(Tint::top, draw_colours(top, kColours, random_));
     const bool skirt = outfit_.bottom == kSkirt || outfit_.bottom == "female_elegantsuit01";
     const Dye bottom = skirt                                  ? Dye::skirt
                        : outfit_.bottom_cloth == Cloth::print ? Dye::denim
                                                               : Dye::trousers;
-    if (!outfit_.one_piece) set_colours(Tint::bottom, draw_colours(bottom, kColours, random_));
+    set_colours(Tint::bottom, draw_colours(bottom, kColours, random_));
     const bool trainers = garment(outfit_.shoes, Slot::shoes).label == "trainers";
     set_colours(Tint::shoes,
                 draw_colours(trainers ? Dye::trainers : Dye::leather, kColours, random_));

@@ -95,6 +95,8 @@ TEST_F(PeopleTest, ColoursAreThoseOfWhatIsDrawn) {
       const auto tint = static_cast<std::size_t>(part.tint);
       drawn[tint] += area_m2(mesh, part, everything);
       if (part.tint == Tint::none || character.tints[tint].empty()) continue;
+      // A suit keeps its colours.
+      if (character.wears.starts_with("suit") && part.tint == Tint::top) continue;
       // Light and shade only: the colour is the instance's.
       const Texture& texture = people_->textures[static_cast<std::size_t>(part.texture)];
       for (std::uint32_t at = 0; at < part.index_count; ++at) {
@@ -109,7 +111,7 @@ TEST_F(PeopleTest, ColoursAreThoseOfWhatIsDrawn) {
         ASSERT_EQ(texture.rgba[place], texture.rgba[place + 2]) << character.name;
       }
     }
-    for (const Tint tint : {Tint::top, Tint::bottom, Tint::shoes}) {
+    for (const Tint tint : {Tint::top, Tint::shoes}) {
       const auto index = static_cast<std::size_t>(tint);
       if (!character.tints[index].empty()) {
         EXPECT_GT(drawn[index], 0.02) << character.name << ": " << character.wears;
