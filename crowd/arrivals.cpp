@@ -73,6 +73,7 @@ class Arrivals : public Process {
   }
 
   void before_decisions(Crowd& crowd, Machine& machine) override {
+    if (crowd.time_s() >= plan_.closed_from_s - kRounding) return close(crowd);
     const Agents& agents = crowd.agents;
     std::size_t alive = 0;
     bool counted = false;
@@ -92,8 +93,18 @@ class Arrivals : public Process {
   }
 
  private:
+  static constexpr double kRounding = 1e-6;  // s
+
+  // Nobody waits for those who will not come.
+  void close(Crowd& crowd) {
+    for (; next_ < order_.size(); ++next_) {
+      std::uint8_t& awaited = crowd.agents.awaited[plan_.first + order_[next_]];
+      crowd.awaited -= awaited;
+      awaited = 0;
+    }
+  }
+
   bool due(const Crowd& crowd) const {
-    constexpr double kRounding = 1e-6;  // s
     return plan_.time_s[order_[next_]] <= crowd.time_s() + kRounding;
   }
 
@@ -128,9 +139,13 @@ class Arrivals : public Process {
 }  // namespace
 
 const ArrivalRegistry& arrival_registry() {
-  static const AttributeTable kCommon = {optional(
-      integer("most_alive", "nobody comes while as many agents are present", 1, kMostAgents),
-      "4000000")};
+  static const AttributeTable kCommon = {
+      optional(
+          integer("most_alive", "nobody comes while as many agents are present", 1, kMostAgents),
+          "4000000"),
+      optional(
+          number("closed_from", "agents that have not arrived by then never do, in s", 0, kLatest),
+          "1e7")};
   static const ArrivalRegistry kRegistry(
       {{
           {"rate",
@@ -154,7 +169,8 @@ ArrivalPlan load_arrivals(const Element& element, std::vector<Eigen::Vector2f> p
   const Attributes attributes(element, arrival_registry().find(element).attributes);
   check_count(element, static_cast<double>(first_agent + times->time_s.size()));
   return {first_agent, std::move(times->time_s), std::move(places),
-          static_cast<std::size_t>(attributes.integer("most_alive"))};
+          static_cast<std::size_t>(attributes.integer("most_alive")),
+          attributes.number("closed_from")};
 }
 
 std::unique_ptr<Process> make_arrivals(ArrivalPlan plan, Crowd& crowd) {

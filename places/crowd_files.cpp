@@ -132,20 +132,20 @@ double reached_s(const Vector2d& from, const Vector2d& to, const std::vector<Blo
   return disc == nullptr ? std::numeric_limits<double>::infinity() : disc->from_s;
 }
 
-/// The arrivals before `end_s`; empty where there are none.
-std::string arrivals_of(const Source& source, double end_s) {
-  if (end_s <= 0) return "";
+/// From `closed_s` on nobody comes.
+std::string arrivals_of(const Source& source, double closed_s) {
+  const std::string closed =
+      std::isfinite(closed_s) ? fmt::format(" closed_from=\"{:.6g}\"", closed_s) : "";
   if (source.table.empty()) {
     constexpr double kSecondsPerMinute = 60;
-    return fmt::format("    <Arrivals type=\"rate\" per_second=\"{:.6g}\" end=\"{:.6g}\"/>\n",
-                       source.per_minute / kSecondsPerMinute, std::min(source.until_s, end_s));
+    return fmt::format("    <Arrivals type=\"rate\" per_second=\"{:.6g}\" end=\"{:.6g}\"{}/>\n",
+                       source.per_minute / kSecondsPerMinute, source.until_s, closed);
   }
-  std::string rows;
+  std::string text = fmt::format("    <Arrivals type=\"table\"{}>", closed);
   for (const auto& [time_s, count] : source.table) {
-    if (time_s < end_s) rows += fmt::format("<At time=\"{:.6g}\" count=\"{}\"/>", time_s, count);
+    text += fmt::format("<At time=\"{:.6g}\" count=\"{}\"/>", time_s, count);
   }
-  if (rows.empty()) return "";
-  return "    <Arrivals type=\"table\">" + rows + "</Arrivals>\n";
+  return text + "</Arrivals>\n";
 }
 
 std::string sources_of(const Scenario& scenario, const People& people, const Solids& solids,
@@ -156,10 +156,10 @@ std::string sources_of(const Scenario& scenario, const People& people, const Sol
     const Source& source = people.sources[i];
     Vector2d from = source.from;
     Vector2d to = source.to;
-    double end_s = std::numeric_limits<double>::infinity();
+    double closed_s = std::numeric_limits<double>::infinity();
     if (source.exit) {
       const Exit& exit = scenario.exits[*source.exit];
-      end_s = reached_s(exit.from, exit.to, discs);
+      closed_s = reached_s(exit.from, exit.to, discs);
       from = exit.from + kSourceBehindM * exit.outward;
       to = exit.to + kSourceBehindM * exit.outward;
     }
@@ -170,11 +170,10 @@ std::string sources_of(const Scenario& scenario, const People& people, const Sol
       continue;
     }
     // Nobody comes in by a door or a road that a disaster has reached.
-    const std::string arrivals = arrivals_of(source, std::min(end_s, reached_s(from, to, discs)));
-    if (arrivals.empty()) continue;
+    closed_s = std::min(closed_s, reached_s(from, to, discs));
     const std::string state =
         source.towards ? state_towards(scenario.exits[*source.towards]) : state_of(source.doing);
-    text += agent_group("person", state, explicit_places(places), arrivals);
+    text += agent_group("person", state, explicit_places(places), arrivals_of(source, closed_s));
   }
   return text;
 }

@@ -187,7 +187,7 @@ TEST(SocialGroups, APairBeforeAnObstacleGetsAround) {
   <SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
   <SocialGroups share="1" pairs="1" threes="0" fours="0"/>
   <AgentProfile name="a"><Common r="0.2" max_speed="2" max_accel="5" pref_speed="{}" class="1"
-    obstacleSet="1"/></AgentProfile>
+    obstacleSet="1" max_neighbors="10" neighbor_dist="5"/></AgentProfile>
   <ObstacleSet type="explicit" class="1"><Obstacle closed="1">
     <Vertex p_x="-1.5" p_y="0"/><Vertex p_x="1.5" p_y="0"/><Vertex p_x="1.5" p_y="2"/>
     <Vertex p_x="-1.5" p_y="2"/></Obstacle></ObstacleSet>
