@@ -105,7 +105,9 @@ void check_depth(const Image& image, const Pixels& pixels, Findings& findings) {
     if (found == range.end()) continue;  // a finding of another rule
     const Eigen::RowVectorXd z = corners_in_camera(image, person).row(2);
     const auto& [low, high] = found->second;
-    if (low < z.minCoeff() - slack_m || high > z.maxCoeff() + slack_m) {
+    // A lens's pixels have the depth of the nearest pixel's surface along their own ray.
+    const double lens_m = is_plain(image) ? 0 : 0.01 * z.maxCoeff();
+    if (low < z.minCoeff() - slack_m - lens_m || high > z.maxCoeff() + slack_m + lens_m) {
       findings.add("depth", path, fmt::format("annotation {}", person.id),
                    fmt::format("{:.2f} to {:.2f} m inside the mask, but the person is {:.2f} to "
                                "{:.2f} m away",
