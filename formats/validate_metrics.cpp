@@ -118,7 +118,7 @@ class RunFigures {
             list.size(), longest, gaps.at("count").dump(), gaps.value("longest_s", json()).dump()));
       }
     }
-    for (const char* share : {"mean_clogging_index", "share_of_crossings"}) {
+    for (const char* share : {"mean_clogging_index", "share_of_net_out"}) {
       if (is_number(exit, share) &&
           !(exit.at(share).get<double>() >= -1e-9 && exit.at(share).get<double>() <= 1 + 1e-9)) {
         fault(fmt::format("{} of {} is {}", share, id, exit.at(share).dump()));
