@@ -111,13 +111,12 @@ class SocialGroupForces : public VelModifier {
     }
     if (others == 0) return;
     const Eigen::Vector2f to_others = sum / static_cast<float>(others) - agents.position[agent];
-    const Eigen::Vector2f force = gaze(agents, agent, preferred, to_others) +
-                                  cohesion(agents.position[agent], sum, others) +
-                                  spec_.spacing * spacing;
+    const Eigen::Vector2f force =
+        gaze(agents, agent, preferred, to_others) +
+        progress(agents, agent, preferred) * cohesion(agents.position[agent], sum, others) +
+        spec_.spacing * spacing;
     Eigen::Vector2f wanted = preferred.speed * preferred.direction + kRelaxationS * force;
-    // Nobody stops for the group altogether: two members whose paths lead around an obstacle on
-    // different sides would hold each other there for ever.
-    constexpr float kLeastProgress = 0.3F;  // of the preferred speed, along the path
+    // Nobody stops for the group altogether.
     const float along = wanted.dot(preferred.direction);
     const float least = kLeastProgress * preferred.speed;
     if (along < least) wanted += (least - along) * preferred.direction;
@@ -129,6 +128,8 @@ class SocialGroupForces : public VelModifier {
   }
 
  private:
+  static constexpr float kLeastProgress = 0.3F;  // of the preferred speed, along the path
+
   /// Those who are elsewhere, or do something else, are not waited for.
   static bool walks_along(const Agents& agents, std::size_t agent, std::uint32_t member) {
     constexpr float kLost = 15;  // m
@@ -143,6 +144,15 @@ class SocialGroupForces : public VelModifier {
         std::atan2(cross(preferred.direction, to_others), preferred.direction.dot(to_others)));
     const float turn = std::max(0.0F, angle - 0.5F * std::numbers::pi_v<float>);
     return -spec_.gaze * turn * agents.velocity[agent];
+  }
+
+  /// Share of the cohesion: 1 for whoever gets ahead along the path, down to 0 for whoever does
+  /// not. Two members whose paths lead around an obstacle on different sides would hold each other
+  /// there for ever.
+  static float progress(const Agents& agents, std::size_t agent,
+                        const PreferredVelocity& preferred) {
+    const float along = preferred.direction.dot(agents.velocity[agent]);
+    return std::clamp(along / (kLeastProgress * preferred.speed), 0.0F, 1.0F);
   }
 
   /// Towards the group's centre of mass (its own place included), when farther than a group of its

@@ -28,19 +28,19 @@ std::vector<metrics::ExitSeries> two_exits(std::size_t steps) {
 
 TEST(ExitsCsv, HasARowPerFrameAndExit) {
   auto exits = two_exits(3);
-  exits[0].samples[1] = {
-      7,    1.25, 0.5,  0.75, 4,   2.5, 0.3,  metrics::ExitState::congested, 0.625,
-      1.75, 1.25, true, 3,    2.5, 1.5, 0.02, metrics::ExitState::clogged};
+  exits[0].samples[1] = {7,     1.25, 0.5,  0.75, 4, 1,   2.5, 0.3,  metrics::ExitState::congested,
+                         0.625, 1.75, 1.25, true, 3, 2.5, 1.5, 0.02, metrics::ExitState::clogged};
   const std::vector<double> times = {0, 0.1, 0.2};
   const std::vector<FrameTime> frames = {{12, 0.1}};
   const auto lines = lines_of(exits_csv(exits, times, frames));
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines[0],
-            "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed_out,crossed_in,flow,"
+            "frame,time_s,exit,in_zone,density,normalised_density,approach_speed,crossed_out,"
+            "crossed_in,flow,"
             "since_crossing,state,clogging_index,voronoi_density,specific_flow,demand,queue,"
             "queue_length,predicted_wait,pressure,state_offline");
   EXPECT_EQ(lines[1],
-            "12,0.1,north,7,1.2500,0.5000,0.7500,4,2.50,0.30,congested,0.6250,1.7500,1.250,1,3,"
+            "12,0.1,north,7,1.2500,0.5000,0.7500,4,1,2.50,0.30,congested,0.6250,1.7500,1.250,1,3,"
             "2.50,1.50,0.02000,clogged");
   EXPECT_EQ(lines[2].substr(0, 26), "12,0.1,\"a \"\"b\"\", c\",0,0.00");
 }
