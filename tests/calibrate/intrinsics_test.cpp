@@ -202,8 +202,8 @@ TEST(Intrinsics, RefuseOneViewGivenManyTimes) {
       view.name = std::to_string(copy);
       for (std::size_t i = 0; i < view.pixels.size(); ++i) {
         Random random(9, Stream::bootstrap, 100 * copy + i);
-        view.pixels[i].x() += noise_px * random.normal();
-        view.pixels[i].y() += noise_px * random.normal();
+        view.pixels[i].x() += random.normal(0, noise_px);
+        view.pixels[i].y() += random.normal(0, noise_px);
       }
     }
     EXPECT_THAT(refusal_of(all), HasSubstr("different ones")) << noise_px;

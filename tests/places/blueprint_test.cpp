@@ -99,7 +99,6 @@ TEST_F(Blueprint, WhoWaitsLooksWhereItSays) {
                            {{"doing", "wait"}, {"box", {-15, 5, -5, 15}}, {"count", 60}}}},
                          {"lines", {{{"from", {10, 15}}, {"to", {10, 10}}, {"count", 6}}}}};
   const world::Scenario scenario = make();
-  EXPECT_EQ(faults(), "");
   crowd::LoadOptions options;
   options.model = "weidmann";
   crowd::Simulation crowd(scenario.scene_file, scenario.behavior_file, options);
