@@ -60,7 +60,8 @@ double tinted_m2(const skinning::Population& population, const skinning::Charact
                  skinning::Tint tint) {
   if (character.levels.empty()) return 0;
   const skinning::Mesh& mesh = character.levels.front();
-  const auto corner = [&](std::uint32_t index) {
+  // The type is given: an expression would refer to a temporary that is gone.
+  const auto corner = [&](std::uint32_t index) -> Eigen::Vector3d {
     return Eigen::Vector3f(mesh.vertices[mesh.indices[index]].position.data()).cast<double>();
   };
   double twice_m2 = 0;

@@ -76,7 +76,8 @@ Vector<Float> facing(const Vector<Float>& velocity, const Vector<Float>& preferr
 template <typename Float>
 auto keeps_facing(const Vector<Float>& velocity, const Vector<Float>& watched) {
   constexpr float kShuffle = 0.5F;  // m/s: one step a second, sideways or back
-  return (dot(velocity, velocity) < kShuffle * kShuffle) & (dot(watched, watched) > 0.5F);
+  // `watched` has the length 1 or 0: nobody is slower than 0.
+  return dot(velocity, velocity) < kShuffle * kShuffle * dot(watched, watched);
 }
 
 /// `from` turned towards `to` by at most `most_rad`.

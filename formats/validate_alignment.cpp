@@ -141,15 +141,15 @@ Alignment align(const Shot& shot, const std::vector<Border>& borders) {
 bool can_tell(const Image& image) {
   const auto environment = image.record.find("environment");
   if (environment == image.record.end()) return false;
-  constexpr double kLowSun_deg = 5;
-  constexpr double kClear_m = 500;
-  constexpr double kBlur_px = 6;
-  constexpr double kNoisy_iso = 800;
+  constexpr double kLowSunDeg = 5;
+  constexpr double kClearM = 500;
+  constexpr double kBlurPx = 6;
+  constexpr double kNoisyIso = 800;
   const nlohmann::json sensor = image.record.value("sensor", nlohmann::json::object());
-  return environment->value("sun_elevation_deg", 0.0) > kLowSun_deg &&
-         environment->value("visibility_m", 0.0) > kClear_m &&
+  return environment->value("sun_elevation_deg", 0.0) > kLowSunDeg &&
+         environment->value("visibility_m", 0.0) > kClearM &&
          environment->value("smoke", 0.0) == 0 && environment->value("weather", "") != "rain" &&
-         sensor.value("blur_px", 0.0) < kBlur_px && sensor.value("iso", 0.0) <= kNoisy_iso &&
+         sensor.value("blur_px", 0.0) < kBlurPx && sensor.value("iso", 0.0) <= kNoisyIso &&
          std::abs(sensor.value("ev", 0.0)) < 2;
 }
 

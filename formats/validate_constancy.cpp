@@ -152,6 +152,7 @@ void ConstancyCheck::check_person(const Person& person, Findings& findings) {
   const auto keypoints = person.record.find("keypoints_3d");
   if (keypoints == person.record.end()) return;
   std::vector<double> lengths;
+  lengths.reserve(std::size(kBones));
   for (const Bone& bone : kBones) {
     lengths.push_back(
         (numbers_at<3>(keypoints->at(bone.from)) - numbers_at<3>(keypoints->at(bone.to))).norm());

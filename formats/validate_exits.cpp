@@ -18,7 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kCapacity_per_ms = 1.3;
+constexpr double kCapacityPerMs = 1.3;
 constexpr double kFullDensity = 0.6;
 constexpr double kFreeSpeed = 0.6;
 
@@ -172,7 +172,7 @@ void ExitsCheck::check_series(const std::string& file, const std::string& exit,
     if (!demand && index != 0) fault(fmt::format("clogging_index {} without demand", index));
     if (demand && std::isfinite(width)) {
       const double full = std::min(1.0, v("normalised_density") / kFullDensity);
-      const double flow_lack = std::clamp(1 - v("flow") / (kCapacity_per_ms * width), 0.0, 1.0);
+      const double flow_lack = std::clamp(1 - v("flow") / (kCapacityPerMs * width), 0.0, 1.0);
       const double low = 0.5 * full * flow_lack;
       const double high = low + 0.5 * full;
       const double slack = 0.004 + 0.01 * full;
@@ -181,10 +181,10 @@ void ExitsCheck::check_series(const std::string& file, const std::string& exit,
       const double desired =
           speed_lack < 1 ? v("approach_speed") / (kFreeSpeed * (1 - speed_lack)) : 1;
       const bool is_between = index >= low - slack && index <= high + slack;
-      constexpr double kSlowest_mps = 0.2;
-      constexpr double kFastest_mps = 5;
+      constexpr double kSlowestMps = 0.2;
+      constexpr double kFastestMps = 5;
       const bool is_plausible = full < 0.05 || speed_lack < 0.02 || speed_lack > 0.98 ||
-                                (desired > kSlowest_mps && desired < kFastest_mps);
+                                (desired > kSlowestMps && desired < kFastestMps);
       const bool is_full_lack = v("approach_speed") > -0.01 || index >= high - slack;
       if (!is_between || !is_plausible || !is_full_lack) {
         fault(
@@ -197,7 +197,7 @@ void ExitsCheck::check_series(const std::string& file, const std::string& exit,
       fault("a queue of nobody with a length or a wait");
     }
     if (std::isfinite(width) &&
-        v("predicted_wait") > v("queue") / (0.1 * kCapacity_per_ms * width) * 1.01 + 0.02) {
+        v("predicted_wait") > v("queue") / (0.1 * kCapacityPerMs * width) * 1.01 + 0.02) {
       fault(fmt::format("predicted_wait {} s for a queue of {}", v("predicted_wait"), v("queue")));
     }
     if (last != nullptr) {
@@ -303,8 +303,8 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
   for (const Vector2d& a : place.door) {
     for (const Vector2d& b : place.door) door_m = std::max(door_m, (a - b).norm());
   }
-  constexpr double kDoorDepth_m = 0.5;
-  const double width_m = std::sqrt(std::max(0.0, door_m * door_m - kDoorDepth_m * kDoorDepth_m));
+  constexpr double kDoorDepthM = 0.5;
+  const double width_m = std::sqrt(std::max(0.0, door_m * door_m - kDoorDepthM * kDoorDepthM));
   const double expected_m = 2 * (std::max(width_m, 2.0) + 1);
   Vector2d door_middle = Vector2d::Zero();
   for (const Vector2d& a : place.door) door_middle += a / static_cast<double>(place.door.size());
@@ -341,8 +341,8 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
       const Vector2d side = zone[(i + 1) % zone.size()] - zone[i];
       const Vector2d to = person.position.head<2>() - zone[i];
       if (side.norm() < 1e-6) continue;
-      constexpr double kMargin_m = 0.4;
-      is_inside = is_inside && (side.x() * to.y() - side.y() * to.x()) / side.norm() > kMargin_m;
+      constexpr double kMarginM = 0.4;
+      is_inside = is_inside && (side.x() * to.y() - side.y() * to.x()) / side.norm() > kMarginM;
     }
     if (!is_inside) continue;
     const int found = ++run.in_zone[image.frame][id];

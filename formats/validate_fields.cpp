@@ -74,7 +74,8 @@ Share share_of(const People& people, const Grid& grid) {
               std::vector<Vector2d>(grid.cells(), Vector2d::Zero())};
   constexpr double kReach = 3;
   const int reach = static_cast<int>(std::ceil(kReach * grid.kernel_m / grid.cell_m)) + 1;
-  for (const auto& [track, person] : people) {
+  for (const auto& entry : people) {
+    const auto& person = entry.second;
     const Vector2d at = (person.position - grid.origin_m) / grid.cell_m;
     if (at.minCoeff() < 0 || at.x() >= grid.columns || at.y() >= grid.rows) continue;
     double sum = 0;

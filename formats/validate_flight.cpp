@@ -20,27 +20,27 @@ namespace {
 constexpr double kDegree = EIGEN_PI / 180;
 
 // The sensors' errors, standard deviations: docs/drones.md.
-constexpr double kGyroTurnOn_rad_s = 0.5 * kDegree;
-constexpr double kAccelerometerTurnOn_mps2 = 0.196;
+constexpr double kGyroTurnOnRadS = 0.5 * kDegree;
+constexpr double kAccelerometerTurnOnMps2 = 0.196;
 constexpr double kFieldShare = 0.013;
 constexpr double kWeatherShare = 0.0018;
-constexpr double kGpsVertical_mps = 0.18;
+constexpr double kGpsVerticalMps = 0.18;
 
 /// ISO 2533, and the height that a pressure stands for.
-constexpr double kSeaLevel_pa = 101'325;
-constexpr double kLapse_per_m = 2.25577e-5;
+constexpr double kSeaLevelPa = 101'325;
+constexpr double kLapsePerM = 2.25577e-5;
 constexpr double kPressureExponent = 5.25588;
 double pressure_at(double height_m) {
-  return kSeaLevel_pa * std::pow(1 - kLapse_per_m * height_m, kPressureExponent);
+  return kSeaLevelPa * std::pow(1 - kLapsePerM * height_m, kPressureExponent);
 }
 double height_at(double pressure_pa) {
-  return (1 - std::pow(pressure_pa / kSeaLevel_pa, 1 / kPressureExponent)) / kLapse_per_m;
+  return (1 - std::pow(pressure_pa / kSeaLevelPa, 1 / kPressureExponent)) / kLapsePerM;
 }
 
 /// A dipole's field at a latitude, +y being north, microtesla.
 Vector3d field_at(double latitude_deg) {
-  constexpr double kEquator_ut = 30;
-  return kEquator_ut *
+  constexpr double kEquatorUt = 30;
+  return kEquatorUt *
          Vector3d(0, std::cos(latitude_deg * kDegree), -2 * std::sin(latitude_deg * kDegree));
 }
 
@@ -125,8 +125,8 @@ class FlightRecord {
                           gimbal.at("roll_deg").get<double>());
       Vector3d off_deg = (told - seen).unaryExpr([](double d) { return std::remainder(d, 360); });
       // Straight down, heading and roll are one.
-      constexpr double kSteep_deg = 89;
-      if (std::abs(seen[1]) > kSteep_deg) off_deg[0] = off_deg[2] = 0;
+      constexpr double kSteepDeg = 89;
+      if (std::abs(seen[1]) > kSteepDeg) off_deg[0] = off_deg[2] = 0;
       return off_deg.cwiseAbs().maxCoeff();
     };
     const double truth = off(flight_.at("true").at("gimbal"));
@@ -134,9 +134,9 @@ class FlightRecord {
       fault(fmt::format("flight.true.gimbal is {:.3f} degrees from where the camera looks", truth));
     }
     // Bias and noise of the job's gimbal are within a few degrees; per-frame turns are not its own.
-    constexpr double kMostReading_deg = 12;
+    constexpr double kMostReadingDeg = 12;
     const double reading = off(flight_.at("measured").at("gimbal"));
-    if (reading > kMostReading_deg &&
+    if (reading > kMostReadingDeg &&
         !image_.record.value("drawn", json::object()).contains("frame.yaw_deg")) {
       fault(fmt::format("flight.measured.gimbal is {:.2f} degrees from where the camera looks",
                         reading));
@@ -147,7 +147,7 @@ class FlightRecord {
     const json& measured = flight_.at("measured");
     const json& truth = flight_.at("true");
     const double age_s = image_.time_s - measured.at("time_s").get<double>();
-    if (!(age_s >= -1e-6 && age_s <= kMostAge_s)) {
+    if (!(age_s >= -1e-6 && age_s <= kMostAgeS)) {
       fault(fmt::format("flight.measured.time_s is {:.3f} s before time_s", age_s));
     }
     const double latitude_deg =
@@ -165,15 +165,15 @@ class FlightRecord {
                               numbers_at<3>(measured.at("gps").at("position")),
                               numbers_at<3>(measured.at("gps").at("velocity"))};
     const double gps_age_s = image_.time_s - measured.at("gps").at("time_s").get<double>();
-    if (!(gps_age_s >= -1e-6 && gps_age_s <= kMostGpsAge_s)) {
+    if (!(gps_age_s >= -1e-6 && gps_age_s <= kMostGpsAgeS)) {
       fault(fmt::format("the GPS fix is {:.3f} s old", gps_age_s));
     }
-    const std::string what = implausible_reading(sample, latitude_deg, kMostAge_s, kMostGpsAge_s);
+    const std::string what = implausible_reading(sample, latitude_deg, kMostAgeS, kMostGpsAgeS);
     if (!what.empty()) fault("flight.measured: " + what);
   }
 
-  static constexpr double kMostAge_s = 0.05;  // readings come about 60 times a second
-  static constexpr double kMostGpsAge_s = 0.45;
+  static constexpr double kMostAgeS = 0.05;  // readings come about 60 times a second
+  static constexpr double kMostGpsAgeS = 0.45;
 
   const Image& image_;
   const json& flight_;
@@ -187,19 +187,19 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
   // Six standard deviations of the sensors' errors (docs/drones.md), and what the drone does until
   // then.
   constexpr double kSigmas = 6;
-  constexpr double kMostJerk_mps3 = 200;
-  constexpr double kMostTurn_rad_s2 = 150;
-  constexpr double kMostAcceleration_mps2 = 25;
+  constexpr double kMostJerkMps3 = 200;
+  constexpr double kMostTurnRadS2 = 150;
+  constexpr double kMostAccelerationMps2 = 25;
   const auto off = [](const Vector3d& a, const Vector3d& b) {
     return (a - b).cwiseAbs().maxCoeff();
   };
   const double gyro = off(sample.gyro, sample.body_rates);
-  if (gyro > kSigmas * kGyroTurnOn_rad_s + kMostTurn_rad_s2 * age_s * age_s + 0.02 +
-                 kMostTurn_rad_s2 * 0.02 * age_s) {
+  if (gyro > kSigmas * kGyroTurnOnRadS + kMostTurnRadS2 * age_s * age_s + 0.02 +
+                 kMostTurnRadS2 * 0.02 * age_s) {
     return fmt::format("gyro is {:.3f} rad/s off body_rates", gyro);
   }
   const double force = off(sample.accelerometer, sample.specific_force);
-  if (force > kSigmas * kAccelerometerTurnOn_mps2 + 0.2 + kMostJerk_mps3 * age_s * 0.1) {
+  if (force > kSigmas * kAccelerometerTurnOnMps2 + 0.2 + kMostJerkMps3 * age_s * 0.1) {
     return fmt::format("the accelerometer is {:.2f} m/s2 off specific_force", force);
   }
   const Vector3d field = field_at(latitude_deg);
@@ -217,7 +217,7 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
                        pressure_at(sample.position.z()));
   }
   const Vector3d drift = sample.velocity.cwiseAbs() * gps_age_s +
-                         Vector3d::Constant(kMostAcceleration_mps2 * gps_age_s * gps_age_s / 2);
+                         Vector3d::Constant(kMostAccelerationMps2 * gps_age_s * gps_age_s / 2);
   const Vector3d wander(1, 1, 2);
   const Vector3d gps = (sample.gps_position - sample.position).cwiseAbs();
   if (((gps - kSigmas * wander - drift).array() > 0).any()) {
@@ -225,7 +225,7 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
                        gps.z());
   }
   const Vector3d speed = (sample.gps_velocity - sample.velocity).cwiseAbs();
-  const double most_speed = kSigmas * kGpsVertical_mps + kMostAcceleration_mps2 * gps_age_s / 2;
+  const double most_speed = kSigmas * kGpsVerticalMps + kMostAccelerationMps2 * gps_age_s / 2;
   if (speed.maxCoeff() > most_speed) {
     return fmt::format("the GPS's velocity is ({:.2f}, {:.2f}, {:.2f}) m/s off", speed.x(),
                        speed.y(), speed.z());
@@ -248,11 +248,11 @@ void check_flight_between(const Image& before, const Image& after, Findings& fin
   const Vector3d mean =
       0.5 * (numbers_at<3>(now.at("velocity")) + numbers_at<3>(then.at("velocity")));
   // A quadcopter's acceleration stays below this; the trapezoidal rule is off by a dt² / 8.
-  constexpr double kMostAcceleration_mps2 = 8;
-  const double slack_m = 0.02 + kMostAcceleration_mps2 * dt_s * dt_s / 8;
-  constexpr double kLongest_s = 1.1;
+  constexpr double kMostAccelerationMps2 = 8;
+  const double slack_m = 0.02 + kMostAccelerationMps2 * dt_s * dt_s / 8;
+  constexpr double kLongestS = 1.1;
   const double off_m = (moved - mean * dt_s).norm();
-  if (dt_s <= kLongest_s && off_m > slack_m) {
+  if (dt_s <= kLongestS && off_m > slack_m) {
     findings.add("flight", kCocoFile, record,
                  fmt::format("the drone moved ({:.2f}, {:.2f}, {:.2f}) m since the last frame, but "
                              "its velocity was ({:.2f}, {:.2f}, {:.2f}) m/s",
@@ -260,8 +260,8 @@ void check_flight_between(const Image& before, const Image& after, Findings& fin
   }
   const double used_w =
       3600 * (now.at("energy_wh").get<double>() - then.at("energy_wh").get<double>()) / dt_s;
-  constexpr double kMost_w = 5000;
-  if (!(used_w >= 0 && used_w < kMost_w)) {
+  constexpr double kMostW = 5000;
+  if (!(used_w >= 0 && used_w < kMostW)) {
     findings.add("flight", kCocoFile, record,
                  fmt::format("energy_wh grows by {:.0f} W since the last frame", used_w));
   }

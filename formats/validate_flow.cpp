@@ -41,8 +41,8 @@ void look_at_still(const Shot& before, const Shot& after, int x, int y, StillFlo
   const std::size_t pixel = pixels.at(x, y);
   const bool is_sky = pixels.ids[pixel] == 0;
   if (!is_sky && (!is_still(pixels.ids[pixel]) || pixels.depth_cm[pixel] == 0)) return;
-  constexpr double kFar_m = 1e7;
-  const double z = is_sky ? kFar_m : pixels.depth_m(pixel);
+  constexpr double kFarM = 1e7;
+  const double z = is_sky ? kFarM : pixels.depth_m(pixel);
   const auto moved_to = [&](double depth_m) {
     return after.camera.project(before.camera.unproject({x, y}, depth_m));
   };

@@ -100,9 +100,9 @@ class RunFigures {
     double sum = 0;
     for (const auto& [state, time] : states.items()) sum += time.get<double>();
     // Steps at both ends count whole.
-    constexpr double kSlack_s = 0.6;
+    constexpr double kSlackS = 0.6;
     if (!states.empty() && is_number(run_, "duration_s") &&
-        std::abs(sum - run_.at("duration_s").get<double>()) > kSlack_s) {
+        std::abs(sum - run_.at("duration_s").get<double>()) > kSlackS) {
       fault(fmt::format("time_in_state of {} sums to {:.2f} s of {} s", id, sum,
                         run_.at("duration_s").dump()));
     }

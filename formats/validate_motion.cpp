@@ -27,8 +27,8 @@ double angle_off(const Person& person) {
 /// Velocities of people who go on as they do are their displacements.
 void check_velocities(const Shot& before, const Shot& after, Findings& findings) {
   const double dt_s = after.image.time_s - before.image.time_s;
-  constexpr double kLongest_s = 1.1;  // in longer times people turn and stop
-  if (!(dt_s > 0) || dt_s > kLongest_s) return;
+  constexpr double kLongestS = 1.1;  // in longer times people turn and stop
+  if (!(dt_s > 0) || dt_s > kLongestS) return;
   std::vector<double> ratios;
   for (const Person& now : after.image.people) {
     const Person* then = before.find(now.track_id);
@@ -37,18 +37,18 @@ void check_velocities(const Shot& before, const Shot& after, Findings& findings)
     const Vector2d mean = 0.5 * (now.velocity + then->velocity);
     const double change = (now.velocity - then->velocity).norm();
     // Whoever changes the pace within the frame can be off by as much as that change.
-    constexpr double kMostOff_mps = 1.5;
+    constexpr double kMostOffMps = 1.5;
     const double off = (moved - mean).norm();
-    if (off > kMostOff_mps + 0.5 * change) {
+    if (off > kMostOffMps + 0.5 * change) {
       findings.add("velocity-is-motion", now,
                    fmt::format("moved ({:.2f}, {:.2f}) m/s since the last frame, but velocity is "
                                "({:.2f}, {:.2f}) m/s now and ({:.2f}, {:.2f}) then",
                                moved.x(), moved.y(), now.velocity.x(), now.velocity.y(),
                                then->velocity.x(), then->velocity.y()));
     }
-    constexpr double kSteady_mps = 0.1;
-    constexpr double kWalking_mps = 0.5;
-    if (change < kSteady_mps && mean.norm() > kWalking_mps) {
+    constexpr double kSteadyMps = 0.1;
+    constexpr double kWalkingMps = 0.5;
+    if (change < kSteadyMps && mean.norm() > kWalkingMps) {
       ratios.push_back(moved.dot(mean) / mean.squaredNorm());
     }
   }
@@ -67,12 +67,12 @@ void check_velocities(const Shot& before, const Shot& after, Findings& findings)
 /// Walkers face where they go.
 void check_headings(const Shot& shot, Findings& findings) {
   std::vector<double> angles;
-  constexpr double kWalking_mps = 0.6;
+  constexpr double kWalkingMps = 0.6;
   for (const Person& person : shot.image.people) {
-    if (person.velocity.norm() < kWalking_mps) continue;
+    if (person.velocity.norm() < kWalkingMps) continue;
     angles.push_back(angle_off(person));
-    constexpr double kBackwards_rad = 2.85;
-    if (person.velocity.norm() > 2 * kWalking_mps && angles.back() > kBackwards_rad) {
+    constexpr double kBackwardsRad = 2.85;
+    if (person.velocity.norm() > 2 * kWalkingMps && angles.back() > kBackwardsRad) {
       findings.add("heading-is-motion", person,
                    fmt::format("walks backwards: heading {:.2f}, velocity ({:.2f}, {:.2f})",
                                person.heading_rad, person.velocity.x(), person.velocity.y()));
@@ -81,8 +81,8 @@ void check_headings(const Shot& shot, Findings& findings) {
   constexpr std::size_t kFewest = 5;
   if (angles.size() < kFewest) return;
   const double angle = median_of(angles);
-  constexpr double kMostOff_rad = 0.25;
-  if (angle > kMostOff_rad) {
+  constexpr double kMostOffRad = 0.25;
+  if (angle > kMostOffRad) {
     findings.add("heading-is-motion", kCocoFile, shot.record(),
                  fmt::format("walkers face {:.2f} rad away from where they go (median of {})",
                              angle, angles.size()));

@@ -54,11 +54,11 @@ std::optional<Eigen::Vector3d> normal_by_depth(const Shot& shot, int x, int y, i
   const Eigen::Vector3d down = points[4] - points[3];
   const double size = std::min(across.norm(), down.norm());
   // Depth is in whole centimetres: a small patch has no direction.
-  constexpr double kLeast_m = 0.15;
+  constexpr double kLeastM = 0.15;
   const auto bend = [&](std::size_t a, std::size_t b) {
     return (0.5 * (points[a] + points[b]) - points[0]).norm();
   };
-  if (size < kLeast_m || bend(1, 2) > 0.06 * size || bend(3, 4) > 0.06 * size) return std::nullopt;
+  if (size < kLeastM || bend(1, 2) > 0.06 * size || bend(3, 4) > 0.06 * size) return std::nullopt;
   Eigen::Vector3d normal = across.cross(down).normalized();
   if (normal.dot(points[0] - shot.camera.pose.centre()) > 0) normal = -normal;
   return normal;

@@ -257,8 +257,8 @@ void check_truncation(const Image& image, const Person& person, Findings& findin
 
 /// Somebody's place on the ground is below their body, or beside it when they lie.
 void check_position(const Person& person, Findings& findings) {
-  constexpr double kReach_m = 1.6;
-  if (!((person.position - person.box_middle).head<2>().norm() <= kReach_m)) {
+  constexpr double kReachM = 1.6;
+  if (!((person.position - person.box_middle).head<2>().norm() <= kReachM)) {
     findings.add("position", person, "position is away from box_3d");
   }
 }
@@ -268,8 +268,8 @@ void check_position(const Person& person, Findings& findings) {
 Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& person) {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(person.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  constexpr double kRounding_m = 0.02;  // of the box's middle and size, on both sides
-  const Eigen::Vector3d size = person.box_size.array() + kRounding_m;
+  constexpr double kRoundingM = 0.02;  // of the box's middle and size, on both sides
+  const Eigen::Vector3d size = person.box_size.array() + kRoundingM;
   Eigen::Matrix<double, 3, 8> corners;
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3d side((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5,

@@ -59,7 +59,7 @@ void check_ground_depth(const Image& image, const std::string& path,
                         const std::vector<std::uint16_t>& centimetres, Findings& findings) {
   constexpr std::size_t kStep = 97;  // every so many pixels; coprime to usual widths
   constexpr double kRelative = 0.005;
-  constexpr double kAbsolute_m = 0.03;
+  constexpr double kAbsoluteM = 0.03;
   constexpr double kMostWrong = 0.02;  // pixels at the edge of something nearer
   const Eigen::Matrix3d to_world = image.R.transpose() * image.camera_matrix.inverse();
   const double height = (image.R.transpose() * -image.t).z();
@@ -78,7 +78,7 @@ void check_ground_depth(const Image& image, const std::string& path,
     ++looked_at;
     const double z = -height / ray.z();
     const double shown = centimetres[i] / 100.0;
-    if (std::abs(shown - z) <= kAbsolute_m + kRelative * z) continue;
+    if (std::abs(shown - z) <= kAbsoluteM + kRelative * z) continue;
     if (wrong++ == 0) {
       found_m = shown;
       expected_m = z;

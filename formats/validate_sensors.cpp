@@ -83,9 +83,9 @@ std::string break_between(const Row& a, const Row& b) {
   if (off_rad_s > 0.1 + (at(a, kRates) - at(b, kRates)).norm()) {
     return fmt::format("turns by {:.3f} rad/s other than true_w says", off_rad_s);
   }
-  constexpr double kMost_w = 5000;
+  constexpr double kMostW = 5000;
   const double power_w = (b[kEnergy] - a[kEnergy]) / dt_s;
-  if (!(power_w >= -1e-6 && power_w < kMost_w)) {
+  if (!(power_w >= -1e-6 && power_w < kMostW)) {
     return fmt::format("energy_j grows by {:.0f} W", power_w);
   }
   if (b[kGpsTime] < a[kGpsTime] || b[kGpsTime] > b[kTime] + 1e-6 || b[kTime] - b[kGpsTime] > 0.5) {
@@ -95,8 +95,8 @@ std::string break_between(const Row& a, const Row& b) {
       (at(b, kGpsPosition) != at(a, kGpsPosition) || at(b, kGpsVelocity) != at(a, kGpsVelocity))) {
     return "another GPS position at the same gps_time_s";
   }
-  constexpr double kMostGust_mps2 = 400;
-  if ((at(b, kAir) - at(a, kAir)).norm() > 0.5 + kMostGust_mps2 * dt_s) {
+  constexpr double kMostGustMps2 = 400;
+  if ((at(b, kAir) - at(a, kAir)).norm() > 0.5 + kMostGustMps2 * dt_s) {
     return "air velocity jumps";
   }
   return "";
@@ -193,9 +193,9 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
         image.record.value("environment", json::object()).value("latitude_deg", 45.0);
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       std::string what = i == 0 ? "" : break_between(table.rows[i - 1], table.rows[i]);
-      constexpr double kGpsAge_s = 0.45;
+      constexpr double kGpsAgeS = 0.45;
       if (what.empty()) {
-        what = implausible_reading(sample_of_row(table.rows[i]), latitude_deg, 0, kGpsAge_s);
+        what = implausible_reading(sample_of_row(table.rows[i]), latitude_deg, 0, kGpsAgeS);
       }
       if (what.empty()) continue;
       findings.add("sensors", name, fmt::format("line {}", i + 2), what);

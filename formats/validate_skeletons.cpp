@@ -40,11 +40,11 @@ double facing_of(const Eigen::Vector3d& right_to_left) {
 void check_in_box(const Person& person, Findings& findings) {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(-person.heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  constexpr double kSlack_m = 0.05;
+  constexpr double kSlackM = 0.05;
   for (std::size_t i = 0; i < person.record.at("keypoints_3d").size(); ++i) {
     const Eigen::Vector3d at = turn * (keypoint_at(person, i) - person.box_middle);
     const double off = (at.cwiseAbs() - 0.5 * person.box_size).maxCoeff();
-    if (off <= kSlack_m) continue;
+    if (off <= kSlackM) continue;
     findings.add("keypoints-in-box", person,
                  fmt::format("keypoint {} is {:.2f} m outside of box_3d", i + 1, off));
     return;
@@ -63,8 +63,8 @@ void check_facing(const Person& person, Findings& findings) {
   for (const Pair& pair : {Pair{kLeftHip, 0.5, "hips"}, Pair{kLeftShoulder, 0.9, "shoulders"}}) {
     const Eigen::Vector3d across =
         keypoint_at(person, pair.left) - keypoint_at(person, pair.left + 1);
-    constexpr double kLeast_m = 0.06;
-    if (across.head<2>().norm() < kLeast_m) continue;
+    constexpr double kLeastM = 0.06;
+    if (across.head<2>().norm() < kLeastM) continue;
     const double off = angle_between(facing_of(across), person.heading_rad);
     if (off <= pair.most_rad) continue;
     findings.add("heading-is-body", person,
