@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Every shipped scenario runs for 600 s, and nobody is inside at the end without a reason.
+"""Every shipped scenario runs for 300 s, and nobody is inside at the end without a reason.
 
 The drones of the scenario hover, as a job without drones has it. 250 people each keep it short; bench/shipped_runs.py
-does the same with everybody and more seeds. The paper's own files (huang2016, in the paper's mode) are left out: some of
+does the same for 600 s with everybody and more seeds. The paper's own files (huang2016, in the paper's mode) are left out: some of
 their people start in a wall (docs/places.md).
 usage: test_shipped.py THRONG
 """
@@ -31,9 +31,9 @@ def shipped():
 
 
 def metrics_of(scenario, folder, drones=None):
-    """metrics.json of a run of 600 s with 250 people."""
+    """metrics.json of a run of 300 s with 250 people."""
     job = {"scenario": scenario, "seed": 90210, "crowd": {"agents": 250},
-           "capture": {"rate_hz": 1, "from_s": 0, "to_s": 600}}
+           "capture": {"rate_hz": 1, "from_s": 0, "to_s": 300}}
     if drones:
         job["drones"] = drones
     job_file, trace = pathlib.Path(folder) / "job.json", pathlib.Path(folder) / "run.h5"
