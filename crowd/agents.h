@@ -72,7 +72,7 @@ struct Agents {
   std::vector<Eigen::Vector2f> velocity;     ///< m/s
   std::vector<Eigen::Vector2f> orientation;  ///< unit
   std::vector<float> yaw_rad;
-  /// Unit: where somebody faces who stands where they began, see Facing; 0: where they go.
+  /// Unit: facing of an agent that stands where it began, see Facing; 0: along its path.
   std::vector<Eigen::Vector2f> facing;
 
   /// Where each would go if alone: a unit vector and m/s.

@@ -10,7 +10,7 @@
 namespace throng::crowd {
 
 /// What a <Facing> of an <AgentGroup> says. It holds for those who stand when they begin, until
-/// their state changes; who walks faces the way.
+/// their state changes; walking agents face along their path.
 class Facing {
  public:
   virtual ~Facing() = default;

@@ -17,7 +17,7 @@ namespace throng::metrics {
 /// arrival, as in EscapeTimes.
 struct BestTimes {
   std::vector<double> escape_s;  ///< one per evacuee, in order; infinite for who never sets out
-  double mean_s = 0;             ///< who is not out when the run ends counts with the time watched
+  double mean_s = 0;             ///< people not out when the run ends count with the time watched
   int raised_doors = 0;          ///< doors that passed more in the run than the measured capacity
 
   std::optional<double> percentile_s(int percent) const;
