@@ -1,6 +1,7 @@
 """Requests within requests, decompression bombs and nested JSON, at the bare port and through nginx (docker/nginx.conf);
 and that honest clients notice nothing of what keeps them out."""
 import concurrent.futures
+import contextlib
 import gzip
 import http.client
 import io
@@ -9,6 +10,7 @@ import pathlib
 import re
 import shutil
 import socket
+import ssl
 import subprocess
 import sys
 import tempfile
@@ -30,17 +32,18 @@ def exchange(front, *parts, pause_s=0.2, silence_s=2):
     if front.context:
         client = front.context.wrap_socket(client, server_hostname="localhost")
     client.settimeout(silence_s)
+    # A refusal may close the connection while we still send: over TLS that is an ssl.SSLError, not a ConnectionError.
+    closed = (TimeoutError, ConnectionError, ssl.SSLError)
     answer = b""
     with client:
-        try:
+        with contextlib.suppress(*closed):
             for i, part in enumerate(parts):
                 if i:
                     time.sleep(pause_s)
                 client.sendall(part)
+        with contextlib.suppress(*closed):
             while data := client.recv(65536):
                 answer += data
-        except (TimeoutError, ConnectionError):
-            pass
     return answer
 
 
