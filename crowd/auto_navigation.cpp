@@ -10,7 +10,12 @@
 namespace throng::crowd {
 
 AutoNavigation::AutoNavigation(const Crowd& crowd, const WalkableMeshOptions& options)
-    : options_(options) {
+    : options_(options), walls_([] {
+        std::vector<Obstacles::Near> walls;
+        walls.reserve(kManyWalls);
+        return walls;
+      }) {
+  walls_.local();  // this thread's, so that no step has to make it
   const std::vector<Eigen::Vector2f>& positions = crowd.agents.position;
   if (!positions.empty()) everyone_ = {positions.front(), positions.front()};
   for (const Eigen::Vector2f& p : positions) {
@@ -59,16 +64,19 @@ void AutoNavigation::prefer(const Crowd& crowd, std::size_t agent, PreferredVelo
   }
   if (!route.known) {
     plan(crowd, agent, route);
+    aim(crowd, agent, route);
   } else if (is_time_to_look(crowd, agent)) {
     look(crowd, agent, route);
+    notice_crowding(crowd, agent, route);
+    aim(crowd, agent, route);
   }
   const float near = crowd.agents[Property::radius][agent];
-  while (route.next + 1 < route.count &&
-         (route.bends[static_cast<std::size_t>(route.next)] - p).squaredNorm() < near * near) {
+  while (route.next + 1 < route.count && (route.aim - p).squaredNorm() < near * near) {
     ++route.next;
+    route.aim = route.bends[static_cast<std::size_t>(route.next)];
   }
   if (route.next + 1 < route.count || !route.whole) {
-    head_through(crowd, agent, route.bends[static_cast<std::size_t>(route.next)], preferred);
+    head_through(crowd, agent, route.aim, preferred);
   } else if (route.reaches) {
     head_for(crowd, agent, goal_place(crowd, agent, route.target), preferred);
   } else {
@@ -135,6 +143,7 @@ void AutoNavigation::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   route.whole = true;
   route.polygon = from.polygon;
   route.next = 0;
+  route.lane_of = -1;
   route.count = 0;
   const bool is_far_out = !mesh.bounds().contains(route.target);
   route.reaches = is_far_out || (to.point - route.target).norm() <= beside;
@@ -145,6 +154,48 @@ void AutoNavigation::plan(const Crowd& crowd, std::size_t agent, Route& route) {
     route.whole = route.count < kMostBends;
     if (!route.whole) break;
     route.bends[static_cast<std::size_t>(route.count++)] = bend;
+  }
+}
+
+/// How much of their speed others cost somebody lately.
+void AutoNavigation::notice_crowding(const Crowd& crowd, std::size_t agent, Route& route) {
+  constexpr float kFollow = 0.25F;  // of a change, each time
+  const Agents& agents = crowd.agents;
+  const float wanted = agents.preferred_speed[agent];
+  if (wanted <= 0) return;
+  const float lost = std::clamp(1 - agents.velocity[agent].norm() / wanted, 0.0F, 1.0F);
+  route.crowding += kFollow * (lost - route.crowding);
+}
+
+/// Somebody alone cuts a corner; in a crowd, people keep their distance from the wall as they turn,
+/// so that the whole width is used.
+void AutoNavigation::aim(const Crowd& crowd, std::size_t agent, Route& route) {
+  constexpr float kWidest = 5;       // m from the corner
+  constexpr float kCrowded = 0.25F;  // of the speed lost, from which on people keep their distance
+  const Eigen::Vector2f& p = crowd.agents.position[agent];
+  const Eigen::Vector2f bend = route.bends[static_cast<std::size_t>(route.next)];
+  route.aim = bend;
+  if (route.next + 1 >= route.count) return;
+  const Ground& ground = *grounds_[static_cast<std::size_t>(route.ground)];
+  if (route.lane_of != route.next) {
+    route.lane = corner_lane(crowd.obstacles, ground.obstacle_mask, p, bend, 3 * ground.radius,
+                             walls_.local());
+    route.lane_of = route.next;
+  }
+  if (!route.lane) return;
+  const NavMesh::Place here = place_on(ground.mesh, p, route.polygon);
+  Eigen::Vector2f aside = route.lane->pass(p) - route.lane->corner;
+  aside *= std::min(1.0F, kWidest / std::max(aside.norm(), 1e-3F)) *
+           std::min(1.0F, route.crowding / kCrowded);
+  for (int halvings = 0; halvings < 4; ++halvings, aside /= 2) {
+    const Eigen::Vector2f place = route.lane->corner + aside;
+    if ((place - route.lane->corner).dot(route.lane->across) <=
+        (bend - route.lane->corner).dot(route.lane->across))
+      return;
+    if (ground.mesh.find(place, here.polygon) >= 0 && ground.mesh.is_clear(here, place)) {
+      route.aim = place;
+      return;
+    }
   }
 }
 

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "crowd/corner_lane.h"
 #include "crowd/path_finder.h"
 #include "crowd/steering.h"
 #include "crowd/walkable_mesh.h"
@@ -30,6 +32,7 @@ class AutoNavigation {
 
  private:
   static constexpr int kMostBends = 8;
+  static constexpr std::size_t kManyWalls = 1024;  ///< around one corner: room for so many at first
 
   /// For agents that mind the same obstacles, of radii up to the mesh's.
   struct Ground {
@@ -55,6 +58,10 @@ class AutoNavigation {
     int next = 0;          ///< bend
     int count = 0;
     Eigen::Vector2f target = Eigen::Vector2f::Zero();  ///< the place in the goal
+    int lane_of = -1;                                  ///< bend that `lane` belongs to
+    std::optional<CornerLane> lane;
+    float crowding = 0;                             ///< how much speed others cost lately, 0 to 1
+    Eigen::Vector2f aim = Eigen::Vector2f::Zero();  ///< where to pass the next bend
     std::array<Eigen::Vector2f, kMostBends> bends{};
   };
 
@@ -63,12 +70,15 @@ class AutoNavigation {
   static NavMesh::Place place_on(const NavMesh& mesh, const Eigen::Vector2f& point, int hint);
   void look(const Crowd& crowd, std::size_t agent, Route& route);
   void plan(const Crowd& crowd, std::size_t agent, Route& route);
+  static void notice_crowding(const Crowd& crowd, std::size_t agent, Route& route);
+  void aim(const Crowd& crowd, std::size_t agent, Route& route);
 
   WalkableMeshOptions options_;
   Box everyone_;  // where agents are at first
   std::uint32_t all_classes_ = 0;
   std::vector<std::unique_ptr<Ground>> grounds_;
-  std::vector<Route> routes_;  // by agent
+  std::vector<Route> routes_;                                            // by agent
+  tbb::enumerable_thread_specific<std::vector<Obstacles::Near>> walls_;  // near a corner: scratch
 };
 
 }  // namespace throng::crowd

@@ -10,8 +10,8 @@ namespace throng::crowd {
 
 const std::vector<ModelEntry>& models() {
   static const std::vector<ModelEntry> kModels = {
-      orca_model(),       weidmann_model(), pedvo_model(), helbing_model(), johansson_model(),
-      karamouzas_model(), zanlungo_model(), gcf_model(),   dummy_model(),
+      orca_model(),      ttc_model(),        weidmann_model(), pedvo_model(), helbing_model(),
+      johansson_model(), karamouzas_model(), zanlungo_model(), gcf_model(),   dummy_model(),
   };
   return kModels;
 }

@@ -49,6 +49,7 @@ const ModelEntry& find_model(std::string_view name);
 
 ModelEntry orca_model();
 ModelEntry weidmann_model();
+ModelEntry ttc_model();
 ModelEntry pedvo_model();
 ModelEntry helbing_model();
 ModelEntry johansson_model();

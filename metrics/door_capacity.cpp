@@ -21,6 +21,9 @@ struct ModelRow {
 // Columns rate/s and burst of `build/release/bench/door_capacity` (four seeds). johansson and
 // karamouzas do not keep bodies apart, so that people pass through each other and through jambs.
 constexpr std::array kModels = {
+    ModelRow{"ttc",
+             {1.65, 2.1, 2.35, 3.05, 3.6, 6.05, 8.85, 13.5, 20.5, 36.9},
+             {5.4, 4.7, 5.9, 5.9, 5.8, 5, 6.2, 7.5, 12.5, 25.2}},
     ModelRow{"orca",
              {2.25, 3.5, 4.85, 6.25, 8.25, 14.5, 21.2, 35, 58.35, 96.2},
              {5.5, 5, 5.7, 9.2, 10.2, 20.5, 33.4, 65, 99.9, 211.2}},
@@ -54,7 +57,7 @@ const ModelRow& row_of(std::string_view model) {
                         [name](const ModelRow& row) { return row.model == name; });
   };
   const auto* const found = named(model);
-  return found != kModels.end() ? *found : *named("weidmann");
+  return found != kModels.end() ? *found : *named("ttc");
 }
 
 double at(const std::array<double, kWidths>& values, double width_m) {

@@ -128,7 +128,7 @@ LoadedCrowd load_crowd_of(const world::Scenario& scenario) {
   const crowd::XmlFile scene(scenario.scene_file, "Experiment");
   const crowd::XmlFile behavior(scenario.behavior_file, "BFSM");
   const crowd::ModelEntry& model =
-      crowd::find_model(scenario.crowd_model.empty() ? "weidmann" : scenario.crowd_model);
+      crowd::find_model(scenario.crowd_model.empty() ? "ttc" : scenario.crowd_model);
   const std::vector<std::string> states = crowd::load_state_names(behavior.root());
   crowd::MengeSequences sequences(crowd::Compat::none, loaded.crowd.seed);
   const crowd::Scene parts =

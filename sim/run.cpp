@@ -156,7 +156,7 @@ std::vector<world::AgentRole> roles_of(const world::Scenario& scenario, const Ru
 std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
   if (!spec.model.empty()) return spec.model;
   if (!scenario.crowd_model.empty()) return scenario.crowd_model;
-  return spec.compat == crowd::Compat::none ? "weidmann" : "orca";
+  return spec.compat == crowd::Compat::none ? "ttc" : "orca";
 }
 
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,

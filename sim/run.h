@@ -95,7 +95,7 @@ struct RunSpec {
 };
 
 /// The pedestrian model of a run: the spec's, else the one that the scenario was made for, else
-/// `orca` where Menge's results are wanted and `weidmann` where people should walk as people do.
+/// `orca` where Menge's results are wanted and `ttc` where people should walk as people do.
 std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec);
 
 /// The crowd of a run as the scenario begins. Throws like crowd::Simulation's constructor.

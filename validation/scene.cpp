@@ -73,7 +73,7 @@ std::string people(const Group& group, std::size_t number) {
   for (const Vector2d& place : group.places) {
     text += fmt::format(R"(<Agent p_x="{}" p_y="{}"/>)", place.x(), place.y());
   }
-  return text + "</Generator></AgentGroup>\n";
+  return text + "</Generator>" + group.more + "</AgentGroup>\n";
 }
 
 std::string experiment(const Scene& scene, const Tested& tested) {
@@ -88,7 +88,8 @@ std::string experiment(const Scene& scene, const Tested& tested) {
 }
 
 bool is_by_velocity(const std::string& model) {
-  return model == "orca" || model == "weidmann" || model == "pedvo" || model == "dummy";
+  return model == "orca" || model == "weidmann" || model == "ttc" || model == "pedvo" ||
+         model == "dummy";
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ TEST_P(AllocationOfModel, AStepAllocatesNothingAfterWarmUp) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, AllocationOfModel,
-                         testing::Values("weidmann", "pedvo", "johannson", "karamouzas", "zanlungo",
-                                         "gcf", "dummy"));
+                         testing::Values("weidmann", "ttc", "pedvo", "johannson", "karamouzas",
+                                         "zanlungo", "gcf", "dummy"));
 
 }  // namespace
 }  // namespace throng::crowd

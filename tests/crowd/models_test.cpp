@@ -102,8 +102,8 @@ TEST_P(AnyModel, ThreadsDoNotChangeASingleBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, AnyModel,
-                         testing::Values("orca", "weidmann", "pedvo", "johannson", "karamouzas",
-                                         "zanlungo", "gcf", "dummy"));
+                         testing::Values("orca", "weidmann", "ttc", "pedvo", "johannson",
+                                         "karamouzas", "zanlungo", "gcf", "dummy"));
 
 TEST(Models, JohanssonIsFoundByEitherName) {
   EXPECT_EQ(&find_model("johansson"), &find_model("johannson"));
