@@ -1,392 +1,156 @@
-// What a pedestrian model does in scenes that experiments and everyday life know: flow over
-// density, doors, crossing, counter-flow, evasion, queues. Prints one line per scene.
+// Measures a pedestrian model in the scenes of validation/walking.h and validation/flow.h, for fits
+// and comparisons.
 //
-//   crowd_gates MODEL [seeds=N] [only=NAME,...] [NAME=VALUE of a constant, tau=VALUE]
+//   crowd_gates MODEL [seeds=N] [only=NAME,...] [CONSTANT=VALUE ...] [PARAMETER=VALUE ...]
+//
+// One line per scene, one column per seed:
+//   fd_DENSITY     specific flow in a ring, 1/(m s)
+//   door_WIDTH     specific flow through a door, 1/(m s)
+//   imo_4          people per second over the entire time; deepest overlap, m
+//   square_DENSITY share of people who are stuck; speed, m/s; rms acceleration, m/s^2
+//   room_OTHERS    time of 100 people through a corridor against so many, s; people left after 600
+//   s two_way_EACH   specific flows of both directions, 1/(m s) straight_WIDTH, corner_WIDTH
+//   specific flow out of a corridor, 1/(m s) meet_ASIDE     time before meeting at which one goes
+//   aside, s; greatest acceleration, m/s^2 queue          turns and stops per person and minute
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "base/error.h"
 #include "crowd/model.h"
 #include "validation/flow.h"
-#include "validation/run.h"
-#include "validation/suite.h"
+#include "validation/walking.h"
 
 namespace throng::validation {
 namespace {
 
-using Eigen::Vector2d;
-using Eigen::Vector2f;
 using Numbers = std::vector<double>;
-
-/// So much of a run: every pair's overlap, and the hardest change of velocity.
-double worst_overlap_m(const crowd::Simulation& crowd) {
-  double worst = 0;
-  const auto p = crowd.positions();
-  const auto r = crowd.radii_m();
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (crowd.present()[i] == 0) continue;
-    for (std::size_t j = i + 1; j < p.size(); ++j) {
-      if (crowd.present()[j] == 0) continue;
-      worst = std::max(worst, static_cast<double>(r[i] + r[j] - (p[i] - p[j]).norm()));
-    }
-  }
-  return worst;
-}
-
-Numbers fundamental_diagram(const Tested& tested, double density, std::uint64_t seed) {
-  return {walk_in_ring(tested, density, seed).speed_mps * density};
-}
-
-/// 100 people from a room of 8 m x 5 m through an exit of 1 m: people per second over the entire
-/// time (IMO 4).
-Numbers imo_4(const Tested& tested, std::uint64_t seed) {
-  Scene scene;
-  scene.walls = {box(-9, -3.5, 0, -2.5), box(-9, 2.5, 0, 3.5), box(-9, -2.5, -8, 2.5),
-                 box(0, -3.5, 0.2, -0.5), box(0, 0.5, 0.2, 3.5)};
-  Group group;
-  group.places = lattice({-7.7, -2.2}, {-0.3, 2.2}, 100);
-  group.aside_m = 0.05;
-  scene.groups = {group};
-  scene.behavior = goal_box(0, 6, -2, 8, 2) + walk_to(0) + leave_at_goal();
-  crowd::Simulation crowd = load(scene, tested, seed);
-  double last_s = 0;
-  std::size_t out = 0;
-  double overlap = 0;
-  std::vector<bool> passed(crowd.agent_count(), false);
-  while (out < 100 && crowd.time_s() < 400) {
-    crowd.step();
-    overlap = std::max(overlap, worst_overlap_m(crowd));
-    for (std::size_t i = 0; i < 100; ++i) {
-      if (passed[i] || crowd.positions()[i].x() <= 0.1F) continue;
-      passed[i] = true;
-      ++out;
-      last_s = crowd.time_s();
-    }
-  }
-  return {static_cast<double>(out) / last_s, overlap};
-}
-
-/// An open square of 30 m x 30 m where everybody walks to random places: the share of people who
-/// get less than 1 m far in the last 10 of 120 s, and the mean speed.
-Numbers square(const Tested& tested, double density, std::uint64_t seed) {
-  Scene scene;
-  scene.walls = {box(-16, -16, 16, -15), box(-16, 15, 16, 16), box(-16, -15, -15, 15),
-                 box(15, -15, 16, 15)};
-  Group group;
-  group.places =
-      lattice({-14, -14}, {14, 14}, static_cast<std::size_t>(std::lround(density * 900)));
-  group.aside_m = 0.1;
-  scene.groups = {group};
-  scene.behavior = R"(<GoalSet id="0">)";
-  for (int i = 0; i < 64; ++i) {
-    scene.behavior += fmt::format(R"(<Goal id="{}" type="circle" x="{}" y="{}" radius="1.5"/>)", i,
-                                  -12.25 + 3.5 * (i % 8), -12.25 + 3.5 * (i / 8));
-  }
-  scene.behavior += R"(</GoalSet>
-<State name="Walk" final="0"><GoalSelector type="random" goal_set="0"/><VelComponent type="goal"/></State>
-<State name="On" final="0"><GoalSelector type="random" goal_set="0"/><VelComponent type="goal"/></State>
-<Transition from="Walk" to="On"><Condition type="goal_reached" distance="0"/></Transition>
-<Transition from="On" to="Walk"><Condition type="goal_reached" distance="0"/></Transition>
-)";
-  crowd::Simulation crowd = load(scene, tested, seed);
-  while (crowd.time_s() < 110) crowd.step();
-  const std::vector<Vector2f> before(crowd.positions().begin(), crowd.positions().end());
-  double speed = 0;
-  double accel_sq = 0;
-  std::size_t samples = 0;
-  std::vector<Vector2f> v(crowd.velocities().begin(), crowd.velocities().end());
-  while (crowd.time_s() < 120) {
-    crowd.step();
-    for (std::size_t i = 0; i < before.size(); ++i, ++samples) {
-      speed += crowd.velocities()[i].norm();
-      accel_sq += ((crowd.velocities()[i] - v[i]) / 0.1F).squaredNorm();
-    }
-    v.assign(crowd.velocities().begin(), crowd.velocities().end());
-  }
-  std::size_t stuck = 0;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    stuck += (crowd.positions()[i] - before[i]).norm() < 1 ? 1 : 0;
-  return {static_cast<double>(stuck) / static_cast<double>(before.size()),
-          speed / static_cast<double>(samples), std::sqrt(accel_sq / static_cast<double>(samples))};
-}
-
-/// NIST 2.8 to its end: 100 people (and `others` against them) through 10 m x 2 m; s until the last
-/// is across.
-Numbers counter_room(const Tested& tested, std::size_t others, std::uint64_t seed) {
-  Scene scene;
-  scene.walls = {box(-11, -6, -10, 6), box(20, -6, 21, 6), box(-10, -6, 20, -5),
-                 box(-10, 5, 20, 6),   box(0, -5, 10, -1), box(0, 1, 10, 5)};
-  Group there;
-  there.places = lattice({-9.5, -4.5}, {-0.5, 4.5}, 100);
-  there.state = "There";
-  scene.groups = {there};
-  if (others > 0) {
-    Group back;
-    back.places = lattice({10.5, -4.5}, {19.5, 4.5}, others);
-    back.state = "Back";
-    scene.groups.push_back(back);
-  }
-  scene.behavior = goal_box(0, 17, -4.5, 19.5, 4.5) + goal_box(1, -9.5, -4.5, -7, 4.5) +
-                   walk_to(0, "There") + walk_to(1, "Back") + leave_at_goal("There,Back");
-  crowd::Simulation crowd = load(scene, tested, seed);
-  while (crowd.time_s() < 600 && count_present(crowd) > 0) crowd.step();
-  return {crowd.time_s(), static_cast<double>(count_present(crowd))};
-}
-
-/// A corridor of 4 m x 30 m that `each` people per metre and second enter from both sides: the flow
-/// out of it from 60 to 180 s, per metre and direction.
-Numbers two_way(const Tested& tested, double each, std::uint64_t seed) {
-  Scene scene;
-  scene.walls = {box(-30, -3, 30, -2), box(-30, 2, 30, 3)};
-  const auto people = static_cast<std::size_t>(each * 4 * 180);
-  for (const bool there : {true, false}) {
-    Group group;
-    const double x = there ? -16 : 16;
-    for (std::size_t i = 0; i < people; ++i) {
-      group.places.emplace_back(x - (there ? 1 : -1) * 0.5 * static_cast<double>(i / 7 % 8),
-                                -1.65 + 0.55 * static_cast<double>(i % 7));
-    }
-    group.state = there ? "There" : "Back";
-    group.more = fmt::format(
-        R"(<Arrivals type="rate" per_second="{}" end="180" process="poisson"/>)", each * 4);
-    scene.groups.push_back(group);
-  }
-  scene.behavior = goal_box(0, 20, -2, 24, 2) + goal_box(1, -24, -2, -20, 2) + walk_to(0, "There") +
-                   walk_to(1, "Back") + leave_at_goal("There,Back");
-  crowd::Simulation crowd = load(scene, tested, seed);
-  while (crowd.time_s() < 60) crowd.step();
-  std::array<std::size_t, 2> out{};
-  std::vector<std::uint8_t> was(crowd.present().begin(), crowd.present().end());
-  while (crowd.time_s() < 180) {
-    crowd.step();
-    for (std::size_t i = 0; i < was.size(); ++i) {
-      if (was[i] != 0 && crowd.present()[i] == 0) ++out[i < people ? 0 : 1];
-      was[i] = crowd.present()[i];
-    }
-  }
-  return {static_cast<double>(out[0]) / 480, static_cast<double>(out[1]) / 480,
-          static_cast<double>(count_present(crowd))};
-}
-
-/// The flow through a corridor of 4 m, straight or round a corner: people per metre and second
-/// between the 10th and the 80th percentile of 400.
-Numbers corner(const Tested& tested, bool bends, double width, std::uint64_t seed) {
-  Scene scene;
-  Group group;
-  group.places = lattice({-40, 0.3}, {-0.5, width - 0.3}, static_cast<std::size_t>(80 * width));
-  group.aside_m = 0.05;
-  scene.groups = {group};
-  if (bends) {
-    scene.walls = {box(-42, -1, 10 + width + 1, 0), box(-42, width, 10, 19 + width),
-                   box(-43, -1, -42, width + 1), box(10 + width, 0, 11 + width, 19 + width)};
-    scene.behavior = goal_box(0, 10.3, width + 10, 9.7 + width, width + 14);
-  } else {
-    scene.walls = {box(-42, -1, 40, 0), box(-42, width, 40, width + 1),
-                   box(-43, -1, -42, width + 1)};
-    scene.behavior = goal_box(0, 20 + width, 0.3, 24 + width, width - 0.3);
-  }
-  scene.behavior += walk_to(0) + leave_at_goal();
-  crowd::Simulation crowd = load(scene, tested, seed);
-  Numbers times;
-  const std::size_t people = crowd.agent_count();
-  const std::size_t last = people * 8 / 10;
-  std::vector<std::uint8_t> was(crowd.present().begin(), crowd.present().end());
-  while (times.size() < last && crowd.time_s() < 600) {
-    crowd.step();
-    for (std::size_t i = 0; i < people; ++i) {
-      if (was[i] != 0 && crowd.present()[i] == 0) times.push_back(crowd.time_s());
-      was[i] = crowd.present()[i];
-    }
-  }
-  if (times.size() < last) return {0};
-  return {static_cast<double>(last - people / 10) / (times[last - 1] - times[people / 10 - 1]) /
-          width};
-}
-
-/// Two who meet: how long before that one goes aside, and the greatest acceleration.
-Numbers meeting(const Tested& tested, double aside, std::uint64_t seed) {
-  Scene scene;
-  Group group;
-  group.places = {{-12, 0}};
-  group.aside_m = 0;
-  group.state = "There";
-  group.speed = R"(dist="c" value="1.34")";
-  Group other = group;
-  other.places = {{12, aside}};
-  other.state = "Back";
-  scene.groups = {group, other};
-  scene.behavior = goal_box(0, 20, -2, 24, 2) + goal_box(1, -24, -2, -20, 2) + walk_to(0, "There") +
-                   walk_to(1, "Back");
-  crowd::Simulation crowd = load(scene, tested, seed);
-  double turned_s = -1;
-  double accel = 0;
-  std::array<Vector2f, 2> v{};
-  while (crowd.time_s() < 2) crowd.step();
-  for (std::size_t i = 0; i < 2; ++i) v[i] = crowd.velocities()[i];
-  while (crowd.positions()[0].x() < crowd.positions()[1].x() && crowd.time_s() < 60) {
-    crowd.step();
-    for (std::size_t i = 0; i < 2; ++i) {
-      accel = std::max(accel,
-                       static_cast<double>((crowd.velocities()[i] - v[i]).norm()) / crowd.dt_s());
-      v[i] = crowd.velocities()[i];
-    }
-    if (turned_s < 0 && std::abs(crowd.velocities()[0].y()) > 0.03F) turned_s = crowd.time_s();
-  }
-  return {crowd.time_s() - turned_s, accel,
-          static_cast<double>((crowd.positions()[0] - crowd.positions()[1]).norm())};
-}
-
-/// A queue before a door of 0.8 m: stops and turns of heading by more than 90 degrees, per person
-/// and minute.
-Numbers queue(const Tested& tested, std::uint64_t seed) {
-  Scene scene;
-  scene.walls = {box(-11, -6, 0, -5), box(-11, 5, 0, 6), box(-11, -5, -10, 5),
-                 box(0, -6, 0.2, -0.4), box(0, 0.4, 0.2, 6)};
-  Group group;
-  group.places = lattice({-9.5, -4.75}, {-0.5, 4.75}, 150);
-  group.aside_m = 0.1;
-  scene.groups = {group};
-  scene.behavior = goal_box(0, 6, -2, 8, 2) + walk_to(0) + leave_at_goal();
-  crowd::Simulation crowd = load(scene, tested, seed);
-  while (crowd.time_s() < 20) crowd.step();
-  std::vector<float> heading(crowd.yaws_rad().begin(), crowd.yaws_rad().end());
-  std::vector<std::uint8_t> walks(heading.size(), 0);
-  double flips = 0;
-  double stops = 0;
-  double seconds = 0;
-  while (crowd.time_s() < 60) {
-    crowd.step();
-    for (std::size_t i = 0; i < heading.size(); ++i) {
-      if (crowd.present()[i] == 0 || crowd.positions()[i].x() > 0) continue;
-      seconds += crowd.dt_s();
-      const float turn =
-          std::remainder(crowd.yaws_rad()[i] - heading[i], 2 * static_cast<float>(M_PI));
-      if (std::abs(turn) > 1.5708F) {
-        ++flips;
-        heading[i] = crowd.yaws_rad()[i];
-      }
-      const float speed = crowd.velocities()[i].norm();
-      if (walks[i] != 0 && speed < 0.05F) {
-        ++stops;
-        walks[i] = 0;
-      } else if (speed > 0.2F) {
-        walks[i] = 1;
-      }
-    }
-  }
-  return {60 * flips / seconds, 60 * stops / seconds};
-}
 
 struct Gate {
   std::string name;
   std::function<Numbers(const Tested&, std::uint64_t)> measure;
 };
 
-std::vector<Gate> gates() {
-  std::vector<Gate> all;
+void add_flows(std::vector<Gate>& all) {
   for (const double density :
        {0.02, 0.1, 0.4, 0.6, 1.1, 1.6, 1.9, 2.1, 2.4, 2.9, 3.4, 4.0, 5.0, 6.0}) {
     all.push_back({fmt::format("fd_{}", density), [density](const Tested& t, std::uint64_t seed) {
-                     return fundamental_diagram(t, density, seed);
+                     return Numbers{walk_in_ring(t, density, seed).speed_mps * density};
                    }});
   }
   for (const double width : {0.8, 1.0, 1.2, 1.6, 2.0}) {
-    all.push_back({fmt::format("door_{:.1f}", width), [width](const Tested& t, std::uint64_t seed) {
+    all.push_back({fmt::format("door_{}", width), [width](const Tested& t, std::uint64_t seed) {
                      return Numbers{specific_flow(t, {width, 0.2}, seed)};
                    }});
   }
-  all.push_back({"imo_4", imo_4});
+  for (const double width : {2.0, 4.0}) {
+    for (const bool turns : {false, true}) {
+      all.push_back({fmt::format("{}_{}", turns ? "corner" : "straight", width),
+                     [width, turns](const Tested& t, std::uint64_t seed) {
+                       return Numbers{corridor_flow(t, turns, width, seed)};
+                     }});
+    }
+  }
+  all.push_back({"imo_4", [](const Tested& t, std::uint64_t seed) {
+                   const ExitRun run = leave_room(t, seed);
+                   return Numbers{run.flow_per_s, run.overlap_m};
+                 }});
+}
+
+void add_encounters(std::vector<Gate>& all) {
   for (const double density : {0.5, 1.0}) {
     all.push_back(
-        {fmt::format("square_{:.1f}", density),
-         [density](const Tested& t, std::uint64_t seed) { return square(t, density, seed); }});
+        {fmt::format("square_{}", density), [density](const Tested& t, std::uint64_t seed) {
+           const SquareRun run = cross_square(t, density, seed);
+           return Numbers{run.stuck, run.speed_mps, run.acceleration_mps2};
+         }});
   }
-  for (const std::size_t others : {std::size_t{0}, std::size_t{50}, std::size_t{100}}) {
+  for (const std::size_t others : {0UL, 50UL, 100UL}) {
     all.push_back({fmt::format("room_{}", others), [others](const Tested& t, std::uint64_t seed) {
-                     return counter_room(t, others, seed);
+                     const CounterRun run = pass_corridor(t, others, seed);
+                     return Numbers{run.time_s, static_cast<double>(run.left)};
                    }});
   }
   for (const double each : {0.75, 1.5}) {
-    all.push_back({fmt::format("two_way_{}", each),
-                   [each](const Tested& t, std::uint64_t seed) { return two_way(t, each, seed); }});
-  }
-  for (const double width : {2.0, 4.0}) {
-    all.push_back({fmt::format("straight_{}", width), [width](const Tested& t, std::uint64_t seed) {
-                     return corner(t, false, width, seed);
-                   }});
-    all.push_back({fmt::format("corner_{}", width), [width](const Tested& t, std::uint64_t seed) {
-                     return corner(t, true, width, seed);
+    all.push_back({fmt::format("two_way_{}", each), [each](const Tested& t, std::uint64_t seed) {
+                     const TwoWayRun run = walk_both_ways(t, each, seed);
+                     return Numbers{run.there, run.back};
                    }});
   }
   for (const double aside : {0.0, 0.1, 0.3}) {
     all.push_back({fmt::format("meet_{}", aside), [aside](const Tested& t, std::uint64_t seed) {
-                     return meeting(t, aside, seed);
+                     const MeetingRun run = meet(t, aside, seed);
+                     return Numbers{run.begins_s, run.acceleration_mps2};
                    }});
   }
-  all.push_back({"queue", queue});
-  return all;
+  all.push_back({"queue", [](const Tested& t, std::uint64_t seed) {
+                   const QueueRun run = stand_in_queue(t, seed);
+                   return Numbers{run.turns, run.stops};
+                 }});
 }
 
-int run(int argc, char** argv) {
-  const std::string model = argc > 1 ? argv[1] : "weidmann";
-  const crowd::ModelEntry& entry = crowd::find_model(model);
-  Tested tested{model};
+struct Command {
+  Tested tested{"ttc"};
   std::size_t seeds = 3;
-  std::string only;
+  std::vector<std::string> only;
+};
+
+Command read(std::span<char* const> words) {
+  Command command;
+  if (words.size() > 1) command.tested.model = words[1];
+  const crowd::ModelEntry& entry = crowd::find_model(command.tested.model);
   std::string constants;
   std::string parameters;
-  for (int i = 2; i < argc; ++i) {
-    const std::string word = argv[i];
+  for (const std::string word : words.subspan(std::min<std::size_t>(2, words.size()))) {
     const auto equals = word.find('=');
     const std::string name = word.substr(0, equals);
-    const std::string value = word.substr(equals + 1);
-    if (name == "seeds")
-      seeds = std::stoul(value);
-    else if (name == "only")
-      only = value;
-    else {
+    std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
+    if (name == "seeds") {
+      command.seeds = std::stoul(value);
+    } else if (name == "only") {
+      for (value += ','; !value.empty(); value.erase(0, value.find(',') + 1)) {
+        command.only.push_back(value.substr(0, value.find(',')));
+      }
+    } else {
       const bool is_parameter = std::any_of(entry.parameters.begin(), entry.parameters.end(),
                                             [&](const auto& p) { return p.name == name; });
       (is_parameter ? parameters : constants) += fmt::format(" {}=\"{}\"", name, value);
     }
   }
-  if (!constants.empty()) tested.constants = fmt::format("<{}{}/>", entry.tag, constants);
-  if (!parameters.empty()) tested.profile = fmt::format("<{}{}/>", entry.tag, parameters);
-  std::vector<Gate> chosen;
-  for (Gate& gate : gates()) {
-    if (only.empty())
-      chosen.push_back(gate);
-    else
-      for (std::size_t at = 0; at <= only.size();) {
-        const std::size_t end = std::min(only.find(',', at), only.size());
-        if (gate.name.starts_with(only.substr(at, end - at))) {
-          chosen.push_back(gate);
-          break;
-        }
-        at = end + 1;
-      }
-  }
-  std::vector<Numbers> results(chosen.size() * seeds);
+  if (!constants.empty()) command.tested.constants = fmt::format("<{}{}/>", entry.tag, constants);
+  if (!parameters.empty()) command.tested.profile = fmt::format("<{}{}/>", entry.tag, parameters);
+  return command;
+}
+
+void run(const Command& command) {
+  std::vector<Gate> gates;
+  add_flows(gates);
+  add_encounters(gates);
+  std::erase_if(gates, [&](const Gate& gate) {
+    return !command.only.empty() &&
+           std::none_of(command.only.begin(), command.only.end(),
+                        [&](const std::string& start) { return gate.name.starts_with(start); });
+  });
+  std::vector<Numbers> results(gates.size() * command.seeds);
   tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
     tbb::task_arena alone(1);
-    alone.execute([&] { results[i] = chosen[i / seeds].measure(tested, 1 + i % seeds); });
+    alone.execute([&] {
+      results[i] = gates[i / command.seeds].measure(command.tested, 1 + i % command.seeds);
+    });
   });
-  for (std::size_t g = 0; g < chosen.size(); ++g) {
-    fmt::print("{:14}", chosen[g].name);
-    for (std::size_t seed = 0; seed < seeds; ++seed) {
-      fmt::print(" |");
-      for (const double number : results[g * seeds + seed]) fmt::print(" {:.3g}", number);
-    }
-    fmt::print("\n");
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (i % command.seeds == 0)
+      fmt::print("{}{:14}", i > 0 ? "\n" : "", gates[i / command.seeds].name);
+    fmt::print(" |");
+    for (const double number : results[i]) fmt::print(" {:.3g}", number);
   }
-  return 0;
+  fmt::print("\n");
 }
 
 }  // namespace
@@ -394,7 +158,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return throng::validation::run(argc, argv);
+    throng::validation::run(throng::validation::read({argv, static_cast<std::size_t>(argc)}));
+    return 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;

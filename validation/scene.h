@@ -26,7 +26,8 @@ struct Group {
   double radius_m = 0.2;
   double aside_m = 0.02;  ///< at most so far from their place they begin, at random
   std::string state = "Walk";
-  std::string more = {};  ///< further elements of the group as the files write them, e.g. <Arrivals>
+  std::string more =
+      {};  ///< further elements of the group as the files write them, e.g. <Arrivals>
 };
 
 struct Scene {

@@ -67,9 +67,9 @@ std::vector<std::string> chosen_models(const std::vector<std::string>& names) {
   chosen.reserve(crowd::models().size());
   for (const std::string& name : names) chosen.emplace_back(crowd::find_model(name).name);
   if (!chosen.empty()) return chosen;
-  chosen.emplace_back("weidmann");
+  chosen.emplace_back("ttc");
   for (const crowd::ModelEntry& entry : crowd::models()) {
-    if (entry.name != "weidmann" && entry.name != "dummy") chosen.emplace_back(entry.name);
+    if (entry.name != "ttc" && entry.name != "dummy") chosen.emplace_back(entry.name);
   }
   return chosen;
 }
@@ -78,7 +78,7 @@ std::vector<std::string> chosen_models(const std::vector<std::string>& names) {
 
 std::vector<Test> all_tests() {
   std::vector<Test> all;
-  for (auto* part : {flow_tests, rimea_tests, rimea_bottleneck_tests, nist_tests}) {
+  for (auto* part : {flow_tests, rimea_tests, rimea_bottleneck_tests, nist_tests, walking_tests}) {
     std::vector<Test> tests = part();
     std::move(tests.begin(), tests.end(), std::back_inserter(all));
   }

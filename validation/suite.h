@@ -32,6 +32,7 @@ std::vector<Test> rimea_tests();
 std::vector<Test> rimea_bottleneck_tests();
 std::vector<Test> nist_tests();
 std::vector<Test> flow_tests();
+std::vector<Test> walking_tests();
 
 /// All of them, in the order of the report.
 std::vector<Test> all_tests();

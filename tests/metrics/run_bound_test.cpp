@@ -178,7 +178,7 @@ TEST(LowerBound, IsLimitedByTheDoor) {
   add_alarm(scenario, 0);
   const world::Trace trace = trace_of(std::vector<Walk>(200, standing({-0.1, 0})));
   const RunMetrics run = run_metrics(trace, scenario, exit_series(trace, scenario));
-  const DoorCapacity capacity = door_capacity("weidmann", 2);
+  const DoorCapacity capacity = door_capacity("ttc", 2);
   ASSERT_TRUE(run.lower_bound);
   EXPECT_EQ(run.lower_bound->raised_doors, 0);
   const double on_s = 10 / 1.3;

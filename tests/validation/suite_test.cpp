@@ -17,7 +17,7 @@ class Default : public testing::TestWithParam<std::string> {};
 const std::set<std::string> kKnownFailures = {"rimea_15"};
 
 TEST_P(Default, Passes) {
-  const Results results = run_suite({"weidmann"}, {GetParam()}, Effort::reduced, 1);
+  const Results results = run_suite({"ttc"}, {GetParam()}, Effort::reduced, 1);
   const Verdict& verdict = results.verdicts[0][0];
   EXPECT_NE(verdict.passed, kKnownFailures.contains(GetParam()))
       << verdict.measured << "; wanted: " << results.tests[0].criterion;

@@ -1,0 +1,105 @@
+// The model `ttc`: its law against a gradient taken numerically, and how two people pass each
+// other.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "crowd_files.h"
+
+namespace throng::crowd {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kStrength = 1.5;
+constexpr double kHorizonS = 3;
+constexpr double kRelaxationS = 0.3;
+constexpr double kTouchM = 0.4;
+
+/// The interaction energy of two discs, in double precision: strength t^-2 exp(-t / horizon) for
+/// the time t until they touch, 0 if they never do (Karamouzas, Skinner and Guy 2014).
+double energy(const Vector2d& offset, const Vector2d& relative) {
+  const double a = relative.squaredNorm();
+  const double b = -offset.dot(relative);
+  const double root_sq = b * b - a * (offset.squaredNorm() - kTouchM * kTouchM);
+  if (a <= 0 || b <= 0 || root_sq <= 0) return 0;
+  const double t = (b - std::sqrt(root_sq)) / a;
+  return kStrength * std::exp(-t / kHorizonS) / (t * t);
+}
+
+Vector2d acceleration(const Vector2d& offset, const Vector2d& relative) {
+  constexpr double kStep = 1e-6;  // m
+  const auto slope = [&](const Vector2d& along) {
+    return (energy(offset + kStep * along, relative) - energy(offset - kStep * along, relative)) /
+           (2 * kStep);
+  };
+  return {-slope({1, 0}), -slope({0, 1})};
+}
+
+/// Two who walk towards each other along x, `aside` apart in y.
+Simulation meeting(double aside, double dt_s, const std::string& constants) {
+  const auto person = [](double x, double y, const char* state) {
+    return fmt::format(
+        R"(<AgentGroup><ProfileSelector type="const" name="p"/><StateSelector type="const" name="{}"/>
+<Generator type="explicit"><Agent p_x="{}" p_y="{}"/></Generator></AgentGroup>)",
+        state, x, y);
+  };
+  const std::string scene = fmt::format(
+      R"(<Experiment version="2.0"><SpatialQuery type="kd-tree"/><Common time_step="{}"/>
+<TimeToCollision {}/><AgentProfile name="p"><Common r="0.2" pref_speed="1.34" max_speed="2.5" max_accel="1000"
+neighbor_dist="20" obstacleSet="1"/></AgentProfile>{}{}</Experiment>)",
+      dt_s, constants, person(-6, 0, "East"), person(6, aside, "West"));
+  const std::string behavior = R"(<BFSM>
+<GoalSet id="0"><Goal id="0" type="point" x="1000" y="0"/><Goal id="1" type="point" x="-1000" y="0"/></GoalSet>
+<State name="East" final="0"><GoalSelector type="explicit" goal_set="0" goal="0"/><VelComponent type="goal"/></State>
+<State name="West" final="0"><GoalSelector type="explicit" goal_set="0" goal="1"/><VelComponent type="goal"/></State>
+</BFSM>)";
+  return test::load(scene, behavior, {.model = "ttc"});
+}
+
+TEST(Ttc, AcceleratesByTheGradientOfTheEnergy) {
+  constexpr double kDt = 0.02;  // the model's own step: nothing is averaged
+  Simulation crowd = meeting(0.15, kDt, R"(keep_right="0")");
+  double compared = 0;
+  while (crowd.positions()[1].x() - crowd.positions()[0].x() > 0.8F) {
+    const Vector2d offset = (crowd.positions()[0] - crowd.positions()[1]).cast<double>();
+    const Vector2d velocity = crowd.velocities()[0].cast<double>();
+    const Vector2d relative = velocity - crowd.velocities()[1].cast<double>();
+    const Vector2d wanted = crowd.preferred_velocity(0).cast<double>();
+    crowd.step();
+    const Vector2d force = acceleration(offset, relative);
+    Vector2d expected = velocity + kDt * ((wanted - velocity) / kRelaxationS + force);
+    const double limit = std::max({1.34, velocity.norm()});
+    if (expected.norm() > limit) expected *= limit / expected.norm();
+    ASSERT_LT((crowd.velocities()[0].cast<double>() - expected).norm(), 2e-3) << crowd.time_s();
+    compared = std::max(compared, force.norm());
+  }
+  EXPECT_GT(compared, 1) << "they came near enough to avoid each other";
+}
+
+TEST(Ttc, PeopleWhoMeetAvoidEachOtherEarlyAndGently) {
+  for (const double aside : {0.1, 0.3}) {
+    Simulation crowd = meeting(aside, 0.1, "");
+    double begun_s = -1;
+    double hardest = 0;
+    Eigen::Vector2f before = crowd.velocities()[0];
+    double nearest = 100;
+    while (crowd.positions()[0].x() < crowd.positions()[1].x()) {
+      crowd.step();
+      const Eigen::Vector2f now = crowd.velocities()[0];
+      if (crowd.time_s() > 2)
+        hardest = std::max(hardest, static_cast<double>((now - before).norm()) / 0.1);
+      before = now;
+      if (begun_s < 0 && std::abs(now.y()) > 0.03F) begun_s = crowd.time_s();
+      nearest = std::min(nearest,
+                         static_cast<double>((crowd.positions()[0] - crowd.positions()[1]).norm()));
+    }
+    EXPECT_GT(crowd.time_s() - begun_s, 1.2) << aside;
+    EXPECT_LT(hardest, 1.5) << aside;
+    EXPECT_GT(nearest, 0.4) << aside;
+  }
+}
+
+}  // namespace
+}  // namespace throng::crowd
