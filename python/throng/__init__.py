@@ -9,12 +9,18 @@
 
 from __future__ import annotations
 
+from . import job
 from .annotations import Annotations
 from .camera import Camera
+from .client import Client
 from .dataset import Dataset, merge
-from .errors import (DatasetError, MissingPackageError, ProgramError, ScenarioError, ThrongError, TraceError)
+from .errors import (AccessError, ConflictError, ConnectionFailedError, DatasetError, InvalidRequestError, JobFailedError,
+                     MissingPackageError, Mistake, NotFoundError, ProgramError, ScenarioError, ServiceError, ThrongError,
+                     TraceError, UnavailableError)
 from .frame import Frame
 from .plotting import animate, show
+from .program import find_program, metrics, run, simulate, study
+from .scenario import Scenario
 from .tables import Table
 from .trace import Trace
 from .training import (CountingDataset, DetectionDataset, KeypointDataset, SegmentationDataset, TrackingDataset, collate)
@@ -22,7 +28,10 @@ from .training import (CountingDataset, DetectionDataset, KeypointDataset, Segme
 __version__ = "0.1.0"
 
 __all__ = [
-    "Annotations", "Camera", "CountingDataset", "Dataset", "DatasetError", "DetectionDataset", "Frame", "KeypointDataset",
-    "MissingPackageError", "ProgramError", "ScenarioError", "SegmentationDataset", "Table", "ThrongError", "Trace",
-    "TraceError", "TrackingDataset", "animate", "collate", "merge", "show",
+    "AccessError", "Annotations", "Camera", "Client", "ConflictError", "ConnectionFailedError", "CountingDataset",
+    "Dataset", "DatasetError", "DetectionDataset", "Frame", "InvalidRequestError", "JobFailedError",
+    "KeypointDataset", "MissingPackageError", "Mistake", "NotFoundError", "ProgramError", "Scenario", "ScenarioError",
+    "SegmentationDataset", "ServiceError", "Table", "ThrongError", "Trace", "TraceError", "TrackingDataset",
+    "UnavailableError", "animate", "collate", "find_program", "job", "merge", "metrics", "run", "show", "simulate",
+    "study",
 ]

@@ -6,7 +6,6 @@ Operations (filter, split, resample, ...) give new views; they copy no files and
 from __future__ import annotations
 
 import copy
-import hashlib
 import io
 import math
 import os
@@ -19,7 +18,7 @@ from ._optional import require
 from .annotations import PERSON, AnnotationFilter
 from .errors import DatasetError
 from .frame import Frame
-from .source import Source
+from .source import Source, verify_files
 from .tables import Table, read_csv
 
 _RUN_TRACKS = 1_000_000
@@ -276,24 +275,7 @@ class Dataset(Sequence[Frame]):
         complete=False lets files be missing, as in an archive that was downloaded in part. `throng validate` checks more.
         """
         for source in self._sources:
-            storage = source.storage
-            files = source.manifest.get("files")
-            if not isinstance(files, list):
-                raise DatasetError(f"{storage.where('manifest.json')}: /files: expected a list")
-            for i, entry in enumerate(files):
-                try:
-                    name, size, digest = str(entry["path"]), int(entry["bytes"]), str(entry["sha256"])
-                except (TypeError, KeyError, ValueError):
-                    raise DatasetError(f"{storage.where('manifest.json')}: /files/{i}: expected path, bytes and "
-                                       "sha256") from None
-                if not storage.exists(name):
-                    if complete:
-                        raise storage.missing(name)
-                    continue
-                data = storage.read(name)
-                if len(data) != size or hashlib.sha256(data).hexdigest() != digest:
-                    raise DatasetError(f"{storage.where(name)}: found {len(data)} bytes with another SHA-256 than the "
-                                       f"manifest says, expected {size}")
+            verify_files(source.storage, source.manifest.get("files"), complete=complete)
 
     def show(self, index: int = 0, **options: Any) -> Any:
         """Draws a frame with its annotations; see throng.show."""

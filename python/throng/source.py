@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from functools import cached_property
 from typing import Any, Mapping
 
 from ._labels import LabelFile
 from .errors import DatasetError
-from .storage import open_storage
+from .storage import Storage, open_storage
 
 _MAX_JSON_BYTES = 1 << 30
 
@@ -62,3 +63,23 @@ class Source:
             if run in runs:
                 return name
         return None
+
+
+def verify_files(storage: Storage, files: Any, *, complete: bool) -> None:
+    """Compares every file with the size and SHA-256 that the manifest's `files` say."""
+    where = storage.where("manifest.json")
+    if not isinstance(files, list):
+        raise DatasetError(f"{where}: /files: expected a list")
+    for i, entry in enumerate(files):
+        try:
+            name, size, digest = str(entry["path"]), int(entry["bytes"]), str(entry["sha256"])
+        except (TypeError, KeyError, ValueError):
+            raise DatasetError(f"{where}: /files/{i}: expected path, bytes and sha256") from None
+        if not storage.exists(name):
+            if complete:
+                raise storage.missing(name)
+            continue
+        data = storage.read(name)
+        if len(data) != size or hashlib.sha256(data).hexdigest() != digest:
+            raise DatasetError(f"{storage.where(name)}: found {len(data)} bytes with another SHA-256 than the manifest "
+                               f"says, expected {size}")

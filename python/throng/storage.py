@@ -311,13 +311,13 @@ def _inflate(data: bytes, size: int, where: str) -> bytes:
     return out
 
 
-def open_storage(path: str | os.PathLike[str]) -> Storage:
-    """The storage of a dataset at path, its root found: a folder or archive may hold the dataset in a subfolder."""
+def open_storage(path: str | os.PathLike[str], marker: str = LABELS_FILE) -> Storage:
+    """The storage of a dataset at path. Its root is where the file `marker` is found, which may be a subfolder."""
     text = os.path.abspath(os.fspath(path))
     storage: Storage
     if os.path.isdir(text):
         storage = FolderStorage(text)
-        roots = [root for root in ("", "dataset/") if storage.exists(root + LABELS_FILE)]
+        roots = [root for root in ("", "dataset/") if storage.exists(root + marker)]
     elif os.path.isfile(text):
         with open(text, "rb") as file:
             head = file.read(4)
@@ -326,13 +326,13 @@ def open_storage(path: str | os.PathLike[str]) -> Storage:
                                "at any place: decompress it first (gunzip), or use zip")
         archive = ZipStorage(text) if head[:2] == b"PK" else TarStorage(text)
         storage = archive
-        roots = sorted((name[: -len(LABELS_FILE)] for name in archive.names()
-                        if name == LABELS_FILE or name.endswith("/" + LABELS_FILE)), key=lambda root: root.count("/"))
+        roots = sorted((name[: -len(marker)] for name in archive.names()
+                        if name == marker or name.endswith("/" + marker)), key=lambda root: root.count("/"))
     elif os.path.exists(text):
         raise DatasetError(f"{text}: found a pipe or device, expected a folder, a .tar or a .zip file")
     else:
         raise DatasetError(f"{text}: found nothing there, expected a dataset: a folder, a .tar or a .zip file")
     if not roots:
-        raise DatasetError(f"{text}: found no {LABELS_FILE}, expected a dataset of throng with the annotations coco")
+        raise DatasetError(f"{text}: found no {marker}, expected a dataset of throng with it")
     storage.root = roots[0]
     return storage
