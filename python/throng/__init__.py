@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 from . import job
+from ._version import __version__
 from .annotations import Annotations
 from .camera import Camera
 from .client import Client
@@ -25,9 +26,8 @@ from .tables import Table
 from .trace import Trace
 from .training import (CountingDataset, DetectionDataset, KeypointDataset, SegmentationDataset, TrackingDataset, collate)
 
-__version__ = "0.1.0"
-
 __all__ = [
+    "__version__",
     "AccessError", "Annotations", "Camera", "Client", "ConflictError", "ConnectionFailedError", "CountingDataset",
     "Dataset", "DatasetError", "DetectionDataset", "Frame", "InvalidRequestError", "JobFailedError",
     "KeypointDataset", "MissingPackageError", "Mistake", "NotFoundError", "ProgramError", "Scenario", "ScenarioError",

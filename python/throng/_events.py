@@ -49,7 +49,8 @@ def follow(http: Http, job_id: str, after: int, deadline: float | None) -> Itera
     while True:
         try:
             headers = {"Accept": "text/event-stream", "Last-Event-ID": str(last)}
-            with http.open("GET", f"/v1/jobs/{part(job_id)}/events", headers=headers) as response:
+            left = None if deadline is None else max(0.05, deadline - time.monotonic())
+            with http.open("GET", f"/v1/jobs/{part(job_id)}/events", headers=headers, timeout_s=left) as response:
                 if response.status != 200:
                     error = http.read_problem(response)
                     if response.status not in (502, 503, 504):
@@ -73,6 +74,7 @@ def follow(http: Http, job_id: str, after: int, deadline: float | None) -> Itera
         except (*BROKEN, ConnectionFailedError) as error:
             if isinstance(error, ServiceError):
                 raise
+            _check(deadline)
             lost_since = time.monotonic() if lost_since is None else lost_since
             if time.monotonic() - lost_since > http.patience_s:
                 raise ConnectionFailedError(f"{http.url}: the connection broke and could not be made again: {error}") from error

@@ -54,18 +54,19 @@ class Http:
         self.patience_s = patience_s
         self._context = context
 
-    def _connect(self) -> http.client.HTTPConnection:
+    def _connect(self, timeout_s: float) -> http.client.HTTPConnection:
         host, port = self._parts.hostname or "", self._parts.port
         if self._parts.scheme == "https":
-            return http.client.HTTPSConnection(host, port, timeout=self._timeout_s,
+            return http.client.HTTPSConnection(host, port, timeout=timeout_s,
                                                context=self._context or ssl.create_default_context())
-        return http.client.HTTPConnection(host, port, timeout=self._timeout_s)
+        return http.client.HTTPConnection(host, port, timeout=timeout_s)
 
     @contextmanager
     def open(self, method: str, path: str, *, body: Any = None,
-             headers: Mapping[str, str] | None = None) -> Iterator[http.client.HTTPResponse]:
+             headers: Mapping[str, str] | None = None,
+             timeout_s: float | None = None) -> Iterator[http.client.HTTPResponse]:
         """One attempt. The response is that of any status; BROKEN exceptions pass through."""
-        connection = self._connect()
+        connection = self._connect(self._timeout_s if timeout_s is None else min(timeout_s, self._timeout_s))
         try:
             sent = dict(headers or {})
             if self._key is not None:

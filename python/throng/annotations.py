@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Callable, Collection, Iterator, Mapping, Sequence
+from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +56,13 @@ class Annotations(Sequence[Mapping[str, Any]]):
     def __len__(self) -> int:
         return len(self.records)
 
-    def __getitem__(self, index: Any) -> Any:
+    @overload
+    def __getitem__(self, index: int) -> Mapping[str, Any]: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Annotations: ...
+
+    def __getitem__(self, index: int | slice) -> Mapping[str, Any] | Annotations:
         if isinstance(index, slice):
             return self._with(self.records[index])
         return self.records[index]
@@ -90,7 +96,8 @@ class Annotations(Sequence[Mapping[str, Any]]):
         if not values:
             return np.empty((0,) + shape, dtype=dtype)
         if any(value is None for value in values):
-            if required and all(value is None for value in values):
+            is_asked = any(record.get("category_id") == PERSON for record in self.records)
+            if required and is_asked and all(value is None for value in values):
                 raise DatasetError(f'{self._where}: found no "{key}", expected it in the annotations: {required}')
             if dtype is not np.float64:
                 raise DatasetError(f'{self._where}: found an annotation without "{key}", expected it in all')

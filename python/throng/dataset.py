@@ -9,7 +9,7 @@ import copy
 import io
 import math
 import os
-from typing import Any, Callable, Collection, Iterator, Mapping, Sequence
+from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +41,13 @@ class Dataset(Sequence[Frame]):
     def __len__(self) -> int:
         return len(self._frames)
 
-    def __getitem__(self, index: Any) -> Any:
+    @overload
+    def __getitem__(self, index: int) -> Frame: ...
+
+    @overload
+    def __getitem__(self, index: slice | list[int] | NDArray[Any]) -> Dataset: ...
+
+    def __getitem__(self, index: Any) -> Frame | Dataset:
         """A frame by its place; a slice or a list of places gives a Dataset."""
         if isinstance(index, slice):
             return self._view(self._frames[index])

@@ -6,10 +6,13 @@ import json
 import pathlib
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
+import unittest.mock
 import zipfile
 
 import common
@@ -200,6 +203,10 @@ class WithService(unittest.TestCase):
         slow = self.client.clone(self.done["id"], {"name": "slow", "capture": {"rate_hz": 20, "to_s": 60}})
         same = self.client.submit(JOB, idempotency_key="once", priority=-5)
         self.assertEqual(self.client.submit(JOB, idempotency_key="once", priority=-5)["id"], same["id"])
+        begun = time.monotonic()
+        with self.assertRaises(TimeoutError):  # nothing happens to a job that waits
+            self.client.watch(same["id"], progress=False, timeout_s=0.4)
+        self.assertLess(time.monotonic() - begun, 3)
         self.assertEqual(self.client.cancel(same["id"])["state"], "cancelled")
         stages = []
         with self.assertRaises(TimeoutError):
@@ -319,6 +326,29 @@ class Parts(unittest.TestCase):
         for proposed, name in (("a.tar", "a.tar"), ("../../a.tar", "a.tar"), ("..\\a.tar", "a.tar"), ("..", "x"), ("/", "x"),
                                (".bashrc", "x"), ("", "x")):
             self.assertEqual(file_name_of({"Content-Disposition": f'attachment; filename="{proposed}"'}, "x"), name)
+
+    def test_the_bar_of_a_notebook(self):
+        shown = []
+
+        class Handle:
+            def update(self, markup):
+                shown.append(markup)
+
+        def display(markup, display_id):
+            shown.append(markup)
+            return Handle()
+
+        shell = type("ZMQInteractiveShell", (), {})()
+        modules = {"IPython": types.SimpleNamespace(get_ipython=lambda: shell),
+                   "IPython.display": types.SimpleNamespace(HTML=str, display=display)}
+        with unittest.mock.patch.dict(sys.modules, modules):
+            bar = ProgressBar("<set>")
+            bar.update(0.25, "1 of 4 frames")
+            bar.update(1, "4 of 4 frames")
+            bar.close()
+        self.assertEqual(len(shown), 2)
+        self.assertIn("value='0.2500'", shown[0])
+        self.assertIn("&lt;set&gt;", shown[1])
 
     def test_the_bar(self):
         class Terminal(io.StringIO):
