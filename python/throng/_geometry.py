@@ -68,6 +68,8 @@ def _parts(value: Any, what: str, wkt: str) -> tuple[str, list[Any]]:
     if hasattr(value, "__geo_interface__") or (isinstance(value, dict) and "coordinates" in value):
         geometry = value if isinstance(value, dict) else value.__geo_interface__
         kind, coordinates = str(geometry.get("type")), geometry.get("coordinates")
+        if kind == "MultiPolygon" and coordinates is not None and len(coordinates) == 1:
+            kind, coordinates = "Polygon", coordinates[0]
         if kind == "LinearRing":
             kind, coordinates = "Polygon", [coordinates]
         return kind, list(coordinates or []) if kind == "Polygon" else [coordinates]
@@ -104,6 +106,10 @@ def _points(value: Any, what: str) -> Points:
 def _ring(value: Any, what: str) -> Points:
     points = _points(value, what)
     points = points[np.hypot(*(points - np.roll(points, 1, axis=0)).T) > _SAME_M]
+    if len(points) > 3:  # corners on a straight line are none: an exit may lie across them
+        before, after = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
+        sine = (before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]) / np.hypot(*before.T) / np.hypot(*after.T)
+        points = points[(np.abs(sine) > 1e-9) | (np.sum(before * after, axis=1) < 0)]
     area = signed_area(points) if len(points) >= 3 else 0.0
     if abs(area) < 1e-4:
         raise ScenarioError(f"{what}: found {len(points)} different corners and an area of {abs(area):.4f} m2, expected a "
@@ -113,6 +119,18 @@ def _ring(value: Any, what: str) -> Points:
     if (crossing := _self_crossing(points)) is not None:
         raise ScenarioError(f"{what}: found edges {crossing[0]} and {crossing[1]} that cross, expected a simple polygon")
     return points
+
+
+def contains(polygon: Polygon, point: Sequence[float]) -> bool:
+    """Whether a point is inside or on the edge of a polygon, its holes not regarded."""
+    inside = False
+    x, y = point[0], point[1]
+    for a, b in zip(polygon.outer, np.roll(polygon.outer, -1, axis=0)):
+        if along(a, b, point, 1e-6) is not None:
+            return True
+        if (a[1] > y) != (b[1] > y) and x < a[0] + (y - a[1]) * (b[0] - a[0]) / (b[1] - a[1]):
+            inside = not inside
+    return inside
 
 
 def signed_area(points: Points) -> float:

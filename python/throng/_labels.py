@@ -16,7 +16,7 @@ from .storage import LABELS_FILE, Buffer, Storage, check_name
 Record = dict[str, Any]
 
 _ANNOTATIONS = b'\n"annotations":[\n'
-_LINE = re.compile(rb'\{"id":\d+,"image_id":(\d+),[^\n]*\n')
+_LINE = re.compile(rb'\{"id":\d{1,18},"image_id":(\d{1,18}),[^\n]*\n')
 _MAX_SIDE_PX = 65535
 _MAX_PIXELS = 1 << 28
 
@@ -56,6 +56,8 @@ class LabelFile:
         """Finds the lines of each image; False if the file is laid out in another way."""
         buffer = self._buffer
         assert buffer is not None
+        if any(buffer.find(text, start, end) >= 0 for text in (b"},{", b"}, {")):
+            return False  # several records in a line
         at = block = start
         image = -1
         for match in _LINE.finditer(buffer, start, end):
@@ -121,7 +123,7 @@ class LabelFile:
     def records(self, image_id: int) -> list[Record]:
         """The annotations of an image; [] if it has none."""
         if self._parsed is not None:
-            return self._parsed.get(image_id, [])
+            return self._checked(self._parsed.get(image_id, []), image_id)
         blocks = self._lines.get(image_id)
         if blocks is None:
             return []
@@ -133,6 +135,18 @@ class LabelFile:
                 records += json.loads(b"[" + self._buffer[start:end].rstrip().rstrip(b",") + b"]")
             except (ValueError, RecursionError) as error:
                 raise DatasetError(f"{self.where}: annotations of image {image_id}: found no valid JSON: {error}") from error
+        if any(record.get("image_id") != image_id for record in records):
+            # Lines that hold several records: another layout after all.
+            self._parsed = self._group(self._load(self._storage.read(LABELS_FILE)))
+            return self.records(image_id)
+        return self._checked(records, image_id)
+
+    def _checked(self, records: list[Record], image_id: int) -> list[Record]:
+        for record in records:
+            box = record.get("bbox")
+            if not isinstance(box, list) or len(box) != 4:
+                raise DatasetError(f'{self.where}: annotation {record.get("id")} of image {image_id}: "bbox": found '
+                                   f"{_short(box)}, expected [x, y, width, height]")
         return records
 
 

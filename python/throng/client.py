@@ -163,13 +163,15 @@ class Client:
                  verify: bool = True, progress: bool = True) -> Path:
         """Downloads the dataset's archive, going on where an earlier call broke off; returns its path.
 
-        path is a file, or a folder for the name that the service proposes. include, runs and split choose a part, for
+        path is a file, or a folder (made where it ends with "/") for the name that the service proposes. include, runs and split choose a part, for
         example include=["images", "coco"], runs="0-3,7". With verify every file is compared with its SHA-256.
         """
         query = {"format": None if format == "tar" else format, "include": ",".join(include) if include else None,
                  "runs": runs, "split": split}
         target = f"/v1/jobs/{part(job_id)}/archive{query_of(query)}"
         out = Path(path)
+        if os.fspath(path).endswith("/"):
+            out.mkdir(parents=True, exist_ok=True)
         if out.is_dir():
             head = self._http.request("HEAD", target, repeatable=True)
             out = out / _download.file_name_of(head.headers, f"{job_id}.{format}")

@@ -118,7 +118,10 @@ class Frame:
         """All annotations that the dataset's filters keep, people's and drones'."""
         records = self._source.labels.records(int(self.record["id"]))
         if self._keep is not None:
-            records = [record for record in records if self._keep.keeps(record)]
+            try:
+                records = [record for record in records if self._keep.keeps(record)]
+            except (TypeError, IndexError) as error:
+                raise DatasetError(f"{self._where}: an annotation cannot be filtered: {error}") from error
         return Annotations(records, self.height, self.width, self._where, self._source.labels.tracks,
                            self._source.track_offset)
 

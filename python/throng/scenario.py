@@ -24,7 +24,7 @@ from typing import Any, Iterator, Literal, Mapping, Sequence, Union
 import numpy as np
 
 from . import program as _program
-from ._geometry import Points, along, line_of, offset, point_of, polygon_of, right_normals, signed_area
+from ._geometry import Points, along, contains, line_of, offset, point_of, polygon_of, right_normals, signed_area
 from ._job_base import plain
 from .dataset import Dataset
 from .errors import ScenarioError
@@ -136,6 +136,10 @@ class Scenario:
         if count < 1:
             raise ScenarioError(f"count: found {count}, expected 1 or more")
         shape = self.walkable if area is None else polygon_of(area, f"group {len(self._lists['groups']) + 1}")
+        for corner in shape.outer:
+            if self._walls and not contains(self.walkable, corner):
+                raise ScenarioError(f"group {len(self._lists['groups']) + 1}: found the corner {corner.tolist()} of its area, "
+                                    "expected all within the walkable area")
         self._lists["groups"].append({"doing": doing, "area": shape.outer.tolist(), "count": int(count), **plain(more)})
         return self
 

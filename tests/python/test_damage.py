@@ -195,6 +195,7 @@ class Damage(unittest.TestCase):
             (b'"image_id":1,', b'"image_id":7,', "image_id 7"), (b'"annotations":[', b'"annotations":[}', "JSON"),
             (b'"bbox":[0,0,2,2]', b'"bbox":[0,0,"x",2]', "bbox"), (b'"bbox":[0,0,2,2]', b'"bbox":[0,0,2]', "bbox"),
             (b'"track_id":1', b'"track_id":1,', "JSON"), (b'[0,2,2,2,18]', b'[0,2,2,2,19]', "segmentation"),
+            (b'"bbox":[0,0,2,2],', b"", "bbox"), (b'"image_id":1,', b'"image_id":' + b"1" * 5000 + b",", "JSON"),
             (good, b"[" * 100000, "JSON"), (b'"category_id":1', b'"category_id":1,"x":' + b"[" * 100000, "JSON"),
         ):
             with self.subTest(new=new[:60]):

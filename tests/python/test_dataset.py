@@ -146,7 +146,9 @@ class Reading(unittest.TestCase):
                      for record in mixed]
             images = [{"id": i, "file_name": f"images/r/c/{i}.jpg", "width": 5, "height": 4} for i in (7, 8, 9)]
             lines = ",\n".join(json.dumps(record, separators=(",", ":")) for record in mixed)
+            two_a_line = lines.replace(",\n", ",", 1)
             for text in (json.dumps({"images": images, "annotations": mixed}),
+                         '{"images":' + json.dumps(images) + ',\n"annotations":[\n' + two_a_line + "\n]}\n",
                          '{"images":' + json.dumps(images) + ',\n"annotations":[\n' + lines + "\n]}\n"):
                 with zipfile.ZipFile(f"{folder}/b.zip", "w") as archive:
                     archive.writestr("annotations/instances.json", text)

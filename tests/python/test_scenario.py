@@ -29,6 +29,8 @@ class Geometry(unittest.TestCase):
 
         forms = [ROOM, ROOM[::-1], [*ROOM, ROOM[0]], np.array(ROOM), wkt, "polygon Z((0 0 1,20 0 1,20 10 1,0 10 1,0 0 1))",
                  geojson, Shape()]
+        forms += [[*ROOM[:2], (20, 3), (20, 5), ROOM[2], (7, 10), ROOM[3]],
+                  {"type": "MultiPolygon", "coordinates": [geojson["coordinates"]]}]
         if common.has("shapely"):
             import shapely.geometry
             import shapely.wkt
@@ -81,6 +83,7 @@ class Geometry(unittest.TestCase):
             (lambda: Scenario("room", ROOM).exit("a", (20, 4), (20, 4)), "without length"),
             (lambda: Scenario("room", ROOM).exit("a", (20, 1), (20, 2)).exit("a", (20, 4), (20, 5)), "twice"),
             (lambda: Scenario("room", ROOM).group(count=0), "count"),
+            (lambda: Scenario("room", ROOM).group([(1, 1), (21, 1), (5, 5)], count=3), "walkable"),
             (lambda: Scenario("room", ROOM).obstacle("LINESTRING (0 0, 1 1)"), "LineString"),
             (lambda: Scenario("room", ROOM).blueprint(), "exits"),
             (lambda: Scenario("room", ROOM, wall_thickness_m=0), "wall_thickness_m"),
