@@ -22,8 +22,18 @@ def boxes(frame):
 
 def everything(frame):
     a = frame.people
-    return (a.boxes, a.track_ids, a.visibility, a.boxes_amodal, a.positions, a.velocities, a.boxes_3d, a.heads, a.states,
-            frame.camera)
+    return (
+        a.boxes,
+        a.track_ids,
+        a.visibility,
+        a.boxes_amodal,
+        a.positions,
+        a.velocities,
+        a.boxes_3d,
+        a.heads,
+        a.states,
+        frame.camera,
+    )
 
 
 def with_keypoints(frame):
@@ -41,7 +51,9 @@ def main():
         dataset = Dataset(path)
         opened = time.perf_counter() - started
         people = sum(len(frame.people) for frame in dataset)
-        print(f"{path}: {len(dataset)} frames, {people / max(1, len(dataset)):.1f} people each, opened in {opened:.2f} s")
+        print(
+            f"{path}: {len(dataset)} frames, {people / max(1, len(dataset)):.1f} people each, opened in {opened:.2f} s"
+        )
         kinds = [boxes, everything, with_masks]
         if any("keypoints" in record for frame in dataset[:5] for record in frame.people):
             kinds.append(with_keypoints)

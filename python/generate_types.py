@@ -26,12 +26,16 @@ def docstring(text: str, indent: str) -> list[str]:
     if text.endswith('"'):
         text += " "
     lines = textwrap.wrap(text, WIDTH - len(indent) - 6, break_long_words=False, break_on_hyphens=False) or [""]
-    return [f'{indent}{chr(34) * 3 if i == 0 else ""}{line}{chr(34) * 3 if i == len(lines) - 1 else ""}'
-            for i, line in enumerate(lines)]
+    return [
+        f'{indent}{chr(34) * 3 if i == 0 else ""}{line}{chr(34) * 3 if i == len(lines) - 1 else ""}'
+        for i, line in enumerate(lines)
+    ]
 
 
 def literal(values: list[Any]) -> str:
-    return "Literal[" + ", ".join(json.dumps(value) if isinstance(value, str) else repr(value) for value in values) + "]"
+    return (
+        "Literal[" + ", ".join(json.dumps(value) if isinstance(value, str) else repr(value) for value in values) + "]"
+    )
 
 
 class JobTypes:
@@ -52,8 +56,11 @@ class JobTypes:
         if kinds == ["array"]:
             items = schema["items"]
             title = camel(items.get("title", name).replace(" ", "_").replace("-", "_"))
-            inner = self.make(self.class_name(title, parent), items) if items.get("properties") else self.type_of(
-                title, items, parent)
+            inner = (
+                self.make(self.class_name(title, parent), items)
+                if items.get("properties")
+                else self.type_of(title, items, parent)
+            )
             return f"Sequence[{inner}]"
         plain = [PLAIN[kind] for kind in kinds if kind != "object"]
         if "object" in kinds:
@@ -101,8 +108,9 @@ from ._job_base import Distribution, Part, choice, log_uniform, normal, uniform
 
 '''
         names = sorted(["Distribution", "choice", "log_uniform", "normal", "uniform", *self.classes])
-        exported = textwrap.fill(", ".join(json.dumps(name) for name in names), WIDTH, initial_indent="    ",
-                                 subsequent_indent="    ")
+        exported = textwrap.fill(
+            ", ".join(json.dumps(name) for name in names), WIDTH, initial_indent="    ", subsequent_indent="    "
+        )
         bodies = ["\n".join(lines) for lines in reversed(list(self.classes.values()))]
         return head + f"__all__ = [\n{exported},\n]\n\n\n" + "\n\n\n".join(bodies) + "\n"
 
@@ -132,7 +140,11 @@ class ApiTypes:
         if isinstance(kinds, list):
             return " | ".join(PLAIN[kind] for kind in kinds)
         if kinds == "array":
-            item = self.type_of(name[:-1] if name.endswith("s") else name + "Item", schema["items"]) if "items" in schema else "Any"
+            item = (
+                self.type_of(name[:-1] if name.endswith("s") else name + "Item", schema["items"])
+                if "items" in schema
+                else "Any"
+            )
             return f"list[{item}]"
         if kinds == "object":
             if "properties" in schema or ("required" in schema and "additionalProperties" not in schema):
@@ -166,9 +178,14 @@ from __future__ import annotations
 from typing import Any, Literal, NotRequired, TypedDict
 
 '''
-        operations = [f"    ({json.dumps(method.upper())}, {json.dumps(path)}),"
-                      for path, methods in self.document["paths"].items() for method in methods]
-        table = "OPERATIONS = (\n" + "\n".join(operations) + "\n)\n\"\"\"Every operation of the service: method and path.\"\"\"\n"
+        operations = [
+            f"    ({json.dumps(method.upper())}, {json.dumps(path)}),"
+            for path, methods in self.document["paths"].items()
+            for method in methods
+        ]
+        table = (
+            "OPERATIONS = (\n" + "\n".join(operations) + '\n)\n"""Every operation of the service: method and path."""\n'
+        )
         return head + "\n" + "\n\n".join(self.bodies.values()) + "\n\n" + table
 
 

@@ -77,7 +77,9 @@ def follow(http: Http, job_id: str, after: int, deadline: float | None) -> Itera
             _check(deadline)
             lost_since = time.monotonic() if lost_since is None else lost_since
             if time.monotonic() - lost_since > http.patience_s:
-                raise ConnectionFailedError(f"{http.url}: the connection broke and could not be made again: {error}") from error
+                raise ConnectionFailedError(
+                    f"{http.url}: the connection broke and could not be made again: {error}"
+                ) from error
         _check(deadline)
         time.sleep(next(attempts))
 

@@ -30,7 +30,9 @@ def polygon_of(value: Any, what: str) -> Polygon:
     kind, rings = _parts(value, what, "POLYGON")
     if kind != "Polygon" or not rings:
         raise ScenarioError(f"{what}: found a {kind or 'geometry'}, expected one polygon")
-    return Polygon(_ring(rings[0], what), tuple(_ring(ring, f"{what}, hole {i + 1}") for i, ring in enumerate(rings[1:])))
+    return Polygon(
+        _ring(rings[0], what), tuple(_ring(ring, f"{what}, hole {i + 1}") for i, ring in enumerate(rings[1:]))
+    )
 
 
 def line_of(value: Any, what: str) -> Points:
@@ -77,9 +79,13 @@ def _parts(value: Any, what: str, wkt: str) -> tuple[str, list[Any]]:
 
 
 def _parse_wkt(text: str, what: str) -> tuple[str, list[Any]]:
-    match = re.fullmatch(r"\s*(?:SRID=\d+;)?\s*(POLYGON|LINESTRING)\s*(?:Z\s*)?(\(.*\))\s*", text, re.IGNORECASE | re.DOTALL)
+    match = re.fullmatch(
+        r"\s*(?:SRID=\d+;)?\s*(POLYGON|LINESTRING)\s*(?:Z\s*)?(\(.*\))\s*", text, re.IGNORECASE | re.DOTALL
+    )
     if match is None:
-        raise ScenarioError(f"{what}: found {text[:60]!r}, expected WKT: POLYGON ((x y, ...), ...) or LINESTRING (x y, ...)")
+        raise ScenarioError(
+            f"{what}: found {text[:60]!r}, expected WKT: POLYGON ((x y, ...), ...) or LINESTRING (x y, ...)"
+        )
     is_polygon = match[1].upper() == "POLYGON"
     body = match[2].strip()
     rings = re.findall(r"\(([^()]*)\)", body)
@@ -112,12 +118,15 @@ def _ring(value: Any, what: str) -> Points:
         points = points[(np.abs(sine) > 1e-9) | (np.sum(before * after, axis=1) < 0)]
     area = signed_area(points) if len(points) >= 3 else 0.0
     if abs(area) < 1e-4:
-        raise ScenarioError(f"{what}: found {len(points)} different corners and an area of {abs(area):.4f} m2, expected a "
-                            "polygon")
+        raise ScenarioError(
+            f"{what}: found {len(points)} different corners and an area of {abs(area):.4f} m2, expected a " "polygon"
+        )
     if area < 0:
         points = points[::-1]
     if (crossing := _self_crossing(points)) is not None:
-        raise ScenarioError(f"{what}: found edges {crossing[0]} and {crossing[1]} that cross, expected a simple polygon")
+        raise ScenarioError(
+            f"{what}: found edges {crossing[0]} and {crossing[1]} that cross, expected a simple polygon"
+        )
     return points
 
 

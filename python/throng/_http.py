@@ -1,4 +1,5 @@
-"""Requests to the service: plain HTTP/1.1 by the standard library, problems as exceptions, retries where they are safe."""
+"""Requests to the service: plain HTTP/1.1 by the standard library, problems as exceptions, retries where they are
+safe."""
 
 from __future__ import annotations
 
@@ -12,13 +13,29 @@ from contextlib import contextmanager
 from typing import Any, Iterator, Mapping, Sequence
 from urllib.parse import quote, urlencode, urlsplit
 
-from .errors import (AccessError, ConflictError, ConnectionFailedError, InvalidRequestError, Mistake, NotFoundError,
-                     ServiceError, UnavailableError)
+from .errors import (
+    AccessError,
+    ConflictError,
+    ConnectionFailedError,
+    InvalidRequestError,
+    Mistake,
+    NotFoundError,
+    ServiceError,
+    UnavailableError,
+)
 
 _ERRORS: dict[int, type[ServiceError]] = {
-    400: InvalidRequestError, 413: InvalidRequestError, 415: InvalidRequestError, 422: InvalidRequestError,
-    401: AccessError, 403: AccessError, 404: NotFoundError, 409: ConflictError, 429: UnavailableError,
-    503: UnavailableError, 507: UnavailableError,
+    400: InvalidRequestError,
+    413: InvalidRequestError,
+    415: InvalidRequestError,
+    422: InvalidRequestError,
+    401: AccessError,
+    403: AccessError,
+    404: NotFoundError,
+    409: ConflictError,
+    429: UnavailableError,
+    503: UnavailableError,
+    507: UnavailableError,
 }
 BROKEN = (OSError, http.client.HTTPException)
 _MAX_PROBLEM_BYTES = 1 << 20
@@ -40,8 +57,9 @@ class Answer:
 class Http:
     """One connection per request, so that it can be used by several threads."""
 
-    def __init__(self, url: str, key: str | None, timeout_s: float, patience_s: float,
-                 context: ssl.SSLContext | None) -> None:
+    def __init__(
+        self, url: str, key: str | None, timeout_s: float, patience_s: float, context: ssl.SSLContext | None
+    ) -> None:
         parts = urlsplit(url)
         if parts.scheme not in ("http", "https") or not parts.hostname or parts.query or parts.fragment:
             raise ValueError(f"url: found {url!r}, expected an address such as http://127.0.0.1:8080")
@@ -57,14 +75,21 @@ class Http:
     def _connect(self, timeout_s: float) -> http.client.HTTPConnection:
         host, port = self._parts.hostname or "", self._parts.port
         if self._parts.scheme == "https":
-            return http.client.HTTPSConnection(host, port, timeout=timeout_s,
-                                               context=self._context or ssl.create_default_context())
+            return http.client.HTTPSConnection(
+                host, port, timeout=timeout_s, context=self._context or ssl.create_default_context()
+            )
         return http.client.HTTPConnection(host, port, timeout=timeout_s)
 
     @contextmanager
-    def open(self, method: str, path: str, *, body: Any = None,
-             headers: Mapping[str, str] | None = None,
-             timeout_s: float | None = None) -> Iterator[http.client.HTTPResponse]:
+    def open(
+        self,
+        method: str,
+        path: str,
+        *,
+        body: Any = None,
+        headers: Mapping[str, str] | None = None,
+        timeout_s: float | None = None,
+    ) -> Iterator[http.client.HTTPResponse]:
         """One attempt. The response is that of any status; BROKEN exceptions pass through."""
         connection = self._connect(self._timeout_s if timeout_s is None else min(timeout_s, self._timeout_s))
         try:
@@ -76,9 +101,18 @@ class Http:
         finally:
             connection.close()
 
-    def request(self, method: str, path: str, *, query: Mapping[str, Any] | None = None, body: bytes | None = None,
-                json_body: Any = None, content_type: str = "application/json", headers: Mapping[str, str] | None = None,
-                repeatable: bool | None = None) -> Answer:
+    def request(
+        self,
+        method: str,
+        path: str,
+        *,
+        query: Mapping[str, Any] | None = None,
+        body: bytes | None = None,
+        json_body: Any = None,
+        content_type: str = "application/json",
+        headers: Mapping[str, str] | None = None,
+        repeatable: bool | None = None,
+    ) -> Answer:
         """The answer with a status below 400; others are raised.
 
         Requests that change nothing, or that are `repeatable`, are sent again while the connection fails or the service
@@ -148,7 +182,9 @@ def problem(status: int, reason: str, body: bytes) -> ServiceError:
     for entry in document.get("errors") or []:
         if isinstance(entry, dict):
             texts = {key: str(entry.get(key, "")) for key in ("pointer", "found", "expected", "message")}
-            texts["message"] = texts["message"] or f"{texts['pointer']}: found {texts['found']}, expected {texts['expected']}"
+            texts["message"] = (
+                texts["message"] or f"{texts['pointer']}: found {texts['found']}, expected {texts['expected']}"
+            )
             mistakes.append(Mistake(**texts))
     kind = _ERRORS.get(status, ServiceError)
     return kind(status, str(document.get("title") or reason or "Error"), str(document.get("detail") or ""), mistakes)

@@ -39,7 +39,8 @@ class Part:
 
 
 def plain(value: Any) -> Any:
-    """The value as what json.dumps takes: parts as objects, sequences and NumPy arrays as lists, NumPy's numbers as numbers."""
+    """The value as what json.dumps takes: parts as objects, sequences and NumPy arrays as lists, NumPy's numbers as
+    numbers."""
     if isinstance(value, Part):
         return value.to_dict()
     if isinstance(value, Mapping):

@@ -40,8 +40,11 @@ class LabelFile:
         self.info = self._of(whole, "info", dict, {})
         self.categories = self._of(whole, "categories", list, [])
         self.images: list[Record] = self._check_images(self._of(whole, "images", list, None))
-        self.tracks = {track["id"]: track for track in self._of(whole, "tracks", list, [])
-                       if isinstance(track, dict) and isinstance(track.get("id"), int)}
+        self.tracks = {
+            track["id"]: track
+            for track in self._of(whole, "tracks", list, [])
+            if isinstance(track, dict) and isinstance(track.get("id"), int)
+        }
         known = {image["id"] for image in self.images}
         labeled = set(self._lines) if self._parsed is None else set(self._parsed)
         if strangers := labeled - known:
@@ -96,8 +99,9 @@ class LabelFile:
         groups: dict[int, list[Record]] = {}
         for i, record in enumerate(self._of(whole, "annotations", list, None)):
             if not isinstance(record, dict) or not isinstance(record.get("image_id"), int):
-                raise DatasetError(f"{self.where}: /annotations/{i}: found {_short(record)}, expected an object with "
-                                   "image_id")
+                raise DatasetError(
+                    f"{self.where}: /annotations/{i}: found {_short(record)}, expected an object with " "image_id"
+                )
             groups.setdefault(record["image_id"], []).append(record)
         return groups
 
@@ -112,8 +116,10 @@ class LabelFile:
                     raise DatasetError(f"{here}/{key}: found {_short(image.get(key))}, expected {_NAMES[kind]}")
             width, height = image["width"], image["height"]
             if not (0 < width <= _MAX_SIDE_PX and 0 < height <= _MAX_SIDE_PX and width * height <= _MAX_PIXELS):
-                raise DatasetError(f"{here}: found {width} x {height} pixels, expected 1 to {_MAX_SIDE_PX} a side and "
-                                   f"{_MAX_PIXELS} at most")
+                raise DatasetError(
+                    f"{here}: found {width} x {height} pixels, expected 1 to {_MAX_SIDE_PX} a side and "
+                    f"{_MAX_PIXELS} at most"
+                )
             check_name(image["file_name"], f"{here}/file_name")
             if image["id"] in seen:
                 raise DatasetError(f"{here}/id: found {image['id']} twice, expected it once")
@@ -134,7 +140,9 @@ class LabelFile:
             try:
                 records += json.loads(b"[" + self._buffer[start:end].rstrip().rstrip(b",") + b"]")
             except (ValueError, RecursionError) as error:
-                raise DatasetError(f"{self.where}: annotations of image {image_id}: found no valid JSON: {error}") from error
+                raise DatasetError(
+                    f"{self.where}: annotations of image {image_id}: found no valid JSON: {error}"
+                ) from error
         if any(record.get("image_id") != image_id for record in records):
             # Lines that hold several records: another layout after all.
             self._parsed = self._group(self._load(self._storage.read(LABELS_FILE)))
@@ -145,8 +153,10 @@ class LabelFile:
         for record in records:
             box = record.get("bbox")
             if not isinstance(box, list) or len(box) != 4:
-                raise DatasetError(f'{self.where}: annotation {record.get("id")} of image {image_id}: "bbox": found '
-                                   f"{_short(box)}, expected [x, y, width, height]")
+                raise DatasetError(
+                    f'{self.where}: annotation {record.get("id")} of image {image_id}: "bbox": found '
+                    f"{_short(box)}, expected [x, y, width, height]"
+                )
         return records
 
 

@@ -21,8 +21,10 @@ class ProgressBar:
     def update(self, share: float, text: str, stage: str = "") -> None:
         share = min(1.0, max(0.0, share))
         if self._notebook is not None:
-            markup = (f"<div>{html.escape(self.title)} <progress value='{share:.4f}' max='1' style='width:20em'></progress> "
-                      f"{100 * share:.0f} % {html.escape(text)}</div>")
+            markup = (
+                f"<div>{html.escape(self.title)} <progress value='{share:.4f}' max='1' style='width:20em'></progress> "
+                f"{100 * share:.0f} % {html.escape(text)}</div>"
+            )
             if self._handle is None:
                 self._handle = self._notebook.display(self._notebook.HTML(markup), display_id=True)
             else:

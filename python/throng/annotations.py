@@ -1,7 +1,7 @@
 """The annotations of one frame as columns of NumPy arrays.
 
-Boxes, masks, heads and keypoints are in box coordinates: the corner of the image is (0, 0) and pixel i covers [i, i + 1).
-Rows keep the order of the file. Coordinates of the world are meters with Z up.
+Boxes, masks, heads and keypoints are in box coordinates: the corner of the image is (0, 0) and pixel i covers [i, i +
+1). Rows keep the order of the file. Coordinates of the world are meters with Z up.
 """
 
 from __future__ import annotations
@@ -46,8 +46,15 @@ class AnnotationFilter:
 class Annotations(Sequence[Mapping[str, Any]]):
     """The people (and drones) of a frame. Iterating gives the records of the COCO file."""
 
-    def __init__(self, records: Collection[Mapping[str, Any]], height: int, width: int, where: str,
-                 tracks: Mapping[int, Mapping[str, Any]], track_offset: int = 0) -> None:
+    def __init__(
+        self,
+        records: Collection[Mapping[str, Any]],
+        height: int,
+        width: int,
+        where: str,
+        tracks: Mapping[int, Mapping[str, Any]],
+        track_offset: int = 0,
+    ) -> None:
         self.records = list(records)
         self._height, self._width, self._where = height, width, where
         self._tracks = tracks
@@ -57,10 +64,12 @@ class Annotations(Sequence[Mapping[str, Any]]):
         return len(self.records)
 
     @overload
-    def __getitem__(self, index: int) -> Mapping[str, Any]: ...
+    def __getitem__(self, index: int) -> Mapping[str, Any]:
+        ...
 
     @overload
-    def __getitem__(self, index: slice) -> Annotations: ...
+    def __getitem__(self, index: slice) -> Annotations:
+        ...
 
     def __getitem__(self, index: int | slice) -> Mapping[str, Any] | Annotations:
         if isinstance(index, slice):
@@ -205,8 +214,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
     @cached_property
     def keypoints_3d(self) -> FloatArray:
         """(N, 17, 3): keypoints in the world, m; NaN of drones."""
-        return self._column("keypoints_3d", (17, 3),
-                            required='a job writes it with "keypoints" in outputs.annotations')
+        return self._column("keypoints_3d", (17, 3), required='a job writes it with "keypoints" in outputs.annotations')
 
     @property
     def states(self) -> list[str | None]:

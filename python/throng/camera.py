@@ -4,9 +4,10 @@ World: meters, right-handed, Z up. Camera: x right, y down, z forward; X_camera 
 OpenCV's, in which the center of the top-left pixel is (0, 0); with origin="corner" they are those of boxes, masks,
 keypoints and heads, in which the image's corner is (0, 0): 0.5 more.
 
-Lenses: "pinhole"; "brown_conrady" with k1, k2, p1, p2, k3, k4, k5, k6 as cv::projectPoints has them (Brown 1966, rational
-denominator); "fisheye" with k1 to k4 as cv::fisheye::projectPoints has them (Kannala and Brandt 2006). A lens's model is
-used where it is monotonic, at most 80 degrees off its axis, as throng renders it: beyond, results are NaN.
+Lenses: "pinhole"; "brown_conrady" with k1, k2, p1, p2, k3, k4, k5, k6 as cv::projectPoints has them (Brown 1966,
+rational denominator); "fisheye" with k1 to k4 as cv::fisheye::projectPoints has them (Kannala and Brandt 2006). A
+lens's model is used where it is monotonic, at most 80 degrees off its axis, as throng renders it: beyond, results are
+NaN.
 """
 
 from __future__ import annotations
@@ -92,8 +93,9 @@ class Lens:
         if self.model == "brown_conrady" and (self._k[2] or self._k[3]):
             p1, p2 = self._k[2], self._k[3]
             x, y = xy[..., 0], xy[..., 1]
-            out = out + np.stack((2 * p1 * x * y + p2 * (r * r + 2 * x * x),
-                                  p1 * (r * r + 2 * y * y) + 2 * p2 * x * y), axis=-1)
+            out = out + np.stack(
+                (2 * p1 * x * y + p2 * (r * r + 2 * x * x), p1 * (r * r + 2 * y * y) + 2 * p2 * x * y), axis=-1
+            )
         return out
 
     def _jacobian(self, xy: FloatArray) -> FloatArray:
@@ -111,8 +113,13 @@ class Lens:
             p1, p2 = self._k[2], self._k[3]
             x, y = xy[..., 0], xy[..., 1]
             mixed = 2 * p1 * x + 2 * p2 * y
-            j = j + np.stack((np.stack((2 * p1 * y + 6 * p2 * x, mixed), axis=-1),
-                              np.stack((mixed, 6 * p1 * y + 2 * p2 * x), axis=-1)), axis=-2)
+            j = j + np.stack(
+                (
+                    np.stack((2 * p1 * y + 6 * p2 * x, mixed), axis=-1),
+                    np.stack((mixed, 6 * p1 * y + 2 * p2 * x), axis=-1),
+                ),
+                axis=-2,
+            )
         return j
 
     def distort(self, xy: FloatArray) -> FloatArray:
@@ -140,14 +147,22 @@ class Lens:
                 error = self._apply(p) - shown
                 j = self._jacobian(p)
                 determinant = _determinant(j)
-                step = np.stack((j[..., 1, 1] * error[..., 0] - j[..., 0, 1] * error[..., 1],
-                                 j[..., 0, 0] * error[..., 1] - j[..., 1, 0] * error[..., 0]), axis=-1)
+                step = np.stack(
+                    (
+                        j[..., 1, 1] * error[..., 0] - j[..., 0, 1] * error[..., 1],
+                        j[..., 0, 0] * error[..., 1] - j[..., 1, 0] * error[..., 0],
+                    ),
+                    axis=-1,
+                )
                 p = p - step / determinant[..., None]
                 if not (np.abs(error) > _CONVERGED).any():
                     break
             error = np.abs(self._apply(p) - shown).max(axis=-1)
-            valid = (error < 1e-9) & (np.hypot(p[..., 0], p[..., 1]) <= self.limit) & \
-                (_determinant(self._jacobian(p)) > 1e-9)
+            valid = (
+                (error < 1e-9)
+                & (np.hypot(p[..., 0], p[..., 1]) <= self.limit)
+                & (_determinant(self._jacobian(p)) > 1e-9)
+            )
             return np.where(valid[..., None], p, np.nan)
 
 
@@ -281,7 +296,9 @@ def _sample(image: NDArray[Any], at: FloatArray, interpolate: bool) -> NDArray[A
     fx, fy = (w.reshape(keep.shape) for w in (u - left, v - top))
     x0, x1 = np.clip(left, 0, width - 1), np.clip(left + 1, 0, width - 1)
     y0, y1 = np.clip(top, 0, height - 1), np.clip(top + 1, 0, height - 1)
-    value = (image[y0, x0] * (1 - fx) + image[y0, x1] * fx) * (1 - fy) + (image[y1, x0] * (1 - fx) + image[y1, x1] * fx) * fy
+    value = (image[y0, x0] * (1 - fx) + image[y0, x1] * fx) * (1 - fy) + (
+        image[y1, x0] * (1 - fx) + image[y1, x1] * fx
+    ) * fy
     if np.issubdtype(image.dtype, np.integer):
         value = np.rint(value)
     return np.where(keep, value, 0).astype(image.dtype)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import os
-import ssl
 import time
 import uuid
 from pathlib import Path
@@ -14,19 +13,18 @@ from typing import Any, Callable, Iterator, Literal, Mapping, Sequence, Union
 
 from . import _download, _events
 from ._bundle import PathLike, bundle, json_bytes, path_of
-from ._http import BROKEN, Http, multipart, part, query_of
+from ._catalog_client import CatalogClient, why
+from ._http import multipart, part, query_of
 from ._job_base import Part, plain
 from ._progress import ProgressBar
-from .api_types import (Calibration, CalibrationList, DeliveryList, DryRun, Event, EventList, Job, JobList, LogList,
-                        PreviewList, Progress, Scenario, Upload, Webhook, WebhookList)
+from .api_types import DryRun, Event, EventList, Job, JobList, LogList, PreviewList, Progress
 from .errors import JobFailedError
 from .tables import Table, read_csv
 
 JobLike = Union[Mapping[str, Any], Part]
-DEFAULT_URL = "http://127.0.0.1:8080"
 
 
-class Client:
+class Client(CatalogClient):
     """A service of throng. Methods raise ServiceError with what the service says is wrong.
 
     >>> client = Client("http://127.0.0.1:8080", key="throng_...")
@@ -34,64 +32,88 @@ class Client:
     >>> client.watch(job["id"])
     >>> dataset = throng.Dataset(client.download(job["id"], "datasets/"))
 
-    Without url and key, $THRONG_URL and $THRONG_KEY are used. patience_s is how long a broken connection, or a service that
-    restarts, is waited for; ssl_context is for certificates of one's own.
+    Without url and key, $THRONG_URL and $THRONG_KEY are used. patience_s is how long a broken connection, or a service
+    that restarts, is waited for; ssl_context is for certificates of one's own.
     """
-
-    def __init__(self, url: str | None = None, key: str | None = None, *, timeout_s: float = 60.0,
-                 patience_s: float = 60.0, ssl_context: ssl.SSLContext | None = None) -> None:
-        self._http = Http(url or os.environ.get("THRONG_URL") or DEFAULT_URL,
-                          key or os.environ.get("THRONG_KEY") or None, timeout_s, patience_s, ssl_context)
-
-    def __repr__(self) -> str:
-        return f"Client({self._http.url!r})"
 
     # Jobs.
 
-    def submit(self, job: JobLike, *, scenario: PathLike | None = None, priority: int = 0, labels: Sequence[str] = (),
-               idempotency_key: str | None = None) -> Job:
+    def submit(
+        self,
+        job: JobLike,
+        *,
+        scenario: PathLike | None = None,
+        priority: int = 0,
+        labels: Sequence[str] = (),
+        idempotency_key: str | None = None,
+    ) -> Job:
         """Queues a job: a dict as docs/job.md says, or a throng.job.Job.
 
-        scenario is a folder, .zip or .tar with scenarios of one's own, which the job names bundle/NAME. The submission is
-        repeated when the connection breaks, and makes one job at most.
+        scenario is a folder, .zip or .tar with scenarios of one's own, which the job names bundle/NAME. The submission
+        is repeated when the connection breaks, and makes one job at most.
         """
-        return self._submit(job, scenario, {"priority": priority or None, "label": list(labels)},
-                            {"Idempotency-Key": idempotency_key or uuid.uuid4().hex})
+        return self._submit(
+            job,
+            scenario,
+            {"priority": priority or None, "label": list(labels)},
+            {"Idempotency-Key": idempotency_key or uuid.uuid4().hex},
+        )
 
     def dry_run(self, job: JobLike, *, scenario: PathLike | None = None) -> DryRun:
-        """Only checks the job: runs, shards, frames, and the job with all defaults. InvalidRequestError names what is wrong."""
+        """Only checks the job: runs, shards, frames, and the job with all defaults. InvalidRequestError names what is
+        wrong."""
         return self._submit(job, scenario, {"dry_run": True}, {})
 
-    def _submit(self, job: JobLike, scenario: PathLike | None, query: Mapping[str, Any],
-                headers: Mapping[str, str]) -> Any:
+    def _submit(
+        self, job: JobLike, scenario: PathLike | None, query: Mapping[str, Any], headers: Mapping[str, str]
+    ) -> Any:
         if scenario is None:
-            return self._http.request("POST", "/v1/jobs", query=query, json_body=plain(job), headers=headers,
-                                      repeatable=True).json()
-        body, content_type = multipart([
-            ("job", None, "application/json", json_bytes(plain(job))),
-            ("scenario", "scenario.zip", "application/octet-stream", bundle(scenario))])
-        return self._http.request("POST", "/v1/jobs", query=query, body=body, content_type=content_type, headers=headers,
-                                  repeatable=True).json()
+            return self._http.request(
+                "POST", "/v1/jobs", query=query, json_body=plain(job), headers=headers, repeatable=True
+            ).json()
+        body, content_type = multipart(
+            [
+                ("job", None, "application/json", json_bytes(plain(job))),
+                ("scenario", "scenario.zip", "application/octet-stream", bundle(scenario)),
+            ]
+        )
+        return self._http.request(
+            "POST", "/v1/jobs", query=query, body=body, content_type=content_type, headers=headers, repeatable=True
+        ).json()
 
     def job(self, job_id: str) -> Job:
         """A job with its state and progress."""
         return self._get(f"/v1/jobs/{part(job_id)}")
 
-    def jobs(self, *, state: str | Sequence[str] | None = None, label: str | None = None, name: str | None = None,
-             oldest_first: bool = False, page: int = 100) -> Iterator[Job]:
+    def jobs(
+        self,
+        *,
+        state: str | Sequence[str] | None = None,
+        label: str | None = None,
+        name: str | None = None,
+        oldest_first: bool = False,
+        page: int = 100,
+    ) -> Iterator[Job]:
         """All jobs that fit, page by page as they are asked for."""
         after: str | None = None
         while True:
-            query = {"state": [state] if isinstance(state, str) else state, "label": label, "name": name, "limit": page,
-                     "sort": "oldest" if oldest_first else None, "after": after}
+            query = {
+                "state": [state] if isinstance(state, str) else state,
+                "label": label,
+                "name": name,
+                "limit": page,
+                "sort": "oldest" if oldest_first else None,
+                "after": after,
+            }
             answer: JobList = self._get("/v1/jobs", query)
             yield from answer["jobs"]
             after = answer["next"]
             if after is None:
                 return
 
-    def change(self, job_id: str, *, priority: int | None = None, labels: Sequence[str] | None = None,
-               keep: bool | None = None) -> Job:
+    def change(
+        self, job_id: str, *, priority: int | None = None, labels: Sequence[str] | None = None, keep: bool | None = None
+    ) -> Job:
         """Changes priority, labels, or whether the job is never removed for its age."""
         change = {"priority": priority, "labels": None if labels is None else list(labels), "keep": keep}
         body = {name: value for name, value in change.items() if value is not None}
@@ -105,17 +127,22 @@ class Client:
         """Queues a job again that failed, at least in part, or was cancelled."""
         return self._send("POST", f"/v1/jobs/{part(job_id)}/retry")
 
-    def clone(self, job_id: str, changes: Mapping[str, Any] | None = None, *, idempotency_key: str | None = None) -> Job:
+    def clone(
+        self, job_id: str, changes: Mapping[str, Any] | None = None, *, idempotency_key: str | None = None
+    ) -> Job:
         """Queues a new job like this one; changes is a JSON merge patch, for example {"seed": 2}."""
         headers = {"Idempotency-Key": idempotency_key or uuid.uuid4().hex}
-        return self._http.request("POST", f"/v1/jobs/{part(job_id)}/clone", json_body=plain(changes or {}),
-                                  headers=headers, repeatable=True).json()
+        return self._http.request(
+            "POST", f"/v1/jobs/{part(job_id)}/clone", json_body=plain(changes or {}), headers=headers, repeatable=True
+        ).json()
 
     def remove(self, job_id: str) -> None:
         """Ends a job and removes all its files."""
         self._remove(f"/v1/jobs/{part(job_id)}")
 
-    def events(self, job_id: str | None = None, *, after: int = 0, follow: bool = False, wait_s: int = 0) -> Iterator[Event]:
+    def events(
+        self, job_id: str | None = None, *, after: int = 0, follow: bool = False, wait_s: int = 0
+    ) -> Iterator[Event]:
         """What has happened to a job, or to all jobs. follow=True: also what happens next, until the job has ended."""
         if follow and job_id is not None:
             for kind, event in _events.follow(self._http, job_id, after, None):
@@ -130,8 +157,15 @@ class Client:
                 return
             after, wait_s = page["next"], 0
 
-    def watch(self, job_id: str, *, progress: bool = True, callback: Callable[[Progress], None] | None = None,
-              timeout_s: float | None = None, check: bool = True) -> Job:
+    def watch(
+        self,
+        job_id: str,
+        *,
+        progress: bool = True,
+        callback: Callable[[Progress], None] | None = None,
+        timeout_s: float | None = None,
+        check: bool = True,
+    ) -> Job:
         """Waits for the job's end and returns it, with a progress bar (also in notebooks).
 
         JobFailedError where it failed or was cancelled, unless check=False; TimeoutError after timeout_s. A partial job
@@ -153,21 +187,35 @@ class Client:
                 bar.close()
         job = self.job(job_id)
         if check and job["state"] in ("failed", "cancelled"):
-            raise JobFailedError(_why(job), job)
+            raise JobFailedError(why(job), job)
         return job
 
     # Results.
 
-    def download(self, job_id: str, path: PathLike = ".", *, format: Literal["tar", "zip"] = "tar",
-                 include: Sequence[str] | None = None, runs: str | None = None, split: str | None = None,
-                 verify: bool = True, progress: bool = True) -> Path:
+    def download(
+        self,
+        job_id: str,
+        path: PathLike = ".",
+        *,
+        format: Literal["tar", "zip"] = "tar",
+        include: Sequence[str] | None = None,
+        runs: str | None = None,
+        split: str | None = None,
+        verify: bool = True,
+        progress: bool = True,
+    ) -> Path:
         """Downloads the dataset's archive, going on where an earlier call broke off; returns its path.
 
-        path is a file, or a folder (made where it ends with "/") for the name that the service proposes. include, runs and split choose a part, for
-        example include=["images", "coco"], runs="0-3,7". With verify every file is compared with its SHA-256.
+        path is a file, or a folder (made where it ends with "/") for the name that the service proposes. include, runs
+        and split choose a part, for example include=["images", "coco"], runs="0-3,7". With verify every file is
+        compared with its SHA-256.
         """
-        query = {"format": None if format == "tar" else format, "include": ",".join(include) if include else None,
-                 "runs": runs, "split": split}
+        query = {
+            "format": None if format == "tar" else format,
+            "include": ",".join(include) if include else None,
+            "runs": runs,
+            "split": split,
+        }
         target = f"/v1/jobs/{part(job_id)}/archive{query_of(query)}"
         out = Path(path)
         if os.fspath(path).endswith("/"):
@@ -200,7 +248,9 @@ class Client:
 
     def metrics(self, job_id: str, run: int | None = None) -> Any:
         """Figures of all runs, or of one run, which is there once that run was measured (docs/metrics.md)."""
-        return self._get(f"/v1/jobs/{part(job_id)}/metrics" if run is None else f"/v1/jobs/{part(job_id)}/runs/{run}/metrics")
+        return self._get(
+            f"/v1/jobs/{part(job_id)}/metrics" if run is None else f"/v1/jobs/{part(job_id)}/runs/{run}/metrics"
+        )
 
     def exits(self, job_id: str, run: int = 0) -> Table:
         """The exits of one run, frame by frame."""
@@ -237,166 +287,9 @@ class Client:
         """A JPEG; clean=True: without annotations."""
         return self._bytes(f"/v1/jobs/{part(job_id)}/previews/{path_of(name)}", {"clean": clean})
 
-    # Scenarios.
-
-    def scenarios(self) -> list[Scenario]:
-        """The places that jobs can name."""
-        return self._get("/v1/scenarios")["scenarios"]
-
-    def scenario(self, scenario_id: str) -> Scenario:
-        return self._get(f"/v1/scenarios/{path_of(scenario_id)}")
-
-    def scenario_plan(self, scenario_id: str) -> str:
-        """The floor plan as SVG."""
-        return self._bytes(f"/v1/scenarios/{path_of(scenario_id)}", {"format": "svg"}).decode("utf-8")
-
-    def upload_scenario(self, path: PathLike, name: str, *, dry_run: bool = False) -> Upload:
-        """Sends a folder, .zip or .tar of scenarios; jobs name them NAME/... . findings says what is odd about them."""
-        return self._http.request("POST", "/v1/scenarios", query={"name": name, "dry_run": dry_run}, body=bundle(path),
-                                  content_type="application/octet-stream").json()
-
-    def remove_scenario(self, name: str) -> None:
-        self._remove(f"/v1/scenarios/{path_of(name)}")
-
-    # Calibrations.
-
-    def calibrate(self, request: Mapping[str, Any], files: Sequence[PathLike] = ()) -> Calibration:
-        """Queues a calibration (docs/calibration.md) with the files that the request names."""
-        if not files:
-            return self._send("POST", "/v1/calibrations", plain(request))
-        parts: list[tuple[str, str | None, str, bytes]] = [
-            ("request", None, "application/json", json_bytes(plain(request)))]
-        for i, file in enumerate(files):
-            parts.append((f"file{i}", Path(file).name, "application/octet-stream", Path(file).read_bytes()))
-        body, content_type = multipart(parts)
-        return self._http.request("POST", "/v1/calibrations", body=body,
-                                  content_type=content_type).json()
-
-    def calibration(self, calibration_id: str) -> Calibration:
-        """State and progress; `camera` once it has succeeded."""
-        return self._get(f"/v1/calibrations/{part(calibration_id)}")
-
-    def calibrations(self) -> Iterator[Calibration]:
-        after: str | None = None
-        while True:
-            answer: CalibrationList = self._get("/v1/calibrations", {"limit": 100, "after": after})
-            yield from answer["calibrations"]
-            after = answer["next"]
-            if after is None:
-                return
-
-    def wait_for_calibration(self, calibration_id: str, *, timeout_s: float = 600.0, check: bool = True) -> Calibration:
-        """Waits for its end; JobFailedError where it failed, unless check=False."""
-        deadline = time.monotonic() + timeout_s
-        while True:
-            calibration = self.calibration(calibration_id)
-            if calibration["state"] not in ("queued", "running"):
-                if check and calibration["state"] != "succeeded":
-                    raise JobFailedError(_why(calibration), calibration)
-                return calibration
-            if time.monotonic() > deadline:
-                raise TimeoutError("the calibration has not ended in time")
-            time.sleep(0.2)
-
-    def calibration_result(self, calibration_id: str, name: Literal["camera", "opencv", "ros", "residuals"]) -> str:
-        """The camera as JSON, as OpenCV's or ROS' YAML, or the residuals as SVG."""
-        return self._bytes(f"/v1/calibrations/{part(calibration_id)}/{part(name)}").decode("utf-8")
-
-    def remove_calibration(self, calibration_id: str) -> None:
-        self._remove(f"/v1/calibrations/{part(calibration_id)}")
-
-    # Webhooks (administrators).
-
-    def create_webhook(self, url: str, events: Sequence[str] | None = None) -> Webhook:
-        """Has an address told of events; `secret` of the answer signs them and is shown once."""
-        return self._send("POST", "/v1/webhooks", {"url": url, **({"events": list(events)} if events else {})})
-
-    def webhooks(self) -> list[Webhook]:
-        answer: WebhookList = self._get("/v1/webhooks")
-        return answer["webhooks"]
-
-    def webhook(self, webhook_id: str) -> Webhook:
-        return self._get(f"/v1/webhooks/{part(webhook_id)}")
-
-    def enable_webhook(self, webhook_id: str, enabled: bool = True) -> Webhook:
-        return self._send("PATCH", f"/v1/webhooks/{part(webhook_id)}", {"enabled": enabled}, repeatable=True)
-
-    def remove_webhook(self, webhook_id: str) -> None:
-        self._remove(f"/v1/webhooks/{part(webhook_id)}")
-
-    def webhook_deliveries(self, webhook_id: str, limit: int = 50) -> DeliveryList:
-        return self._get(f"/v1/webhooks/{part(webhook_id)}/deliveries", {"limit": limit})
-
-    def ping_webhook(self, webhook_id: str) -> Any:
-        return self._send("POST", f"/v1/webhooks/{part(webhook_id)}/ping")
-
-    # What there is, and the service itself.
-
-    def people(self) -> Any:
-        return self._get("/v1/people")
-
-    def airframes(self) -> Any:
-        return self._get("/v1/airframes")
-
-    def policies(self) -> Any:
-        return self._get("/v1/policies")
-
-    def formats(self) -> Any:
-        return self._get("/v1/formats")
-
-    def schema(self) -> Any:
-        """The JSON Schema of a job."""
-        return self._get("/v1/schema")
-
-    def version(self) -> str:
-        return str(self._get("/v1/version")["version"])
-
-    def openapi(self) -> Any:
-        return self._get("/openapi.json")
-
-    def prometheus(self) -> str:
-        """Figures of the service in Prometheus' text format."""
-        return self._bytes("/metrics").decode("utf-8")
-
-    def is_alive(self) -> bool:
-        """Whether the service answers at all; never raises for one that does not."""
-        try:
-            with self._http.open("GET", "/healthz") as response:
-                return response.status == 200
-        except BROKEN:
-            return False
-
-    def is_ready(self) -> bool:
-        """Whether jobs can be taken in and worked on."""
-        try:
-            with self._http.open("GET", "/readyz") as response:
-                return response.status == 200
-        except BROKEN:
-            return False
-
-    def _get(self, path: str, query: Mapping[str, Any] | None = None) -> Any:
-        return self._http.request("GET", path, query=query).json()
-
-    def _bytes(self, path: str, query: Mapping[str, Any] | None = None) -> bytes:
-        return self._http.request("GET", path, query=query).body
-
-    def _send(self, method: str, path: str, body: Any = None, *, repeatable: bool = False) -> Any:
-        return self._http.request(method, path, json_body=body, repeatable=repeatable).json()
-
-    def _remove(self, path: str) -> None:
-        self._http.request("DELETE", path, repeatable=False)
-
 
 def _draw(bar: ProgressBar, data: Mapping[str, Any]) -> None:
     done, total = data.get("frames_done", 0), data.get("frames_total", 0)
     left = data.get("remaining_s")
     text = f"{data.get('stage', '')}, {done} of {total} frames" + (f", {left:.0f} s left" if left else "")
     bar.update(done / total if total else 0.0, text, str(data.get("stage", "")))
-
-
-def _why(job: Mapping[str, Any]) -> str:
-    error = job.get("error") or {}
-    lines = [f"{job['name']} ({job['id']}) {'was cancelled' if job['state'] == 'cancelled' else 'failed'}"
-             + (f": {error.get('message')}" if error.get("message") else "")]
-    lines += ["  " + str(problem.get("message")) for problem in error.get("problems") or []]
-    return "\n".join(lines)

@@ -42,10 +42,12 @@ class Dataset(Sequence[Frame]):
         return len(self._frames)
 
     @overload
-    def __getitem__(self, index: int) -> Frame: ...
+    def __getitem__(self, index: int) -> Frame:
+        ...
 
     @overload
-    def __getitem__(self, index: slice | list[int] | NDArray[Any]) -> Dataset: ...
+    def __getitem__(self, index: slice | list[int] | NDArray[Any]) -> Dataset:
+        ...
 
     def __getitem__(self, index: Any) -> Frame | Dataset:
         """A frame by its place; a slice or a list of places gives a Dataset."""
@@ -76,7 +78,8 @@ class Dataset(Sequence[Frame]):
 
     @property
     def info(self) -> Mapping[str, Any]:
-        """dataset.json: conventions, job, splits, statistics, licence. Of the first dataset where several were merged."""
+        """dataset.json: conventions, job, splits, statistics, licence. Of the first dataset where several were
+        merged."""
         return self._sources[0].description
 
     @property
@@ -118,8 +121,11 @@ class Dataset(Sequence[Frame]):
 
     def tracks(self) -> dict[int, Mapping[str, Any]]:
         """Everybody with an annotation by track_id: run, group and attributes."""
-        return {number + source.track_offset: track for source in self._sources
-                for number, track in source.labels.tracks.items()}
+        return {
+            number + source.track_offset: track
+            for source in self._sources
+            for number, track in source.labels.tracks.items()
+        }
 
     # Tables of runs.
 
@@ -158,39 +164,62 @@ class Dataset(Sequence[Frame]):
 
     # Views.
 
-    def filter(self, predicate: Callable[[Frame], bool] | None = None, *, runs: Collection[str] | None = None,
-               cameras: Collection[str] | None = None, split: str | None = None, min_people: int = 0,
-               from_s: float = -math.inf, to_s: float = math.inf) -> Dataset:
+    def filter(
+        self,
+        predicate: Callable[[Frame], bool] | None = None,
+        *,
+        runs: Collection[str] | None = None,
+        cameras: Collection[str] | None = None,
+        split: str | None = None,
+        min_people: int = 0,
+        from_s: float = -math.inf,
+        to_s: float = math.inf,
+    ) -> Dataset:
         """The frames for which all conditions hold. min_people counts what filter_annotations left."""
 
         def keeps(frame: Frame) -> bool:
-            return ((runs is None or frame.run in runs) and (cameras is None or frame.camera_id in cameras)
-                    and (split is None or frame.split == split) and from_s <= frame.time_s <= to_s
-                    and (min_people <= 0 or len(frame.people) >= min_people)
-                    and (predicate is None or predicate(frame)))
+            return (
+                (runs is None or frame.run in runs)
+                and (cameras is None or frame.camera_id in cameras)
+                and (split is None or frame.split == split)
+                and from_s <= frame.time_s <= to_s
+                and (min_people <= 0 or len(frame.people) >= min_people)
+                and (predicate is None or predicate(frame))
+            )
 
         return self._view([place for place, frame in zip(self._frames, self) if keeps(frame)])
 
-    def filter_annotations(self, predicate: Callable[[Mapping[str, Any]], bool] | None = None, *,
-                           categories: Collection[int] | None = None, states: Collection[str] | None = None,
-                           min_visibility: float = 0.0, min_height_px: float = 0.0,
-                           min_area_px: float = 0.0) -> Dataset:
+    def filter_annotations(
+        self,
+        predicate: Callable[[Mapping[str, Any]], bool] | None = None,
+        *,
+        categories: Collection[int] | None = None,
+        states: Collection[str] | None = None,
+        min_visibility: float = 0.0,
+        min_height_px: float = 0.0,
+        min_area_px: float = 0.0,
+    ) -> Dataset:
         """The same frames with only those annotations for which all conditions hold.
 
         min_height_px is of the whole person, predicate gets a record of the COCO file. It replaces an earlier filter.
         """
         view = self._view(self._frames)
         view._keep = AnnotationFilter(
-            None if categories is None else frozenset(categories), None if states is None else frozenset(states),
-            min_visibility, min_height_px, min_area_px, predicate)
+            None if categories is None else frozenset(categories),
+            None if states is None else frozenset(states),
+            min_visibility,
+            min_height_px,
+            min_area_px,
+            predicate,
+        )
         return view
 
     def split(self, *, by: str = "run", seed: int = 0, **shares: float) -> dict[str, Dataset]:
         """Random parts, for example split(train=0.8, val=0.2), that sum to at most 1.
 
-        by: "run" (default: frames of one run resemble each other), "sequence" (run and camera), "place" (the scenario, for
-        merged datasets) or "frame". Each part gets the whole groups that come nearest to its share of the groups, at least
-        one where its share is above 0.
+        by: "run" (default: frames of one run resemble each other), "sequence" (run and camera), "place" (the scenario,
+        for merged datasets) or "frame". Each part gets the whole groups that come nearest to its share of the groups,
+        at least one where its share is above 0.
         """
         total = math.fsum(shares.values())
         if not shares or min(shares.values()) < 0 or total > 1 + 1e-9:
@@ -201,8 +230,10 @@ class Dataset(Sequence[Frame]):
         keys = list(groups)
         wanted = sum(share > 0 for share in shares.values())
         if len(keys) < wanted:
-            raise ValueError(f'by="{by}": found {len(keys)} groups, expected at least one for each of {wanted} parts: '
-                             'make a dataset of more runs, or split by "sequence" or "frame"')
+            raise ValueError(
+                f'by="{by}": found {len(keys)} groups, expected at least one for each of {wanted} parts: '
+                'make a dataset of more runs, or split by "sequence" or "frame"'
+            )
         order = np.random.default_rng(seed).permutation(len(keys))
         parts: dict[str, Dataset] = {}
         sizes = _shares_of(len(keys), shares)
@@ -238,8 +269,9 @@ class Dataset(Sequence[Frame]):
             chosen.update(places[i] for i in nearest)
         return self._view([self._frames[i] for i in sorted(chosen)])
 
-    def sample(self, count: int, *, seed: int = 0, weights: Callable[[Frame], float] | None = None,
-               replacement: bool = False) -> Dataset:
+    def sample(
+        self, count: int, *, seed: int = 0, weights: Callable[[Frame], float] | None = None, replacement: bool = False
+    ) -> Dataset:
         """count frames at random; with weights, in proportion to them."""
         if count < 0 or (count > len(self) and not replacement) or (count and not len(self)):
             raise ValueError(f"count: found {count}, expected 0 to {len(self)} (more with replacement=True)")
@@ -272,13 +304,19 @@ class Dataset(Sequence[Frame]):
             for record, track in zip(frame.annotations.records, frame.annotations.track_ids):
                 annotations.append({**record, "id": len(annotations) + 1, "image_id": frame.id, "track_id": int(track)})
         categories = {c["id"]: c for source in self._sources for c in source.labels.categories}
-        return {"info": {"description": self.name, "version": "1"}, "licenses": [],
-                "categories": list(categories.values()), "images": images, "annotations": annotations}
+        return {
+            "info": {"description": self.name, "version": "1"},
+            "licenses": [],
+            "categories": list(categories.values()),
+            "images": images,
+            "annotations": annotations,
+        }
 
     def verify(self, *, complete: bool = True) -> None:
         """Reads every file and compares size and SHA-256 with the manifest; DatasetError with the first difference.
 
-        complete=False lets files be missing, as in an archive that was downloaded in part. `throng validate` checks more.
+        complete=False lets files be missing, as in an archive that was downloaded in part. `throng validate` checks
+        more.
         """
         for source in self._sources:
             verify_files(source.storage, source.manifest.get("files"), complete=complete)
@@ -295,7 +333,9 @@ class Dataset(Sequence[Frame]):
         images = tracks = 0
         for dataset in (self, *others):
             if dataset._keep != self._keep:
-                raise ValueError("datasets: found different annotation filters, expected equal ones: filter after merging")
+                raise ValueError(
+                    "datasets: found different annotation filters, expected equal ones: filter after merging"
+                )
             used = {place[0] for place in dataset._frames}
             number_of: dict[int, int] = {}
             for i, original in enumerate(dataset._sources):
@@ -338,12 +378,27 @@ def _flat(frame: Frame, record: Mapping[str, Any]) -> dict[str, Any]:
     position = record.get("position") or [math.nan] * 3
     velocity = record.get("velocity") or [math.nan] * 2
     return {
-        "image_id": frame.id, "sequence": frame.sequence, "run": frame.run, "camera_id": frame.camera_id,
-        "frame": frame.index, "time_s": frame.time_s, "track_id": record.get("track_id", -1) + frame._source.track_offset,
-        "category": "person" if record.get("category_id") == PERSON else "drone", "x": x, "y": y, "width": width,
-        "height": height, "area_px": record.get("area"), "visibility": record.get("visibility"),
-        "world_x_m": position[0], "world_y_m": position[1], "world_z_m": position[2], "vx_mps": velocity[0],
-        "vy_mps": velocity[1], "heading_rad": record.get("heading"), "state": record.get("state"),
+        "image_id": frame.id,
+        "sequence": frame.sequence,
+        "run": frame.run,
+        "camera_id": frame.camera_id,
+        "frame": frame.index,
+        "time_s": frame.time_s,
+        "track_id": record.get("track_id", -1) + frame._source.track_offset,
+        "category": "person" if record.get("category_id") == PERSON else "drone",
+        "x": x,
+        "y": y,
+        "width": width,
+        "height": height,
+        "area_px": record.get("area"),
+        "visibility": record.get("visibility"),
+        "world_x_m": position[0],
+        "world_y_m": position[1],
+        "world_z_m": position[2],
+        "vx_mps": velocity[0],
+        "vy_mps": velocity[1],
+        "heading_rad": record.get("heading"),
+        "state": record.get("state"),
         "exit": record.get("exit"),
     }
 

@@ -122,8 +122,9 @@ class Frame:
                 records = [record for record in records if self._keep.keeps(record)]
             except (TypeError, IndexError) as error:
                 raise DatasetError(f"{self._where}: an annotation cannot be filtered: {error}") from error
-        return Annotations(records, self.height, self.width, self._where, self._source.labels.tracks,
-                           self._source.track_offset)
+        return Annotations(
+            records, self.height, self.width, self._where, self._source.labels.tracks, self._source.track_offset
+        )
 
     @property
     def people(self) -> Annotations:
@@ -145,8 +146,10 @@ class Frame:
         except (OSError, SyntaxError, ValueError, pil.DecompressionBombError) as error:
             raise DatasetError(f"{storage.where(self.file_name)}: found no whole picture ({error})") from error
         if pixels is None:
-            raise DatasetError(f"{storage.where(self.file_name)}: found {size[0]} x {size[1]} pixels, expected "
-                               f"{self.width} x {self.height}")
+            raise DatasetError(
+                f"{storage.where(self.file_name)}: found {size[0]} x {size[1]} pixels, expected "
+                f"{self.width} x {self.height}"
+            )
         return pixels
 
     def has(self, kind: str) -> bool:
@@ -166,16 +169,19 @@ class Frame:
         name = self._label_name(kind)
         storage = self._source.storage
         if not storage.exists(name):
-            raise DatasetError(f'{storage.where(name)}: found no such file: a job writes it with "{kind}" in '
-                               "outputs.annotations")
+            raise DatasetError(
+                f'{storage.where(name)}: found no such file: a job writes it with "{kind}" in ' "outputs.annotations"
+            )
         return storage.read(name, 4096 + _BYTES_PER_PIXEL * self.width * self.height), storage.where(name)
 
     def _png(self, kind: str, dtype: Any, channels: int) -> NDArray[Any]:
         data, where = self._read_label(kind)
         pixels = _png.decode(data, where, (self.height, self.width))
         if pixels.dtype != dtype or pixels.ndim != (2 if channels == 1 else 3):
-            raise DatasetError(f"{where}: found {pixels.dtype} of shape {pixels.shape}, expected "
-                               f"{np.dtype(dtype)} with {channels} channel(s)")
+            raise DatasetError(
+                f"{where}: found {pixels.dtype} of shape {pixels.shape}, expected "
+                f"{np.dtype(dtype)} with {channels} channel(s)"
+            )
         return pixels
 
     def density(self) -> FloatArray:
@@ -185,9 +191,15 @@ class Frame:
             values = np.load(io.BytesIO(data), allow_pickle=False)
         except (ValueError, OSError, EOFError) as error:
             raise DatasetError(f"{where}: found no whole NumPy file ({error})") from error
-        if not isinstance(values, np.ndarray) or values.shape != (self.height, self.width) or values.dtype != np.float32:
-            raise DatasetError(f"{where}: found {getattr(values, 'dtype', 'no array')} "
-                               f"{getattr(values, 'shape', '')}, expected float32 ({self.height}, {self.width})")
+        if (
+            not isinstance(values, np.ndarray)
+            or values.shape != (self.height, self.width)
+            or values.dtype != np.float32
+        ):
+            raise DatasetError(
+                f"{where}: found {getattr(values, 'dtype', 'no array')} "
+                f"{getattr(values, 'shape', '')}, expected float32 ({self.height}, {self.width})"
+            )
         return values
 
     def depth(self) -> FloatArray:

@@ -1,7 +1,7 @@
 """COCO's segmentations as NumPy masks: compressed and plain run lengths, polygons.
 
-Masks are boolean arrays (height, width); pixel i covers [i, i + 1) of box coordinates. Run lengths count pixels down the
-columns, column after column, of 0, 1, 0, 1, ...
+Masks are boolean arrays (height, width); pixel i covers [i, i + 1) of box coordinates. Run lengths count pixels down
+the columns, column after column, of 0, 1, 0, 1, ...
 """
 
 from __future__ import annotations
@@ -62,8 +62,10 @@ def decode_many(segmentations: Sequence[Any], height: int, width: int) -> BoolAr
     for i, segmentation in enumerate(segmentations):
         if isinstance(segmentation, dict):
             if segmentation.get("size") != [height, width] or "counts" not in segmentation:
-                raise DatasetError(f"segmentation: found the size {segmentation.get('size')}, expected "
-                                   f"[{height}, {width}] and counts")
+                raise DatasetError(
+                    f"segmentation: found the size {segmentation.get('size')}, expected "
+                    f"[{height}, {width}] and counts"
+                )
             counts = segmentation["counts"]
             if isinstance(counts, str) and counts and counts.isascii():
                 texts.append(counts.encode())
@@ -119,11 +121,15 @@ def _fill(out: BoolArray, masks: IntArray, runs: IntArray, text: IntArray, place
     sums = np.zeros(len(masks), dtype=np.int64)
     if runs.size:
         if runs.min() < 0 or runs.max() > total:
-            raise DatasetError(f"segmentation: found a run of {int(runs.min() if runs.min() < 0 else runs.max())} "
-                               f"pixels, expected 0 to {total}")
+            raise DatasetError(
+                f"segmentation: found a run of {int(runs.min() if runs.min() < 0 else runs.max())} "
+                f"pixels, expected 0 to {total}"
+            )
         np.add.at(sums, text, runs)
     if (sums != total).any():
-        raise DatasetError(f"segmentation: found run lengths that sum to {int(sums[sums != total][0])}, expected {total}")
+        raise DatasetError(
+            f"segmentation: found run lengths that sum to {int(sums[sums != total][0])}, expected {total}"
+        )
     begins = _chained_sums(runs, text) - runs
     keep = (place % 2 == 1) & (runs > 0)
     lengths = runs[keep]

@@ -14,8 +14,27 @@ if TYPE_CHECKING:
     from .trace import Trace
 
 # COCO's skeleton, counted from 0.
-SKELETON = ((15, 13), (13, 11), (16, 14), (14, 12), (11, 12), (5, 11), (6, 12), (5, 6), (5, 7), (6, 8), (7, 9), (8, 10),
-            (1, 2), (0, 1), (0, 2), (1, 3), (2, 4), (3, 5), (4, 6))
+SKELETON = (
+    (15, 13),
+    (13, 11),
+    (16, 14),
+    (14, 12),
+    (11, 12),
+    (5, 11),
+    (6, 12),
+    (5, 6),
+    (5, 7),
+    (6, 8),
+    (7, 9),
+    (8, 10),
+    (1, 2),
+    (0, 1),
+    (0, 2),
+    (1, 3),
+    (2, 4),
+    (3, 5),
+    (4, 6),
+)
 
 
 def color_of(track_id: int) -> tuple[float, float, float]:
@@ -36,8 +55,17 @@ def overlay(frame: Frame, *, opacity: float = 0.5) -> NDArray[np.uint8]:
     return np.rint(picture).astype(np.uint8)
 
 
-def show(frame: Frame, *, boxes: bool = True, masks: bool = False, keypoints: bool = False, boxes_3d: bool = False,
-         exits: bool = False, amodal: bool = False, ax: Any = None) -> Any:
+def show(
+    frame: Frame,
+    *,
+    boxes: bool = True,
+    masks: bool = False,
+    keypoints: bool = False,
+    boxes_3d: bool = False,
+    exits: bool = False,
+    amodal: bool = False,
+    ax: Any = None,
+) -> Any:
     """Draws a frame with its annotations and returns the matplotlib Axes."""
     plt = require("matplotlib.pyplot", "show()")
     patches = require("matplotlib.patches", "show()")
@@ -49,13 +77,18 @@ def show(frame: Frame, *, boxes: bool = True, masks: bool = False, keypoints: bo
     tracks = annotations.track_ids
     if boxes:
         for (x, y, width, height), track in zip(annotations.boxes_amodal if amodal else annotations.boxes, tracks):
-            ax.add_patch(patches.Rectangle((x, y), width, height, fill=False, edgecolor=color_of(int(track)), linewidth=1))
+            ax.add_patch(
+                patches.Rectangle((x, y), width, height, fill=False, edgecolor=color_of(int(track)), linewidth=1)
+            )
     if keypoints:
         _draw_keypoints(ax, frame)
     if boxes_3d:
         for corners, track in zip(frame.camera.project(annotations.corners_3d(), origin="corner"), tracks):
-            for a, b in [(i, (i + 1) % 4) for i in range(4)] + [(i + 4, (i + 1) % 4 + 4) for i in range(4)] + \
-                    [(i, i + 4) for i in range(4)]:
+            for a, b in (
+                [(i, (i + 1) % 4) for i in range(4)]
+                + [(i + 4, (i + 1) % 4 + 4) for i in range(4)]
+                + [(i, i + 4) for i in range(4)]
+            ):
                 ax.plot(*corners[[a, b]].T, color=color_of(int(track)), linewidth=0.8)
     if exits:
         for way_out in frame.exits:
@@ -63,8 +96,11 @@ def show(frame: Frame, *, boxes: bool = True, masks: bool = False, keypoints: bo
                 ax.add_patch(patches.Polygon(way_out["zone"], fill=False, edgecolor="white", linestyle=":"))
             if len(way_out.get("door", [])) > 2:
                 ax.add_patch(patches.Polygon(way_out["door"], alpha=0.4, color="lime"))
-    ax.set(xlim=(0, frame.width), ylim=(frame.height, 0),
-           title=f"{frame.sequence}  frame {frame.index}  {frame.time_s:g} s  {len(annotations.people)} people")
+    ax.set(
+        xlim=(0, frame.width),
+        ylim=(frame.height, 0),
+        title=f"{frame.sequence}  frame {frame.index}  {frame.time_s:g} s  {len(annotations.people)} people",
+    )
     ax.set_axis_off()
     return ax
 
@@ -99,10 +135,19 @@ def animate(trace: Trace, *, every_s: float = 0.2, speed: float = 1.0, obstacles
         ax.add_patch(plt.Polygon(np.asarray(polygon, dtype=np.float64), color="0.6"))
     there = positions[np.isfinite(positions).all(axis=-1)]
     low, high = (there.min(axis=0), there.max(axis=0)) if len(there) else (np.zeros(2), np.ones(2))
-    ax.set(xlim=(low[0] - 2, high[0] + 2), ylim=(low[1] - 2, high[1] + 2), aspect="equal", xlabel="x / m", ylabel="y / m")
+    ax.set(
+        xlim=(low[0] - 2, high[0] + 2), ylim=(low[1] - 2, high[1] + 2), aspect="equal", xlabel="x / m", ylabel="y / m"
+    )
     diameters = 2 * trace.radii_m[trace.people]
-    people = collections.EllipseCollection(diameters, diameters, np.zeros(len(diameters)), units="xy", cmap="viridis",
-                                           offsets=np.nan_to_num(positions[0], nan=1e9), transOffset=ax.transData)
+    people = collections.EllipseCollection(
+        diameters,
+        diameters,
+        np.zeros(len(diameters)),
+        units="xy",
+        cmap="viridis",
+        offsets=np.nan_to_num(positions[0], nan=1e9),
+        transOffset=ax.transData,
+    )
     people.set_clim(0, 2.0)
     ax.add_collection(people)
     title = ax.set_title("")

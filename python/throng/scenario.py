@@ -5,8 +5,8 @@
     place.group([(1, 1), (8, 1), (8, 9), (1, 9)], count=60)
     trace = place.simulate(to_s=60)
 
-What is built is a blueprint (docs/blueprint.md), from which the program makes a scenario. Meters; x to the east, y to the
-north. Polygons and lines are lists of (x, y), NumPy arrays, WKT, shapely's or GeoJSON's.
+What is built is a blueprint (docs/blueprint.md), from which the program makes a scenario. Meters; x to the east, y to
+the north. Polygons and lines are lists of (x, y), NumPy arrays, WKT, shapely's or GeoJSON's.
 """
 
 from __future__ import annotations
@@ -39,13 +39,22 @@ _DRONE_HEIGHT_M = 60.0
 class Scenario:
     """A place and who is in it.
 
-    walkable is the floor: walls stand around it but for the exits, its holes are obstacles. People escape when they leave
-    its bounding box. Methods return the scenario, so that calls can be chained.
+    walkable is the floor: walls stand around it but for the exits, its holes are obstacles. People escape when they
+    leave its bounding box. Methods return the scenario, so that calls can be chained.
     """
 
-    def __init__(self, name: str, walkable: Any, *, walls: bool = True, wall_thickness_m: float = 0.3,
-                 wall_height_m: float = 2.5, ground: str = "concrete", speed_mps: float | None = None,
-                 in_groups: float | None = None) -> None:
+    def __init__(
+        self,
+        name: str,
+        walkable: Any,
+        *,
+        walls: bool = True,
+        wall_thickness_m: float = 0.3,
+        wall_height_m: float = 2.5,
+        ground: str = "concrete",
+        speed_mps: float | None = None,
+        in_groups: float | None = None,
+    ) -> None:
         if not re.fullmatch(r"[a-z0-9_]{1,60}", name):
             raise ScenarioError(f"name: found {name!r}, expected 1 to 60 letters a to z, digits and '_'")
         if not 0.05 <= wall_thickness_m <= 5:
@@ -57,7 +66,8 @@ class Scenario:
         self._height = wall_height_m
         self._ground = ground
         self._people: dict[str, Any] = {
-            key: value for key, value in (("speed_mps", speed_mps), ("in_groups", in_groups)) if value is not None}
+            key: value for key, value in (("speed_mps", speed_mps), ("in_groups", in_groups)) if value is not None
+        }
         self._exits: list[dict[str, Any]] = []
         self._blocks: list[tuple[str, Points, float]] = []
         self._lists: dict[str, list[dict[str, Any]]] = {"groups": [], "sources": [], "lines": []}
@@ -67,12 +77,17 @@ class Scenario:
             self._block(f"hole{i + 1}", hole, wall_height_m)
 
     def __repr__(self) -> str:
-        return (f"Scenario({self.name}: {len(self._exits)} exits, "
-                f"{sum(group['count'] for group in self._lists['groups'])} people)")
+        return (
+            f"Scenario({self.name}: {len(self._exits)} exits, "
+            f"{sum(group['count'] for group in self._lists['groups'])} people)"
+        )
 
     def exit(self, exit_id: str, start: Any, end: Any = None, *, open: bool = True) -> Scenario:
-        """A door from one point to another on the edge of the walkable area; also a line: exit("a", "LINESTRING (...)")."""
-        points = line_of(start if end is None else [point_of(start, "start"), point_of(end, "end")], f"exit {exit_id!r}")
+        """A door from one point to another on the edge of the walkable area; also a line: exit("a", "LINESTRING
+        (...)")."""
+        points = line_of(
+            start if end is None else [point_of(start, "start"), point_of(end, "end")], f"exit {exit_id!r}"
+        )
         if len(points) != 2:
             raise ScenarioError(f"exit {exit_id!r}: found {len(points)} points, expected two")
         if any(entry["id"] == exit_id for entry in self._exits):
@@ -92,13 +107,18 @@ class Scenario:
             if all(along(corner, after, point, _ON_WALL_M) is not None for point in points):
                 low, high = ring.min(axis=0), ring.max(axis=0)
                 if not ((np.abs(points - low) < _ON_WALL_M) | (np.abs(points - high) < _ON_WALL_M)).all(axis=0).any():
-                    warnings.warn(f"exit {exit_id!r} does not lie on the bounding box of the walkable area: people count as "
-                                  "escaped only once they have left that box", stacklevel=3)
+                    warnings.warn(
+                        f"exit {exit_id!r} does not lie on the bounding box of the walkable area: people count as "
+                        "escaped only once they have left that box",
+                        stacklevel=3,
+                    )
                 outward: Points = normal
                 return outward
         if self._walls:
-            raise ScenarioError(f"exit {exit_id!r}: found {points.tolist()}, expected both points on one edge of the walkable "
-                                f"area (within {_ON_WALL_M} m)")
+            raise ScenarioError(
+                f"exit {exit_id!r}: found {points.tolist()}, expected both points on one edge of the walkable "
+                f"area (within {_ON_WALL_M} m)"
+            )
         return None
 
     def obstacle(self, polygon: Any, *, height_m: float | None = None) -> Scenario:
@@ -106,7 +126,9 @@ class Scenario:
         shape = polygon_of(polygon, f"obstacle {len(self._blocks) + 1}")
         if shape.holes:
             raise ScenarioError("obstacle: found a polygon with holes, expected one without")
-        return self._block(f"obstacle{len(self._blocks) + 1}", shape.outer, self._height if height_m is None else height_m)
+        return self._block(
+            f"obstacle{len(self._blocks) + 1}", shape.outer, self._height if height_m is None else height_m
+        )
 
     def wall(self, line: Any, *, thickness_m: float | None = None, height_m: float | None = None) -> Scenario:
         """A wall along a line of points, half its thickness to each side."""
@@ -115,40 +137,63 @@ class Scenario:
         half = (self._thickness if thickness_m is None else thickness_m) / 2
         left, right = offset(points, -half, closed=False), offset(points, half, closed=False)
         for i in range(len(points) - 1):
-            self._block(f"wall{number}_{i + 1}", np.array([right[i], right[i + 1], left[i + 1], left[i]]),
-                        self._height if height_m is None else height_m)
+            self._block(
+                f"wall{number}_{i + 1}",
+                np.array([right[i], right[i + 1], left[i + 1], left[i]]),
+                self._height if height_m is None else height_m,
+            )
         return self
 
     def _block(self, name: str, corners: Points, height_m: float) -> Scenario:
         if signed_area(corners) <= 0:
-            raise ScenarioError(f"{name}: found an edge that is shorter than the wall is thick, expected longer edges or a "
-                                "smaller thickness")
+            raise ScenarioError(
+                f"{name}: found an edge that is shorter than the wall is thick, expected longer edges or a "
+                "smaller thickness"
+            )
         self._blocks.append((name, corners, height_m))
         return self
 
-    def group(self, area: Any = None, *, count: int, doing: Literal["leave", "stroll", "wait", "cross"] = "leave",
-              **more: Any) -> Scenario:
+    def group(
+        self, area: Any = None, *, count: int, doing: Literal["leave", "stroll", "wait", "cross"] = "leave", **more: Any
+    ) -> Scenario:
         """People who are there from the start, at random on the free ground of an area (default: all of it).
 
-        leave: go to the exit that looks fastest; stroll: from spot to spot; wait: stand, as an audience; cross: to an exit
-        by chance. more is as docs/blueprint.md has it, for example facing={"towards": [0, 5]}.
+        leave: go to the exit that looks fastest; stroll: from spot to spot; wait: stand, as an audience; cross: to an
+        exit by chance. more is as docs/blueprint.md has it, for example facing={"towards": [0, 5]}.
         """
         if count < 1:
             raise ScenarioError(f"count: found {count}, expected 1 or more")
         shape = self.walkable if area is None else polygon_of(area, f"group {len(self._lists['groups']) + 1}")
         for corner in shape.outer:
             if self._walls and not contains(self.walkable, corner):
-                raise ScenarioError(f"group {len(self._lists['groups']) + 1}: found the corner {corner.tolist()} of its area, "
-                                    "expected all within the walkable area")
+                raise ScenarioError(
+                    f"group {len(self._lists['groups']) + 1}: found the corner {corner.tolist()} of its area, "
+                    "expected all within the walkable area"
+                )
         self._lists["groups"].append({"doing": doing, "area": shape.outer.tolist(), "count": int(count), **plain(more)})
         return self
 
-    def source(self, *, exit: str | None = None, line: Any = None, per_minute: float | None = None,
-               table: Sequence[Sequence[float]] | None = None, doing: str = "cross", towards: str | None = None,
-               until_s: float | None = None) -> Scenario:
-        """People who come in by an exit or across a line: per_minute of them (Poisson), or a table of [seconds, people]."""
-        entry: dict[str, Any] = {"doing": doing, "exit": exit, "per_minute": per_minute, "table": plain(table),
-                                 "towards": towards, "until_s": until_s}
+    def source(
+        self,
+        *,
+        exit: str | None = None,
+        line: Any = None,
+        per_minute: float | None = None,
+        table: Sequence[Sequence[float]] | None = None,
+        doing: str = "cross",
+        towards: str | None = None,
+        until_s: float | None = None,
+    ) -> Scenario:
+        """People who come in by an exit or across a line: per_minute of them (Poisson), or a table of [seconds,
+        people]."""
+        entry: dict[str, Any] = {
+            "doing": doing,
+            "exit": exit,
+            "per_minute": per_minute,
+            "table": plain(table),
+            "towards": towards,
+            "until_s": until_s,
+        }
         if line is not None:
             points = line_of(line, "source")
             entry.update({"from": points[0].tolist(), "to": points[-1].tolist()})
@@ -158,13 +203,23 @@ class Scenario:
     def queue(self, line: Any, *, count: int, doing: str = "wait") -> Scenario:
         """People who stand in line; its head is the line's first point."""
         points = line_of(line, "queue")
-        self._lists["lines"].append({"doing": doing, "from": points[0].tolist(), "to": points[-1].tolist(), "count": int(count)})
+        self._lists["lines"].append(
+            {"doing": doing, "from": points[0].tolist(), "to": points[-1].tolist(), "count": int(count)}
+        )
         return self
 
-    def disaster(self, kind: Literal["explosion", "fire", "attacker", "collapse", "gas"], position: Any, *,
-                 start_s: float = 0.0, **more: Any) -> Scenario:
+    def disaster(
+        self,
+        kind: Literal["explosion", "fire", "attacker", "collapse", "gas"],
+        position: Any,
+        *,
+        start_s: float = 0.0,
+        **more: Any,
+    ) -> Scenario:
         """Something that people flee from; more is as docs/blueprint.md has it, for example radius_m=3."""
-        self._disasters.append({"kind": kind, "position": list(point_of(position, kind)), "start_s": start_s, **plain(more)})
+        self._disasters.append(
+            {"kind": kind, "position": list(point_of(position, kind)), "start_s": start_s, **plain(more)}
+        )
         return self
 
     def drone(self, drone_id: str, start: Sequence[float], *, yaw_deg: float = 0.0) -> Scenario:
@@ -195,8 +250,10 @@ class Scenario:
                 if low - at > 1e-3:
                     corners = np.array([begin[0], begin[1], stop[1], stop[0]])
                     if signed_area(corners) <= 0:
-                        raise ScenarioError(f"walkable: found an edge of {length:.2f} m at {a.tolist()}, expected edges that "
-                                            f"are longer than the walls are thick ({self._thickness} m)")
+                        raise ScenarioError(
+                            f"walkable: found an edge of {length:.2f} m at {a.tolist()}, expected edges that "
+                            f"are longer than the walls are thick ({self._thickness} m)"
+                        )
                     pieces.append((f"edge{i + 1}_{len(pieces) + 1}", corners, self._height))
                 at, begin = max(at, high), (a + direction * high, a + direction * high + normal)
         return pieces
@@ -218,8 +275,10 @@ class Scenario:
             "ground": {"min": (low - _MARGIN_M).tolist(), "max": (high + _MARGIN_M).tolist(), "material": self._ground},
             "inside": {"min": low.tolist(), "max": high.tolist()},
             "exits": self._exits,
-            "buildings": [{"id": name, "footprint": corners.tolist(), "height_m": height}
-                          for name, corners, height in [*self._blocks, *self._wall_pieces()]],
+            "buildings": [
+                {"id": name, "footprint": corners.tolist(), "height_m": height}
+                for name, corners, height in [*self._blocks, *self._wall_pieces()]
+            ],
             "people": {**self._people, **{key: entries for key, entries in self._lists.items() if entries}},
         }
         if self._disasters:
@@ -248,16 +307,27 @@ class Scenario:
     def plan(self, path: PathLike, *, program: PathLike | None = None) -> Path:
         """Draws the floor plan to an .svg or .png file."""
         with tempfile.TemporaryDirectory() as folder:
-            _program.call(["scenario", "plan", self.write(folder, program=program), "-o", os.path.abspath(os.fspath(path))],
-                          program=program)
+            _program.call(
+                ["scenario", "plan", self.write(folder, program=program), "-o", os.path.abspath(os.fspath(path))],
+                program=program,
+            )
         return Path(path)
 
-    def simulate(self, *, to_s: float = 60.0, seed: int = 1, model: str | None = None, job: Mapping[str, Any] | None = None,
-                 trace: PathLike | None = None, program: PathLike | None = None) -> Trace:
+    def simulate(
+        self,
+        *,
+        to_s: float = 60.0,
+        seed: int = 1,
+        model: str | None = None,
+        job: Mapping[str, Any] | None = None,
+        trace: PathLike | None = None,
+        program: PathLike | None = None,
+    ) -> Trace:
         """Simulates one run without drawing anything.
 
-        model is a pedestrian model of `throng crowd --list` (default: weidmann). job holds more fields of a job, such as
-        {"crowd": {"agents": 20}}. The trace is kept in the file `trace`, else in a temporary one for as long as the Trace is.
+        model is a pedestrian model of `throng crowd --list` (default: weidmann). job holds more fields of a job, such
+        as {"crowd": {"agents": 20}}. The trace is kept in the file `trace`, else in a temporary one for as long as the
+        Trace is.
         """
         folder = tempfile.mkdtemp(prefix="throng-")
         try:
@@ -273,17 +343,27 @@ class Scenario:
             shutil.rmtree(folder, ignore_errors=True)
         return result
 
-    def run(self, out: PathLike, *, job: Mapping[str, Any] | None = None, program: PathLike | None = None,
-            quiet: bool = False) -> Dataset:
+    def run(
+        self,
+        out: PathLike,
+        *,
+        job: Mapping[str, Any] | None = None,
+        program: PathLike | None = None,
+        quiet: bool = False,
+    ) -> Dataset:
         """Makes a dataset of this place: job holds the fields of docs/job.md but for the scenario."""
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder, program=program)
-            return _program.run({**plain(job or {}), "scenario": self.name}, out, program=program, scenarios=folder, quiet=quiet)
+            return _program.run(
+                {**plain(job or {}), "scenario": self.name}, out, program=program, scenarios=folder, quiet=quiet
+            )
 
     def metrics(self, trace: Trace, *, program: PathLike | None = None) -> Any:
         """Exits, clogs and evacuation of a trace of this place (docs/metrics.md)."""
         with tempfile.TemporaryDirectory() as folder:
-            return _program.metrics(trace, scenario=self.write(folder, program=program), program=program, scenarios=folder)
+            return _program.metrics(
+                trace, scenario=self.write(folder, program=program), program=program, scenarios=folder
+            )
 
     def _job(self, to_s: float, seed: int, model: str | None, more: Mapping[str, Any] | None) -> dict[str, Any]:
         job: dict[str, Any] = dict(plain(more or {}))

@@ -81,5 +81,7 @@ def verify_files(storage: Storage, files: Any, *, complete: bool) -> None:
             continue
         data = storage.read(name)
         if len(data) != size or hashlib.sha256(data).hexdigest() != digest:
-            raise DatasetError(f"{storage.where(name)}: found {len(data)} bytes with another SHA-256 than the manifest "
-                               f"says, expected {size}")
+            raise DatasetError(
+                f"{storage.where(name)}: found {len(data)} bytes with another SHA-256 than the manifest "
+                f"says, expected {size}"
+            )

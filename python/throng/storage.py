@@ -171,7 +171,7 @@ class _ArchiveStorage(Storage):
         self._members[plain] = member
 
     def names(self) -> Iterable[str]:
-        return [name[len(self.root):] for name in self._members if name.startswith(self.root)]
+        return [name[len(self.root) :] for name in self._members if name.startswith(self.root)]
 
     def exists(self, name: str) -> bool:
         return self.root + check_name(name, self.path) in self._members
@@ -200,8 +200,10 @@ class _ArchiveStorage(Storage):
         if max_bytes is not None and member.size > max_bytes:
             raise self.too_large(name, member.size, max_bytes)
         if max_bytes is None and member.size > max(_LARGE_BYTES, _MAX_RATIO * member.packed):
-            raise DatasetError(f"{self.where(name)}: found {member.packed} bytes that would unpack to {member.size}, "
-                               f"expected {_MAX_RATIO} times as many at most")
+            raise DatasetError(
+                f"{self.where(name)}: found {member.packed} bytes that would unpack to {member.size}, "
+                f"expected {_MAX_RATIO} times as many at most"
+            )
         start = self._data_offset(name, member)
         data = _read_at(self._descriptor(), start, member.packed, self.where(name))
         if member.deflated:
@@ -227,23 +229,30 @@ class TarStorage(_ArchiveStorage):
                         links.append((name, check_name(entry.linkname, self.path)))
                     elif entry.isreg() and not entry.issparse():
                         if entry.size < 0 or entry.offset_data + entry.size > size:
-                            raise DatasetError(f"{self.path}: {name}: found the archive's end within it, expected "
-                                               f"{entry.size} bytes: it is cut off")
+                            raise DatasetError(
+                                f"{self.path}: {name}: found the archive's end within it, expected "
+                                f"{entry.size} bytes: it is cut off"
+                            )
                         self._add(name, _Member(entry.offset_data, entry.size, entry.size))
                     else:
-                        raise DatasetError(f"{self.path}: {name}: found a symbolic link, a device or a sparse file, "
-                                           "expected a plain file")
+                        raise DatasetError(
+                            f"{self.path}: {name}: found a symbolic link, a device or a sparse file, "
+                            "expected a plain file"
+                        )
                 end = archive.offset
         except (tarfile.TarError, OSError, ValueError, EOFError) as error:
             if isinstance(error, DatasetError):
                 raise
-            raise DatasetError(f"{self.path}: found a damaged or cut off tar file ({error}), "
-                               "expected a whole, uncompressed one") from error
+            raise DatasetError(
+                f"{self.path}: found a damaged or cut off tar file ({error}), " "expected a whole, uncompressed one"
+            ) from error
         with open(self.path, "rb") as file:
             file.seek(end)
             if file.read(512) != bytes(512):
-                raise DatasetError(f"{self.path}: found no end of the archive at byte {end} of {size}: it is cut off "
-                                   "or damaged there")
+                raise DatasetError(
+                    f"{self.path}: found no end of the archive at byte {end} of {size}: it is cut off "
+                    "or damaged there"
+                )
         for name, target in links:
             if target not in self._members:
                 raise DatasetError(f"{self.path}: {name}: found a link to {target!r}, expected an earlier member")
@@ -263,17 +272,25 @@ class ZipStorage(_ArchiveStorage):
                     if entry.flag_bits & 1:
                         raise DatasetError(f"{self.path}: {entry.filename}: found an encrypted member")
                     if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-                        raise DatasetError(f"{self.path}: {entry.filename}: found the compression "
-                                           f"{entry.compress_type}, expected 0 (stored) or 8 (deflate)")
+                        raise DatasetError(
+                            f"{self.path}: {entry.filename}: found the compression "
+                            f"{entry.compress_type}, expected 0 (stored) or 8 (deflate)"
+                        )
                     deflated = entry.compress_type == zipfile.ZIP_DEFLATED
-                    if entry.header_offset < 0 or entry.header_offset + entry.compress_size > size or (
-                            not deflated and entry.compress_size != entry.file_size):
+                    if (
+                        entry.header_offset < 0
+                        or entry.header_offset + entry.compress_size > size
+                        or (not deflated and entry.compress_size != entry.file_size)
+                    ):
                         raise DatasetError(f"{self.path}: {entry.filename}: found sizes that cannot be true")
-                    self._add(entry.filename, _Member(entry.header_offset, entry.file_size, entry.compress_size,
-                                                      deflated, entry.CRC))
+                    self._add(
+                        entry.filename,
+                        _Member(entry.header_offset, entry.file_size, entry.compress_size, deflated, entry.CRC),
+                    )
         except (zipfile.BadZipFile, OSError, NotImplementedError, UnicodeError, struct.error) as error:
-            raise DatasetError(f"{self.path}: found a damaged or cut off zip file ({error}), "
-                               "expected a whole one") from error
+            raise DatasetError(
+                f"{self.path}: found a damaged or cut off zip file ({error}), " "expected a whole one"
+            ) from error
 
     def _data_offset(self, name: str, member: _Member) -> int:
         header = _read_at(self._descriptor(), member.offset, 30, self.where(name))
@@ -306,8 +323,9 @@ def _inflate(data: bytes, size: int, where: str) -> bytes:
     except zlib.error as error:
         raise DatasetError(f"{where}: found damaged compressed data ({error})") from error
     if len(out) != size:
-        raise DatasetError(f"{where}: found {'more than ' if len(out) > size else ''}{min(len(out), size)} bytes, "
-                           f"expected {size}")
+        raise DatasetError(
+            f"{where}: found {'more than ' if len(out) > size else ''}{min(len(out), size)} bytes, " f"expected {size}"
+        )
     return out
 
 
@@ -322,12 +340,16 @@ def open_storage(path: str | os.PathLike[str], marker: str = LABELS_FILE) -> Sto
         with open(text, "rb") as file:
             head = file.read(4)
         if head[:2] == b"\x1f\x8b" or head[:3] in (b"BZh", b"\xfd7z"):
-            raise DatasetError(f"{text}: found a compressed tar file, expected an uncompressed one, which can be read "
-                               "at any place: decompress it first (gunzip), or use zip")
+            raise DatasetError(
+                f"{text}: found a compressed tar file, expected an uncompressed one, which can be read "
+                "at any place: decompress it first (gunzip), or use zip"
+            )
         archive = ZipStorage(text) if head[:2] == b"PK" else TarStorage(text)
         storage = archive
-        roots = sorted((name[: -len(marker)] for name in archive.names()
-                        if name == marker or name.endswith("/" + marker)), key=lambda root: root.count("/"))
+        roots = sorted(
+            (name[: -len(marker)] for name in archive.names() if name == marker or name.endswith("/" + marker)),
+            key=lambda root: root.count("/"),
+        )
     elif os.path.exists(text):
         raise DatasetError(f"{text}: found a pipe or device, expected a folder, a .tar or a .zip file")
     else:

@@ -189,10 +189,18 @@ class Trace:
         keep[:, [role not in ("person", "attacker") for role in self.roles]] = False
         agent, step = np.nonzero(keep.T)
         position, velocity = self.positions[step, agent], self.velocities[step, agent]
-        return pandas.DataFrame({
-            "id": agent, "frame": step, "x": position[:, 0], "y": position[:, 1], "time_s": self.time_s[step],
-            "vx": velocity[:, 0], "vy": velocity[:, 1], "state": np.array(self.state_names)[self.states[step, agent]],
-        })
+        return pandas.DataFrame(
+            {
+                "id": agent,
+                "frame": step,
+                "x": position[:, 0],
+                "y": position[:, 1],
+                "time_s": self.time_s[step],
+                "vx": velocity[:, 0],
+                "vy": velocity[:, 1],
+                "state": np.array(self.state_names)[self.states[step, agent]],
+            }
+        )
 
     def animate(self, **options: Any) -> Any:
         """A matplotlib animation of the trajectories; see throng.animate."""

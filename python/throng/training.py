@@ -45,15 +45,20 @@ class _FrameDataset(Sequence[Sample]):
 
 
 def _detection(people: Annotations) -> dict[str, Any]:
-    return {"boxes": people.boxes_xyxy.astype(np.float32), "labels": people.category_ids,
-            "area": people.areas.astype(np.float32), "iscrowd": people.is_crowd.astype(np.int64)}
+    return {
+        "boxes": people.boxes_xyxy.astype(np.float32),
+        "labels": people.category_ids,
+        "area": people.areas.astype(np.float32),
+        "iscrowd": people.is_crowd.astype(np.int64),
+    }
 
 
 class DetectionDataset(_FrameDataset):
     """Targets: boxes (N, 4), labels (N,), area, iscrowd, image_id. amodal=True: boxes of whole bodies."""
 
-    def __init__(self, dataset: Dataset, *, amodal: bool = False, transform: Transform | None = None,
-                 tensors: bool | None = None) -> None:
+    def __init__(
+        self, dataset: Dataset, *, amodal: bool = False, transform: Transform | None = None, tensors: bool | None = None
+    ) -> None:
         super().__init__(dataset, transform=transform, tensors=tensors)
         self.amodal = amodal
 
@@ -86,8 +91,14 @@ class CountingDataset(_FrameDataset):
     heads, each of which sums to 1 in the image.
     """
 
-    def __init__(self, dataset: Dataset, *, sigma_px: float = 4.0, transform: Transform | None = None,
-                 tensors: bool | None = None) -> None:
+    def __init__(
+        self,
+        dataset: Dataset,
+        *,
+        sigma_px: float = 4.0,
+        transform: Transform | None = None,
+        tensors: bool | None = None,
+    ) -> None:
         super().__init__(dataset, transform=transform, tensors=tensors)
         if not sigma_px > 0:
             raise ValueError(f"sigma_px: found {sigma_px}, expected a number above 0")
@@ -112,15 +123,25 @@ class TrackingDataset(Sequence[dict[str, Any]]):
     track_ids and time_s; sequence. stride is the distance of two clips' first frames (default: length, no overlap).
     """
 
-    def __init__(self, dataset: Dataset, *, length: int = 8, stride: int | None = None, images: bool = True,
-                 tensors: bool | None = None) -> None:
+    def __init__(
+        self,
+        dataset: Dataset,
+        *,
+        length: int = 8,
+        stride: int | None = None,
+        images: bool = True,
+        tensors: bool | None = None,
+    ) -> None:
         if length < 1 or (stride is not None and stride < 1):
             raise ValueError(f"length, stride: found {length}, {stride}, expected 1 or more")
         self.dataset = dataset
         self.images = images
         self.tensors = available("torch") is not None if tensors is None else tensors
-        self._clips = [(name, places[i : i + length]) for name, places in dataset.sequences.items()
-                       for i in range(0, len(places) - length + 1, stride or length)]
+        self._clips = [
+            (name, places[i : i + length])
+            for name, places in dataset.sequences.items()
+            for i in range(0, len(places) - length + 1, stride or length)
+        ]
 
     def __len__(self) -> int:
         return len(self._clips)
@@ -131,12 +152,18 @@ class TrackingDataset(Sequence[dict[str, Any]]):
         targets: list[dict[str, Any]] = []
         for frame in frames:
             people = frame.people
-            target = {**_detection(people), "track_ids": people.track_ids, "image_id": np.int64(frame.id),
-                      "time_s": np.float64(frame.time_s)}
+            target = {
+                **_detection(people),
+                "track_ids": people.track_ids,
+                "image_id": np.int64(frame.id),
+                "time_s": np.float64(frame.time_s),
+            }
             targets.append(_finish(None, target, self.tensors, None)[1])
         images: Any = None
         if self.images:
-            images = np.stack([frame.image().transpose(2, 0, 1) for frame in frames]).astype(np.float32) / np.float32(255)
+            images = np.stack([frame.image().transpose(2, 0, 1) for frame in frames]).astype(np.float32) / np.float32(
+                255
+            )
             images = _finish(images, {}, self.tensors, None)[0]
         return {"images": images, "frames": targets, "sequence": name}
 
@@ -152,7 +179,8 @@ def collate(samples: Iterable[Sample]) -> tuple[list[Any], list[dict[str, Any]]]
 
 
 def density_map(points: NDArray[Any], height: int, width: int, sigma_px: float) -> NDArray[np.float32]:
-    """People per pixel of points (N, 2) in box coordinates: Gaussians cut off at 4 sigma and at the borders, sum 1 each."""
+    """People per pixel of points (N, 2) in box coordinates: Gaussians cut off at 4 sigma and at the borders, sum 1
+    each."""
     out = np.zeros((height, width), dtype=np.float64)
     reach = 4 * sigma_px
     for x, y in np.asarray(points, dtype=np.float64):

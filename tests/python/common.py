@@ -32,15 +32,45 @@ JOB = {
     "capture": {"rate_hz": 1, "from_s": 8, "to_s": 10},
     "drones": [
         {"id": "d1", "start": [8, -3, 15], "camera": {**_CAMERA, "hfov_deg": 62, "yaw_deg": 90, "pitch_deg": -38}},
-        {"id": "d2", "start": [4, 8, 15], "camera": {
-            **_CAMERA, "fx_px": 200, "yaw_deg": 180, "pitch_deg": -42, "model": "brown_conrady",
-            "distortion": {"k1": -0.28, "k2": 0.08, "p1": 0.0003, "p2": -0.0002, "k3": 0.01, "k4": 0.02}}},
-        {"id": "d3", "start": [0, 0, 20], "camera": {
-            **_CAMERA, "fx_px": 100, "pitch_deg": -60, "model": "fisheye", "distortion": {"k1": -0.02, "k2": 0.003}}},
+        {
+            "id": "d2",
+            "start": [4, 8, 15],
+            "camera": {
+                **_CAMERA,
+                "fx_px": 200,
+                "yaw_deg": 180,
+                "pitch_deg": -42,
+                "model": "brown_conrady",
+                "distortion": {"k1": -0.28, "k2": 0.08, "p1": 0.0003, "p2": -0.0002, "k3": 0.01, "k4": 0.02},
+            },
+        },
+        {
+            "id": "d3",
+            "start": [0, 0, 20],
+            "camera": {
+                **_CAMERA,
+                "fx_px": 100,
+                "pitch_deg": -60,
+                "model": "fisheye",
+                "distortion": {"k1": -0.02, "k2": 0.003},
+            },
+        },
     ],
     "outputs": {
-        "annotations": ["coco", "keypoints", "amodal", "density", "exits", "fields", "depth", "instances", "parts",
-                        "normals", "flow", "sensors"],
+        "annotations": [
+            "coco",
+            "keypoints",
+            "amodal",
+            "density",
+            "exits",
+            "fields",
+            "depth",
+            "instances",
+            "parts",
+            "normals",
+            "flow",
+            "sensors",
+        ],
         "previews": 1,
         "splits": {"train": 0.5, "val": 0.5},
     },

@@ -9,7 +9,10 @@ from throng import Camera, Dataset, DatasetError
 LENSES = {
     "pinhole": ("pinhole", {}),
     "wide angle": ("brown_conrady", {"k1": -0.28, "k2": 0.08, "p1": 0.0003, "p2": -0.0002, "k3": -0.01}),
-    "rational": ("brown_conrady", {"k1": 0.4, "k2": 0.1, "p1": 0.001, "p2": 0.002, "k3": 0.01, "k4": 0.7, "k5": 0.2, "k6": 0.03}),
+    "rational": (
+        "brown_conrady",
+        {"k1": 0.4, "k2": 0.1, "p1": 0.001, "p2": 0.002, "k3": 0.01, "k4": 0.7, "k5": 0.2, "k6": 0.03},
+    ),
     "pincushion": ("brown_conrady", {"k1": 0.2}),
     "fisheye": ("fisheye", {"k1": -0.02, "k2": 0.003, "k3": -0.001, "k4": 0.0002}),
 }
@@ -36,9 +39,13 @@ def project_plainly(camera, point):
         bent = theta * (1 + d["k1"] * theta**2 + d["k2"] * theta**4 + d["k3"] * theta**6 + d["k4"] * theta**8)
         a, b = (v * bent / math.sqrt(r2) for v in (a, b))
     else:
-        c = (1 + d["k1"] * r2 + d["k2"] * r2**2 + d["k3"] * r2**3) / (1 + d["k4"] * r2 + d["k5"] * r2**2 + d["k6"] * r2**3)
-        a, b = (a * c + 2 * d["p1"] * a * b + d["p2"] * (r2 + 2 * a * a),
-                b * c + d["p1"] * (r2 + 2 * b * b) + 2 * d["p2"] * a * b)
+        c = (1 + d["k1"] * r2 + d["k2"] * r2**2 + d["k3"] * r2**3) / (
+            1 + d["k4"] * r2 + d["k5"] * r2**2 + d["k6"] * r2**3
+        )
+        a, b = (
+            a * c + 2 * d["p1"] * a * b + d["p2"] * (r2 + 2 * a * a),
+            b * c + d["p1"] * (r2 + 2 * b * b) + 2 * d["p2"] * a * b,
+        )
     return camera.K[0][0] * a + camera.K[0][1] * b + camera.K[0][2], camera.K[1][1] * b + camera.K[1][2]
 
 
@@ -56,7 +63,9 @@ class Formulas(unittest.TestCase):
                 np.testing.assert_allclose(project_plainly(camera, point), pixel, atol=1e-8, err_msg=name)
             np.testing.assert_allclose(camera.project(points), pixels, atol=1e-8)
             np.testing.assert_allclose(camera.project(points, origin="corner"), pixels + 0.5, atol=1e-8)
-            np.testing.assert_allclose(camera.unproject(pixels + 0.5, camera.depth(points), origin="corner"), points, atol=1e-8)
+            np.testing.assert_allclose(
+                camera.unproject(pixels + 0.5, camera.depth(points), origin="corner"), points, atol=1e-8
+            )
 
     def test_the_axis_and_shapes(self):
         for name in LENSES:
@@ -84,8 +93,13 @@ class Formulas(unittest.TestCase):
 
     def test_where_a_lens_ends(self):
         # Barrel distortion r (1 - 0.28 r^2) turns back at r = 1 / sqrt(3 * 0.28).
-        camera = Camera(640, 480, np.array([[300, 0, 320], [0, 300, 240], [0, 0, 1.0]]), model="brown_conrady",
-                        distortion={"k1": -0.28})
+        camera = Camera(
+            640,
+            480,
+            np.array([[300, 0, 320], [0, 300, 240], [0, 0, 1.0]]),
+            model="brown_conrady",
+            distortion={"k1": -0.28},
+        )
         self.assertAlmostEqual(camera.lens.limit, 1 / math.sqrt(0.84), places=6)
         self.assertTrue(np.isfinite(camera.project([1.09, 0, 1])).all())
         self.assertTrue(np.isnan(camera.project([1.10, 0, 1])).all())
@@ -108,15 +122,23 @@ class Formulas(unittest.TestCase):
             np.testing.assert_allclose(flat[seen][:, 0], columns[seen], atol=0.05, err_msg=name)
             np.testing.assert_allclose(flat[seen][:, 1], rows[seen], atol=0.05, err_msg=name)
             point = camera.unproject([411.0, 97.0], 20.0)
-            np.testing.assert_allclose(camera.undistort_points([411.0, 97.0]), camera.pinhole().project(point), atol=1e-8)
+            np.testing.assert_allclose(
+                camera.undistort_points([411.0, 97.0]), camera.pinhole().project(point), atol=1e-8
+            )
             labels = np.arange(640 * 480, dtype=np.int32).reshape(480, 640)
             self.assertEqual(camera.undistort(labels, interpolate=False).dtype, np.int32)
 
     def test_damaged_records(self):
         good = {"K": np.eye(3).tolist(), "R": np.eye(3).tolist(), "t": [0, 0, 0], "model": "pinhole"}
         Camera.from_record(good, 4, 4)
-        for change in ({"K": [[1, 0], [0, 1]]}, {"t": None}, {"K": "x"}, {"R": [[math.nan] * 3] * 3}, {"distortion": [1]},
-                       {"K": (-np.eye(3)).tolist()}):
+        for change in (
+            {"K": [[1, 0], [0, 1]]},
+            {"t": None},
+            {"K": "x"},
+            {"R": [[math.nan] * 3] * 3},
+            {"distortion": [1]},
+            {"K": (-np.eye(3)).tolist()},
+        ):
             with self.subTest(change=change), self.assertRaises(DatasetError):
                 Camera.from_record({**good, **change}, 4, 4)
         for model, distortion in (("panorama", {}), ("fisheye", {"p1": 0.1}), ("brown_conrady", {"k9": 1.0})):

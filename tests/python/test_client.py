@@ -22,14 +22,23 @@ from throng._download import file_name_of
 from throng._events import parse
 from throng._progress import ProgressBar
 
-JOB = job.Job("city_square/nearest_exit", name="client", crowd=job.Crowd(agents=30), quality="draft",
-              capture=job.Capture(rate_hz=1, from_s=1, to_s=4),
-              drones=[job.Drone("d1", start=[8, -3, 15], camera=job.Camera(width=128, height=96, pitch_deg=-60, yaw_deg=90))],
-              outputs=job.Outputs(formats=["yolo-detect"]))
-PLACE = {"name": "Yard", "ground": {"min": [-20, -20], "max": [20, 20], "material": "grass"},
-         "inside": {"min": [-15, -15], "max": [15, 15]}, "exits": [{"id": "east", "from": [15, -3], "to": [15, 3]}],
-         "drones": [{"id": "d1", "start": [0, 0, 20], "yaw_deg": 0}],
-         "people": {"groups": [{"doing": "stroll", "box": [-8, -8, 8, 8], "count": 10}]}}
+JOB = job.Job(
+    "city_square/nearest_exit",
+    name="client",
+    crowd=job.Crowd(agents=30),
+    quality="draft",
+    capture=job.Capture(rate_hz=1, from_s=1, to_s=4),
+    drones=[job.Drone("d1", start=[8, -3, 15], camera=job.Camera(width=128, height=96, pitch_deg=-60, yaw_deg=90))],
+    outputs=job.Outputs(formats=["yolo-detect"]),
+)
+PLACE = {
+    "name": "Yard",
+    "ground": {"min": [-20, -20], "max": [20, 20], "material": "grass"},
+    "inside": {"min": [-15, -15], "max": [15, 15]},
+    "exits": [{"id": "east", "from": [15, -3], "to": [15, 3]}],
+    "drones": [{"id": "d1", "start": [0, 0, 20], "yaw_deg": 0}],
+    "people": {"groups": [{"doing": "stroll", "box": [-8, -8, 8, 8], "count": 10}]},
+}
 
 
 class Proxy:
@@ -48,6 +57,7 @@ class Proxy:
 
     def _serve(self, client):
         with contextlib.suppress(OSError), client, socket.create_connection(("127.0.0.1", self.target)) as server:
+
             def up():
                 with contextlib.suppress(OSError):
                     while data := client.recv(65536):
@@ -81,8 +91,11 @@ class WithService(unittest.TestCase):
     def start(cls):
         port_file = cls.base / "port"
         port_file.unlink(missing_ok=True)
-        cls.server = subprocess.Popen([common.THRONG, "serve", "--data", cls.base / "data", "--port", str(cls.port),
-                                       "--port-file", port_file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        cls.server = subprocess.Popen(
+            [common.THRONG, "serve", "--data", cls.base / "data", "--port", str(cls.port), "--port-file", port_file],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         while not (port_file.exists() and port_file.read_text().strip()):
             time.sleep(0.02)
         cls.port = int(port_file.read_text())
@@ -130,7 +143,9 @@ class WithService(unittest.TestCase):
         dataset = throng.Dataset(path)
         self.assertEqual(len(dataset), 4)
         self.assertEqual(dataset[0].image().shape, (96, 128, 3))  # hard links within the archive
-        part = self.client.download(self.done["id"], folder / "part.zip", format="zip", include=["images", "coco"], progress=False)
+        part = self.client.download(
+            self.done["id"], folder / "part.zip", format="zip", include=["images", "coco"], progress=False
+        )
         with zipfile.ZipFile(part) as archive:
             self.assertFalse(any("density" in name for name in archive.namelist()))
         throng.Dataset(part)[0].image()
@@ -153,7 +168,10 @@ class WithService(unittest.TestCase):
             (folder / "later.tar.part").write_bytes(begin)
             (folder / "later.tar.part.json").write_text(json.dumps({"etag": etag, "target": target}))
             from throng import _download
-            _download.fetch(self.client._http, target, folder / "later.tar", lambda done, total: reports.append((done, total)))
+
+            _download.fetch(
+                self.client._http, target, folder / "later.tar", lambda done, total: reports.append((done, total))
+            )
             self.assertEqual((folder / "later.tar").read_bytes(), expected)
         self.assertGreater(reports[0][0], 50_000)
         self.assertEqual({total for _, total in reports}, {len(expected)})
@@ -226,7 +244,9 @@ class WithService(unittest.TestCase):
         long = self.client.clone(self.done["id"], {"name": "long", "capture": {"rate_hz": 10, "to_s": 10}})
         self.proxy.limit, self.proxy.cuts = 900, 4
         result = {}
-        watcher = threading.Thread(target=lambda: result.update(job=self.shaky.watch(long["id"], progress=False, timeout_s=200)))
+        watcher = threading.Thread(
+            target=lambda: result.update(job=self.shaky.watch(long["id"], progress=False, timeout_s=200))
+        )
         watcher.start()
         time.sleep(1)
         self.server.kill()
@@ -241,7 +261,12 @@ class WithService(unittest.TestCase):
     def test_scenarios(self):
         folder = self.folder()
         (folder / "yard.place.json").write_text(json.dumps(PLACE))
-        subprocess.run([common.THRONG, "scenario", "make", "yard.place.json", "-o", "mine"], cwd=folder, check=True, capture_output=True)
+        subprocess.run(
+            [common.THRONG, "scenario", "make", "yard.place.json", "-o", "mine"],
+            cwd=folder,
+            check=True,
+            capture_output=True,
+        )
         self.assertEqual(self.client.upload_scenario(folder / "mine", "yards", dry_run=True)["ids"], ["yards/yard"])
         self.assertEqual(self.client.upload_scenario(folder / "mine", "yards")["ids"], ["yards/yard"])
         self.assertIn("yards/yard", [s["id"] for s in self.client.scenarios()])
@@ -258,6 +283,7 @@ class WithService(unittest.TestCase):
     def test_calibrations(self):
         """A board seen by a known pinhole; the service finds its focal length."""
         import numpy as np
+
         rng = np.random.default_rng(1)
         board = np.array([[x * 0.1, y * 0.1, 0.0] for y in range(6) for x in range(9)])
         k = np.array([[800, 0, 319.5], [0, 790, 239.5], [0, 0, 1.0]])
@@ -265,7 +291,8 @@ class WithService(unittest.TestCase):
         for image in range(12):
             a, b = rng.uniform(-0.5, 0.5, 2)
             tilt = np.array([[1, 0, 0], [0, np.cos(a), -np.sin(a)], [0, np.sin(a), np.cos(a)]]) @ np.array(
-                [[np.cos(b), 0, np.sin(b)], [0, 1, 0], [-np.sin(b), 0, np.cos(b)]])
+                [[np.cos(b), 0, np.sin(b)], [0, 1, 0], [-np.sin(b), 0, np.cos(b)]]
+            )
             camera = throng.Camera(640, 480, k, tilt, np.array([-0.4, -0.25, 1.6]) + rng.uniform(-0.1, 0.1, 3))
             for i, (point, (u, v)) in enumerate(zip(board, camera.project(board))):
                 rows.append(f"{image},{i},{point[0]},{point[1]},0,{u:.5f},{v:.5f}")
@@ -282,13 +309,20 @@ class WithService(unittest.TestCase):
             self.client.calibrate({"kind": "magic"})
 
     def test_the_service_itself(self):
-        self.assertEqual(self.client.version(), subprocess.run([common.THRONG, "--version"], capture_output=True,
-                                                                text=True).stdout.split()[-1])
+        self.assertEqual(
+            self.client.version(),
+            subprocess.run([common.THRONG, "--version"], capture_output=True, text=True).stdout.split()[-1],
+        )
         self.assertTrue(self.client.is_alive() and self.client.is_ready())
         self.assertIn("paths", self.client.openapi())
         self.assertIn("throng_", self.client.prometheus())
         self.assertIn("properties", self.client.schema())
-        for catalogue, key in (("people", "people"), ("airframes", "airframes"), ("policies", "policies"), ("formats", "formats")):
+        for catalogue, key in (
+            ("people", "people"),
+            ("airframes", "airframes"),
+            ("policies", "policies"),
+            ("formats", "formats"),
+        ):
             self.assertTrue(getattr(self.client, catalogue)()[key])
 
     def test_webhooks(self):
@@ -303,8 +337,12 @@ class WithService(unittest.TestCase):
 
     def test_z_keys(self):
         """Last: from the first key on everybody needs one."""
-        made = subprocess.run([common.THRONG, "keys", "create", "reader", "--scope", "read", "--data", self.base / "data"],
-                              capture_output=True, text=True, check=True)
+        made = subprocess.run(
+            [common.THRONG, "keys", "create", "reader", "--scope", "read", "--data", self.base / "data"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         key = next(word for word in (made.stdout + made.stderr).split() if word.startswith("throng_"))
         with self.assertRaises(throng.AccessError) as nobody:
             self.client.job(self.done["id"])
@@ -319,12 +357,21 @@ class WithService(unittest.TestCase):
 
 class Parts(unittest.TestCase):
     def test_server_sent_events(self):
-        stream = io.BytesIO(b": comment\n\nid: 7\nevent: stage\ndata: {\"a\":\ndata: 1}\n\r\nevent: progress\ndata: {}\n\ndata: cut")
+        stream = io.BytesIO(
+            b': comment\n\nid: 7\nevent: stage\ndata: {"a":\ndata: 1}\n\r\nevent: progress\ndata: {}\n\ndata: cut'
+        )
         self.assertEqual(list(parse(stream)), [(7, "stage", '{"a":\n1}'), (None, "progress", "{}")])
 
     def test_proposed_names_stay_in_the_folder(self):
-        for proposed, name in (("a.tar", "a.tar"), ("../../a.tar", "a.tar"), ("..\\a.tar", "a.tar"), ("..", "x"), ("/", "x"),
-                               (".bashrc", "x"), ("", "x")):
+        for proposed, name in (
+            ("a.tar", "a.tar"),
+            ("../../a.tar", "a.tar"),
+            ("..\\a.tar", "a.tar"),
+            ("..", "x"),
+            ("/", "x"),
+            (".bashrc", "x"),
+            ("", "x"),
+        ):
             self.assertEqual(file_name_of({"Content-Disposition": f'attachment; filename="{proposed}"'}, "x"), name)
 
     def test_the_bar_of_a_notebook(self):
@@ -339,8 +386,10 @@ class Parts(unittest.TestCase):
             return Handle()
 
         shell = type("ZMQInteractiveShell", (), {})()
-        modules = {"IPython": types.SimpleNamespace(get_ipython=lambda: shell),
-                   "IPython.display": types.SimpleNamespace(HTML=str, display=display)}
+        modules = {
+            "IPython": types.SimpleNamespace(get_ipython=lambda: shell),
+            "IPython.display": types.SimpleNamespace(HTML=str, display=display),
+        }
         with unittest.mock.patch.dict(sys.modules, modules):
             bar = ProgressBar("<set>")
             bar.update(0.25, "1 of 4 frames")

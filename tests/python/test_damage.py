@@ -26,23 +26,53 @@ def png(array):
 
 
 def files(**more):
-    image = {"id": 1, "file_name": "images/run000/d1/000000.jpg", "width": 6, "height": 4, "run": "run000", "camera_id": "d1",
-             "frame": 0, "time_s": 0}
-    record = {"id": 11, "image_id": 1, "category_id": 1, "bbox": [0, 0, 2, 2], "area": 4, "track_id": 1,
-              "segmentation": {"size": [4, 6], "counts": [0, 2, 2, 2, 18]}}
+    image = {
+        "id": 1,
+        "file_name": "images/run000/d1/000000.jpg",
+        "width": 6,
+        "height": 4,
+        "run": "run000",
+        "camera_id": "d1",
+        "frame": 0,
+        "time_s": 0,
+    }
+    record = {
+        "id": 11,
+        "image_id": 1,
+        "category_id": 1,
+        "bbox": [0, 0, 2, 2],
+        "area": 4,
+        "track_id": 1,
+        "segmentation": {"size": [4, 6], "counts": [0, 2, 2, 2, 18]},
+    }
     jpeg = io.BytesIO()
     Image.new("RGB", (6, 4), (200, 10, 10)).save(jpeg, "JPEG")
     density = io.BytesIO()
     np.save(density, np.zeros((4, 6), np.float32))
     lines = json.dumps(record, separators=(",", ":"))
-    text = '{"info":{},\n"categories":[],\n"tracks":[\n],\n"images":[\n' + json.dumps(image) + '\n],\n"annotations":[\n' + lines + "\n]}\n"
-    content = {LABELS: text.encode(), "images/run000/d1/000000.jpg": jpeg.getvalue(),
-               "density/run000/d1/000000.npy": density.getvalue(),
-               "depth/run000/d1/000000.png": png(np.full((4, 6), 500, np.uint16)),
-               "exits/run000.csv": b"frame,exit\n0,a\n", "metrics.json": b"{}", "dataset.json": b"{}"}
+    text = (
+        '{"info":{},\n"categories":[],\n"tracks":[\n],\n"images":[\n'
+        + json.dumps(image)
+        + '\n],\n"annotations":[\n'
+        + lines
+        + "\n]}\n"
+    )
+    content = {
+        LABELS: text.encode(),
+        "images/run000/d1/000000.jpg": jpeg.getvalue(),
+        "density/run000/d1/000000.npy": density.getvalue(),
+        "depth/run000/d1/000000.png": png(np.full((4, 6), 500, np.uint16)),
+        "exits/run000.csv": b"frame,exit\n0,a\n",
+        "metrics.json": b"{}",
+        "dataset.json": b"{}",
+    }
     content.update(more)
-    manifest = {"files": [{"path": name, "bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()}
-                          for name, data in content.items()]}
+    manifest = {
+        "files": [
+            {"path": name, "bytes": len(data), "sha256": hashlib.sha256(data).hexdigest()}
+            for name, data in content.items()
+        ]
+    }
     content["manifest.json"] = json.dumps(manifest).encode()
     return content
 
@@ -66,7 +96,9 @@ class Damage(unittest.TestCase):
                     entry.size = len(data)
                     archive.addfile(entry, io.BytesIO(data))
         else:
-            with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED if kind == "deflated" else zipfile.ZIP_STORED) as archive:
+            with zipfile.ZipFile(
+                path, "w", zipfile.ZIP_DEFLATED if kind == "deflated" else zipfile.ZIP_STORED
+            ) as archive:
                 for name, data in content.items():
                     archive.writestr(name, data)
         return path
@@ -149,8 +181,13 @@ class Damage(unittest.TestCase):
         self.assertEqual([p for p in self.folder.parent.glob("evil.txt")], [])
 
     def test_links_and_devices(self):
-        for kind, target in ((tarfile.SYMTYPE, "/etc/passwd"), (tarfile.LNKTYPE, "../x"), (tarfile.LNKTYPE, "missing"),
-                             (tarfile.CHRTYPE, ""), (tarfile.FIFOTYPE, "")):
+        for kind, target in (
+            (tarfile.SYMTYPE, "/etc/passwd"),
+            (tarfile.LNKTYPE, "../x"),
+            (tarfile.LNKTYPE, "missing"),
+            (tarfile.CHRTYPE, ""),
+            (tarfile.FIFOTYPE, ""),
+        ):
             path = self.write(files(), "tar")
             with tarfile.open(path, "a") as archive:
                 entry = tarfile.TarInfo("link")
@@ -182,21 +219,31 @@ class Damage(unittest.TestCase):
         self.refused(self.folder / "lie")
         # A PNG of the right size on paper with pixels for many more.
         head = struct.pack(">IIBBBBB", 6, 4, 16, 0, 0, 0, 0)
-        chunks = b"".join(struct.pack(">I", len(b)) + k + b + struct.pack(">I", zlib.crc32(k + b))
-                          for k, b in ((b"IHDR", head), (b"IDAT", zlib.compress(bytes(30 << 20))), (b"IEND", b"")))
+        chunks = b"".join(
+            struct.pack(">I", len(b)) + k + b + struct.pack(">I", zlib.crc32(k + b))
+            for k, b in ((b"IHDR", head), (b"IDAT", zlib.compress(bytes(30 << 20))), (b"IEND", b""))
+        )
         with self.assertRaisesRegex(DatasetError, "bytes of pixels"):
             _png.decode(b"\x89PNG\r\n\x1a\n" + chunks, "x.png", (4, 6))
 
     def test_wrong_json(self):
         good = files()[LABELS]
         for old, new, words in (
-            (good, b"", "JSON"), (good, b"[1]", "object"), (b'"images":[', b'"pictures":[', "/images"),
-            (b'"width": 6', b'"width": "6"', "/images/0/width"), (b'"width": 6', b'"width": 99999999', "pixels"),
-            (b'"image_id":1,', b'"image_id":7,', "image_id 7"), (b'"annotations":[', b'"annotations":[}', "JSON"),
-            (b'"bbox":[0,0,2,2]', b'"bbox":[0,0,"x",2]', "bbox"), (b'"bbox":[0,0,2,2]', b'"bbox":[0,0,2]', "bbox"),
-            (b'"track_id":1', b'"track_id":1,', "JSON"), (b'[0,2,2,2,18]', b'[0,2,2,2,19]', "segmentation"),
-            (b'"bbox":[0,0,2,2],', b"", "bbox"), (b'"image_id":1,', b'"image_id":' + b"1" * 5000 + b",", "JSON"),
-            (good, b"[" * 100000, "JSON"), (b'"category_id":1', b'"category_id":1,"x":' + b"[" * 100000, "JSON"),
+            (good, b"", "JSON"),
+            (good, b"[1]", "object"),
+            (b'"images":[', b'"pictures":[', "/images"),
+            (b'"width": 6', b'"width": "6"', "/images/0/width"),
+            (b'"width": 6', b'"width": 99999999', "pixels"),
+            (b'"image_id":1,', b'"image_id":7,', "image_id 7"),
+            (b'"annotations":[', b'"annotations":[}', "JSON"),
+            (b'"bbox":[0,0,2,2]', b'"bbox":[0,0,"x",2]', "bbox"),
+            (b'"bbox":[0,0,2,2]', b'"bbox":[0,0,2]', "bbox"),
+            (b'"track_id":1', b'"track_id":1,', "JSON"),
+            (b"[0,2,2,2,18]", b"[0,2,2,2,19]", "segmentation"),
+            (b'"bbox":[0,0,2,2],', b"", "bbox"),
+            (b'"image_id":1,', b'"image_id":' + b"1" * 5000 + b",", "JSON"),
+            (good, b"[" * 100000, "JSON"),
+            (b'"category_id":1', b'"category_id":1,"x":' + b"[" * 100000, "JSON"),
         ):
             with self.subTest(new=new[:60]):
                 self.assertIn(old, good)
@@ -222,8 +269,11 @@ class Damage(unittest.TestCase):
         for name in ("depth/run000/d1/000000.png", "images/run000/d1/000000.jpg", "density/run000/d1/000000.npy"):
             whole = files()[name]
             kind = name.split("/")[0].removesuffix("s")
-            other = {"depth": png(np.zeros((4, 7), np.uint16)), "image": png(np.zeros((4, 7, 3), np.uint8)),
-                     "density": b"\x93NUMPY\1\0"}[kind]
+            other = {
+                "depth": png(np.zeros((4, 7), np.uint16)),
+                "image": png(np.zeros((4, 7, 3), np.uint8)),
+                "density": b"\x93NUMPY\1\0",
+            }[kind]
             for data in (b"", whole[: len(whole) // 2], b"x" * len(whole), other):
                 path = self.write(files(**{name: data}))
                 with self.subTest(name=name, data=data[:10]):
@@ -237,8 +287,12 @@ class Damage(unittest.TestCase):
         """Pillow chooses filters row by row."""
         rng = np.random.default_rng(2)
         smooth = (np.add.outer(np.arange(60) * 3, np.arange(50) * 5) % 256).astype(np.uint8)
-        for array in (smooth, smooth[:, :, None] + np.array([1, 50, 90], np.uint8), rng.integers(0, 256, (9, 8, 3), np.uint8),
-                      smooth.astype(np.uint16) * 257):
+        for array in (
+            smooth,
+            smooth[:, :, None] + np.array([1, 50, 90], np.uint8),
+            rng.integers(0, 256, (9, 8, 3), np.uint8),
+            smooth.astype(np.uint16) * 257,
+        ):
             data = png(array)
             np.testing.assert_array_equal(_png.decode(data, "x.png", array.shape[:2]), array)
         height, width = 5, 7
@@ -248,7 +302,8 @@ class Damage(unittest.TestCase):
             head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
             data = b"\x89PNG\r\n\x1a\n" + b"".join(
                 struct.pack(">I", len(b)) + k + b + struct.pack(">I", zlib.crc32(k + b))
-                for k, b in ((b"IHDR", head), (b"IDAT", zlib.compress(raw)), (b"IEND", b"")))
+                for k, b in ((b"IHDR", head), (b"IDAT", zlib.compress(raw)), (b"IEND", b""))
+            )
             with Image.open(io.BytesIO(data)) as picture:
                 np.testing.assert_array_equal(_png.decode(data, "x.png", (height, width)), np.array(picture))
 

@@ -1,4 +1,5 @@
-"""A dataset as Dataset reads it, from a folder, a tar and a zip file, against its files read by json, Pillow and NumPy."""
+"""A dataset as Dataset reads it, from a folder, a tar and a zip file, against its files read by json, Pillow and
+NumPy."""
 import csv
 import json
 import pickle
@@ -34,9 +35,11 @@ class Reading(unittest.TestCase):
             with zipfile.ZipFile(f"{folder}/{name}.zip", "w", method) as archive:
                 for file in sorted(cls.path.rglob("*")):
                     archive.write(file, f"my set/{file.relative_to(cls.path)}")
-        cls.datasets = {"folder": Dataset(cls.path), "job's folder": Dataset(cls.path.parent),
-                        **{name: Dataset(f"{folder}/{name}")
-                           for name in ("linked.tar", "plain.tar", "stored.zip", "deflated.zip")}}
+        cls.datasets = {
+            "folder": Dataset(cls.path),
+            "job's folder": Dataset(cls.path.parent),
+            **{name: Dataset(f"{folder}/{name}") for name in ("linked.tar", "plain.tar", "stored.zip", "deflated.zip")},
+        }
 
     @classmethod
     def tearDownClass(cls):
@@ -50,7 +53,9 @@ class Reading(unittest.TestCase):
                 self.assertEqual(sorted(dataset.runs), ["run000", "run001"])
                 self.assertEqual(sorted(dataset.cameras), ["d1", "d2", "d3"])
                 self.assertEqual(dataset.categories, {1: "person", 2: "drone"})
-                self.assertEqual({k: v.runs for k, v in dataset.splits.items()}, {"train": ["run000"], "val": ["run001"]})
+                self.assertEqual(
+                    {k: v.runs for k, v in dataset.splits.items()}, {"train": ["run000"], "val": ["run001"]}
+                )
                 self.assertEqual(dataset.metrics(), json.loads((self.path / "metrics.json").read_text()))
                 self.assertEqual(dataset.tracks(), {track["id"]: track for track in self.coco["tracks"]})
                 dataset.verify()
@@ -106,7 +111,9 @@ class Reading(unittest.TestCase):
                 np.testing.assert_array_equal(masks[i], ids == track - run * 1_000_000)
                 rows, columns = np.nonzero(masks[i])
                 x, y, width, height = people.boxes[i]
-                self.assertEqual((columns.min(), rows.min(), columns.max() + 1, rows.max() + 1), (x, y, x + width, y + height))
+                self.assertEqual(
+                    (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1), (x, y, x + width, y + height)
+                )
                 self.assertEqual(masks[i].sum(), people.areas[i])
                 self.assertFalse((masks[i] & ~whole[i]).any())
                 np.testing.assert_array_equal(masks[i], people.mask(i))
@@ -119,7 +126,9 @@ class Reading(unittest.TestCase):
             self.assertEqual(table.rows, len(rows), name)
             self.assertEqual(table["exit"].tolist(), [row["exit"] for row in rows])
             np.testing.assert_array_equal(table["density"], [float(row["density"]) for row in rows])
-            self.assertEqual(table.where(exit=rows[0]["exit"]).rows, sum(row["exit"] == rows[0]["exit"] for row in rows))
+            self.assertEqual(
+                table.where(exit=rows[0]["exit"]).rows, sum(row["exit"] == rows[0]["exit"] for row in rows)
+            )
             sensors = dataset.sensors("run000", "d1")
             self.assertGreater(sensors.rows, 500)
             self.assertAlmostEqual(float(sensors["true_z_m"][0]), 15)
@@ -136,20 +145,23 @@ class Reading(unittest.TestCase):
         """Indented, in another order, polygons and plain run lengths: what other tools write."""
         with tempfile.TemporaryDirectory() as folder:
             with zipfile.ZipFile(f"{folder}/a.zip", "w") as archive:
-                archive.writestr("annotations/instances.json", json.dumps(
-                    dict(reversed(self.coco.items())), indent=1))
+                archive.writestr("annotations/instances.json", json.dumps(dict(reversed(self.coco.items())), indent=1))
             dataset = Dataset(f"{folder}/a.zip")
             for frame in dataset:
                 self.assertEqual(list(frame.annotations), self.of_image[frame.id])
             mixed = [{"id": 2, "image_id": 8}, {"id": 1, "image_id": 7}, {"id": 3, "image_id": 8}]
-            mixed = [{**record, "category_id": 1, "bbox": [1, 1, 2, 2], "segmentation": [[1, 1, 3, 1, 3, 3, 1, 3]]}
-                     for record in mixed]
+            mixed = [
+                {**record, "category_id": 1, "bbox": [1, 1, 2, 2], "segmentation": [[1, 1, 3, 1, 3, 3, 1, 3]]}
+                for record in mixed
+            ]
             images = [{"id": i, "file_name": f"images/r/c/{i}.jpg", "width": 5, "height": 4} for i in (7, 8, 9)]
             lines = ",\n".join(json.dumps(record, separators=(",", ":")) for record in mixed)
             two_a_line = lines.replace(",\n", ",", 1)
-            for text in (json.dumps({"images": images, "annotations": mixed}),
-                         '{"images":' + json.dumps(images) + ',\n"annotations":[\n' + two_a_line + "\n]}\n",
-                         '{"images":' + json.dumps(images) + ',\n"annotations":[\n' + lines + "\n]}\n"):
+            for text in (
+                json.dumps({"images": images, "annotations": mixed}),
+                '{"images":' + json.dumps(images) + ',\n"annotations":[\n' + two_a_line + "\n]}\n",
+                '{"images":' + json.dumps(images) + ',\n"annotations":[\n' + lines + "\n]}\n",
+            ):
                 with zipfile.ZipFile(f"{folder}/b.zip", "w") as archive:
                     archive.writestr("annotations/instances.json", text)
                 dataset = Dataset(f"{folder}/b.zip")
@@ -157,11 +169,11 @@ class Reading(unittest.TestCase):
                 self.assertEqual(dataset[1].people.masks().sum(axis=(1, 2)).tolist(), [4, 4])
                 self.assertEqual(dataset[2].people.boxes_xyxy.shape, (0, 4))
                 self.assertEqual(dataset[2].people.masks().shape, (0, 4, 5))
-                with self.assertRaisesRegex(DatasetError, 'keypoints.*outputs.annotations'):
+                with self.assertRaisesRegex(DatasetError, "keypoints.*outputs.annotations"):
                     dataset[1].people.keypoints
-                with self.assertRaisesRegex(DatasetError, 'amodal'):
+                with self.assertRaisesRegex(DatasetError, "amodal"):
                     dataset[1].people.masks(amodal=True)
-                with self.assertRaisesRegex(DatasetError, 'depth/r/c/7.png.*outputs.annotations'):
+                with self.assertRaisesRegex(DatasetError, "depth/r/c/7.png.*outputs.annotations"):
                     dataset[0].depth()
 
 
@@ -170,8 +182,9 @@ class Views(unittest.TestCase):
         self.dataset = Dataset(common.dataset_folder())
 
     def test_filter(self):
-        self.assertEqual({f.sequence for f in self.dataset.filter(runs=["run001"], cameras=["d1", "d3"])},
-                         {"run001/d1", "run001/d3"})
+        self.assertEqual(
+            {f.sequence for f in self.dataset.filter(runs=["run001"], cameras=["d1", "d3"])}, {"run001/d1", "run001/d3"}
+        )
         self.assertEqual(len(self.dataset.filter(split="val")), 9)
         self.assertEqual({f.time_s for f in self.dataset.filter(from_s=8.5, to_s=9.5)}, {9.0})
         self.assertEqual(len(self.dataset.filter(lambda f: f.index == 2)), 6)
@@ -192,7 +205,9 @@ class Views(unittest.TestCase):
 
     def test_split(self):
         parts = self.dataset.split(train=0.5, val=0.5, seed=3)
-        self.assertEqual({frozenset(part.runs) for part in parts.values()}, {frozenset(["run000"]), frozenset(["run001"])})
+        self.assertEqual(
+            {frozenset(part.runs) for part in parts.values()}, {frozenset(["run000"]), frozenset(["run001"])}
+        )
         parts = self.dataset.split(train=0.7, val=0.2, test=0.1, by="frame", seed=1)
         self.assertEqual({name: len(part) for name, part in parts.items()}, {"train": 12, "val": 4, "test": 2})
         ids = [frame.id for part in parts.values() for frame in part]
@@ -209,16 +224,20 @@ class Views(unittest.TestCase):
 
     def test_resample_and_sample(self):
         half = self.dataset.resample(0.5)
-        self.assertEqual({(f.sequence, f.time_s) for f in half},
-                         {(f.sequence, f.time_s) for f in self.dataset if f.index in (0, 2)})
+        self.assertEqual(
+            {(f.sequence, f.time_s) for f in half}, {(f.sequence, f.time_s) for f in self.dataset if f.index in (0, 2)}
+        )
         self.assertEqual(len(self.dataset.resample(100)), 18)
         self.assertEqual(len(self.dataset.resample(0.01)), 6)
         self.assertEqual(len({f.id for f in self.dataset.sample(7, seed=2)}), 7)
         only = self.dataset.sample(5, weights=lambda f: f.run == "run001")
         self.assertEqual(only.runs, ["run001"])
         self.assertEqual(len(self.dataset.sample(50, replacement=True)), 50)
-        for call in (lambda: self.dataset.resample(0), lambda: self.dataset.sample(19), lambda: self.dataset.sample(
-                1, weights=lambda f: 0)):
+        for call in (
+            lambda: self.dataset.resample(0),
+            lambda: self.dataset.sample(19),
+            lambda: self.dataset.sample(1, weights=lambda f: 0),
+        ):
             with self.assertRaises(ValueError):
                 call()
 
@@ -227,7 +246,10 @@ class Views(unittest.TestCase):
         self.assertEqual(len(merged), 9 + 18 + 3)
         self.assertEqual(len({frame.id for frame in merged}), 30)
         self.assertEqual(len(merged.sequences), 3 + 6 + 3)
-        tracks = [{(int(t)) for f in merged if f.sequence.startswith(f"{i}:") for t in f.annotations.track_ids} for i in range(3)]
+        tracks = [
+            {(int(t)) for f in merged if f.sequence.startswith(f"{i}:") for t in f.annotations.track_ids}
+            for i in range(3)
+        ]
         self.assertFalse(tracks[0] & tracks[1] or tracks[1] & tracks[2] or tracks[0] & tracks[2])
         self.assertTrue(set.union(*tracks) <= merged.tracks().keys())
         self.assertEqual(merged[9].people.attributes, self.dataset[0].people.attributes)
@@ -248,16 +270,19 @@ class Views(unittest.TestCase):
             with zipfile.ZipFile(f"{folder}/a.zip", "w") as archive:
                 archive.writestr("annotations/instances.json", json.dumps(coco))
             again = Dataset(f"{folder}/a.zip")
-            self.assertEqual([f.annotations.track_ids.tolist() for f in again],
-                             [f.annotations.track_ids.tolist() for f in merged])
+            self.assertEqual(
+                [f.annotations.track_ids.tolist() for f in again], [f.annotations.track_ids.tolist() for f in merged]
+            )
 
     @unittest.skipUnless(common.has("pandas"), "pandas is not installed")
     def test_to_pandas(self):
         frame = self.dataset.to_pandas()
         self.assertEqual(len(frame), sum(len(f.annotations) for f in self.dataset))
         one = frame[(frame.sequence == "run001/d2") & (frame.frame == 1)]
-        self.assertEqual(one.track_id.tolist(),
-                         self.dataset.filter(lambda f: f.sequence == "run001/d2" and f.index == 1)[0].annotations.track_ids.tolist())
+        self.assertEqual(
+            one.track_id.tolist(),
+            self.dataset.filter(lambda f: f.sequence == "run001/d2" and f.index == 1)[0].annotations.track_ids.tolist(),
+        )
         self.assertEqual(len(self.dataset.exits("run000").to_pandas()), self.dataset.exits("run000").rows)
 
 

@@ -26,8 +26,11 @@ class Examples(unittest.TestCase):
 
     def serve(self):
         port_file = self.folder / "port"
-        server = subprocess.Popen([common.THRONG, "serve", "--data", self.folder / "data", "--port", "0", "--port-file", port_file],
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        server = subprocess.Popen(
+            [common.THRONG, "serve", "--data", self.folder / "data", "--port", "0", "--port-file", port_file],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         self.addCleanup(server.wait, 20)
         self.addCleanup(server.terminate)
         while not (port_file.exists() and port_file.read_text().strip()):
@@ -72,7 +75,9 @@ class Examples(unittest.TestCase):
             sys.modules["IPython"].get_ipython = lambda: None
         for path in sorted((common.ROOT / "python/notebooks").glob("*.ipynb")):
             notebook = json.loads(path.read_text())
-            self.assertEqual((notebook["nbformat"], len({c["id"] for c in notebook["cells"]})), (4, len(notebook["cells"])))
+            self.assertEqual(
+                (notebook["nbformat"], len({c["id"] for c in notebook["cells"]})), (4, len(notebook["cells"]))
+            )
             namespace = {}
             for cell in notebook["cells"]:
                 if cell["cell_type"] == "code":

@@ -35,7 +35,9 @@ class Masks(unittest.TestCase):
                 np.testing.assert_array_equal(masks.decode(segmentation, height, width), mask)
                 self.assertEqual(plain_decode(segmentation["counts"], height, width), mask.tolist())
                 counts = masks.run_lengths(segmentation["counts"]).tolist()
-                np.testing.assert_array_equal(masks.decode({"size": [height, width], "counts": counts}, height, width), mask)
+                np.testing.assert_array_equal(
+                    masks.decode({"size": [height, width], "counts": counts}, height, width), mask
+                )
 
     def test_many_at_once_are_those_one_by_one(self):
         rng = np.random.default_rng(4)
@@ -66,11 +68,21 @@ class Masks(unittest.TestCase):
     def test_damaged_segmentations(self):
         good = masks.encode(np.eye(6, dtype=bool))
         for segmentation in (
-            {"size": [6, 7], "counts": good["counts"]}, {"size": [6, 6], "counts": good["counts"][:-2]},
-            {"size": [6, 6], "counts": "~~~~"}, {"size": [6, 6], "counts": "o" * 20}, {"size": [6, 6], "counts": ""},
-            {"size": [6, 6], "counts": [-1, 37]}, {"size": [6, 6], "counts": [10**30]}, {"size": [6, 6]},
-            {"size": [6, 6], "counts": "\u00e4"}, {"size": [6, 6], "counts": ["x"]}, 7, [[1, 2, 3, 4]], [["x"]],
-            [[0, 0, float("nan"), 1, 2, 2]], [[1, 2, 3]],
+            {"size": [6, 7], "counts": good["counts"]},
+            {"size": [6, 6], "counts": good["counts"][:-2]},
+            {"size": [6, 6], "counts": "~~~~"},
+            {"size": [6, 6], "counts": "o" * 20},
+            {"size": [6, 6], "counts": ""},
+            {"size": [6, 6], "counts": [-1, 37]},
+            {"size": [6, 6], "counts": [10**30]},
+            {"size": [6, 6]},
+            {"size": [6, 6], "counts": "\u00e4"},
+            {"size": [6, 6], "counts": ["x"]},
+            7,
+            [[1, 2, 3, 4]],
+            [["x"]],
+            [[0, 0, float("nan"), 1, 2, 2]],
+            [[1, 2, 3]],
         ):
             with self.subTest(segmentation=segmentation), self.assertRaises(DatasetError):
                 masks.decode(segmentation, 6, 6)

@@ -32,7 +32,9 @@ made["stat"]
 
 
 def call(code, cwd, *arguments):
-    return subprocess.run([sys.executable, "-I", "-c", code, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, check=False)
+    return subprocess.run(
+        [sys.executable, "-I", "-c", code, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, check=False
+    )
 
 
 class Package(unittest.TestCase):
@@ -53,7 +55,10 @@ class Package(unittest.TestCase):
         shutil.copytree(PACKAGE, source, ignore=shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__"))
         archive = self.build(source, "sdist")
         with tarfile.open(archive) as file:
-            file.extractall(self.folder / "unpacked", filter="data") if sys.version_info >= (3, 12) else file.extractall(self.folder / "unpacked")
+            file.extractall(self.folder / "unpacked", filter="data") if sys.version_info >= (
+                3,
+                12,
+            ) else file.extractall(self.folder / "unpacked")
         again = next((self.folder / "unpacked").iterdir())
         wheels = {}
         for name, folder in (("direct", source), ("from the archive", again)):
@@ -63,8 +68,11 @@ class Package(unittest.TestCase):
         self.assertEqual(wheels["direct"], wheels["from the archive"])
         modules = {f"throng/{path.name}" for path in (PACKAGE / "throng").glob("*.py")} | {"throng/py.typed"}
         self.assertEqual({name for name in wheels["direct"] if name.startswith("throng/")}, modules)
-        done = call("import sys; sys.path.insert(0, sys.argv[1]); import throng; print(throng.__file__, throng.__version__)",
-                    self.folder, self.folder / "installed")
+        done = call(
+            "import sys; sys.path.insert(0, sys.argv[1]); import throng; print(throng.__file__, throng.__version__)",
+            self.folder,
+            self.folder / "installed",
+        )
         version = re.search(r"project\(throng VERSION ([\d.]+)", (common.ROOT / "CMakeLists.txt").read_text())[1]
         self.assertEqual(done.stdout.split(), [str(self.folder / "installed/throng/__init__.py"), version])
         metadata = next(text for name, text in wheels["direct"].items() if name.endswith("METADATA")).decode()
@@ -74,12 +82,24 @@ class Package(unittest.TestCase):
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_type_hints(self):
         environment = {**os.environ, "MYPYPATH": str(PACKAGE), "MYPY_CACHE_DIR": str(common.folder() / "mypy")}
-        done = subprocess.run(["mypy", "--strict", PACKAGE / "throng", PACKAGE / "generate_types.py"], env=environment,
-                              capture_output=True, text=True, cwd=self.folder, check=False)
+        done = subprocess.run(
+            ["mypy", "--strict", PACKAGE / "throng", PACKAGE / "generate_types.py"],
+            env=environment,
+            capture_output=True,
+            text=True,
+            cwd=self.folder,
+            check=False,
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
         (self.folder / "consumer.py").write_text(CONSUMER)
-        told = subprocess.run(["mypy", "--strict", "consumer.py"], env=environment, capture_output=True, text=True,
-                              cwd=self.folder, check=False).stdout
+        told = subprocess.run(
+            ["mypy", "--strict", "consumer.py"],
+            env=environment,
+            capture_output=True,
+            text=True,
+            cwd=self.folder,
+            check=False,
+        ).stdout
         for line, words in ((7, "Dataset"), (9, "ndarray"), (12, "queued"), (13, "quality"), (14, "sed"), (15, "stat")):
             self.assertRegex(told, rf"consumer.py:{line}: .*{words}")
         self.assertEqual(len(re.findall(": error:", told)), 4, told)

@@ -11,12 +11,18 @@ import numpy as np
 from throng import Trace, TraceError
 
 HALL = {
-    "name": "Hall", "ground": {"min": [-10, -10], "max": [30, 20], "material": "concrete"},
-    "inside": {"min": [0, 0], "max": [20, 10]}, "exits": [{"id": "door", "from": [20, 3], "to": [20, 7]}],
+    "name": "Hall",
+    "ground": {"min": [-10, -10], "max": [30, 20], "material": "concrete"},
+    "inside": {"min": [0, 0], "max": [20, 10]},
+    "exits": [{"id": "door", "from": [20, 3], "to": [20, 7]}],
     "drones": [{"id": "view", "start": [10, 5, 30], "yaw_deg": 0}],
-    "buildings": [{"id": "w", "box": [-0.4, 0, 0, 10], "height_m": 2}, {"id": "s", "box": [0, -0.4, 20, 0], "height_m": 2},
-                  {"id": "n", "box": [0, 10, 20, 10.4], "height_m": 2}, {"id": "e1", "box": [20, 0, 20.4, 3], "height_m": 2},
-                  {"id": "e2", "box": [20, 7, 20.4, 10], "height_m": 2}],
+    "buildings": [
+        {"id": "w", "box": [-0.4, 0, 0, 10], "height_m": 2},
+        {"id": "s", "box": [0, -0.4, 20, 0], "height_m": 2},
+        {"id": "n", "box": [0, 10, 20, 10.4], "height_m": 2},
+        {"id": "e1", "box": [20, 0, 20.4, 3], "height_m": 2},
+        {"id": "e2", "box": [20, 7, 20.4, 10], "height_m": 2},
+    ],
     "people": {"groups": [{"doing": "leave", "box": [1, 1, 8, 9], "count": 40}]},
 }
 
@@ -29,8 +35,11 @@ class Traces(unittest.TestCase):
         (folder / "hall.place.json").write_text(json.dumps(HALL))
         (folder / "job.json").write_text(json.dumps({"scenario": "hall", "seed": 3, "capture": {"to_s": 40}}))
         environment = {"THRONG_SCENARIOS": str(folder / "s"), "PATH": "/usr/bin:/bin"}
-        for command in (["scenario", "make", "hall.place.json", "-o", "s"], ["simulate", "job.json", "-o", "run.h5"],
-                        ["metrics", "run.h5", "-o", "metrics.json"]):
+        for command in (
+            ["scenario", "make", "hall.place.json", "-o", "s"],
+            ["simulate", "job.json", "-o", "run.h5"],
+            ["metrics", "run.h5", "-o", "metrics.json"],
+        ):
             subprocess.run([common.THRONG, *command], cwd=folder, env=environment, check=True, capture_output=True)
         cls.path = folder / "run.h5"
         cls.metrics = json.loads((folder / "metrics.json").read_text())
@@ -45,7 +54,11 @@ class Traces(unittest.TestCase):
         with h5py.File(self.path) as file:
             present = (file["crowd/flags"][()] & 1) == 1
             np.testing.assert_array_equal(trace.present, present)
-            for name, values in (("position", trace.positions), ("velocity", trace.velocities), ("yaw_rad", trace.headings)):
+            for name, values in (
+                ("position", trace.positions),
+                ("velocity", trace.velocities),
+                ("yaw_rad", trace.headings),
+            ):
                 np.testing.assert_array_equal(values[present], file[f"crowd/{name}"][()][present].astype(float))
                 self.assertTrue(np.isnan(values[~present]).all())
             np.testing.assert_array_equal(trace.time_s, file["crowd/time_s"][()])
@@ -70,8 +83,9 @@ class Traces(unittest.TestCase):
         self.assertEqual(len(table), self.trace.present.sum())
         for agent in (0, 17):
             one = table[table.id == agent]
-            np.testing.assert_array_equal(one[["x", "y"]].to_numpy(),
-                                          self.trace.positions[self.trace.present[:, agent], agent])
+            np.testing.assert_array_equal(
+                one[["x", "y"]].to_numpy(), self.trace.positions[self.trace.present[:, agent], agent]
+            )
         self.assertEqual(len(self.trace.events().to_pandas()), self.trace.events().rows)
 
     def test_damaged_files(self):

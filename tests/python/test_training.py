@@ -22,7 +22,9 @@ class Training(unittest.TestCase):
                 people = frame.people
                 self.assertEqual((image.shape, image.dtype), ((3, 200, 320), np.float32))
                 np.testing.assert_allclose(image.transpose(1, 2, 0) * 255, frame.image(), atol=1e-3)
-                np.testing.assert_allclose(target["boxes"][:, 2:] - target["boxes"][:, :2], people.boxes[:, 2:], atol=1e-4)
+                np.testing.assert_allclose(
+                    target["boxes"][:, 2:] - target["boxes"][:, :2], people.boxes[:, 2:], atol=1e-4
+                )
                 np.testing.assert_allclose(target["boxes"][:, :2], people.boxes[:, :2], atol=1e-4)
                 self.assertEqual(target["labels"].tolist(), [1] * len(people))
                 self.assertEqual(int(target["image_id"]), frame.id)
@@ -32,7 +34,9 @@ class Training(unittest.TestCase):
                     np.testing.assert_allclose(target["keypoints"], people.keypoints, atol=1e-4)
         amodal = throng.DetectionDataset(self.dataset, amodal=True, tensors=False)[2][1]["boxes"]
         np.testing.assert_allclose(amodal[:, 2:] - amodal[:, :2], self.dataset[2].people.boxes_amodal[:, 2:], atol=1e-3)
-        doubled = throng.DetectionDataset(self.dataset, tensors=False, transform=lambda image, target: (image * 2, target))
+        doubled = throng.DetectionDataset(
+            self.dataset, tensors=False, transform=lambda image, target: (image * 2, target)
+        )
         np.testing.assert_array_equal(doubled[0][0], throng.DetectionDataset(self.dataset, tensors=False)[0][0] * 2)
         images, targets = throng.collate([doubled[0], doubled[1]])
         self.assertEqual((len(images), len(targets)), (2, 2))
@@ -68,8 +72,9 @@ class Training(unittest.TestCase):
     def test_tensors(self):
         import torch
 
-        loader = torch.utils.data.DataLoader(throng.DetectionDataset(self.dataset), batch_size=4, num_workers=2,
-                                             collate_fn=throng.collate)
+        loader = torch.utils.data.DataLoader(
+            throng.DetectionDataset(self.dataset), batch_size=4, num_workers=2, collate_fn=throng.collate
+        )
         images, targets = next(iter(loader))
         self.assertEqual((len(images), images[0].dtype, targets[0]["boxes"].dtype), (4, torch.float32, torch.float32))
 
@@ -96,20 +101,30 @@ class Training(unittest.TestCase):
 
 class OptionalPackages(unittest.TestCase):
     def test_only_numpy_is_imported(self):
-        code = ("import sys; sys.path.insert(0, sys.argv[1]); import throng; "
-                "print(sorted({'torch', 'pandas', 'matplotlib', 'shapely', 'h5py', 'PIL'} & set(sys.modules)))")
-        result = subprocess.run([sys.executable, "-c", code, str(common.ROOT / "python")], capture_output=True, text=True, check=True)
+        code = (
+            "import sys; sys.path.insert(0, sys.argv[1]); import throng; "
+            "print(sorted({'torch', 'pandas', 'matplotlib', 'shapely', 'h5py', 'PIL'} & set(sys.modules)))"
+        )
+        result = subprocess.run(
+            [sys.executable, "-c", code, str(common.ROOT / "python")], capture_output=True, text=True, check=True
+        )
         self.assertEqual(result.stdout.strip(), "[]")
 
     def test_a_missing_package_is_named(self):
-        code = ("import sys; sys.path.insert(0, sys.argv[1]); import throng\n"
-                "for name in ('PIL', 'pandas', 'matplotlib', 'h5py'): sys.modules[name] = None\n"
-                "dataset = throng.Dataset(sys.argv[2])\n"
-                "for call in (dataset[0].image, dataset.to_pandas, dataset.show, lambda: throng.Trace('x.h5')):\n"
-                "    try: call()\n"
-                "    except throng.MissingPackageError as error: print(error)\n")
-        result = subprocess.run([sys.executable, "-c", code, str(common.ROOT / "python"), common.dataset_folder()],
-                                capture_output=True, text=True, check=True)
+        code = (
+            "import sys; sys.path.insert(0, sys.argv[1]); import throng\n"
+            "for name in ('PIL', 'pandas', 'matplotlib', 'h5py'): sys.modules[name] = None\n"
+            "dataset = throng.Dataset(sys.argv[2])\n"
+            "for call in (dataset[0].image, dataset.to_pandas, dataset.show, lambda: throng.Trace('x.h5')):\n"
+            "    try: call()\n"
+            "    except throng.MissingPackageError as error: print(error)\n"
+        )
+        result = subprocess.run(
+            [sys.executable, "-c", code, str(common.ROOT / "python"), common.dataset_folder()],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         for package in ("python3-pil", "python3-pandas", "python3-matplotlib", "python3-h5py"):
             self.assertIn(f"apt-get install {package}", result.stdout)
         self.assertTrue(issubclass(MissingPackageError, ImportError))
