@@ -7,6 +7,7 @@ opened and each image's annotations are parsed when they are asked for. Any othe
 from __future__ import annotations
 
 import json
+import math
 import re
 from typing import Any
 
@@ -38,7 +39,10 @@ class LabelFile:
             self._buffer = None
             self._parsed = self._group(whole)
         self.info = self._of(whole, "info", dict, {})
-        self.categories = self._of(whole, "categories", list, [])
+        self.categories: list[Record] = self._of(whole, "categories", list, [])
+        for i, category in enumerate(self.categories):
+            if not (isinstance(category, dict) and isinstance(category.get("id"), int) and "name" in category):
+                raise DatasetError(f"{self.where}: /categories/{i}: found {_short(category)}, expected id and name")
         self.images: list[Record] = self._check_images(self._of(whole, "images", list, None))
         self.tracks = {
             track["id"]: track
@@ -121,6 +125,12 @@ class LabelFile:
                     f"{_MAX_PIXELS} at most"
                 )
             check_name(image["file_name"], f"{here}/file_name")
+            for key, kinds in _OPTIONAL.items():
+                value = image.get(key)
+                if value is not None and (not isinstance(value, kinds) or isinstance(value, bool)):
+                    raise DatasetError(f"{here}/{key}: found {_short(value)}, expected {_NAMES[kinds[-1]]}")
+            if not math.isfinite(image.get("time_s") or 0):
+                raise DatasetError(f"{here}/time_s: found {image['time_s']}, expected a finite number")
             if image["id"] in seen:
                 raise DatasetError(f"{here}/id: found {image['id']} twice, expected it once")
             seen.add(image["id"])
@@ -160,7 +170,15 @@ class LabelFile:
         return records
 
 
-_NAMES = {dict: "an object", list: "a list", int: "a whole number", str: "text"}
+_NAMES = {dict: "an object", list: "a list", int: "a whole number", float: "a number", str: "text"}
+# Keys of an image that may be missing or null.
+_OPTIONAL: dict[str, tuple[type, ...]] = {
+    **dict.fromkeys(("run", "camera_id", "density_file"), (str,)),
+    **dict.fromkeys(("camera", "sensor", "flight", "environment", "counts"), (dict,)),
+    "frame": (int,),
+    "time_s": (int, float),
+    "exits": (list,),
+}
 
 
 def _short(value: Any) -> str:

@@ -99,8 +99,10 @@ class Annotations(Sequence[Mapping[str, Any]]):
     def drones(self) -> Annotations:
         return self.select([record.get("category_id") == DRONE for record in self.records])
 
-    def _column(self, key: str, shape: tuple[int, ...], dtype: Any = np.float64, *, required: str = "") -> NDArray[Any]:
-        """The records' values; missing ones are NaN unless `required` says what would write them."""
+    def _column(
+        self, key: str, shape: tuple[int, ...], dtype: Any = np.float64, *, required: str = "", cut: int | None = None
+    ) -> NDArray[Any]:
+        """The records' values; missing ones are NaN unless `required` says what would write them. cut: of lists only so many."""
         values = [record.get(key) for record in self.records]
         if not values:
             return np.empty((0,) + shape, dtype=dtype)
@@ -112,6 +114,8 @@ class Annotations(Sequence[Mapping[str, Any]]):
                 raise DatasetError(f'{self._where}: found an annotation without "{key}", expected it in all')
             filler = np.full(shape, np.nan).tolist()
             values = [filler if value is None else value for value in values]
+        if cut is not None:
+            values = [value[:cut] if isinstance(value, list) else value for value in values]
         try:
             out = np.array(values, dtype=dtype)
         except (TypeError, ValueError, OverflowError):
@@ -162,7 +166,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
     @cached_property
     def truncation(self) -> FloatArray:
         """Share of the amodal box outside of the image."""
-        return np.array([record.get("truncation", 0.0) for record in self.records], dtype=np.float64)
+        return np.nan_to_num(self._column("truncation", ()))
 
     @cached_property
     def is_crowd(self) -> NDArray[np.bool_]:
@@ -176,8 +180,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
     @cached_property
     def velocities(self) -> FloatArray:
         """(N, 2): m/s on the ground."""
-        values = [None if (v := record.get("velocity")) is None else v[:2] for record in self.records]
-        return np.array([[np.nan] * 2 if v is None else v for v in values], dtype=np.float64).reshape(-1, 2)
+        return self._column("velocity", (2,), cut=2)  # drones have three
 
     @cached_property
     def headings(self) -> FloatArray:
@@ -194,7 +197,8 @@ class Annotations(Sequence[Mapping[str, Any]]):
         boxes = self.boxes_3d
         signs = np.array([[x, y, z] for z in (-1, 1) for x, y in ((1, -1), (1, 1), (-1, 1), (-1, -1))])
         local = signs[None] * boxes[:, None, 3:6] / 2
-        c, s = np.cos(boxes[:, 6:7]), np.sin(boxes[:, 6:7])
+        with np.errstate(invalid="ignore"):
+            c, s = np.cos(boxes[:, 6:7]), np.sin(boxes[:, 6:7])
         x = c * local[..., 0] - s * local[..., 1]
         y = s * local[..., 0] + c * local[..., 1]
         corners: FloatArray = boxes[:, None, :3] + np.stack((x, y, local[..., 2]), axis=-1)

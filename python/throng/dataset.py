@@ -289,11 +289,11 @@ class Dataset(Sequence[Frame]):
     def to_pandas(self) -> Any:
         """A pandas.DataFrame with a row per annotation."""
         pandas = require("pandas", "to_pandas()")
-        rows: list[dict[str, Any]] = []
+        columns: dict[str, list[Any]] = {}
         for frame in self:
-            for record in frame.annotations:
-                rows.append(_flat(frame, record))
-        return pandas.DataFrame(rows)
+            for name, values in _rows(frame).items():
+                columns.setdefault(name, []).extend(values)
+        return pandas.DataFrame(columns)
 
     def to_coco(self) -> dict[str, Any]:
         """A COCO dictionary of these frames, filters applied and ids made unique, as pycocotools reads it."""
@@ -373,33 +373,30 @@ def _shares_of(count: int, shares: Mapping[str, float]) -> dict[str, int]:
     return sizes
 
 
-def _flat(frame: Frame, record: Mapping[str, Any]) -> dict[str, Any]:
-    x, y, width, height = record["bbox"]
-    position = record.get("position") or [math.nan] * 3
-    velocity = record.get("velocity") or [math.nan] * 2
-    return {
+def _rows(frame: Frame) -> dict[str, Any]:
+    """Columns of to_pandas() of one frame."""
+    a = frame.annotations
+    count = len(a)
+    same = {
         "image_id": frame.id,
         "sequence": frame.sequence,
         "run": frame.run,
         "camera_id": frame.camera_id,
         "frame": frame.index,
         "time_s": frame.time_s,
-        "track_id": record.get("track_id", -1) + frame._source.track_offset,
-        "category": "person" if record.get("category_id") == PERSON else "drone",
-        "x": x,
-        "y": y,
-        "width": width,
-        "height": height,
-        "area_px": record.get("area"),
-        "visibility": record.get("visibility"),
-        "world_x_m": position[0],
-        "world_y_m": position[1],
-        "world_z_m": position[2],
-        "vx_mps": velocity[0],
-        "vy_mps": velocity[1],
-        "heading_rad": record.get("heading"),
-        "state": record.get("state"),
-        "exit": record.get("exit"),
+    }
+    return {
+        **{name: [value] * count for name, value in same.items()},
+        "track_id": a.track_ids,
+        "category": ["person" if category == PERSON else "drone" for category in a.category_ids],
+        **dict(zip(("x", "y", "width", "height"), a.boxes.T)),
+        "area_px": a.areas,
+        "visibility": a.visibility,
+        **dict(zip(("world_x_m", "world_y_m", "world_z_m"), a.positions.T)),
+        **dict(zip(("vx_mps", "vy_mps"), a.velocities.T)),
+        "heading_rad": a.headings,
+        "state": a.states,
+        "exit": a.exits,
     }
 
 

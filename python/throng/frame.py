@@ -53,22 +53,22 @@ class Frame:
 
     @property
     def run(self) -> str:
-        return str(self.record.get("run", ""))
+        return str(self.record.get("run") or "")
 
     @property
     def camera_id(self) -> str:
         """The drone that took the picture."""
-        return str(self.record.get("camera_id", ""))
+        return str(self.record.get("camera_id") or "")
 
     @property
     def index(self) -> int:
         """Number of the frame in its run."""
-        return int(self.record.get("frame", 0))
+        return int(self.record.get("frame") or 0)
 
     @property
     def time_s(self) -> float:
         """Seconds since the run began."""
-        return float(self.record.get("time_s", 0.0))
+        return float(self.record.get("time_s") or 0.0)
 
     @property
     def sequence(self) -> str:
@@ -83,30 +83,30 @@ class Frame:
     @property
     def environment(self) -> Mapping[str, Any]:
         """Light and weather."""
-        return dict(self.record.get("environment", {}))
+        return dict(self.record.get("environment") or {})
 
     @property
     def flight(self) -> Mapping[str, Any]:
         """The drone at time_s: what is true and what was measured."""
-        return dict(self.record.get("flight", {}))
+        return dict(self.record.get("flight") or {})
 
     @property
     def sensor(self) -> Mapping[str, Any]:
-        return dict(self.record.get("sensor", {}))
+        return dict(self.record.get("sensor") or {})
 
     @property
     def counts(self) -> Mapping[str, int]:
         """People in the image as the file has it, without regard to filters: all, visible, truncated."""
-        return dict(self.record.get("counts", {}))
+        return dict(self.record.get("counts") or {})
 
     @property
     def exits(self) -> list[Mapping[str, Any]]:
         """State of each exit, with its door and zone as polygons in box coordinates."""
-        return list(self.record.get("exits", []))
+        return list(self.record.get("exits") or [])
 
     @cached_property
     def camera(self) -> Camera:
-        if "camera" not in self.record:
+        if self.record.get("camera") is None:
             raise DatasetError(f"{self._where}: found no camera, expected one in the image's record")
         try:
             return Camera.from_record(self.record["camera"], self.width, self.height)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+from contextlib import contextmanager
 from functools import cached_property
-from typing import Any
+from typing import Any, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,39 +32,51 @@ class Trace:
         attributes = self._attributes()
         if _text(attributes.get("format", b"")) != "throng trace":
             raise TraceError(f'{self.path}: found no attribute format = "throng trace", expected a trace of throng')
-        version = int(attributes.get("version", 0))
+        version = _number(attributes.get("version"))
         if version != _VERSION:
-            raise TraceError(f"{self.path}: found version {version} of the trace file, expected {_VERSION}")
+            raise TraceError(f"{self.path}: found version {version:g} of the trace file, expected {_VERSION}")
         self.scenario = _text(attributes.get("scenario_id", b""))
         self.generator = _text(attributes.get("generator", b""))
-        self.seed = int(attributes.get("seed", 0))
-        self.dt_s = float(attributes.get("dt_s", 0))
+        seed = _number(attributes.get("seed"))
+        self.seed = int(seed) if np.isfinite(seed) else 0
+        self.dt_s = _number(attributes.get("dt_s"))
 
     def __repr__(self) -> str:
         return f"Trace({self.scenario}: {len(self.time_s)} steps of {len(self.roles)} agents)"
 
-    def _open(self) -> Any:
+    @contextmanager
+    def _open(self, what: str = "") -> Iterator[Any]:
+        """The file; whatever HDF5 finds wrong with it is a TraceError that names `what` was read."""
         h5py = require("h5py", "Trace")
+        where = f"{self.path}: {what}" if what else self.path
         try:
-            return h5py.File(self.path, "r")
+            with h5py.File(self.path, "r") as file:
+                yield file
         except FileNotFoundError:
             raise TraceError(f"{self.path}: found nothing there, expected a trace (HDF5)") from None
-        except OSError as error:
-            raise TraceError(f"{self.path}: found a file that is damaged or no HDF5 ({error})") from error
+        except (OSError, RuntimeError, ValueError, AttributeError, KeyError, TypeError, OverflowError) as error:
+            if isinstance(error, TraceError):
+                raise
+            raise TraceError(f"{where}: found a file that is damaged or no HDF5 ({error})") from error
 
     def _attributes(self) -> dict[str, Any]:
         with self._open() as file:
             return dict(file.attrs)
 
     def _read(self, name: str, dtype: Any = None) -> NDArray[Any]:
-        with self._open() as file:
+        with self._open(name) as file:
             if name not in file:
                 raise TraceError(f"{self.path}: found no {name}, expected it in a trace")
-            try:
-                values: NDArray[Any] = file[name][()]
-            except (OSError, ValueError, AttributeError, KeyError) as error:
-                raise TraceError(f"{self.path}: {name}: found damaged data ({error})") from error
-        return values if dtype is None else values.astype(dtype)
+            values: NDArray[Any] = np.asarray(file[name][()])
+            return values if dtype is None else values.astype(dtype)
+
+    def _crowd(self, name: str, dtype: Any, *more: int) -> NDArray[Any]:
+        """A dataset of shape (S, N, *more)."""
+        values = self._read(f"crowd/{name}", dtype)
+        if values.shape != (*self._flags.shape, *more):
+            expected = (*self._flags.shape, *more)
+            raise TraceError(f"{self.path}: crowd/{name}: found the shape {values.shape}, expected {expected}")
+        return values
 
     def _texts(self, name: str) -> list[str]:
         return [_text(value) for value in self._read(name)]
@@ -76,21 +89,24 @@ class Trace:
     @cached_property
     def positions(self) -> FloatArray:
         """(S, N, 2) m; NaN while an agent is not there."""
-        return np.where(self.present[..., None], self._read("crowd/position", np.float64), np.nan)
+        return np.where(self.present[..., None], self._crowd("position", np.float64, 2), np.nan)
 
     @cached_property
     def velocities(self) -> FloatArray:
         """(S, N, 2) m/s; NaN while an agent is not there."""
-        return np.where(self.present[..., None], self._read("crowd/velocity", np.float64), np.nan)
+        return np.where(self.present[..., None], self._crowd("velocity", np.float64, 2), np.nan)
 
     @cached_property
     def headings(self) -> FloatArray:
         """(S, N) rad, counter-clockwise from +x; NaN while an agent is not there."""
-        return np.where(self.present, self._read("crowd/yaw_rad", np.float64), np.nan)
+        return np.where(self.present, self._crowd("yaw_rad", np.float64), np.nan)
 
     @cached_property
     def _flags(self) -> NDArray[np.uint8]:
-        return self._read("crowd/flags", np.uint8)
+        flags = self._read("crowd/flags", np.uint8)
+        if flags.ndim != 2:
+            raise TraceError(f"{self.path}: crowd/flags: found the shape {flags.shape}, expected steps x agents")
+        return flags
 
     def _flag(self, bit: int) -> NDArray[np.bool_]:
         result: NDArray[np.bool_] = (self._flags & bit) != 0
@@ -121,7 +137,7 @@ class Trace:
     @cached_property
     def states(self) -> NDArray[np.uint8]:
         """(S, N) index into state_names."""
-        return self._read("crowd/state", np.uint8)
+        return self._crowd("state", np.uint8)
 
     @cached_property
     def exit_ids(self) -> list[str]:
@@ -130,7 +146,7 @@ class Trace:
     @cached_property
     def exit_intents(self) -> NDArray[np.int8]:
         """(S, N) index into exit_ids, -1 for none."""
-        return self._read("crowd/exit_intent", np.int8)
+        return self._crowd("exit_intent", np.int8)
 
     @cached_property
     def roles(self) -> list[str]:
@@ -164,7 +180,7 @@ class Trace:
         if drone_id not in self.drone_ids:
             raise KeyError(f"drone {drone_id!r}: there are {', '.join(self.drone_ids) or 'none'}")
         group = f"drones/{self.drone_ids.index(drone_id)}"
-        with self._open() as file:
+        with self._open(group) as file:
             names = list(file[group])
         return {name: self._read(f"{group}/{name}") for name in names}
 
@@ -211,3 +227,8 @@ class Trace:
 
 def _text(value: Any) -> str:
     return value.decode("utf-8", "replace").rstrip("\0") if isinstance(value, bytes) else str(value)
+
+
+def _number(value: Any) -> Any:
+    """An attribute that is one number; NaN otherwise."""
+    return value.item() if isinstance(value, np.generic) and value.dtype.kind in "iuf" else np.nan

@@ -1,9 +1,12 @@
 """Damaged and hostile datasets: every fault is a DatasetError that names the file, and nothing is written anywhere."""
+import collections
+import copy
 import hashlib
 import io
 import json
 import os
 import pathlib
+import random
 import struct
 import tarfile
 import tempfile
@@ -252,6 +255,54 @@ class Damage(unittest.TestCase):
         self.refused(self.write(files(**{"metrics.json": b"{"})), "metrics.json")
         self.refused(self.write(files(**{"exits/run000.csv": b"frame,exit\n0\n"})), "exits/run000.csv", "line 2")
         self.refused(self.write(files(**{"dataset.json": b"[]"})), "dataset.json", use=lambda p: Dataset(p).splits)
+
+    @unittest.skipUnless(common.THRONG, "needs the program")
+    def test_any_wrong_value(self):
+        """Values of a real label file replaced by others, one at a time: what is read is right or a DatasetError."""
+        coco = json.loads((common.dataset_folder() / LABELS).read_text())
+        coco["images"], coco["tracks"] = coco["images"][:2], coco["tracks"][:5]
+        ids = [image["id"] for image in coco["images"]]
+        coco["annotations"] = [a for a in coco["annotations"] if a["image_id"] in ids][:8]
+        rng = random.Random(7)
+        others = (None, "x", [], {}, -1, True, [[]], 10**20, "", [None], float("nan"), 0.5)
+        outcomes = collections.Counter()
+        for _ in range(400):
+            changed = copy.deepcopy(coco)
+            place = rng.choice(
+                [*changed["images"], *changed["annotations"], *changed["tracks"], *changed["categories"]]
+            )
+            while True:
+                key = rng.choice(list(place)) if isinstance(place, dict) else rng.randrange(len(place))
+                if not place[key] or not isinstance(place[key], (dict, list)) or rng.random() < 0.5:
+                    break
+                place = place[key]
+            place[key] = rng.choice(others)
+            path = self.folder / "changed"
+            (path / "annotations").mkdir(parents=True, exist_ok=True)
+            (path / LABELS).write_text(json.dumps(changed))
+            try:
+                self.read_all_columns(Dataset(path))
+                outcomes["read"] += 1
+            except DatasetError as error:
+                self.assertIn("changed", str(error))
+                outcomes["refused"] += 1
+        self.assertGreater(min(outcomes["read"], outcomes["refused"]), 50)
+
+    def read_all_columns(self, dataset):
+        dataset.name, dataset.runs, dataset.categories, dataset.splits, dataset.tracks(), dataset.resample(1.0)
+        dataset.to_coco()
+        if common.has("pandas"):
+            dataset.to_pandas()
+        for frame in dataset.filter_annotations(min_visibility=0.1, min_height_px=2, min_area_px=1, states=["walking"]):
+            frame.annotations.boxes
+        columns = [name for name, kind in vars(type(dataset[0].people)).items() if not name.startswith("_")]
+        for frame in dataset:
+            repr(frame), frame.exits, frame.environment, frame.flight, frame.sensor, frame.counts, frame.split
+            for name in columns:
+                value = getattr(frame.people, name)
+                if name in ("corners_3d", "masks"):
+                    value()
+            frame.camera.project(frame.people.positions)
 
     def test_missing_and_changed_files(self):
         for name in ("metrics.json", "exits/run000.csv", "depth/run000/d1/000000.png", "images/run000/d1/000000.jpg"):

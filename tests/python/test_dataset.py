@@ -277,7 +277,13 @@ class Views(unittest.TestCase):
     @unittest.skipUnless(common.has("pandas"), "pandas is not installed")
     def test_to_pandas(self):
         frame = self.dataset.to_pandas()
-        self.assertEqual(len(frame), sum(len(f.annotations) for f in self.dataset))
+        records = [record for f in self.dataset for record in f.annotations]
+        self.assertEqual(frame[["x", "y", "width", "height"]].to_numpy().tolist(), [r["bbox"] for r in records])
+        self.assertEqual(
+            frame[["world_x_m", "world_y_m", "world_z_m"]].to_numpy().tolist(), [r["position"] for r in records]
+        )
+        self.assertEqual(frame[["vx_mps", "vy_mps"]].to_numpy().tolist(), [r["velocity"][:2] for r in records])
+        self.assertEqual(frame["state"].tolist(), [r.get("state") for r in records])
         one = frame[(frame.sequence == "run001/d2") & (frame.frame == 1)]
         self.assertEqual(
             one.track_id.tolist(),

@@ -104,6 +104,24 @@ class Traces(unittest.TestCase):
                 Trace(folder / name)
         with self.assertRaisesRegex(TraceError, "crowd/flags"):
             Trace(folder / "empty.h5").present
+        for name, values in (("position", np.zeros((5, 40, 2))), ("state", np.zeros(7))):
+            (folder / "shape.h5").write_bytes(data)
+            with h5py.File(folder / "shape.h5", "a") as file:
+                del file[f"crowd/{name}"]
+                file[f"crowd/{name}"] = values
+            trace = Trace(folder / "shape.h5")
+            with self.assertRaisesRegex(TraceError, f"crowd/{name}.*shape"):
+                trace.positions, trace.states
+        # Bytes of its tables of contents changed; data beyond are not touched, since libhdf5 itself may crash then.
+        rng = np.random.default_rng(1)
+        for _ in range(60):
+            damaged = bytearray(data)
+            damaged[rng.integers(8, 96)] = rng.integers(256)
+            (folder / "header.h5").write_bytes(damaged)
+            try:
+                Trace(folder / "header.h5").positions
+            except TraceError as error:
+                self.assertIn("header.h5", str(error))
 
 
 if __name__ == "__main__":
