@@ -1,0 +1,83 @@
+"""throng: read synthetic crowd datasets, order them from the service, simulate evacuations in code.
+
+    import throng
+
+    dataset = throng.Dataset("dataset.tar")
+    frame = dataset[0]
+    frame.image(), frame.people.boxes, frame.people.masks(), frame.camera.project(frame.people.positions)
+"""
+
+from __future__ import annotations
+
+from . import job
+from ._version import __version__
+from .annotations import Annotations
+from .camera import Camera
+from .client import Client
+from .dataset import Dataset, merge
+from .errors import (
+    AccessError,
+    ConflictError,
+    ConnectionFailedError,
+    DatasetError,
+    InvalidRequestError,
+    JobFailedError,
+    MissingPackageError,
+    Mistake,
+    NotFoundError,
+    ProgramError,
+    ScenarioError,
+    ServiceError,
+    ThrongError,
+    TraceError,
+    UnavailableError,
+)
+from .frame import Frame
+from .plotting import animate, show
+from .program import find_program, metrics, run, simulate, study
+from .scenario import Scenario
+from .tables import Table
+from .trace import Trace
+from .training import CountingDataset, DetectionDataset, KeypointDataset, SegmentationDataset, TrackingDataset, collate
+
+__all__ = [
+    "__version__",
+    "AccessError",
+    "Annotations",
+    "Camera",
+    "Client",
+    "ConflictError",
+    "ConnectionFailedError",
+    "CountingDataset",
+    "Dataset",
+    "DatasetError",
+    "DetectionDataset",
+    "Frame",
+    "InvalidRequestError",
+    "JobFailedError",
+    "KeypointDataset",
+    "MissingPackageError",
+    "Mistake",
+    "NotFoundError",
+    "ProgramError",
+    "Scenario",
+    "ScenarioError",
+    "SegmentationDataset",
+    "ServiceError",
+    "Table",
+    "ThrongError",
+    "Trace",
+    "TraceError",
+    "TrackingDataset",
+    "UnavailableError",
+    "animate",
+    "collate",
+    "find_program",
+    "job",
+    "merge",
+    "metrics",
+    "run",
+    "show",
+    "simulate",
+    "study",
+]

@@ -1,0 +1,208 @@
+"""The part of the client that is about scenarios, calibrations, webhooks and the service itself."""
+
+# Answers are JSON, which openapi.json describes and api_types.py names; nothing checks them once more.
+# mypy: disable-error-code="no-any-return"
+
+from __future__ import annotations
+
+import os
+import ssl
+import time
+from pathlib import Path
+from typing import Any, Iterator, Literal, Mapping, Sequence
+
+from ._bundle import PathLike, bundle, json_bytes, path_of
+from ._http import BROKEN, Http, multipart, part
+from ._job_base import plain
+from .api_types import Calibration, CalibrationList, DeliveryList, Scenario, Upload, Webhook, WebhookList
+from .errors import JobFailedError
+
+DEFAULT_URL = "http://127.0.0.1:8080"
+
+
+class CatalogClient:
+    """Base class of Client."""
+
+    def __init__(
+        self,
+        url: str | None = None,
+        key: str | None = None,
+        *,
+        timeout_s: float = 60.0,
+        patience_s: float = 60.0,
+        ssl_context: ssl.SSLContext | None = None,
+    ) -> None:
+        self._http = Http(
+            url or os.environ.get("THRONG_URL") or DEFAULT_URL,
+            key or os.environ.get("THRONG_KEY") or None,
+            timeout_s,
+            patience_s,
+            ssl_context,
+        )
+
+    def __repr__(self) -> str:
+        return f"Client({self._http.url!r})"
+
+    # Scenarios.
+
+    def scenarios(self) -> list[Scenario]:
+        """The places that jobs can name."""
+        return self._get("/v1/scenarios")["scenarios"]
+
+    def scenario(self, scenario_id: str) -> Scenario:
+        return self._get(f"/v1/scenarios/{path_of(scenario_id)}")
+
+    def scenario_plan(self, scenario_id: str) -> str:
+        """The floor plan as SVG."""
+        return self._bytes(f"/v1/scenarios/{path_of(scenario_id)}", {"format": "svg"}).decode("utf-8")
+
+    def upload_scenario(self, path: PathLike, name: str, *, dry_run: bool = False) -> Upload:
+        """Sends a folder, .zip or .tar of scenarios; jobs name them NAME/... . findings says what is odd about them."""
+        return self._http.request(
+            "POST",
+            "/v1/scenarios",
+            query={"name": name, "dry_run": dry_run},
+            body=bundle(path),
+            content_type="application/octet-stream",
+        ).json()
+
+    def remove_scenario(self, name: str) -> None:
+        self._remove(f"/v1/scenarios/{path_of(name)}")
+
+    # Calibrations.
+
+    def calibrate(self, request: Mapping[str, Any], files: Sequence[PathLike] = ()) -> Calibration:
+        """Queues a calibration (docs/calibration.md) with the files that the request names."""
+        if not files:
+            return self._send("POST", "/v1/calibrations", plain(request))
+        parts: list[tuple[str, str | None, str, bytes]] = [
+            ("request", None, "application/json", json_bytes(plain(request)))
+        ]
+        for i, file in enumerate(files):
+            parts.append((f"file{i}", Path(file).name, "application/octet-stream", Path(file).read_bytes()))
+        body, content_type = multipart(parts)
+        return self._http.request("POST", "/v1/calibrations", body=body, content_type=content_type).json()
+
+    def calibration(self, calibration_id: str) -> Calibration:
+        """State and progress; `camera` once it has succeeded."""
+        return self._get(f"/v1/calibrations/{part(calibration_id)}")
+
+    def calibrations(self) -> Iterator[Calibration]:
+        after: str | None = None
+        while True:
+            answer: CalibrationList = self._get("/v1/calibrations", {"limit": 100, "after": after})
+            yield from answer["calibrations"]
+            after = answer["next"]
+            if after is None:
+                return
+
+    def wait_for_calibration(self, calibration_id: str, *, timeout_s: float = 600.0, check: bool = True) -> Calibration:
+        """Waits for its end; JobFailedError where it failed, unless check=False."""
+        deadline = time.monotonic() + timeout_s
+        while True:
+            calibration = self.calibration(calibration_id)
+            if calibration["state"] not in ("queued", "running"):
+                if check and calibration["state"] != "succeeded":
+                    raise JobFailedError(why(calibration), calibration)
+                return calibration
+            if time.monotonic() > deadline:
+                raise TimeoutError("the calibration has not ended in time")
+            time.sleep(0.2)
+
+    def calibration_result(self, calibration_id: str, name: Literal["camera", "opencv", "ros", "residuals"]) -> str:
+        """The camera as JSON, as OpenCV's or ROS' YAML, or the residuals as SVG."""
+        return self._bytes(f"/v1/calibrations/{part(calibration_id)}/{part(name)}").decode("utf-8")
+
+    def remove_calibration(self, calibration_id: str) -> None:
+        self._remove(f"/v1/calibrations/{part(calibration_id)}")
+
+    # Webhooks (administrators).
+
+    def create_webhook(self, url: str, events: Sequence[str] | None = None) -> Webhook:
+        """Has an address told of events; `secret` of the answer signs them and is shown once."""
+        return self._send("POST", "/v1/webhooks", {"url": url, **({"events": list(events)} if events else {})})
+
+    def webhooks(self) -> list[Webhook]:
+        answer: WebhookList = self._get("/v1/webhooks")
+        return answer["webhooks"]
+
+    def webhook(self, webhook_id: str) -> Webhook:
+        return self._get(f"/v1/webhooks/{part(webhook_id)}")
+
+    def enable_webhook(self, webhook_id: str, enabled: bool = True) -> Webhook:
+        return self._send("PATCH", f"/v1/webhooks/{part(webhook_id)}", {"enabled": enabled}, repeatable=True)
+
+    def remove_webhook(self, webhook_id: str) -> None:
+        self._remove(f"/v1/webhooks/{part(webhook_id)}")
+
+    def webhook_deliveries(self, webhook_id: str, limit: int = 50) -> DeliveryList:
+        return self._get(f"/v1/webhooks/{part(webhook_id)}/deliveries", {"limit": limit})
+
+    def ping_webhook(self, webhook_id: str) -> Any:
+        return self._send("POST", f"/v1/webhooks/{part(webhook_id)}/ping")
+
+    # What there is, and the service itself.
+
+    def people(self) -> Any:
+        return self._get("/v1/people")
+
+    def airframes(self) -> Any:
+        return self._get("/v1/airframes")
+
+    def policies(self) -> Any:
+        return self._get("/v1/policies")
+
+    def formats(self) -> Any:
+        return self._get("/v1/formats")
+
+    def schema(self) -> Any:
+        """The JSON Schema of a job."""
+        return self._get("/v1/schema")
+
+    def version(self) -> str:
+        return str(self._get("/v1/version")["version"])
+
+    def openapi(self) -> Any:
+        return self._get("/openapi.json")
+
+    def prometheus(self) -> str:
+        """Figures of the service in Prometheus' text format."""
+        return self._bytes("/metrics").decode("utf-8")
+
+    def is_alive(self) -> bool:
+        """Whether the service answers at all; never raises for one that does not."""
+        try:
+            with self._http.open("GET", "/healthz") as response:
+                return response.status == 200
+        except BROKEN:
+            return False
+
+    def is_ready(self) -> bool:
+        """Whether jobs can be taken in and worked on."""
+        try:
+            with self._http.open("GET", "/readyz") as response:
+                return response.status == 200
+        except BROKEN:
+            return False
+
+    def _get(self, path: str, query: Mapping[str, Any] | None = None) -> Any:
+        return self._http.request("GET", path, query=query).json()
+
+    def _bytes(self, path: str, query: Mapping[str, Any] | None = None) -> bytes:
+        return self._http.request("GET", path, query=query).body
+
+    def _send(self, method: str, path: str, body: Any = None, *, repeatable: bool = False) -> Any:
+        return self._http.request(method, path, json_body=body, repeatable=repeatable).json()
+
+    def _remove(self, path: str) -> None:
+        self._http.request("DELETE", path, repeatable=False)
+
+
+def why(job: Mapping[str, Any]) -> str:
+    error = job.get("error") or {}
+    lines = [
+        f"{job['name']} ({job['id']}) {'was cancelled' if job['state'] == 'cancelled' else 'failed'}"
+        + (f": {error.get('message')}" if error.get("message") else "")
+    ]
+    lines += ["  " + str(problem.get("message")) for problem in error.get("problems") or []]
+    return "\n".join(lines)

@@ -1,0 +1,386 @@
+"""What the service answers, as TypedDicts.
+
+Made by python/generate_types.py from server/openapi.json; do not edit.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NotRequired, TypedDict
+
+
+class Job(TypedDict):
+    """Job of the service."""
+
+    id: str
+    name: str
+    state: Literal["queued", "running", "succeeded", "partial", "failed", "cancelled"]
+    attempt: int
+    """How often work on it was begun or taken up."""
+    priority: int
+    labels: list[str]
+    owner: str | None
+    """The id of the key that it came with."""
+    created_at: str | None
+    started_at: str | None
+    ended_at: str | None
+    expires_at: str | None
+    """When it will be removed for its age; earlier where all jobs together take too much disk."""
+    keep: bool
+    """Never to be removed for its age."""
+    bytes: int
+    """Disk that its files take, measured when it ended."""
+    waiting_for: str | None
+    """Why nobody works on it although it is its turn."""
+    progress: Progress
+    error: JobError | None
+    links: dict[str, str]
+    job: dict[str, Any]
+    """With all defaults."""
+
+
+class JobList(TypedDict):
+    """JobList of the service."""
+
+    jobs: list[Job]
+    next: str | None
+
+
+class JobChange(TypedDict):
+    """JobChange of the service."""
+
+    priority: NotRequired[int]
+    labels: NotRequired[list[str]]
+    keep: NotRequired[bool]
+
+
+class JobErrorRun(TypedDict):
+    """JobErrorRun of the service."""
+
+    run: Any
+    task: Any
+    message: Any
+    attempts: Any
+
+
+class JobError(TypedDict):
+    """JobError of the service."""
+
+    kind: Literal["input", "environment", "partial"]
+    message: str
+    problems: list[Mistake]
+    runs: NotRequired[list[JobErrorRun]]
+    """Runs that failed, of a job that is partial."""
+
+
+class ProgressRun(TypedDict):
+    """ProgressRun of the service."""
+
+    run: Any
+    seed: Any
+    stage: Any
+    simulated_s: Any
+    duration_s: Any
+    frames_done: Any
+    frames_total: Any
+    frames_per_s: Any
+    remaining_s: Any
+
+
+class ProgressShard(TypedDict):
+    """ProgressShard of the service."""
+
+    shard: Any
+    frames_done: Any
+    frames_total: Any
+    frames_per_s: Any
+    remaining_s: Any
+
+
+class Progress(TypedDict):
+    """Empty before the job has begun."""
+
+    stage: NotRequired[Literal["waiting", "simulating", "rendering", "rendered", "finished", "failed"]]
+    frames_done: NotRequired[int]
+    frames_total: NotRequired[int]
+    runs: NotRequired[list[ProgressRun]]
+    shards: NotRequired[list[ProgressShard]]
+    """Those that somebody works on."""
+    frames_per_s: NotRequired[float]
+    """0 before the first."""
+    remaining_s: NotRequired[float | None]
+    """At this rate; null before the first frame."""
+
+
+class DryRun(TypedDict):
+    """DryRun of the service."""
+
+    valid: Literal[True]
+    runs: int
+    shards: int
+    frames: int
+    """Of all cameras."""
+    job: dict[str, Any]
+
+
+class Event(TypedDict):
+    """Event of the service."""
+
+    seq: int
+    job: str
+    at: str
+    type: Literal["submitted", "started", "resumed", "stage", "succeeded", "failed", "cancelled", "retried", "changed", "removed"]
+    data: dict[str, Any]
+
+
+class EventList(TypedDict):
+    """EventList of the service."""
+
+    events: list[Event]
+    next: int
+    """What to give as `after` next."""
+
+
+class LogListLog(TypedDict):
+    """LogListLog of the service."""
+
+    name: Any
+    bytes: Any
+    href: Any
+
+
+class LogList(TypedDict):
+    """LogList of the service."""
+
+    logs: list[LogListLog]
+
+
+class PreviewListPreview(TypedDict):
+    """PreviewListPreview of the service."""
+
+    name: Any
+    href: Any
+    clean: Any
+
+
+class PreviewList(TypedDict):
+    """PreviewList of the service."""
+
+    previews: list[PreviewListPreview]
+
+
+class Calibration(TypedDict):
+    """Calibration of the service."""
+
+    id: str
+    name: str
+    state: Literal["queued", "running", "succeeded", "failed", "cancelled"]
+    attempt: int
+    """How often work on it was begun or taken up."""
+    priority: int
+    labels: list[str]
+    owner: str | None
+    """The id of the key that it came with."""
+    created_at: str | None
+    started_at: str | None
+    ended_at: str | None
+    expires_at: str | None
+    """When it will be removed for its age; earlier where all jobs together take too much disk."""
+    keep: bool
+    """Never to be removed for its age."""
+    bytes: int
+    """Disk that its files take, measured when it ended."""
+    waiting_for: str | None
+    """Why nobody works on it although it is its turn."""
+    progress: dict[str, Any]
+    error: JobError | None
+    links: dict[str, str]
+    request: dict[str, Any]
+    camera: NotRequired[dict[str, Any]]
+
+
+class CalibrationList(TypedDict):
+    """CalibrationList of the service."""
+
+    calibrations: list[Calibration]
+    next: str | None
+    schema: dict[str, Any]
+    """The JSON schema of a request."""
+
+
+class ScenarioExit(TypedDict):
+    """ScenarioExit of the service."""
+
+    id: Any
+    width_m: Any
+    open: Any
+
+
+class Scenario(TypedDict):
+    """Scenario of the service."""
+
+    id: str
+    name: NotRequired[str]
+    description: NotRequired[str]
+    crowd_model: NotRequired[str | None]
+    ground_m: NotRequired[list[float]]
+    exits: NotRequired[list[ScenarioExit]]
+    drones: NotRequired[list[Any]]
+    buildings: NotRequired[int]
+    props: NotRequired[int]
+    error: NotRequired[str]
+    """Why it cannot be used."""
+    uploaded: NotRequired[None | Upload]
+    """Whose upload it is from; null: it came with throng."""
+
+
+class ScenarioList(TypedDict):
+    """ScenarioList of the service."""
+
+    scenarios: list[Scenario]
+
+
+class UploadFinding(TypedDict):
+    """UploadFinding of the service."""
+
+    pointer: Any
+    found: Any
+    expected: Any
+    message: Any
+    severity: Literal["error", "warning"]
+    remedy: str
+
+
+class Upload(TypedDict):
+    """Upload of the service."""
+
+    name: str
+    owner: str
+    """The id of the key that sent it."""
+    created_at: str
+    bytes: int
+    files: int
+    ids: NotRequired[list[str]]
+    """Of its scenarios."""
+    findings: NotRequired[list[UploadFinding]]
+    """What is odd about them and stops nobody (throng scenario check)."""
+
+
+JobField = Any
+
+
+class Mistake(TypedDict):
+    """Mistake of the service."""
+
+    pointer: str
+    found: str
+    expected: str
+    message: str
+    source: NotRequired[str]
+
+
+class Problem(TypedDict):
+    """RFC 9457"""
+
+    type: str
+    title: str
+    status: int
+    detail: str
+    errors: NotRequired[list[Mistake]]
+
+
+class Webhook(TypedDict):
+    """Webhook of the service."""
+
+    id: str
+    url: str
+    events: list[str]
+    enabled: bool
+    """False also when it has failed for a day."""
+    created_at: str | None
+    delivered_up_to: int
+    """The last event that is settled."""
+    failures: int
+    """In a row."""
+    failing_since: str | None
+    links: dict[str, str]
+    secret: NotRequired[str]
+    """In the answer to its creation only."""
+
+
+class WebhookList(TypedDict):
+    """WebhookList of the service."""
+
+    webhooks: list[Webhook]
+
+
+class Delivery(TypedDict):
+    """Delivery of the service."""
+
+    event: int
+    """0 for a ping."""
+    type: str
+    at: str | None
+    attempt: int
+    status: int | None
+    error: str | None
+    took_ms: int
+    succeeded: bool
+
+
+class DeliveryList(TypedDict):
+    """DeliveryList of the service."""
+
+    deliveries: list[Delivery]
+
+
+OPERATIONS = (
+    ("POST", "/v1/jobs"),
+    ("GET", "/v1/jobs"),
+    ("GET", "/v1/jobs/{id}"),
+    ("PATCH", "/v1/jobs/{id}"),
+    ("DELETE", "/v1/jobs/{id}"),
+    ("POST", "/v1/jobs/{id}/cancel"),
+    ("POST", "/v1/jobs/{id}/retry"),
+    ("POST", "/v1/jobs/{id}/clone"),
+    ("GET", "/v1/jobs/{id}/events"),
+    ("GET", "/v1/jobs/{id}/logs"),
+    ("GET", "/v1/jobs/{id}/logs/{name}"),
+    ("GET", "/v1/jobs/{id}/previews"),
+    ("GET", "/v1/jobs/{id}/previews/{path}"),
+    ("GET", "/v1/jobs/{id}/archive"),
+    ("GET", "/v1/jobs/{id}/manifest"),
+    ("GET", "/v1/jobs/{id}/files/{path}"),
+    ("GET", "/v1/jobs/{id}/metrics"),
+    ("GET", "/v1/jobs/{id}/report"),
+    ("GET", "/v1/jobs/{id}/plan"),
+    ("GET", "/v1/jobs/{id}/runs/{n}/metrics"),
+    ("GET", "/v1/jobs/{id}/runs/{n}/metrics.csv"),
+    ("GET", "/v1/events"),
+    ("POST", "/v1/calibrations"),
+    ("GET", "/v1/calibrations"),
+    ("GET", "/v1/calibrations/{id}"),
+    ("DELETE", "/v1/calibrations/{id}"),
+    ("GET", "/v1/calibrations/{id}/{name}"),
+    ("GET", "/v1/scenarios"),
+    ("POST", "/v1/scenarios"),
+    ("GET", "/v1/scenarios/{path}"),
+    ("DELETE", "/v1/scenarios/{path}"),
+    ("POST", "/v1/webhooks"),
+    ("GET", "/v1/webhooks"),
+    ("GET", "/v1/webhooks/{id}"),
+    ("PATCH", "/v1/webhooks/{id}"),
+    ("DELETE", "/v1/webhooks/{id}"),
+    ("GET", "/v1/webhooks/{id}/deliveries"),
+    ("POST", "/v1/webhooks/{id}/ping"),
+    ("GET", "/v1/airframes"),
+    ("GET", "/v1/people"),
+    ("GET", "/v1/policies"),
+    ("GET", "/v1/formats"),
+    ("GET", "/v1/schema"),
+    ("GET", "/v1/version"),
+    ("GET", "/openapi.json"),
+    ("GET", "/metrics"),
+    ("GET", "/healthz"),
+    ("GET", "/readyz"),
+)
+"""Every operation of the service: method and path."""

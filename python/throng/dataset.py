@@ -1,0 +1,403 @@
+"""A dataset of throng as a sequence of frames, read from a folder, a tar or a zip file without unpacking.
+
+Operations (filter, split, resample, ...) give new views; they copy no files and change none.
+"""
+
+from __future__ import annotations
+
+import copy
+import io
+import math
+import os
+from typing import Any, Callable, Collection, Iterator, Mapping, Sequence, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._optional import require
+from .annotations import PERSON, AnnotationFilter
+from .errors import DatasetError
+from .frame import Frame
+from .source import Source, verify_files
+from .tables import Table, read_csv
+
+_RUN_TRACKS = 1_000_000
+
+
+class Dataset(Sequence[Frame]):
+    """Frames of one or several datasets.
+
+    >>> dataset = Dataset("out/dataset")        # or a .tar or .zip file
+    >>> frame = dataset[0]
+    >>> frame.people.boxes, frame.image(), frame.camera.project(frame.people.positions)
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        source = Source(os.fspath(path))
+        self._sources: list[Source] = [source]
+        self._frames: list[tuple[int, int]] = [(0, i) for i in range(len(source.labels.images))]
+        self._keep: AnnotationFilter | None = None
+
+    def __len__(self) -> int:
+        return len(self._frames)
+
+    @overload
+    def __getitem__(self, index: int) -> Frame:
+        ...
+
+    @overload
+    def __getitem__(self, index: slice | list[int] | NDArray[Any]) -> Dataset:
+        ...
+
+    def __getitem__(self, index: Any) -> Frame | Dataset:
+        """A frame by its place; a slice or a list of places gives a Dataset."""
+        if isinstance(index, slice):
+            return self._view(self._frames[index])
+        if isinstance(index, (list, np.ndarray)):
+            return self._view([self._frames[int(i)] for i in index])
+        source, image = self._frames[index]
+        return Frame(self._sources[source], self._sources[source].labels.images[image], self._keep)
+
+    def __iter__(self) -> Iterator[Frame]:
+        for i in range(len(self)):
+            yield self[i]
+
+    def __repr__(self) -> str:
+        return f"Dataset({self.name!r}: {len(self)} frames of {len(self.sequences)} sequences)"
+
+    def _view(self, frames: Sequence[tuple[int, int]]) -> Dataset:
+        view = copy.copy(self)
+        view._frames = list(frames)
+        return view
+
+    # What the dataset says of itself.
+
+    @property
+    def name(self) -> str:
+        return " + ".join(str(source.labels.info.get("description", "")) for source in self._sources)
+
+    @property
+    def info(self) -> Mapping[str, Any]:
+        """dataset.json: conventions, job, splits, statistics, licence. Of the first dataset where several were
+        merged."""
+        return self._sources[0].description
+
+    @property
+    def manifest(self) -> Mapping[str, Any]:
+        """manifest.json: the job, seeds, every file with its size and SHA-256."""
+        return self._sources[0].manifest
+
+    @property
+    def categories(self) -> dict[int, str]:
+        return {int(c["id"]): str(c["name"]) for source in self._sources for c in source.labels.categories}
+
+    @property
+    def runs(self) -> list[str]:
+        """Names of the runs of the frames, in their order."""
+        return list(dict.fromkeys(frame.run for frame in self))
+
+    @property
+    def cameras(self) -> list[str]:
+        return list(dict.fromkeys(frame.camera_id for frame in self))
+
+    @property
+    def sequences(self) -> dict[str, list[int]]:
+        """Places of the frames of each run and camera, by time."""
+        places: dict[str, list[int]] = {}
+        for i, frame in enumerate(self):
+            places.setdefault(frame.sequence, []).append(i)
+        for frames in places.values():
+            frames.sort(key=lambda i: float(self[i].time_s))
+        return places
+
+    @property
+    def splits(self) -> dict[str, Dataset]:
+        """The splits that the job made, as datasets."""
+        places: dict[str, list[tuple[int, int]]] = {}
+        for place, frame in zip(self._frames, self):
+            if frame.split is not None:
+                places.setdefault(frame.split, []).append(place)
+        return {name: self._view(frames) for name, frames in places.items()}
+
+    def tracks(self) -> dict[int, Mapping[str, Any]]:
+        """Everybody with an annotation by track_id: run, group and attributes."""
+        return {
+            number + source.track_offset: track
+            for source in self._sources
+            for number, track in source.labels.tracks.items()
+        }
+
+    # Tables of runs.
+
+    def metrics(self) -> Any:
+        """metrics.json: figures of all runs (docs/metrics.md). A list of them where datasets were merged."""
+        values = [source.json("metrics.json") for source in self._sources]
+        return values[0] if len(values) == 1 else values
+
+    def exits(self, run: str) -> Table:
+        """Every exit at the time of every frame (docs/metrics.md); of the first dataset where several were merged."""
+        return self._csv(f"exits/{run}.csv")
+
+    def sensors(self, run: str, camera_id: str) -> Table:
+        """What a drone's sensors read, and the truth, about 60 rows a second."""
+        return self._csv(f"sensors/{run}/{camera_id}.csv")
+
+    def _csv(self, name: str) -> Table:
+        storage = self._sources[0].storage
+        return read_csv(storage.read(name), storage.where(name))
+
+    def field(self, run: str, frame: int) -> tuple[NDArray[np.float32], Mapping[str, Any]]:
+        """(4, rows, columns): people per m2, velocity in x and y, people per m2 by Voronoi cells; and the grid."""
+        source = self._sources[0]
+        grid = source.object(f"fields/{run}.json")
+        name = f"fields/{run}/{frame:06d}.npy"
+        try:
+            values = np.load(io.BytesIO(source.storage.read(name)), allow_pickle=False)
+        except (ValueError, OSError, EOFError) as error:
+            if isinstance(error, DatasetError):
+                raise
+            raise DatasetError(f"{source.storage.where(name)}: found no whole NumPy file ({error})") from error
+        expected = (4, grid.get("rows"), grid.get("columns"))
+        if values.shape != expected:
+            raise DatasetError(f"{source.storage.where(name)}: found the shape {values.shape}, expected {expected}")
+        return values, grid
+
+    # Views.
+
+    def filter(
+        self,
+        predicate: Callable[[Frame], bool] | None = None,
+        *,
+        runs: Collection[str] | None = None,
+        cameras: Collection[str] | None = None,
+        split: str | None = None,
+        min_people: int = 0,
+        from_s: float = -math.inf,
+        to_s: float = math.inf,
+    ) -> Dataset:
+        """The frames for which all conditions hold. min_people counts what filter_annotations left."""
+
+        def keeps(frame: Frame) -> bool:
+            return (
+                (runs is None or frame.run in runs)
+                and (cameras is None or frame.camera_id in cameras)
+                and (split is None or frame.split == split)
+                and from_s <= frame.time_s <= to_s
+                and (min_people <= 0 or len(frame.people) >= min_people)
+                and (predicate is None or predicate(frame))
+            )
+
+        return self._view([place for place, frame in zip(self._frames, self) if keeps(frame)])
+
+    def filter_annotations(
+        self,
+        predicate: Callable[[Mapping[str, Any]], bool] | None = None,
+        *,
+        categories: Collection[int] | None = None,
+        states: Collection[str] | None = None,
+        min_visibility: float = 0.0,
+        min_height_px: float = 0.0,
+        min_area_px: float = 0.0,
+    ) -> Dataset:
+        """The same frames with only those annotations for which all conditions hold.
+
+        min_height_px is of the whole person, predicate gets a record of the COCO file. It replaces an earlier filter.
+        """
+        view = self._view(self._frames)
+        view._keep = AnnotationFilter(
+            None if categories is None else frozenset(categories),
+            None if states is None else frozenset(states),
+            min_visibility,
+            min_height_px,
+            min_area_px,
+            predicate,
+        )
+        return view
+
+    def split(self, *, by: str = "run", seed: int = 0, **shares: float) -> dict[str, Dataset]:
+        """Random parts, for example split(train=0.8, val=0.2), that sum to at most 1.
+
+        by: "run" (default: frames of one run resemble each other), "sequence" (run and camera), "place" (the scenario,
+        for merged datasets) or "frame". Each part gets the whole groups that come nearest to its share of the groups,
+        at least one where its share is above 0.
+        """
+        total = math.fsum(shares.values())
+        if not shares or min(shares.values()) < 0 or total > 1 + 1e-9:
+            raise ValueError(f"shares: found {shares}, expected shares from 0 that sum to at most 1")
+        groups: dict[Any, list[tuple[int, int]]] = {}
+        for place, frame in zip(self._frames, self):
+            groups.setdefault(self._group_of(by, place, frame), []).append(place)
+        keys = list(groups)
+        wanted = sum(share > 0 for share in shares.values())
+        if len(keys) < wanted:
+            raise ValueError(
+                f'by="{by}": found {len(keys)} groups, expected at least one for each of {wanted} parts: '
+                'make a dataset of more runs, or split by "sequence" or "frame"'
+            )
+        order = np.random.default_rng(seed).permutation(len(keys))
+        parts: dict[str, Dataset] = {}
+        sizes = _shares_of(len(keys), shares)
+        start = 0
+        for name, size in sizes.items():
+            chosen = {place for i in order[start : start + size] for place in groups[keys[i]]}
+            parts[name] = self._view([place for place in self._frames if place in chosen])
+            start += size
+        return parts
+
+    def _group_of(self, by: str, place: tuple[int, int], frame: Frame) -> Any:
+        if by == "run":
+            return place[0], frame.run
+        if by == "sequence":
+            return frame.sequence
+        if by == "place":
+            return str(self._sources[place[0]].description.get("job", {}).get("scenario"))
+        if by == "frame":
+            return place
+        raise ValueError(f'by: found {by!r}, expected "run", "sequence", "place" or "frame"')
+
+    def resample(self, rate_hz: float) -> Dataset:
+        """Of each sequence the frames nearest to rate_hz a second from its first on; never more than there are."""
+        if not rate_hz > 0:
+            raise ValueError(f"rate_hz: found {rate_hz}, expected a number above 0")
+        chosen: set[int] = set()
+        for places in self.sequences.values():
+            times = np.array([self[i].time_s for i in places])
+            wanted = times[0] + np.arange(math.floor((times[-1] - times[0]) * rate_hz + 1e-6) + 1) / rate_hz
+            right = np.clip(np.searchsorted(times, wanted), 1, len(times) - 1) if len(times) > 1 else np.zeros(1, int)
+            left = np.maximum(right - 1, 0)
+            nearest = np.where(wanted - times[left] <= times[right] - wanted, left, right)
+            chosen.update(places[i] for i in nearest)
+        return self._view([self._frames[i] for i in sorted(chosen)])
+
+    def sample(
+        self, count: int, *, seed: int = 0, weights: Callable[[Frame], float] | None = None, replacement: bool = False
+    ) -> Dataset:
+        """count frames at random; with weights, in proportion to them."""
+        if count < 0 or (count > len(self) and not replacement) or (count and not len(self)):
+            raise ValueError(f"count: found {count}, expected 0 to {len(self)} (more with replacement=True)")
+        share = None
+        if weights is not None:
+            values = np.array([weights(frame) for frame in self], dtype=np.float64)
+            if not (np.isfinite(values).all() and (values >= 0).all() and values.sum() > 0):
+                raise ValueError("weights: expected finite numbers from 0, not all 0")
+            share = values / values.sum()
+        chosen = np.random.default_rng(seed).choice(len(self), size=count, replace=replacement, p=share)
+        return self._view([self._frames[i] for i in chosen])
+
+    # Other forms.
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame with a row per annotation."""
+        pandas = require("pandas", "to_pandas()")
+        columns: dict[str, list[Any]] = {}
+        for frame in self:
+            for name, values in _rows(frame).items():
+                columns.setdefault(name, []).extend(values)
+        return pandas.DataFrame(columns)
+
+    def to_coco(self) -> dict[str, Any]:
+        """A COCO dictionary of these frames, filters applied and ids made unique, as pycocotools reads it."""
+        images: list[dict[str, Any]] = []
+        annotations: list[dict[str, Any]] = []
+        for frame in self:
+            images.append({**frame.record, "id": frame.id})
+            for record, track in zip(frame.annotations.records, frame.annotations.track_ids):
+                annotations.append({**record, "id": len(annotations) + 1, "image_id": frame.id, "track_id": int(track)})
+        categories = {c["id"]: c for source in self._sources for c in source.labels.categories}
+        return {
+            "info": {"description": self.name, "version": "1"},
+            "licenses": [],
+            "categories": list(categories.values()),
+            "images": images,
+            "annotations": annotations,
+        }
+
+    def verify(self, *, complete: bool = True) -> None:
+        """Reads every file and compares size and SHA-256 with the manifest; DatasetError with the first difference.
+
+        complete=False lets files be missing, as in an archive that was downloaded in part. `throng validate` checks
+        more.
+        """
+        for source in self._sources:
+            verify_files(source.storage, source.manifest.get("files"), complete=complete)
+
+    def show(self, index: int = 0, **options: Any) -> Any:
+        """Draws a frame with its annotations; see throng.show."""
+        from .plotting import show
+
+        return show(self[index], **options)
+
+    def _merged_with(self, others: Sequence[Dataset]) -> Dataset:
+        merged = copy.copy(self)
+        merged._sources, merged._frames = [], []
+        images = tracks = 0
+        for dataset in (self, *others):
+            if dataset._keep != self._keep:
+                raise ValueError(
+                    "datasets: found different annotation filters, expected equal ones: filter after merging"
+                )
+            used = {place[0] for place in dataset._frames}
+            number_of: dict[int, int] = {}
+            for i, original in enumerate(dataset._sources):
+                if i not in used:
+                    continue
+                source = copy.copy(original)
+                labels = source.labels
+                source.image_offset, source.track_offset = images, tracks
+                source.prefix = f"{len(merged._sources)}:"
+                images += max((int(image["id"]) for image in labels.images), default=0)
+                highest = max(labels.tracks, default=0)
+                tracks += (highest // _RUN_TRACKS + 1) * _RUN_TRACKS
+                number_of[i] = len(merged._sources)
+                merged._sources.append(source)
+            merged._frames += [(number_of[source], image) for source, image in dataset._frames]
+        return merged
+
+
+def merge(datasets: Sequence[Dataset]) -> Dataset:
+    """One dataset of several; image and track ids are kept apart."""
+    if not datasets:
+        raise ValueError("datasets: found none, expected at least one")
+    return datasets[0] if len(datasets) == 1 else datasets[0]._merged_with(datasets[1:])
+
+
+def _shares_of(count: int, shares: Mapping[str, float]) -> dict[str, int]:
+    """Largest remainders; every share above 0 gets at least one."""
+    sizes = {name: max(int(share * count + 1e-9), 1 if share > 0 else 0) for name, share in shares.items()}
+    limit = min(count, round(math.fsum(shares.values()) * count))
+    limit = max(limit, sum(share > 0 for share in shares.values()))
+    while sum(sizes.values()) > limit:
+        sizes[max(sizes, key=lambda name: sizes[name] - shares[name] * count)] -= 1
+    while sum(sizes.values()) < limit:
+        sizes[max(sizes, key=lambda name: shares[name] * count - sizes[name])] += 1
+    return sizes
+
+
+def _rows(frame: Frame) -> dict[str, Any]:
+    """Columns of to_pandas() of one frame."""
+    a = frame.annotations
+    count = len(a)
+    same = {
+        "image_id": frame.id,
+        "sequence": frame.sequence,
+        "run": frame.run,
+        "camera_id": frame.camera_id,
+        "frame": frame.index,
+        "time_s": frame.time_s,
+    }
+    return {
+        **{name: [value] * count for name, value in same.items()},
+        "track_id": a.track_ids,
+        "category": ["person" if category == PERSON else "drone" for category in a.category_ids],
+        **dict(zip(("x", "y", "width", "height"), a.boxes.T)),
+        "area_px": a.areas,
+        "visibility": a.visibility,
+        **dict(zip(("world_x_m", "world_y_m", "world_z_m"), a.positions.T)),
+        **dict(zip(("vx_mps", "vy_mps"), a.velocities.T)),
+        "heading_rad": a.headings,
+        "state": a.states,
+        "exit": a.exits,
+    }
+
+
+__all__ = ["Dataset", "merge"]
