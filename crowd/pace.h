@@ -63,9 +63,6 @@ class Pace {
   Gait gait(const View& view, const Ahead& ahead) const;
 
  private:
-  /// How far straight on until one touches somebody who does not come towards one, m.
-  static float gap_m(const Crowd& crowd, const Grid& grid, const Surroundings& around);
-
   PaceSpec spec_;
 };
 

@@ -8,6 +8,7 @@
 #include "crowd/half_planes.h"
 #include "crowd/local_model.h"
 #include "crowd/orca_lines.h"
+#include "crowd/single_file.h"
 
 namespace throng::crowd {
 
@@ -22,7 +23,8 @@ enum Constant : std::size_t {
   steepness,
   jam_share,
   perception,
-  keep_right
+  keep_right,
+  headway
 };
 
 /// Forces between discs are integrated with this step, whatever the simulation's step is.
@@ -38,10 +40,11 @@ constexpr float kMaxForce = 15;      // m/s^2
 constexpr float kSamePlace = 1e-3F;  // m: nearer than that two have no direction
 constexpr float kSamePlaceSq = kSamePlace * kSamePlace;
 constexpr float kContact = 100;        // 1/s^2: force per depth of an overlap
-constexpr float kWall = 15;            // m/s^2 at a wall
+constexpr float kWall = 10;            // m/s^2 at a wall
 constexpr float kWallRange_m = 0.03F;  // over which that falls to 1/e
 constexpr float kWallReach_m = 1;      // walls farther away do not count
 constexpr float kShuffle_mps = 0.1F;  // forces make nobody faster than this or than they want to be
+constexpr float kCreep = 0.05F;       // of the free speed, in single file without a gap
 constexpr float kOncoming = -0.3F;    // cosine between the directions of two who meet
 constexpr float kMaxHalfTurn = 0.5463F;  // tangent of half of the largest turn to the right, 1 rad
 constexpr float kStepBack_mps = 4;       // speed of stepping back per oncoming person per m^2
@@ -105,8 +108,9 @@ class TimeToCollision : public LocalModel {
     float& perceived = perceived_[id];
     const auto dt_s = static_cast<float>(crowd.dt_s);
     perceived += std::min(1.0F, dt_s / constants_[perception]) * (seen.density.same - perceived);
-    const float speed = std::min(crowd.agents.preferred_speed[id],
-                                 speed_share(perceived) * crowd.agents[Property::pref_speed][id]);
+    const float free_mps = crowd.agents[Property::pref_speed][id];
+    const float share = std::min(speed_share(perceived), file_share(crowd, grid, around, free_mps));
+    const float speed = std::min(crowd.agents.preferred_speed[id], share * free_mps);
     const Eigen::Vector2f wanted =
         integrate(seen, grid.velocity(around.slot), speed, turned_right(direction, seen.density),
                   direction, grid.radius(around.slot), dt_s);
@@ -203,6 +207,16 @@ class TimeToCollision : public LocalModel {
     return std::max(fall, constants_[jam_share] * std::exp(-density / kJamDecline));
   }
 
+  /// Of the free speed: where there is room for one only, speed is at most the gap to the one ahead
+  /// by the headway (Seyfried et al. 2005, J. Stat. Mech. P10002).
+  float file_share(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+                   float free_mps) const {
+    const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
+    if (file <= 0 || free_mps <= 0) return 1;
+    const float gap = gap_ahead_m(crowd, grid, around) / (constants_[headway] * free_mps);
+    return 1 - file * (1 - std::clamp(gap, kCreep, 1.0F));
+  }
+
   /// Where somebody goes instead of straight on because of those who come towards them.
   Eigen::Vector2f turned_right(const Eigen::Vector2f& direction, const Density& density) const {
     if (density.oncoming <= 0) return direction;
@@ -296,7 +310,8 @@ ModelEntry ttc_model() {
             "times exp(-density / 2): share of the free speed that is left in a jam"},
            {"perception", 1, 0.01F, 100, "over which density is averaged, in s"},
            {"keep_right", 2, 0, 100,
-            "how far one turns right from those who come towards one, in rad m^2"}},
+            "how far one turns right from those who come towards one, in rad m^2"},
+           {"headway", 0.85F, 0.01F, 100, "time to the one ahead in single file, in s"}},
           make_ttc};
 }
 
