@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "jobs/executor.h"
+#include "jobs/queue/executor.h"
 #include "server/api.h"
 
 namespace throng::server {

@@ -11,10 +11,10 @@
 #include "calibrate/camera_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
-#include "jobs/calibrations.h"
-#include "jobs/local_processes.h"
-#include "jobs/profile.h"
-#include "jobs/supervisor.h"
+#include "jobs/queue/local_processes.h"
+#include "jobs/queue/profile.h"
+#include "jobs/queue/supervisor.h"
+#include "jobs/spec/calibrations.h"
 #include "world/scenario.h"
 
 namespace throng::cli {

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "jobs/folder.h"
-#include "jobs/spec.h"
+#include "jobs/queue/folder.h"
+#include "jobs/spec/spec.h"
 
 namespace throng::cli {
 

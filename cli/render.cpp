@@ -8,7 +8,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "cli/job_runner.h"
-#include "jobs/folder.h"
+#include "jobs/queue/folder.h"
 #include "world/trace.h"
 
 namespace throng::cli {

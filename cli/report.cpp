@@ -15,9 +15,9 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/scenario_named.h"
-#include "jobs/folder.h"
-#include "jobs/job_id.h"
-#include "jobs/job_scenario.h"
+#include "jobs/queue/folder.h"
+#include "jobs/queue/job_id.h"
+#include "jobs/spec/job_scenario.h"
 #include "study/run_report.h"
 #include "world/trace.h"
 

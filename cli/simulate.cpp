@@ -9,8 +9,8 @@
 #include "cli/interrupt.h"
 #include "cli/job_runner.h"
 #include "cli/progress_bar.h"
-#include "jobs/job_scenario.h"
-#include "jobs/pipeline.h"
+#include "jobs/pipeline/pipeline.h"
+#include "jobs/spec/job_scenario.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 

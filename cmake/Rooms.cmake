@@ -1,13 +1,17 @@
-# One library per room. A room declares the rooms and libraries it may use; an #include of any other room stops the configuration.
+# One library per module. A module declares the modules and libraries it may use; an #include of any other module stops
+# the configuration. A module may lie in a folder of another ("jobs/spec"): its library is throng_jobs_spec.
 
-# throng_room(NAME SOURCES file... ROOMS room... LIBRARIES target... PRIVATE_LIBRARIES target...)
+# throng_room(NAME SOURCES file... ROOMS module... LIBRARIES target... PRIVATE_LIBRARIES target...)
 function(throng_room name)
   cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
-  add_library(throng_${name} STATIC ${ARG_SOURCES})
-  add_library(throng::${name} ALIAS throng_${name})
-  list(TRANSFORM ARG_ROOMS PREPEND "throng::" OUTPUT_VARIABLE room_targets)
-  target_include_directories(throng_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
-  target_link_libraries(throng_${name} PUBLIC ${room_targets} ${ARG_LIBRARIES} PRIVATE throng_flags ${ARG_PRIVATE_LIBRARIES})
+  string(REPLACE "/" "_" target "${name}")
+  add_library(throng_${target} STATIC ${ARG_SOURCES})
+  add_library(throng::${target} ALIAS throng_${target})
+  set(room_targets "${ARG_ROOMS}")
+  list(TRANSFORM room_targets REPLACE "/" "_")
+  list(TRANSFORM room_targets PREPEND "throng::")
+  target_include_directories(throng_${target} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_link_libraries(throng_${target} PUBLIC ${room_targets} ${ARG_LIBRARIES} PRIVATE throng_flags ${ARG_PRIVATE_LIBRARIES})
   throng_check_includes(${name} "${ARG_ROOMS}")
 endfunction()
 
@@ -17,15 +21,34 @@ function(throng_kernels)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-Wno-psabi" SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# Fails when a file of the room includes a room that it did not declare.
+# The module that a path below the source folder belongs to, the innermost one: jobs/spec/plan.h is in jobs/spec. Empty
+# for a path in no module.
+function(throng_room_of path result)
+  set(${result} "" PARENT_SCOPE)
+  get_filename_component(folder "${path}" DIRECTORY)
+  while(NOT folder STREQUAL "")
+    if(folder IN_LIST THRONG_ROOMS)
+      set(${result} "${folder}" PARENT_SCOPE)
+      return()
+    endif()
+    get_filename_component(folder "${folder}" DIRECTORY)
+  endwhile()
+endfunction()
+
+# Fails when a file of the module includes a module that it did not declare.
 function(throng_check_includes name rooms)
-  file(GLOB_RECURSE files "${PROJECT_SOURCE_DIR}/${name}/*.h" "${PROJECT_SOURCE_DIR}/${name}/*.cpp")
+  file(GLOB_RECURSE files RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${name}/*.h" "${PROJECT_SOURCE_DIR}/${name}/*.cpp")
   foreach(file IN LISTS files)
-    file(STRINGS "${file}" includes REGEX "^#include \"[a-z]+/")
+    throng_room_of("${file}" room)
+    if(NOT room STREQUAL name)
+      continue() # of a module in a folder of this one
+    endif()
+    file(STRINGS "${PROJECT_SOURCE_DIR}/${file}" includes REGEX "^#include \"[a-z_]+/")
     foreach(line IN LISTS includes)
-      string(REGEX REPLACE "^#include \"([a-z]+)/.*" "\\1" used "${line}")
-      if(used IN_LIST THRONG_ROOMS AND NOT used STREQUAL name AND NOT used IN_LIST rooms)
-        message(FATAL_ERROR "${file} includes room '${used}', which room '${name}' does not declare in its CMakeLists.txt")
+      string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" path "${line}")
+      throng_room_of("${path}" used)
+      if(NOT used STREQUAL "" AND NOT used STREQUAL name AND NOT used IN_LIST rooms)
+        message(FATAL_ERROR "${PROJECT_SOURCE_DIR}/${file} includes room '${used}', which room '${name}' does not declare in its CMakeLists.txt")
       endif()
     endforeach()
   endforeach()
@@ -51,7 +74,7 @@ function(throng_embed target symbol file)
   set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# throng_test(NAME SOURCES file... LIBRARIES target...): one GoogleTest program per room, test_NAME.
+# throng_test(NAME SOURCES file... LIBRARIES target...): one GoogleTest program per module, test_NAME.
 function(throng_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})

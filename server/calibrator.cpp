@@ -15,7 +15,7 @@
 #include "base/json_text.h"
 #include "base/problem_json.h"
 #include "calibrate/request.h"
-#include "jobs/child_process.h"
+#include "jobs/queue/child_process.h"
 
 namespace throng::server {
 

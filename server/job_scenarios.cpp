@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
-#include "jobs/spec.h"
+#include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/job_service.h"
 

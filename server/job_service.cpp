@@ -12,9 +12,9 @@
 #include "base/json_text.h"
 #include "base/redact.h"
 #include "calibrate/request.h"
-#include "jobs/calibrations.h"
-#include "jobs/job_id.h"
-#include "jobs/spec.h"
+#include "jobs/queue/job_id.h"
+#include "jobs/spec/calibrations.h"
+#include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/data_folder.h"
 

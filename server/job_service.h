@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "base/error.h"
-#include "jobs/executor.h"
-#include "jobs/folder.h"
-#include "jobs/store.h"
-#include "jobs/supervisor.h"
+#include "jobs/queue/executor.h"
+#include "jobs/queue/folder.h"
+#include "jobs/queue/store.h"
+#include "jobs/queue/supervisor.h"
 #include "server/bell.h"
 #include "server/calibrator.h"
 #include "server/datasets.h"
@@ -169,7 +169,7 @@ class JobService {
   const std::filesystem::path& data_folder() const { return options_.data; }
   /// Where all scenarios are found: shipped ones and uploads.
   const std::filesystem::path& scenarios() const { return scenarios_.folder(); }
-  /// Where everything that belongs to a job lies (jobs/folder.h).
+  /// Where everything that belongs to a job lies (jobs/queue/folder.h).
   std::filesystem::path job_folder(const std::string& id) const { return folder_of(id).path(); }
 
   /// Where a job's dataset lies once it has succeeded.

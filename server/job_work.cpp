@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "jobs/faults.h"
-#include "jobs/spec.h"
+#include "jobs/queue/faults.h"
+#include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/data_folder.h"
 #include "server/job_service.h"

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "jobs/job_id.h"
-#include "jobs/plan.h"
-#include "jobs/spec.h"
+#include "jobs/queue/job_id.h"
+#include "jobs/spec/plan.h"
+#include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"

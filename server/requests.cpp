@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "jobs/job_id.h"
+#include "jobs/queue/job_id.h"
 #include "server/answers.h"
 #include "server/http.h"
 

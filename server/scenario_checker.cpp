@@ -14,9 +14,9 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "base/problem_json.h"
-#include "jobs/child_process.h"
-#include "jobs/scenario_check.h"
-#include "jobs/worker_limits.h"
+#include "jobs/pipeline/scenario_check.h"
+#include "jobs/queue/child_process.h"
+#include "jobs/queue/worker_limits.h"
 #include "server/answers.h"
 
 namespace throng::server {

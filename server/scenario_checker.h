@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/scenario_check.h"
+#include "jobs/pipeline/scenario_check.h"
 
 namespace throng::server {
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "jobs/job_scenario.h"
-#include "jobs/pipeline.h"
+#include "jobs/pipeline/pipeline.h"
+#include "jobs/spec/job_scenario.h"
 #include "places/plan.h"
 #include "server/answers.h"
 #include "server/http.h"

@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "jobs/local_processes.h"
+#include "jobs/queue/local_processes.h"
 #include "server/api.h"
 #include "server/job_service.h"
 #include "server/json_log.h"

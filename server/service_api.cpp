@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "formats/exporter.h"
-#include "jobs/spec.h"
+#include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"

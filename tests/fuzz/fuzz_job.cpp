@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "fuzz_folder.h"
-#include "jobs/spec.h"
+#include "jobs/spec/spec.h"
 #include "tests/jobs/yard.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "jobs/spec.h"
+#include "jobs/spec/spec.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {

@@ -1,7 +1,7 @@
 // What can be done with jobs over HTTP, and the stream of what happens to them.
 #include <gmock/gmock.h>
 
-#include "jobs/publication.h"
+#include "jobs/queue/publication.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {

@@ -11,7 +11,7 @@
 
 #include "base/files.h"
 #include "server/job_service.h"
-#include "tests/jobs/fake_executor.h"
+#include "tests/jobs/queue/fake_executor.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::server {
