@@ -40,7 +40,9 @@ class RunningService {
  public:
   RunningService()
       : data_(make_folder()),
-        service_({.data = data_, .scenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios"},
+        service_({.data = data_,
+                  .scenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios",
+                  .confined = jobs::confined_task_by_fork_server({THRONG_PROGRAM, "confined"})},
                  executor_),
         keys_(data_),
         hooks_(service_),

@@ -8,7 +8,7 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
-#include "calibrate/request.h"
+#include "calibrate/spec/request_files.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"

@@ -1,5 +1,6 @@
 // The part of JobService that keeps uploads as long as jobs need them.
 #include <fmt/core.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -7,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/resolved_job.h"
 #include "server/answers.h"
 #include "server/job_service.h"
 
@@ -64,45 +65,67 @@ std::vector<JobRow> JobService::jobs_that_name(const std::string& upload,
   }
 }
 
-template <typename Use>
-auto JobService::with_bundle(std::string_view job_json, std::string_view bundle,
-                             const std::string& owner, const Use& use) {
-  const std::string name = bundle_name_of(bundle);
-  const std::string job = naming(name, job_json);
-  // Unpacked and checked before others have to wait.
-  std::optional<ScenarioStore::Staged> staged;
-  if (!scenarios_.find(name)) staged = scenarios_.stage(name, bundle, owner);
-  const std::unique_lock lock(uploads_mutex_);
-  if (!scenarios_.find(name)) {
-    // It was there and has gone, with the last job that named it.
-    if (!staged) staged = scenarios_.stage(name, bundle, owner);
-    static_cast<void>(scenarios_.publish(*staged));
+/// A bundle that came with a request is there as long as this is; afterwards, if a job names it.
+class JobService::PinnedBundle {
+ public:
+  PinnedBundle(JobService& service, std::string_view bundle, const std::string& owner)
+      : service_(service), name_(bundle_name_of(bundle)) {
+    // Unpacked and checked before others have to wait.
+    std::optional<ScenarioStore::Staged> staged;
+    if (!service.scenarios_.find(name_)) staged = service.scenarios_.stage(name_, bundle, owner);
+    const std::unique_lock lock(service.uploads_mutex_);
+    if (!service.scenarios_.find(name_)) {
+      // It was there and has gone, with the last job that named it.
+      if (!staged) staged = service.scenarios_.stage(name_, bundle, owner);
+      static_cast<void>(service.scenarios_.publish(*staged));
+    }
+    service.pinned_.insert(name_);
   }
-  try {
-    return use(job);
-  } catch (...) {
-    drop_if_unused(name);
-    throw;
+  ~PinnedBundle() {
+    const std::unique_lock lock(service_.uploads_mutex_);
+    service_.pinned_.erase(service_.pinned_.find(name_));
+    if (is_kept_) return;
+    try {
+      service_.drop_if_unused(name_);
+    } catch (const std::exception& error) {
+      spdlog::warn("bundle {}: not removed: {}", name_, error.what());  // at the next start
+    }
   }
-}
+  PinnedBundle(const PinnedBundle&) = delete;
+  PinnedBundle& operator=(const PinnedBundle&) = delete;
+
+  const std::string& name() const { return name_; }
+  /// A job names it from now on.
+  void keep() { is_kept_ = true; }
+
+ private:
+  JobService& service_;
+  std::string name_;
+  bool is_kept_ = false;
+};
 
 jobs::Added JobService::submit_with_bundle(const Submission& submission, std::string_view bundle) {
-  return with_bundle(submission.job_json, bundle, submission.owner, [&](const std::string& job) {
-    Submission named = submission;
-    named.job_json = job;
-    jobs::Added added = add(named);
-    // A repeated submission's job may be another's, or be gone.
-    if (!added.is_new) drop_if_unused(bundle_name_of(bundle));
-    return added;
-  });
+  const std::string job = naming(bundle_name_of(bundle), submission.job_json);
+  PinnedBundle pinned(*this, bundle, submission.owner);
+  Submission named = submission;
+  named.job_json = job;
+  jobs::Added added = submit(named);
+  // A repeated submission's job may be another's, or be gone.
+  if (added.is_new) pinned.keep();
+  return added;
 }
 
-jobs::JobSpec JobService::checked_with_bundle(std::string_view job_json, std::string_view bundle) {
-  return with_bundle(job_json, bundle, "", [&](const std::string& job) {
-    jobs::JobSpec spec = checked(job);
-    drop_if_unused(bundle_name_of(bundle));
-    return spec;
-  });
+jobs::ResolvedJob JobService::checked_with_bundle(std::string_view job_json,
+                                                  std::string_view bundle) {
+  const std::string job = naming(bundle_name_of(bundle), job_json);
+  const PinnedBundle pinned(*this, bundle, "");
+  return checked(job);
+}
+
+void JobService::require_scenario(const jobs::JobSpec& job) const {
+  if (job.generate || std::filesystem::exists(scenarios() / (job.scenario + ".json"))) return;
+  throw InputError(Problem{"", "/scenario", fmt::format("scenario \"{}\"", job.scenario),
+                           "one that has not been removed"});
 }
 
 bool JobService::remove_scenarios(const std::string& name) {
@@ -116,6 +139,7 @@ bool JobService::remove_scenarios(const std::string& name) {
 }
 
 void JobService::drop_if_unused(const std::string& bundle) {
+  if (pinned_.contains(bundle)) return;
   if (jobs_that_name(bundle, {}).empty()) scenarios_.remove(bundle);
 }
 

@@ -11,10 +11,10 @@
 #include "base/hash.h"
 #include "base/json_text.h"
 #include "base/redact.h"
-#include "calibrate/request.h"
+#include "calibrate/spec/request_files.h"
 #include "jobs/queue/job_id.h"
 #include "jobs/spec/calibrations.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/resolved_job.h"
 #include "server/answers.h"
 #include "server/data_folder.h"
 
@@ -38,7 +38,8 @@ JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
     : options_(std::move(options)),
       executor_(executor),
       store_(options_.data, options_.clock),
-      scenarios_(options_.data, options_.scenarios, options_.scenario_checker, options_.uploads),
+      confined_(options_.confined, options_.data),
+      scenarios_(options_.data, options_.scenarios, confined_, options_.uploads),
       disk_(
           options_.free_bytes ? options_.free_bytes
                               : [data = options_.data] { return free_bytes_of(data); },
@@ -52,19 +53,17 @@ JobService::JobService(JobServiceOptions options, jobs::Executor& executor)
 
 JobService::~JobService() = default;
 
-jobs::JobSpec JobService::checked(std::string_view job_json) const {
+jobs::ResolvedJob JobService::checked(std::string_view job_json) const {
   const std::string text =
       jobs::with_calibrations(job_json, [this](const std::string& id) { return camera_of(id); });
-  return jobs::parse_job(text, "", scenarios());
+  return confined_.job(text, scenarios());
 }
 
 jobs::Added JobService::submit(const Submission& submission) {
+  const jobs::ResolvedJob resolved = checked(submission.job_json);
+  const jobs::JobSpec& job = resolved.spec();
   const std::shared_lock lock(uploads_mutex_);
-  return add(submission);
-}
-
-jobs::Added JobService::add(const Submission& submission) {
-  const jobs::JobSpec job = checked(submission.job_json);
+  require_scenario(job);
   const json sent = {submission.job_json, submission.priority, submission.labels};
   const jobs::Added added = store_.add({.name = job.name,
                                         .spec_json = text_of(to_json(job)),
@@ -128,7 +127,7 @@ JobRow JobService::submit_calibration(std::string_view request_json,
     }
     write_file_atomically(staging.path() / "files" / file.name, file.bytes);
   }
-  static_cast<void>(calibrate::request_from_json(request, staging.path() / "files"));
+  confined_.calibration(request, staging.path() / "files");
   write_file_atomically(staging.path() / "request.json", text_of(request));
   JobRow row;
   {

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
 #include <shared_mutex>
 #include <stdexcept>
 #include <stop_token>
@@ -27,6 +28,7 @@
 #include "jobs/queue/supervisor.h"
 #include "server/bell.h"
 #include "server/calibrator.h"
+#include "server/confined_checks.h"
 #include "server/datasets.h"
 #include "server/disk_watch.h"
 #include "server/report_maker.h"
@@ -35,7 +37,7 @@
 #include "server/text_cache.h"
 
 namespace throng::jobs {
-struct JobSpec;
+class ResolvedJob;
 }  // namespace throng::jobs
 
 namespace throng::server {
@@ -43,8 +45,11 @@ namespace throng::server {
 struct JobServiceOptions {
   std::filesystem::path data;       ///< holds the store and a folder per job; one service at a time
   std::filesystem::path scenarios;  ///< those that come with throng
-  Calibrator calibrator = calibrator_in_process();
-  ScenarioChecker scenario_checker = scenario_checker_in_process();
+  jobs::ConfinedTask confined;      ///< checks of what users send
+  /// Default: there are no calibrations.
+  Calibrator calibrator = [](const auto&...) {
+    throw EnvironmentError("no calibrations are made here");
+  };
   /// Default: there are no reports.
   Reporter reporter = [](const auto&...) { throw EnvironmentError("no reports are made here"); };
   UploadLimits uploads = {};
@@ -101,8 +106,8 @@ class JobService {
   JobService(const JobService&) = delete;
   JobService& operator=(const JobService&) = delete;
 
-  /// The job with all defaults, if it can be done. Throws InputError.
-  jobs::JobSpec checked(std::string_view job_json) const;
+  /// Resolves a job in a confined child. Throws InputError.
+  jobs::ResolvedJob checked(std::string_view job_json) const;
 
   /// Queues the job if it can be done; durable when it returns. Throws InputError.
   jobs::Added submit(const Submission& submission);
@@ -112,7 +117,9 @@ class JobService {
   /// once. Throws InputError and UploadsFull.
   jobs::Added submit_with_bundle(const Submission& submission, std::string_view bundle);
   /// The same, without queueing it.
-  jobs::JobSpec checked_with_bundle(std::string_view job_json, std::string_view bundle);
+  jobs::ResolvedJob checked_with_bundle(std::string_view job_json, std::string_view bundle);
+
+  const ConfinedChecks& confined() const { return confined_; }
 
   /// Scenarios that users have sent; removed with remove_scenarios().
   ScenarioStore& uploads() { return scenarios_; }
@@ -217,10 +224,8 @@ class JobService {
   /// Adds what only this process knows. Under mutex_.
   void complete(jobs::JobRow& row) const;
   jobs::JobFolder folder_of(const std::string& id) const;
-  jobs::Added add(const Submission& submission);
-  template <typename Use>
-  auto with_bundle(std::string_view job_json, std::string_view bundle, const std::string& owner,
-                   const Use& use);
+  class PinnedBundle;
+  void require_scenario(const jobs::JobSpec& job) const;
   std::vector<jobs::JobRow> jobs_that_name(const std::string& upload,
                                            std::vector<jobs::JobState> states) const;
   void drop_if_unused(const std::string& bundle);
@@ -230,9 +235,11 @@ class JobService {
   JobServiceOptions options_;
   jobs::Executor& executor_;
   jobs::Store store_;
+  ConfinedChecks confined_;
   ScenarioStore scenarios_;
   /// Held together while a job that may name an upload is added, alone while uploads go.
   std::shared_mutex uploads_mutex_;
+  std::multiset<std::string> pinned_;  ///< bundles that a request works with; guarded by it
   mutable std::mutex mutex_;
   std::condition_variable_any
       changed_;                   ///< something was queued, the active job has ended, a pause

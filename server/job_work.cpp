@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "jobs/queue/faults.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/resolved_job.h"
 #include "server/answers.h"
 #include "server/data_folder.h"
 #include "server/job_service.h"
@@ -172,7 +172,7 @@ void JobService::run(const JobRow& row, const std::stop_token& stop) {
 
 std::vector<jobs::RunFailure> JobService::make_dataset(const JobRow& row,
                                                        const std::stop_token& stop) {
-  const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", scenarios());
+  const jobs::ResolvedJob job = jobs::read_resolved_job(row.spec_json, "");
   const auto folder = jobs::JobFolder::create(folder_of(row.id).path(), job);
   auto last_save = std::chrono::steady_clock::time_point();
   std::string stages;

@@ -8,7 +8,7 @@
 #include "base/json_text.h"
 #include "jobs/queue/job_id.h"
 #include "jobs/spec/plan.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/resolved_job.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
@@ -109,7 +109,8 @@ void queue(const Call& call, Submission submission, Response& response,
 }
 
 /// What a job would be, without queueing it.
-void answer_dry_run(const jobs::JobSpec& job, Response& response) {
+void answer_dry_run(const jobs::ResolvedJob& resolved, Response& response) {
+  const jobs::JobSpec& job = resolved.spec();
   const auto cameras = static_cast<std::int64_t>(job.drones.size());
   std::size_t shards = 0;
   for (int run = 0; run < job.runs; ++run) shards += jobs::plan_shards(job, run).size();

@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
-#include "jobs/pipeline/pipeline.h"
-#include "jobs/spec/job_scenario.h"
-#include "places/plan.h"
+#include "jobs/spec/scenario_summary.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
-#include "sim/planned_paths.h"
 #include "world/scenario.h"
 
 namespace throng::server {
@@ -21,11 +19,8 @@ namespace throng::server {
 using httplib::Request;
 using httplib::Response;
 using nlohmann::json;
-namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int kPlanPx = 1200;  // the longer side
 
 json upload_json(const ScenarioUpload& upload) {
   return {{"name", upload.name},
@@ -35,40 +30,37 @@ json upload_json(const ScenarioUpload& upload) {
           {"files", upload.files}};
 }
 
-json findings_json(const std::vector<places::Finding>& findings) {
+json findings_json(const std::vector<jobs::ScenarioFinding>& findings) {
   json list = json::array();
-  for (const places::Finding& finding : findings) {
+  for (const jobs::ScenarioFinding& finding : findings) {
     list.push_back(problems_json({finding.problem}).front());
-    list.back()["severity"] = finding.severity == places::Severity::error ? "error" : "warning";
+    list.back()["severity"] = finding.is_error ? "error" : "warning";
     list.back()["remedy"] = finding.remedy;
   }
   return list;
 }
 
+/// Those that were uploaded are known from their check: this process does not load them.
+json summary_of(const Call& call, const std::string& id,
+                const std::optional<ScenarioUpload>& upload) {
+  if (!upload) {
+    return jobs::scenario_summary(world::find_scenario(call.service.scenarios(), id));
+  }
+  const auto found = std::find(upload->ids.begin(), upload->ids.end(), id);
+  const auto index = static_cast<std::size_t>(found - upload->ids.begin());
+  if (index >= upload->summaries.size()) {
+    throw InputError(Problem{id, "", "a scenario that was not there when it was uploaded",
+                             "one that can be loaded; upload it again"});
+  }
+  return upload->summaries[index];
+}
+
 json scenario_json(const Call& call, const std::string& id) {
-  const world::Scenario scenario = world::find_scenario(call.service.scenarios(), id);
-  json exits = json::array();
-  for (const world::Exit& exit : scenario.exits) {
-    exits.push_back({{"id", exit.id}, {"width_m", exit.width_m()}, {"open", exit.open}});
-  }
-  json drones = json::array();
-  for (const world::DroneStart& drone : scenario.drones) {
-    drones.push_back({{"id", drone.id},
-                      {"start_m", {drone.position.x(), drone.position.y(), drone.position.z()}}});
-  }
-  const world::Rectangle& ground = scenario.ground;
   const auto upload = call.service.uploads().find(upload_of(id));
-  return {
-      {"id", id},
-      {"name", scenario.name},
-      {"description", scenario.description},
-      {"crowd_model", scenario.crowd_model.empty() ? json(nullptr) : json(scenario.crowd_model)},
-      {"ground_m", {ground.min.x(), ground.min.y(), ground.max.x(), ground.max.y()}},
-      {"exits", std::move(exits)},
-      {"drones", std::move(drones)},
-      {"buildings", scenario.buildings.size()},
-      {"props", scenario.props.size()},
-      {"uploaded", upload ? upload_json(*upload) : json(nullptr)}};
+  json value = summary_of(call, id, upload);
+  value["id"] = id;
+  value["uploaded"] = upload ? upload_json(*upload) : json(nullptr);
+  return value;
 }
 
 void require_bundle(const Request& request) {
@@ -131,8 +123,7 @@ void send_scenario(const Call& call, const Request& request, Response& response)
   }
   const std::string format = request.get_param_value("format");
   if (format == "svg") {
-    const world::Scenario scenario = world::find_scenario(call.service.scenarios(), id);
-    return response.set_content(places::to_svg(places::draw_plan(scenario, kPlanPx)),
+    return response.set_content(call.service.confined().scenario_plan(id, call.service.scenarios()),
                                 "image/svg+xml");
   }
   if (!format.empty() && format != "json") {
@@ -143,11 +134,7 @@ void send_scenario(const Call& call, const Request& request, Response& response)
 
 void send_job_plan(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
-  const fs::path& folder = call.service.scenarios();
-  const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", folder);
-  const world::Scenario scenario = jobs::scenario_of(job, folder);
-  const auto paths = sim::planned_paths(scenario, jobs::run_spec(job, 0));
-  response.set_content(places::to_svg(places::draw_plan(scenario, kPlanPx, paths)),
+  response.set_content(call.service.confined().job_plan(row.spec_json, call.service.scenarios()),
                        "image/svg+xml");
 }
 

@@ -90,16 +90,16 @@ int serve(const ServeOptions& options) {
   constexpr int kMibShift = 20;
   constexpr int kGibShift = 30;
   constexpr std::int64_t kMsPerDay = 86'400'000;
-  JobService service({.data = options.data,
-                      .scenarios = options.scenarios,
-                      .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
-                      .scenario_checker = scenario_checker_in_child(
-                          {"/proc/self/exe", "scenarios", "check-bundle"}),
-                      .reporter = reporter_in_child({"/proc/self/exe", "report"}),
-                      .uploads = {.most_bytes = options.uploads_gib << kGibShift},
-                      .retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
-                      .least_free_bytes = options.least_free_mib << kMibShift},
-                     executor);
+  JobService service(
+      {.data = options.data,
+       .scenarios = options.scenarios,
+       .confined = jobs::confined_task_by_fork_server({"/proc/self/exe", "confined"}),
+       .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
+       .reporter = reporter_in_child({"/proc/self/exe", "report"}),
+       .uploads = {.most_bytes = options.uploads_gib << kGibShift},
+       .retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
+       .least_free_bytes = options.least_free_mib << kMibShift},
+      executor);
   WebhookSender hooks(service);
   Api api(service, keys, hooks, {options.host, options.port});
   if (!options.port_file.empty()) {

@@ -8,17 +8,10 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
-#include "formats/exporter.h"
 #include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
-#include "sim/airframe.h"
-#include "sim/battery.h"
-#include "sim/policy.h"
-#include "skinning/items.h"
-#include "skinning/population.h"
-#include "skinning/population_files.h"
 
 namespace throng::embedded {
 extern const std::string_view kOpenApi;
@@ -29,7 +22,6 @@ namespace throng::server {
 using httplib::Request;
 using httplib::Response;
 using nlohmann::json;
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -96,62 +88,32 @@ void send_openapi(const Call&, const Request&, Response& response) {
   response.set_content(std::string(embedded::kOpenApi), "application/json");
 }
 
-void list_airframes(const Call&, const Request&, Response& response) {
-  json list = json::array();
-  for (const sim::Airframe& airframe : sim::shipped_airframes()) {
-    json entry = to_json(airframe);
-    entry["name"] = airframe.name;
-    entry["derived"] = {{"top_speed_mps", airframe.top_speed_mps()},
-                        {"endurance_s", airframe.endurance_s()},
-                        {"hover_power_w", sim::hover_power_w(airframe)}};
-    list.push_back(std::move(entry));
-  }
+void list_airframes(const Call& call, const Request&, Response& response) {
   write_json(response, 200,
-             {{"airframes", std::move(list)},
+             {{"airframes", call.service.confined().catalog().at("airframes")},
               {"schema", schema_at("/properties/drones/items/properties/airframe")}});
 }
 
-void list_formats(const Call&, const Request&, Response& response) {
-  json list = json::array();
-  for (const formats::Format& format : formats::all_formats()) {
-    list.push_back({{"name", format.name}, {"summary", format.summary}, {"needs", format.needs}});
-  }
+void list_formats(const Call& call, const Request&, Response& response) {
   write_json(response, 200,
-             {{"formats", std::move(list)},
+             {{"formats", call.service.confined().catalog().at("formats")},
               {"schema", schema_at("/properties/outputs/properties/formats")}});
 }
 
-void list_policies(const Call&, const Request&, Response& response) {
-  json list = json::array();
-  for (const sim::PolicyEntry& policy : sim::policies()) {
-    list.push_back({{"name", policy.name}, {"flies_free", policy.flies_free}});
-  }
+void list_policies(const Call& call, const Request&, Response& response) {
   write_json(
       response, 200,
-      {{"policies", std::move(list)},
+      {{"policies", call.service.confined().catalog().at("policies")},
        {"schema", schema_at("/properties/drones/items/properties/guidance/properties/policy")}});
 }
 
-void list_people(const Call&, const Request&, Response& response) {
-  const fs::path folder = skinning::population_folder();
-  if (!fs::exists(folder / skinning::kIndexFile)) {
+void list_people(const Call& call, const Request&, Response& response) {
+  json people = call.service.confined().people();
+  if (people.is_null()) {
     throw HttpError{404, "no people have been baked on this machine: throng people build"};
   }
-  const skinning::PopulationIndex index = skinning::read_index(folder);
-  json list = json::array();
-  for (const skinning::Character& who : index.characters) {
-    list.push_back({{"name", who.name},
-                    {"sex", who.male ? "male" : "female"},
-                    {"age_years", who.age_years},
-                    {"stature_m", who.stature_m},
-                    {"carries", skinning::kCarryNames[static_cast<std::size_t>(who.carries)]},
-                    {"wears", who.wears}});
-  }
-  write_json(response, 200,
-             {{"content_hash", index.content_hash},
-              {"licence", index.licence},
-              {"people", std::move(list)},
-              {"schema", schema_at("/properties/appearance")}});
+  people["schema"] = schema_at("/properties/appearance");
+  write_json(response, 200, people);
 }
 
 }  // namespace throng::server

@@ -1,5 +1,4 @@
 #include "jobs/pipeline/pipeline.h"
-#include "jobs/spec/job_scenario.h"
 
 #include <fmt/core.h>
 
@@ -16,6 +15,8 @@
 #include "base/redact.h"
 #include "camera/files.h"
 #include "jobs/pipeline/flight_record.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/recording.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/environment.h"
 #include "metrics/evacuation.h"
@@ -150,8 +151,9 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
   output.publish({{"seed", trace.header.seed}, {"metrics", figures}});
 }
 
-void do_task(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios,
+void do_task(const JobFolder& folder, const ResolvedJob& resolved, const fs::path& scenarios,
              const Task& task, const OnTaskProgress& on_progress, const std::stop_token& stop) {
+  const JobSpec& job = resolved.spec();
   if (folder.is_done(task)) return;
   switch (task.kind) {
     case Task::Kind::simulate:

@@ -11,7 +11,7 @@
 #include "jobs/queue/executor.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/plan.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/resolved_job.h"
 #include "sim/run.h"
 
 namespace throng::jobs {
@@ -42,8 +42,8 @@ void render_shard(const JobFolder& folder, const JobSpec& job,
 void collect_dataset(const JobFolder& folder, const JobSpec& job);
 
 /// Any task of the job.
-void do_task(const JobFolder& folder, const JobSpec& job, const std::filesystem::path& scenarios,
-             const Task& task, const OnTaskProgress& on_progress = {},
-             const std::stop_token& stop = {});
+void do_task(const JobFolder& folder, const ResolvedJob& resolved,
+             const std::filesystem::path& scenarios, const Task& task,
+             const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});
 
 }  // namespace throng::jobs

@@ -1,11 +1,12 @@
 #include "jobs/pipeline/scenario_check.h"
 
-#include <iterator>
 #include <utility>
 
 #include "base/confine.h"
 #include "base/error.h"
 #include "crowd/simulation.h"
+#include "jobs/spec/scenario_summary.h"
+#include "places/check.h"
 #include "render/mesh_file.h"
 #include "sim/run.h"
 #include "world/scenario.h"
@@ -62,7 +63,7 @@ class Findings {
 }  // namespace
 
 CheckedScenarios check_scenarios(const fs::path& folder) {
-  CheckedScenarios checked{world::list_scenarios(folder), {}};
+  CheckedScenarios checked{world::list_scenarios(folder)};
   if (checked.ids.empty()) {
     throw InputError(Problem{"", "", "no scenario",
                              "at least one file NAME.json, its name of small letters, digits and _ "
@@ -79,9 +80,12 @@ CheckedScenarios check_scenarios(const fs::path& folder) {
       if (!scenario.scene_file.empty()) static_cast<void>(sim::load_crowd(scenario, 1, {}));
     };
     if (findings.has_done(load_people)) {
-      std::vector<places::Finding> found = places::check(scenario, id + ".json");
-      std::move(found.begin(), found.end(), std::back_inserter(checked.findings));
+      for (places::Finding& finding : places::check(scenario, id + ".json")) {
+        checked.findings.push_back({finding.severity == places::Severity::error,
+                                    std::move(finding.problem), std::move(finding.remedy)});
+      }
     }
+    checked.summaries.push_back(scenario_summary(scenario));
     for (const world::PlacedMesh& mesh : scenario.meshes) {
       findings.has_done([&] { static_cast<void>(render::mesh_from_file(mesh, 0)); });
     }

@@ -2,18 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
-#include "places/check.h"
+#include "jobs/queue/checked_scenarios.h"
 
 namespace throng::jobs {
-
-/// What there is in a folder of scenarios.
-struct CheckedScenarios {
-  std::vector<std::string> ids;           ///< below the folder
-  std::vector<places::Finding> findings;  ///< that stop nobody from using them
-};
 
 /// Reads every scenario in a folder as a job would: the file, its crowd's scene and behaviour with
 /// all that these name, and its meshes, with what these name. Everything has to lie in the folder,

@@ -1,4 +1,5 @@
 #include "jobs/pipeline/shoot.h"
+#include "jobs/pipeline/sensor_record.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -11,7 +12,7 @@
 #include "jobs/pipeline/gimbal.h"
 #include "jobs/pipeline/pipeline.h"
 #include "render/sensor.h"
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 
 namespace throng::jobs {
 

@@ -150,8 +150,8 @@ int run_worker(const std::filesystem::path& job_folder, const std::string& task_
     spdlog::info("{} begun, attempt {}", task_name, attempt);
     provoke_faults(task_name, attempt);
     const JobFolder folder(job_folder);
-    const JobSpec job = folder.read_job(scenarios);
-    do_task(folder, job, scenarios, task_named(job, task_name),
+    const ResolvedJob job = folder.read_job();
+    do_task(folder, job, scenarios, task_named(job.spec(), task_name),
             [&](const TaskProgress& progress) { reporter.report(progress); });
     log_usage(task_name, begun);
     return worker_succeeded;

@@ -63,7 +63,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variables& variables,
-                           const std::filesystem::path& log) {
+                           const std::filesystem::path& log, int input) {
   std::filesystem::create_directories(log.parent_path());
   std::array<int, 2> pipe_ends{};
   if (::pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
@@ -73,7 +73,11 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const Variab
   ::fcntl(read_end, F_SETFL, O_NONBLOCK);
 
   SpawnSettings settings;
-  posix_spawn_file_actions_addopen(&settings.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  if (input < 0) {
+    posix_spawn_file_actions_addopen(&settings.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  } else {
+    posix_spawn_file_actions_adddup2(&settings.actions, input, STDIN_FILENO);
+  }
   posix_spawn_file_actions_adddup2(&settings.actions, write_end, STDOUT_FILENO);
   constexpr int kLogMode = 0644;
   posix_spawn_file_actions_addopen(&settings.actions, STDERR_FILENO, log.c_str(),

@@ -21,9 +21,10 @@ class ChildProcess {
   using Variables = std::vector<std::pair<std::string, std::string>>;
 
   /// Starts command[0] (searched in PATH) with this process's environment changed by `variables`.
-  /// stderr is appended to the file `log`, stdin is empty. Throws EnvironmentError.
+  /// stderr is appended to the file `log`; stdin is the descriptor `input`, or empty. Throws
+  /// EnvironmentError.
   ChildProcess(const std::vector<std::string>& command, const Variables& variables,
-               const std::filesystem::path& log);
+               const std::filesystem::path& log, int input = -1);
   /// Kills what still runs.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;

@@ -25,9 +25,15 @@ bool is_as_good_as_empty(const fs::path& folder, const fs::path& file) {
   });
 }
 
+void keep_recording(const RecordedSpec& recorded, const fs::path& job_folder) {
+  const fs::path kept = kept_recording(recorded, job_folder);
+  if (!fs::exists(kept)) write_file_atomically(kept, read_file(recorded.file));
+}
+
 }  // namespace
 
-JobFolder JobFolder::create(fs::path path, const JobSpec& job) {
+JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
+  const JobSpec& job = resolved.spec();
   JobFolder folder(std::move(path));
   const std::string text = to_json(job).dump(kJsonIndent) + "\n";
   if (!fs::exists(folder.job_file())) {
@@ -44,8 +50,8 @@ JobFolder JobFolder::create(fs::path path, const JobSpec& job) {
   return folder;
 }
 
-JobSpec JobFolder::read_job(const fs::path& scenarios) const {
-  return parse_job(read_file(job_file()), job_file().string(), scenarios);
+ResolvedJob JobFolder::read_job() const {
+  return read_resolved_job(read_file(job_file()), job_file().string());
 }
 
 fs::path JobFolder::output_of(const Task& task) const {

@@ -1,6 +1,6 @@
 // A job's folder: where everything that belongs to one job lies.
 //
-//   job.json                  the job with all defaults
+//   job.json                  the job as it was resolved, with all defaults
 //   recorded/                 the trajectories that the job replays, if it does
 //   work/run000/trace.h5      published by the task run000/trace
 //   work/run000/metrics/      metrics.json, exits.csv
@@ -13,7 +13,7 @@
 #include <filesystem>
 
 #include "jobs/spec/plan.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/resolved_job.h"
 
 namespace throng::jobs {
 
@@ -24,10 +24,11 @@ class JobFolder {
   /// Creates the folder for a job, or checks that the one there is for the same job (then work that
   /// it holds is taken up). Throws InputError when it holds another job or other files, and
   /// EnvironmentError.
-  static JobFolder create(std::filesystem::path path, const JobSpec& job);
+  static JobFolder create(std::filesystem::path path, const ResolvedJob& resolved);
 
-  /// Reads job.json. Throws EnvironmentError and InputError.
-  JobSpec read_job(const std::filesystem::path& scenarios) const;
+  /// Reads job.json, which was checked when the folder was made. Throws EnvironmentError and
+  /// InputError.
+  ResolvedJob read_job() const;
 
   /// Whether a task has published its output: it appears complete or not at all.
   bool is_done(const Task& task) const;

@@ -291,9 +291,9 @@ std::string_view name_of(Stage stage) {
   return "failed";
 }
 
-std::vector<RunFailure> run_job(const JobFolder& folder, const JobSpec& job, Executor& executor,
+std::vector<RunFailure> run_job(const JobFolder& folder, const ResolvedJob& job, Executor& executor,
                                 const OnJobProgress& on_progress, std::stop_token stop) {
-  return Supervision(folder, job, executor, on_progress, std::move(stop)).run();
+  return Supervision(folder, job.spec(), executor, on_progress, std::move(stop)).run();
 }
 
 }  // namespace throng::jobs

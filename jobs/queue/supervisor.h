@@ -12,7 +12,7 @@
 #include "jobs/queue/executor.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/plan.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/resolved_job.h"
 
 namespace throng::jobs {
 
@@ -67,7 +67,7 @@ struct RunFailure {
 /// the result has the same bytes. Runs that fail are left out of the dataset and returned; a
 /// repetition tries them again. No other supervisor may be at work in the folder. Throws
 /// InputError, EnvironmentError (no run came to its end: says which task and why), Cancelled.
-std::vector<RunFailure> run_job(const JobFolder& folder, const JobSpec& job, Executor& executor,
+std::vector<RunFailure> run_job(const JobFolder& folder, const ResolvedJob& job, Executor& executor,
                                 const OnJobProgress& on_progress = {}, std::stop_token stop = {});
 
 }  // namespace throng::jobs

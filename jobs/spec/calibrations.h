@@ -9,7 +9,7 @@
 
 namespace throng::jobs {
 
-/// The camera of a name, as JSON (calibrate/camera_file.h). Throws InputError or EnvironmentError
+/// The camera of a name, as JSON (calibrate/spec/camera_file.h). Throws InputError or EnvironmentError
 /// for a name that has none.
 using FindCamera = std::function<nlohmann::json(const std::string& name)>;
 

@@ -13,7 +13,6 @@
 
 #include "base/angle.h"
 #include "base/json_text.h"
-#include "render/lens.h"
 
 namespace throng::embedded {
 extern const std::string_view kCameras;
@@ -316,46 +315,6 @@ std::optional<camera::Intrinsics> intrinsics_of(const CameraSpec& run_camera) {
   k.cx_px = run_camera.cx_px.value_or(k.cx_px);
   k.cy_px = run_camera.cy_px.value_or(k.cy_px);
   return k;
-}
-
-void check_lens(const CameraSpec& run_camera, const std::string& pointer,
-                std::vector<Problem>& problems) {
-  constexpr int kWidestPicture = 12000;  // px; what software GL draws with room around it
-  const std::string at = pointer + "/distortion";
-  const std::optional<camera::Intrinsics> k = intrinsics_of(run_camera);
-  const Eigen::Vector2i size = k ? render::wide_size(*k) : Eigen::Vector2i::Zero();
-  if (!k) {
-    problems.push_back({"", at,
-                        fmt::format("a lens whose model folds or ends (at most 80 degrees off its "
-                                    "axis) within a field of view of {:g} degrees",
-                                    run_camera.hfov_deg),
-                        "a smaller field of view, or fx_px, with which the lens may show less than "
-                        "the whole image"});
-  } else if (size.minCoeff() == 0) {
-    problems.push_back({"", at, "a lens whose model holds nowhere in the image",
-                        "one that shows something of it"});
-  } else if (k->distortion && size.maxCoeff() > kWidestPicture) {
-    problems.push_back(
-        {"", at,
-         fmt::format("a lens that a flat picture of {} x {} pixels covers", size.x(), size.y()),
-         fmt::format("one of at most {0} x {0}", kWidestPicture)});
-  }
-}
-
-json sensor_record(const CameraSpec& run_camera, const render::Exposed& exposed, int jpeg_quality) {
-  const render::Sensor& sensor = run_camera.sensor;
-  return {{"ev", sensor.ev},
-          {"white_balance_k", sensor.white_balance_k},
-          {"vignette", sensor.vignette},
-          {"iso", sensor.iso},
-          {"full_well_e", sensor.full_well_e},
-          {"read_noise_e", sensor.read_noise_e},
-          {"exposure_s", run_camera.exposure.exposure_s},
-          {"readout_s", run_camera.exposure.readout_s},
-          {"blur_px", exposed.blur_px},
-          {"samples", exposed.samples},
-          {"strips", exposed.strips},
-          {"jpeg_quality", jpeg_quality}};
 }
 
 }  // namespace throng::jobs

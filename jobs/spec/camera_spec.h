@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "base/error.h"
-#include "calibrate/camera_file.h"
+#include "calibrate/spec/camera_file.h"
 #include "camera/camera.h"
 #include "jobs/spec/distribution.h"
-#include "render/exposure.h"
-#include "render/sensor.h"
-#include "sim/gimbal.h"
+#include "render/spec/exposure.h"
+#include "render/spec/sensor.h"
+#include "sim/spec/gimbal_spec.h"
 
 namespace throng::jobs {
 
@@ -78,15 +78,6 @@ CameraSpec camera_of_run(const CameraSpec& spec, std::uint64_t run_seed,
 
 /// Nothing if the lens's model does not reach the field of view that is asked for.
 std::optional<camera::Intrinsics> intrinsics_of(const CameraSpec& run_camera);
-
-/// Adds a problem if the lens does not show what the image needs: the model folds or ends within
-/// it, or it is so wide that no flat picture covers it.
-void check_lens(const CameraSpec& run_camera, const std::string& pointer,
-                std::vector<Problem>& problems);
-
-/// The object `sensor` of an image: what its camera's sensor did, and how it was exposed.
-nlohmann::json sensor_record(const CameraSpec& run_camera, const render::Exposed& exposed,
-                             int jpeg_quality);
 
 /// The place of a drone's camera in a job.
 std::string camera_pointer(std::size_t drone);

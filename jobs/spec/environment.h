@@ -8,7 +8,7 @@
 
 #include "jobs/spec/distribution.h"
 #include "jobs/spec/wind_spec.h"
-#include "render/environment.h"
+#include "render/spec/environment.h"
 
 namespace throng::jobs {
 

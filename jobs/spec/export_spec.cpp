@@ -6,7 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "formats/exporter.h"
+#include "formats/spec/options.h"
 #include "jobs/spec/plan.h"
 
 namespace throng::jobs {
@@ -59,11 +59,6 @@ void read_classes(const json& value, formats::ClassOptions& classes,
 
 void read_exports(const json& outputs, int runs, OutputSpec& spec, std::vector<Problem>& problems) {
   spec.formats = outputs.value("formats", std::vector<std::string>{});
-  try {
-    formats::choose_formats(spec.formats, spec.annotations, "/outputs/formats");
-  } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-  }
   read_splits(outputs.value("splits", json::object()), runs, spec.exports.splits, problems);
   const json filters = outputs.value("filters", json::object());
   formats::FilterOptions& limits = spec.exports.filters;

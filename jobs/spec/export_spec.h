@@ -10,7 +10,7 @@
 namespace throng::jobs {
 
 /// Reads the fields of a job's `outputs`, which the schema has allowed; adds what is wrong with
-/// them to `problems`. `spec.annotations` is read already.
+/// them to `problems`. Whether the formats exist is checked by resolve().
 void read_exports(const nlohmann::json& outputs, int runs, OutputSpec& spec,
                   std::vector<Problem>& problems);
 

@@ -1,12 +1,8 @@
 #include "jobs/spec/guidance_spec.h"
 
 #include <array>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
-
-#include "base/files.h"
-#include "sim/pilot_log.h"
 
 namespace throng::jobs {
 
@@ -43,28 +39,11 @@ json json_of(const sim::PerceptionSpec& spec) {
           {"count_noise", spec.count_noise}};
 }
 
-void read_log(const std::string& name, const std::string& source, const std::string& pointer,
-              sim::DroneMission& mission, std::vector<Problem>& problems) {
-  if (source.empty()) {
-    problems.push_back({"", pointer + "/log", "\"" + name + "\"",
-                        "set-points, since a request has no files beside it"});
-    return;
-  }
-  const auto file = std::filesystem::path(source).parent_path() / name;
-  try {
-    mission.guidance.setpoints = sim::parse_pilot_log(read_file(file), file.string());
-  } catch (const EnvironmentError&) {
-    problems.push_back({"", pointer + "/log", "\"" + name + "\", which cannot be read",
-                        "the name of a pilot log, from the job's folder"});
-  } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-  }
-}
-
 }  // namespace
 
-void read_guidance(const json& value, const std::string& source, const std::string& pointer,
-                   sim::DroneMission& mission, std::vector<Problem>& problems) {
+std::filesystem::path read_guidance(const json& value, const std::string& source,
+                                    const std::string& pointer, sim::DroneMission& mission,
+                                    std::vector<Problem>& problems) {
   sim::GuidanceSpec& guidance = mission.guidance;
   for (const auto& [key, field] : value.items()) {
     if (key == "policy") field.get_to(mission.policy);
@@ -91,9 +70,14 @@ void read_guidance(const json& value, const std::string& source, const std::stri
       }
     }
   }
-  if (value.contains("log")) {
-    read_log(value["log"].get<std::string>(), source, pointer, mission, problems);
+  if (!value.contains("log")) return {};
+  const auto name = value["log"].get<std::string>();
+  if (source.empty()) {
+    problems.push_back({"", pointer + "/log", "\"" + name + "\"",
+                        "set-points, since a request has no files beside it"});
+    return {};
   }
+  return std::filesystem::path(source).parent_path() / name;
 }
 
 json guidance_json(const sim::DroneMission& mission) {

@@ -5,9 +5,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "base/files.h"
-#include "base/hash.h"
-
 namespace throng::jobs {
 
 using nlohmann::json;
@@ -72,17 +69,7 @@ std::optional<RecordedSpec> read_recorded(const json& crowd, const std::string& 
     return recorded;
   }
   recorded.file = std::filesystem::path(source).parent_path() / name;
-  if (!std::filesystem::is_regular_file(recorded.file)) {
-    problems.push_back({"", pointer, fmt::format("\"{}\", which does not exist", name),
-                        "the name of a trajectory file, from the job's folder"});
-    return recorded;
-  }
-  recorded.sha256 = sha256_hex_of_file(recorded.file);
-  const std::string expected = found->value("sha256", recorded.sha256);
-  if (recorded.sha256 != expected) {
-    problems.push_back({"", fmt::format("{}/sha256", kRecordedPointer),
-                        fmt::format("a file with {}", recorded.sha256), expected});
-  }
+  recorded.sha256 = found->value("sha256", "");
   return recorded;
 }
 
@@ -106,14 +93,9 @@ json to_json(const RecordedSpec& recorded) {
   return value;
 }
 
-void keep_recording(const RecordedSpec& recorded, const std::filesystem::path& job_folder) {
-  const auto kept = job_folder / kRecordedFolder / recorded.file.filename();
-  if (std::filesystem::exists(kept)) return;
-  write_file_atomically(kept, read_file(recorded.file));
-}
-
-world::Trace read_recording(const RecordedSpec& recorded) {
-  return metrics::read_trajectory(recorded.file, recorded.walkers, recorded.format);
+std::filesystem::path kept_recording(const RecordedSpec& recorded,
+                                     const std::filesystem::path& job_folder) {
+  return job_folder / kRecordedFolder / recorded.file.filename();
 }
 
 }  // namespace throng::jobs

@@ -8,18 +8,13 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
-#include "crowd/model.h"
 #include "crowd/project.h"
-#include "crowd/simulation.h"
 #include "jobs/spec/export_spec.h"
 #include "jobs/spec/guidance_spec.h"
-#include "jobs/spec/job_scenario.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/resolved_job.h"
 #include "jobs/spec/schema.h"
-#include "sim/participants.h"
-#include "sim/plan.h"
 #include "world/json_reader.h"
-#include "world/scenario.h"
 
 namespace throng::embedded {
 extern const std::string_view kJobSchema;
@@ -30,9 +25,6 @@ namespace throng::jobs {
 using nlohmann::json;
 
 namespace {
-
-// Keeps image and annotation ids, and a manifest in memory, within sane bounds.
-constexpr std::int64_t kMostImages = 2'000'000;
 
 // An object's field, or an empty object: what is left out has its default.
 const json& part(const json& object, const char* key) {
@@ -77,8 +69,9 @@ DroneSpec read_drone(const json& value, std::size_t index, const std::string& so
   if (const auto goal = value.find("moves_goal"); goal != value.end()) {
     drone.mission.moves_goal = world::GoalRef{(*goal)[0].get<int>(), (*goal)[1].get<int>()};
   }
-  read_guidance(part(value, "guidance"), source, fmt::format("/drones/{}/guidance", index),
-                drone.mission, problems);
+  drone.pilot_log =
+      read_guidance(part(value, "guidance"), source, fmt::format("/drones/{}/guidance", index),
+                    drone.mission, problems);
   drone.camera = read_camera(part(value, "camera"), camera_pointer(index), problems);
   return drone;
 }
@@ -154,139 +147,24 @@ JobSpec read_job(const json& value, const std::string& source, std::vector<Probl
   return job;
 }
 
-// Of every run, as each may have another lens.
-void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
-  for (std::size_t i = 0; i < job.drones.size(); ++i) {
-    const CameraSpec& camera = job.drones[i].camera;
-    const std::string pointer = camera_pointer(i);
-    const std::size_t before = problems.size();
-    for (const RunPlan& run : plan_runs(job)) {
-      check_lens(camera_of_run(camera, run.seed, pointer), pointer, problems);
-      if (camera.drawn.empty() || problems.size() > before) break;
-    }
-  }
+void check_times(const CaptureSpec& capture, std::vector<Problem>& problems) {
+  if (capture.to_s >= capture.from_s) return;
+  problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
+                      fmt::format("a time not before from_s, which is {}", capture.from_s)});
 }
 
-// Gives the job what the scenario knows: its model, and its drones to a job without any.
-void take_from_scenario(JobSpec& job, const world::Scenario& scenario) {
-  job.crowd.model = sim::model_for(scenario, job.crowd);
-  if (job.drones.empty()) {
-    for (const world::DroneStart& known : scenario.drones) {
-      job.drones.emplace_back().mission.id = known.id;
-    }
-  }
-  for (DroneSpec& drone : job.drones) {
-    for (const world::DroneStart& known : scenario.drones) {
-      if (known.id != drone.mission.id) continue;
-      if (!drone.mission.moves_goal) drone.mission.moves_goal = known.moves_goal;
-    }
-  }
+json parse_with_schema(std::string_view text, const std::string& source) {
+  json value = parse_json(text, source, kJobJsonLimits);
+  std::vector<Problem> problems = schema_problems(value, source);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return value;
 }
 
-void check_times(const JobSpec& job, std::vector<Problem>& problems) {
-  const CaptureSpec& capture = job.capture;
-  if (capture.to_s < capture.from_s) {
-    problems.push_back({"", "/capture/to_s", fmt::format("{}", capture.to_s),
-                        fmt::format("a time not before from_s, which is {}", capture.from_s)});
-  } else {
-    const auto cameras = static_cast<std::int64_t>(job.drones.size());
-    const std::int64_t images = job.frames_per_camera() * cameras * job.runs;
-    if (images > kMostImages) {
-      problems.push_back({"", "/capture",
-                          fmt::format("{} images over all runs and cameras", images),
-                          fmt::format("at most {}", kMostImages)});
-    }
-  }
-}
-
-// Recorded people do what they did.
-void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
-  if (job.crowd.physical.on) {
-    problems.push_back({"", "/crowd/physical", "true", "false, since the people are recorded"});
-  }
-  if (job.recorded->sha256.empty()) return;  // there is no such file
-  try {
-    const world::Trace recording = read_recording(*job.recorded);
-    if (job.capture.to_s > recording.duration_s() + world::kTimeSlackS) {
-      problems.push_back(
-          {"", "/capture/to_s", fmt::format("{}", job.capture.to_s),
-           fmt::format("at most {:.6g}, the recording's length", recording.duration_s())});
-    }
-    sim::choose_roles("", {}, recording.agents(), job.agents, job.seed, problems);
-  } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-  }
-}
-
-// What only the simulation knows: whether the drones can fly and whether there are people enough.
-void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
-                           std::vector<Problem>& problems) {
-  if (job.drones.empty()) {
-    problems.push_back(
-        {"", "/drones", "nothing", "at least one drone, since the scenario has none of its own"});
-  }
-  std::vector<sim::DroneMission> missions;
-  for (const DroneSpec& drone : job.drones) missions.push_back(drone.mission);
-  sim::plan_drones(scenario, missions, job.capture.to_s, problems);
-  try {
-    crowd::find_model(job.crowd.model);
-  } catch (const InputError& error) {
-    const Problem& problem = error.problems().front();
-    problems.push_back({"", "/crowd/model", problem.found, problem.expected});
-    return;
-  }
-  if (job.recorded) return check_recording(job, problems);
-  if (job.agents) {
-    const crowd::Simulation crowd = sim::load_crowd(scenario, job.seed, job.crowd);
-    sim::choose_roles(scenario.id, scenario.disaster_agents, crowd.agent_count(), job.agents,
-                      job.seed, problems);
-  }
-}
-
-// What is wrong with an airframe would only be found again.
-bool has_own_airframe(const JobSpec& job) {
-  return std::any_of(job.drones.begin(), job.drones.end(),
-                     [](const DroneSpec& drone) { return drone.mission.own_airframe.has_value(); });
-}
-
-// What may differ between runs, in each of them; of their crowds the largest. Problems are named
-// where the job says what is drawn.
-void check_runs(const JobSpec& job, const world::Scenario& scenario,
-                std::vector<Problem>& problems) {
-  JobSpec largest = job;
-  const std::size_t before = problems.size();
-  for (int run = 0; run < job.runs && problems.size() == before; ++run) {
-    const JobSpec run_job = job_of_run(job, run);
-    if (run_job.agents.value_or(0) > largest.agents.value_or(0)) largest.agents = run_job.agents;
-    std::vector<sim::DroneMission> missions;
-    for (const DroneSpec& drone : run_job.drones) missions.push_back(drone.mission);
-    sim::plan_drones(scenario, missions, run_job.capture.to_s, problems);
-  }
-  if (problems.size() == before) check_with_simulation(largest, scenario, problems);
-  for (std::size_t i = before; i < problems.size(); ++i) {
-    for (const RandomField& field : job.randomize) {
-      if (field.pointer.starts_with(problems[i].where)) {
-        problems[i].where = "/randomize/" + field.path;
-      }
-    }
-  }
-}
-
-// Points at the job when the job names no scenario that exists; a broken scenario file names
-// itself.
-world::Scenario load_scenario_of(const JobSpec& job, const std::string& source,
-                                 const std::filesystem::path& folder) {
-  try {
-    return scenario_of(job, folder);
-  } catch (const InputError& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems) {
-      if (!problem.source.empty()) continue;
-      problem.source = source;
-      problem.where = "/scenario";
-    }
-    throw InputError(std::move(problems));
-  }
+JobSpec job_from_json(json value, const std::string& source, std::vector<Problem>& problems) {
+  std::vector<RandomField> randomize = take_randomize(value, problems);
+  JobSpec job = read_job(value, source, problems);
+  job.randomize = std::move(randomize);
+  return job;
 }
 
 json drone_json(const DroneSpec& drone) {
@@ -296,6 +174,7 @@ json drone_json(const DroneSpec& drone) {
                                                   : json(mission.airframe)},
                 {"guidance", guidance_json(mission)},
                 {"camera", to_json(drone.camera)}};
+  if (!drone.pilot_log.empty()) value["guidance"]["log"] = drone.pilot_log.filename().string();
   if (mission.battery_charge) value["battery"]["charge"] = *mission.battery_charge;
   if (mission.start) value["start"] = point_json(*mission.start);
   if (mission.moves_goal) {
@@ -324,27 +203,37 @@ double JobSpec::frame_time_s(std::int64_t frame) const {
 }
 
 JobSpec parse_job(std::string_view text, const std::string& source,
-                  const std::filesystem::path& scenarios) {
-  json value = parse_json(text, source, kJobJsonLimits);
-  std::vector<Problem> problems = schema_problems(value, source);
-  if (!problems.empty()) throw InputError(std::move(problems));
-  std::vector<RandomField> randomize = take_randomize(value, problems);
-  JobSpec job = read_job(value, source, problems);
-  job.randomize = std::move(randomize);
-  const world::Scenario scenario = load_scenario_of(job, source, scenarios);
-  take_from_scenario(job, scenario);
-  check_times(job, problems);
-  if (problems.empty()) check_cameras(job, problems);
-  if (problems.empty() && !job.randomize.empty()) {
-    check_runs(job, scenario, problems);
-  } else if (problems.empty() || !has_own_airframe(job)) {
-    check_with_simulation(job, scenario, problems);
+                  std::vector<Problem>& problems) {
+  json value = parse_with_schema(text, source);
+  const std::size_t before = problems.size();
+  JobSpec job = job_from_json(std::move(value), source, problems);
+  check_times(job.capture, problems);
+  for (std::size_t i = before; i < problems.size(); ++i) {
+    if (problems[i].source.empty()) problems[i].source = source;
   }
-  for (Problem& problem : problems) {
-    if (problem.source.empty()) problem.source = source;
-  }
+  return job;
+}
+
+JobSpec parse_job(std::string_view text, const std::string& source) {
+  std::vector<Problem> problems;
+  JobSpec job = parse_job(text, source, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return job;
+}
+
+void check_job_schema(std::string_view text, const std::string& source) {
+  static_cast<void>(parse_with_schema(text, source));
+}
+
+ResolvedJob read_resolved_job(std::string_view text, const std::string& source) {
+  std::vector<Problem> problems;
+  try {
+    ResolvedJob job(job_from_json(parse_json(text, source, kJobJsonLimits), source, problems));
+    if (problems.empty()) return job;
+  } catch (const json::exception& error) {
+    throw EnvironmentError(fmt::format("{} is damaged: {}", source, error.what()));
+  }
+  throw InputError(std::move(problems));
 }
 
 json to_json(const JobSpec& job) {
@@ -357,13 +246,11 @@ json to_json(const JobSpec& job) {
       {"seed", job.seed},
       {"runs", job.runs},
       {"crowd",
-       {{"model", job.crowd.model},
-        {"compat", crowd::kCompatWords[static_cast<std::size_t>(job.crowd.compat)]},
+       {{"compat", crowd::kCompatWords[static_cast<std::size_t>(job.crowd.compat)]},
         {"separation", crowd::kSeparationWords[job.crowd.hard_separation ? 1 : 0]},
         {"compliance", job.crowd.compliance},
         {"physical", job.crowd.physical.on},
         {"fall_impulse_ns", job.crowd.physical.fall_impulse_ns}}},
-      {"drones", std::move(drones)},
       {"capture",
        {{"rate_hz", job.capture.rate_hz},
         {"from_s", job.capture.from_s},
@@ -384,6 +271,8 @@ json to_json(const JobSpec& job) {
         {"density", {{"sigma_px", job.outputs.density_sigma_px}}},
         {"previews", job.outputs.previews}}}};
   value["outputs"].update(exports_json(job.outputs));
+  if (!job.crowd.model.empty()) value["crowd"]["model"] = job.crowd.model;
+  if (!drones.empty()) value["drones"] = std::move(drones);
   if (job.agents) value["crowd"]["agents"] = *job.agents;
   if (job.recorded) value["crowd"]["recorded"] = to_json(*job.recorded);
   if (!job.randomize.empty()) value["randomize"] = to_json(job.randomize);

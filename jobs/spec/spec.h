@@ -1,6 +1,6 @@
-// The job: what a user asks for. Parsed and checked against one JSON Schema
-// (jobs/spec/job.schema.json), then against what only a program can know (the scenario exists,
-// times are in order, ...).
+// The job: what a user asks for. Parsing checks it against one JSON Schema
+// (jobs/spec/job.schema.json) and against itself; it opens no file. What depends on the scenario,
+// and on the files that a job names, is checked by resolve() (jobs/pipeline/resolve.h).
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,23 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/options.h"
+#include "base/error.h"
+#include "formats/spec/options.h"
 #include "jobs/spec/camera_spec.h"
 #include "jobs/spec/environment.h"
 #include "jobs/spec/randomize.h"
 #include "jobs/spec/recorded_spec.h"
-#include "places/generate.h"
-#include "render/quality.h"
-#include "sim/run.h"
-#include "skinning/appearance.h"
+#include "places/spec/place_spec.h"
+#include "render/spec/quality.h"
+#include "sim/spec/run_spec.h"
+#include "skinning/spec/styling.h"
 
 namespace throng::jobs {
 
 struct DroneSpec {
   sim::DroneMission mission;
   CameraSpec camera;
+  std::filesystem::path pilot_log;  ///< file of the mission's set-points until resolve() reads it
 };
 
 struct CaptureSpec {
@@ -67,13 +69,19 @@ struct JobSpec {
   double frame_time_s(std::int64_t frame) const;
 };
 
-/// Parses and checks a job. `source` names the text in errors ("demo.job.json", or "" for a request
-/// body). `scenarios` is the folder of scenarios. Throws InputError with a JSON pointer per
-/// problem; all schema problems are reported at once.
-JobSpec parse_job(std::string_view json, const std::string& source,
-                  const std::filesystem::path& scenarios);
+/// Throws InputError for a text that is no JSON or not what the schema allows, with a JSON pointer
+/// per problem. `source` names the text in errors ("demo.job.json", or "" for a request body).
+void check_job_schema(std::string_view json, const std::string& source);
 
-/// The job as JSON with every default filled in; parse_job reads it back to the same job.
+/// Parses a job; what is wrong beyond the schema is added to `problems`. Throws like
+/// check_job_schema().
+JobSpec parse_job(std::string_view json, const std::string& source, std::vector<Problem>& problems);
+
+/// The same, throwing InputError with all problems.
+JobSpec parse_job(std::string_view json, const std::string& source);
+
+/// The job as JSON with every default filled in that does not depend on the scenario; parse_job
+/// reads it back to the same job.
 nlohmann::json to_json(const JobSpec& job);
 
 /// How people look in this weather: umbrellas are up when it rains.

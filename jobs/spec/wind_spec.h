@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "jobs/spec/distribution.h"
-#include "sim/wind.h"
+#include "sim/spec/wind_spec.h"
 
 namespace throng::jobs {
 

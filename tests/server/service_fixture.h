@@ -13,6 +13,7 @@
 #include "server/job_service.h"
 #include "tests/jobs/queue/fake_executor.h"
 #include "tests/jobs/yard.h"
+#include "tests/server/test_checks.h"
 
 namespace throng::server {
 
@@ -36,6 +37,8 @@ class ServiceFixture : public ::testing::Test {
   JobServiceOptions options() const {
     return {.data = data.path(),
             .scenarios = scenarios.path(),
+            .confined = test_checks(),
+            .calibrator = test_calibrator(),
             .reporter = [this](const auto&... all) { reporter(all...); }};
   }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/files.h"
-#include "jobs/spec/spec.h"
+#include "jobs/pipeline/resolve.h"
 #include "world/scenario.h"
 
 namespace throng::jobs {
@@ -23,7 +23,8 @@ std::set<std::string> scenarios_of_jobs(const fs::path& place) {
   std::set<std::string> scenarios;
   for (const auto& entry : fs::directory_iterator(place)) {
     if (!entry.path().filename().string().ends_with(".job.json")) continue;
-    const JobSpec job = parse_job(read_file(entry.path()), entry.path().string(), kLibrary);
+    const JobSpec job =
+        resolve_job(read_file(entry.path()), entry.path().string(), kLibrary).spec();
     EXPECT_FALSE(job.drones.empty()) << entry.path();
     EXPECT_NO_THROW(world::find_scenario(kLibrary, job.scenario)) << entry.path();
     scenarios.insert(fs::path(job.scenario).filename().string());

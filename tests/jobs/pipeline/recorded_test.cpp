@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/recording.h"
+#include "jobs/pipeline/resolve.h"
 #include "jobs/queue/folder.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
@@ -48,13 +50,13 @@ class RecordedJob : public testing::Test {
         "columns": {"person": "who", "frame": "t", "x": "east", "y": "north"}}}})");
   }
 
-  JobSpec parse(const json& value) const {
-    return parse_job(value.dump(), (folder.path() / "job.json").string(), folder.path());
+  ResolvedJob resolve(const json& value) const {
+    return resolve_job(value.dump(), (folder.path() / "job.json").string(), folder.path());
   }
 
   std::string pointer_of(const json& value) const {
     try {
-      parse(value);
+      resolve(value);
     } catch (const InputError& error) {
       return error.problems().front().where;
     }
@@ -65,12 +67,12 @@ class RecordedJob : public testing::Test {
 };
 
 TEST_F(RecordedJob, ItsFolderHoldsTheRecordingAndReadsTheSameJob) {
-  const JobSpec asked = parse(job());
+  const ResolvedJob asked = resolve(job());
   const JobFolder made = JobFolder::create(folder.path() / "out", asked);
   EXPECT_TRUE(std::filesystem::exists(made.path() / "recorded" / "walk.csv"));
-  const JobSpec kept = made.read_job(folder.path());
-  EXPECT_EQ(to_json(kept), to_json(asked));
-  EXPECT_EQ(to_json(kept)["crowd"]["recorded"]["sha256"].get<std::string>().size(), 64U);
+  const ResolvedJob kept = made.read_job();
+  EXPECT_EQ(to_json(kept.spec()), to_json(asked.spec()));
+  EXPECT_EQ(to_json(kept.spec())["crowd"]["recorded"]["sha256"].get<std::string>().size(), 64U);
   JobFolder::create(folder.path() / "out", kept);  // taken up again
 }
 
@@ -79,8 +81,9 @@ TEST_F(RecordedJob, TheMetricsOfItsRunAreThoseOfTheFile) {
   asked["capture"]["to_s"] = 209.0 / 16;
   asked["runs"] = 2;
   asked["randomize"]["props.density"]["uniform"] = {0, 1};
-  const JobSpec spec = parse(asked);
-  const JobFolder made = JobFolder::create(folder.path() / "out", spec);
+  const ResolvedJob resolved = resolve(asked);
+  const JobSpec& spec = resolved.spec();
+  const JobFolder made = JobFolder::create(folder.path() / "out", resolved);
   simulate_run(made, spec, folder.path(), 1);
   const world::Trace run = world::read_trace(made.output_of({Task::Kind::simulate, 1}));
   EXPECT_EQ(run.header.drone_ids.size(), 1U);
@@ -101,8 +104,9 @@ TEST_F(RecordedJob, TheMetricsOfItsRunAreThoseOfTheFile) {
 TEST_F(RecordedJob, TakesAsManyOfThemAsItAsksFor) {
   json asked = job();
   asked["crowd"]["agents"] = 5;
-  const JobSpec spec = parse(asked);
-  const JobFolder made = JobFolder::create(folder.path() / "out", spec);
+  const ResolvedJob resolved = resolve(asked);
+  const JobSpec& spec = resolved.spec();
+  const JobFolder made = JobFolder::create(folder.path() / "out", resolved);
   simulate_run(made, spec, folder.path(), 0);
   const world::Trace run = world::read_trace(made.output_of({Task::Kind::simulate, 0}));
   EXPECT_EQ(std::count(run.header.role.begin(), run.header.role.end(), world::AgentRole::person),
@@ -125,7 +129,7 @@ TEST_F(RecordedJob, SaysWhatIsWrong) {
   EXPECT_EQ(pointer_of(with("/crowd/agents", 13)), "/crowd/agents");
   EXPECT_EQ(pointer_of(with("/crowd/physical", true)), "/crowd/physical");
   EXPECT_EQ(pointer_of(with("/capture/to_s", 60)), "/capture/to_s");
-  EXPECT_THROW(parse_job(job().dump(), "", folder.path()), InputError);  // a request
+  EXPECT_THROW(resolve_job(job().dump(), "", folder.path()), InputError);  // a request
 }
 
 }  // namespace

@@ -14,16 +14,14 @@ namespace {
 class Profile : public testing::Test {
  protected:
   Profile() {
-    write_yard(scenarios_.path());
-    job_ = parse_job(R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2}})", "",
-                     scenarios_.path());
-    folder_.emplace(JobFolder::create(work_.path() / "job", job_));
+    folder_.emplace(JobFolder::create(work_.path() / "job", ResolvedJob(job_)));
     std::filesystem::create_directories(folder_->path() / "logs");
   }
 
-  TemporaryFolder scenarios_;
   TemporaryFolder work_;
-  JobSpec job_;
+  JobSpec job_ = parse_job(R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2},
+                               "drones": [{"id": "d1"}]})",
+                           "");
   std::optional<JobFolder> folder_;
 };
 

@@ -21,18 +21,13 @@ using testing::Not;
 
 class SupervisorTest : public testing::Test {
  protected:
-  SupervisorTest() {
-    write_yard(scenarios.path());
-    // Two runs of three frames: three shards each.
-    job = parse_job(R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2}})", "",
-                    scenarios.path());
-  }
-
   JobFolder folder() const { return JobFolder::create(base.path() / "job", job); }
 
-  TemporaryFolder scenarios;
   TemporaryFolder base;
-  JobSpec job;
+  // Two runs of three frames: three shards each.
+  ResolvedJob job{parse_job(R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2},
+                                "drones": [{"id": "d1"}]})",
+                            "")};
   FakeExecutor executor;
 };
 
@@ -223,9 +218,10 @@ TEST_F(SupervisorTest, AFolderThatWasBarelyBegunIsTaken) {
 
 TEST_F(SupervisorTest, AFolderBelongsToOneJob) {
   folder();
-  EXPECT_EQ(to_json(folder().read_job(scenarios.path())), to_json(job));
-  job.seed = 99;
-  EXPECT_THROW(folder(), InputError);
+  EXPECT_EQ(to_json(folder().read_job().spec()), to_json(job.spec()));
+  JobSpec other = job.spec();
+  other.seed = 99;
+  EXPECT_THROW(JobFolder::create(base.path() / "job", ResolvedJob(other)), InputError);
   write_file_atomically(base.path() / "other" / "file", "x");
   EXPECT_THROW(JobFolder::create(base.path() / "other", job), InputError);
 }

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "jobs/spec/schema.h"
-#include "tests/jobs/yard.h"
 
 namespace throng::jobs {
 namespace {
@@ -45,36 +44,17 @@ TEST(GuidanceSpec, EveryFieldSurvivesTheRoundTrip) {
   EXPECT_EQ(written["batch"], 20);
 }
 
-TEST(GuidanceSpec, APilotLogLiesBesideTheJobAndBecomesPartOfIt) {
-  const TemporaryFolder folder;
-  write_file_atomically(folder.path() / "d1.csv",
-                        "time_s,x_m,y_m,z_m,yaw_deg,beacon\n0,1,2,3,0,1\n2,1,5,3,90,0\n");
-  const json given = {{"policy", "pilot_log"}, {"log", "d1.csv"}};
+TEST(GuidanceSpec, APilotLogIsNamedFromTheJobsFolderAndNotOpened) {
+  const json given = {{"policy", "pilot_log"}, {"log", "nowhere.csv"}};
   std::vector<Problem> problems;
-  const std::string job_file = (folder.path() / "job.json").string();
-  const sim::DroneMission mission = read_given(given, job_file, problems);
+  sim::DroneMission mission;
+  EXPECT_EQ(read_guidance(given, "/jobs/one/job.json", "/drones/0/guidance", mission, problems),
+            "/jobs/one/nowhere.csv");
   EXPECT_TRUE(problems.empty());
-  ASSERT_EQ(mission.guidance.setpoints.size(), 2U);
-  EXPECT_EQ(guidance_json(mission)["setpoints"].size(), 2U);
-  EXPECT_FALSE(guidance_json(mission).contains("log"));
-
-  read_given({{"policy", "pilot_log"}, {"log", "nowhere.csv"}}, job_file, problems);
-  read_given(given, "", problems);
-  ASSERT_EQ(problems.size(), 2U);
-  EXPECT_EQ(problems[0].where, "/drones/0/guidance/log");
-  EXPECT_THAT(problems[1].expected, HasSubstr("set-points"));
-}
-
-TEST(GuidanceSpec, ALogThatGoesBackInTimeIsRefusedByLine) {
-  const TemporaryFolder folder;
-  write_file_atomically(folder.path() / "d1.csv",
-                        "time_s,x_m,y_m,z_m,yaw_deg,beacon\n2,1,2,3,0,1\n1,1,5,3,90,0\n");
-  std::vector<Problem> problems;
-  read_given({{"policy", "pilot_log"}, {"log", "d1.csv"}}, (folder.path() / "job.json").string(),
-             problems);
+  EXPECT_EQ(read_guidance(given, "", "/drones/0/guidance", mission, problems), "");
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_EQ(problems[0].where, "line 3");
-  EXPECT_THAT(problems[0].source, HasSubstr("d1.csv"));
+  EXPECT_EQ(problems[0].where, "/drones/0/guidance/log");
+  EXPECT_THAT(problems[0].expected, HasSubstr("set-points"));
 }
 
 }  // namespace

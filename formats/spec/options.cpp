@@ -1,4 +1,4 @@
-#include "formats/options.h"
+#include "formats/spec/options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 
 #include <fmt/core.h>
 
@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "sim/battery.h"
 #include "world/json_reader.h"
 
 namespace throng::embedded {
@@ -75,11 +74,6 @@ double Airframe::top_speed_mps() const {
   const double linear = 4 * rotor_drag * std::sqrt(weight_n() / (4 * thrust_n_s2));
   const double force_n = weight_n() * std::tan(EIGEN_PI / 6);
   return 2 * force_n / (linear + std::sqrt(linear * linear + 4 * body_drag * force_n));
-}
-
-double Airframe::endurance_s() const {
-  constexpr double kJoulesPerWh = 3600;
-  return battery_wh * kJoulesPerWh / hover_power_w(*this);
 }
 
 Airframe read_airframe(const std::string& name, const nlohmann::json& value,

@@ -44,8 +44,6 @@ struct Airframe {
   double radius_m() const { return arm_m + propeller_radius_m; }
   /// Speed through still air that a tilt of 30 degrees sustains (the controller may use 35).
   double top_speed_mps() const;
-  /// How long it can hover with a full battery; 0: its battery is not known.
-  double endurance_s() const;
 };
 
 /// Reads airframes: an object with one entry per name; fields as in airframes.json. Throws
@@ -60,7 +58,7 @@ Airframe read_airframe(const std::string& name, const nlohmann::json& value,
 /// The object that read_airframe() reads back.
 nlohmann::json to_json(const Airframe& airframe);
 
-/// The airframes that come with the program (sim/airframes.json, with their sources).
+/// The airframes that come with the program (sim/spec/airframes.json, with their sources).
 std::vector<Airframe> shipped_airframes();
 
 }  // namespace throng::sim

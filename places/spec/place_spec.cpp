@@ -1,4 +1,4 @@
-#include "places/place_spec.h"
+#include "places/spec/place_spec.h"
 
 #include <fmt/core.h>
 

@@ -12,8 +12,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "calibrate/calibration.h"
-#include "calibrate/parameters.h"
+#include "calibrate/spec/image_size.h"
+#include "calibrate/spec/parameters.h"
 
 namespace throng::calibrate {
 

@@ -1,4 +1,4 @@
-#include "calibrate/parameters.h"
+#include "calibrate/spec/parameters.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

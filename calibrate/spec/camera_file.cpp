@@ -1,4 +1,4 @@
-#include "calibrate/camera_file.h"
+#include "calibrate/spec/camera_file.h"
 
 #include <fmt/core.h>
 

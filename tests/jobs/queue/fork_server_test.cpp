@@ -1,0 +1,86 @@
+// The fork server: a child for each request, whatever happens to others.
+#include "jobs/queue/fork_server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "base/error.h"
+#include "jobs/queue/confined_task.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class ForkServerTest : public testing::Test {
+ protected:
+  json ask(const json& request) const {
+    const TemporaryFolder work;
+    return task(request, work.path());
+  }
+
+  ConfinedTask task = confined_task_by_fork_server({THRONG_FORK_SERVER});
+};
+
+TEST_F(ForkServerTest, EveryRequestHasAChildOfItsOwn) {
+  std::set<int> children;
+  for (int n = 0; n < 5; ++n) {
+    const json answer = ask({{"do", "answer"}, {"n", n}});
+    EXPECT_EQ(answer["n"], n);
+    children.insert(answer["pid"].get<int>());
+  }
+  EXPECT_EQ(children.size(), 5U);
+}
+
+TEST_F(ForkServerTest, AChildThatDiesCostsItsRequestAlone) {
+  for (int i = 0; i < 2; ++i) {
+    try {
+      ask({{"do", "die"}});
+      FAIL() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("ended by signal 11"));
+    }
+    EXPECT_EQ(ask({{"do", "answer"}, {"n", i}})["n"], i);
+  }
+  EXPECT_THROW(ask({{"do", "fail"}}), EnvironmentError);
+  try {
+    ask({{"do", "refuse"}});
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().at(0).where, "/b");
+  }
+}
+
+TEST_F(ForkServerTest, AServerThatIsGoneIsStartedAgain) {
+  EXPECT_EQ(ask({{"do", "answer"}, {"n", 1}})["n"], 1);
+  EXPECT_THROW(ask({{"do", "kill the server"}}), EnvironmentError);
+  EXPECT_EQ(ask({{"do", "answer"}, {"n", 2}})["n"], 2);
+}
+
+TEST_F(ForkServerTest, ManyThreadsAskAtOnce) {
+  std::vector<std::jthread> threads;
+  threads.reserve(8);
+  for (int t = 0; t < 8; ++t) {
+    threads.emplace_back([&, t] {
+      for (int n = 0; n < 20; ++n) {
+        EXPECT_EQ(ask({{"do", "answer"}, {"n", 100 * t + n}})["n"], 100 * t + n);
+      }
+    });
+  }
+}
+
+TEST(ForkServerAlone, WithoutAProgramThereIsAnError) {
+  const TemporaryFolder work;
+  EXPECT_THROW(ForkServer({"/no/such/program"}).run(work.path()), EnvironmentError);
+  EXPECT_THROW(ForkServer({"true"}).run(work.path()), EnvironmentError);
+}
+
+}  // namespace
+}  // namespace throng::jobs
