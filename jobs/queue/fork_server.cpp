@@ -133,6 +133,8 @@ class ForkServer::Connection {
       const std::lock_guard lock(mutex_);
       if (auto waiting = waiting_.extract(answer.folder)) waiting.mapped().set_value(answer.status);
     }
+    process_->signal_group(SIGKILL);
+    process_->wait();  // no zombie stays
     const std::lock_guard lock(mutex_);
     is_gone_ = true;
     for (auto& [folder, end] : waiting_) end.set_value(std::nullopt);
