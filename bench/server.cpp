@@ -45,9 +45,9 @@ class RunningService {
                   .confined = jobs::confined_task_by_fork_server({THRONG_PROGRAM, "confined"})},
                  executor_),
         keys_(data_),
-        hooks_(service_),
+        hooks_(service_.queue(), data_),
         api_(service_, keys_, hooks_, {}),
-        job_(service_.submit({kJobText}).row.id),
+        job_(service_.queue().submit({kJobText}).row.id),
         thread_([this] { api_.run(); }) {}
   ~RunningService() {
     api_.stop();
@@ -69,7 +69,7 @@ class RunningService {
 
   fs::path data_;
   IdleExecutor executor_;
-  JobService service_;
+  Service service_;
   Keys keys_;
   WebhookSender hooks_;
   Api api_;

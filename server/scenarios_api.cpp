@@ -44,7 +44,7 @@ json findings_json(const std::vector<jobs::ScenarioFinding>& findings) {
 json summary_of(const Call& call, const std::string& id,
                 const std::optional<ScenarioUpload>& upload) {
   if (!upload) {
-    return jobs::scenario_summary(world::find_scenario(call.service.scenarios(), id));
+    return jobs::scenario_summary(world::find_scenario(call.folders.scenarios(), id));
   }
   const auto found = std::find(upload->ids.begin(), upload->ids.end(), id);
   const auto index = static_cast<std::size_t>(found - upload->ids.begin());
@@ -56,7 +56,7 @@ json summary_of(const Call& call, const std::string& id,
 }
 
 json scenario_json(const Call& call, const std::string& id) {
-  const auto upload = call.service.uploads().find(upload_of(id));
+  const auto upload = call.uploads.scenarios().find(upload_of(id));
   json value = summary_of(call, id, upload);
   value["id"] = id;
   value["uploaded"] = upload ? upload_json(*upload) : json(nullptr);
@@ -81,7 +81,7 @@ void require_bundle(const Request& request) {
 void upload_scenarios(const Call& call, const Request& request, Response& response) {
   require_bundle(request);
   const std::string name = request.get_param_value("name");
-  ScenarioStore& uploads = call.service.uploads();
+  ScenarioStore& uploads = call.uploads.scenarios();
   if (is_bundle_name(name)) throw HttpError{409, "names like this are those of jobs' own bundles"};
   if (uploads.is_taken(name)) {
     throw HttpError{409, fmt::format("there are scenarios named \"{}\" already", name)};
@@ -97,19 +97,19 @@ void upload_scenarios(const Call& call, const Request& request, Response& respon
     write_json(response, dry ? 200 : 201, value);
   } catch (const InputError& error) {
     throw HttpError{400, "the bundle cannot be used as it stands",
-                    call.service.without_paths(error.problems())};
+                    call.folders.without_paths(error.problems())};
   }
 }
 
 void list_scenarios(const Call& call, const Request&, Response& response) {
   json list = json::array();
-  for (const std::string& id : world::list_scenarios(call.service.scenarios())) {
+  for (const std::string& id : world::list_scenarios(call.folders.scenarios())) {
     if (is_bundle_name(upload_of(id))) continue;  // of one job, and of no use to others
     try {
       list.push_back(scenario_json(call, id));
     } catch (const InputError& error) {
       // One that is damaged hides no other.
-      list.push_back({{"id", id}, {"error", call.service.without_paths(error.what())}});
+      list.push_back({{"id", id}, {"error", call.folders.without_paths(error.what())}});
     }
   }
   write_json(response, 200, {{"scenarios", std::move(list)}});
@@ -117,13 +117,13 @@ void list_scenarios(const Call& call, const Request&, Response& response) {
 
 void send_scenario(const Call& call, const Request& request, Response& response) {
   const std::string id = request.matches[1];
-  const auto all = world::list_scenarios(call.service.scenarios());
+  const auto all = world::list_scenarios(call.folders.scenarios());
   if (std::find(all.begin(), all.end(), id) == all.end()) {
     throw HttpError{404, "there is no such scenario; GET /v1/scenarios lists them"};
   }
   const std::string format = request.get_param_value("format");
   if (format == "svg") {
-    return response.set_content(call.service.confined().scenario_plan(id, call.service.scenarios()),
+    return response.set_content(call.confined.scenario_plan(id, call.folders.scenarios()),
                                 "image/svg+xml");
   }
   if (!format.empty() && format != "json") {
@@ -134,13 +134,13 @@ void send_scenario(const Call& call, const Request& request, Response& response)
 
 void send_job_plan(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
-  response.set_content(call.service.confined().job_plan(row.spec_json, call.service.scenarios()),
+  response.set_content(call.confined.job_plan(row.spec_json, call.folders.scenarios()),
                        "image/svg+xml");
 }
 
 void remove_scenarios(const Call& call, const Request& request, Response& response) {
   const std::string name = request.matches[1];
-  const auto upload = call.service.uploads().find(name);
+  const auto upload = call.uploads.scenarios().find(name);
   if (!upload || is_bundle_name(name)) {
     throw HttpError{404,
                     "there is no such upload; its name is the first part of its scenarios' ids"};
@@ -149,7 +149,7 @@ void remove_scenarios(const Call& call, const Request& request, Response& respon
     throw HttpError{403,
                     "the upload is another's: only its owner and administrators may remove it"};
   }
-  if (!call.service.remove_scenarios(name)) throw HttpError{404, "already removed"};
+  if (!call.uploads.remove(name)) throw HttpError{404, "already removed"};
   response.status = 204;
 }
 

@@ -16,9 +16,9 @@
 #include "base/files.h"
 #include "jobs/queue/local_processes.h"
 #include "server/api.h"
-#include "server/job_service.h"
 #include "server/json_log.h"
 #include "server/keys.h"
+#include "server/service.h"
 #include "server/webhook_sender.h"
 
 namespace throng::server {
@@ -90,17 +90,17 @@ int serve(const ServeOptions& options) {
   constexpr int kMibShift = 20;
   constexpr int kGibShift = 30;
   constexpr std::int64_t kMsPerDay = 86'400'000;
-  JobService service(
+  Service service(
       {.data = options.data,
        .scenarios = options.scenarios,
        .confined = jobs::confined_task_by_fork_server({"/proc/self/exe", "confined"}),
        .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
        .reporter = reporter_in_child({"/proc/self/exe", "report"}),
        .uploads = {.most_bytes = options.uploads_gib << kGibShift},
-       .retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
-       .least_free_bytes = options.least_free_mib << kMibShift},
+       .housekeeping = {.retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
+                        .least_free_bytes = options.least_free_mib << kMibShift}},
       executor);
-  WebhookSender hooks(service);
+  WebhookSender hooks(service.queue(), options.data);
   Api api(service, keys, hooks, {options.host, options.port});
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));

@@ -47,7 +47,7 @@ class CalibrationApi : public ServiceFixture {
  protected:
   CalibrationApi()
       : service(options(), executor),
-        hooks(service),
+        hooks(service.queue(), data.path()),
         api(service, keys, hooks, {}),
         thread([this] { api.run(); }) {}
   ~CalibrationApi() override { api.stop(); }
@@ -72,7 +72,7 @@ class CalibrationApi : public ServiceFixture {
     return get_json(path);
   }
 
-  JobService service;
+  Service service;
   Keys keys{data.path()};
   WebhookSender hooks;
   Api api;
@@ -116,7 +116,7 @@ TEST_F(CalibrationApi, FromUploadToCameraToDataset) {
   // Removing it takes its files along.
   EXPECT_EQ(client().Delete(self)->status, 204);
   EXPECT_EQ(client().Get(self)->status, 404);
-  EXPECT_FALSE(fs::exists(service.calibration_folder(done["id"])));
+  EXPECT_FALSE(fs::exists(service.folders().calibration_folder(done["id"])));
 }
 
 TEST_F(CalibrationApi, TextsMayComeInsideTheRequest) {

@@ -18,15 +18,15 @@ using ::testing::HasSubstr;
 /// The service with its own children also for jobs.
 class RealChecks : public ServiceFixture {
  protected:
-  static JobServiceOptions really(JobServiceOptions options) {
+  static ServiceOptions really(ServiceOptions options) {
     options.confined = real_checks();
     return options;
   }
 
   std::vector<Problem> problems_of(const std::string& job) {
-    JobService service(really(options()), executor);
+    Service service(really(options()), executor);
     try {
-      service.checked(job);
+      service.queue().checked(job);
     } catch (const InputError& error) {
       return error.problems();
     }
@@ -59,46 +59,46 @@ TEST_F(RealChecks, AJobIsRefusedForWhatItsScenarioCannotDo) {
 
 TEST_F(RealChecks, TheScenarioCompletesTheJob) {
   SKIP_WITHOUT_PROGRAM();
-  JobService service(really(options()), executor);
-  const jobs::JobSpec job = service.checked(kJob).spec();
+  Service service(really(options()), executor);
+  const jobs::JobSpec job = service.queue().checked(kJob).spec();
   EXPECT_EQ(job.crowd.model, "weidmann");
   ASSERT_EQ(job.drones.size(), 1U);
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{99, 0}));
 }
 
 TEST_F(ServiceFixture, AChildThatDiesCostsOneRequest) {
-  JobServiceOptions dying = options();
+  ServiceOptions dying = options();
   dying.confined = jobs::confined_task_in_child({"sh", "-c", "kill -SEGV $$"});
-  JobService service(dying, executor);
+  Service service(dying, executor);
   try {
-    service.submit({kJob});
+    service.queue().submit({kJob});
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("ended by signal 11"));
   }
-  EXPECT_TRUE(service.list({}).empty());
+  EXPECT_TRUE(service.queue().list({}).empty());
   for (const auto& entry : fs::directory_iterator(data.path())) {
     EXPECT_THAT(entry.path().filename().string(), ::testing::Not(HasSubstr("check.tmp")));
   }
 }
 
 TEST_F(ServiceFixture, WhatTheSchemaRefusesStartsNoChild) {
-  JobServiceOptions counting = options();
+  ServiceOptions counting = options();
   std::atomic<int> children = 0;
   counting.confined = [&](const auto& request, const auto&) {
     ++children;
     return check_lightly(request);
   };
-  JobService service(counting, executor);
-  EXPECT_THROW(service.checked("{"), InputError);
-  EXPECT_THROW(service.checked(R"({"scenario": "yard", "runs": 0})"), InputError);
+  Service service(counting, executor);
+  EXPECT_THROW(service.queue().checked("{"), InputError);
+  EXPECT_THROW(service.queue().checked(R"({"scenario": "yard", "runs": 0})"), InputError);
   EXPECT_EQ(children, 0);
-  service.checked(kJob);
+  service.queue().checked(kJob);
   EXPECT_EQ(children, 1);
 }
 
 TEST_F(ServiceFixture, ASlowCheckOfAJobWithABundleLetsOthersSubmit) {
-  JobServiceOptions slow = options();
+  ServiceOptions slow = options();
   std::promise<void> begun;
   std::promise<void> go_on;
   const std::shared_future<void> may_go_on = go_on.get_future().share();
@@ -110,22 +110,23 @@ TEST_F(ServiceFixture, ASlowCheckOfAJobWithABundleLetsOthersSubmit) {
     }
     return light(request, work);
   };
-  JobService service(slow, executor);
+  Service service(slow, executor);
   const std::string bundle = yard_bundle();
   std::future<jobs::Added> first = std::async(std::launch::async, [&] {
-    return service.submit_with_bundle(
+    return service.queue().submit_with_bundle(
         {R"({"name": "slow", "scenario": "bundle/yard", "capture": {"to_s": 2}})"}, bundle);
   });
   begun.get_future().wait();
-  EXPECT_TRUE(service.submit({kJob}).is_new);
+  EXPECT_TRUE(service.queue().submit({kJob}).is_new);
   // The bundle stays for the one that waits, although another that came with it is refused.
-  EXPECT_THROW(service.submit_with_bundle({R"({"scenario": "bundle/yard", "runs": 0})"}, bundle),
-               InputError);
+  EXPECT_THROW(
+      service.queue().submit_with_bundle({R"({"scenario": "bundle/yard", "runs": 0})"}, bundle),
+      InputError);
   go_on.set_value();
   const jobs::Added added = first.get();
   EXPECT_TRUE(added.is_new);
   EXPECT_TRUE(fs::exists(data.path() / "uploads" / bundle_name_of(bundle)));
-  EXPECT_TRUE(service.remove(added.row.id));
+  EXPECT_TRUE(service.housekeeping().remove(added.row.id));
   EXPECT_FALSE(fs::exists(data.path() / "uploads" / bundle_name_of(bundle)));
 }
 

@@ -282,11 +282,11 @@ TEST_F(Uploads, BundlesWithoutAJobAreDroppedAtTheStart) {
     ScenarioStore::Staged kept = store.stage("kept", bundle, "");
     store.publish(kept);
   }
-  JobServiceOptions two = options();
+  ServiceOptions two = options();
   two.data = data.path() / "two";
-  JobService second(two, executor);
-  EXPECT_EQ(second.uploads().list().size(), 1U);
-  EXPECT_TRUE(second.uploads().find("kept"));
+  Service second(two, executor);
+  EXPECT_EQ(second.uploads().scenarios().list().size(), 1U);
+  EXPECT_TRUE(second.uploads().scenarios().find("kept"));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "base/files.h"
-#include "server/job_service.h"
+#include "server/service.h"
 #include "tests/jobs/queue/fake_executor.h"
 #include "tests/jobs/yard.h"
 #include "tests/server/test_checks.h"
@@ -34,7 +34,7 @@ class ServiceFixture : public ::testing::Test {
  protected:
   ServiceFixture() { jobs::write_yard(scenarios.path()); }
 
-  JobServiceOptions options() const {
+  ServiceOptions options() const {
     return {.data = data.path(),
             .scenarios = scenarios.path(),
             .confined = test_checks(),
