@@ -36,6 +36,8 @@ constexpr const char* kAnswerName = "answer.json";
 constexpr int kRefusedExit = 2;
 constexpr int kFailedExit = 3;
 constexpr auto kMaxTime = std::chrono::minutes(2);
+constexpr auto kMaxWait = std::chrono::minutes(1);  // for others
+constexpr int kMinAtOnce = 4;
 constexpr int kMaxAtOnce = 64;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -49,7 +51,11 @@ using Places = std::counting_semaphore<kMaxAtOnce>;
 /// One of the children that may run at once.
 class Place {
  public:
-  explicit Place(Places& places) : places_(places) { places_.acquire(); }
+  explicit Place(Places& places) : places_(places) {
+    if (!places_.try_acquire_for(kMaxWait)) {
+      throw EnvironmentError("too many checks are under way; try again later");
+    }
+  }
   ~Place() { places_.release(); }
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
@@ -111,7 +117,7 @@ json answer_of(const ExitStatus& status, const json& request, const fs::path& wo
 /// `run` has a child do the work in a folder.
 ConfinedTask task_by(std::function<ExitStatus(const fs::path& work)> run) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  const auto places = std::make_shared<Places>(std::clamp(cores, 2, kMaxAtOnce));
+  const auto places = std::make_shared<Places>(std::clamp(cores, kMinAtOnce, kMaxAtOnce));
   return [run = std::move(run), places](const json& request, const fs::path& work) {
     const Place place(*places);
     // The request may hold any bytes that a client sent.

@@ -18,7 +18,7 @@ using ConfinedTask =
     std::function<nlohmann::json(const nlohmann::json& request, const std::filesystem::path& work)>;
 
 /// In a child: `command` with the work folder appended. At most as many at once as there are cores,
-/// but two; others wait. A child is ended after two minutes.
+/// at least four; others wait for a minute. A child is ended after two minutes.
 ConfinedTask confined_task_in_child(std::vector<std::string> command);
 
 /// The same in children of a fork server (jobs/queue/fork_server.h): `command` is the server's.
