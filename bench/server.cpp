@@ -42,7 +42,8 @@ class RunningService {
       : data_(make_folder()),
         service_({.data = data_,
                   .scenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios",
-                  .confined = jobs::confined_task_by_fork_server({THRONG_PROGRAM, "confined"})},
+                  .confined = jobs::confined_task_by(std::make_shared<jobs::ForkServer>(
+                      std::vector<std::string>{THRONG_PROGRAM, "confined"}))},
                  executor_),
         keys_(data_),
         hooks_(service_.queue(), data_),

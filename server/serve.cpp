@@ -87,13 +87,15 @@ int serve(const ServeOptions& options) {
   jobs::LocalProcesses executor({.workers = options.workers,
                                  .longest_task_s = options.longest_task_s,
                                  .worker_memory_mib = options.worker_memory_mib});
+  const auto checks =
+      std::make_shared<jobs::ForkServer>(std::vector<std::string>{"/proc/self/exe", "confined"});
   constexpr int kMibShift = 20;
   constexpr int kGibShift = 30;
   constexpr std::int64_t kMsPerDay = 86'400'000;
   Service service(
       {.data = options.data,
        .scenarios = options.scenarios,
-       .confined = jobs::confined_task_by_fork_server({"/proc/self/exe", "confined"}),
+       .confined = jobs::confined_task_by(checks),
        .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
        .reporter = reporter_in_child({"/proc/self/exe", "report"}),
        .uploads = {.most_bytes = options.uploads_gib << kGibShift},
@@ -109,6 +111,7 @@ int serve(const ServeOptions& options) {
   std::fflush(stdout);
   const SignalWatch watch([&] {
     spdlog::info("ending");
+    checks->stop();  // requests that wait for one get their answer
     api.stop();
   });
   api.run();

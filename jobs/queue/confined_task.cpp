@@ -21,7 +21,6 @@
 #include "base/json_text.h"
 #include "base/problem_json.h"
 #include "jobs/queue/child_process.h"
-#include "jobs/queue/fork_server.h"
 #include "jobs/queue/worker_limits.h"
 
 namespace throng::jobs {
@@ -138,9 +137,8 @@ ConfinedTask confined_task_in_child(std::vector<std::string> command) {
   });
 }
 
-ConfinedTask confined_task_by_fork_server(std::vector<std::string> command) {
-  const auto server = std::make_shared<ForkServer>(std::move(command));
-  return task_by([server](const fs::path& work) { return server->run(work); });
+ConfinedTask confined_task_by(std::shared_ptr<ForkServer> server) {
+  return task_by([server = std::move(server)](const fs::path& work) { return server->run(work); });
 }
 
 int run_confined_task(const fs::path& work, const std::function<json(const json&)>& perform) {

@@ -5,9 +5,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include "jobs/queue/fork_server.h"
 
 namespace throng::jobs {
 
@@ -21,8 +24,8 @@ using ConfinedTask =
 /// at least four; others wait for a minute. A child is ended after two minutes.
 ConfinedTask confined_task_in_child(std::vector<std::string> command);
 
-/// The same in children of a fork server (jobs/queue/fork_server.h): `command` is the server's.
-ConfinedTask confined_task_by_fork_server(std::vector<std::string> command);
+/// The same in children of a fork server, whose work is run_confined_task().
+ConfinedTask confined_task_by(std::shared_ptr<ForkServer> server);
 
 /// The child's side: limits this process, reads work/request.json, and writes what `perform`
 /// returns, or the problems that it throws, to work/answer.json. Returns the exit code.

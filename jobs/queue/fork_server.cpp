@@ -82,7 +82,7 @@ class ForkServer::Connection {
   explicit Connection(const std::vector<std::string>& command)
       : Connection(command, socket_pair()) {}
   ~Connection() {
-    ::shutdown(socket_, SHUT_RDWR);  // wakes the reader
+    end();
     reader_.join();
     ::close(socket_);
   }
@@ -108,6 +108,9 @@ class ForkServer::Connection {
     const std::lock_guard lock(mutex_);
     return is_gone_;
   }
+
+  /// Wakes the reader, which ends the process.
+  void end() const { ::shutdown(socket_, SHUT_RDWR); }
 
  private:
   Connection(const std::vector<std::string>& command, std::pair<int, int> ends)
@@ -155,6 +158,7 @@ ForkServer::~ForkServer() = default;
 
 std::shared_ptr<ForkServer::Connection> ForkServer::connection() {
   const std::lock_guard lock(mutex_);
+  if (is_stopped_) throw EnvironmentError("the service ends; try again later");
   if (!connection_ || connection_->is_gone()) {
     connection_.reset();
     connection_ = std::make_shared<Connection>(command_);
@@ -169,6 +173,12 @@ ExitStatus ForkServer::run(const fs::path& work) {
     if (const auto status = connection()->run(work.string())) return *status;
   }
   throw EnvironmentError("the process that starts checks has ended");
+}
+
+void ForkServer::stop() {
+  const std::lock_guard lock(mutex_);
+  is_stopped_ = true;
+  if (connection_) connection_->end();
 }
 
 namespace {

@@ -31,6 +31,9 @@ class ForkServer {
   /// in the folder's log.txt. Throws EnvironmentError when there is no server to be had.
   ExitStatus run(const std::filesystem::path& work);
 
+  /// Ends the server and its children: who waits for one gets an EnvironmentError, now and later.
+  void stop();
+
  private:
   class Connection;
 
@@ -39,6 +42,7 @@ class ForkServer {
   std::vector<std::string> command_;
   std::mutex mutex_;
   std::shared_ptr<Connection> connection_;  ///< guarded by mutex_; null until it is needed
+  bool is_stopped_ = false;                 ///< guarded by mutex_
 };
 
 /// The server's side: forks a child that returns `work`'s exit code for each folder that it is

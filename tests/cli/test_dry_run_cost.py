@@ -33,8 +33,8 @@ def resident_mib(pid):
     return int(re.search(r"VmRSS:\s+(\d+)", pathlib.Path(f"/proc/{pid}/status").read_text())[1]) / 1024
 
 
-def dry_run(url):
-    request = urllib.request.Request(f"{url}/v1/jobs?dry_run", json.dumps(JOB).encode(),
+def dry_run(url, job):
+    request = urllib.request.Request(f"{url}/v1/jobs?dry_run", json.dumps(job).encode(),
                                      {"Content-Type": "application/json"})
     with urllib.request.urlopen(request, timeout=150) as answer:
         return json.load(answer)
@@ -47,16 +47,13 @@ def main():
                                   stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         try:
             url = re.search(r"http://\S+", server.stdout.readline())[0]
-            small = {**JOB, "crowd": {}}
-            request = urllib.request.Request(f"{url}/v1/jobs?dry_run", json.dumps(small).encode(),
-                                             {"Content-Type": "application/json"})
-            urllib.request.urlopen(request, timeout=150).read()  # schemas are read, the fork server runs
+            dry_run(url, {**JOB, "crowd": {}})  # schemas are read, the process that forks checks runs
             cpu, memory = cpu_s(server.pid), resident_mib(server.pid)
-            first = dry_run(url)
+            first = dry_run(url, JOB)
             assert first["valid"] and first["job"]["crowd"]["agents"] == 9000, first
             one = cpu_s(server.pid) - cpu
             for _ in range(REPETITIONS - 1):
-                assert dry_run(url) == first
+                assert dry_run(url, JOB) == first
             each = (cpu_s(server.pid) - cpu) / REPETITIONS
             grown = resident_mib(server.pid) - memory
         finally:

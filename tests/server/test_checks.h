@@ -72,7 +72,8 @@ inline nlohmann::json check_lightly(const nlohmann::json& request) {
 
 /// The program's children.
 inline jobs::ConfinedTask real_checks() {
-  return jobs::confined_task_by_fork_server({kProgram, "confined"});
+  return jobs::confined_task_by(
+      std::make_shared<jobs::ForkServer>(std::vector<std::string>{kProgram, "confined"}));
 }
 
 /// The program's children, but for jobs, of which there are many; everything lightly where there is

@@ -15,6 +15,7 @@ int main() {
     return throng::jobs::run_confined_task(work, [](const json& request) {
       if (request["do"] == "die") std::raise(SIGSEGV);
       if (request["do"] == "fail") throw throng::EnvironmentError("no luck");
+      if (request["do"] == "sleep") ::sleep(60);
       if (request["do"] == "kill the server") ::kill(::getppid(), SIGKILL);
       if (request["do"] == "refuse") {
         throw throng::InputError(throng::Problem{"a", "/b", "c", "d"});

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
@@ -26,7 +29,9 @@ class ForkServerTest : public testing::Test {
     return task(request, work.path());
   }
 
-  ConfinedTask task = confined_task_by_fork_server({THRONG_FORK_SERVER});
+  std::shared_ptr<ForkServer> server =
+      std::make_shared<ForkServer>(std::vector<std::string>{THRONG_FORK_SERVER});
+  ConfinedTask task = confined_task_by(server);
 };
 
 TEST_F(ForkServerTest, EveryRequestHasAChildOfItsOwn) {
@@ -74,6 +79,16 @@ TEST_F(ForkServerTest, ManyThreadsAskAtOnce) {
       }
     });
   }
+}
+
+TEST_F(ForkServerTest, StoppingEndsWhatIsUnderWay) {
+  std::future<void> slow = std::async(std::launch::async, [&] { ask({{"do", "sleep"}}); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const auto begun = std::chrono::steady_clock::now();
+  server->stop();
+  EXPECT_THROW(slow.get(), EnvironmentError);
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
+  EXPECT_THROW(ask({{"do", "answer"}}), EnvironmentError);
 }
 
 TEST(ForkServerAlone, WithoutAProgramThereIsAnError) {
