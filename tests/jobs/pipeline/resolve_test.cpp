@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "jobs/pipeline/pipeline.h"
+#include "sim/run.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -58,7 +59,8 @@ TEST_F(Resolve, TheScenarioCompletesTheJob) {
   ASSERT_EQ(job.drones.size(), 1U);
   EXPECT_EQ(job.drones[0].mission.id, "d1");
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{99, 0}));
-  EXPECT_EQ(job.crowd.model, "weidmann");
+  EXPECT_EQ(job.crowd.model,
+            sim::model_for(world::find_scenario(folder.path(), "yard"), sim::CrowdSpec()));
   EXPECT_EQ(resolved(R"({"scenario": "yard", "crowd": {"compat": "menge"}})").crowd.model, "orca");
 }
 
