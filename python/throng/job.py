@@ -1,6 +1,6 @@
 """The parts of a job as dataclasses: a typed way to write docs/job.md's JSON.
 
-Made by python/generate_types.py from jobs/job.schema.json; do not edit. What is None is left out, and then has the
+Made by python/generate_types.py from jobs/spec/job.schema.json; do not edit. What is None is left out, and then has the
 default of the schema. The service and the program check values; types are for editors and mypy.
 """
 
@@ -306,7 +306,8 @@ class Camera(Part):
 
     _: KW_ONLY
     preset: Literal["dji_phantom_4_pro", "dji_phantom_4_pro_full_hd", "dji_phantom_4", "px4_typhoon_h480", "airsim"] | None = None
-    """A known camera, for what is left out here: its image size and field of view (jobs/cameras.json, with sources)."""
+    """A known camera, for what is left out here: its image size and field of view (jobs/spec/cameras.json, with
+    sources)."""
     calibration: str | Mapping[str, Any] | None = None
     """A real camera: frames have exactly its size, lens and distortion, instead of width, height, hfov_deg, fx_px to
     cy_px, model and distortion. A file is found beside the job's; the service takes ids. A recorded job holds the
