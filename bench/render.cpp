@@ -29,7 +29,7 @@
 #include "base/angle.h"
 #include "base/files.h"
 #include "base/random.h"
-#include "jobs/publication.h"
+#include "jobs/queue/publication.h"
 #include "render/allocator.h"
 #include "render/renderer.h"
 

@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "jobs/executor.h"
+#include "jobs/queue/executor.h"
 #include "server/api.h"
 
 namespace throng::server {
@@ -40,12 +40,15 @@ class RunningService {
  public:
   RunningService()
       : data_(make_folder()),
-        service_({.data = data_, .scenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios"},
+        service_({.data = data_,
+                  .scenarios = fs::path(THRONG_SOURCE_DIR) / "scenarios",
+                  .confined = jobs::confined_task_by(std::make_shared<jobs::ForkServer>(
+                      std::vector<std::string>{THRONG_PROGRAM, "confined"}))},
                  executor_),
         keys_(data_),
-        hooks_(service_),
+        hooks_(service_.queue(), data_),
         api_(service_, keys_, hooks_, {}),
-        job_(service_.submit({kJobText}).row.id),
+        job_(service_.queue().submit({kJobText}).row.id),
         thread_([this] { api_.run(); }) {}
   ~RunningService() {
     api_.stop();
@@ -67,7 +70,7 @@ class RunningService {
 
   fs::path data_;
   IdleExecutor executor_;
-  JobService service_;
+  Service service_;
   Keys keys_;
   WebhookSender hooks_;
   Api api_;

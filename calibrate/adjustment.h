@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "calibrate/parameters.h"
+#include "calibrate/spec/parameters.h"
 
 namespace throng::calibrate {
 

@@ -16,7 +16,6 @@ namespace throng::calibrate {
 
 namespace {
 
-constexpr int kLargestSide = 100000;
 
 template <typename Vector>
 std::size_t twins_in(const std::vector<Vector>& list) {
@@ -77,22 +76,6 @@ struct Reading {
 };
 
 }  // namespace
-
-ImageSize image_size_of(const std::string& text, const std::string& source) {
-  const std::size_t by = text.find('x');
-  ImageSize size;
-  const auto read = [](std::string_view word, int& value) {
-    const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-    return result.ec == std::errc() && result.ptr == word.data() + word.size() && value > 0 &&
-           value <= kLargestSide;
-  };
-  if (by == std::string::npos || !read(std::string_view(text).substr(0, by), size.width) ||
-      !read(std::string_view(text).substr(by + 1), size.height)) {
-    throw InputError(
-        Problem{source, "", fmt::format("\"{}\"", text), "WIDTHxHEIGHT in pixels, as 640x480"});
-  }
-  return size;
-}
 
 bool is_outside(const Eigen::Vector2d& pixel, const ImageSize& size) {
   constexpr double kSlackPx = 1.5;  // the border lies half a pixel beyond the last pixel's center

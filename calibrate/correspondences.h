@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "calibrate/spec/image_size.h"
 
 namespace throng::calibrate {
 
@@ -16,15 +17,6 @@ struct View {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> pixels;
 };
-
-struct ImageSize {
-  int width = 0;
-  int height = 0;
-  bool operator==(const ImageSize&) const = default;
-};
-
-/// "640x480". Throws InputError naming `source`.
-ImageSize image_size_of(const std::string& text, const std::string& source);
 
 struct Correspondences {
   ImageSize size;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibrate/calibration.h"
-#include "calibrate/camera_file.h"
+#include "calibrate/spec/camera_file.h"
 #include "calibrate/control_points.h"
 #include "calibrate/robust.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "calibrate/parameters.h"
+#include "calibrate/spec/parameters.h"
 
 namespace throng::calibrate {
 

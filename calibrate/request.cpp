@@ -8,14 +8,10 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
-#include "calibrate/camera_file.h"
+#include "calibrate/spec/camera_file.h"
 #include "calibrate/picture.h"
 #include "calibrate/pose.h"
 #include "calibrate/result.h"
-
-namespace throng::embedded {
-extern const std::string_view kCalibrationSchema;
-}  // namespace throng::embedded
 
 namespace throng::calibrate {
 
@@ -143,8 +139,6 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
 }
 
 }  // namespace
-
-std::string_view request_schema() { return embedded::kCalibrationSchema; }
 
 Request request_from_json(const json& value, const fs::path& folder) {
   if (!value.is_object()) refuse("", value, "an object");

@@ -6,12 +6,12 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "calibrate/board.h"
 #include "calibrate/calibration.h"
 #include "calibrate/intrinsics.h"
+#include "calibrate/spec/request_files.h"
 
 namespace throng::calibrate {
 
@@ -29,9 +29,6 @@ struct Request {
   IntrinsicsOptions options;
 };
 
-/// The JSON schema of what a client sends (calibrate/request.schema.json).
-std::string_view request_schema();
-
 /// Reads what a client sent; paths are below `folder`, where its files lie. Throws InputError with
 /// JSON pointers.
 Request request_from_json(const nlohmann::json& value, const std::filesystem::path& folder);
@@ -42,12 +39,6 @@ using OnProgress = std::function<void(double share, const std::string& what)>;
 /// Throws InputError, EnvironmentError (a file cannot be read) and Cancelled (by
 /// options.fit.go_on).
 Calibration carry_out(const Request& request, const OnProgress& on_progress = {});
-
-/// What carry_out_in() writes beside the request.
-inline constexpr const char* kCameraName = "camera.json";
-inline constexpr const char* kOpenCvName = "opencv.yaml";
-inline constexpr const char* kRosName = "ros.yaml";
-inline constexpr const char* kPictureName = "residuals.svg";
 
 /// Reads folder/request.json, whose files lie in folder/files, and writes the results into the
 /// folder, the camera last. Throws as carry_out().

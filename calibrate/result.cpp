@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/problem_json.h"
-#include "calibrate/camera_file.h"
+#include "calibrate/spec/camera_file.h"
 #include "calibrate/warnings.h"
 #include "camera/files.h"
 

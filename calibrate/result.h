@@ -8,7 +8,7 @@
 
 namespace throng::calibrate {
 
-/// A camera (calibrate/camera_file.h) with rms_px, sigma_px, std, covariance, views, left_out,
+/// A camera (calibrate/spec/camera_file.h) with rms_px, sigma_px, std, covariance, views, left_out,
 /// warnings and, where a lens was chosen, models. What is not known is null.
 nlohmann::json to_json(const Calibration& calibration);
 

@@ -1,5 +1,5 @@
 // throng airframes: what quadcopters there are, and how to describe one's own.
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -25,7 +25,7 @@ void list_airframes(const std::vector<sim::Airframe>& frames) {
     fmt::print("{:<14}{:>8.3f}{:>10.2f}{:>10.2f}{:>11.1f}{:>10.0f}{:>9.1f}\n", frame.name,
                frame.mass_kg, 2 * frame.radius_m(), frame.max_thrust_n() / frame.weight_n(),
                frame.top_speed_mps(), sim::hover_power_w(frame),
-               frame.endurance_s() / kSecondsPerMinute);
+               sim::hover_endurance_s(frame) / kSecondsPerMinute);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibrate/board.h"
-#include "calibrate/camera_file.h"
+#include "calibrate/spec/camera_file.h"
 #include "camera/camera.h"
 #include "world/scenario.h"
 

@@ -13,10 +13,10 @@
 #include "calibrate/picture.h"
 #include "calibrate/request.h"
 #include "calibrate/result.h"
+#include "cli/calibration_child.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
-#include "server/calibrator.h"
 
 namespace throng::cli {
 
@@ -222,7 +222,7 @@ void add_request(CLI::App& app) {
   command->group("");  // not for users
   const auto folder = std::make_shared<std::string>();
   command->add_option("folder", *folder, "Folder with request.json and files/")->required();
-  command->callback([folder] { std::exit(server::run_calibration_child(*folder)); });
+  command->callback([folder] { std::exit(run_calibration_child(*folder)); });
 }
 
 }  // namespace

@@ -8,13 +8,14 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "calibrate/camera_file.h"
+#include "calibrate/spec/camera_file.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
-#include "jobs/calibrations.h"
-#include "jobs/local_processes.h"
-#include "jobs/profile.h"
-#include "jobs/supervisor.h"
+#include "jobs/pipeline/resolve.h"
+#include "jobs/queue/local_processes.h"
+#include "jobs/queue/profile.h"
+#include "jobs/queue/supervisor.h"
+#include "jobs/spec/calibrations.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
@@ -60,7 +61,7 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
                    "Print where the time of drawing, labelling and writing went, stage by stage");
 }
 
-jobs::JobSpec read_job_file(const std::string& path) {
+jobs::ResolvedJob read_job_file(const std::string& path) {
   std::string text;
   try {
     text = read_file(path);
@@ -72,11 +73,13 @@ jobs::JobSpec read_job_file(const std::string& path) {
     const std::filesystem::path file = std::filesystem::path(path).parent_path() / name;
     return calibrate::to_json(calibrate::read_camera_file(file));
   };
-  return jobs::parse_job(jobs::with_calibrations(text, camera_in), path, world::scenarios_folder());
+  return jobs::resolve_job(jobs::with_calibrations(text, camera_in), path,
+                           world::scenarios_folder());
 }
 
-void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job,
+void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved,
                 const JobArguments& arguments) {
+  const jobs::JobSpec& job = resolved.spec();
   if (arguments.profile) ::setenv(jobs::kProfileVariable, "1", 1);
   std::vector<jobs::RunFailure> failures;
   {
@@ -84,7 +87,7 @@ void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job,
     ProgressBar bar(job.name.empty() ? "job" : job.name);
     jobs::LocalProcesses executor({.workers = arguments.workers});
     failures = jobs::run_job(
-        folder, job, executor, [&](const jobs::JobProgress& progress) { show(bar, progress); },
+        folder, resolved, executor, [&](const jobs::JobProgress& progress) { show(bar, progress); },
         interrupt.token());
   }
   fmt::print("{}\n", folder.dataset().string());

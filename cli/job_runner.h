@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "jobs/folder.h"
-#include "jobs/spec.h"
+#include "jobs/queue/folder.h"
+#include "jobs/spec/resolved_job.h"
 
 namespace throng::cli {
 
@@ -20,12 +20,12 @@ struct JobArguments {
 /// The options JOB, --output, --workers and --profile.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 
-/// Reads and checks the job file. Throws InputError (also when there is no such file).
-jobs::JobSpec read_job_file(const std::string& path);
+/// Reads the job file and resolves the job. Throws InputError (also when there is no such file).
+jobs::ResolvedJob read_job_file(const std::string& path);
 
 /// Works the folder's job off, then prints where the dataset is, and where the time went if asked
 /// for. Throws like jobs::run_job.
-void finish_job(const jobs::JobFolder& folder, const jobs::JobSpec& job,
+void finish_job(const jobs::JobFolder& folder, const jobs::ResolvedJob& resolved,
                 const JobArguments& arguments);
 
 }  // namespace throng::cli

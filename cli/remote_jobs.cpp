@@ -254,7 +254,7 @@ void add_submit(CLI::App& app) {
   command->callback([arguments] { submit(*arguments); });
 }
 
-void add_list(CLI::App& app) {
+void add_job_list(CLI::App& app) {
   auto* command = app.add_subcommand("jobs", "List a server's jobs, the newest first");
   const auto arguments = std::make_shared<ListArguments>();
   command->add_option("--state", arguments->states, "Only these")
@@ -288,7 +288,7 @@ void add_fetch(CLI::App& app) {
 
 void add_remote_jobs(CLI::App& app) {
   add_submit(app);
-  add_list(app);
+  add_job_list(app);
   const auto id = std::make_shared<std::string>();
   add_for_id(app, "watch", "Follow a job to its end", id)->callback([id] {
     ApiClient api;

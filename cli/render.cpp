@@ -8,7 +8,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "cli/job_runner.h"
-#include "jobs/folder.h"
+#include "jobs/queue/folder.h"
 #include "world/trace.h"
 
 namespace throng::cli {
@@ -42,15 +42,16 @@ void check_fits(const world::Trace& trace, const jobs::JobSpec& job,
 }
 
 void render(const RenderArguments& arguments) {
-  jobs::JobSpec job = read_job_file(arguments.job_file);
+  jobs::JobSpec job = read_job_file(arguments.job_file).spec();
   job.runs = 1;
   std::erase_if(job.outputs.exports.splits.runs,
                 [](const auto& named) { return named.first != jobs::run_name(0); });
   check_fits(world::read_trace(arguments.trace_file), job, arguments);
-  const auto folder = jobs::JobFolder::create(arguments.output, job);
+  const jobs::ResolvedJob one_run(std::move(job));
+  const auto folder = jobs::JobFolder::create(arguments.output, one_run);
   const auto place = folder.output_of({jobs::Task::Kind::simulate, 0, 0});
   write_file_atomically(place, read_file(arguments.trace_file));
-  finish_job(folder, job, arguments);
+  finish_job(folder, one_run, arguments);
 }
 
 }  // namespace

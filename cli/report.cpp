@@ -15,9 +15,9 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/scenario_named.h"
-#include "jobs/folder.h"
-#include "jobs/job_id.h"
-#include "jobs/job_scenario.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/queue/folder.h"
+#include "jobs/queue/job_id.h"
 #include "study/run_report.h"
 #include "world/trace.h"
 
@@ -64,7 +64,7 @@ std::optional<world::Scenario> scenario_of_job(const fs::path& input) {
   const jobs::JobFolder folder(input);
   if (!fs::exists(folder.job_file())) return std::nullopt;
   const fs::path scenarios = world::scenarios_folder();
-  return jobs::scenario_of(folder.read_job(scenarios), scenarios);
+  return jobs::scenario_of(folder.read_job().spec(), scenarios);
 }
 
 bool is_on_server(const ReportArguments& arguments) {

@@ -12,7 +12,7 @@ void add_run(CLI::App& app) {
   const auto arguments = std::make_shared<JobArguments>();
   add_job_options(*command, *arguments);
   command->callback([arguments] {
-    const jobs::JobSpec job = read_job_file(arguments->job_file);
+    const jobs::ResolvedJob job = read_job_file(arguments->job_file);
     finish_job(jobs::JobFolder::create(arguments->output, job), job, *arguments);
   });
 }

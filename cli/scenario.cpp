@@ -16,8 +16,8 @@
 #include "cli/job_runner.h"
 #include "cli/scenario_import.h"
 #include "cli/scenario_named.h"
-#include "jobs/job_scenario.h"
-#include "jobs/pipeline.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/pipeline.h"
 #include "places/blueprint.h"
 #include "places/check.h"
 #include "places/generate.h"
@@ -74,7 +74,7 @@ void draw_plan(const PlanArguments& arguments) {
   std::vector<world::DronePath> paths;
   std::optional<world::Scenario> scenario;
   if (is_job(arguments.name)) {
-    const jobs::JobSpec job = read_job_file(arguments.name);
+    const jobs::JobSpec job = read_job_file(arguments.name).spec();
     scenario = jobs::scenario_of(job, world::scenarios_folder());
     paths = sim::planned_paths(*scenario, jobs::run_spec(job, 0));
   } else {

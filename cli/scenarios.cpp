@@ -2,13 +2,11 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <memory>
 
 #include "cli/api_client.h"
 #include "cli/bundle.h"
 #include "cli/commands.h"
-#include "server/scenario_checker.h"
 #include "world/scenario.h"
 
 namespace throng::cli {
@@ -54,18 +52,6 @@ void add_upload(CLI::App& scenarios) {
   command->callback([arguments] { upload(*arguments); });
 }
 
-/// What `throng serve` starts for each upload.
-void add_check_bundle(CLI::App& scenarios) {
-  auto* command = scenarios.add_subcommand("check-bundle", "Check an upload of the service");
-  command->group("");  // not for users
-  const auto folder = std::make_shared<std::string>();
-  const auto work = std::make_shared<std::string>();
-  command->add_option("folder", *folder, "The scenarios")->required();
-  command->add_option("work", *work, "Folder for the result")->required();
-  command->callback(
-      [folder, work] { std::exit(server::run_scenario_check_child(*folder, *work)); });
-}
-
 }  // namespace
 
 void add_scenarios(CLI::App& app) {
@@ -80,7 +66,6 @@ void add_scenarios(CLI::App& app) {
   const auto name = std::make_shared<std::string>();
   remove->add_option("name", *name, "The first part of its scenarios' ids")->required();
   remove->callback([name] { ApiClient().remove("/v1/scenarios/" + encoded(*name)); });
-  add_check_bundle(*command);
 }
 
 }  // namespace throng::cli

@@ -9,8 +9,8 @@
 #include "cli/interrupt.h"
 #include "cli/job_runner.h"
 #include "cli/progress_bar.h"
-#include "jobs/job_scenario.h"
-#include "jobs/pipeline.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/pipeline.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 
@@ -26,7 +26,7 @@ struct SimulateArguments {
 };
 
 void simulate(const SimulateArguments& arguments) {
-  const jobs::JobSpec job = read_job_file(arguments.job_file);
+  const jobs::JobSpec job = read_job_file(arguments.job_file).spec();
   if (arguments.run < 0 || arguments.run >= job.runs) {
     throw InputError({"--run", "", fmt::format("{}", arguments.run),
                       fmt::format("a run of the job: 0 to {}", job.runs - 1)});

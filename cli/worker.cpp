@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "jobs/worker.h"
+#include "jobs/pipeline/worker.h"
 
 namespace throng::cli {
 

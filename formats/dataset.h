@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "annotate/coco.h"
-#include "formats/options.h"
+#include "formats/spec/options.h"
 
 namespace throng::formats {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "places/place_spec.h"
+#include "places/spec/place_spec.h"
 
 namespace throng::places {
 

@@ -8,7 +8,7 @@
 #include "camera/camera.h"
 #include "render/airframe_mesh.h"
 #include "render/gl_objects.h"
-#include "render/quality.h"
+#include "render/spec/quality.h"
 
 namespace throng::render {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "render/environment.h"
+#include "render/spec/environment.h"
 
 namespace throng::render {
 

@@ -9,15 +9,9 @@
 #include "camera/camera.h"
 #include "render/frame.h"
 #include "render/lens.h"
+#include "render/spec/exposure.h"
 
 namespace throng::render {
-
-struct Exposure {
-  double exposure_s = 0;  ///< how long each row gathers light; 0: an instant
-  /// From the first row's reading to the last's; 0: all rows at once. The middle of the middle
-  /// row's exposure is the frame's time, other rows' are earlier (above) or later.
-  double readout_s = 0;
-};
 
 /// The world and the camera at one time.
 struct ShutterMoment {

@@ -9,7 +9,7 @@
 #include "camera/camera.h"
 #include "render/people_pass.h"
 #include "render/person_geometry.h"
-#include "render/quality.h"
+#include "render/spec/quality.h"
 #include "render/renderer.h"
 #include "skinning/landmarks.h"
 #include "skinning/population.h"

@@ -9,7 +9,7 @@
 
 #include "render/gl_objects.h"
 #include "render/people_meshes.h"
-#include "render/quality.h"
+#include "render/spec/quality.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
 

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "render/environment.h"
+#include "render/spec/environment.h"
 #include "render/gl_objects.h"
 #include "render/ground_layers.h"
 #include "render/place.h"
-#include "render/quality.h"
+#include "render/spec/quality.h"
 #include "world/scenario.h"
 
 namespace throng::render {

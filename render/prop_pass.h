@@ -9,7 +9,7 @@
 #include "render/gl_objects.h"
 #include "render/place.h"
 #include "render/prop_shapes.h"
-#include "render/quality.h"
+#include "render/spec/quality.h"
 #include "render/view.h"
 #include "world/scenario.h"
 

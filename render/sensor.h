@@ -7,24 +7,9 @@
 
 #include "camera/camera.h"
 #include "render/frame.h"
+#include "render/spec/sensor.h"
 
 namespace throng::render {
-
-struct Sensor {
-  double ev = 0;  ///< exposure compensation: light is doubled by each 1
-  /// Colour temperature (K) that the camera takes for white; daylight is 6500. Lower makes pictures
-  /// bluer, higher yellower.
-  double white_balance_k = 6500;
-  double vignette = 0;  ///< share of the natural fall of light, cos^4 of the angle from the axis
-  double iso = 0;       ///< 0: no noise
-  /// Electrons that fill a pixel at ISO 100; at others, full_well * 100 / iso make white.
-  double full_well_e = 15000;
-  double read_noise_e = 3;  ///< standard deviation, in electrons, of each reading
-
-  bool is_neutral() const {
-    return ev == 0 && white_balance_k == 6500 && vignette == 0 && iso == 0;
-  }
-};
 
 /// Gains of red, green and blue (green's is 1) of a camera that takes this temperature for white
 /// when the light is of 6500 K: white points on the Planckian locus by Kim et al. (2002, US patent

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "camera/camera.h"
-#include "render/environment.h"
+#include "render/spec/environment.h"
 #include "render/gl_objects.h"
 
 namespace throng::render {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "render/environment.h"
+#include "render/spec/environment.h"
 #include "render/gl_objects.h"
 #include "render/renderer.h"
 #include "world/disasters.h"

@@ -58,8 +58,8 @@ step_asan() {
 
 step_tsan() {
   say "building and testing (ThreadSanitizer): the concurrent parts"
-  build tsan test_base test_crowd test_jobs test_server
-  TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" ctest --preset tsan -j2 -L '^(base|crowd|jobs|server)$'
+  build tsan test_base test_crowd test_jobs_queue test_server
+  TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" ctest --preset tsan -j2 -L '^(base|crowd|jobs_queue|server)$'
 }
 
 # A minute of new inputs on top of the corpus. What it finds stays in build/fuzz; make it a file of

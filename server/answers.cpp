@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "jobs/plan.h"
+#include "jobs/spec/plan.h"
 
 namespace throng::server {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "jobs/store.h"
-#include "jobs/supervisor.h"
+#include "jobs/queue/store.h"
+#include "jobs/queue/supervisor.h"
 #include "server/retention.h"
 
 namespace throng::server {

@@ -115,7 +115,7 @@ void write_library_error(const Request& request, Response& response, const HttpE
 
 // Runs a handler; turns what it throws into an answer.
 template <typename Handler>
-void guarded(const JobService& service, const Request& request, Response& response,
+void guarded(const ServiceFolders& folders, const Request& request, Response& response,
              const Handler& handler) {
   try {
     handler();
@@ -123,7 +123,7 @@ void guarded(const JobService& service, const Request& request, Response& respon
     write_problem(response, error);
   } catch (const InputError& error) {
     write_problem(response, {400, "the job cannot be done as it stands",
-                             service.without_paths(error.problems())});
+                             folders.without_paths(error.problems())});
   } catch (const QuotaError& error) {
     response.set_header("Retry-After", "60");
     write_problem(response, {429, error.what()});
@@ -136,10 +136,10 @@ void guarded(const JobService& service, const Request& request, Response& respon
   } catch (const EnvironmentError& error) {  // the machine's fault, which may pass
     spdlog::error("{} {}: {}", request.method, request.path, error.what());
     response.set_header("Retry-After", "10");
-    write_problem(response, {503, service.without_paths(error.what())});
+    write_problem(response, {503, folders.without_paths(error.what())});
   } catch (const std::exception& error) {
     spdlog::error("{} {}: {}", request.method, request.path, error.what());
-    write_problem(response, {500, service.without_paths(error.what())});
+    write_problem(response, {500, folders.without_paths(error.what())});
   }
 }
 
@@ -227,15 +227,18 @@ HttpOptions with_body_limits(HttpOptions options, const Keys& keys) {
 
 }  // namespace
 
-Api::Api(JobService& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options)
+Api::Api(Service& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options)
     : server_(with_body_limits(options, keys), &write_library_error) {
   const bool loopback = is_loopback(options.host);
   const auto route = [&service, &keys, &hooks, loopback](const Route& entry) {
     return [&service, &keys, &hooks, loopback, entry](const Request& request, Response& response) {
       forget_ranges(request);
-      guarded(service, request, response, [&] {
+      guarded(service.folders(), request, response, [&] {
         const Caller caller = checked_caller(keys, request, entry, loopback);
-        entry.handler({service, hooks, caller}, request, response);
+        entry.handler({service.queue(), service.uploads(), service.calibrations(),
+                       service.housekeeping(), service.datasets(), service.reports(),
+                       service.confined(), service.folders(), hooks, caller},
+                      request, response);
       });
     };
   };

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "server/http_server.h"
-#include "server/job_service.h"
 #include "server/keys.h"
 #include "server/routes.h"
+#include "server/service.h"
 #include "server/webhook_sender.h"
 
 namespace throng::server {
@@ -23,7 +23,7 @@ class Api {
  public:
   /// Binds at once; `options` says where. Unless the address is loopback, requests may name any
   /// Host. Throws EnvironmentError.
-  Api(JobService& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options);
+  Api(Service& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options);
 
   int port() const { return server_.port(); }
   /// Serves until stop().

@@ -8,7 +8,7 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
-#include "calibrate/request.h"
+#include "calibrate/spec/request_files.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
@@ -75,21 +75,21 @@ void submit_calibration(const Call& call, const Request& request, Response& resp
     throw HttpError{415, "a calibration is sent as multipart/form-data or application/json"};
   }
   const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
-  const jobs::JobRow row = call.service.submit_calibration(
+  const jobs::JobRow row = call.calibrations.submit(
       sent.request, sent.files,
       {call.caller.key_id, call.caller.most_active, call.caller.most_bytes});
   response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
-  write_json(response, 201, calibration_json(row, call.service.retention()));
+  write_json(response, 201, calibration_json(row, call.housekeeping.retention()));
 }
 
 void list_calibrations(const Call& call, const Request& request, Response& response) {
   static const json kSchema = parse_own_json(calibrate::request_schema(), "the schema");
   const int limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows = call.service.list(
+  const std::vector<jobs::JobRow> rows = call.queue.list(
       {.kind = jobs::JobKind::calibration, .after = after_of(request), .limit = limit});
   json list = json::array();
   for (const jobs::JobRow& row : rows)
-    list.push_back(calibration_json(row, call.service.retention()));
+    list.push_back(calibration_json(row, call.housekeeping.retention()));
   const bool more = static_cast<int>(rows.size()) == limit;
   write_json(response, 200,
              {{"calibrations", std::move(list)},
@@ -98,27 +98,27 @@ void list_calibrations(const Call& call, const Request& request, Response& respo
 }
 
 void send_calibration(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call.service, request, jobs::JobKind::calibration);
-  json value = calibration_json(row, call.service.retention());
+  const jobs::JobRow row = find_row(call.queue, request, jobs::JobKind::calibration);
+  json value = calibration_json(row, call.housekeeping.retention());
   if (row.state == jobs::JobState::succeeded) {
     value["camera"] =
-        parse_own_json(read_file(call.service.calibration_folder(row.id) / calibrate::kCameraName),
+        parse_own_json(read_file(call.folders.calibration_folder(row.id) / calibrate::kCameraName),
                        calibrate::kCameraName);
   }
   write_json(response, 200, value);
 }
 
 void remove_calibration(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call.service, request, jobs::JobKind::calibration);
+  const jobs::JobRow row = find_row(call.queue, request, jobs::JobKind::calibration);
   require_own(call, row);
-  if (!call.service.remove(row.id)) {
+  if (!call.housekeeping.remove(row.id)) {
     throw HttpError{404, "already removed"};
   }
   response.status = 204;
 }
 
 void send_calibration_result(const Call& call, const Request& request, Response& response) {
-  const jobs::JobRow row = find_row(call.service, request, jobs::JobKind::calibration);
+  const jobs::JobRow row = find_row(call.queue, request, jobs::JobKind::calibration);
   const std::string name = request.matches[2];
   const auto* result = std::find_if(kResults.begin(), kResults.end(),
                                     [&](const Result& entry) { return name == entry.name; });
@@ -129,7 +129,7 @@ void send_calibration_result(const Call& call, const Request& request, Response&
     throw HttpError{409, fmt::format("the calibration is {}; this is there once it has succeeded",
                                      name_of(row.state))};
   }
-  response.set_content(read_file(call.service.calibration_folder(row.id) / result->file),
+  response.set_content(read_file(call.folders.calibration_folder(row.id) / result->file),
                        result->type);
 }
 

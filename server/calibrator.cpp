@@ -2,10 +2,7 @@
 
 #include <fmt/core.h>
 #include <poll.h>
-#include <sys/prctl.h>
 
-#include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -14,8 +11,7 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "base/problem_json.h"
-#include "calibrate/request.h"
-#include "jobs/child_process.h"
+#include "jobs/queue/child_process.h"
 
 namespace throng::server {
 
@@ -24,17 +20,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kInputExit = 2;
-constexpr int kEnvironmentExit = 3;
-constexpr const char* kProblemsName = "problems.json";
 constexpr int kPollMs = 50;
 
 std::vector<Problem> read_problems(const fs::path& file) {
   return parse_own_json(read_file(file), file.string()).get<std::vector<Problem>>();
-}
-
-void write_problems(const fs::path& file, const std::vector<Problem>& problems) {
-  write_file_atomically(file, json(problems).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 /// The last line of what the child said when it failed.
@@ -48,12 +37,6 @@ std::string last_line(const fs::path& log) {
 }
 
 }  // namespace
-
-Calibrator calibrator_in_process() {
-  return [](const fs::path& folder, const auto& on_progress, const std::stop_token& stop) {
-    calibrate::carry_out_in(folder, on_progress, [&] { return !stop.stop_requested(); });
-  };
-}
 
 Calibrator calibrator_in_child(std::vector<std::string> command) {
   return [command = std::move(command)](const fs::path& folder, const auto& on_progress,
@@ -77,33 +60,14 @@ Calibrator calibrator_in_child(std::vector<std::string> command) {
     pass_on();
     const jobs::ExitStatus status = child.wait();
     if (status.signal == 0 && status.code == 0) return;
-    if (status.code == kInputExit && fs::exists(folder / kProblemsName)) {
-      throw InputError(read_problems(folder / kProblemsName));
+    if (status.code == kCalibrationInputExit && fs::exists(folder / kCalibrationProblems)) {
+      throw InputError(read_problems(folder / kCalibrationProblems));
     }
     throw EnvironmentError(
         status.signal != 0
             ? fmt::format("the calibration was ended by signal {}", status.signal)
             : fmt::format("the calibration failed: {}", last_line(folder / "log.txt")));
   };
-}
-
-int run_calibration_child(const fs::path& folder) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  try {
-    calibrate::carry_out_in(folder,
-                            [](double share, const std::string& what) {
-                              fmt::print("{:.3f} {}\n", share, what);
-                              std::fflush(stdout);
-                            },
-                            {});
-    return 0;
-  } catch (const InputError& error) {
-    write_problems(folder / kProblemsName, error.problems());
-    return kInputExit;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return kEnvironmentExit;
-  }
 }
 
 }  // namespace throng::server

@@ -1,14 +1,28 @@
-// One request to the service, and who makes it.
+// One request to the service: who makes it, and what its handler may use.
 #pragma once
 
-#include "server/job_service.h"
+#include "server/calibrations.h"
+#include "server/confined_checks.h"
+#include "server/datasets.h"
+#include "server/housekeeping.h"
+#include "server/job_queue.h"
 #include "server/keys.h"
+#include "server/report_maker.h"
+#include "server/service_folders.h"
+#include "server/uploads.h"
 #include "server/webhook_sender.h"
 
 namespace throng::server {
 
 struct Call {
-  JobService& service;
+  JobQueue& queue;
+  Uploads& uploads;
+  Calibrations& calibrations;
+  Housekeeping& housekeeping;
+  Datasets& datasets;
+  ReportMaker& reports;
+  const ConfinedChecks& confined;
+  const ServiceFolders& folders;
   WebhookSender& hooks;
   const Caller& caller;
 };

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "jobs/store.h"
+#include "jobs/queue/store.h"
 
 namespace throng::server {
 

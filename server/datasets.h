@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "jobs/archive.h"
-#include "jobs/manifest.h"
+#include "jobs/queue/archive.h"
+#include "jobs/queue/manifest.h"
 #include "server/recent.h"
 
 namespace throng::server {

@@ -15,10 +15,10 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/json_text.h"
-#include "jobs/archive.h"
-#include "jobs/folder.h"
-#include "jobs/manifest.h"
-#include "jobs/plan.h"
+#include "jobs/queue/archive.h"
+#include "jobs/queue/folder.h"
+#include "jobs/queue/manifest.h"
+#include "jobs/spec/plan.h"
 #include "server/file_answer.h"
 #include "server/http.h"
 #include "server/requests.h"
@@ -54,8 +54,8 @@ void send_run_file(const Call& call, const Request& request, Response& response,
   if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
     throw HttpError{404, fmt::format("the job has no run {}", number)};
   }
-  const fs::path root = complete ? call.service.dataset_of(row.id)
-                                 : jobs::JobFolder(call.service.job_folder(row.id))
+  const fs::path root = complete ? call.folders.dataset_of(row.id)
+                                 : jobs::JobFolder(call.folders.job_folder(row.id))
                                        .output_of({jobs::Task::Kind::measure, run});
   const fs::path file = root / folder / (jobs::run_name(run) + suffix);
   if (fs::exists(file)) return response.set_content(read_file(file), type);
@@ -167,16 +167,16 @@ std::vector<Preview> previews_of(const fs::path& job) {
 
 void send_archive(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_succeeded(call, request);
-  const fs::path dataset = call.service.dataset_of(row.id);
+  const fs::path dataset = call.folders.dataset_of(row.id);
   const std::string name = jobs::slug(row.name);
   const jobs::ArchiveFormat format = format_of(request);
-  const auto archive = call.service.datasets().archive_of(
+  const auto archive = call.datasets.archive_of(
       dataset, name, format,
       selection_of(request, dataset, parse_own_json(row.spec_json, "the job")));
   // The manifest holds the hash of every file; what was chosen of them is in the query.
   const std::string chosen =
       request.target.substr(std::min(request.target.find('?'), request.target.size()));
-  const std::string manifest = call.service.datasets().manifest_of(dataset)->itself.sha256;
+  const std::string manifest = call.datasets.manifest_of(dataset)->itself.sha256;
   settle_range(request, response,
                fmt::format("\"{}\"", chosen.empty() ? manifest : sha256_hex(manifest + chosen)),
                archive->size());
@@ -201,16 +201,15 @@ void send_archive(const Call& call, const Request& request, Response& response) 
 }
 
 void send_manifest(const Call& call, const Request& request, Response& response) {
-  const fs::path dataset = call.service.dataset_of(find_succeeded(call, request).id);
-  answer_with_file(
-      request, response, dataset / jobs::kManifestName, "application/json",
-      fmt::format("\"{}\"", call.service.datasets().manifest_of(dataset)->itself.sha256));
+  const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
+  answer_with_file(request, response, dataset / jobs::kManifestName, "application/json",
+                   fmt::format("\"{}\"", call.datasets.manifest_of(dataset)->itself.sha256));
 }
 
 void send_file(const Call& call, const Request& request, Response& response) {
-  const fs::path dataset = call.service.dataset_of(find_succeeded(call, request).id);
+  const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
   const std::string wanted = request.matches[2];
-  const auto manifest = call.service.datasets().manifest_of(dataset);
+  const auto manifest = call.datasets.manifest_of(dataset);
   const std::vector<jobs::FileEntry>& files = manifest->files;
   // What is in the manifest is in the dataset: no path leads out of it.
   const auto file =
@@ -224,7 +223,7 @@ void send_file(const Call& call, const Request& request, Response& response) {
 }
 
 void send_metrics(const Call& call, const Request& request, Response& response) {
-  const fs::path dataset = call.service.dataset_of(find_succeeded(call, request).id);
+  const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
   response.set_content(read_file(dataset / "metrics.json"), "application/json");
 }
 
@@ -240,7 +239,8 @@ void send_report(const Call& call, const Request& request, Response& response) {
   // Shorter than a proxy's patience, and than what is left to a service that ends.
   constexpr auto kPatience = std::chrono::seconds(5);
   const jobs::JobRow row = find_succeeded(call, request);
-  const std::optional<fs::path> file = call.service.report_of(row.id, kPatience);
+  const std::optional<fs::path> file =
+      call.reports.report_of(call.folders.job_folder(row.id), kPatience);
   if (!file) {
     response.set_header("Retry-After", "2");
     return write_json(response, 202, {{"status", "the report is being made"}});
@@ -251,7 +251,7 @@ void send_report(const Call& call, const Request& request, Response& response) {
 
 void list_logs(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
-  const fs::path folder = call.service.job_folder(row.id) / "logs";
+  const fs::path folder = call.folders.job_folder(row.id) / "logs";
   std::vector<fs::path> files = files_below(folder);
   std::sort(files.begin(), files.end());
   json logs = json::array();
@@ -269,7 +269,7 @@ void list_logs(const Call& call, const Request& request, Response& response) {
 void send_log(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
   const std::string name = request.matches[2];
-  const fs::path file = call.service.job_folder(row.id) / "logs" / name;
+  const fs::path file = call.folders.job_folder(row.id) / "logs" / name;
   if (name == ".." || !fs::is_regular_file(file)) {
     throw HttpError{404, fmt::format("the job has no log {}", name)};
   }
@@ -279,7 +279,7 @@ void send_log(const Call& call, const Request& request, Response& response) {
 void list_previews(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
   json previews = json::array();
-  for (const Preview& preview : previews_of(call.service.job_folder(row.id))) {
+  for (const Preview& preview : previews_of(call.folders.job_folder(row.id))) {
     const std::string href = fmt::format("/v1/jobs/{}/previews/{}", row.id, preview.name);
     previews.push_back({{"name", preview.name}, {"href", href}, {"clean", href + "?clean"}});
   }
@@ -290,7 +290,7 @@ void send_preview(const Call& call, const Request& request, Response& response) 
   const jobs::JobRow row = find_job(call, request);
   const std::string wanted = request.matches[2];
   const bool clean = is_asked(request, "clean");
-  for (const Preview& preview : previews_of(call.service.job_folder(row.id))) {
+  for (const Preview& preview : previews_of(call.folders.job_folder(row.id))) {
     if (preview.name != wanted) continue;
     const fs::path& file = clean ? preview.clean : preview.drawn;
     return answer_with_growing_file(request, response, file, media_type_of(file));

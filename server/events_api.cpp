@@ -29,9 +29,9 @@ constexpr std::int64_t kLastNumber = std::numeric_limits<std::int64_t>::max();
 
 class EventStream {
  public:
-  EventStream(JobService& service, std::string job, std::int64_t after)
-      : watch_(service.begin_watch(kMostStreams)),
-        service_(service),
+  EventStream(JobQueue& queue, std::string job, std::int64_t after)
+      : watch_(queue.begin_watch(kMostStreams)),
+        queue_(queue),
         job_(std::move(job)),
         after_(after) {
     if (watch_ != nullptr) return;
@@ -42,9 +42,9 @@ class EventStream {
   /// Writes what there is, or waits a moment for it; false when the client has gone.
   bool step(httplib::DataSink& sink) {
     // Looked at before the events: what ends the job is among them.
-    const auto row = job_.empty() ? std::nullopt : service_.get(job_);
+    const auto row = job_.empty() ? std::nullopt : queue_.get(job_);
     const bool may_go_on = job_.empty() || (row && is_active(row->state));
-    const auto events = service_.events(job_, after_, kPage, may_go_on ? kBeat : 0ms);
+    const auto events = queue_.events(job_, after_, kPage, may_go_on ? kBeat : 0ms);
     std::string text;
     for (const jobs::EventRow& event : events) {
       text += fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
@@ -67,7 +67,7 @@ class EventStream {
 
  private:
   std::shared_ptr<void> watch_;
-  const JobService& service_;
+  const JobQueue& queue_;
   std::string job_;
   std::int64_t after_;
   std::string progress_;
@@ -94,7 +94,7 @@ void send_page(const Call& call, const Request& request, Response& response,
   const std::chrono::seconds patience(number_of(request, "wait_s", 0, kLongestWaitS, 0));
   json list = json::array();
   std::int64_t next = after;
-  for (const jobs::EventRow& event : call.service.events(job, after, limit, patience)) {
+  for (const jobs::EventRow& event : call.queue.events(job, after, limit, patience)) {
     list.push_back(event_json(event));
     next = event.seq;
   }
@@ -105,12 +105,12 @@ void send_page(const Call& call, const Request& request, Response& response,
 
 void send_events(const Call& call, const Request& request, Response& response) {
   const std::string job = request.matches.size() > 1
-                              ? find_row(call.service, request, jobs::JobKind::dataset).id
+                              ? find_row(call.queue, request, jobs::JobKind::dataset).id
                               : std::string();
   if (request.get_header_value("Accept").find("text/event-stream") == std::string::npos) {
     return send_page(call, request, response, job);
   }
-  const auto stream = std::make_shared<EventStream>(call.service, job, last_event_id(request));
+  const auto stream = std::make_shared<EventStream>(call.queue, job, last_event_id(request));
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
   response.set_chunked_content_provider(

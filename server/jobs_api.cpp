@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "jobs/job_id.h"
-#include "jobs/plan.h"
-#include "jobs/spec.h"
+#include "jobs/queue/job_id.h"
+#include "jobs/spec/plan.h"
+#include "jobs/spec/resolved_job.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
@@ -95,9 +95,8 @@ void queue(const Call& call, Submission submission, Response& response,
   submission.owner = call.caller.key_id;
   submission.most_active = call.caller.most_active;
   submission.most_bytes = call.caller.most_bytes;
-  const jobs::Added added = bundle == nullptr
-                                ? call.service.submit(submission)
-                                : call.service.submit_with_bundle(submission, *bundle);
+  const jobs::Added added = bundle == nullptr ? call.queue.submit(submission)
+                                              : call.queue.submit_with_bundle(submission, *bundle);
   if (!added.is_equal) {
     throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and what was sent "
                                      "with it then was something else",
@@ -105,11 +104,13 @@ void queue(const Call& call, Submission submission, Response& response,
   }
   response.set_header("Location", fmt::format("/v1/jobs/{}", added.row.id));
   if (!added.is_new) response.set_header("Idempotent-Replayed", "true");
-  write_json(response, added.is_new ? 201 : 200, job_json(added.row, call.service.retention()));
+  write_json(response, added.is_new ? 201 : 200,
+             job_json(added.row, call.housekeeping.retention()));
 }
 
 /// What a job would be, without queueing it.
-void answer_dry_run(const jobs::JobSpec& job, Response& response) {
+void answer_dry_run(const jobs::ResolvedJob& resolved, Response& response) {
+  const jobs::JobSpec& job = resolved.spec();
   const auto cameras = static_cast<std::int64_t>(job.drones.size());
   std::size_t shards = 0;
   for (int run = 0; run < job.runs; ++run) shards += jobs::plan_shards(job, run).size();
@@ -144,9 +145,9 @@ void submit_job(const Call& call, const Request& request, Response& response) {
   const std::string& job = form ? form->job : request.body;
   if (is_asked(request, "dry_run")) {
     const bool has_bundle = form && form->bundle != nullptr;
-    return answer_dry_run(has_bundle ? call.service.checked_with_bundle(job, *form->bundle)
-                                     : call.service.checked(job),
-                          response);
+    return answer_dry_run(
+        has_bundle ? call.queue.checked_with_bundle(job, *form->bundle) : call.queue.checked(job),
+        response);
   }
   Submission submission{job};
   submission.priority =
@@ -169,9 +170,9 @@ void list_jobs(const Call& call, const Request& request, Response& response) {
   filter.oldest_first = sort == "oldest";
   filter.after = after_of(request);
   filter.limit = limit_of(request);
-  const std::vector<jobs::JobRow> rows = call.service.list(filter);
+  const std::vector<jobs::JobRow> rows = call.queue.list(filter);
   json jobs = json::array();
-  for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row, call.service.retention()));
+  for (const jobs::JobRow& row : rows) jobs.push_back(job_json(row, call.housekeeping.retention()));
   const bool more = static_cast<int>(rows.size()) == filter.limit;
   write_json(response, 200,
              {{"jobs", std::move(jobs)}, {"next", more ? json(rows.back().id) : json(nullptr)}});
@@ -181,10 +182,10 @@ void send_job(const Call& call, const Request& request, Response& response) {
   const std::string id = request.matches[1];
   const auto text =
       jobs::is_job_id(id)
-          ? call.service.text_of_job(id,
-                                     [&](const jobs::JobRow& row) {
-                                       return text_of(job_json(row, call.service.retention()));
-                                     })
+          ? call.queue.text_of_job(id,
+                                   [&](const jobs::JobRow& row) {
+                                     return text_of(job_json(row, call.housekeeping.retention()));
+                                   })
           : nullptr;
   if (text == nullptr) throw HttpError{404, fmt::format("there is no job {}", id)};
   response.set_content(*text, "application/json");
@@ -221,21 +222,21 @@ void change_job(const Call& call, const Request& request, Response& response) {
       throw wrong("/" + name, "an unknown field", "priority, labels or keep");
     }
   }
-  const auto changed = call.service.change(row.id, wanted);
+  const auto changed = call.queue.change(row.id, wanted);
   if (!changed) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*changed, call.service.retention()));
+  write_json(response, 200, job_json(*changed, call.housekeeping.retention()));
 }
 
 void cancel_job(const Call& call, const Request& request, Response& response) {
-  const auto row = call.service.cancel(find_own(call, request).id);
+  const auto row = call.queue.cancel(find_own(call, request).id);
   if (!row) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*row, call.service.retention()));
+  write_json(response, 200, job_json(*row, call.housekeeping.retention()));
 }
 
 void retry_job(const Call& call, const Request& request, Response& response) {
-  const auto row = call.service.retry(find_own(call, request).id);
+  const auto row = call.queue.retry(find_own(call, request).id);
   if (!row) throw HttpError{404, "the job has been removed"};
-  write_json(response, 200, job_json(*row, call.service.retention()));
+  write_json(response, 200, job_json(*row, call.housekeeping.retention()));
 }
 
 void clone_job(const Call& call, const Request& request, Response& response) {
@@ -250,7 +251,8 @@ void clone_job(const Call& call, const Request& request, Response& response) {
 }
 
 void remove_job(const Call& call, const Request& request, Response& response) {
-  if (!call.service.remove(find_own(call, request).id)) throw HttpError{404, "already removed"};
+  if (!call.housekeeping.remove(find_own(call, request).id))
+    throw HttpError{404, "already removed"};
   response.status = 204;
 }
 

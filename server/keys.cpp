@@ -49,7 +49,7 @@ std::int64_t now_ms() {
 }
 
 /// Takes as long whatever the difference.
-bool are_equal(const std::string& a, const std::string& b) {
+bool equals_in_constant_time(const std::string& a, const std::string& b) {
   return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
@@ -170,7 +170,7 @@ std::optional<Caller> Keys::caller_of(std::string_view token) const {
         database,
         "SELECT id, hash, scope, most_active, most_bytes FROM key WHERE id = ? AND revoked_ms = 0");
     query.bind(1, std::string(token.substr(kPrefix.size(), kIdLength)));
-    if (!query.executeStep() || !are_equal(query.getColumn(1).getString(), hash)) {
+    if (!query.executeStep() || !equals_in_constant_time(query.getColumn(1).getString(), hash)) {
       return std::nullopt;
     }
     return Caller{query.getColumn(0).getString(), scope_of(query.getColumn(2).getString()),

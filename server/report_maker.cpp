@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "jobs/child_process.h"
+#include "jobs/queue/child_process.h"
 
 namespace throng::server {
 

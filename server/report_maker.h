@@ -16,8 +16,8 @@
 
 namespace throng::server {
 
-/// Writes the report of the job in a folder (jobs/folder.h) to a file, which appears when it is
-/// complete. Throws EnvironmentError and, once a stop is requested, Cancelled.
+/// Writes the report of the job in a folder (jobs/queue/folder.h) to a file, which appears when it
+/// is complete. Throws EnvironmentError and, once a stop is requested, Cancelled.
 using Reporter = std::function<void(const std::filesystem::path& job,
                                     const std::filesystem::path& file, const std::stop_token&)>;
 

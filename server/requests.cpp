@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "jobs/job_id.h"
+#include "jobs/queue/job_id.h"
 #include "server/answers.h"
 #include "server/http.h"
 
@@ -79,7 +79,7 @@ std::string after_of(const Request& request) {
 }
 
 jobs::JobRow find_job(const Call& call, const Request& request) {
-  return find_row(call.service, request, jobs::JobKind::dataset);
+  return find_row(call.queue, request, jobs::JobKind::dataset);
 }
 
 void require_own(const Call& call, const jobs::JobRow& row) {
@@ -89,10 +89,10 @@ void require_own(const Call& call, const jobs::JobRow& row) {
                        row.kind == jobs::JobKind::dataset ? "job" : "calibration")};
 }
 
-jobs::JobRow find_row(JobService& service, const Request& request, jobs::JobKind kind) {
+jobs::JobRow find_row(const JobQueue& queue, const Request& request, jobs::JobKind kind) {
   const std::string id = request.matches[1];
   std::optional<jobs::JobRow> row;
-  if (jobs::is_job_id(id)) row = service.get(id);
+  if (jobs::is_job_id(id)) row = queue.get(id);
   if (!row || row->kind != kind) {
     throw HttpError{404, fmt::format("there is no {} {}",
                                      kind == jobs::JobKind::dataset ? "job" : "calibration", id)};

@@ -39,6 +39,6 @@ jobs::JobRow find_job(const Call& call, const httplib::Request& request);
 void require_own(const Call& call, const jobs::JobRow& row);
 
 /// The job or calibration that the path names. Throws HttpError 404.
-jobs::JobRow find_row(JobService& service, const httplib::Request& request, jobs::JobKind kind);
+jobs::JobRow find_row(const JobQueue& queue, const httplib::Request& request, jobs::JobKind kind);
 
 }  // namespace throng::server

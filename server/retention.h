@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/store.h"
+#include "jobs/queue/store.h"
 
 namespace throng::server {
 

@@ -42,13 +42,19 @@ std::string note_of(const ScenarioUpload& upload) {
                   {"created_ms", upload.created_ms},
                   {"bytes", upload.bytes},
                   {"files", upload.files},
-                  {"ids", upload.ids}});
+                  {"ids", upload.ids},
+                  {"summaries", upload.summaries}});
 }
 
 ScenarioUpload read_note(const fs::path& folder) {
   const json note = parse_own_json(read_file(folder / kNoteName), (folder / kNoteName).string());
-  return {folder.filename().string(), note.at("owner"), note.at("created_ms"),
-          note.at("bytes"),           note.at("files"), note.at("ids")};
+  return {folder.filename().string(),
+          note.at("owner"),
+          note.at("created_ms"),
+          note.at("bytes"),
+          note.at("files"),
+          note.at("ids"),
+          note.value("summaries", std::vector<json>{})};
 }
 
 /// Where the bundle's own files begin: below a single folder that holds everything.
@@ -78,12 +84,12 @@ std::string upload_of(const std::string& scenario_id) {
 
 fs::path ScenarioStore::folder_in(const fs::path& data) { return fs::absolute(data) / "scenarios"; }
 
-ScenarioStore::ScenarioStore(const fs::path& data, const fs::path& shipped, ScenarioChecker checker,
-                             UploadLimits limits)
+ScenarioStore::ScenarioStore(const fs::path& data, const fs::path& shipped,
+                             const ConfinedChecks& confined, UploadLimits limits)
     : data_(fs::absolute(data)),
       uploads_(data_ / "uploads"),
       links_(folder_in(data)),
-      checker_(std::move(checker)),
+      confined_(confined),
       limits_(limits) {
   fs::create_directories(uploads_);
   remove_temporaries(uploads_);
@@ -96,10 +102,26 @@ void ScenarioStore::find_uploads() {
   for (const fs::directory_entry& entry : fs::directory_iterator(uploads_)) {
     const std::string name = entry.path().filename().string();
     try {
-      if (is_upload_name(name)) known_[name] = read_note(entry.path());
+      if (!is_upload_name(name)) continue;
+      ScenarioUpload upload = read_note(entry.path());
+      if (upload.summaries.size() != upload.ids.size()) describe(upload);
+      known_[name] = std::move(upload);
     } catch (const std::exception& error) {
       spdlog::warn("upload {}: cannot be read and is left aside: {}", name, error.what());
     }
+  }
+}
+
+/// An upload of an earlier version, whose note does not say what its scenarios are.
+void ScenarioStore::describe(ScenarioUpload& upload) const {
+  const fs::path folder = uploads_ / upload.name;
+  try {
+    jobs::CheckedScenarios checked = confined_.scenarios(folder / kFilesName);
+    if (checked.ids.size() != upload.ids.size()) return;
+    upload.summaries = std::move(checked.summaries);
+    write_file_atomically(folder / kNoteName, note_of(upload));
+  } catch (const InputError& error) {
+    spdlog::warn("upload {}: cannot be used any more: {}", upload.name, error.what());
   }
 }
 
@@ -128,8 +150,9 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
         Problem{"", "?name", '"' + name + '"',
                 fmt::format("1 to {} small letters, digits and underscores", kLongestName)});
   }
-  Staged staged{
-      {name, owner, unix_ms_now(), 0, 0, {}}, {}, std::make_unique<StagingFolder>(uploads_ / name)};
+  Staged staged{{name, owner, unix_ms_now(), 0, 0, {}, {}},
+                {},
+                std::make_unique<StagingFolder>(uploads_ / name)};
   const fs::path& folder = staged.folder->path();
   const fs::path unpacked = folder / "unpacked";
   fs::create_directories(unpacked);
@@ -137,12 +160,10 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
   staged.upload.bytes = found.bytes;
   staged.upload.files = found.files;
   fs::rename(root_of(unpacked), folder / kFilesName);
-  const fs::path work = folder / "work";
-  fs::create_directories(work);
-  jobs::CheckedScenarios checked = checker_(folder / kFilesName, work);
+  jobs::CheckedScenarios checked = confined_.scenarios(folder / kFilesName);
   for (const std::string& id : checked.ids) staged.upload.ids.push_back(name + "/" + id);
+  staged.upload.summaries = std::move(checked.summaries);
   staged.findings = std::move(checked.findings);
-  fs::remove_all(work);
   fs::remove_all(unpacked);
   write_file_atomically(folder / kNoteName, note_of(staged.upload));
   return staged;

@@ -20,7 +20,7 @@
 
 #include "base/files.h"
 #include "base/unpack.h"
-#include "server/scenario_checker.h"
+#include "server/confined_checks.h"
 
 namespace throng::server {
 
@@ -39,6 +39,8 @@ struct ScenarioUpload {
   std::int64_t bytes = 0;  ///< unpacked
   std::size_t files = 0;
   std::vector<std::string> ids;  ///< of its scenarios, with its name: "NAME/plaza"
+  /// What the check knew of each (jobs/spec/scenario_summary.h), in the order of the ids.
+  std::vector<nlohmann::json> summaries;
 };
 
 /// The name is another's already. Answered with 409.
@@ -62,9 +64,10 @@ std::string upload_of(const std::string& scenario_id);
 /// Safe to use from many threads.
 class ScenarioStore {
  public:
-  /// Finds the uploads in the data folder and makes the folder of links. Throws EnvironmentError.
+  /// Finds the uploads in the data folder and makes the folder of links. The checks outlive the
+  /// store. Throws EnvironmentError.
   ScenarioStore(const std::filesystem::path& data, const std::filesystem::path& shipped,
-                ScenarioChecker checker, UploadLimits limits);
+                const ConfinedChecks& confined, UploadLimits limits);
 
   /// Where all scenarios are found, in a service with this data folder.
   static std::filesystem::path folder_in(const std::filesystem::path& data);
@@ -73,7 +76,7 @@ class ScenarioStore {
   /// A bundle that has been unpacked and found good, and is not published.
   struct Staged {
     ScenarioUpload upload;
-    std::vector<places::Finding> findings;  ///< that stop nobody from using it
+    std::vector<jobs::ScenarioFinding> findings;  ///< that stop nobody from using it
     std::unique_ptr<StagingFolder> folder;
   };
 
@@ -92,12 +95,13 @@ class ScenarioStore {
 
  private:
   void find_uploads();
+  void describe(ScenarioUpload& upload) const;
   void make_links(const std::filesystem::path& shipped) const;
 
   std::filesystem::path data_;
   std::filesystem::path uploads_;
   std::filesystem::path links_;
-  ScenarioChecker checker_;
+  const ConfinedChecks& confined_;
   UploadLimits limits_;
   mutable std::mutex mutex_;
   std::map<std::string, ScenarioUpload> known_;  ///< guarded by mutex_

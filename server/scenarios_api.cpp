@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
-#include "jobs/job_scenario.h"
-#include "jobs/pipeline.h"
-#include "places/plan.h"
+#include "jobs/spec/scenario_summary.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"
-#include "sim/planned_paths.h"
 #include "world/scenario.h"
 
 namespace throng::server {
@@ -21,11 +19,8 @@ namespace throng::server {
 using httplib::Request;
 using httplib::Response;
 using nlohmann::json;
-namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int kPlanPx = 1200;  // the longer side
 
 json upload_json(const ScenarioUpload& upload) {
   return {{"name", upload.name},
@@ -35,40 +30,37 @@ json upload_json(const ScenarioUpload& upload) {
           {"files", upload.files}};
 }
 
-json findings_json(const std::vector<places::Finding>& findings) {
+json findings_json(const std::vector<jobs::ScenarioFinding>& findings) {
   json list = json::array();
-  for (const places::Finding& finding : findings) {
+  for (const jobs::ScenarioFinding& finding : findings) {
     list.push_back(problems_json({finding.problem}).front());
-    list.back()["severity"] = finding.severity == places::Severity::error ? "error" : "warning";
+    list.back()["severity"] = finding.is_error ? "error" : "warning";
     list.back()["remedy"] = finding.remedy;
   }
   return list;
 }
 
+/// Those that were uploaded are known from their check: this process does not load them.
+json summary_of(const Call& call, const std::string& id,
+                const std::optional<ScenarioUpload>& upload) {
+  if (!upload) {
+    return jobs::scenario_summary(world::find_scenario(call.folders.scenarios(), id));
+  }
+  const auto found = std::find(upload->ids.begin(), upload->ids.end(), id);
+  const auto index = static_cast<std::size_t>(found - upload->ids.begin());
+  if (index >= upload->summaries.size()) {
+    throw InputError(Problem{id, "", "a scenario that was not there when it was uploaded",
+                             "one that can be loaded; upload it again"});
+  }
+  return upload->summaries[index];
+}
+
 json scenario_json(const Call& call, const std::string& id) {
-  const world::Scenario scenario = world::find_scenario(call.service.scenarios(), id);
-  json exits = json::array();
-  for (const world::Exit& exit : scenario.exits) {
-    exits.push_back({{"id", exit.id}, {"width_m", exit.width_m()}, {"open", exit.open}});
-  }
-  json drones = json::array();
-  for (const world::DroneStart& drone : scenario.drones) {
-    drones.push_back({{"id", drone.id},
-                      {"start_m", {drone.position.x(), drone.position.y(), drone.position.z()}}});
-  }
-  const world::Rectangle& ground = scenario.ground;
-  const auto upload = call.service.uploads().find(upload_of(id));
-  return {
-      {"id", id},
-      {"name", scenario.name},
-      {"description", scenario.description},
-      {"crowd_model", scenario.crowd_model.empty() ? json(nullptr) : json(scenario.crowd_model)},
-      {"ground_m", {ground.min.x(), ground.min.y(), ground.max.x(), ground.max.y()}},
-      {"exits", std::move(exits)},
-      {"drones", std::move(drones)},
-      {"buildings", scenario.buildings.size()},
-      {"props", scenario.props.size()},
-      {"uploaded", upload ? upload_json(*upload) : json(nullptr)}};
+  const auto upload = call.uploads.scenarios().find(upload_of(id));
+  json value = summary_of(call, id, upload);
+  value["id"] = id;
+  value["uploaded"] = upload ? upload_json(*upload) : json(nullptr);
+  return value;
 }
 
 void require_bundle(const Request& request) {
@@ -89,7 +81,7 @@ void require_bundle(const Request& request) {
 void upload_scenarios(const Call& call, const Request& request, Response& response) {
   require_bundle(request);
   const std::string name = request.get_param_value("name");
-  ScenarioStore& uploads = call.service.uploads();
+  ScenarioStore& uploads = call.uploads.scenarios();
   if (is_bundle_name(name)) throw HttpError{409, "names like this are those of jobs' own bundles"};
   if (uploads.is_taken(name)) {
     throw HttpError{409, fmt::format("there are scenarios named \"{}\" already", name)};
@@ -105,19 +97,19 @@ void upload_scenarios(const Call& call, const Request& request, Response& respon
     write_json(response, dry ? 200 : 201, value);
   } catch (const InputError& error) {
     throw HttpError{400, "the bundle cannot be used as it stands",
-                    call.service.without_paths(error.problems())};
+                    call.folders.without_paths(error.problems())};
   }
 }
 
 void list_scenarios(const Call& call, const Request&, Response& response) {
   json list = json::array();
-  for (const std::string& id : world::list_scenarios(call.service.scenarios())) {
+  for (const std::string& id : world::list_scenarios(call.folders.scenarios())) {
     if (is_bundle_name(upload_of(id))) continue;  // of one job, and of no use to others
     try {
       list.push_back(scenario_json(call, id));
     } catch (const InputError& error) {
       // One that is damaged hides no other.
-      list.push_back({{"id", id}, {"error", call.service.without_paths(error.what())}});
+      list.push_back({{"id", id}, {"error", call.folders.without_paths(error.what())}});
     }
   }
   write_json(response, 200, {{"scenarios", std::move(list)}});
@@ -125,14 +117,13 @@ void list_scenarios(const Call& call, const Request&, Response& response) {
 
 void send_scenario(const Call& call, const Request& request, Response& response) {
   const std::string id = request.matches[1];
-  const auto all = world::list_scenarios(call.service.scenarios());
+  const auto all = world::list_scenarios(call.folders.scenarios());
   if (std::find(all.begin(), all.end(), id) == all.end()) {
     throw HttpError{404, "there is no such scenario; GET /v1/scenarios lists them"};
   }
   const std::string format = request.get_param_value("format");
   if (format == "svg") {
-    const world::Scenario scenario = world::find_scenario(call.service.scenarios(), id);
-    return response.set_content(places::to_svg(places::draw_plan(scenario, kPlanPx)),
+    return response.set_content(call.confined.scenario_plan(id, call.folders.scenarios()),
                                 "image/svg+xml");
   }
   if (!format.empty() && format != "json") {
@@ -143,17 +134,13 @@ void send_scenario(const Call& call, const Request& request, Response& response)
 
 void send_job_plan(const Call& call, const Request& request, Response& response) {
   const jobs::JobRow row = find_job(call, request);
-  const fs::path& folder = call.service.scenarios();
-  const jobs::JobSpec job = jobs::parse_job(row.spec_json, "", folder);
-  const world::Scenario scenario = jobs::scenario_of(job, folder);
-  const auto paths = sim::planned_paths(scenario, jobs::run_spec(job, 0));
-  response.set_content(places::to_svg(places::draw_plan(scenario, kPlanPx, paths)),
+  response.set_content(call.confined.job_plan(row.spec_json, call.folders.scenarios()),
                        "image/svg+xml");
 }
 
 void remove_scenarios(const Call& call, const Request& request, Response& response) {
   const std::string name = request.matches[1];
-  const auto upload = call.service.uploads().find(name);
+  const auto upload = call.uploads.scenarios().find(name);
   if (!upload || is_bundle_name(name)) {
     throw HttpError{404,
                     "there is no such upload; its name is the first part of its scenarios' ids"};
@@ -162,7 +149,7 @@ void remove_scenarios(const Call& call, const Request& request, Response& respon
     throw HttpError{403,
                     "the upload is another's: only its owner and administrators may remove it"};
   }
-  if (!call.service.remove_scenarios(name)) throw HttpError{404, "already removed"};
+  if (!call.uploads.remove(name)) throw HttpError{404, "already removed"};
   response.status = 204;
 }
 

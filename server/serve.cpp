@@ -14,11 +14,11 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "jobs/local_processes.h"
+#include "jobs/queue/local_processes.h"
 #include "server/api.h"
-#include "server/job_service.h"
 #include "server/json_log.h"
 #include "server/keys.h"
+#include "server/service.h"
 #include "server/webhook_sender.h"
 
 namespace throng::server {
@@ -87,20 +87,22 @@ int serve(const ServeOptions& options) {
   jobs::LocalProcesses executor({.workers = options.workers,
                                  .longest_task_s = options.longest_task_s,
                                  .worker_memory_mib = options.worker_memory_mib});
+  const auto checks =
+      std::make_shared<jobs::ForkServer>(std::vector<std::string>{"/proc/self/exe", "confined"});
   constexpr int kMibShift = 20;
   constexpr int kGibShift = 30;
   constexpr std::int64_t kMsPerDay = 86'400'000;
-  JobService service({.data = options.data,
-                      .scenarios = options.scenarios,
-                      .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
-                      .scenario_checker = scenario_checker_in_child(
-                          {"/proc/self/exe", "scenarios", "check-bundle"}),
-                      .reporter = reporter_in_child({"/proc/self/exe", "report"}),
-                      .uploads = {.most_bytes = options.uploads_gib << kGibShift},
-                      .retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
-                      .least_free_bytes = options.least_free_mib << kMibShift},
-                     executor);
-  WebhookSender hooks(service);
+  Service service(
+      {.data = options.data,
+       .scenarios = options.scenarios,
+       .confined = jobs::confined_task_by(checks),
+       .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
+       .reporter = reporter_in_child({"/proc/self/exe", "report"}),
+       .uploads = {.most_bytes = options.uploads_gib << kGibShift},
+       .housekeeping = {.retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
+                        .least_free_bytes = options.least_free_mib << kMibShift}},
+      executor);
+  WebhookSender hooks(service.queue(), options.data);
   Api api(service, keys, hooks, {options.host, options.port});
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
@@ -109,6 +111,7 @@ int serve(const ServeOptions& options) {
   std::fflush(stdout);
   const SignalWatch watch([&] {
     spdlog::info("ending");
+    checks->stop();  // requests that wait for one get their answer
     api.stop();
   });
   api.run();

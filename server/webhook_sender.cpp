@@ -80,8 +80,9 @@ std::string body_of(const jobs::EventRow& event) {
 
 }  // namespace
 
-WebhookSender::WebhookSender(const JobService& service, WebhookSenderOptions options)
-    : service_(service), webhooks_(service.data_folder()), options_(options) {
+WebhookSender::WebhookSender(const JobQueue& queue, const std::filesystem::path& data,
+                             WebhookSenderOptions options)
+    : queue_(queue), webhooks_(data), options_(options) {
   refresh();
 }
 
@@ -154,7 +155,7 @@ bool WebhookSender::deliver_next(Webhook& webhook, const std::stop_token& stop) 
   constexpr int kPage = 100;
   constexpr auto kPatience = 500ms;  // also bounds how long it takes to end
   const std::int64_t before = webhook.after;
-  for (const jobs::EventRow& event : service_.events("", webhook.after, kPage, kPatience)) {
+  for (const jobs::EventRow& event : queue_.events("", webhook.after, kPage, kPatience)) {
     if (stop.stop_requested()) return true;
     if (!is_wanted(webhook, event.type)) {
       webhook.after = event.seq;

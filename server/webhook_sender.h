@@ -20,7 +20,7 @@
 #include <string>
 #include <thread>
 
-#include "server/job_service.h"
+#include "server/job_queue.h"
 #include "server/webhooks.h"
 
 namespace throng::server {
@@ -33,8 +33,9 @@ struct WebhookSenderOptions {
 
 class WebhookSender {
  public:
-  /// Those of the service's data folder; the service must outlive it.
-  explicit WebhookSender(const JobService& service, WebhookSenderOptions options = {});
+  /// Those of the service's data folder; the queue must outlive it.
+  WebhookSender(const JobQueue& queue, const std::filesystem::path& data,
+                WebhookSenderOptions options = {});
   ~WebhookSender();
   WebhookSender(const WebhookSender&) = delete;
   WebhookSender& operator=(const WebhookSender&) = delete;
@@ -52,7 +53,7 @@ class WebhookSender {
   bool deliver_next(Webhook& webhook, const std::stop_token& stop);
   void rest(std::chrono::milliseconds duration, const std::stop_token& stop);
 
-  const JobService& service_;
+  const JobQueue& queue_;
   Webhooks webhooks_;
   WebhookSenderOptions options_;
   std::mutex mutex_;

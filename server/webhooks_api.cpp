@@ -119,7 +119,7 @@ void create_webhook(const Call& call, const Request& request, Response& response
   if (webhooks.list().size() >= kMostWebhooks) {
     throw HttpError{409, fmt::format("there may be {} webhooks: remove one", kMostWebhooks)};
   }
-  const Webhook webhook = webhooks.create(url, events_of(body), secret, call.service.last_event());
+  const Webhook webhook = webhooks.create(url, events_of(body), secret, call.queue.last_event());
   call.hooks.refresh();
   json answer = webhook_json(webhook);
   answer["secret"] = webhook.secret;  // this once
@@ -143,7 +143,7 @@ void change_webhook(const Call& call, const Request& request, Response& response
   if (!body.contains("enabled") || !body["enabled"].is_boolean()) {
     throw wrong("/enabled", body.value("enabled", json(nullptr)).dump(), "true or false");
   }
-  call.hooks.webhooks().enable(id, body["enabled"], call.service.last_event());
+  call.hooks.webhooks().enable(id, body["enabled"], call.queue.last_event());
   call.hooks.refresh();
   write_json(response, 200, webhook_json(find_webhook(call, request)));
 }

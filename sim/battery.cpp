@@ -45,6 +45,10 @@ double hover_power_w(const Airframe& airframe) {
                           Eigen::Vector3d::UnitZ());
 }
 
+double hover_endurance_s(const Airframe& airframe) {
+  return airframe.battery_wh * kJoulesPerWh / hover_power_w(airframe);
+}
+
 Battery::Battery(double capacity_wh, std::optional<double> charge)
     : capacity_j_(capacity_wh * kJoulesPerWh), start_(charge) {
   check(!charge || capacity_wh > 0, "a battery that may run out has a capacity");

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 #include "sim/quadcopter.h"
 
 namespace throng::sim {
@@ -18,6 +18,8 @@ double electric_power_w(const Airframe& airframe, double thrust_n,
 
 /// The same for a hover in still air.
 double hover_power_w(const Airframe& airframe);
+/// How long the craft can hover with a full battery; 0: its battery is not known.
+double hover_endurance_s(const Airframe& airframe);
 
 /// Counts the energy used. A battery without a charge never runs out.
 class Battery {

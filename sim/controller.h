@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 #include "sim/quadcopter.h"
 
 namespace throng::sim {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 #include "sim/contact_log.h"
 
 namespace throng::sim {

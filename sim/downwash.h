@@ -1,7 +1,7 @@
 // The air that a craft blows down to stay up.
 #pragma once
 
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 
 namespace throng::sim {
 

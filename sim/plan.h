@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 #include "sim/policy.h"
 #include "sim/run.h"
 #include "world/scenario.h"

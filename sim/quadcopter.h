@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 
 namespace throng::sim {
 

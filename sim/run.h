@@ -1,98 +1,20 @@
 // One run: the clock that couples crowd and drones and writes the trace.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory>
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "crowd/simulation.h"
-#include "sim/airframe.h"
-#include "sim/wind.h"
+#include "sim/spec/run_spec.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 
 namespace throng::sim {
-
-/// Where a drone of the policy "pilot_log" should be at a time.
-struct PilotSample {
-  double time_s = 0;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
-  double yaw_rad = 0;
-  bool beacon = true;  ///< whether people can follow it
-};
-
-/// What a policy knows of people (sim/perception.h).
-enum class PerceptionKind { truth, camera };
-struct PerceptionSpec {
-  PerceptionKind kind = PerceptionKind::truth;
-  double fov_rad = 90 * EIGEN_PI / 180;  ///< of the camera that counts, which looks straight down
-  double delay_s = 1;                    ///< from the picture to the estimate
-  double count_noise = 0.1;              ///< share of the people missed, and of those seen twice
-};
-
-/// Parameters that only some policies have; which ones is in the table of policy.cpp.
-struct GuidanceSpec {
-  std::optional<Eigen::Vector2d> centre;  ///< orbit: what it circles, m
-  std::optional<double> radius_m;         ///< orbit
-  std::optional<world::Rectangle> area;   ///< survey
-  std::optional<double> overlap;          ///< survey: share that neighbouring lanes have in common
-  std::optional<double> lead_speed_mps;   ///< with people behind
-  std::optional<int> batch;               ///< most people that are led at once
-  std::vector<std::string> exits;      ///< ids of exits to lead to; none given: all that are open
-  std::vector<PilotSample> setpoints;  ///< pilot_log, by time
-  std::optional<PerceptionSpec> perception;  ///< default: the truth
-  /// Policies that do not guide: whether people may follow the drone all the time. Default: no.
-  std::optional<bool> beacon;
-};
-
-/// The drone's camera as far as policies need it.
-struct CameraGeometry {
-  double hfov_rad = 78 * EIGEN_PI / 180;
-  double pitch_rad = -50 * EIGEN_PI / 180;  ///< above the horizon
-  double yaw_rad = 0;                       ///< from the drone's heading
-};
-
-/// What one drone is asked to do.
-struct DroneMission {
-  std::string id;                            ///< as in the job; unique
-  std::string airframe = "f450";             ///< a name in sim/airframes.json
-  std::optional<Airframe> own_airframe;      ///< flies instead of the named one
-  std::string policy = "hover";              ///< a name in the table of policy.cpp
-  std::optional<Eigen::Vector3d> start;      ///< m; default: the scenario's start for this id
-  std::vector<Eigen::Vector3d> waypoints;    ///< m, in order; the drone hovers at the last one
-  double speed_mps = 3;                      ///< along the path
-  std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
-  std::optional<double> battery_charge;      ///< share of a full battery; without it, it lasts
-  GuidanceSpec guidance;
-  CameraGeometry camera;
-};
-
-/// How the crowd engine computes.
-struct CrowdSpec {
-  std::string model;  ///< a name in crowd::models(); empty: as model_for() says
-  crowd::Compat compat = crowd::Compat::none;
-  bool hard_separation = false;
-  double compliance = 1;  ///< probability that somebody near a guide follows it
-  crowd::Physical physical;
-};
-
-struct RunSpec {
-  std::uint64_t seed = 1;
-  double duration_s = 120;    ///< simulated time; the run may not end earlier
-  std::optional<int> people;  ///< how many of the scenario's people take part; default all
-  CrowdSpec crowd;
-  std::shared_ptr<const world::Trace> recorded;  ///< people to replay instead of the scenario's
-  std::vector<DroneMission> drones;
-  WindSpec wind;
-  double physics_dt_s = 1.0 / 480;  ///< at most 1/240 s
-};
 
 /// The pedestrian model of a run: the spec's, else the one that the scenario was made for, else
 /// `orca` where Menge's results are wanted and `ttc` where people should walk as people do.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "skinning/population.h"
+#include "skinning/spec/styling.h"
 
 namespace throng::skinning {
 
@@ -17,17 +18,6 @@ struct Appearance {
   float cadence = 1;
   float amplitude = 1;
   std::array<Rgb, kTintCount> tint{};  ///< by skinning::Tint; white where nothing is tinted
-};
-
-/// Who of a population takes part in a run, and what is done to the colours of clothes, shoes and
-/// things carried, as far as they are dyed at all.
-struct Styling {
-  double brightness = 1;      ///< factor of lightness
-  double saturation = 1;      ///< 0: grey; 2: twice as colourful
-  double variety = 1;         ///< share of the characters of these ages, chosen by the run's seed
-  double youngest_years = 0;  ///< who is younger does not take part
-  double oldest_years = 150;  ///< nor who is older
-  double umbrellas = 0;       ///< share of the people under one, as far as there are such people
 };
 
 /// Agents near each other in id get different characters: with n that take part, equal ones are

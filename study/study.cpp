@@ -11,6 +11,7 @@
 #include "base/hash.h"
 #include "base/json_text.h"
 #include "base/version.h"
+#include "jobs/pipeline/resolve.h"
 #include "world/json_reader.h"
 
 namespace throng::study {
@@ -205,7 +206,7 @@ class StudyReader {
     if (!crowd.is_null()) job["crowd"] = crowd;
     if (!drones.is_null()) job["drones"] = drones;
     try {
-      jobs::JobSpec spec = jobs::parse_job(job.dump(), source_, scenarios_);
+      jobs::JobSpec spec = jobs::resolve_job(job.dump(), source_, scenarios_).spec();
       if (drones.is_null()) spec.drones.clear();  // not the scenario's own
       return spec;
     } catch (const InputError& error) {

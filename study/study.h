@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/spec.h"
+#include "jobs/spec/spec.h"
 #include "metrics/alarm.h"
 #include "metrics/run_bound.h"
 #include "world/scenario.h"

@@ -10,7 +10,7 @@
 #include "base/files.h"
 #include "base/json_text.h"
 #include "base/run_items.h"
-#include "jobs/pipeline.h"
+#include "jobs/pipeline/pipeline.h"
 
 namespace throng::study {
 

@@ -97,7 +97,7 @@ Results run_suite(const std::vector<std::string>& models, const std::vector<std:
 std::string markdown(const Results& results) {
   std::string page =
       "# How the pedestrian models do in standard tests\n\n"
-      "Printed by `throng validate-crowd`. The model `weidmann` is what a job gets that names none "
+      "Printed by `throng validate-crowd`. The model `ttc` is what a job gets that names none "
       "([crowd.md](crowd.md)). **+** passed, **-** failed, **o** reported (the source "
       "sets no criterion, and the test counts for nothing), with what was measured. Tests of RiMEA "
       "and NIST TN 1822 that need stairs, smoke, lifts or groups are left out, since a crowd in a "

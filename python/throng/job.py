@@ -1,6 +1,6 @@
 """The parts of a job as dataclasses: a typed way to write docs/job.md's JSON.
 
-Made by python/generate_types.py from jobs/job.schema.json; do not edit. What is None is left out, and then has the
+Made by python/generate_types.py from jobs/spec/job.schema.json; do not edit. What is None is left out, and then has the
 default of the schema. The service and the program check values; types are for editors and mypy.
 """
 
@@ -306,7 +306,8 @@ class Camera(Part):
 
     _: KW_ONLY
     preset: Literal["dji_phantom_4_pro", "dji_phantom_4_pro_full_hd", "dji_phantom_4", "px4_typhoon_h480", "airsim"] | None = None
-    """A known camera, for what is left out here: its image size and field of view (jobs/cameras.json, with sources)."""
+    """A known camera, for what is left out here: its image size and field of view (jobs/spec/cameras.json, with
+    sources)."""
     calibration: str | Mapping[str, Any] | None = None
     """A real camera: frames have exactly its size, lens and distortion, instead of width, height, hfov_deg, fx_px to
     cy_px, model and distortion. A file is found beside the job's; the service takes ids. A recorded job holds the
@@ -494,8 +495,8 @@ class Crowd(Part):
     """How many of the scenario's people take part, drawn by the seed; without it, all. Unit: people."""
     model: str | None = None
     """How people keep clear of each other: a model that throng crowd --list names, for example orca or helbing.
-    Without it the one that the scenario names, else weidmann, whose speeds and flows are those of real crowds
-    (orca where compat asks for the results of Menge)."""
+    Without it the one that the scenario names, else ttc, whose speeds and flows are those of real crowds (orca
+    where compat asks for the results of Menge)."""
     compat: Literal["none", "menge", "huang2016"] | None = None
     """Whose results are wanted where the scenario's files leave a choice: the sensible ones (none), Menge's with its
     quirks (menge), or also those of the elements that Huang's group added to it (huang2016). Default: "none"."""

@@ -9,7 +9,7 @@
 
 #include "base/files.h"
 #include "boards.h"
-#include "calibrate/camera_file.h"
+#include "calibrate/spec/camera_file.h"
 #include "calibrate/control_points.h"
 #include "calibrate/intrinsics.h"
 #include "calibrate/picture.h"

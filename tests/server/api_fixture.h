@@ -21,7 +21,7 @@ class ApiTest : public ServiceFixture {
  protected:
   ApiTest()
       : service(options(), executor),
-        hooks(service),
+        hooks(service.queue(), data.path()),
         api(service, keys, hooks, {}),
         thread([this] { api.run(); }) {}
   ~ApiTest() override { api.stop(); }
@@ -80,7 +80,7 @@ class ApiTest : public ServiceFixture {
     return answer;
   }
 
-  JobService service;
+  Service service;
   Keys keys{data.path()};
   WebhookSender hooks;
   Api api;

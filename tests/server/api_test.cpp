@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "jobs/spec.h"
+#include "jobs/spec/spec.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {
@@ -31,8 +31,9 @@ TEST_F(ApiTest, AJobFromSubmissionToMetrics) {
   EXPECT_EQ(get(done["links"]["archive"])->status, 200);
   // The pretended dataset has no runs of its own.
   expect_problem(get(self + "/runs/0/metrics"), 404);
-  write_file_atomically(service.dataset_of(job["id"]) / "metrics/run000.json", R"({"people":3})");
-  write_file_atomically(service.dataset_of(job["id"]) / "exits/run000.csv", "frame\n");
+  write_file_atomically(service.folders().dataset_of(job["id"]) / "metrics/run000.json",
+                        R"({"people":3})");
+  write_file_atomically(service.folders().dataset_of(job["id"]) / "exits/run000.csv", "frame\n");
   EXPECT_EQ(get_json(self + "/runs/0/metrics"), json::parse(R"({"people":3})"));
   EXPECT_EQ(get(self + "/runs/0/metrics.csv")->body, "frame\n");
   expect_problem(get(self + "/runs/1/metrics.csv"), 404);
@@ -100,7 +101,7 @@ TEST_F(ApiTest, ARunsFiguresAreThereOnceItWasMeasured) {
   const std::string run = "/v1/jobs/" + id + "/runs/0";
   expect_problem(get(run + "/metrics"), 409);
   expect_problem(get("/v1/jobs/" + id + "/runs/1/metrics"), 404);
-  const auto measured = service.job_folder(id) / "work/run000/metrics";
+  const auto measured = service.folders().job_folder(id) / "work/run000/metrics";
   write_file_atomically(measured / "metrics/run000.json", R"({"people":3})");
   EXPECT_EQ(get_json(run + "/metrics"), json::parse(R"({"people":3})"));
   expect_problem(get(run + "/metrics.csv"), 404);  // this job did not ask for it

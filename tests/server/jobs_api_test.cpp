@@ -1,7 +1,7 @@
 // What can be done with jobs over HTTP, and the stream of what happens to them.
 #include <gmock/gmock.h>
 
-#include "jobs/publication.h"
+#include "jobs/queue/publication.h"
 #include "tests/server/api_fixture.h"
 
 namespace throng::server {
@@ -174,13 +174,13 @@ TEST_F(JobsApi, AStreamTellsAllAndEndsWithTheJob) {
                    return true;
                  });
   });
-  ASSERT_TRUE(wait_until([&] { return service.watchers() == 1; }));
+  ASSERT_TRUE(wait_until([&] { return service.queue().watchers() == 1; }));
   gate.open();
   reader.join();
   EXPECT_THAT(text, HasSubstr("event: submitted\ndata: {"));
   EXPECT_THAT(text, HasSubstr("event: stage\n"));
   EXPECT_THAT(text, HasSubstr("event: succeeded\n"));
-  EXPECT_TRUE(wait_until([&] { return service.watchers() == 0; }));
+  EXPECT_TRUE(wait_until([&] { return service.queue().watchers() == 0; }));
   // A client that was cut off goes on behind the last event that it has seen.
   const std::string last = get_json("/v1/jobs/" + id + "/events?limit=2")["next"].dump();
   const httplib::Result rest =
@@ -196,7 +196,7 @@ TEST_F(JobsApi, TooManyStreamsAreRefusedAndOthersServed) {
   Gate gate(executor);
   const std::string id = submit();
   std::vector<std::shared_ptr<void>> watches;
-  while (auto watch = service.begin_watch(128)) watches.push_back(watch);
+  while (auto watch = service.queue().begin_watch(128)) watches.push_back(watch);
   EXPECT_EQ(watches.size(), 128U);
   expect_problem(get("/v1/jobs/" + id + "/events", {{"Accept", "text/event-stream"}}), 503);
   EXPECT_EQ(get("/v1/jobs/" + id)->status, 200);
@@ -219,7 +219,7 @@ TEST_F(JobsApi, PreviewsAreThereWhileTheJobRuns) {
   const std::string self = "/v1/jobs/" + id;
   ASSERT_TRUE(wait_until([&] { return gate.somebody_waits(); }));
   EXPECT_TRUE(get_json(self + "/previews")["previews"].empty());
-  jobs::Publication shard(service.job_folder(id) / "work/run000/shard0000");
+  jobs::Publication shard(service.folders().job_folder(id) / "work/run000/shard0000");
   shard.add("previews/run000/d1/000001.jpg", "drawn");
   shard.add("images/run000/d1/000000.jpg", "another");
   shard.add("images/run000/d1/000001.jpg", "clean");

@@ -130,10 +130,11 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   expect_described("post", "/v1/jobs", client().Post("/v1/jobs", "x", "text/plain"));
   const std::string id = submit_and_wait();
   const std::string self = "/v1/jobs/" + id;
-  write_file_atomically(service.dataset_of(id) / "metrics/run000.json", "{}");
-  write_file_atomically(service.dataset_of(id) / "exits/run000.csv", "frame\n");
-  write_file_atomically(service.dataset_of(id) / "previews/run000/d1/000000.jpg", "picture");
-  write_file_atomically(service.job_folder(id) / "logs/run000_trace.log", "hello\n");
+  write_file_atomically(service.folders().dataset_of(id) / "metrics/run000.json", "{}");
+  write_file_atomically(service.folders().dataset_of(id) / "exits/run000.csv", "frame\n");
+  write_file_atomically(service.folders().dataset_of(id) / "previews/run000/d1/000000.jpg",
+                        "picture");
+  write_file_atomically(service.folders().job_folder(id) / "logs/run000_trace.log", "hello\n");
   for (const auto& [path, tail] : std::map<std::string, std::string>{
            {"/v1/jobs/{id}", ""},
            {"/v1/jobs/{id}/events", "/events"},

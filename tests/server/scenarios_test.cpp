@@ -53,6 +53,7 @@ class Uploads : public ApiTest {
 };
 
 TEST_F(Uploads, AreUsedLikeThoseThatComeWithThrong) {
+  SKIP_WITHOUT_PROGRAM();
   const httplib::Result answer = upload(yard_bundle());
   ASSERT_EQ(answer->status, 201) << answer->body;
   EXPECT_EQ(answer->get_header_value("Location"), "/v1/scenarios/mine/yard");
@@ -80,7 +81,7 @@ TEST_F(Uploads, SurviveARestartAndLieInOneFolderOfTheirOwn) {
   std::vector<PackedEntry> files = yard_files();
   for (PackedEntry& file : files) file.path = "my place/" + file.path;
   ASSERT_EQ(upload(packed(Packing::tar_gz, files))->status, 201);
-  ScenarioStore again(data.path(), scenarios.path(), scenario_checker_in_process(), {});
+  ScenarioStore again(data.path(), scenarios.path(), service.confined(), {});
   ASSERT_TRUE(again.find("mine"));
   EXPECT_EQ(again.find("mine")->files, 3U);
   EXPECT_TRUE(fs::exists(again.folder() / "mine/yard.json"));
@@ -106,6 +107,7 @@ TEST_F(Uploads, NamesAreTakenOnce) {
 }
 
 TEST_F(Uploads, WhatIsWrongIsSaidWithFileElementAndRemedy) {
+  SKIP_WITHOUT_PROGRAM();
   json errors =
       errors_of({{"behavior.xml", "<BFSM>\n<State name=\"Walk\" final=\"1\"/>\n<Oops/></BFSM>"}});
   EXPECT_EQ(errors[0]["source"], "behavior.xml");
@@ -128,6 +130,7 @@ TEST_F(Uploads, WhatIsWrongIsSaidWithFileElementAndRemedy) {
 }
 
 TEST_F(Uploads, NoFileOutsideTheBundleIsRead) {
+  SKIP_WITHOUT_PROGRAM();
   const std::string outside = (scenarios.path() / "yard_scene.xml").string();
   json scenario = testing::Yard().scenario;
   scenario["crowd"]["scene"] = outside;
@@ -160,6 +163,7 @@ TEST_F(Uploads, NoFileOutsideTheBundleIsRead) {
 }
 
 TEST_F(Uploads, MeshesNameNoFileOutsideTheBundle) {
+  SKIP_WITHOUT_PROGRAM();
   const jobs::TemporaryFolder elsewhere;
   write_file_atomically(elsewhere.path() / "points.bin",
                         std::string(36, '\0') + std::string(36, 'x'));
@@ -225,8 +229,7 @@ TEST_F(Uploads, AreRemovedByTheirOwnerAndNotInUse) {
 TEST_F(Uploads, HaveABoundTogether) {
   UploadLimits limits;
   limits.most_uploads = 1;
-  ScenarioStore store(data.path() / "small", scenarios.path(), scenario_checker_in_process(),
-                      limits);
+  ScenarioStore store(data.path() / "small", scenarios.path(), service.confined(), limits);
   ScenarioStore::Staged first = store.stage("one", yard_bundle(), "");
   store.publish(first);
   ScenarioStore::Staged second = store.stage("two", yard_bundle(), "");
@@ -273,15 +276,17 @@ TEST_F(Uploads, ABundleOfARefusedJobDoesNotStay) {
 TEST_F(Uploads, BundlesWithoutAJobAreDroppedAtTheStart) {
   const std::string bundle = yard_bundle();
   {
-    ScenarioStore store(data.path() / "two", scenarios.path(), scenario_checker_in_process(), {});
+    ScenarioStore store(data.path() / "two", scenarios.path(), service.confined(), {});
     ScenarioStore::Staged staged = store.stage(bundle_name_of(bundle), bundle, "");
     store.publish(staged);
     ScenarioStore::Staged kept = store.stage("kept", bundle, "");
     store.publish(kept);
   }
-  JobService second({data.path() / "two", scenarios.path()}, executor);
-  EXPECT_EQ(second.uploads().list().size(), 1U);
-  EXPECT_TRUE(second.uploads().find("kept"));
+  ServiceOptions two = options();
+  two.data = data.path() / "two";
+  Service second(two, executor);
+  EXPECT_EQ(second.uploads().scenarios().list().size(), 1U);
+  EXPECT_TRUE(second.uploads().scenarios().find("kept"));
 }
 
 }  // namespace

@@ -10,9 +10,10 @@
 #include <thread>
 
 #include "base/files.h"
-#include "server/job_service.h"
-#include "tests/jobs/fake_executor.h"
+#include "server/service.h"
+#include "tests/jobs/queue/fake_executor.h"
 #include "tests/jobs/yard.h"
+#include "tests/server/test_checks.h"
 
 namespace throng::server {
 
@@ -33,9 +34,11 @@ class ServiceFixture : public ::testing::Test {
  protected:
   ServiceFixture() { jobs::write_yard(scenarios.path()); }
 
-  JobServiceOptions options() const {
+  ServiceOptions options() const {
     return {.data = data.path(),
             .scenarios = scenarios.path(),
+            .confined = test_checks(),
+            .calibrator = test_calibrator(),
             .reporter = [this](const auto&... all) { reporter(all...); }};
   }
 

@@ -111,8 +111,10 @@ TEST_F(WebhooksTest, ChosenEventsOnly) {
 }
 
 TEST_F(WebhooksTest, WhatIsNotTakenIsSentAgain) {
-  WebhookSender quick(service, {.first_rest = 5ms, .longest_rest = 20ms, .patience = 60s});
-  const Webhook hook = quick.webhooks().create(receiver.url(), {"*"}, "", service.last_event());
+  WebhookSender quick(service.queue(), data.path(),
+                      {.first_rest = 5ms, .longest_rest = 20ms, .patience = 60s});
+  const Webhook hook =
+      quick.webhooks().create(receiver.url(), {"*"}, "", service.queue().last_event());
   receiver.answer_with({500, 302, 404});
   quick.refresh();
   submit();
@@ -151,16 +153,17 @@ TEST_F(WebhooksTest, AnyStatusOf200To299TakesAnEvent) {
 }
 
 TEST_F(WebhooksTest, AnAddressThatFailsForTooLongIsLeftAloneUntilItIsEnabled) {
-  WebhookSender quick(service, {.first_rest = 1ms, .longest_rest = 2ms, .patience = 30ms});
+  WebhookSender quick(service.queue(), data.path(),
+                      {.first_rest = 1ms, .longest_rest = 2ms, .patience = 30ms});
   // Nobody listens there.
   const Webhook hook =
-      quick.webhooks().create("http://127.0.0.1:1/hook", {"*"}, "", service.last_event());
+      quick.webhooks().create("http://127.0.0.1:1/hook", {"*"}, "", service.queue().last_event());
   quick.refresh();
   submit_and_wait();
   ASSERT_TRUE(wait_until([&] { return !quick.webhooks().get(hook.id)->enabled; }));
   EXPECT_NE(quick.webhooks().deliveries(hook.id, 1)[0].error, "");
   EXPECT_EQ(quick.webhooks().deliveries(hook.id, 1)[0].status, 0);
-  EXPECT_TRUE(quick.webhooks().enable(hook.id, true, service.last_event()));
+  EXPECT_TRUE(quick.webhooks().enable(hook.id, true, service.queue().last_event()));
   EXPECT_EQ(quick.webhooks().get(hook.id)->failures, 0);
 }
 
@@ -171,7 +174,7 @@ TEST_F(WebhooksTest, WhatHappenedWhileTheServerWasDownIsToldAfterwards) {
   ASSERT_TRUE(wait_until([&] { return receiver.requests().size() == 1; }));
   ASSERT_TRUE(wait_until([&] { return hooks.webhooks().get(id)->after > after; }));
   // Another sender, as after a restart, goes on where the first stood.
-  WebhookSender second(service);
+  WebhookSender second(service.queue(), data.path());
   submit();
   ASSERT_TRUE(wait_until([&] { return receiver.requests().size() >= 2; }));
 }

@@ -1,4 +1,4 @@
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

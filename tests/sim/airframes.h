@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 
 namespace throng::sim::testing {
 

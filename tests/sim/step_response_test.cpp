@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/angle.h"
-#include "sim/airframe.h"
+#include "sim/spec/airframe.h"
 #include "sim/controller.h"
 #include "sim/flight_world.h"
 #include "sim/wind.h"

@@ -1,0 +1,17 @@
+// Width and height of images.
+#pragma once
+
+#include <string>
+
+namespace throng::calibrate {
+
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+  bool operator==(const ImageSize&) const = default;
+};
+
+/// "640x480". Throws InputError naming `source`.
+ImageSize image_size_of(const std::string& text, const std::string& source);
+
+}  // namespace throng::calibrate

@@ -1,0 +1,17 @@
+// A calibration request's schema, and the files that its results are in (calibrate/request.h).
+#pragma once
+
+#include <string_view>
+
+namespace throng::calibrate {
+
+/// The JSON schema of what a client sends (calibrate/spec/request.schema.json).
+std::string_view request_schema();
+
+/// What carry_out_in() writes beside the request.
+inline constexpr const char* kCameraName = "camera.json";
+inline constexpr const char* kOpenCvName = "opencv.yaml";
+inline constexpr const char* kRosName = "ros.yaml";
+inline constexpr const char* kPictureName = "residuals.svg";
+
+}  // namespace throng::calibrate

@@ -1,0 +1,80 @@
+#include "jobs/pipeline/confined_work.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "calibrate/request.h"
+#include "jobs/pipeline/catalog.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/resolve.h"
+#include "jobs/pipeline/scenario_check.h"
+#include "places/plan.h"
+#include "sim/planned_paths.h"
+#include "world/scenario.h"
+
+namespace throng::jobs {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int kPlanPx = 1200;  // the longer side
+
+std::string text_at(const json& request, const char* key) {
+  return request.at(key).get<std::string>();
+}
+
+json check_bundle(const json& request) { return check_scenarios(text_at(request, "folder")); }
+
+json check_job(const json& request) {
+  return {
+      {"job",
+       to_json(resolve_job(text_at(request, "job"), "", text_at(request, "scenarios")).spec())}};
+}
+
+json draw_scenario(const json& request) {
+  const world::Scenario scenario =
+      world::find_scenario(text_at(request, "scenarios"), text_at(request, "id"));
+  return {{"svg", places::to_svg(places::draw_plan(scenario, kPlanPx))}};
+}
+
+json draw_job(const json& request) {
+  const JobSpec job = read_resolved_job(text_at(request, "job"), "").spec();
+  const world::Scenario scenario = scenario_of(job, text_at(request, "scenarios"));
+  const auto paths = sim::planned_paths(scenario, run_spec(job, 0));
+  return {{"svg", places::to_svg(places::draw_plan(scenario, kPlanPx, paths))}};
+}
+
+json check_calibration(const json& request) {
+  static_cast<void>(calibrate::request_from_json(request.at("request"), text_at(request, "files")));
+  return json::object();
+}
+
+using Work = std::pair<const char*, json (*)(const json&)>;
+constexpr std::array kWork = {
+    Work{"scenarios", &check_bundle},
+    Work{"job", &check_job},
+    Work{"scenario_plan", &draw_scenario},
+    Work{"job_plan", &draw_job},
+    Work{"calibration", &check_calibration},
+    Work{"catalog", [](const json&) { return catalog(); }},
+    Work{"people", [](const json&) { return people_catalog(); }},
+};
+
+}  // namespace
+
+json do_confined_work(const json& request) {
+  const std::string task = text_at(request, "task");
+  const auto* found = std::find_if(kWork.begin(), kWork.end(),
+                                   [&](const Work& work) { return task == work.first; });
+  check(found != kWork.end(), "the server asks for tasks that there are");
+  return found->second(request);
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,20 @@
+// What the service has its confined child processes do (jobs/queue/confined_task.h): everything
+// that loads a scenario, or needs the engine.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace throng::jobs {
+
+/// Carries out a request by its "task":
+///   scenarios      checks those in "folder": CheckedScenarios
+///   job            resolves the text "job" with the scenarios in "scenarios": {"job": ...}
+///   scenario_plan  draws the floor plan of the scenario "id" in "scenarios": {"svg": ...}
+///   job_plan       likewise of the resolved job "job", with the paths of its drones: {"svg": ...}
+///   calibration    checks the calibration "request", whose files lie in "files": {}
+///   catalog        what jobs may name (jobs/pipeline/catalog.h)
+///   people         the baked people, or null
+/// Throws InputError and EnvironmentError.
+nlohmann::json do_confined_work(const nlohmann::json& request);
+
+}  // namespace throng::jobs

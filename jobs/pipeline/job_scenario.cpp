@@ -1,0 +1,27 @@
+#include "jobs/pipeline/job_scenario.h"
+
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "places/generated.h"
+
+namespace throng::jobs {
+
+world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& scenarios,
+                            const std::string& source) {
+  if (job.generate) return places::load_generated(*job.generate);
+  try {
+    return world::find_scenario(scenarios, job.scenario);
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (!problem.source.empty()) continue;
+      problem.source = source;
+      problem.where = "/scenario";
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
+}  // namespace throng::jobs

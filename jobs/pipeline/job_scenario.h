@@ -1,0 +1,18 @@
+// Where a job takes place.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "jobs/spec/spec.h"
+#include "world/scenario.h"
+
+namespace throng::jobs {
+
+/// The scenario that the job names, or the one that is generated for it. Throws InputError: at
+/// /scenario of `source`, the job's file or "", when there is none of the name; a broken scenario
+/// file names itself.
+world::Scenario scenario_of(const JobSpec& job, const std::filesystem::path& scenarios,
+                            const std::string& source = "");
+
+}  // namespace throng::jobs

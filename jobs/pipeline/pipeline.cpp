@@ -1,0 +1,172 @@
+#include "jobs/pipeline/pipeline.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "annotate/exits_csv.h"
+#include "annotate/ground_field.h"
+#include "annotate/png.h"
+#include "base/error.h"
+#include "base/redact.h"
+#include "camera/files.h"
+#include "jobs/pipeline/flight_record.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/recording.h"
+#include "jobs/queue/publication.h"
+#include "jobs/spec/environment.h"
+#include "metrics/evacuation.h"
+#include "metrics/exits.h"
+#include "render/lens_map.h"
+#include "sim/run.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::jobs {
+
+namespace fs = std::filesystem;
+
+bool wants(const JobSpec& job, std::string_view annotation) {
+  const auto& wanted = job.outputs.annotations;
+  return std::find(wanted.begin(), wanted.end(), annotation) != wanted.end();
+}
+
+namespace {
+
+constexpr double kCameraDegree = std::numbers::pi / 180;
+
+double hfov_rad_of(const CameraSpec& camera) {
+  if (camera.fx_px) return 2 * std::atan(0.5 * camera.width / *camera.fx_px);
+  return camera.hfov_deg * kCameraDegree;
+}
+
+}  // namespace
+
+sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
+  const JobSpec job = job_of_run(whole_job, run);
+  sim::RunSpec spec;
+  spec.seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
+  spec.duration_s = job.capture.to_s;
+  spec.people = job.agents;
+  spec.crowd = job.crowd;
+  if (job.recorded) {
+    spec.recorded = std::make_shared<const world::Trace>(read_recording(*job.recorded));
+  }
+  spec.wind = environment_of_run(job.environment, spec.seed).wind;
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    sim::DroneMission& mission = spec.drones.emplace_back(job.drones[i].mission);
+    const CameraSpec camera = camera_of_run(job.drones[i].camera, spec.seed, camera_pointer(i));
+    mission.camera = {hfov_rad_of(camera), camera.pitch_deg * kCameraDegree,
+                      camera.yaw_deg * kCameraDegree};
+  }
+  return spec;
+}
+
+void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run,
+                  const OnTaskProgress& on_progress, const std::stop_token& stop) {
+  const fs::path trace = folder.output_of({Task::Kind::simulate, run});
+  fs::create_directories(trace.parent_path());
+  const auto progress = [&](double done_s, double total_s) {
+    if (on_progress) on_progress({done_s, total_s});
+  };
+  const std::vector<Problem> warnings =
+      sim::simulate(scenario_of(job, scenarios), run_spec(job, run), trace, progress, stop);
+  if (run > 0) return;  // all runs read the same files
+  for (const Problem& warning : warnings) {
+    fmt::print(stderr, "warning: {}\n",
+               without_folders(warning.text(), {folder.path(), scenarios}));
+  }
+}
+
+namespace {
+
+// Crowding and motion on the ground at the time of every frame.
+void add_fields(const JobSpec& job, int run, const world::Trace& trace,
+                const world::Scenario& scenario, Publication& output) {
+  nlohmann::json people = nlohmann::json::array();
+  const annotate::GroundGrid ground(scenario);
+  for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {
+    const auto field = annotate::ground_field(trace, ground, job.frame_time_s(frame));
+    output.add(fmt::format("fields/{}/{:06}.npy", run_name(run), frame),
+               annotate::npy_bytes(ground, field));
+    people.push_back(field.people);
+  }
+  const nlohmann::json grid = {{"origin_m", {ground.origin().x(), ground.origin().y()}},
+                               {"cell_m", ground.cell_m()},
+                               {"kernel_m", annotate::kFieldKernelM},
+                               {"columns", ground.columns()},
+                               {"rows", ground.rows()},
+                               {"people", people}};
+  output.add("fields/" + run_name(run) + ".json", grid.dump(kJsonIndent) + "\n");
+}
+
+// The calibration of every camera, and the tables of sensors if they are asked for.
+void add_flights(const JobSpec& job, int run, const world::Trace& trace, Publication& output) {
+  const std::uint64_t seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const std::string& id = job.drones[i].mission.id;
+    const auto lens = intrinsics_of(camera_of_run(job.drones[i].camera, seed, camera_pointer(i)));
+    check(lens.has_value(), "a job's lenses are checked when it is read");
+    const std::string place = fmt::format("{}/{}", run_name(run), id);
+    output.add("cameras/" + place + ".opencv.yaml", camera::opencv_yaml(*lens));
+    output.add("cameras/" + place + ".ros.yaml", camera::ros_yaml(*lens, id));
+    if (!render::shows_everywhere(*lens)) {
+      output.add("cameras/" + place + ".mask.png",
+                 annotate::png_bytes({lens->width, lens->height, 1}, render::shown_pixels(*lens)));
+    }
+    if (!wants(job, "sensors")) continue;
+    const auto& ids = trace.header.drone_ids;
+    const auto drone =
+        static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+    check(drone < ids.size(), "a trace holds the drones of its job");
+    const std::vector<world::DroneSample>& truth = trace.drones[drone];
+    output.add("sensors/" + place + ".csv", sensors_csv(truth, sensors_of(job, seed, truth, i)));
+  }
+}
+
+}  // namespace
+
+void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& scenarios, int run) {
+  const world::Scenario scenario = scenario_of(job, scenarios);
+  const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, run}));
+  const std::vector<metrics::ExitSeries> exits = metrics::exit_series(trace, scenario);
+  const nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
+
+  Publication output(folder.output_of({Task::Kind::measure, run}));
+  output.add("metrics/" + run_name(run) + ".json", figures.dump(kJsonIndent) + "\n");
+  if (wants(job, "exits")) {
+    std::vector<annotate::FrameTime> frames;
+    for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {
+      frames.push_back({frame, job.frame_time_s(frame)});
+    }
+    output.add("exits/" + run_name(run) + ".csv", annotate::exits_csv(exits, trace.time_s, frames));
+  }
+  if (wants(job, "fields")) add_fields(job, run, trace, scenario, output);
+  add_flights(job, run, trace, output);
+  // The trace may come from elsewhere (`throng render`): its seed is the one that counts.
+  output.publish({{"seed", trace.header.seed}, {"metrics", figures}});
+}
+
+void do_task(const JobFolder& folder, const ResolvedJob& resolved, const fs::path& scenarios,
+             const Task& task, const OnTaskProgress& on_progress, const std::stop_token& stop) {
+  const JobSpec& job = resolved.spec();
+  if (folder.is_done(task)) return;
+  switch (task.kind) {
+    case Task::Kind::simulate:
+      return simulate_run(folder, job, scenarios, task.run, on_progress, stop);
+    case Task::Kind::measure:
+      return measure_run(folder, job, scenarios, task.run);
+    case Task::Kind::render:
+      return render_shard(folder, job, scenarios,
+                          plan_shards(job, task.run)[static_cast<std::size_t>(task.shard)],
+                          on_progress, stop);
+    case Task::Kind::collect:
+      return collect_dataset(folder, job);
+  }
+}
+
+}  // namespace throng::jobs

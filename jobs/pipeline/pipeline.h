@@ -1,0 +1,49 @@
+// The tasks themselves: what a worker does. Each reads what earlier tasks published in the job's
+// folder and publishes its own output atomically, so it can be repeated at any time; doing one
+// whose output is there already changes nothing. Equal jobs give equal bytes.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string_view>
+
+#include "jobs/queue/executor.h"
+#include "jobs/queue/folder.h"
+#include "jobs/spec/plan.h"
+#include "jobs/spec/resolved_job.h"
+#include "sim/run.h"
+
+namespace throng::jobs {
+
+using OnTaskProgress = std::function<void(const TaskProgress&)>;
+
+/// Whether the job asks for this kind of ground truth, by its word in outputs.annotations.
+bool wants(const JobSpec& job, std::string_view annotation);
+
+/// What the simulation is asked to do in a run of the job.
+sim::RunSpec run_spec(const JobSpec& job, int run);
+
+/// Simulates a run: work/run000/trace.h5. Progress in simulated seconds.
+void simulate_run(const JobFolder& folder, const JobSpec& job,
+                  const std::filesystem::path& scenarios, int run,
+                  const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});
+
+/// Escape curve and exits of a run: work/run000/metrics/{metrics.json,exits.csv}.
+void measure_run(const JobFolder& folder, const JobSpec& job,
+                 const std::filesystem::path& scenarios, int run);
+
+/// Draws and labels the frames of a shard. Progress in images.
+void render_shard(const JobFolder& folder, const JobSpec& job,
+                  const std::filesystem::path& scenarios, const Shard& shard,
+                  const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});
+
+/// Gathers everything into dataset/ and writes its manifest.
+void collect_dataset(const JobFolder& folder, const JobSpec& job);
+
+/// Any task of the job.
+void do_task(const JobFolder& folder, const ResolvedJob& resolved,
+             const std::filesystem::path& scenarios, const Task& task,
+             const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});
+
+}  // namespace throng::jobs

@@ -1,0 +1,237 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "annotate/coco.h"
+#include "annotate/decimals.h"
+#include "annotate/density.h"
+#include "annotate/exit_view.h"
+#include "annotate/keypoints.h"
+#include "annotate/labels.h"
+#include "annotate/person_facts.h"
+#include "annotate/png.h"
+#include "annotate/preview.h"
+#include "base/error.h"
+#include "camera/camera.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/pipeline.h"
+#include "jobs/pipeline/shoot.h"
+#include "jobs/queue/people.h"
+#include "jobs/queue/profile.h"
+#include "jobs/queue/publication.h"
+#include "jobs/spec/environment.h"
+#include "render/renderer.h"
+#include "skinning/population.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::jobs {
+
+namespace {
+
+// The heads of the people in the labels, in box coordinates, as the records have them: one at the
+// picture's edge is inside for both or for none.
+std::vector<Eigen::Vector2d> heads_of(const annotate::FrameLabels& labels,
+                                      const camera::Camera& camera) {
+  std::vector<Eigen::Vector2d> heads;
+  for (const annotate::PersonLabel& label : labels.people) {
+    const std::optional<Eigen::Vector2d> head = render::head_in(label.person, camera);
+    if (!head) continue;
+    heads.emplace_back(annotate::rounded(head->x(), annotate::kPixelDecimals),
+                       annotate::rounded(head->y(), annotate::kPixelDecimals));
+  }
+  return heads;
+}
+
+std::int64_t count_inside(const std::vector<Eigen::Vector2d>& heads, int width, int height) {
+  return std::count_if(heads.begin(), heads.end(), [&](const Eigen::Vector2d& head) {
+    return head.x() >= 0 && head.y() >= 0 && head.x() < width && head.y() < height;
+  });
+}
+
+// One shard in the making: everything that its frames share.
+class ShardOutput {
+ public:
+  ShardOutput(const std::filesystem::path& output, const JobSpec& job, const Shard& shard,
+              std::string environment, nlohmann::json drawn, const annotate::PersonFacts& facts,
+              const annotate::ExitView* exits, const std::vector<std::string>& drone_ids,
+              StageClock* clock)
+      : job_(job),
+        shard_(shard),
+        facts_(facts),
+        exits_(exits),
+        drone_ids_(drone_ids),
+        environment_(std::move(environment)),
+        drawn_(std::move(drawn)),
+        clock_(clock),
+        publication_(output) {
+    if (wants(job, "coco")) {
+      coco_.emplace(publication_.folder() / "coco");
+    }
+  }
+
+  void add(const Picture& picture, std::size_t camera) {
+    const render::Frame& frame = picture.frame;
+    annotate::FrameLabels labels = annotate::label_people(frame);
+    if (wants(job_, "keypoints")) annotate::add_keypoints(frame, labels);
+    lap("labels");
+    const std::string& drone = job_.drones[camera].mission.id;
+    const std::string place = fmt::format("{}/{}/{:06}", run_name(shard_.run), drone, frame.index);
+    annotate::CocoImage image;
+    image.id = image_id(job_, shard_.run, camera, frame.index);
+    image.file_name = "images/" + place + ".jpg";
+    image.run = run_name(shard_.run);
+    image.run_index = shard_.run;
+    image.camera_id = drone;
+    image.frame_index = frame.index;
+    image.time_s = frame.time_s;
+    image.camera = frame.camera;
+    image.environment = environment_;
+    image.drawn = drawn_of(picture);
+    image.sensor = picture.sensor;
+    image.flight = picture.flight;
+    image.facts = &facts_;
+    image.drone_ids = &drone_ids_;
+    image.whole_drone_masks = wants(job_, "amodal");
+    if (exits_ != nullptr) image.exits = exits_->json(frame.camera, frame.time_s);
+    const std::string jpeg =
+        annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
+    lap("jpeg");
+    publication_.add(image.file_name, jpeg);
+    lap("write");
+    if (wants(job_, "density")) {
+      image.density_file = "density/" + place + ".npy";
+      image.density_count = add_density(image.density_file, frame, labels);
+      lap("density");
+    }
+    if (has_preview(job_, frame.index)) {
+      publication_.add("previews/" + place + ".jpg",
+                       annotate::jpeg_bytes(annotate::draw_preview(frame, labels), frame.width(),
+                                            frame.height(), job_.outputs.image_quality));
+      lap("previews");
+    }
+    add_rasters(place, frame);
+    if (coco_) coco_->add(image, labels);
+    lap("write");
+    annotations_ += static_cast<std::int64_t>(labels.people.size() + labels.drones.size());
+    for (const annotate::PersonLabel& label : labels.people) agents_.insert(label.agent);
+    ++images_;
+  }
+
+  void publish(const std::string& device) {
+    if (coco_) coco_->finish();
+    publication_.publish({{"device", device},
+                          {"images", images_},
+                          {"annotations", annotations_},
+                          {"agents", agents_}});
+  }
+
+ private:
+  /// What was drawn for the run and for the frame, or "".
+  std::string drawn_of(const Picture& picture) const {
+    nlohmann::json drawn = drawn_;
+    drawn.update(picture.drawn);
+    return drawn.empty() ? "" : drawn.dump();
+  }
+
+  std::int64_t add_density(const std::string& path, const render::Frame& frame,
+                           const annotate::FrameLabels& labels) {
+    const std::vector<Eigen::Vector2d> heads = heads_of(labels, frame.camera);
+    publication_.add(path,
+                     annotate::npy_bytes(annotate::density_map(heads, frame.width(), frame.height(),
+                                                               job_.outputs.density_sigma_px)));
+    return count_inside(heads, frame.width(), frame.height());
+  }
+
+  // Ground truth per pixel, as far as it is asked for.
+  void add_rasters(const std::string& place, const render::Frame& frame) {
+    struct Kind {
+      const char* name;
+      std::string (*bytes)(const render::Frame&);
+    };
+    for (const Kind& kind :
+         {Kind{"depth", annotate::depth_png}, Kind{"instances", annotate::instance_png},
+          Kind{"parts", annotate::part_png}, Kind{"normals", annotate::normal_png},
+          Kind{"flow", annotate::flow_png}}) {
+      if (!wants(job_, kind.name)) continue;
+      const std::string png = kind.bytes(frame);
+      lap("png");
+      publication_.add(fmt::format("{}/{}.png", kind.name, place), png);
+      lap("write");
+    }
+  }
+
+  void lap(const char* stage) {
+    if (clock_ != nullptr) clock_->lap(stage);
+  }
+
+  const JobSpec& job_;
+  const Shard& shard_;
+  const annotate::PersonFacts& facts_;
+  const annotate::ExitView* exits_;  ///< null unless exits are asked for
+  const std::vector<std::string>& drone_ids_;
+  std::string environment_;  ///< JSON
+  nlohmann::json drawn_;     ///< for the run
+  StageClock* clock_;
+  Publication publication_;
+  std::optional<annotate::CocoShardWriter> coco_;
+  std::int64_t images_ = 0;
+  std::int64_t annotations_ = 0;
+  std::set<std::uint32_t> agents_;
+};
+
+}  // namespace
+
+void render_shard(const JobFolder& folder, const JobSpec& whole_job,
+                  const std::filesystem::path& scenarios, const Shard& shard,
+                  const OnTaskProgress& on_progress, const std::stop_token& stop) {
+  JobSpec job = job_of_run(whole_job, shard.run);
+  const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(shard.run)).seed;
+  world::Scenario scenario = scenario_of(job, scenarios);
+  world::thin_out(scenario, job.props_density, seed);
+  const world::Trace trace = world::read_trace(folder.output_of({Task::Kind::simulate, shard.run}));
+  const skinning::Population population = skinning::load_population(skinning::population_folder());
+  pin_people(folder, population.content_hash);
+  const RunEnvironment environment = environment_of_run(job.environment, seed);
+  job.styling = styling_in(job, environment.light.weather);
+  std::optional<StageClock> clock;
+  if (is_profiling()) clock.emplace();
+  render::RenderOptions options;
+  options.quality = job.quality;
+  options.normals = wants(job, "normals");
+  options.flow = wants(job, "flow");
+  options.parts = wants(job, "parts");
+  options.whole_masks = wants(job, "coco") && wants(job, "amodal");
+  options.clock = clock ? &*clock : nullptr;
+  render::Renderer renderer(scenario, population, environment.light, {}, options);
+  Shoot shoot(job, seed, trace, population, renderer, options.clock);
+
+  const Task task{Task::Kind::render, shard.run, shard.index};
+  const nlohmann::json drawn = drawn_of_run(whole_job, shard.run);
+  const annotate::PersonFacts facts(trace, population, job.styling);
+  std::optional<annotate::ExitView> exits;
+  if (wants(job, "exits") && wants(job, "coco")) {
+    exits.emplace(scenario, metrics::exit_series(trace, scenario), trace.time_s);
+  }
+  ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(), drawn, facts,
+                     exits ? &*exits : nullptr, trace.header.drone_ids, options.clock);
+  const double images = static_cast<double>((shard.end_frame - shard.first_frame) *
+                                            static_cast<std::int64_t>(job.drones.size()));
+  double done = 0;
+  for (std::int64_t frame = shard.first_frame; frame < shard.end_frame; ++frame) {
+    for (std::size_t i = 0; i < job.drones.size(); ++i) {
+      if (stop.stop_requested()) throw Cancelled();
+      Picture picture = shoot.take(i, frame);
+      output.add(picture, i);
+      shoot.recycle(std::move(picture));
+      if (on_progress) on_progress({++done, images});
+    }
+  }
+  if (clock) write_profile(folder, task, *clock, static_cast<std::int64_t>(done));
+  output.publish(renderer.device_description());
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,209 @@
+#include "jobs/pipeline/resolve.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "crowd/model.h"
+#include "crowd/simulation.h"
+#include "formats/exporter.h"
+#include "jobs/pipeline/job_scenario.h"
+#include "jobs/pipeline/lens_check.h"
+#include "jobs/pipeline/recording.h"
+#include "jobs/spec/plan.h"
+#include "sim/participants.h"
+#include "sim/pilot_log.h"
+#include "sim/plan.h"
+#include "sim/run.h"
+
+namespace throng::jobs {
+
+namespace {
+
+// Keeps image and annotation ids, and a manifest in memory, within sane bounds.
+constexpr std::int64_t kMaxImages = 2'000'000;
+
+void add(const InputError& error, std::vector<Problem>& problems) {
+  problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+}
+
+void read_pilot_log(const std::string& pointer, DroneSpec& drone, std::vector<Problem>& problems) {
+  const std::filesystem::path file = std::exchange(drone.pilot_log, {});
+  try {
+    drone.mission.guidance.setpoints = sim::parse_pilot_log(read_file(file), file.string());
+  } catch (const EnvironmentError&) {
+    problems.push_back({"", pointer, "\"" + file.filename().string() + "\", which cannot be read",
+                        "the name of a pilot log, from the job's folder"});
+  } catch (const InputError& error) {
+    add(error, problems);
+  }
+}
+
+// What lies in files beside the job becomes part of it.
+void read_files(JobSpec& job, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    if (job.drones[i].pilot_log.empty()) continue;
+    read_pilot_log(fmt::format("/drones/{}/guidance/log", i), job.drones[i], problems);
+  }
+  if (job.recorded && !job.recorded->file.empty()) identify_recording(*job.recorded, problems);
+}
+
+void check_formats(const OutputSpec& outputs, std::vector<Problem>& problems) {
+  try {
+    formats::choose_formats(outputs.formats, outputs.annotations, "/outputs/formats");
+  } catch (const InputError& error) {
+    add(error, problems);
+  }
+}
+
+// Of every run, as each may have another lens.
+void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const CameraSpec& camera = job.drones[i].camera;
+    const std::string pointer = camera_pointer(i);
+    const std::size_t before = problems.size();
+    for (const RunPlan& run : plan_runs(job)) {
+      check_lens(camera_of_run(camera, run.seed, pointer), pointer, problems);
+      if (camera.drawn.empty() || problems.size() > before) break;
+    }
+  }
+}
+
+// Gives the job what the scenario knows: its model, and its drones to a job without any.
+void take_from_scenario(JobSpec& job, const world::Scenario& scenario) {
+  job.crowd.model = sim::model_for(scenario, job.crowd);
+  if (job.drones.empty()) {
+    for (const world::DroneStart& known : scenario.drones) {
+      job.drones.emplace_back().mission.id = known.id;
+    }
+  }
+  for (DroneSpec& drone : job.drones) {
+    for (const world::DroneStart& known : scenario.drones) {
+      if (known.id != drone.mission.id) continue;
+      if (!drone.mission.moves_goal) drone.mission.moves_goal = known.moves_goal;
+    }
+  }
+}
+
+void check_image_count(const JobSpec& job, std::vector<Problem>& problems) {
+  if (job.capture.to_s < job.capture.from_s) return;  // reported by parse_job
+  const auto cameras = static_cast<std::int64_t>(job.drones.size());
+  const std::int64_t images = job.frames_per_camera() * cameras * job.runs;
+  if (images <= kMaxImages) return;
+  problems.push_back({"", "/capture", fmt::format("{} images over all runs and cameras", images),
+                      fmt::format("at most {}", kMaxImages)});
+}
+
+// Recorded people do what they did.
+void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
+  if (job.crowd.physical.on) {
+    problems.push_back({"", "/crowd/physical", "true", "false, since the people are recorded"});
+  }
+  if (job.recorded->sha256.empty()) return;  // there is no such file: reported by read_files()
+  try {
+    const world::Trace recording = read_recording(*job.recorded);
+    if (job.capture.to_s > recording.duration_s() + world::kTimeSlackS) {
+      problems.push_back(
+          {"", "/capture/to_s", fmt::format("{}", job.capture.to_s),
+           fmt::format("at most {:.6g}, the recording's length", recording.duration_s())});
+    }
+    sim::choose_roles("", {}, recording.agents(), job.agents, job.seed, problems);
+  } catch (const InputError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
+}
+
+// What only the simulation knows: whether the drones can fly and whether there are people enough.
+void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
+                           std::vector<Problem>& problems) {
+  if (job.drones.empty()) {
+    problems.push_back(
+        {"", "/drones", "nothing", "at least one drone, since the scenario has none of its own"});
+  }
+  std::vector<sim::DroneMission> missions;
+  for (const DroneSpec& drone : job.drones) missions.push_back(drone.mission);
+  sim::plan_drones(scenario, missions, job.capture.to_s, problems);
+  try {
+    crowd::find_model(job.crowd.model);
+  } catch (const InputError& error) {
+    const Problem& problem = error.problems().front();
+    problems.push_back({"", "/crowd/model", problem.found, problem.expected});
+    return;
+  }
+  if (job.recorded) return check_recording(job, problems);
+  if (job.agents) {
+    const crowd::Simulation crowd = sim::load_crowd(scenario, job.seed, job.crowd);
+    sim::choose_roles(scenario.id, scenario.disaster_agents, crowd.agent_count(), job.agents,
+                      job.seed, problems);
+  }
+}
+
+// What is wrong with an airframe would only be found again.
+bool has_own_airframe(const JobSpec& job) {
+  return std::any_of(job.drones.begin(), job.drones.end(),
+                     [](const DroneSpec& drone) { return drone.mission.own_airframe.has_value(); });
+}
+
+// What may differ between runs, in each of them; of their crowds the largest. Problems are named
+// where the job says what is drawn.
+void check_runs(const JobSpec& job, const world::Scenario& scenario,
+                std::vector<Problem>& problems) {
+  JobSpec largest = job;
+  const std::size_t before = problems.size();
+  for (int run = 0; run < job.runs && problems.size() == before; ++run) {
+    const JobSpec run_job = job_of_run(job, run);
+    if (run_job.agents.value_or(0) > largest.agents.value_or(0)) largest.agents = run_job.agents;
+    std::vector<sim::DroneMission> missions;
+    for (const DroneSpec& drone : run_job.drones) missions.push_back(drone.mission);
+    sim::plan_drones(scenario, missions, run_job.capture.to_s, problems);
+  }
+  if (problems.size() == before) check_with_simulation(largest, scenario, problems);
+  for (std::size_t i = before; i < problems.size(); ++i) {
+    for (const RandomField& field : job.randomize) {
+      if (field.pointer.starts_with(problems[i].where)) {
+        problems[i].where = "/randomize/" + field.path;
+      }
+    }
+  }
+}
+
+ResolvedJob resolved(JobSpec job, const world::Scenario& scenario, const std::string& source,
+                     std::vector<Problem> problems) {
+  take_from_scenario(job, scenario);
+  check_image_count(job, problems);
+  if (problems.empty()) check_cameras(job, problems);
+  if (problems.empty() && !job.randomize.empty()) {
+    check_runs(job, scenario, problems);
+  } else if (problems.empty() || !has_own_airframe(job)) {
+    check_with_simulation(job, scenario, problems);
+  }
+  for (Problem& problem : problems) {
+    if (problem.source.empty()) problem.source = source;
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return ResolvedJob(std::move(job));
+}
+
+}  // namespace
+
+ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source) {
+  std::vector<Problem> problems;
+  read_files(job, problems);
+  check_formats(job.outputs, problems);
+  return resolved(std::move(job), scenario, source, std::move(problems));
+}
+
+ResolvedJob resolve_job(std::string_view text, const std::string& source,
+                        const std::filesystem::path& scenarios) {
+  std::vector<Problem> problems;
+  JobSpec job = parse_job(text, source, problems);
+  const world::Scenario scenario = scenario_of(job, scenarios, source);
+  read_files(job, problems);
+  check_formats(job.outputs, problems);
+  return resolved(std::move(job), scenario, source, std::move(problems));
+}
+
+}  // namespace throng::jobs

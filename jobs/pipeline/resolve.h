@@ -1,0 +1,23 @@
+// From what a job says to a job that can be run: its files are read, and it is checked against its
+// scenario: lenses, drones, people, formats. Done once per job; workers do not repeat it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "jobs/spec/resolved_job.h"
+#include "world/scenario.h"
+
+namespace throng::jobs {
+
+/// Resolves a job in its scenario. Loads the scenario's crowd if the job says how many people take
+/// part. Throws InputError with all problems (JSON pointers into `source`, the job's file or "").
+ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source);
+
+/// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. Problems of
+/// the text that the schema does not show are reported together with those of the scenario.
+ResolvedJob resolve_job(std::string_view json, const std::string& source,
+                        const std::filesystem::path& scenarios);
+
+}  // namespace throng::jobs

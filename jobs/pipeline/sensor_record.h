@@ -1,0 +1,15 @@
+// What an image's record says of its camera's sensor.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "jobs/spec/camera_spec.h"
+#include "render/exposure.h"
+
+namespace throng::jobs {
+
+/// The object `sensor` of an image: what its camera's sensor did, and how it was exposed.
+nlohmann::json sensor_record(const CameraSpec& run_camera, const render::Exposed& exposed,
+                             int jpeg_quality);
+
+}  // namespace throng::jobs

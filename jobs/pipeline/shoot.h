@@ -1,0 +1,63 @@
+// Takes a run's pictures: each camera of the job at any of its frames.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/stage_clock.h"
+#include "jobs/spec/spec.h"
+#include "render/animator.h"
+#include "render/exposure.h"
+#include "render/lens.h"
+#include "sim/gimbal.h"
+#include "sim/sensors.h"
+#include "world/trace.h"
+
+namespace throng::jobs {
+
+struct Picture {
+  render::Frame frame;
+  std::string sensor;    ///< a JSON object: what sensor and shutter did
+  std::string flight;    ///< a JSON object: the drone then, and what its sensors say
+  nlohmann::json drawn;  ///< an object: what was drawn for this frame alone
+};
+
+/// Everything given must outlive it. Pictures do not depend on which were taken before.
+class Shoot {
+ public:
+  Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
+        const skinning::Population& population, render::Renderer& renderer, StageClock* clock);
+
+  Picture take(std::size_t drone, std::int64_t frame);
+
+  /// Takes a picture that is not needed any more, for its memory.
+  void recycle(Picture&& picture);
+
+ private:
+  /// What a camera sees at a time around that of one of its frames, in the scene of this index.
+  render::ShutterMoment moment_at(std::size_t drone, std::int64_t frame, std::int64_t index,
+                                  double time_s);
+  sim::ViewAngles view_at(std::size_t drone, std::int64_t frame,
+                          const world::DroneSample& sample) const;
+  /// All drones of the run.
+  std::vector<render::DroneInstance> drones_at(double time_s) const;
+  std::string flight_at(std::size_t drone, std::int64_t frame) const;
+
+  const JobSpec* job_;
+  std::uint64_t run_seed_;
+  const world::Trace* trace_;
+  StageClock* clock_;  ///< of how long stages take; may be null
+  render::Animator animator_;
+  render::Lens lens_;
+  std::vector<CameraSpec> cameras_;             ///< this run's
+  std::vector<sim::GimbalLog> gimbals_;         ///< one per camera
+  std::vector<sim::SensorLog> sensors_;         ///< one per camera: its drone's
+  std::vector<std::size_t> drones_;             ///< index in the trace
+  std::vector<render::AirframeShape> shapes_;   ///< of the drones
+  std::shared_ptr<const render::Scene> scene_;  ///< of the frame that was taken last
+};
+
+}  // namespace throng::jobs

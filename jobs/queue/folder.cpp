@@ -1,0 +1,79 @@
+#include "jobs/queue/folder.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "jobs/queue/publication.h"
+
+namespace throng::jobs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Nothing, or what is left of a file whose writing was broken off.
+bool is_as_good_as_empty(const fs::path& folder, const fs::path& file) {
+  if (!fs::is_directory(folder)) return false;
+  const std::string draft = file.filename().string() + ".tmp.";
+  const fs::directory_iterator entries(folder);
+  return std::all_of(begin(entries), end(entries), [&](const auto& entry) {
+    return entry.path().filename().string().starts_with(draft);
+  });
+}
+
+void keep_recording(const RecordedSpec& recorded, const fs::path& job_folder) {
+  const fs::path kept = kept_recording(recorded, job_folder);
+  if (!fs::exists(kept)) write_file_atomically(kept, read_file(recorded.file));
+}
+
+}  // namespace
+
+JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
+  const JobSpec& job = resolved.spec();
+  JobFolder folder(std::move(path));
+  const std::string text = to_json(job).dump(kJsonIndent) + "\n";
+  if (!fs::exists(folder.job_file())) {
+    if (fs::exists(folder.path()) && !is_as_good_as_empty(folder.path(), folder.job_file())) {
+      throw InputError(Problem{"", folder.path().string(), "a folder with other files in it",
+                               "a new or empty folder, or one of the same job"});
+    }
+    write_file_atomically(folder.job_file(), text);
+  } else if (read_file(folder.job_file()) != text) {
+    throw InputError(Problem{"", folder.path().string(), "a folder with another job in it",
+                             "a new or empty folder, or one of the same job"});
+  }
+  if (job.recorded) keep_recording(*job.recorded, folder.path());
+  return folder;
+}
+
+ResolvedJob JobFolder::read_job() const {
+  return read_resolved_job(read_file(job_file()), job_file().string());
+}
+
+fs::path JobFolder::output_of(const Task& task) const {
+  if (task.kind == Task::Kind::collect) return dataset();
+  const fs::path output = path_ / "work" / name_of(task);
+  return task.kind == Task::Kind::simulate ? fs::path(output).replace_extension(".h5") : output;
+}
+
+fs::path JobFolder::log_of(const Task& task) const {
+  std::string name = name_of(task);
+  std::replace(name.begin(), name.end(), '/', '_');
+  return path_ / "logs" / (name + ".log");
+}
+
+bool JobFolder::is_done(const Task& task) const { return fs::exists(output_of(task)); }
+
+void JobFolder::remove_leftovers() const {
+  remove_temporaries(path_);
+  std::error_code error;
+  for (const auto& run : fs::directory_iterator(path_ / "work", error)) {
+    remove_temporaries(run.path());
+  }
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,50 @@
+// A job's folder: where everything that belongs to one job lies.
+//
+//   job.json                  the job as it was resolved, with all defaults
+//   recorded/                 the trajectories that the job replays, if it does
+//   work/run000/trace.h5      published by the task run000/trace
+//   work/run000/metrics/      metrics.json, exits.csv
+//   work/run000/shard0003/    images, density maps, previews, records of its frames
+//   failed_runs.json          runs that the dataset lacks, if any
+//   dataset/                  the result; complete when it is there
+//   logs/                     what the workers said
+#pragma once
+
+#include <filesystem>
+
+#include "jobs/spec/plan.h"
+#include "jobs/spec/resolved_job.h"
+
+namespace throng::jobs {
+
+class JobFolder {
+ public:
+  explicit JobFolder(std::filesystem::path path) : path_(std::move(path)) {}
+
+  /// Creates the folder for a job, or checks that the one there is for the same job (then work that
+  /// it holds is taken up). Throws InputError when it holds another job or other files, and
+  /// EnvironmentError.
+  static JobFolder create(std::filesystem::path path, const ResolvedJob& resolved);
+
+  /// Reads job.json, which was checked when the folder was made. Throws EnvironmentError and
+  /// InputError.
+  ResolvedJob read_job() const;
+
+  /// Whether a task has published its output: it appears complete or not at all.
+  bool is_done(const Task& task) const;
+
+  /// Removes what workers that died left half-written. Only while no worker is at work here.
+  void remove_leftovers() const;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// What the task publishes: a file for a simulation, else a folder.
+  std::filesystem::path output_of(const Task& task) const;
+  std::filesystem::path log_of(const Task& task) const;
+  std::filesystem::path job_file() const { return path_ / "job.json"; }
+  std::filesystem::path dataset() const { return path_ / "dataset"; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace throng::jobs

@@ -1,0 +1,43 @@
+#include "jobs/queue/people.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::jobs {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path note_of(const JobFolder& folder) { return folder.path() / "work" / "people"; }
+
+}  // namespace
+
+void pin_people(const JobFolder& folder, const std::string& content_hash) {
+  const fs::path note = note_of(folder);
+  if (!fs::exists(note)) {
+    // Only one of several workers can give the note its name; the others read it.
+    const fs::path draft = fmt::format("{}.tmp.{}.0", note.string(), ::getpid());
+    write_file_atomically(draft, content_hash);
+    std::error_code error;
+    fs::create_hard_link(draft, note, error);
+    fs::remove(draft, error);
+  }
+  const std::string pinned = pinned_people(folder);
+  if (pinned == content_hash) return;
+  throw EnvironmentError(
+      fmt::format("the people have changed since the job began: it was begun with {} ({}), and the "
+                  "baked people are {}; bake the former again or submit the job anew",
+                  pinned, note.string(), content_hash));
+}
+
+std::string pinned_people(const JobFolder& folder) {
+  const fs::path note = note_of(folder);
+  return fs::exists(note) ? read_file(note) : std::string();
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,18 @@
+// Which people a job is drawn with: one population from its first frame to its last.
+#pragma once
+
+#include <string>
+
+#include "jobs/queue/folder.h"
+
+namespace throng::jobs {
+
+/// Notes the population's content hash in the job's folder (work/people), or checks that it is the
+/// one that is noted there: people that are baked anew while a job runs must not mix with the old
+/// ones. Safe to be called by several workers at once. Throws EnvironmentError naming both.
+void pin_people(const JobFolder& folder, const std::string& content_hash);
+
+/// The hash that was noted; empty when no frame has been drawn.
+std::string pinned_people(const JobFolder& folder);
+
+}  // namespace throng::jobs

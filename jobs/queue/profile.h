@@ -1,0 +1,28 @@
+// Where the time of a job's drawing goes: every worker writes its own clock beside its log, and
+// whoever asked adds them up. Nothing of it is part of the dataset.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/stage_clock.h"
+#include "jobs/queue/folder.h"
+#include "jobs/spec/plan.h"
+#include "jobs/spec/spec.h"
+
+namespace throng::jobs {
+
+/// Set in the environment of workers that shall measure themselves.
+inline constexpr const char* kProfileVariable = "THRONG_PROFILE";
+
+/// Whether this process shall.
+bool is_profiling();
+
+/// A worker's times, for `images` images: logs/TASK.profile.json.
+void write_profile(const JobFolder& folder, const Task& task, const StageClock& clock,
+                   std::int64_t images);
+
+/// A table of all tasks' times by stage, dearest first, as text; says so when there are none.
+std::string profile_table(const JobFolder& folder, const JobSpec& job);
+
+}  // namespace throng::jobs

@@ -1,0 +1,93 @@
+#include "jobs/queue/store_rows.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/json_text.h"
+
+namespace throng::jobs {
+
+JobRow row_of(SQLite::Statement& query) {
+  JobRow row;
+  row.id = query.getColumn(0).getString();
+  row.name = query.getColumn(1).getString();
+  const auto state = job_state_named(query.getColumn(2).getString());
+  check(state.has_value(), "the table holds known states only");
+  row.state = *state;
+  row.attempt = query.getColumn(3);
+  row.spec_json = query.getColumn(4).getString();
+  row.progress_json = query.getColumn(5).getString();
+  row.error_json = query.getColumn(6).getString();
+  row.created_ms = query.getColumn(7);
+  row.started_ms = query.getColumn(8);
+  row.ended_ms = query.getColumn(9);
+  const bool calibration = query.getColumn(10).getString() == name_of(JobKind::calibration);
+  row.kind = calibration ? JobKind::calibration : JobKind::dataset;
+  row.priority = query.getColumn(11);
+  row.labels = parse_own_json(query.getColumn(12).getString(), "a row of the store")
+                   .get<std::vector<std::string>>();
+  row.owner = query.getColumn(13).getString();
+  row.bytes = query.getColumn(14);
+  row.keep = query.getColumn(15).getInt() != 0;
+  return row;
+}
+
+std::vector<JobRow> rows_of(SQLite::Statement& query) {
+  std::vector<JobRow> rows;
+  while (query.executeStep()) rows.push_back(row_of(query));
+  return rows;
+}
+
+std::optional<JobRow> first_of(SQLite::Statement& query) {
+  if (!query.executeStep()) return std::nullopt;
+  return row_of(query);
+}
+
+void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job) {
+  SQLite::Statement insert(
+      database,
+      "INSERT INTO job (id, name, state, spec, created_ms, kind, priority, labels, submission_key, "
+      "submission_hash, owner) VALUES (?, ?, 'queued', ?, ?, ?, ?, ?, ?, ?, ?)");
+  insert.bind(1, row.id);
+  insert.bind(2, row.name);
+  insert.bind(3, row.spec_json);
+  insert.bind(4, row.created_ms);
+  insert.bind(5, std::string(name_of(row.kind)));
+  insert.bind(6, row.priority);
+  insert.bind(7, nlohmann::json(row.labels).dump());
+  if (!job.key.empty()) insert.bind(8, job.key);
+  insert.bind(9, job.hash);
+  insert.bind(10, row.owner);
+  insert.exec();
+}
+
+std::string over_quota(SQLite::Database& database, const NewJob& job) {
+  SQLite::Statement query(database,
+                          "SELECT coalesce(sum(state IN ('queued', 'running')), 0), "
+                          "coalesce(sum(bytes), 0) FROM job WHERE owner = ?");
+  query.bind(1, job.owner);
+  query.executeStep();
+  const std::int64_t active = query.getColumn(0);
+  const std::int64_t bytes = query.getColumn(1);
+  if (job.most_active > 0 && active >= job.most_active) {
+    return fmt::format("{} of your jobs wait or run, which is as many as this key may have",
+                       job.most_active);
+  }
+  if (job.most_bytes > 0 && bytes >= job.most_bytes) {
+    return fmt::format(
+        "your jobs take {} bytes of disk, which is as many as this key may have ({}): remove some",
+        bytes, job.most_bytes);
+  }
+  return "";
+}
+
+std::string hash_of_submission(SQLite::Database& database, const std::string& id) {
+  SQLite::Statement query(database, "SELECT submission_hash FROM job WHERE id = ?");
+  query.bind(1, id);
+  query.executeStep();
+  return query.getColumn(0).getString();
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,59 @@
+// How a job falls into pieces: runs (one simulation each) and shards (ranges of a run's frames).
+// Pure functions of the job; a task's name is the same on every machine and at every attempt.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "jobs/spec/spec.h"
+
+namespace throng::jobs {
+
+/// One simulation of the scenario.
+struct RunPlan {
+  int index = 0;
+  std::uint64_t seed = 0;
+};
+
+/// Frames [first_frame, end_frame) of one run, seen by all cameras.
+struct Shard {
+  int run = 0;
+  int index = 0;
+  std::int64_t first_frame = 0;
+  std::int64_t end_frame = 0;
+};
+
+std::vector<RunPlan> plan_runs(const JobSpec& job);
+
+/// The shards of a run: they cover its frames exactly once, in order. At most 30 frames each, so
+/// that little is lost with a worker; at least four shards, where there are frames enough, so that
+/// a short job uses several cores.
+std::vector<Shard> plan_shards(const JobSpec& job, int run);
+
+/// Unique over the job and independent of shards: images are numbered by run, camera, frame.
+std::int64_t image_id(const JobSpec& job, int run, std::size_t camera, std::int64_t frame);
+
+/// Whether a preview is drawn of this frame: JobSpec::outputs.previews of them, evenly spread.
+bool has_preview(const JobSpec& job, std::int64_t frame);
+
+/// What one worker does in one go.
+struct Task {
+  enum class Kind { simulate, measure, render, collect };
+  Kind kind = Kind::collect;
+  int run = 0;    ///< simulate, measure, render
+  int shard = 0;  ///< render
+  auto operator<=>(const Task&) const = default;
+};
+
+/// "run000/trace", "run000/metrics", "run000/shard0003", "dataset": what the task publishes.
+std::string name_of(const Task& task);
+
+/// The reverse. Throws InputError when the job has no such task.
+Task task_named(const JobSpec& job, const std::string& name);
+
+/// "run000"
+std::string run_name(int run);
+
+}  // namespace throng::jobs

@@ -1,0 +1,30 @@
+// A job that can be run: checked against its scenario and completed with what the scenario knows.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "jobs/spec/spec.h"
+
+namespace throng::jobs {
+
+/// Made by resolve() (jobs/pipeline/resolve.h), once per job. Its JSON, to_json(job.spec()), is
+/// what is queued and what lies in the job's folder; whoever reads it does not check it again.
+class ResolvedJob {
+ public:
+  /// The caller vouches for the job.
+  explicit ResolvedJob(JobSpec spec) : spec_(std::move(spec)) {}
+
+  const JobSpec& spec() const { return spec_; }
+
+ private:
+  JobSpec spec_;
+};
+
+/// Reads back the JSON of a resolved job. `source` is its file, beside which a recording lies, or a
+/// name for messages. Opens no file. Throws EnvironmentError and InputError for a text that no
+/// resolved job has.
+ResolvedJob read_resolved_job(std::string_view json, const std::string& source);
+
+}  // namespace throng::jobs

@@ -1,0 +1,180 @@
+#include "jobs/spec/schema.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <set>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "base/json_text.h"
+#include "jobs/spec/spec.h"
+#include "world/json_reader.h"
+
+namespace throng::jobs {
+
+using nlohmann::json;
+
+namespace {
+
+const json& schema_document() {
+  static const json document = parse_own_json(job_schema(), "the schema");
+  return document;
+}
+
+struct CompiledSchema {
+  CompiledSchema() {
+    valijson::SchemaParser().populateSchema(
+        valijson::adapters::NlohmannJsonAdapter(schema_document()), schema);
+  }
+  valijson::Schema schema;
+};
+
+// valijson names a place ["<root>", "[drones]", "[0]"].
+json::json_pointer pointer_to(const std::vector<std::string>& context) {
+  json::json_pointer pointer;
+  for (std::size_t i = 1; i < context.size(); ++i) {
+    pointer /= context[i].substr(1, context[i].size() - 2);
+  }
+  return pointer;
+}
+
+// The part of the schema that describes the place; our schema nests plainly, without references.
+const json& schema_at(const std::vector<std::string>& context) {
+  const json* node = &schema_document();
+  for (std::size_t i = 1; i < context.size(); ++i) {
+    const std::string key = context[i].substr(1, context[i].size() - 2);
+    node = node->at("type") == "array" ? &node->at("items") : &node->at("properties").at(key);
+  }
+  return *node;
+}
+
+// Numbers as a person writes them: 60, not 60.0.
+std::string number_text(const json& value) {
+  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
+}
+
+std::string range_text(const json& schema) {
+  if (schema.contains("exclusiveMinimum")) {
+    return fmt::format(" above {} and at most {}", number_text(schema["exclusiveMinimum"]),
+                       number_text(schema["maximum"]));
+  }
+  if (!schema.contains("minimum")) return "";
+  return fmt::format(" from {} to {}", number_text(schema["minimum"]),
+                     number_text(schema["maximum"]));
+}
+
+std::string array_text(const json& schema) {
+  const auto least = schema.value("minItems", 0);
+  const auto most = schema.value("maxItems", 0);
+  return fmt::format(
+      "an array of {}{}", schema.value("uniqueItems", false) ? "different items, " : "",
+      least == most ? fmt::format("{} items", most) : fmt::format("{} to {} items", least, most));
+}
+
+std::string expectation(const json& schema) {
+  if (schema.contains("x-expected")) return schema["x-expected"];
+  if (schema.contains("enum")) {
+    std::vector<std::string> words;
+    for (const json& word : schema["enum"]) words.push_back(word.dump());
+    return (words.size() > 1 ? "one of " : "") + fmt::format("{}", fmt::join(words, ", "));
+  }
+  const std::string type = schema.at("type");
+  if (type == "object") return "an object";
+  if (type == "array") return array_text(schema);
+  if (type == "integer") return "an integer" + range_text(schema);
+  if (type == "number") return "a number" + range_text(schema);
+  return schema.contains("maxLength")
+             ? fmt::format("a text of {} to {} characters", schema.value("minLength", 0),
+                           schema["maxLength"].get<int>())
+             : "a text";
+}
+
+void add_field_problems(const json& object, const json& schema, const json::json_pointer& place,
+                        const std::string& source, std::vector<Problem>& problems) {
+  std::vector<std::string> known;
+  for (const auto& field : schema["properties"].items()) known.push_back(field.key());
+  for (const auto& field : object.items()) {
+    if (schema["properties"].contains(field.key())) continue;
+    const std::string meant = nearest_name(field.key(), known);
+    problems.push_back({source, (place / field.key()).to_string(), "an unknown field",
+                        meant.empty() ? fmt::format("one of: {}", fmt::join(known, ", "))
+                                      : fmt::format("\"{}\", perhaps", meant)});
+  }
+  for (const json& field : schema.value("required", json::array())) {
+    const auto& name = field.get_ref<const std::string&>();
+    if (object.contains(name)) continue;
+    problems.push_back(
+        {source, (place / name).to_string(), "nothing", expectation(schema["properties"][name])});
+  }
+}
+
+}  // namespace
+
+std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
+  constexpr std::size_t kFarthest = 2;
+  constexpr std::size_t kLongest = 40;
+  if (word.size() > kLongest) return "";
+  std::string nearest;
+  std::size_t best = kFarthest + 1;
+  for (const std::string& name : names) {
+    // Levenshtein's distance, row by row.
+    std::vector<std::size_t> row(name.size() + 1);
+    std::iota(row.begin(), row.end(), 0U);
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (std::size_t j = 0; j < name.size(); ++j) {
+        const std::size_t replaced = diagonal + (word[i] == name[j] ? 0 : 1);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+      }
+    }
+    if (row.back() < best && row.back() < name.size()) {
+      best = row.back();
+      nearest = name;
+    }
+  }
+  return nearest;
+}
+
+std::vector<Problem> schema_problems(const json& job, const std::string& source) {
+  static const CompiledSchema compiled;
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  if (validator.validate(compiled.schema, valijson::adapters::NlohmannJsonAdapter(job), &results))
+    return {};
+
+  // valijson reports a bad value again at every object and array around it. Keep the innermost
+  // places, and the objects that have unknown or missing fields themselves.
+  std::map<std::vector<std::string>, bool> is_innermost;
+  for (const auto& error : results) is_innermost[error.context] = true;
+  for (auto& [context, innermost] : is_innermost) {
+    const auto next = is_innermost.upper_bound(context);
+    innermost = next == is_innermost.end() || next->first.size() <= context.size() ||
+                !std::equal(context.begin(), context.end(), next->first.begin());
+  }
+  std::vector<Problem> problems;
+  for (const auto& [context, innermost] : is_innermost) {
+    const json::json_pointer place = pointer_to(context);
+    const json& value = job.at(place);
+    const json& rules = schema_at(context);
+    const std::size_t before = problems.size();
+    if (value.is_object() && rules["type"] == "object") {
+      add_field_problems(value, rules, place, source, problems);
+    }
+    if (innermost && problems.size() == before) {
+      problems.push_back({source, place.to_string(), world::describe(value), expectation(rules)});
+    }
+  }
+  check(!problems.empty(), "a job that breaks the schema has a problem");
+  return problems;
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,38 @@
+// Wind as a job asks for it and as each run has it.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "jobs/spec/distribution.h"
+#include "sim/spec/wind_spec.h"
+
+namespace throng::jobs {
+
+/// The fields below "environment/wind". Profile and gusts are the numbers of a sim::WindProfile and
+/// a sim::GustModel.
+struct WindFields {
+  Distribution speed_mps{0};
+  Distribution direction_deg{0};
+  Distribution profile{1};
+  Distribution roughness_m{0.4};
+  Distribution exponent{0.25};
+  Distribution gusts{1};
+  Distribution intensity{1};
+  Distribution gust_mps{1.5};
+  Distribution gust_time_s{3};
+};
+
+/// Reads the object; what it leaves out keeps its default. Problems carry JSON pointers.
+WindFields read_wind(const nlohmann::json& value, std::vector<Problem>& problems);
+
+nlohmann::json to_json(const WindFields& fields);
+
+/// What was drawn for a run.
+sim::WindSpec wind_of_run(const WindFields& fields, std::uint64_t run_seed);
+
+/// The record of a run's wind: only what matters for its models.
+nlohmann::json to_json(const sim::WindSpec& wind);
+
+}  // namespace throng::jobs

@@ -1,0 +1,22 @@
+// A camera's sensor: exposure compensation, white balance, vignetting, noise (render/sensor.h applies them).
+#pragma once
+
+namespace throng::render {
+
+struct Sensor {
+  double ev = 0;  ///< exposure compensation: light is doubled by each 1
+  /// Colour temperature (K) that the camera takes for white; daylight is 6500. Lower makes pictures
+  /// bluer, higher yellower.
+  double white_balance_k = 6500;
+  double vignette = 0;  ///< share of the natural fall of light, cos^4 of the angle from the axis
+  double iso = 0;       ///< 0: no noise
+  /// Electrons that fill a pixel at ISO 100; at others, full_well * 100 / iso make white.
+  double full_well_e = 15000;
+  double read_noise_e = 3;  ///< standard deviation, in electrons, of each reading
+
+  bool is_neutral() const {
+    return ev == 0 && white_balance_k == 6500 && vignette == 0 && iso == 0;
+  }
+};
+
+}  // namespace throng::render

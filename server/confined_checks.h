@@ -1,0 +1,47 @@
+// What the service does not do in its own process: whatever loads a scenario or needs the engine is
+// done by a confined child (jobs/pipeline/confined_work.h).
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "jobs/queue/checked_scenarios.h"
+#include "jobs/queue/confined_task.h"
+#include "jobs/spec/resolved_job.h"
+
+namespace throng::server {
+
+/// Safe to use from many threads; each call waits for its child. All throw InputError with every
+/// problem, also when the child was ended at a limit, and EnvironmentError.
+class ConfinedChecks {
+ public:
+  /// Folders for the children's files are made in `data`, and removed.
+  ConfinedChecks(jobs::ConfinedTask task, const std::filesystem::path& data);
+
+  /// The scenarios in a folder.
+  jobs::CheckedScenarios scenarios(const std::filesystem::path& folder) const;
+  /// The job, resolved with the scenarios in a folder. What the schema does not allow is refused
+  /// before a child is started.
+  jobs::ResolvedJob job(std::string_view job_json, const std::filesystem::path& scenarios) const;
+  /// Floor plans as SVG: of a scenario, and of a resolved job with the paths of its drones.
+  std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
+  std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;
+  /// A calibration's request, whose files lie in the folder.
+  void calibration(const nlohmann::json& request, const std::filesystem::path& files) const;
+  /// What jobs may name (jobs/pipeline/catalog.h); asked for once.
+  const nlohmann::json& catalog() const;
+  nlohmann::json people() const;
+
+ private:
+  nlohmann::json answer_to(const nlohmann::json& request) const;
+
+  jobs::ConfinedTask task_;
+  std::filesystem::path data_;
+  mutable std::once_flag catalog_once_;
+  mutable nlohmann::json catalog_;
+};
+
+}  // namespace throng::server

@@ -1,0 +1,140 @@
+#include "server/queue_state.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/error.h"
+#include "jobs/queue/faults.h"
+#include "server/answers.h"
+
+namespace throng::server {
+
+using namespace std::chrono_literals;
+using jobs::JobEvent;
+using jobs::JobRow;
+
+namespace {
+
+// Longer than a worker may take to end (jobs::LocalProcessesOptions::grace_s).
+constexpr auto kMaxEnd = 20s;
+
+}  // namespace
+
+std::optional<JobRow> QueueState::apply(const JobRow& row, JobEvent event,
+                                        const std::string& error_json) {
+  const std::string place = fmt::format("server/{}/", name_of(event));
+  jobs::provoke_faults(place + "before", 1);
+  std::optional<JobRow> changed = store_.apply(row, event, error_json);
+  jobs::provoke_faults(place + "after", 1);
+  if (changed) notify_event();
+  return changed;
+}
+
+void QueueState::note(const JobRow& row, const std::string& type, const std::string& data_json) {
+  try {
+    store_.note(row, type, data_json);
+  } catch (const EnvironmentError& error) {
+    spdlog::warn("job {}: {} not recorded: {}", row.id, type, error.what());
+  }
+  notify_event();
+}
+
+void QueueState::notify_event() {
+  ++revision_;
+  bell_.ring();
+}
+
+std::optional<JobRow> QueueState::begin(const std::function<std::optional<JobRow>()>& start,
+                                        const std::stop_source& stop) {
+  // Under the lock, so that a job that is removed has either not been begun or is active.
+  const std::lock_guard lock(mutex_);
+  if (!paused_.empty()) return std::nullopt;
+  std::optional<JobRow> row = start();
+  if (row) active_ = Active{*row, stop};
+  return row;
+}
+
+void QueueState::finish() {
+  {
+    const std::lock_guard lock(mutex_);
+    active_.reset();
+  }
+  changed_.notify_all();
+}
+
+void QueueState::end_work_on(const std::string& id) {
+  std::unique_lock lock(mutex_);
+  const auto is_at_work = [&] { return active_ && active_->row.id == id; };
+  if (is_at_work()) active_->stop.request_stop();
+  if (!changed_.wait_for(lock, kMaxEnd, [&] { return !is_at_work(); })) {
+    throw EnvironmentError("the job's workers do not end; the job is cancelled, try again later");
+  }
+}
+
+void QueueState::set_progress(const JobRow& row, std::string progress_json) {
+  const std::lock_guard lock(mutex_);
+  if (active_ && active_->row.id == row.id) active_->row.progress_json = std::move(progress_json);
+  ++revision_;
+}
+
+void QueueState::complete(JobRow& row) const {
+  const std::lock_guard lock(mutex_);
+  if (active_ && active_->row.id == row.id && !active_->row.progress_json.empty()) {
+    row.progress_json = active_->row.progress_json;
+  }
+  if (is_active(row.state)) row.waiting_for = paused_;
+}
+
+void QueueState::notify_queued() {
+  {
+    const std::lock_guard lock(mutex_);
+    queued_ = true;
+  }
+  changed_.notify_all();
+}
+
+bool QueueState::wait_for_queued(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  const bool queued = changed_.wait(lock, stop, [&] { return queued_; });
+  queued_ = false;
+  return queued;
+}
+
+bool QueueState::wait_while_paused(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  return changed_.wait(lock, stop, [&] { return paused_.empty(); });
+}
+
+void QueueState::wait(const std::stop_token& stop, std::chrono::milliseconds time) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, stop, time, [] { return false; });
+}
+
+void QueueState::pause(const std::string& reason) {
+  std::optional<JobRow> row;
+  {
+    const std::lock_guard lock(mutex_);
+    paused_ = reason;
+    if (active_) row = active_->row;
+    // What has been published stays; the rest is done again when there is room.
+    if (active_ && !reason.empty()) active_->stop.request_stop();
+  }
+  if (reason.empty()) {
+    spdlog::info("queue: goes on");
+  } else {
+    spdlog::warn("queue: rests, {}", reason);
+  }
+  if (row && !reason.empty()) note(*row, "paused", text_of({{"reason", reason}}));
+  changed_.notify_all();
+  notify_event();
+}
+
+std::string QueueState::paused() const {
+  const std::lock_guard lock(mutex_);
+  return paused_;
+}
+
+}  // namespace throng::server

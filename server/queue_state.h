@@ -1,0 +1,89 @@
+// What the parts of the service share of the queue: the job that is being worked on, whether the
+// queue rests, and the signals that something has happened.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "jobs/queue/store.h"
+#include "server/bell.h"
+
+namespace throng::server {
+
+/// Safe to use from many threads.
+class QueueState {
+ public:
+  /// The store must outlive it.
+  explicit QueueState(jobs::Store& store) : store_(store) {}
+
+  // --- what happens to jobs
+
+  /// Changes a job's state and records the event; nothing when it is in another state than `row`.
+  std::optional<jobs::JobRow> apply(const jobs::JobRow& row, jobs::JobEvent event,
+                                    const std::string& error_json = "");
+  /// Records an event of a job. That it cannot be recorded is only logged.
+  void note(const jobs::JobRow& row, const std::string& type, const std::string& data_json);
+  /// Wakes those who wait for events.
+  void notify_event();
+  /// Changes with every event and with progress.
+  std::uint64_t revision() const { return revision_; }
+  /// Rings with every event.
+  Bell& bell() const { return bell_; }
+
+  // --- the job that is being worked on
+
+  /// Begins to work on the job that `start` returns, unless the queue rests. Nobody else looks at
+  /// the active job meanwhile. Nothing when there is none.
+  std::optional<jobs::JobRow> begin(const std::function<std::optional<jobs::JobRow>()>& start,
+                                    const std::stop_source& stop);
+  void finish();
+  /// Asks for the end of the work on a job and returns when nobody works on it any more. Throws
+  /// EnvironmentError when that takes too long.
+  void end_work_on(const std::string& id);
+  void set_progress(const jobs::JobRow& row, std::string progress_json);
+  /// Adds what only this process knows: the newest progress, and why the job waits.
+  void complete(jobs::JobRow& row) const;
+  /// As long as it is held no work is begun.
+  std::unique_lock<std::mutex> hold() const { return std::unique_lock(mutex_); }
+
+  // --- what the runner waits for
+
+  /// A job was queued.
+  void notify_queued();
+  /// Until something may be queued; false when a stop is requested.
+  bool wait_for_queued(const std::stop_token& stop);
+  /// Until the queue does not rest; false when a stop is requested.
+  bool wait_while_paused(const std::stop_token& stop);
+  /// For so long, or until a stop is requested.
+  void wait(const std::stop_token& stop, std::chrono::milliseconds time);
+
+  /// The queue rests for a reason, or goes on (""). The active job is stopped: what it has
+  /// published stays.
+  void pause(const std::string& reason);
+  /// Why the queue rests; "" when it does not.
+  std::string paused() const;
+
+ private:
+  struct Active {
+    jobs::JobRow row;  ///< carries the newest progress
+    std::stop_source stop;
+  };
+
+  jobs::Store& store_;
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;  ///< something was queued, the active job ended, a pause
+  bool queued_ = true;                   ///< there may be something to do; guarded by mutex_
+  std::string paused_;                   ///< guarded by mutex_
+  std::optional<Active> active_;         ///< guarded by mutex_
+  mutable Bell bell_;
+  std::atomic<std::uint64_t> revision_ = 0;
+};
+
+}  // namespace throng::server

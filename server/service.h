@@ -1,0 +1,71 @@
+// The service without HTTP: its parts, put together.
+#pragma once
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "jobs/queue/confined_task.h"
+#include "jobs/queue/executor.h"
+#include "jobs/queue/store.h"
+#include "server/calibrations.h"
+#include "server/calibrator.h"
+#include "server/confined_checks.h"
+#include "server/datasets.h"
+#include "server/housekeeping.h"
+#include "server/job_queue.h"
+#include "server/job_runner.h"
+#include "server/queue_state.h"
+#include "server/report_maker.h"
+#include "server/service_folders.h"
+#include "server/uploads.h"
+
+namespace throng::server {
+
+struct ServiceOptions {
+  std::filesystem::path data;       ///< holds the store and a folder per job; one service at a time
+  std::filesystem::path scenarios;  ///< those that come with throng
+  jobs::ConfinedTask confined;      ///< checks of what users send
+  /// Default: there are no calibrations.
+  Calibrator calibrator = [](const auto&...) {
+    throw EnvironmentError("no calibrations are made here");
+  };
+  /// Default: there are no reports.
+  Reporter reporter = [](const auto&...) { throw EnvironmentError("no reports are made here"); };
+  UploadLimits uploads = {};
+  HousekeepingOptions housekeeping = {};
+  jobs::Store::Clock clock = {};  ///< default: the system's
+};
+
+/// The parts are safe to use from many threads.
+class Service {
+ public:
+  /// Opens the data folder and goes on with what it finds there: jobs that were running are
+  /// resumed, queued ones stay queued. The executor must outlive the service.
+  Service(const ServiceOptions& options, jobs::Executor& executor);
+
+  const ServiceFolders& folders() const { return folders_; }
+  const ConfinedChecks& confined() const { return confined_; }
+  JobQueue& queue() { return queue_; }
+  const JobQueue& queue() const { return queue_; }
+  Uploads& uploads() { return uploads_; }
+  Calibrations& calibrations() { return calibrations_; }
+  Housekeeping& housekeeping() { return housekeeping_; }
+  Datasets& datasets() { return datasets_; }
+  ReportMaker& reports() { return reports_; }
+
+ private:
+  // Each uses those above it.
+  ServiceFolders folders_;
+  jobs::Store store_;
+  ConfinedChecks confined_;
+  QueueState state_;
+  Uploads uploads_;
+  Calibrations calibrations_;
+  JobQueue queue_;
+  Housekeeping housekeeping_;
+  ReportMaker reports_;
+  Datasets datasets_;
+  JobRunner runner_;
+};
+
+}  // namespace throng::server

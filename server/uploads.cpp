@@ -1,0 +1,123 @@
+#include "server/uploads.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "base/json_text.h"
+#include "server/answers.h"
+#include "server/service_errors.h"
+
+namespace throng::server {
+
+using jobs::JobRow;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::string_view kOwnBundle = "bundle/";
+constexpr int kJobsAtOnce = 500;
+
+/// The upload that a job's scenario may belong to; "" for a calibration.
+std::string upload_of_job(const JobRow& row) {
+  const json spec = parse_json_or_discard(row.spec_json);
+  const auto named = spec.is_object() ? spec.find("scenario") : spec.end();
+  if (!spec.is_object() || named == spec.end() || !named->is_string()) return "";
+  return upload_of(named->get<std::string>());
+}
+
+}  // namespace
+
+std::string naming_bundle(std::string_view bundle, std::string_view job_json) {
+  json job = parse_json(job_json, "", kJobJsonLimits);
+  if (!job.is_object()) throw InputError(Problem{"", "", "no JSON object", "a job"});
+  const json scenario = job.value("scenario", json());
+  const std::string name = scenario.is_string() ? scenario.get<std::string>() : "";
+  if (!name.starts_with(kOwnBundle)) {
+    throw InputError(Problem{"", "/scenario", scenario.dump(),
+                             "\"bundle/NAME\", a scenario of the bundle that came with the job"});
+  }
+  job["scenario"] = bundle_name_of(bundle) + "/" + name.substr(kOwnBundle.size());
+  return text_of(job);
+}
+
+Uploads::Uploads(const ServiceFolders& folders, jobs::Store& jobs, const ConfinedChecks& confined,
+                 UploadLimits limits)
+    : jobs_(jobs), scenarios_(folders.data(), folders.shipped(), confined, limits) {
+  for (const ScenarioUpload& upload : scenarios_.list()) {
+    if (is_bundle_name(upload.name)) drop_if_unused(upload.name);
+  }
+}
+
+std::vector<JobRow> Uploads::jobs_that_name(const std::string& upload,
+                                            std::vector<jobs::JobState> states) const {
+  // Without parsing those that cannot: texts hold the id as it is.
+  const std::string beginning = fmt::format("\"{}/", upload);
+  std::vector<JobRow> found;
+  jobs::JobFilter filter;
+  filter.states = std::move(states);
+  filter.limit = kJobsAtOnce;
+  while (true) {
+    std::vector<JobRow> rows = jobs_.list(filter);
+    for (const JobRow& row : rows) {
+      if (row.spec_json.find(beginning) == std::string::npos) continue;
+      if (upload_of_job(row) == upload) found.push_back(row);
+    }
+    if (static_cast<int>(rows.size()) < kJobsAtOnce) return found;
+    filter.after = rows.back().id;
+  }
+}
+
+Uploads::Pinned::Pinned(Uploads& uploads, std::string_view bundle, const std::string& owner)
+    : uploads_(uploads), name_(bundle_name_of(bundle)) {
+  ScenarioStore& scenarios = uploads.scenarios_;
+  // Unpacked and checked before others have to wait.
+  std::optional<ScenarioStore::Staged> staged;
+  if (!scenarios.find(name_)) staged = scenarios.stage(name_, bundle, owner);
+  const std::unique_lock lock(uploads.mutex_);
+  if (!scenarios.find(name_)) {
+    // It was there and has gone, with the last job that named it.
+    if (!staged) staged = scenarios.stage(name_, bundle, owner);
+    static_cast<void>(scenarios.publish(*staged));
+  }
+  uploads.pinned_.insert(name_);
+}
+
+Uploads::Pinned::~Pinned() {
+  const std::unique_lock lock(uploads_.mutex_);
+  uploads_.pinned_.erase(uploads_.pinned_.find(name_));
+  if (is_kept_) return;
+  try {
+    uploads_.drop_if_unused(name_);
+  } catch (const std::exception& error) {
+    spdlog::warn("bundle {}: not removed: {}", name_, error.what());  // at the next start
+  }
+}
+
+bool Uploads::remove(const std::string& name) {
+  const std::unique_lock lock(mutex_);
+  const auto users = jobs_that_name(name, {jobs::JobState::queued, jobs::JobState::running});
+  if (!users.empty()) {
+    throw ConflictError(fmt::format("{} jobs that wait or run use it, {} among them", users.size(),
+                                    users.front().id));
+  }
+  return scenarios_.remove(name);
+}
+
+void Uploads::drop_if_unused(const std::string& bundle) {
+  if (pinned_.contains(bundle)) return;
+  if (jobs_that_name(bundle, {}).empty()) scenarios_.remove(bundle);
+}
+
+void Uploads::drop_bundle_of(const JobRow& removed) {
+  const std::string name = upload_of_job(removed);
+  if (!is_bundle_name(name)) return;
+  const std::unique_lock lock(mutex_);
+  drop_if_unused(name);
+}
+
+}  // namespace throng::server

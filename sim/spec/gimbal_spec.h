@@ -1,0 +1,17 @@
+// How exactly a camera's gimbal follows its commands (sim/gimbal.h).
+#pragma once
+
+#include <Eigen/Core>
+
+namespace throng::sim {
+
+struct GimbalSpec {
+  bool ideal = true;          ///< exactly as commanded, at once
+  double natural_rad_s = 25;  ///< of each axis's second-order response
+  double damping = 0.7;
+  double jitter_rad = 0.015 * EIGEN_PI / 180;  ///< standard deviation of what shakes on
+  double bias_rad = 0.1 * EIGEN_PI / 180;      ///< constant error of mounting is up to so much
+  double reading_rad = 0.02 * EIGEN_PI / 180;  ///< noise of what it says of itself
+};
+
+}  // namespace throng::sim

@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+"""What a dry run costs the service: its process neither simulates nor loads a crowd.
+
+    tests/cli/test_dry_run_cost.py THRONG
+
+Prints CPU time and memory of the server's process for dry runs of a concert with 9 000 people, and fails above limits
+that leave room for a slow machine.
+"""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import urllib.request
+
+JOB = {"scenario": "concert/everyday", "crowd": {"agents": 9000}}
+REPETITIONS = 10
+MAX_CPU_S = 0.010  # of each dry run
+MAX_MIB = 8  # that stay, after all of them
+
+
+def cpu_s(pid):
+    """User and system time of the process alone, without its children."""
+    total_ns = 0
+    for task in pathlib.Path(f"/proc/{pid}/task").iterdir():
+        total_ns += int((task / "schedstat").read_text().split()[0])
+    return total_ns / 1e9
+
+
+def resident_mib(pid):
+    return int(re.search(r"VmRSS:\s+(\d+)", pathlib.Path(f"/proc/{pid}/status").read_text())[1]) / 1024
+
+
+def dry_run(url, job):
+    request = urllib.request.Request(f"{url}/v1/jobs?dry_run", json.dumps(job).encode(),
+                                     {"Content-Type": "application/json"})
+    with urllib.request.urlopen(request, timeout=150) as answer:
+        return json.load(answer)
+
+
+def main():
+    throng = sys.argv[1]
+    with tempfile.TemporaryDirectory() as folder:
+        server = subprocess.Popen([throng, "serve", "--data", os.path.join(folder, "data"), "--port", "0"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        try:
+            url = re.search(r"http://\S+", server.stdout.readline())[0]
+            dry_run(url, {**JOB, "crowd": {}})  # schemas are read, the process that forks checks runs
+            cpu, memory = cpu_s(server.pid), resident_mib(server.pid)
+            first = dry_run(url, JOB)
+            assert first["valid"] and first["job"]["crowd"]["agents"] == 9000, first
+            one = cpu_s(server.pid) - cpu
+            for _ in range(REPETITIONS - 1):
+                assert dry_run(url, JOB) == first
+            each = (cpu_s(server.pid) - cpu) / REPETITIONS
+            grown = resident_mib(server.pid) - memory
+        finally:
+            server.terminate()
+            server.wait()
+    print(f"dry run of {JOB['scenario']} with {JOB['crowd']['agents']} people: the server's process used {1000 * one:.1f} ms "
+          f"of CPU for the first, {1000 * each:.1f} ms for each of {REPETITIONS}, {memory:.1f} MiB before and "
+          f"{grown:+.1f} MiB after them")
+    assert each < MAX_CPU_S, f"{1000 * each:.1f} ms of CPU for each dry run"
+    assert grown < MAX_MIB, f"{grown:.1f} MiB stay"
+
+
+main()

@@ -1,0 +1,53 @@
+// The ready jobs of the library: every place has one for every day and one for its emergency.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "base/files.h"
+#include "jobs/pipeline/resolve.h"
+#include "world/scenario.h"
+
+namespace throng::jobs {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::IsSupersetOf;
+
+const fs::path kLibrary = fs::path(THRONG_SOURCE_DIR) / "scenarios";
+
+/// The scenarios that the ready jobs of a place are for.
+std::set<std::string> scenarios_of_jobs(const fs::path& place) {
+  std::set<std::string> scenarios;
+  for (const auto& entry : fs::directory_iterator(place)) {
+    if (!entry.path().filename().string().ends_with(".job.json")) continue;
+    const JobSpec job =
+        resolve_job(read_file(entry.path()), entry.path().string(), kLibrary).spec();
+    EXPECT_FALSE(job.drones.empty()) << entry.path();
+    EXPECT_NO_THROW(world::find_scenario(kLibrary, job.scenario)) << entry.path();
+    scenarios.insert(fs::path(job.scenario).filename().string());
+  }
+  return scenarios;
+}
+
+TEST(Library, HasReadyJobsForEveryDayAndTheEmergencyOfEveryPlace) {
+  std::size_t places = 0;
+  for (const auto& entry : fs::directory_iterator(kLibrary)) {
+    if (!entry.is_directory()) continue;
+    ++places;
+    EXPECT_THAT(scenarios_of_jobs(entry.path()), IsSupersetOf({"everyday", "emergency"}))
+        << entry.path();
+  }
+  EXPECT_EQ(places, 8U);
+}
+
+TEST(Library, HasAReadyJobForEachOfTheFourCasesOfTheCitySquare) {
+  EXPECT_THAT(scenarios_of_jobs(kLibrary / "city_square"),
+              IsSupersetOf(
+                  {"nearest_exit", "crowded_exit_blocked", "side_exit_blocked", "second_nearest"}));
+}
+
+}  // namespace
+}  // namespace throng::jobs

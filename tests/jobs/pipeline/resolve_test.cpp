@@ -1,0 +1,176 @@
+// Jobs against their scenario: what it completes and what it refuses.
+#include "jobs/pipeline/resolve.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "jobs/pipeline/pipeline.h"
+#include "sim/run.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Resolve : public testing::Test {
+ protected:
+  Resolve() { write_yard(folder.path()); }
+
+  JobSpec resolved(const std::string& text) const {
+    return resolve_job(text, "test.job.json", folder.path()).spec();
+  }
+
+  /// A job file in the scenarios' folder.
+  JobSpec resolved_file(const json& job) const {
+    return resolve_job(job.dump(), (folder.path() / "job.json").string(), folder.path()).spec();
+  }
+
+  std::vector<Problem> problems_of(const std::string& text) const {
+    try {
+      resolved(text);
+    } catch (const InputError& error) {
+      return error.problems();
+    }
+    return {};
+  }
+
+  std::vector<std::string> pointers_of(const std::string& text) const {
+    std::vector<std::string> pointers;
+    for (const Problem& problem : problems_of(text)) {
+      EXPECT_EQ(problem.source, "test.job.json");
+      EXPECT_FALSE(problem.found.empty());
+      EXPECT_FALSE(problem.expected.empty());
+      pointers.push_back(problem.where);
+    }
+    return pointers;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(Resolve, TheScenarioCompletesTheJob) {
+  const JobSpec job = resolved(R"({"scenario": "yard"})");
+  ASSERT_EQ(job.drones.size(), 1U);
+  EXPECT_EQ(job.drones[0].mission.id, "d1");
+  EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{99, 0}));
+  EXPECT_EQ(job.crowd.model,
+            sim::model_for(world::find_scenario(folder.path(), "yard"), sim::CrowdSpec()));
+  EXPECT_EQ(resolved(R"({"scenario": "yard", "crowd": {"compat": "menge"}})").crowd.model, "orca");
+}
+
+TEST_F(Resolve, AResolvedJobResolvesToItself) {
+  const json once = to_json(resolved(R"({"scenario": "yard", "crowd": {"agents": 2}})"));
+  EXPECT_EQ(to_json(resolved(once.dump())), once);
+  EXPECT_EQ(to_json(read_resolved_job(once.dump(), "").spec()), once);
+}
+
+TEST_F(Resolve, EachMistakeIsNamedByItsPointer) {
+  const std::pair<const char*, const char*> cases[] = {
+      {R"({"scenario": "nowhere"})", "/scenario"},
+      {R"({"scenario": "../etc/passwd"})", "/scenario"},
+      {R"({"scenario": "yard", "crowd": {"agents": 3}})", "/crowd/agents"},
+      {R"({"scenario": "yard", "crowd": {"model": "orka"}})", "/crowd/model"},
+      {R"({"scenario": "yard", "crowd": {"model": "orka", "agents": 1}})", "/crowd/model"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1"}, {"id": "d1"}]})", "/drones/1/id"},
+      {R"({"scenario": "yard", "drones": [{"id": "other"}]})", "/drones/0/start"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "airframe": "brick"}]})",
+       "/drones/0/airframe"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "start": [1, 2, 0]}]})", "/drones/0/start"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "dance"}}]})",
+       "/drones/0/guidance/policy"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"policy": "waypoints"}}]})",
+       "/drones/0/guidance/waypoints"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance": {"waypoints": [[1, 2, 3]]}}]})",
+       "/drones/0/guidance/waypoints"},
+      {R"({"scenario": "yard", "drones": [{"id": "d1", "guidance":
+           {"policy": "waypoints", "waypoints": [[1, 2, 3], [1, 2, -3]]}}]})",
+       "/drones/0/guidance/waypoints/1"},
+      {R"({"scenario": "yard", "capture": {"to_s": 7200, "rate_hz": 60}, "runs": 100})",
+       "/capture"},
+      {R"({"scenario": "yard", "outputs": {"formats": ["mot", "docx"]}})", "/outputs/formats/1"},
+      {R"({"scenario": "yard", "outputs": {"formats": ["yolo-pose"]}})", "/outputs/formats/0"},
+  };
+  for (const auto& [text, pointer] : cases) {
+    EXPECT_THAT(pointers_of(text), ElementsAre(pointer)) << text;
+  }
+  EXPECT_THAT(problems_of(R"({"scenario": "nowhere"})")[0].expected, HasSubstr("yard"));
+}
+
+TEST_F(Resolve, ProblemsOfTextAndScenarioComeTogether) {
+  EXPECT_THAT(pointers_of(R"({"scenario": "yard", "capture": {"from_s": 10, "to_s": 5},
+                              "outputs": {"formats": ["docx"]},
+                              "drones": [{"id": "other", "camera": {"fy_px": 900}}]})"),
+              testing::UnorderedElementsAre("/drones/0/camera/fx_px", "/capture/to_s",
+                                            "/outputs/formats/0", "/drones/0/start"));
+}
+
+TEST_F(Resolve, ABatteryOfUnknownSizeCannotRunOut) {
+  json job =
+      json::parse(R"({"scenario": "yard", "drones": [{"id": "d1", "battery": {"charge": 1}}]})");
+  job["drones"][0]["airframe"] = sim::to_json(sim::shipped_airframes().front());
+  EXPECT_THAT(pointers_of(job.dump().c_str()), ElementsAre());
+  job["drones"][0]["airframe"].erase("battery_wh");
+  EXPECT_THAT(pointers_of(job.dump().c_str()), ElementsAre("/drones/0/battery/charge"));
+}
+
+TEST_F(Resolve, APilotLogBecomesPartOfTheJob) {
+  write_file_atomically(folder.path() / "d1.csv",
+                        "time_s,x_m,y_m,z_m,yaw_deg,beacon\n0,1,2,3,0,1\n2,1,5,3,90,0\n");
+  json job = {
+      {"scenario", "yard"},
+      {"drones", {{{"id", "d1"}, {"guidance", {{"policy", "pilot_log"}, {"log", "d1.csv"}}}}}}};
+  const json guidance = to_json(resolved_file(job))["drones"][0]["guidance"];
+  EXPECT_EQ(guidance["setpoints"].size(), 2U);
+  EXPECT_FALSE(guidance.contains("log"));
+
+  job["drones"][0]["guidance"]["log"] = "nowhere.csv";
+  try {
+    resolved_file(job);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems()[0].where, "/drones/0/guidance/log");
+    EXPECT_THAT(error.problems()[0].expected, HasSubstr("pilot log"));
+  }
+}
+
+TEST_F(Resolve, ALogThatGoesBackInTimeIsRefusedByLine) {
+  write_file_atomically(folder.path() / "d1.csv",
+                        "time_s,x_m,y_m,z_m,yaw_deg,beacon\n2,1,2,3,0,1\n1,1,5,3,90,0\n");
+  try {
+    resolved_file(
+        {{"scenario", "yard"},
+         {"drones", {{{"id", "d1"}, {"guidance", {{"policy", "pilot_log"}, {"log", "d1.csv"}}}}}}});
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems()[0].where, "line 3");
+    EXPECT_THAT(error.problems()[0].source, HasSubstr("d1.csv"));
+  }
+}
+
+TEST_F(Resolve, ADrawnFieldThatFitsInNoRunIsNamedInTheBlock) {
+  EXPECT_THAT(pointers_of(R"({"scenario": "yard", "runs": 8,
+                              "randomize": {"crowd.agents": {"choice": [1, 900000]}}})"),
+              ElementsAre("/randomize/crowd.agents"));
+}
+
+TEST_F(Resolve, TheSimulationGetsWhatWasDrawn) {
+  const JobSpec job = resolved(R"({"scenario": "yard", "runs": 6,
+    "drones": [{"id": "d1", "start": [0, 0, 20]}],
+    "randomize": {"crowd.agents": {"choice": [1, 2]},
+                  "drones.0.start.2": {"uniform": [10, 20]}}})");
+  for (int run = 0; run < job.runs; ++run) {
+    const json drawn = drawn_of_run(job, run);
+    const sim::RunSpec spec = run_spec(job, run);
+    EXPECT_EQ(spec.people, drawn["crowd.agents"].get<int>());
+    EXPECT_EQ(spec.drones[0].start->z(), drawn["drones.0.start.2"].get<double>());
+  }
+}
+
+}  // namespace
+}  // namespace throng::jobs

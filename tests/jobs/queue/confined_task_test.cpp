@@ -1,0 +1,91 @@
+// Work in confined children: what comes back, and what they may not do.
+#include "jobs/queue/confined_task.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+/// The answer to a request of a child that runs this script; $0 is the work folder.
+json answer_of(const std::string& script) {
+  const TemporaryFolder work;
+  return confined_task_in_child({"sh", "-c", script})({{"task", "x"}}, work.path());
+}
+
+template <typename Error>
+std::string error_of(const std::string& script) {
+  try {
+    answer_of(script);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ConfinedTask, TheAnswerOfTheChildComesBack) {
+  EXPECT_EQ(answer_of(R"(cp "$0/request.json" "$0/answer.json")"), (json{{"task", "x"}}));
+}
+
+TEST(ConfinedTask, FailuresAreToldApart) {
+  EXPECT_THAT(
+      error_of<InputError>(
+          R"(echo '[{"source":"a","where":"/b","found":"c","expected":"d"}]' > "$0/answer.json"; exit 2)"),
+      HasSubstr("a: /b: found c"));
+  EXPECT_THAT(error_of<InputError>("kill -KILL $$"), HasSubstr("ended by signal 9"));
+  EXPECT_NE(error_of<EnvironmentError>("exit 3"), "");
+  EXPECT_NE(error_of<EnvironmentError>("exit 0"), "");  // without an answer
+}
+
+/// The child's side in a process of its own, as limits cannot be taken back.
+json performed(const std::function<json(const json&)>& perform, int expected_code) {
+  const TemporaryFolder work;
+  write_file_atomically(work.path() / "request.json", R"({"n": 2})");
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(run_confined_task(work.path(), perform));
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), expected_code);
+  const auto answer = work.path() / "answer.json";
+  return std::filesystem::exists(answer) ? json::parse(read_file(answer)) : json();
+}
+
+TEST(ConfinedTask, TheChildAnswersOrSaysWhatIsWrong) {
+  EXPECT_EQ(performed([](const json& request) { return json{{"m", request["n"]}}; }, 0)["m"], 2);
+  const auto wrong = [](const json&) -> json { throw InputError(Problem{"", "/n", "2", "3"}); };
+  EXPECT_EQ(performed(wrong, 2)[0]["where"], "/n");
+  EXPECT_EQ(performed([](const json&) -> json { throw EnvironmentError("disk"); }, 3), json());
+}
+
+TEST(ConfinedTask, TheChildReachesNoNetwork) {
+  const json answer = performed(
+      [](const json&) {
+        return json{{"socket", ::socket(AF_INET, SOCK_STREAM, 0)}};
+      },
+      0);
+  EXPECT_EQ(answer["socket"], -1);
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(ConfinedTask, TheChildHasAMemoryLimit) {
+  const auto greedy = [](const json&) {
+    return json{{"size", std::string(std::size_t{5} << 30U, 'x').size()}};
+  };
+  EXPECT_THAT(performed(greedy, 2)[0]["found"].get<std::string>(), HasSubstr("4 GiB"));
+}
+#endif
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,64 @@
+// An executor that pretends: it publishes what tasks would publish, in this process.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/files.h"
+#include "base/hash.h"
+#include "jobs/queue/executor.h"
+#include "jobs/queue/manifest.h"
+
+namespace throng::jobs {
+
+class FakeExecutor : public Executor {
+ public:
+  /// Asked before each task; anything but success is its result.
+  std::function<TaskResult(const Task&)> before = [](const Task&) { return TaskResult{}; };
+
+  std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
+                              const OnProgress& on_progress, std::stop_token stop) override {
+    std::vector<TaskResult> results(tasks.size());
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      results[i] =
+          stop.stop_requested() ? TaskResult{Outcome::cancelled, 1, "", {}} : before(tasks[i]);
+      if (results[i].outcome != Outcome::succeeded) continue;
+      const std::lock_guard lock(mutex_);
+      done_.push_back(name_of(tasks[i]));
+      if (on_progress) on_progress(tasks[i], {1, 2});
+      publish(folder, tasks[i]);
+    }
+    return results;
+  }
+
+  std::vector<std::string> done() const {
+    const std::lock_guard lock(mutex_);
+    return done_;
+  }
+
+ private:
+  static void publish(const JobFolder& folder, const Task& task) {
+    const std::filesystem::path output = folder.output_of(task);
+    if (task.kind == Task::Kind::simulate) return write_file_atomically(output, "trace");
+    StagingFolder staging(output);
+    if (task.kind == Task::Kind::collect) {
+      const std::string metrics = R"({"runs":[]})";
+      write_file_atomically(staging.path() / "metrics.json", metrics);
+      const std::vector<FileEntry> files = {
+          {"metrics.json", static_cast<std::int64_t>(metrics.size()), sha256_hex(metrics)}};
+      write_file_atomically(staging.path() / kManifestName,
+                            nlohmann::json{{"files", files}}.dump());
+    }
+    staging.commit();
+  }
+
+  mutable std::mutex mutex_;
+  std::vector<std::string> done_;
+};
+
+}  // namespace throng::jobs

@@ -1,0 +1,101 @@
+// The fork server: a child for each request, whatever happens to others.
+#include "jobs/queue/fork_server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include "base/error.h"
+#include "jobs/queue/confined_task.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class ForkServerTest : public testing::Test {
+ protected:
+  json ask(const json& request) const {
+    const TemporaryFolder work;
+    return task(request, work.path());
+  }
+
+  std::shared_ptr<ForkServer> server =
+      std::make_shared<ForkServer>(std::vector<std::string>{THRONG_FORK_SERVER});
+  ConfinedTask task = confined_task_by(server);
+};
+
+TEST_F(ForkServerTest, EveryRequestHasAChildOfItsOwn) {
+  std::set<int> children;
+  for (int n = 0; n < 5; ++n) {
+    const json answer = ask({{"do", "answer"}, {"n", n}});
+    EXPECT_EQ(answer["n"], n);
+    children.insert(answer["pid"].get<int>());
+  }
+  EXPECT_EQ(children.size(), 5U);
+}
+
+TEST_F(ForkServerTest, AChildThatDiesCostsItsRequestAlone) {
+  for (int i = 0; i < 2; ++i) {
+    try {
+      ask({{"do", "die"}});
+      FAIL() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("ended by signal 9"));
+    }
+    EXPECT_EQ(ask({{"do", "answer"}, {"n", i}})["n"], i);
+  }
+  EXPECT_THROW(ask({{"do", "fail"}}), EnvironmentError);
+  try {
+    ask({{"do", "refuse"}});
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().at(0).where, "/b");
+  }
+}
+
+TEST_F(ForkServerTest, AServerThatIsGoneIsStartedAgain) {
+  EXPECT_EQ(ask({{"do", "answer"}, {"n", 1}})["n"], 1);
+  EXPECT_THROW(ask({{"do", "kill the server"}}), EnvironmentError);
+  EXPECT_EQ(ask({{"do", "answer"}, {"n", 2}})["n"], 2);
+}
+
+TEST_F(ForkServerTest, ManyThreadsAskAtOnce) {
+  std::vector<std::jthread> threads;
+  threads.reserve(8);
+  for (int t = 0; t < 8; ++t) {
+    threads.emplace_back([&, t] {
+      for (int n = 0; n < 20; ++n) {
+        EXPECT_EQ(ask({{"do", "answer"}, {"n", 100 * t + n}})["n"], 100 * t + n);
+      }
+    });
+  }
+}
+
+TEST_F(ForkServerTest, StoppingEndsWhatIsUnderWay) {
+  std::future<void> slow = std::async(std::launch::async, [&] { ask({{"do", "sleep"}}); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const auto begun = std::chrono::steady_clock::now();
+  server->stop();
+  EXPECT_THROW(slow.get(), EnvironmentError);
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
+  EXPECT_THROW(ask({{"do", "answer"}}), EnvironmentError);
+}
+
+TEST(ForkServerAlone, WithoutAProgramThereIsAnError) {
+  const TemporaryFolder work;
+  EXPECT_THROW(ForkServer({"/no/such/program"}).run(work.path()), EnvironmentError);
+  EXPECT_THROW(ForkServer({"true"}).run(work.path()), EnvironmentError);
+}
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,246 @@
+#include "jobs/queue/local_processes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <thread>
+
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// Workers are shell scripts that get "--job FOLDER --task NAME".
+class LocalProcessesTest : public testing::Test {
+ protected:
+  std::vector<TaskResult> run(const std::string& script, int tasks = 1, int workers = 2,
+                              std::stop_token stop = {}) {
+    std::vector<Task> list;
+    list.reserve(static_cast<std::size_t>(tasks));
+    for (int i = 0; i < tasks; ++i) list.push_back({Task::Kind::simulate, i});
+    LocalProcessesOptions options;
+    options.command = {"/bin/sh", "-c", "job=$2 task=$4; " + script, "worker"};
+    options.workers = workers;
+    options.grace_s = 0.3;
+    options.rest_s = 0.01;
+    options.lease_s = lease_s;
+    options.longest_task_s = longest_task_s;
+    LocalProcesses processes(options);
+    return processes.run(
+        JobFolder(folder.path()), list,
+        [&](const Task& task, const TaskProgress& progress) {
+          reported[task.run].push_back(progress.done);
+        },
+        std::move(stop));
+  }
+
+  int count_lines(const std::string& name) const {
+    std::ifstream file(folder.path() / name);
+    int lines = 0;
+    for (std::string line; std::getline(file, line);) ++lines;
+    return lines;
+  }
+
+  TemporaryFolder folder;
+  std::map<int, std::vector<double>> reported;
+  double lease_s = 60;
+  double longest_task_s = 0;
+};
+
+TEST_F(LocalProcessesTest, EveryTaskRunsOnce) {
+  const auto results = run("echo $task >> $job/ran", 5);
+  EXPECT_EQ(results.size(), 5U);
+  for (const TaskResult& result : results) {
+    EXPECT_EQ(result.outcome, Outcome::succeeded);
+    EXPECT_EQ(result.attempts, 1);
+  }
+  EXPECT_EQ(count_lines("ran"), 5);
+}
+
+TEST_F(LocalProcessesTest, ReportsProgressAndIgnoresNoise) {
+  run(R"(echo 'libGL: hello'; echo '{"done":1,"total":3}'; echo '[1]'; echo '{"done":3,"total":3}')");
+  EXPECT_THAT(reported[0], ElementsAre(1, 3));
+}
+
+TEST_F(LocalProcessesTest, ACrashIsRetriedAndForgotten) {
+  const auto results = run("echo x >> $job/tries; [ $(wc -l < $job/tries) -ge 3 ] || kill -9 $$");
+  EXPECT_EQ(results[0].outcome, Outcome::succeeded);
+  EXPECT_EQ(results[0].attempts, 3);
+}
+
+TEST_F(LocalProcessesTest, ThreeCrashesAreFinalAndSayWhy) {
+  const auto results = run("echo last words >&2; kill -SEGV $$");
+  EXPECT_EQ(results[0].outcome, Outcome::crashed);
+  EXPECT_EQ(results[0].attempts, 3);
+  EXPECT_THAT(results[0].message, HasSubstr("signal 11"));
+  EXPECT_THAT(results[0].message, HasSubstr("last words"));
+}
+
+TEST_F(LocalProcessesTest, FailuresOfTheMachineAreRetried) {
+  const auto results = run(
+      R"(echo x >> $job/tries; echo '{"error":{"kind":"environment","message":"disk full"}}'; exit 3)");
+  EXPECT_EQ(results[0].outcome, Outcome::environment_error);
+  EXPECT_EQ(results[0].message, "disk full");
+  EXPECT_EQ(count_lines("tries"), 3);
+}
+
+TEST_F(LocalProcessesTest, InputErrorsAreNotRetried) {
+  const auto results = run(
+      R"(echo x >> $job/tries
+         echo '{"error":{"kind":"input","message":"m","problems":[{"where":"/runs","found":"0","expected":"1"}]}}'
+         exit 2)");
+  EXPECT_EQ(results[0].outcome, Outcome::input_error);
+  ASSERT_EQ(results[0].problems.size(), 1U);
+  EXPECT_EQ(results[0].problems[0].where, "/runs");
+  EXPECT_EQ(count_lines("tries"), 1);
+}
+
+TEST_F(LocalProcessesTest, AWrongJobEndsAllTasks) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto results = run("[ $task = run001/trace ] && exit 2; exec sleep 60", 3);
+  EXPECT_EQ(results[0].outcome, Outcome::cancelled);
+  EXPECT_EQ(results[1].outcome, Outcome::input_error);
+  EXPECT_EQ(results[2].outcome, Outcome::cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 20s);
+}
+
+TEST_F(LocalProcessesTest, ATaskThatFailsForGoodEndsThoseOfItsRunOnly) {
+  const std::vector<Task> tasks = {{Task::Kind::render, 0, 0},
+                                   {Task::Kind::render, 0, 1},
+                                   {Task::Kind::render, 1, 0},
+                                   {Task::Kind::render, 0, 2}};
+  LocalProcessesOptions options;
+  options.command = {"/bin/sh", "-c",
+                     "case $4 in run000/shard0000) exit 3;; run000/shard0001) exec sleep 60;; "
+                     "esac; sleep 0.3",
+                     "worker"};
+  options.workers = 2;
+  options.attempts = 2;
+  options.grace_s = 0.3;
+  options.rest_s = 0.01;
+  LocalProcesses processes(options);
+  const auto results = processes.run(JobFolder(folder.path()), tasks, {}, {});
+  EXPECT_EQ(results[0].outcome, Outcome::environment_error);
+  EXPECT_EQ(results[0].attempts, 2);
+  EXPECT_EQ(results[1].outcome, Outcome::cancelled);
+  EXPECT_EQ(results[2].outcome, Outcome::succeeded);
+  EXPECT_NE(results[3].outcome, Outcome::environment_error);
+}
+
+TEST_F(LocalProcessesTest, AWorkerThatIsSilentTooLongIsReplaced) {
+  lease_s = 0.3;
+  const auto results =
+      run("echo x >> $job/tries; [ $(wc -l < $job/tries) -ge 2 ] || exec sleep 60");
+  EXPECT_EQ(results[0].outcome, Outcome::succeeded);
+  EXPECT_EQ(results[0].attempts, 2);
+}
+
+TEST_F(LocalProcessesTest, SignsOfLifeKeepAWorker) {
+  lease_s = 0.5;
+  const auto results = run("for i in 1 2 3 4 5 6 7 8; do echo '{}'; sleep 0.1; done");
+  EXPECT_EQ(results[0].outcome, Outcome::succeeded);
+  EXPECT_EQ(results[0].attempts, 1);
+}
+
+TEST_F(LocalProcessesTest, AHangingWorkerIsNamedAsSuch) {
+  lease_s = 0.2;
+  auto results = run("kill -STOP $$");
+  EXPECT_EQ(results[0].outcome, Outcome::timed_out);
+  EXPECT_THAT(results[0].message, HasSubstr("timed out: no sign of life for 0.2 s"));
+  lease_s = 60;
+  longest_task_s = 0.2;
+  results = run("while :; do echo '{}'; sleep 0.05; done");
+  EXPECT_EQ(results[0].outcome, Outcome::timed_out);
+  EXPECT_EQ(results[0].attempts, 3);
+  EXPECT_THAT(results[0].message, HasSubstr("the task took longer than 0.2 s"));
+}
+
+TEST_F(LocalProcessesTest, OutOfMemoryIsNamedAsSuch) {
+  const auto results =
+      run(R"(echo '{"error":{"kind":"environment","message":"out of memory: x"}}'; exit 4)");
+  EXPECT_EQ(results[0].outcome, Outcome::out_of_memory);
+  EXPECT_THAT(results[0].message, HasSubstr("out of memory"));
+}
+
+TEST_F(LocalProcessesTest, ATaskRestsBeforeItIsTriedAgain) {
+  LocalProcessesOptions options;
+  options.command = {"/bin/sh", "-c", "exit 3", "worker"};
+  options.rest_s = 0.1;
+  LocalProcesses processes(options);
+  const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
+  const auto start = std::chrono::steady_clock::now();
+  processes.run(JobFolder(folder.path()), tasks, {}, {});
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 500ms) << "0.1 s and 0.4 s";
+}
+
+TEST_F(LocalProcessesTest, CancelEndsTheWholeTreeEvenIfItIgnoresSigterm) {
+  std::stop_source stop;
+  const std::jthread canceller([&] {
+    while (count_lines("children") < 2) std::this_thread::sleep_for(5ms);
+    stop.request_stop();
+  });
+  const auto results =
+      run("trap '' TERM; (trap '' TERM; echo $$ >> $job/children; sleep 60) & echo $! >> "
+          "$job/children; "
+          "wait",
+          2, 2, stop.get_token());
+  EXPECT_EQ(results[0].outcome, Outcome::cancelled);
+  EXPECT_EQ(results[1].outcome, Outcome::cancelled);
+  std::ifstream children(folder.path() / "children");
+  for (pid_t pid = 0; children >> pid;) {
+    // A killed grandchild may be an unreaped zombie of init for a moment.
+    const auto gone = [&] {
+      std::ifstream status("/proc/" + std::to_string(pid) + "/stat");
+      std::string id;
+      std::string name;
+      std::string state = "gone";
+      status >> id >> name >> state;
+      return state == "gone" || state == "Z";
+    };
+    for (int i = 0; i < 200 && !gone(); ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_TRUE(gone()) << pid;
+  }
+}
+
+TEST_F(LocalProcessesTest, AStoppedTokenStartsNothing) {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto results = run("echo x >> $job/ran", 3, 2, stop.get_token());
+  for (const TaskResult& result : results) EXPECT_EQ(result.outcome, Outcome::cancelled);
+  EXPECT_EQ(count_lines("ran"), 0);
+}
+
+TEST_F(LocalProcessesTest, NoMoreWorkersThanAsked) {
+  run("mkdir $job/one || echo two >> $job/clash; sleep 0.05; rmdir $job/one", 4, 1);
+  EXPECT_EQ(count_lines("clash"), 0);
+}
+
+TEST_F(LocalProcessesTest, WorkersKnowTheirSupervisorAndShareTheCores) {
+  run("echo $THRONG_SUPERVISOR_PID $LP_NUM_THREADS >> $job/env", 2);
+  std::ifstream file(folder.path() / "env");
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, std::to_string(::getpid()) + " 0");
+}
+
+TEST_F(LocalProcessesTest, AProgramThatIsNotThereIsTheMachinesFault) {
+  LocalProcessesOptions options;
+  options.command = {"/nonexistent/throng"};
+  LocalProcesses processes(options);
+  const std::vector<Task> tasks = {{Task::Kind::simulate, 0}};
+  const auto results = processes.run(JobFolder(folder.path()), tasks, {}, {});
+  EXPECT_EQ(results[0].outcome, Outcome::environment_error);
+  EXPECT_THAT(results[0].message, HasSubstr("/nonexistent/throng"));
+}
+
+}  // namespace
+}  // namespace throng::jobs

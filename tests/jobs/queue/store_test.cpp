@@ -1,0 +1,300 @@
+#include "jobs/queue/store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <thread>
+
+#include "base/error.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+class StoreTest : public testing::Test {
+ protected:
+  Store::Clock clock() {
+    return [this] { return now_ms; };
+  }
+
+  TemporaryFolder folder;
+  std::int64_t now_ms = 1'000'000;
+};
+
+TEST_F(StoreTest, WhatWasAddedAndChangedSurvivesReopening) {
+  JobRow queued;
+  JobRow running;
+  {
+    Store store(folder.path(), clock());
+    running = store.add({"a", R"({"x":1})"}).row;
+    now_ms = 2'000'000;
+    queued = store.add({"b", "{}"}).row;
+    running = store.apply(running, JobEvent::start).value();
+    store.save_progress(running, "[1]");
+  }
+  Store store(folder.path(), clock());
+  const JobRow a = store.get(running.id).value();
+  EXPECT_EQ(a.name, "a");
+  EXPECT_EQ(a.spec_json, R"({"x":1})");
+  EXPECT_EQ(a.state, JobState::running);
+  EXPECT_EQ(a.attempt, 1);
+  EXPECT_EQ(a.progress_json, "[1]");
+  EXPECT_EQ(a.created_ms, 1'000'000);
+  EXPECT_EQ(a.started_ms, 2'000'000);
+  EXPECT_EQ(a.ended_ms, 0);
+  EXPECT_EQ(store.get(queued.id)->state, JobState::queued);
+  EXPECT_FALSE(store.get("jnosuchjob00000"));
+}
+
+// A data folder that an older service has left.
+TEST_F(StoreTest, AStoreOfVersionOneIsTakenOver) {
+  {
+    SQLite::Database old(folder.path() / "jobs.sqlite",
+                         SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    old.exec(
+        "CREATE TABLE job (id TEXT PRIMARY KEY, name TEXT NOT NULL, state TEXT NOT NULL, attempt "
+        "INTEGER NOT NULL DEFAULT 0, spec TEXT NOT NULL, progress TEXT NOT NULL DEFAULT '', error "
+        "TEXT NOT NULL DEFAULT '', created_ms INTEGER NOT NULL, started_ms INTEGER NOT NULL "
+        "DEFAULT 0, ended_ms INTEGER NOT NULL DEFAULT 0) WITHOUT ROWID");
+    old.exec(
+        "INSERT INTO job (id, name, state, spec, created_ms) VALUES ('j1', 'old', 'queued', '{}', "
+        "5)");
+    old.exec("PRAGMA user_version = 1");
+  }
+  for (int i = 0; i < 2; ++i) {  // and stays as it is from then on
+    const Store store(folder.path(), clock());
+    ASSERT_EQ(store.list({}).size(), 1U);
+    EXPECT_EQ(store.next()->name, "old");
+    EXPECT_EQ(store.next()->kind, JobKind::dataset);
+  }
+}
+
+TEST_F(StoreTest, CalibrationsAreListedApart) {
+  Store store(folder.path(), clock());
+  const JobRow dataset = store.add({"d", "{}"}).row;
+  const JobRow calibration = store.add({"c", "{}", JobKind::calibration}).row;
+  ASSERT_EQ(store.list({}).size(), 1U);
+  EXPECT_EQ(store.list({})[0].id, dataset.id);
+  ASSERT_EQ(store.list({.kind = JobKind::calibration}).size(), 1U);
+  EXPECT_EQ(store.list({.kind = JobKind::calibration})[0].id, calibration.id);
+  EXPECT_EQ(store.get(calibration.id)->kind, JobKind::calibration);
+}
+
+TEST_F(StoreTest, TheRunningJobComesNextThenTheOldestQueued) {
+  Store store(folder.path(), clock());
+  EXPECT_FALSE(store.next());
+  const JobRow first = store.add({"first", "{}"}).row;
+  const JobRow second = store.add({"second", "{}"}).row;
+  EXPECT_EQ(store.next()->id, first.id);
+  const JobRow running = store.apply(second, JobEvent::start).value();
+  EXPECT_EQ(store.next()->id, second.id);
+  store.apply(running, JobEvent::succeed);
+  EXPECT_EQ(store.next()->id, first.id);
+}
+
+TEST_F(StoreTest, AnEventCountsOnceAndForTheAttemptItWasMeantFor) {
+  Store store(folder.path(), clock());
+  const JobRow queued = store.add({"a", "{}"}).row;
+  const JobRow first = store.apply(queued, JobEvent::start).value();
+  EXPECT_FALSE(store.apply(queued, JobEvent::start)) << "someone else took it already";
+  EXPECT_FALSE(store.apply(queued, JobEvent::succeed)) << "not in this state";
+  const JobRow second = store.apply(first, JobEvent::resume).value();
+  EXPECT_EQ(second.attempt, 2);
+  EXPECT_FALSE(store.apply(first, JobEvent::succeed)) << "an earlier attempt came back";
+  store.save_progress(first, "late");
+  EXPECT_EQ(store.get(first.id)->progress_json, "");
+  now_ms = 3'000'000;
+  EXPECT_TRUE(store.apply(second, JobEvent::fail, R"({"message":"m"})"));
+  const JobRow failed = store.get(first.id).value();
+  EXPECT_EQ(failed.state, JobState::failed);
+  EXPECT_EQ(failed.error_json, R"({"message":"m"})");
+  EXPECT_EQ(failed.ended_ms, 3'000'000);
+  EXPECT_FALSE(store.apply(failed, JobEvent::cancel));
+}
+
+TEST_F(StoreTest, PagesListEveryJobOnceNewestFirst) {
+  Store store(folder.path(), clock());
+  std::vector<std::string> added(25);
+  for (std::string& id : added) id = store.add({"n", "{}"}).row.id;
+  std::vector<std::string> listed;
+  std::string after;
+  for (std::vector<JobRow> page; !(page = store.list({.after = after, .limit = 10})).empty();
+       after = page.back().id) {
+    for (const JobRow& row : page) listed.push_back(row.id);
+  }
+  std::reverse(added.begin(), added.end());
+  EXPECT_EQ(listed, added);
+}
+
+TEST_F(StoreTest, TheHighestPriorityComesFirstAndCanBeChanged) {
+  Store store(folder.path(), clock());
+  const JobRow low = store.add({.name = "low", .priority = -1}).row;
+  const JobRow usual = store.add({.name = "usual"}).row;
+  const JobRow high = store.add({.name = "high", .priority = 5}).row;
+  EXPECT_EQ(store.next()->id, high.id);
+  EXPECT_EQ(store.change(low.id, {6, {"urgent"}})->priority, 6);
+  EXPECT_EQ(store.next()->id, low.id);
+  EXPECT_EQ(store.get(low.id)->labels, std::vector<std::string>{"urgent"});
+  EXPECT_EQ(store.get(usual.id)->labels, std::vector<std::string>{});
+  EXPECT_FALSE(store.change("jnosuchjob00000", {}));
+}
+
+TEST_F(StoreTest, ASubmissionSentTwiceIsOneJob) {
+  Store store(folder.path(), clock());
+  const Added first = store.add({.name = "a", .key = "k", .hash = "1"});
+  const Added again = store.add({.name = "a", .key = "k", .hash = "1"});
+  const Added other = store.add({.name = "b", .key = "k", .hash = "2"});
+  EXPECT_TRUE(first.is_new);
+  EXPECT_FALSE(again.is_new);
+  EXPECT_TRUE(again.is_equal);
+  EXPECT_EQ(again.row.id, first.row.id);
+  EXPECT_FALSE(other.is_new);
+  EXPECT_FALSE(other.is_equal);
+  EXPECT_TRUE(store.add({.name = "c", .key = "l"}).is_new);
+  EXPECT_TRUE(store.add({.name = "d"}).is_new);
+  EXPECT_TRUE(store.add({.name = "d"}).is_new) << "no key, no repetition";
+  EXPECT_EQ(store.list({}).size(), 4U);
+}
+
+TEST_F(StoreTest, ListsAreFiltered) {
+  Store store(folder.path(), clock());
+  const JobRow night = store.add({.name = "Night square", .labels = {"paper", "a'b"}}).row;
+  const JobRow day = store.add({.name = "day", .labels = {"paper"}}).row;
+  store.apply(day, JobEvent::cancel);
+  const auto names = [&](const JobFilter& filter) {
+    std::vector<std::string> found;
+    for (const JobRow& row : store.list(filter)) found.push_back(row.name);
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names({.states = {JobState::queued}}), Names{"Night square"});
+  EXPECT_EQ(names({.states = {JobState::queued, JobState::cancelled}}).size(), 2U);
+  EXPECT_EQ(names({.label = "a'b"}), Names{"Night square"});
+  EXPECT_EQ(names({.label = "pap"}), Names{});
+  EXPECT_EQ(names({.name_part = "SQUARE"}), Names{"Night square"});
+  EXPECT_EQ(names({.oldest_first = true}), (Names{"Night square", "day"}));
+  EXPECT_EQ(names({.oldest_first = true, .after = night.id}), Names{"day"});
+  EXPECT_EQ(store.count().at(JobState::cancelled), 1);
+  EXPECT_EQ(store.count().at(JobState::running), 0);
+}
+
+TEST_F(StoreTest, WhatHappensIsRecordedWithTheChangeItself) {
+  Store store(folder.path(), clock());
+  const JobRow queued = store.add({.name = "a"}).row;
+  const JobRow other = store.add({.name = "b"}).row;
+  const JobRow running = store.apply(queued, JobEvent::start).value();
+  EXPECT_FALSE(store.apply(queued, JobEvent::start)) << "too late: no event";
+  store.note(running, "stage", R"({"stage":"rendering"})");
+  const JobRow failed = store.apply(running, JobEvent::fail, "{}").value();
+  store.note(running, "stage", "{}");  // of an attempt that is over
+  const JobRow again = store.apply(failed, JobEvent::retry).value();
+  EXPECT_EQ(again.state, JobState::queued);
+  EXPECT_EQ(again.ended_ms, 0);
+  EXPECT_EQ(again.error_json, "");
+  std::vector<std::string> types;
+  std::int64_t last = 0;
+  for (const EventRow& event : store.events(queued.id, 0, 100)) {
+    EXPECT_GT(event.seq, last);
+    last = event.seq;
+    EXPECT_EQ(event.job, queued.id);
+    types.push_back(event.type);
+  }
+  EXPECT_EQ(types,
+            (std::vector<std::string>{"submitted", "started", "stage", "failed", "retried"}));
+  EXPECT_EQ(store.events("", 0, 100).size(), 6U);
+  EXPECT_EQ(store.events("", 0, 2).back().job, other.id);
+  EXPECT_EQ(store.last_event(), last);
+  EXPECT_TRUE(store.events(queued.id, last, 100).empty());
+  store.remove(queued.id);
+  ASSERT_EQ(store.events(queued.id, 0, 100).size(), 1U);
+  EXPECT_EQ(store.events(queued.id, 0, 100)[0].type, "removed");
+}
+
+TEST_F(StoreTest, DiskIsCountedAndBoundedPerOwner) {
+  Store store(folder.path(), clock());
+  const JobRow mine = store.add({.name = "a", .owner = "me"}).row;
+  const JobRow theirs = store.add({.name = "b", .owner = "them"}).row;
+  store.set_bytes(mine.id, 700);
+  store.set_bytes(theirs.id, 5000);
+  EXPECT_EQ(store.get(mine.id)->bytes, 700);
+  EXPECT_EQ(store.total_bytes(), 5700);
+  EXPECT_EQ(store.add({.name = "c", .owner = "me", .most_bytes = 701}).over_quota, "");
+  EXPECT_NE(store.add({.name = "d", .owner = "me", .most_bytes = 700}).over_quota, "");
+  EXPECT_NE(store.add({.name = "e", .owner = "me", .most_active = 2}).over_quota, "");
+  EXPECT_EQ(store.list({}).size(), 3U);
+}
+
+TEST_F(StoreTest, WhatHasEndedIsListedInTheOrderOfEndingButWhatIsKept) {
+  Store store(folder.path(), clock());
+  const JobRow a = store.add({.name = "a"}).row;
+  const JobRow b = store.add({.name = "b"}).row;
+  const JobRow c = store.add({.name = "c"}).row;
+  store.add({.name = "still waiting"});
+  for (const JobRow& row : {c, a, b}) {
+    ++now_ms;
+    store.apply(row, JobEvent::cancel);
+  }
+  EXPECT_TRUE(store.change(b.id, {.keep = true})->keep);
+  std::vector<std::string> names;
+  for (const JobRow& row : store.ended(10)) names.push_back(row.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"c", "a"}));
+  EXPECT_EQ(store.ended(1).size(), 1U);
+}
+
+TEST_F(StoreTest, EventsOfRemovedJobsAreForgottenInTheEnd) {
+  Store store(folder.path(), clock());
+  store.remove(store.add({.name = "a"}).row.id);
+  store.add({.name = "b"});
+  EXPECT_EQ(store.forget_events(0), 0);
+  EXPECT_EQ(store.forget_events(store.now_ms() + 1), 1);
+  ASSERT_EQ(store.events("", 0, 10).size(), 1U);
+  EXPECT_EQ(store.events("", 0, 10)[0].type, "submitted");
+}
+
+TEST_F(StoreTest, RemovedJobsAreGone) {
+  Store store(folder.path(), clock());
+  const JobRow row = store.add({"a", "{}"}).row;
+  EXPECT_TRUE(store.remove(row.id));
+  EXPECT_FALSE(store.remove(row.id));
+  EXPECT_FALSE(store.get(row.id));
+  EXPECT_FALSE(store.apply(row, JobEvent::start));
+}
+
+TEST_F(StoreTest, OneServerPerFolder) {
+  const Store store(folder.path());
+  EXPECT_THROW(Store second(folder.path()), EnvironmentError);
+}
+
+TEST_F(StoreTest, ADamagedFileIsReportedNotReplaced) {
+  write_file_atomically(folder.path() / "jobs.sqlite", std::string(4096, 'x'));
+  EXPECT_THROW(Store store(folder.path()), EnvironmentError);
+  EXPECT_EQ(read_file(folder.path() / "jobs.sqlite"), std::string(4096, 'x'));
+}
+
+TEST_F(StoreTest, ThreadsAddAndReadAtOnce) {
+  Store store(folder.path());
+  constexpr int kThreads = 4;
+  constexpr int kJobs = 10;
+  {
+    std::vector<std::jthread> threads(kThreads);
+    for (std::jthread& thread : threads) {
+      thread = std::jthread([&] {
+        for (int i = 0; i < kJobs; ++i) {
+          const JobRow row = store.add({"n", "{}"}).row;
+          EXPECT_TRUE(store.get(row.id));
+          store.apply(row, JobEvent::start);
+        }
+      });
+    }
+  }
+  std::set<std::string> ids;
+  for (const JobRow& row : store.list({.limit = 1000})) {
+    ids.insert(row.id);
+    EXPECT_EQ(row.state, JobState::running);
+  }
+  EXPECT_EQ(ids.size(), static_cast<std::size_t>(kThreads * kJobs));
+}
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,230 @@
+#include "jobs/queue/supervisor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "base/error.h"
+#include "jobs/queue/failed_runs.h"
+#include "tests/jobs/queue/fake_executor.h"
+#include "tests/jobs/yard.h"
+
+namespace throng::jobs {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class SupervisorTest : public testing::Test {
+ protected:
+  JobFolder folder() const { return JobFolder::create(base.path() / "job", job); }
+
+  TemporaryFolder base;
+  // Two runs of three frames: three shards each.
+  ResolvedJob job{parse_job(R"({"scenario": "yard", "runs": 2, "capture": {"to_s": 2},
+                                "drones": [{"id": "d1"}]})",
+                            "")};
+  FakeExecutor executor;
+};
+
+TEST_F(SupervisorTest, DoesEveryTaskOnceSimulationsFirstDatasetLast) {
+  run_job(folder(), job, executor);
+  EXPECT_THAT(executor.done(),
+              ElementsAre("run000/trace", "run001/trace", "run000/metrics", "run000/shard0000",
+                          "run000/shard0001", "run000/shard0002", "run001/metrics",
+                          "run001/shard0000", "run001/shard0001", "run001/shard0002", "dataset"));
+}
+
+TEST_F(SupervisorTest, TakesUpWhereAnEarlierOneStopped) {
+  executor.before = [](const Task& task) {
+    return task.kind == Task::Kind::measure ? TaskResult{Outcome::crashed, 3, "m", {}}
+                                            : TaskResult{};
+  };
+  EXPECT_THROW(run_job(folder(), job, executor), EnvironmentError);
+  FakeExecutor second;
+  run_job(folder(), job, second);
+  EXPECT_THAT(second.done(), ElementsAre("run000/metrics", "run001/metrics", "dataset"));
+  FakeExecutor third;
+  run_job(folder(), job, third);
+  EXPECT_TRUE(third.done().empty());
+}
+
+TEST_F(SupervisorTest, ARunThatFailsLeavesTheOthersTheirDataset) {
+  executor.before = [](const Task& task) {
+    return name_of(task) == "run001/shard0002" ? TaskResult{Outcome::crashed, 3, "boom", {}}
+                                               : TaskResult{};
+  };
+  JobProgress last;
+  const std::vector<RunFailure> failures =
+      run_job(folder(), job, executor, [&](const JobProgress& progress) { last = progress; });
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_EQ(failures[0].run, 1);
+  EXPECT_EQ(failures[0].task, "run001/shard0002");
+  EXPECT_EQ(failures[0].attempts, 3);
+  EXPECT_THAT(failures[0].message, HasSubstr("boom (after 3 attempts)"));
+  EXPECT_EQ(last.runs[0].stage, Stage::finished);
+  EXPECT_EQ(last.runs[1].stage, Stage::failed);
+  EXPECT_TRUE(folder().is_done({Task::Kind::collect}));
+  ASSERT_EQ(read_failed_runs(folder()).size(), 1U);
+  EXPECT_EQ(read_failed_runs(folder())[0].run, 1);
+
+  // Again: what is missing is done, and the dataset made anew.
+  FakeExecutor second;
+  EXPECT_TRUE(run_job(folder(), job, second).empty());
+  EXPECT_THAT(second.done(), ElementsAre("run001/shard0002", "dataset"));
+  EXPECT_TRUE(read_failed_runs(folder()).empty());
+}
+
+TEST_F(SupervisorTest, ASimulationThatFailsIsNotDrawn) {
+  executor.before = [](const Task& task) {
+    return name_of(task) == "run000/trace" ? TaskResult{Outcome::timed_out, 3, "slow", {}}
+                                           : TaskResult{};
+  };
+  EXPECT_EQ(run_job(folder(), job, executor).size(), 1U);
+  EXPECT_THAT(executor.done(), ElementsAre("run001/trace", "run001/metrics", "run001/shard0000",
+                                           "run001/shard0001", "run001/shard0002", "dataset"));
+}
+
+TEST_F(SupervisorTest, WithoutAnyRunThereIsNoDataset) {
+  executor.before = [](const Task& task) {
+    return task.kind == Task::Kind::simulate ? TaskResult{Outcome::crashed, 3, "boom", {}}
+                                             : TaskResult{};
+  };
+  try {
+    run_job(folder(), job, executor);
+    FAIL();
+  } catch (const EnvironmentError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("all 2 runs failed; run000/trace: boom"));
+  }
+  EXPECT_FALSE(folder().is_done({Task::Kind::collect}));
+}
+
+TEST_F(SupervisorTest, SaysHowFastItIsAndWhatIsLeft) {
+  executor.before = [](const Task&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return TaskResult{};
+  };
+  bool was_known = false;
+  run_job(folder(), job, executor, [&](const JobProgress& progress) {
+    if (progress.pace.images_per_s == 0) return;
+    was_known = true;
+    ASSERT_TRUE(progress.pace.remaining_s);
+    EXPECT_GE(*progress.pace.remaining_s, 0);
+    EXPECT_LT(progress.pace.images_per_s, 1 / 0.02);
+  });
+  EXPECT_TRUE(was_known);
+}
+
+TEST_F(SupervisorTest, RemovesWhatDeadWorkersLeft) {
+  const std::filesystem::path leftover =
+      folder().path() / "work" / "run000" / "shard0000.tmp.12345.0" / "files";
+  std::filesystem::create_directories(leftover);
+  run_job(folder(), job, executor);
+  EXPECT_FALSE(std::filesystem::exists(leftover.parent_path()));
+}
+
+TEST_F(SupervisorTest, RemovesWhatAWorkerLeftThatDiedMeanwhile) {
+  const JobFolder work = folder();
+  std::vector<std::filesystem::path> leftovers;
+  executor.before = [&](const Task& task) {
+    leftovers.push_back(work.output_of(task).string() + ".tmp.12345.0");
+    std::filesystem::create_directories(leftovers.back());
+    return TaskResult{};
+  };
+  run_job(work, job, executor);
+  EXPECT_EQ(leftovers.size(), executor.done().size());
+  for (const std::filesystem::path& leftover : leftovers) {
+    EXPECT_FALSE(std::filesystem::exists(leftover)) << leftover;
+  }
+}
+
+TEST_F(SupervisorTest, AFailureNamesTheTaskAndTheReason) {
+  executor.before = [](const Task& task) {
+    return task.kind == Task::Kind::collect ? TaskResult{Outcome::crashed, 3, "boom", {}}
+                                            : TaskResult{};
+  };
+  try {
+    run_job(folder(), job, executor);
+    FAIL();
+  } catch (const EnvironmentError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("dataset: boom (after 3 attempts)"));
+  }
+  EXPECT_THAT(executor.done(), Not(Contains("dataset")));
+}
+
+TEST_F(SupervisorTest, AnInputErrorKeepsItsProblems) {
+  executor.before = [](const Task&) {
+    return TaskResult{Outcome::input_error, 1, "m", {{"", "/crowd/agents", "300", "at most 260"}}};
+  };
+  try {
+    run_job(folder(), job, executor);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems()[0].where, "/crowd/agents");
+  }
+}
+
+TEST_F(SupervisorTest, AWorkerThatLiesIsFoundOut) {
+  class Liar : public Executor {
+    std::vector<TaskResult> run(const JobFolder&, std::span<const Task> tasks, const OnProgress&,
+                                std::stop_token) override {
+      return std::vector<TaskResult>(tasks.size());
+    }
+  } liar;
+  EXPECT_THROW(run_job(folder(), job, liar), EnvironmentError);
+}
+
+TEST_F(SupervisorTest, StoppingIsCancelled) {
+  std::stop_source stop;
+  executor.before = [&](const Task& task) {
+    if (name_of(task) == "run000/shard0000") stop.request_stop();
+    return TaskResult{};
+  };
+  EXPECT_THROW(run_job(folder(), job, executor, {}, stop.get_token()), Cancelled);
+  EXPECT_FALSE(std::filesystem::exists(folder().dataset()));
+}
+
+TEST_F(SupervisorTest, ProgressOnlyGrowsAndEndsComplete) {
+  JobProgress last;
+  run_job(folder(), job, executor, [&](const JobProgress& progress) {
+    ASSERT_EQ(progress.runs.size(), 2U);
+    for (std::size_t run = 0; run < last.runs.size(); ++run) {
+      EXPECT_GE(progress.runs[run].images_done, last.runs[run].images_done);
+      EXPECT_GE(progress.runs[run].stage, last.runs[run].stage);
+      EXPECT_EQ(progress.runs[run].images_total, 3);
+    }
+    last = progress;
+  });
+  EXPECT_TRUE(last.shards.empty());
+  for (const RunProgress& run : last.runs) {
+    EXPECT_EQ(run.stage, Stage::finished);
+    EXPECT_EQ(run.images_done, 3);
+    EXPECT_EQ(run.simulated_s, 2);
+  }
+}
+
+TEST_F(SupervisorTest, AFolderThatWasBarelyBegunIsTaken) {
+  write_file_atomically(base.path() / "job" / "job.json.tmp.12345.0", "{");
+  run_job(folder(), job, executor);
+  EXPECT_FALSE(std::filesystem::exists(base.path() / "job" / "job.json.tmp.12345.0"));
+  EXPECT_TRUE(std::filesystem::exists(folder().dataset()));
+  write_file_atomically(base.path() / "file", "x");
+  EXPECT_THROW(JobFolder::create(base.path() / "file", job), InputError);
+}
+
+TEST_F(SupervisorTest, AFolderBelongsToOneJob) {
+  folder();
+  EXPECT_EQ(to_json(folder().read_job().spec()), to_json(job.spec()));
+  JobSpec other = job.spec();
+  other.seed = 99;
+  EXPECT_THROW(JobFolder::create(base.path() / "job", ResolvedJob(other)), InputError);
+  write_file_atomically(base.path() / "other" / "file", "x");
+  EXPECT_THROW(JobFolder::create(base.path() / "other", job), InputError);
+}
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,61 @@
+// Guidance in jobs: every field survives the round trip, and pilot logs lie beside the job.
+#include "jobs/spec/guidance_spec.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "jobs/spec/schema.h"
+
+namespace throng::jobs {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+sim::DroneMission read_given(const json& guidance, const std::string& source,
+                             std::vector<Problem>& problems) {
+  const json job = {{"scenario", "x"}, {"drones", {{{"id", "d"}, {"guidance", guidance}}}}};
+  EXPECT_TRUE(schema_problems(job, "job.json").empty());
+  sim::DroneMission mission;
+  read_guidance(guidance, source, "/drones/0/guidance", mission, problems);
+  return mission;
+}
+
+TEST(GuidanceSpec, EveryFieldSurvivesTheRoundTrip) {
+  const json given = json::parse(R"({
+    "policy": "balance", "speed_mps": 2.5, "waypoints": [[1, 2, 3]], "lead_speed_mps": 1.5,
+    "batch": 20, "exits": ["a", "b"], "centre": [4, 5], "radius_m": 6, "overlap": 0.5,
+    "area": {"min": [-1, -2], "max": [3, 4]},
+    "perception": {"kind": "camera", "fov_deg": 60, "delay_s": 0.5, "count_noise": 0.25},
+    "setpoints": [[0, 1, 2, 3, 90, 1], [0.5, 1, 2, 3, -45, 0]]})");
+  std::vector<Problem> problems;
+  const sim::DroneMission mission = read_given(given, "", problems);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(mission.guidance.perception->kind, sim::PerceptionKind::camera);
+  EXPECT_FALSE(mission.guidance.setpoints[1].beacon);
+  const json written = guidance_json(mission);
+  for (const auto& [key, value] : given.items()) {
+    EXPECT_TRUE(written.contains(key)) << key;
+  }
+  EXPECT_EQ(guidance_json(read_given(written, "", problems)), written);
+  EXPECT_EQ(written["exits"], given["exits"]);
+  EXPECT_EQ(written["batch"], 20);
+}
+
+TEST(GuidanceSpec, APilotLogIsNamedFromTheJobsFolderAndNotOpened) {
+  const json given = {{"policy", "pilot_log"}, {"log", "nowhere.csv"}};
+  std::vector<Problem> problems;
+  sim::DroneMission mission;
+  EXPECT_EQ(read_guidance(given, "/jobs/one/job.json", "/drones/0/guidance", mission, problems),
+            "/jobs/one/nowhere.csv");
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(read_guidance(given, "", "/drones/0/guidance", mission, problems), "");
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].where, "/drones/0/guidance/log");
+  EXPECT_THAT(problems[0].expected, HasSubstr("set-points"));
+}
+
+}  // namespace
+}  // namespace throng::jobs

@@ -1,0 +1,93 @@
+// Checks of what users send, for tests: by the program's own confined children, or, where the
+// program is not part of the build, as far as jobs/spec can tell.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "jobs/queue/checked_scenarios.h"
+#include "jobs/queue/confined_task.h"
+#include "jobs/spec/scenario_summary.h"
+#include "jobs/spec/spec.h"
+#include "server/calibrator.h"
+#include "world/scenario.h"
+
+namespace throng::server {
+
+#ifdef THRONG_PROGRAM
+inline constexpr const char* kProgram = THRONG_PROGRAM;
+#else
+inline constexpr const char* kProgram = "";
+#endif
+
+/// Skips a test that needs the program where it is not built (ThreadSanitizer).
+#define SKIP_WITHOUT_PROGRAM() \
+  if (*throng::server::kProgram == '\0') GTEST_SKIP() << "the program is not part of this build"
+
+/// Resolves a job without its crowd, drones' flights and lenses.
+inline nlohmann::json resolve_lightly(const nlohmann::json& request) {
+  jobs::JobSpec job = jobs::parse_job(request.at("job").get<std::string>(), "");
+  if (!job.generate) {
+    try {
+      const world::Scenario scenario = world::find_scenario(
+          std::filesystem::path(request.at("scenarios").get<std::string>()), job.scenario);
+      if (job.drones.empty()) {
+        for (const world::DroneStart& drone : scenario.drones) {
+          job.drones.emplace_back().mission.id = drone.id;
+        }
+      }
+    } catch (const InputError& error) {
+      throw InputError(Problem{"", "/scenario", error.problems().front().found,
+                               error.problems().front().expected});
+    }
+  }
+  if (job.crowd.model.empty()) job.crowd.model = "weidmann";
+  return {{"job", to_json(job)}};
+}
+
+inline nlohmann::json check_lightly(const nlohmann::json& request) {
+  const std::string task = request.at("task");
+  if (task == "job") return resolve_lightly(request);
+  if (task == "catalog") {
+    return {{"airframes", nlohmann::json::array()},
+            {"formats", nlohmann::json::array()},
+            {"policies", nlohmann::json::array()}};
+  }
+  if (task == "people") return nullptr;
+  if (task == "calibration") return nlohmann::json::object();
+  if (task != "scenarios") return {{"svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>"}};
+  const std::filesystem::path folder = request.at("folder").get<std::string>();
+  jobs::CheckedScenarios checked{world::list_scenarios(folder)};
+  for (const std::string& id : checked.ids) {
+    checked.summaries.push_back(jobs::scenario_summary(world::find_scenario(folder, id)));
+  }
+  return checked;
+}
+
+/// The program's children.
+inline jobs::ConfinedTask real_checks() {
+  return jobs::confined_task_by(
+      std::make_shared<jobs::ForkServer>(std::vector<std::string>{kProgram, "confined"}));
+}
+
+/// The program's children, but for jobs, of which there are many; everything lightly where there is
+/// no program.
+inline jobs::ConfinedTask test_checks() {
+  if (*kProgram == '\0')
+    return [](const auto& request, const auto&) { return check_lightly(request); };
+  return [real = real_checks()](const nlohmann::json& request, const std::filesystem::path& work) {
+    return request.at("task") == "job" ? check_lightly(request) : real(request, work);
+  };
+}
+
+inline Calibrator test_calibrator() {
+  return calibrator_in_child({kProgram, "calibrate", "request"});
+}
+
+}  // namespace throng::server
