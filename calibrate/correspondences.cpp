@@ -16,7 +16,6 @@ namespace throng::calibrate {
 
 namespace {
 
-
 template <typename Vector>
 std::size_t twins_in(const std::vector<Vector>& list) {
   std::set<std::vector<double>> seen;

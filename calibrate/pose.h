@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "calibrate/calibration.h"
-#include "calibrate/spec/camera_file.h"
 #include "calibrate/control_points.h"
 #include "calibrate/robust.h"
+#include "calibrate/spec/camera_file.h"
 
 namespace throng::calibrate {
 

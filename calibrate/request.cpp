@@ -8,10 +8,10 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
-#include "calibrate/spec/camera_file.h"
 #include "calibrate/picture.h"
 #include "calibrate/pose.h"
 #include "calibrate/result.h"
+#include "calibrate/spec/camera_file.h"
 
 namespace throng::calibrate {
 

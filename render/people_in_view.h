@@ -9,8 +9,8 @@
 #include "camera/camera.h"
 #include "render/people_pass.h"
 #include "render/person_geometry.h"
-#include "render/spec/quality.h"
 #include "render/renderer.h"
+#include "render/spec/quality.h"
 #include "skinning/landmarks.h"
 #include "skinning/population.h"
 

@@ -9,8 +9,8 @@
 
 #include "render/gl_objects.h"
 #include "render/people_meshes.h"
-#include "render/spec/quality.h"
 #include "render/renderer.h"
+#include "render/spec/quality.h"
 #include "skinning/population.h"
 
 namespace throng::render {

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "render/spec/environment.h"
 #include "render/gl_objects.h"
 #include "render/ground_layers.h"
 #include "render/place.h"
+#include "render/spec/environment.h"
 #include "render/spec/quality.h"
 #include "world/scenario.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "camera/camera.h"
-#include "render/spec/environment.h"
 #include "render/gl_objects.h"
+#include "render/spec/environment.h"
 
 namespace throng::render {
 

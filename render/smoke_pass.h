@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "render/spec/environment.h"
 #include "render/gl_objects.h"
 #include "render/renderer.h"
+#include "render/spec/environment.h"
 #include "world/disasters.h"
 
 namespace throng::render {

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "sim/spec/airframe.h"
 #include "sim/quadcopter.h"
+#include "sim/spec/airframe.h"
 
 namespace throng::sim {
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "sim/spec/airframe.h"
 #include "sim/quadcopter.h"
+#include "sim/spec/airframe.h"
 
 namespace throng::sim {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "sim/spec/airframe.h"
 #include "sim/contact_log.h"
+#include "sim/spec/airframe.h"
 
 namespace throng::sim {
 

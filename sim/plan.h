@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "sim/spec/airframe.h"
 #include "sim/policy.h"
 #include "sim/run.h"
+#include "sim/spec/airframe.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

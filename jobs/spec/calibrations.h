@@ -9,8 +9,8 @@
 
 namespace throng::jobs {
 
-/// The camera of a name, as JSON (calibrate/spec/camera_file.h). Throws InputError or EnvironmentError
-/// for a name that has none.
+/// The camera of a name, as JSON (calibrate/spec/camera_file.h). Throws InputError or
+/// EnvironmentError for a name that has none.
 using FindCamera = std::function<nlohmann::json(const std::string& name)>;
 
 /// The job's text with the camera of every `drones[].camera.calibration` that is a name in its

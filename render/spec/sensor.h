@@ -1,4 +1,5 @@
-// A camera's sensor: exposure compensation, white balance, vignetting, noise (render/sensor.h applies them).
+// A camera's sensor: exposure compensation, white balance, vignetting, noise (render/sensor.h
+// applies them).
 #pragma once
 
 namespace throng::render {

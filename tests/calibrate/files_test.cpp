@@ -9,12 +9,12 @@
 
 #include "base/files.h"
 #include "boards.h"
-#include "calibrate/spec/camera_file.h"
 #include "calibrate/control_points.h"
 #include "calibrate/intrinsics.h"
 #include "calibrate/picture.h"
 #include "calibrate/request.h"
 #include "calibrate/result.h"
+#include "calibrate/spec/camera_file.h"
 
 namespace throng::calibrate {
 namespace {

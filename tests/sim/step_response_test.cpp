@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/angle.h"
-#include "sim/spec/airframe.h"
 #include "sim/controller.h"
 #include "sim/flight_world.h"
+#include "sim/spec/airframe.h"
 #include "sim/wind.h"
 #include "tests/sim/airframes.h"
 
