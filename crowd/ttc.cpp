@@ -28,10 +28,10 @@ enum Constant : std::size_t {
 };
 
 /// Forces between discs are integrated with this step, whatever the simulation's step is.
-constexpr float kStep_s = 0.02F;
+constexpr float kStepS = 0.02F;
 /// Collisions farther ahead in time are not seen; nearer ones count as if they were this near.
-constexpr float kFarthest_s = 8;
-constexpr float kNearest_s = 0.02F;
+constexpr float kFarthestS = 8;
+constexpr float kNearestS = 0.02F;
 constexpr float kSlowestSq = 1e-4F;  // m^2/s^2: relative velocities below never collide
 constexpr float kBehind = 0.3F;      // how much counts what is not in view
 constexpr float kView = -0.2F;       // cosine of the edge of the view
@@ -39,15 +39,15 @@ constexpr float kAlongside = 0.7F;   // of the force between two who walk the sa
 constexpr float kMaxForce = 15;      // m/s^2
 constexpr float kSamePlace = 1e-3F;  // m: nearer than that two have no direction
 constexpr float kSamePlaceSq = kSamePlace * kSamePlace;
-constexpr float kContact = 100;        // 1/s^2: force per depth of an overlap
-constexpr float kWall = 10;            // m/s^2 at a wall
-constexpr float kWallRange_m = 0.03F;  // over which that falls to 1/e
-constexpr float kWallReach_m = 1;      // walls farther away do not count
-constexpr float kShuffle_mps = 0.1F;  // forces make nobody faster than this or than they want to be
+constexpr float kContact = 100;       // 1/s^2: force per depth of an overlap
+constexpr float kWall = 10;           // m/s^2 at a wall
+constexpr float kWallRangeM = 0.03F;  // over which that falls to 1/e
+constexpr float kWallReachM = 1;      // walls farther away do not count
+constexpr float kShuffleMps = 0.1F;   // forces make nobody faster than this or than they want to be
 constexpr float kCreep = 0.05F;       // of the free speed, in single file without a gap
 constexpr float kOncoming = -0.3F;    // cosine between the directions of two who meet
 constexpr float kMaxHalfTurn = 0.5463F;  // tangent of half of the largest turn to the right, 1 rad
-constexpr float kStepBack_mps = 4;       // speed of stepping back per oncoming person per m^2
+constexpr float kStepBackMps = 4;        // speed of stepping back per oncoming person per m^2
 
 /// The density of people around one agent, weighted by how far they are ahead.
 struct Density {
@@ -82,8 +82,8 @@ Eigen::Vector2f avoidance(const Eigen::Vector2f& offset, float distance,
   const float discriminant = b * b - a * (distance * distance - touch * touch);
   if (a <= kSlowestSq || b <= 0 || discriminant <= 0) return Eigen::Vector2f::Zero();
   const float root = std::sqrt(discriminant);
-  const float t = std::max((b - root) / a, kNearest_s);
-  if (t >= kFarthest_s) return Eigen::Vector2f::Zero();
+  const float t = std::max((b - root) / a, kNearestS);
+  if (t >= kFarthestS) return Eigen::Vector2f::Zero();
   const float slope = strength_m2 * std::exp(-t / horizon_s) / (t * t) * (2 / t + 1 / horizon_s);
   // Discs that would just graze each other have a gradient without limit.
   constexpr float kGrazing = 0.05F;
@@ -174,7 +174,7 @@ class TimeToCollision : public LocalModel {
     seen.walls.clear();
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
       const Eigen::Vector2f nearest = nearest_on_segment(wall.begin, wall.end, position) - position;
-      const float distance = radius + kWallReach_m;
+      const float distance = radius + kWallReachM;
       if (nearest.squaredNorm() < distance * distance) seen.walls.push_back(nearest);
     });
   }
@@ -231,8 +231,8 @@ class TimeToCollision : public LocalModel {
   Eigen::Vector2f integrate(const Seen& seen, const Eigen::Vector2f& start, float speed,
                             const Eigen::Vector2f& wanted, const Eigen::Vector2f& direction,
                             float radius, float dt_s) const {
-    const float max_back = kStepBack_mps * seen.density.others;
-    const int steps = std::max(1, static_cast<int>(std::lround(dt_s / kStep_s)));
+    const float max_back = kStepBackMps * seen.density.others;
+    const int steps = std::max(1, static_cast<int>(std::lround(dt_s / kStepS)));
     const float step_s = dt_s / static_cast<float>(steps);
     Eigen::Vector2f velocity = start;
     Eigen::Vector2f moved(0, 0);
@@ -241,7 +241,7 @@ class TimeToCollision : public LocalModel {
       Eigen::Vector2f force = forces(seen, start, velocity, moved, time_s, direction, radius);
       const float size = force.norm();
       if (size > kMaxForce) force *= kMaxForce / size;
-      const float limit = std::max({speed, kShuffle_mps, velocity.norm()});
+      const float limit = std::max({speed, kShuffleMps, velocity.norm()});
       velocity += step_s * ((speed * wanted - velocity) / constants_[relaxation] + force);
       const float now = velocity.norm();
       if (now > limit) velocity *= limit / now;
@@ -276,7 +276,7 @@ class TimeToCollision : public LocalModel {
     for (const Eigen::Vector2f& wall : seen.walls) {
       const Eigen::Vector2f offset = moved - wall;
       const float distance = std::max(offset.norm(), 1e-4F);
-      force += kWall * std::exp((radius - distance) / kWallRange_m) / distance * offset;
+      force += kWall * std::exp((radius - distance) / kWallRangeM) / distance * offset;
     }
     return force;
   }

@@ -70,8 +70,9 @@ SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed)
   scene.groups = {group};
   scene.behavior = R"(<GoalSet id="0">)";
   for (int i = 0; i < 64; ++i) {
+    const int row = i / 8;
     scene.behavior += fmt::format(R"(<Goal id="{}" type="circle" x="{}" y="{}" radius="1.5"/>)", i,
-                                  -12.25 + 3.5 * (i % 8), -12.25 + 3.5 * (i / 8));
+                                  -12.25 + 3.5 * (i % 8), -12.25 + 3.5 * row);
   }
   scene.behavior += R"(</GoalSet>
 <State name="Walk" final="0"><GoalSelector type="random" goal_set="0"/><VelComponent type="goal"/></State>
@@ -184,8 +185,8 @@ double corridor_flow(const Tested& tested, bool turns, double width, std::uint64
     }
   }
   if (times.size() < last) return 0;
-  return static_cast<double>(last - people / 10) / (times[last - 1] - times[people / 10 - 1]) /
-         width;
+  const std::size_t first = people / 10;
+  return static_cast<double>(last - first) / (times[last - 1] - times[first - 1]) / width;
 }
 
 MeetingRun meet(const Tested& tested, double aside, std::uint64_t seed) {

@@ -17,7 +17,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 json f450() {
-  const std::string text = read_file(std::string(THRONG_SOURCE_DIR) + "/sim/airframes.json");
+  const std::string text = read_file(std::string(THRONG_SOURCE_DIR) + "/sim/spec/airframes.json");
   return {{"mine", json::parse(text)["f450"]}};
 }
 
