@@ -4,14 +4,16 @@
 //   crowd_gates MODEL [seeds=N] [only=NAME,...] [CONSTANT=VALUE ...] [PARAMETER=VALUE ...]
 //
 // One line per scene, one column per seed:
-//   fd_DENSITY     specific flow in a ring, 1/(m s)
-//   door_WIDTH     specific flow through a door, 1/(m s)
-//   imo_4          people per second over the entire time; deepest overlap, m
-//   square_DENSITY share of people who are stuck; speed, m/s; rms acceleration, m/s^2
-//   room_OTHERS    time of 100 people through a corridor against so many, s; people left after 600
-//   s two_way_EACH   specific flows of both directions, 1/(m s) straight_WIDTH, corner_WIDTH
-//   specific flow out of a corridor, 1/(m s) meet_ASIDE     time before meeting at which one goes
-//   aside, s; greatest acceleration, m/s^2 queue          turns and stops per person and minute
+//
+// - fd_DENSITY: specific flow in a ring, 1/(m s)
+// - door_WIDTH: specific flow through a door, 1/(m s)
+// - straight_WIDTH, corner_WIDTH: specific flow out of a corridor, 1/(m s)
+// - imo_4: people per second over the entire time; deepest overlap, m
+// - square_DENSITY: share of people who are stuck; speed, m/s; rms acceleration, m/s^2
+// - room_OTHERS: time of 100 people through a corridor against so many, s; people left after 600 s
+// - two_way_EACH: specific flows of both directions, 1/(m s)
+// - meet_ASIDE: time before meeting at which one goes aside, s; greatest acceleration, m/s^2
+// - queue: turns and stops per person and minute
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

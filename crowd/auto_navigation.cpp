@@ -157,7 +157,7 @@ void AutoNavigation::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   }
 }
 
-/// How much of their speed others cost somebody lately.
+/// Updates how much of the agent's speed others have cost lately.
 void AutoNavigation::notice_crowding(const Crowd& crowd, std::size_t agent, Route& route) {
   constexpr float kFollow = 0.25F;  // of a change, each time
   const Agents& agents = crowd.agents;
@@ -167,8 +167,8 @@ void AutoNavigation::notice_crowding(const Crowd& crowd, std::size_t agent, Rout
   route.crowding += kFollow * (lost - route.crowding);
 }
 
-/// Somebody alone cuts a corner; in a crowd, people keep their distance from the wall as they turn,
-/// so that the whole width is used.
+/// A person alone takes the shortest path around a corner; in a crowd, people keep their distance
+/// from the wall as they turn, so that the whole width is used.
 void AutoNavigation::aim(const Crowd& crowd, std::size_t agent, Route& route) {
   constexpr float kWidest = 5;       // m from the corner
   constexpr float kCrowded = 0.25F;  // of the speed lost, from which on people keep their distance
@@ -188,10 +188,9 @@ void AutoNavigation::aim(const Crowd& crowd, std::size_t agent, Route& route) {
   aside *= std::min(1.0F, kWidest / std::max(aside.norm(), 1e-3F)) *
            std::min(1.0F, route.crowding / kCrowded);
   for (int halvings = 0; halvings < 4; ++halvings, aside /= 2) {
+    // Not nearer to the corner than the shortest path.
+    if ((aside - (bend - route.lane->corner)).dot(route.lane->across) <= 0) return;
     const Eigen::Vector2f place = route.lane->corner + aside;
-    if ((place - route.lane->corner).dot(route.lane->across) <=
-        (bend - route.lane->corner).dot(route.lane->across))
-      return;
     if (ground.mesh.find(place, here.polygon) >= 0 && ground.mesh.is_clear(here, place)) {
       route.aim = place;
       return;

@@ -8,6 +8,7 @@ namespace throng::crowd {
 namespace {
 
 constexpr float kShortestWall = 1.5F;  // m
+constexpr float kLeastTurn = 0.3F;     // twice the sine of half of the angle between the walls
 
 /// People walk on the right of a wall.
 Eigen::Vector2f outward(const Segment& wall) { return {wall.direction.y(), -wall.direction.x()}; }
@@ -15,8 +16,7 @@ Eigen::Vector2f outward(const Segment& wall) { return {wall.direction.y(), -wall
 }  // namespace
 
 Eigen::Vector2f CornerLane::pass(const Eigen::Vector2f& p) const {
-  constexpr float kGrazing =
-      0.2F;  // cosine: a turn so sharp that the line is nearly along the wall
+  constexpr float kGrazing = 0.2F;  // cosine: sharper turns are passed as if they were not
   const float distance = std::max(0.0F, normal.dot(p - corner));
   return corner + distance / std::max(kGrazing, normal.dot(across)) * across;
 }
@@ -36,7 +36,7 @@ std::optional<CornerLane> corner_lane(const Obstacles& obstacles, std::uint32_t 
       if (shortest < kShortestWall) continue;
       const Eigen::Vector2f across = first.direction - second.direction;
       const float size = across.norm();
-      if (size < 0.3F) continue;  // nearly straight on
+      if (size < kLeastTurn) continue;
       const Eigen::Vector2f come = bend - from;
       const bool is_first =
           std::abs(cross(first.direction, come)) < std::abs(cross(second.direction, come));

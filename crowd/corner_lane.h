@@ -1,4 +1,5 @@
-// Where people pass a corner who do not all cut it: each at their own distance from the wall.
+// The line across a turn on which people in a crowd pass a corner, each at their own distance from
+// the wall.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +10,7 @@
 
 namespace throng::crowd {
 
-/// A corner between two long walls, as somebody sees it who is about to turn around it.
+/// A corner between two long walls, seen by a person before the turn.
 struct CornerLane {
   Eigen::Vector2f corner;
   Eigen::Vector2f across;  ///< unit: from the corner into the open, halfway between the walls

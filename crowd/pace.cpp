@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowd/oncoming.h"
 #include "crowd/single_file.h"
 
 namespace throng::crowd {
@@ -40,11 +41,7 @@ Gait Pace::gait(const View& view, const Ahead& ahead) const {
   if (ahead.against > 0) {
     const float farther = 2 * ahead.against / std::max(ahead.along, ahead.against);
     gait.horizon_share = std::max(gait.horizon_share, std::min(1.0F, farther));
-    // By the tangent of half the angle.
-    const float t = std::min(spec_.keep_right * ahead.against / 2, kMostHalfTurn);
-    const float c = (1 - t * t) / (1 + t * t);
-    const float s = 2 * t / (1 + t * t);
-    gait.direction = {c * direction.x() + s * direction.y(), c * direction.y() - s * direction.x()};
+    gait.direction = turned_right(direction, spec_.keep_right, ahead.against);
   }
   return gait;
 }

@@ -38,9 +38,6 @@ struct Gait {
 /// form.
 class Pace {
  public:
-  static constexpr float kTowards = -0.3F;         ///< cosine between the ways of two who meet
-  static constexpr float kMostHalfTurn = 0.5463F;  ///< tangent of half of the greatest turn
-
   explicit Pace(const PaceSpec& spec) : spec_(spec) {}
 
   /// What one agent knows of the others, besides the density ahead of it.

@@ -1,4 +1,5 @@
 #include "crowd/disc_lanes.h"
+#include "crowd/oncoming.h"
 #include "crowd/pace.h"
 
 namespace throng::crowd {
@@ -51,7 +52,7 @@ struct PaceKernel {
         const Eigen::Vector2f& way = directions[others[first + lane]];
         cosine[lane] = way.x() * way_x[lane] + way.y() * way_y[lane];
       }
-      const Float<kWidth> opposed = cosine < Pace::kTowards ? weight : none;
+      const Float<kWidth> opposed = cosine < kOncoming ? weight : none;
       against += opposed;
       along += weight - opposed;
     }

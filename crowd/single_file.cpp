@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "crowd/oncoming.h"
+
 namespace throng::crowd {
 
 float singleness(const Crowd& crowd, const Grid& grid, const Surroundings& around) {
@@ -31,8 +33,7 @@ float singleness(const Crowd& crowd, const Grid& grid, const Surroundings& aroun
 }
 
 float gap_ahead_m(const Crowd& crowd, const Grid& grid, const Surroundings& around) {
-  constexpr float kTowardsOne = -0.3F;  // cosine between the directions of two who meet
-  constexpr float kLane = 0.5F;         // of where two touch: farther aside one zips in
+  constexpr float kLane = 0.5F;  // of where two touch: farther aside one zips in
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];
   float gap = std::numeric_limits<float>::infinity();
@@ -42,8 +43,7 @@ float gap_ahead_m(const Crowd& crowd, const Grid& grid, const Surroundings& arou
     const float aside = cross(direction, offset);
     const float touch = grid.radius(around.slot) + grid.radius(other.slot);
     if (along <= 0 || std::abs(aside) >= kLane * touch) continue;
-    if (crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction) < kTowardsOne)
-      continue;
+    if (crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction) < kOncoming) continue;
     gap = std::min(gap, along - std::sqrt(touch * touch - aside * aside));
   }
   return gap;

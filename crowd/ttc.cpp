@@ -7,6 +7,7 @@
 
 #include "crowd/half_planes.h"
 #include "crowd/local_model.h"
+#include "crowd/oncoming.h"
 #include "crowd/orca_lines.h"
 #include "crowd/single_file.h"
 
@@ -45,9 +46,8 @@ constexpr float kWallRangeM = 0.03F;  // over which that falls to 1/e
 constexpr float kWallReachM = 1;      // walls farther away do not count
 constexpr float kShuffleMps = 0.1F;   // forces make nobody faster than this or than they want to be
 constexpr float kCreep = 0.05F;       // of the free speed, in single file without a gap
-constexpr float kOncoming = -0.3F;    // cosine between the directions of two who meet
-constexpr float kMaxHalfTurn = 0.5463F;  // tangent of half of the largest turn to the right, 1 rad
-constexpr float kStepBackMps = 4;        // speed of stepping back per oncoming person per m^2
+/// How fast one steps back at most, per person and m^2 of those who do not walk the same way.
+constexpr float kStepBack = 4;  // m^3/s
 
 /// The density of people around one agent, weighted by how far they are ahead.
 struct Density {
@@ -64,10 +64,14 @@ struct Other {
   float weight;  ///< of the force between the two if the other is in view
 };
 
+/// What one agent sees, and what its velocity is computed with; kept, so that a step allocates
+/// nothing.
 struct Seen {
   std::vector<Other> others;
   std::vector<Eigen::Vector2f> walls;  ///< their nearest points, from the agent
   Density density;
+  HalfPlanes planes;
+  HalfPlanes scratch;
 };
 
 /// The acceleration of a disc by the time-to-collision law of Karamouzas, Skinner and Guy (2014,
@@ -101,7 +105,7 @@ class TimeToCollision : public LocalModel {
  protected:
   Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
                            const Surroundings& around) override {
-    thread_local Seen seen;
+    Seen& seen = seen_.local();
     look(crowd, grid, around, seen);
     const std::size_t id = around.agent;
     const Eigen::Vector2f& direction = crowd.agents.preferred_direction[id];
@@ -112,13 +116,16 @@ class TimeToCollision : public LocalModel {
     const float share = std::min(speed_share(perceived), file_share(crowd, grid, around, free_mps));
     const float speed = std::min(crowd.agents.preferred_speed[id], share * free_mps);
     const Eigen::Vector2f wanted =
-        integrate(seen, grid.velocity(around.slot), speed, turned_right(direction, seen.density),
-                  direction, grid.radius(around.slot), dt_s);
-    return kept_off_walls(crowd, grid, around, wanted);
+        integrate(seen, grid.velocity(around.slot), speed,
+                  turned_right(direction, constants_[keep_right], seen.density.oncoming), direction,
+                  grid.radius(around.slot), dt_s);
+    return kept_off_walls(crowd, grid, around, wanted, seen);
   }
 
  private:
-  /// Whom and what the agent minds.
+  void prepare() override { seen_.prepare(); }
+
+  /// The others, the walls and the density that the agent minds.
   void look(const Crowd& crowd, const Grid& grid, const Surroundings& around, Seen& seen) const {
     const Agents& agents = crowd.agents;
     const Eigen::Vector2f& position = grid.position(around.slot);
@@ -181,21 +188,19 @@ class TimeToCollision : public LocalModel {
 
   /// The nearest velocity that leads into no wall.
   static Eigen::Vector2f kept_off_walls(const Crowd& crowd, const Grid& grid,
-                                        const Surroundings& around,
-                                        const Eigen::Vector2f& velocity) {
+                                        const Surroundings& around, const Eigen::Vector2f& velocity,
+                                        Seen& seen) {
     constexpr float kHorizon_s = 0.15F;
     const float max_speed = crowd.agents[Property::max_speed][around.agent];
     const float reach_m = grid.radius(around.slot) + 2 * kHorizon_s * std::max(max_speed, 1.0F);
     if (around.walls.empty() || around.walls.front().distance_sq > reach_m * reach_m) {
       return velocity;
     }
-    thread_local HalfPlanes planes;
-    thread_local HalfPlanes scratch;
-    planes.clear();
+    seen.planes.clear();
     const Disc self{grid.position(around.slot), grid.velocity(around.slot),
                     grid.radius(around.slot)};
-    avoid_walls(self, crowd.obstacles.segments(), around.walls, kHorizon_s, planes);
-    return best_velocity(planes, planes.size(), velocity, max_speed, scratch);
+    avoid_walls(self, crowd.obstacles.segments(), around.walls, kHorizon_s, seen.planes);
+    return best_velocity(seen.planes, seen.planes.size(), velocity, max_speed, seen.scratch);
   }
 
   /// Of the free speed, at a density of people who walk the same way.
@@ -217,21 +222,12 @@ class TimeToCollision : public LocalModel {
     return 1 - file * (1 - std::clamp(gap, kCreep, 1.0F));
   }
 
-  /// Where somebody goes instead of straight on because of those who come towards them.
-  Eigen::Vector2f turned_right(const Eigen::Vector2f& direction, const Density& density) const {
-    if (density.oncoming <= 0) return direction;
-    const float t = std::min(constants_[keep_right] * density.oncoming / 2, kMaxHalfTurn);
-    const float c = (1 - t * t) / (1 + t * t);
-    const float s = 2 * t / (1 + t * t);
-    return {c * direction.x() + s * direction.y(), c * direction.y() - s * direction.x()};
-  }
-
   /// The mean velocity of a step in which the others go on as they do, but answer what this agent
   /// does.
   Eigen::Vector2f integrate(const Seen& seen, const Eigen::Vector2f& start, float speed,
                             const Eigen::Vector2f& wanted, const Eigen::Vector2f& direction,
                             float radius, float dt_s) const {
-    const float max_back = kStepBackMps * seen.density.others;
+    const float max_back = kStepBack * seen.density.others;
     const int steps = std::max(1, static_cast<int>(std::lround(dt_s / kStepS)));
     const float step_s = dt_s / static_cast<float>(steps);
     Eigen::Vector2f velocity = start;
@@ -282,6 +278,7 @@ class TimeToCollision : public LocalModel {
   }
 
   const std::vector<float>& constants_;
+  PerThread<Seen> seen_{Seen{}};
   std::vector<float> perceived_;  // density of people who walk the same way, by agent, 1/m^2
 };
 

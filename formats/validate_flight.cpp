@@ -134,9 +134,9 @@ class FlightRecord {
       fault(fmt::format("flight.true.gimbal is {:.3f} degrees from where the camera looks", truth));
     }
     // Bias and noise of the job's gimbal are within a few degrees; per-frame turns are not its own.
-    constexpr double kMostReadingDeg = 12;
+    constexpr double kMaxReadingDeg = 12;
     const double reading = off(flight_.at("measured").at("gimbal"));
-    if (reading > kMostReadingDeg &&
+    if (reading > kMaxReadingDeg &&
         !image_.record.value("drawn", json::object()).contains("frame.yaw_deg")) {
       fault(fmt::format("flight.measured.gimbal is {:.2f} degrees from where the camera looks",
                         reading));
@@ -147,7 +147,7 @@ class FlightRecord {
     const json& measured = flight_.at("measured");
     const json& truth = flight_.at("true");
     const double age_s = image_.time_s - measured.at("time_s").get<double>();
-    if (!(age_s >= -1e-6 && age_s <= kMostAgeS)) {
+    if (!(age_s >= -1e-6 && age_s <= kMaxAgeS)) {
       fault(fmt::format("flight.measured.time_s is {:.3f} s before time_s", age_s));
     }
     const double latitude_deg =
@@ -165,15 +165,15 @@ class FlightRecord {
                               numbers_at<3>(measured.at("gps").at("position")),
                               numbers_at<3>(measured.at("gps").at("velocity"))};
     const double gps_age_s = image_.time_s - measured.at("gps").at("time_s").get<double>();
-    if (!(gps_age_s >= -1e-6 && gps_age_s <= kMostGpsAgeS)) {
+    if (!(gps_age_s >= -1e-6 && gps_age_s <= kMaxGpsAgeS)) {
       fault(fmt::format("the GPS fix is {:.3f} s old", gps_age_s));
     }
-    const std::string what = implausible_reading(sample, latitude_deg, kMostAgeS, kMostGpsAgeS);
+    const std::string what = implausible_reading(sample, latitude_deg, kMaxAgeS, kMaxGpsAgeS);
     if (!what.empty()) fault("flight.measured: " + what);
   }
 
-  static constexpr double kMostAgeS = 0.05;  // readings come about 60 times a second
-  static constexpr double kMostGpsAgeS = 0.45;
+  static constexpr double kMaxAgeS = 0.05;  // readings come about 60 times a second
+  static constexpr double kMaxGpsAgeS = 0.45;
 
   const Image& image_;
   const json& flight_;

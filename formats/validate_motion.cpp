@@ -37,9 +37,9 @@ void check_velocities(const Shot& before, const Shot& after, Findings& findings)
     const Vector2d mean = 0.5 * (now.velocity + then->velocity);
     const double change = (now.velocity - then->velocity).norm();
     // Whoever changes the pace within the frame can be off by as much as that change.
-    constexpr double kMostOffMps = 1.5;
+    constexpr double kMaxOffMps = 1.5;
     const double off = (moved - mean).norm();
-    if (off > kMostOffMps + 0.5 * change) {
+    if (off > kMaxOffMps + 0.5 * change) {
       findings.add("velocity-is-motion", now,
                    fmt::format("moved ({:.2f}, {:.2f}) m/s since the last frame, but velocity is "
                                "({:.2f}, {:.2f}) m/s now and ({:.2f}, {:.2f}) then",

@@ -38,22 +38,6 @@ std::string around_field(double half_size) {
   return text;
 }
 
-Scene room_with_door(const Bottleneck& door) {
-  constexpr double kWall = 1;  // m
-  const double half = door.width_m / 2;
-  Scene scene;
-  scene.walls = {box(-10 - kWall, -5 - kWall, 0, -5), box(-10 - kWall, 5, 0, 5 + kWall),
-                 box(-10 - kWall, -5, -10, 5), box(0, -5 - kWall, door.wall_m, -half),
-                 box(0, half, door.wall_m, 5 + kWall)};
-  Group group;
-  group.places = lattice({-9.5, -4.75}, {-0.5, 4.75}, door.people);
-  group.aside_m = 0.1;
-  scene.groups = {group};
-  const double beyond = door.wall_m + 6;
-  scene.behavior = goal_box(0, beyond, -2, beyond + 2, 2) + walk_to(0) + leave_at_goal();
-  return scene;
-}
-
 }  // namespace
 
 double weidmann_speed_mps(double density) {
@@ -111,11 +95,33 @@ DensitySpeed walk_in_ring(const Tested& tested, double density, std::uint64_t se
   return {density, mean_ring_speed(crowd, 20, 50)};
 }
 
+Scene room_with_door(const Bottleneck& door) {
+  constexpr double kWall = 1;  // m
+  const double half = door.width_m / 2;
+  Scene scene;
+  scene.walls = {box(-10 - kWall, -5 - kWall, 0, -5), box(-10 - kWall, 5, 0, 5 + kWall),
+                 box(-10 - kWall, -5, -10, 5), box(0, -5 - kWall, door.wall_m, -half),
+                 box(0, half, door.wall_m, 5 + kWall)};
+  Group group;
+  group.places = lattice({-9.5, -4.75}, {-0.5, 4.75}, door.people);
+  group.aside_m = 0.1;
+  scene.groups = {group};
+  const double beyond = door.wall_m + 6;
+  scene.behavior = goal_box(0, beyond, -2, beyond + 2, 2) + walk_to(0) + leave_at_goal();
+  return scene;
+}
+
+double central_rate(const std::vector<double>& times_s, std::size_t people) {
+  const std::size_t first = people / 10;
+  const std::size_t last = people * 8 / 10;
+  if (first == 0 || times_s.size() < last) return 0;
+  return static_cast<double>(last - first) / (times_s[last - 1] - times_s[first - 1]);
+}
+
 double specific_flow(const Tested& tested, const Bottleneck& bottleneck, std::uint64_t seed) {
   crowd::Simulation crowd = load(room_with_door(bottleneck), tested, seed);
   std::vector<bool> passed(crowd.agent_count(), false);
   std::vector<double> times_s;
-  const std::size_t first = bottleneck.people / 10;
   const std::size_t last = bottleneck.people * 8 / 10;
   constexpr double kLongest = 300;  // s
   while (times_s.size() < last && crowd.time_s() < kLongest) {
@@ -126,9 +132,7 @@ double specific_flow(const Tested& tested, const Bottleneck& bottleneck, std::ui
       times_s.push_back(crowd.time_s());
     }
   }
-  if (times_s.size() < last) return 0;
-  return static_cast<double>(last - first) / (times_s[last - 1] - times_s[first - 1]) /
-         bottleneck.width_m;
+  return central_rate(times_s, bottleneck.people) / bottleneck.width_m;
 }
 
 double median(std::vector<double> values) {

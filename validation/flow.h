@@ -40,6 +40,12 @@ struct Bottleneck {
   std::size_t people = 150;
 };
 
+Scene room_with_door(const Bottleneck& door);
+
+/// People per second between the 10th and the 80th percentile of the passages of so many people at
+/// these times, in order; 0 when they do not get so far.
+double central_rate(const std::vector<double>& times_s, std::size_t people);
+
 /// People per metre and second between the 10th and the 80th percentile of the passages, as
 /// measured in experiments; 0 when they do not get so far within 300 s.
 double specific_flow(const Tested& tested, const Bottleneck& bottleneck, std::uint64_t seed);

@@ -8,6 +8,7 @@
 #include "validation/floors.h"
 #include "validation/run.h"
 #include "validation/suite.h"
+#include "validation/walking.h"
 
 namespace throng::validation {
 
@@ -38,20 +39,7 @@ Verdict demographics(const Tested& tested, Effort) {
 /// How many of 100 people have crossed a corridor of 10 m x 2 m after two minutes, with so many
 /// who come the other way.
 int crossed(const Tested& tested, std::size_t others, std::uint64_t seed) {
-  Scene scene;
-  scene.walls = {box(-11, -6, -10, 6), box(20, -6, 21, 6), box(-10, -6, 20, -5),
-                 box(-10, 5, 20, 6),   box(0, -5, 10, -1), box(0, 1, 10, 5)};
-  Group there;
-  there.places = lattice({-9.5, -4.5}, {-0.5, 4.5}, 100);
-  there.state = "There";
-  Group back;
-  back.places = others > 0 ? lattice({10.5, -4.5}, {19.5, 4.5}, others) : std::vector<Vector2d>();
-  back.state = "Back";
-  scene.groups = {there};
-  if (others > 0) scene.groups.push_back(back);
-  scene.behavior = goal_box(0, 17, -4.5, 19.5, 4.5) + goal_box(1, -9.5, -4.5, -7, 4.5) +
-                   walk_to(0, "There") + walk_to(1, "Back") + leave_at_goal("There,Back");
-  crowd::Simulation crowd = load(scene, tested, seed);
+  crowd::Simulation crowd = load(two_rooms(others), tested, seed);
   constexpr double kUntil = 120;  // s
   while (crowd.time_s() < kUntil) crowd.step();
   const auto present = crowd.present();

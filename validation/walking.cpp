@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "validation/flow.h"
 #include "validation/run.h"
 
 namespace throng::validation {
@@ -29,6 +31,26 @@ double worst_overlap_m(const crowd::Simulation& crowd) {
   }
   return worst;
 }
+
+/// Steps, and calls act(agent) for those who have left.
+class Leavers {
+ public:
+  explicit Leavers(crowd::Simulation& crowd)
+      : crowd_(crowd), was_(crowd.present().begin(), crowd.present().end()) {}
+
+  template <typename Act>
+  void step(const Act& act) {
+    crowd_.step();
+    for (std::size_t i = 0; i < was_.size(); ++i) {
+      if (was_[i] != 0 && crowd_.present()[i] == 0) act(i);
+      was_[i] = crowd_.present()[i];
+    }
+  }
+
+ private:
+  crowd::Simulation& crowd_;
+  std::vector<std::uint8_t> was_;
+};
 
 }  // namespace
 
@@ -56,7 +78,7 @@ ExitRun leave_room(const Tested& tested, std::uint64_t seed) {
       last_s = crowd.time_s();
     }
   }
-  return {static_cast<double>(out) / last_s, overlap};
+  return {out == 100, out > 0 ? static_cast<double>(out) / last_s : 0, overlap};
 }
 
 SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed) {
@@ -102,7 +124,7 @@ SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed)
           speed / static_cast<double>(samples), std::sqrt(accel_sq / static_cast<double>(samples))};
 }
 
-CounterRun pass_corridor(const Tested& tested, std::size_t others, std::uint64_t seed) {
+Scene two_rooms(std::size_t others) {
   Scene scene;
   scene.walls = {box(-11, -6, -10, 6), box(20, -6, 21, 6), box(-10, -6, 20, -5),
                  box(-10, 5, 20, 6),   box(0, -5, 10, -1), box(0, 1, 10, 5)};
@@ -118,7 +140,11 @@ CounterRun pass_corridor(const Tested& tested, std::size_t others, std::uint64_t
   }
   scene.behavior = goal_box(0, 17, -4.5, 19.5, 4.5) + goal_box(1, -9.5, -4.5, -7, 4.5) +
                    walk_to(0, "There") + walk_to(1, "Back") + leave_at_goal("There,Back");
-  crowd::Simulation crowd = load(scene, tested, seed);
+  return scene;
+}
+
+CounterRun pass_corridor(const Tested& tested, std::size_t others, std::uint64_t seed) {
+  crowd::Simulation crowd = load(two_rooms(others), tested, seed);
   while (crowd.time_s() < 600 && count_present(crowd) > 0) crowd.step();
   return {crowd.time_s(), count_present(crowd)};
 }
@@ -144,13 +170,9 @@ TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) 
   crowd::Simulation crowd = load(scene, tested, seed);
   while (crowd.time_s() < 60) crowd.step();
   std::array<std::size_t, 2> out{};
-  std::vector<std::uint8_t> was(crowd.present().begin(), crowd.present().end());
+  Leavers leavers(crowd);
   while (crowd.time_s() < 180) {
-    crowd.step();
-    for (std::size_t i = 0; i < was.size(); ++i) {
-      if (was[i] != 0 && crowd.present()[i] == 0) ++out[i < people ? 0 : 1];
-      was[i] = crowd.present()[i];
-    }
+    leavers.step([&](std::size_t agent) { ++out[agent < people ? 0 : 1]; });
   }
   constexpr double kMetreSeconds = 4 * 120;
   return {static_cast<double>(out[0]) / kMetreSeconds, static_cast<double>(out[1]) / kMetreSeconds};
@@ -176,17 +198,11 @@ double corridor_flow(const Tested& tested, bool turns, double width, std::uint64
   std::vector<double> times;
   const std::size_t people = crowd.agent_count();
   const std::size_t last = people * 8 / 10;
-  std::vector<std::uint8_t> was(crowd.present().begin(), crowd.present().end());
+  Leavers leavers(crowd);
   while (times.size() < last && crowd.time_s() < 600) {
-    crowd.step();
-    for (std::size_t i = 0; i < people; ++i) {
-      if (was[i] != 0 && crowd.present()[i] == 0) times.push_back(crowd.time_s());
-      was[i] = crowd.present()[i];
-    }
+    leavers.step([&](std::size_t) { times.push_back(crowd.time_s()); });
   }
-  if (times.size() < last) return 0;
-  const std::size_t first = people / 10;
-  return static_cast<double>(last - first) / (times[last - 1] - times[first - 1]) / width;
+  return central_rate(times, people) / width;
 }
 
 MeetingRun meet(const Tested& tested, double aside, std::uint64_t seed) {
@@ -205,6 +221,7 @@ MeetingRun meet(const Tested& tested, double aside, std::uint64_t seed) {
   crowd::Simulation crowd = load(scene, tested, seed);
   double turned_s = -1;
   double accel = 0;
+  float nearest_m = std::numeric_limits<float>::infinity();
   std::array<Vector2f, 2> v{};
   while (crowd.time_s() < 2) crowd.step();
   for (std::size_t i = 0; i < 2; ++i) v[i] = crowd.velocities()[i];
@@ -216,20 +233,14 @@ MeetingRun meet(const Tested& tested, double aside, std::uint64_t seed) {
       v[i] = crowd.velocities()[i];
     }
     if (turned_s < 0 && std::abs(crowd.velocities()[0].y()) > 0.03F) turned_s = crowd.time_s();
+    nearest_m = std::min(nearest_m, (crowd.positions()[0] - crowd.positions()[1]).norm());
   }
-  return {crowd.time_s() - turned_s, accel};
+  const bool passed = crowd.positions()[0].x() >= crowd.positions()[1].x() && nearest_m >= 0.4F;
+  return {passed, turned_s < 0 ? 0 : crowd.time_s() - turned_s, accel};
 }
 
 QueueRun stand_in_queue(const Tested& tested, std::uint64_t seed) {
-  Scene scene;
-  scene.walls = {box(-11, -6, 0, -5), box(-11, 5, 0, 6), box(-11, -5, -10, 5),
-                 box(0, -6, 0.2, -0.4), box(0, 0.4, 0.2, 6)};
-  Group group;
-  group.places = lattice({-9.5, -4.75}, {-0.5, 4.75}, 150);
-  group.aside_m = 0.1;
-  scene.groups = {group};
-  scene.behavior = goal_box(0, 6, -2, 8, 2) + walk_to(0) + leave_at_goal();
-  crowd::Simulation crowd = load(scene, tested, seed);
+  crowd::Simulation crowd = load(room_with_door({0.8, 0.2, 150}), tested, seed);
   while (crowd.time_s() < 20) crowd.step();
   std::vector<float> heading(crowd.yaws_rad().begin(), crowd.yaws_rad().end());
   std::vector<std::uint8_t> walks(heading.size(), 0);
@@ -256,7 +267,9 @@ QueueRun stand_in_queue(const Tested& tested, std::uint64_t seed) {
       }
     }
   }
-  return {60 * flips / seconds, 60 * stops / seconds};
+  std::size_t passed = 0;
+  for (const Vector2f& place : crowd.positions()) passed += place.x() > 0 ? 1 : 0;
+  return {passed, 60 * flips / seconds, 60 * stops / seconds};
 }
 
 }  // namespace throng::validation

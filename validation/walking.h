@@ -10,6 +10,7 @@
 namespace throng::validation {
 
 struct ExitRun {
+  bool all_out = false;   ///< within 400 s
   double flow_per_s = 0;  ///< people over the entire time until the last is out
   double overlap_m = 0;   ///< the deepest of two bodies
 };
@@ -25,12 +26,15 @@ struct SquareRun {
 /// An open square of 30 m x 30 m in which everybody walks to one random place after the other.
 SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed);
 
+/// Two rooms with a corridor of 10 m x 2 m between them: 100 people in state "There" walk through
+/// it, so many others in state "Back" against them (NIST 2.8).
+Scene two_rooms(std::size_t others);
+
 struct CounterRun {
   double time_s = 0;     ///< until the last is across, at most 600
   std::size_t left = 0;  ///< people who are not across by then
 };
-/// 100 people through a corridor of 10 m x 2 m between two rooms, against so many others (NIST 2.8,
-/// to its end).
+/// two_rooms() until everybody is across.
 CounterRun pass_corridor(const Tested& tested, std::size_t others, std::uint64_t seed);
 
 struct TwoWayRun {
@@ -45,15 +49,17 @@ TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed);
 double corridor_flow(const Tested& tested, bool turns, double width_m, std::uint64_t seed);
 
 struct MeetingRun {
-  double begins_s = 0;           ///< before they meet: one goes aside (0.03 m/s)
+  bool passed = false;           ///< within 60 s, and without touching
+  double begins_s = 0;           ///< before they meet: one goes aside (0.03 m/s); 0 if nobody does
   double acceleration_mps2 = 0;  ///< the greatest
 };
-/// Two people who walk towards each other, `aside_m` apart.
+/// Two people of radius 0.2 m who walk towards each other, `aside_m` apart.
 MeetingRun meet(const Tested& tested, double aside_m, std::uint64_t seed);
 
 struct QueueRun {
-  double turns = 0;  ///< of the heading by more than 90 degrees, per person and minute
-  double stops = 0;  ///< per person and minute
+  std::size_t passed = 0;  ///< people through the door
+  double turns = 0;        ///< of the heading by more than 90 degrees, per person and minute
+  double stops = 0;        ///< per person and minute
 };
 /// 150 people before a door of 0.8 m, from 20 to 60 s.
 QueueRun stand_in_queue(const Tested& tested, std::uint64_t seed);

@@ -172,6 +172,8 @@ void check_runs(const JobSpec& job, const world::Scenario& scenario,
 
 ResolvedJob resolved(JobSpec job, const world::Scenario& scenario, const std::string& source,
                      std::vector<Problem> problems) {
+  read_files(job, problems);
+  check_formats(job.outputs, problems);
   take_from_scenario(job, scenario);
   check_image_count(job, problems);
   if (problems.empty()) check_cameras(job, problems);
@@ -190,10 +192,7 @@ ResolvedJob resolved(JobSpec job, const world::Scenario& scenario, const std::st
 }  // namespace
 
 ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source) {
-  std::vector<Problem> problems;
-  read_files(job, problems);
-  check_formats(job.outputs, problems);
-  return resolved(std::move(job), scenario, source, std::move(problems));
+  return resolved(std::move(job), scenario, source, {});
 }
 
 ResolvedJob resolve_job(std::string_view text, const std::string& source,
@@ -201,8 +200,6 @@ ResolvedJob resolve_job(std::string_view text, const std::string& source,
   std::vector<Problem> problems;
   JobSpec job = parse_job(text, source, problems);
   const world::Scenario scenario = scenario_of(job, scenarios, source);
-  read_files(job, problems);
-  check_formats(job.outputs, problems);
   return resolved(std::move(job), scenario, source, std::move(problems));
 }
 

@@ -62,6 +62,7 @@ TEST(Ttc, AcceleratesByTheGradientOfTheEnergy) {
   constexpr double kDt = 0.02;  // the model's own step: nothing is averaged
   Simulation crowd = meeting(0.15, kDt, R"(keep_right="0")");
   double compared = 0;
+  int steps = 0;
   while (crowd.positions()[1].x() - crowd.positions()[0].x() > 0.8F) {
     const Vector2d offset = (crowd.positions()[0] - crowd.positions()[1]).cast<double>();
     const Vector2d velocity = crowd.velocities()[0].cast<double>();
@@ -72,13 +73,20 @@ TEST(Ttc, AcceleratesByTheGradientOfTheEnergy) {
     Vector2d expected = velocity + kDt * ((wanted - velocity) / kRelaxationS + force);
     const double limit = std::max({1.34, velocity.norm()});
     if (expected.norm() > limit) expected *= limit / expected.norm();
-    // Single precision; near a grazing pass the model smooths the gradient.
+    // Where the discs would nearly pass each other, the gradient grows without limit, and the model
+    // smooths it.
+    const double speed_sq = relative.squaredNorm();
+    const double toward = -offset.dot(relative);
+    const double root_sq = toward * toward - speed_sq * (offset.squaredNorm() - kTouchM * kTouchM);
+    if (std::abs(root_sq) < 0.01 * speed_sq) continue;
     ASSERT_LT((crowd.velocities()[0].cast<double>() - expected).norm(),
-              0.01 * std::max(1.0, kDt * force.norm() / 0.01))
+              2e-4 + 0.02 * kDt * force.norm())
         << crowd.time_s();
     compared = std::max(compared, force.norm());
+    ++steps;
   }
-  EXPECT_GT(compared, 1) << "they came near enough to avoid each other";
+  EXPECT_GT(steps, 20);
+  EXPECT_GT(compared, 0.3) << "they came near enough to avoid each other";
 }
 
 TEST(Ttc, PeopleWhoMeetAvoidEachOtherEarlyAndGently) {

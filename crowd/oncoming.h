@@ -1,0 +1,23 @@
+// Counter-flow: which others come towards somebody, and how people keep right of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+
+namespace throng::crowd {
+
+/// Cosine between the directions of two people below which they come towards each other.
+inline constexpr float kOncoming = -0.3F;
+
+/// `direction` (a unit vector) turned right by 2 atan(keep_right density / 2), at most by 1 rad;
+/// `density` is that of those who come towards one, 1/m^2, `keep_right` in rad m^2.
+inline Eigen::Vector2f turned_right(const Eigen::Vector2f& direction, float keep_right,
+                                    float density) {
+  constexpr float kMaxHalfTurn = 0.5463F;  // tangent of half of 1 rad
+  const float t = std::min(keep_right * density / 2, kMaxHalfTurn);
+  const float c = (1 - t * t) / (1 + t * t);
+  const float s = 2 * t / (1 + t * t);
+  return {c * direction.x() + s * direction.y(), c * direction.y() - s * direction.x()};
+}
+
+}  // namespace throng::crowd
