@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Joins the product's sources into a few files for tools that read each file's headers again, such as clang-tidy.
+
+usage: scripts/join_sources.py COUNT FOLDER
+
+Reads the list of sources from `git ls-files` and writes FOLDER/joined_N.cpp, which include them. Files of one module
+whose unnamed namespaces define the same name, or that use a name which another one defines, go to different files.
+There may be more than COUNT files when the names ask for it. Prints the paths.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
+TYPE = re.compile(r"\b(?:struct|class|enum(?: class)?|using)\s+(\w+)\s*(?:final\s*)?[:{=]")
+CONSTANT = re.compile(r"\b(k[A-Z]\w*)\s*(?:\[[^\]]*\]\s*)?(?:=|\{)")
+FUNCTION = re.compile(r"^(?:template.*>\s*)?[\w:<>,*&\s]*?[\s*&](\w+)\([^;]*?\)\s*(?:const\s*)?\{", re.M)
+ENUMERATORS = re.compile(r"\benum\s+\w+[^{;]*\{([^}]*)\}")
+
+
+class Source:
+    """A file, the names that its unnamed namespaces define, and the constants that it uses."""
+
+    def __init__(self, path):
+        self.path = path
+        self.module = path.split("/")[0]
+        text = COMMENT.sub(" ", (ROOT / path).read_text())
+        self.lines = text.count("\n")
+        hidden = self.unnamed(text)
+        self.defines = set(TYPE.findall(hidden)) | set(CONSTANT.findall(hidden)) | set(FUNCTION.findall(hidden))
+        for names in ENUMERATORS.findall(hidden):
+            self.defines |= set(re.findall(r"\w+", names))
+        self.words = set(re.findall(r"\b\w+\b", text))
+
+    @staticmethod
+    def unnamed(text):
+        """The text of the unnamed namespaces."""
+        parts = []
+        for match in re.finditer(r"\bnamespace\s*\{", text):
+            depth, end = 1, match.end()
+            while depth and end < len(text):
+                depth += {"{": 1, "}": -1}.get(text[end], 0)
+                end += 1
+            parts.append(text[match.end():end])
+        return "\n".join(parts)
+
+    def clashes(self, other):
+        """Whether the two cannot be in one file."""
+        if self.module != other.module:
+            return False
+        shared = self.defines & other.defines
+        used = (self.defines & other.words) | (other.defines & self.words)
+        return bool(shared) or any(re.match(r"k[A-Z]", name) for name in used)
+
+
+def main():
+    count, folder = int(sys.argv[1]), pathlib.Path(sys.argv[2])
+    listed = subprocess.run(["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
+    sources = [Source(path) for path in listed.split()
+               if not path.startswith(("tests/", "bench/", "examples/")) and (ROOT / path).exists()]
+    share = sum(source.lines for source in sources) / count
+    units, before = [[] for _ in range(count)], 0
+    for source in sources:
+        wanted = min(int(before / share), count - 1)
+        order = list(range(wanted, len(units))) + list(range(wanted))
+        place = next((i for i in order if not any(source.clashes(other) for other in units[i])), None)
+        if place is None:
+            units.append([])
+            place = len(units) - 1
+        units[place].append(source)
+        before += source.lines
+    folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("joined_*.cpp"):
+        old.unlink()
+    for number, unit in enumerate(units):
+        file = folder / f"joined_{number}.cpp"
+        file.write_text("".join(f'#include "{ROOT / source.path}"\n' for source in unit))
+        print(file)
+
+
+if __name__ == "__main__":
+    main()
