@@ -1,6 +1,11 @@
 # One library per module. A module declares the modules and libraries it may use; an #include of any other module stops
 # the configuration. A module may lie in a folder of another ("jobs/spec"): its library is throng_jobs_spec.
 
+# With sanitizers most modules are compiled without optimization, which takes half the time; these would run too slowly.
+set(THRONG_OPTIMIZED_MODULES base world crowd camera calibrate sim skinning render)
+# The modules that the fuzz targets (tests/fuzz) cover.
+set(THRONG_FUZZED_MODULES base world crowd imports metrics/spec metrics jobs/spec)
+
 # throng_room(NAME SOURCES file... ROOMS module... LIBRARIES target... PRIVATE_LIBRARIES target...)
 function(throng_room name)
   cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
@@ -19,6 +24,12 @@ function(throng_room name)
   list(TRANSFORM room_targets PREPEND "throng::")
   target_include_directories(throng_${target} ${links} "${PROJECT_SOURCE_DIR}")
   target_link_libraries(throng_${target} ${links} ${room_targets} ${ARG_LIBRARIES})
+  if(THRONG_SANITIZE AND ARG_SOURCES AND name IN_LIST THRONG_OPTIMIZED_MODULES)
+    target_compile_options(throng_${target} PRIVATE -O1)
+  endif()
+  if(THRONG_FUZZ AND ARG_SOURCES AND name IN_LIST THRONG_FUZZED_MODULES)
+    target_compile_options(throng_${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
   throng_check_includes(${name} "${ARG_ROOMS}")
 endfunction()
 
@@ -113,17 +124,26 @@ function(throng_embed target symbol file)
   set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# throng_test(NAME SOURCES file... LIBRARIES target...): one GoogleTest program per module, test_NAME.
+# throng_test(NAME SOURCES file... LIBRARIES target... SHARDS n): one GoogleTest program per module, test_NAME. Its tests run
+# in n processes (default 1), NAME.1 to NAME.n; `test_NAME --gtest_filter=...` runs a single one.
 function(throng_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE throng_flags ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_compile_definitions(test_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # The tests' own code is compiled often and runs briefly.
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${name}" TIMEOUT 600)
+  add_dependencies(throng_tests test_${name})
+  if(NOT ARG_SHARDS)
+    set(ARG_SHARDS 1)
+  endif()
+  foreach(shard RANGE 1 ${ARG_SHARDS})
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${name}.${shard} COMMAND test_${name} --gtest_brief=1)
+    set_tests_properties(${name}.${shard} PROPERTIES LABELS "${name}" TIMEOUT 900
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${index}")
+  endforeach()
 endfunction()
 
 # throng_bench(NAME SOURCES file... LIBRARIES target...): one Google Benchmark program, bench_NAME.

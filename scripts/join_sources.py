@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
-"""Joins the product's sources into a few files for tools that read each file's headers again, such as clang-tidy.
+"""Joins the product's sources into a few files for clang-tidy, which spends most of its time on the files' headers.
 
-usage: scripts/join_sources.py COUNT FOLDER
+usage: scripts/join_sources.py COUNT BUILD FOLDER
 
-Reads the list of sources from `git ls-files` and writes FOLDER/joined_N.cpp, which include them. Files of one module
-whose unnamed namespaces define the same name, or that use a name which another one defines, go to different files.
-There may be more than COUNT files when the names ask for it. Prints the paths.
+Writes FOLDER/joined_N.cpp, which include the sources that git lists, and FOLDER/compile_commands.json with the flags of
+the build folder BUILD. Files of one module whose unnamed namespaces define the same name, or that use a constant which
+another one defines, go to different files; files for another version of C++ stay alone. There may be more than COUNT
+files when the names ask for it. Prints the paths.
 """
+import json
 import pathlib
 import re
 import subprocess
 import sys
+
+from compile_flags import macros_and_folders, with_own_standard
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
@@ -55,11 +59,8 @@ class Source:
         return bool(shared) or any(re.match(r"k[A-Z]", name) for name in used)
 
 
-def main():
-    count, folder = int(sys.argv[1]), pathlib.Path(sys.argv[2])
-    listed = subprocess.run(["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
-    sources = [Source(path) for path in listed.split()
-               if not path.startswith(("tests/", "bench/", "examples/")) and (ROOT / path).exists()]
+def joined(sources, count):
+    """Lists of sources that can be compiled as one, of about the same size."""
     share = sum(source.lines for source in sources) / count
     units, before = [[] for _ in range(count)], 0
     for source in sources:
@@ -71,13 +72,29 @@ def main():
             place = len(units) - 1
         units[place].append(source)
         before += source.lines
+    return units
+
+
+def main():
+    count, build, folder = int(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]).absolute()
+    listed = subprocess.run(["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
+    alone = with_own_standard(build)
+    apart = {entry["file"] for entry in alone}
+    sources = [Source(path) for path in listed.split()
+               if not path.startswith(("tests/", "bench/", "examples/")) and (ROOT / path).exists()
+               and str(ROOT / path) not in apart]
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("joined_*.cpp"):
         old.unlink()
-    for number, unit in enumerate(units):
+    entries = list(alone)
+    flags = macros_and_folders(build)
+    for number, unit in enumerate(joined(sources, count)):
         file = folder / f"joined_{number}.cpp"
         file.write_text("".join(f'#include "{ROOT / source.path}"\n' for source in unit))
-        print(file)
+        entries.append({"directory": str(folder), "file": str(file),
+                        "arguments": ["clang++", *flags, "-c", str(file), "-o", str(file.with_suffix(".o"))]})
+    (folder / "compile_commands.json").write_text(json.dumps(entries, indent=1))
+    print("\n".join(entry["file"] for entry in entries))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds everything and runs every check and test.
-# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz   (default: all of them)
+# usage: scripts/test.sh [STEP...]   steps: format release tidy asan tsan fuzz (default: all of these), includes
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$root"
@@ -23,37 +23,36 @@ step_format() {
   mypy --strict --cache-dir build/mypy python/throng python/generate_types.py
 }
 
+# Without the benchmarks, of which only the syntax is checked.
 step_release() {
   say "building (release)"
-  build release
+  build release throng_tests
+  jq -r '.[] | select(.file | contains("/bench/")) | .directory, .command' build/release/compile_commands.json |
+    sed -E 's/ -o [^ ]+ / -fsyntax-only /' | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'cd "$0" && eval "$1"'
   bake_people
   say "testing (release)"
-  ctest --preset release -j2
+  # The tests of the program wait much.
+  ctest --preset release -j3
 }
 
-# Reads the sanitizer build's compilation units: they join several files, so that the headers, which take most of
-# clang-tidy's time, are read once for all of them. Names that shadow each other are left to the compiler, since joined
-# files do so without harm. An unchanged tree is not checked twice.
+# Joins the sources into a few files, so that headers, which take most of clang-tidy's time, are read a few times instead
+# of 700. Names that shadow each other are left to the compiler, since joined files do so without harm. An unchanged tree
+# is not checked twice.
 step_tidy() {
   say "clang-tidy"
   local state stamp=build/tidy.stamp
   state="$(sources | xargs cat .clang-tidy | sha256sum)"
   [ "$(cat "$stamp" 2>/dev/null)" = "$state" ] && return
   cmake -S . --preset asan >build/configure-asan.log
-  jq -r '.[].file' build/asan/compile_commands.json | grep -v -e /tests/ -e /embedded_ |
-    xargs -P "$(nproc)" -n 1 clang-tidy -p build/asan --quiet --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-shadow 2>build/tidy.err ||
-    return 1
+  python3 scripts/join_sources.py 4 build/asan build/tidy |
+    xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --extra-arg=-Wno-everything 2>build/tidy.err || return 1
   echo "$state" >"$stamp"
 }
 
 step_asan() {
   say "building and testing (AddressSanitizer, UndefinedBehaviorSanitizer)"
-  build asan
-  # GCC 12's leak checker guesses where threads' dynamic variables lie, and now and then reads from
-  # nowhere after a library with threads was loaded. It has to do without.
-  ASAN_OPTIONS=intercept_tls_get_addr=0 \
-    LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" \
-    ctest --preset asan -j2 -LE slow
+  build asan throng_tests throng_fuzz
+  LSAN_OPTIONS="suppressions=$root/tests/lsan.supp:print_suppressions=0" ctest --preset asan -j2 -LE slow
 }
 
 step_tsan() {
@@ -62,24 +61,34 @@ step_tsan() {
   TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" ctest --preset tsan -j2 -L '^(base|crowd|jobs_queue|server)$'
 }
 
-# Half a minute of new inputs each on top of the corpus. What it finds stays in build/fuzz; make it a file of
-# tests/fuzz/corpus once it is mended.
+# Half a minute of new inputs each on top of the corpus, with the sanitizers' build. What it finds stays in build/fuzz;
+# make it a file of tests/fuzz/corpus once it is mended. The time limit is generous, since both cores are busy.
 step_fuzz() {
   say "fuzzing the files' readers (AddressSanitizer, UndefinedBehaviorSanitizer)"
-  build fuzz
-  printf '%s\n' crowd files imports bundle json head | xargs -P "$(nproc)" -I TARGET bash -c '
-    set -e
+  build asan throng_fuzz
+  printf '%s\n' crowd files imports bundle json head job | xargs -P "$(nproc)" -I TARGET bash -c '
     mkdir -p build/fuzz/corpus/TARGET
-    build/fuzz/tests/fuzz/fuzz_TARGET -max_total_time=30 -timeout=20 -rss_limit_mb=3000 -max_len=8000 \
+    build/asan/tests/fuzz/fuzz_TARGET -max_total_time=30 -timeout=60 -rss_limit_mb=3000 -max_len=8000 \
       -dict=tests/fuzz/crowd.dict -artifact_prefix=build/fuzz/TARGET- -print_final_stats=1 -verbosity=0 \
-      build/fuzz/corpus/TARGET tests/fuzz/corpus/TARGET'
+      build/fuzz/corpus/TARGET tests/fuzz/corpus/TARGET >build/fuzz/TARGET.log 2>&1 ||
+      { grep -v "# Uses" build/fuzz/TARGET.log | tail -60; echo "fuzz_TARGET failed: build/fuzz/TARGET-*"; exit 1; }
+    echo "fuzz_TARGET: $(grep number_of_executed_units build/fuzz/TARGET.log | tr -dc 0-9) inputs"'
+}
+
+# Not among the default steps: it parses every file by itself, which takes longer than the joined builds together.
+step_includes() {
+  say "parsing every file by itself"
+  cmake -S . --preset asan >build/configure-asan.log
+  python3 scripts/check_includes.py build/asan
 }
 
 install_packages
 fetch_assets
+times=()
 for step in "${steps[@]}"; do
   start=$SECONDS
   "step_$step"
-  echo "-- $step: $((SECONDS - start)) s"
+  times+=("$(printf '%-8s %5d s' "$step" $((SECONDS - start)))")
 done
-say "all checks passed: ${steps[*]}"
+say "all checks passed"
+printf '%s\n' "${times[@]}" "$(printf '%-8s %5d s' total $SECONDS)"

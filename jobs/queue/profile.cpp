@@ -1,6 +1,6 @@
 #include "jobs/queue/profile.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>

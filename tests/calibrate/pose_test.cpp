@@ -101,7 +101,7 @@ TEST(Pose, IsExactFromExactPoints) {
   const Survey exact = survey(1, 12, 12, 0, 1);
   for (const auto& [name, point] : exact.control) {
     const auto seen = std::find_if(exact.pixels.begin(), exact.pixels.end(),
-                                   [&](const NamedPixel& p) { return p.point == name; });
+                                   [&name = name](const NamedPixel& p) { return p.point == name; });
     const camera::Camera at{camera.intrinsics(), exact.poses[0]};
     const double depth = at.project(point.position).depth_m;
     control[name] = {at.unproject(seen->pixel, depth), 0};
