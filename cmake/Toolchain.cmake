@@ -27,6 +27,12 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # The sanitizers' builds: g++ decides on warnings.
   target_compile_options(throng_flags INTERFACE -w)
+  # As g++ defines them by itself.
+  if(THRONG_SANITIZE MATCHES address)
+    target_compile_definitions(throng_flags INTERFACE __SANITIZE_ADDRESS__=1)
+  elseif(THRONG_SANITIZE MATCHES thread)
+    target_compile_definitions(throng_flags INTERFACE __SANITIZE_THREAD__=1)
+  endif()
 elseif(CMAKE_UNITY_BUILD)
   # Several files compiled as one: g++ then takes a file's own namespace for a header's, and its flow warnings see
   # strings overlap themselves and function objects without value.
