@@ -55,8 +55,9 @@ FreeGround::FreeGround(const world::Rectangle& area, const std::vector<Corners>&
 }
 
 Vector2d FreeGround::middle_of(std::size_t cell) const {
+  const std::size_t row = cell / columns_;
   return area_.min + kCellM * Vector2d(static_cast<double>(cell % columns_) + 0.5,
-                                       static_cast<double>(cell / columns_) + 0.5);
+                                       static_cast<double>(row) + 0.5);
 }
 
 // Row by row, so that a lake of a thousand corners costs its cells and its shore, not both

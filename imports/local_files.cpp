@@ -7,7 +7,7 @@ namespace throng::imports {
 
 namespace fs = std::filesystem;
 
-LocalFiles::LocalFiles(std::vector<fs::path> folders) {
+LocalFiles::LocalFiles(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     std::error_code error;
     fs::path known = fs::canonical(folder.empty() ? "." : folder, error);

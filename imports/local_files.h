@@ -10,7 +10,7 @@ namespace throng::imports {
 
 class LocalFiles {
  public:
-  explicit LocalFiles(std::vector<std::filesystem::path> folders);
+  explicit LocalFiles(const std::vector<std::filesystem::path>& folders);
 
   /// What a URI names (model://a/b, file://a, a/b), first beside `from`, a file, then in each
   /// folder; nothing where it is not there, not below one of the folders or on another machine.

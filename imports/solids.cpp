@@ -50,6 +50,7 @@ class Raster {
 
   void mark(const std::vector<Vector3d>& polygon) {
     std::vector<Vector2d> flat;
+    flat.reserve(polygon.size());
     for (const Vector3d& p : polygon) flat.emplace_back(p.head<2>());
     Vector2d low = flat.front();
     Vector2d high = low;

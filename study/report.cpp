@@ -25,6 +25,7 @@ Spread spread_of(const std::vector<double>& values) {
 template <typename Value>
 std::vector<double> each(const std::vector<Outcome>& runs, const Value& value) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const Outcome& run : runs) values.push_back(value(run));
   return values;
 }

@@ -47,6 +47,7 @@ json escape_figures(const std::vector<MeasuredRun>& runs) {
   json high = json::array();
   for (std::size_t second = 0; second < seconds; ++second) {
     std::vector<double> shares;
+    shares.reserve(of_runs.size());
     for (const std::vector<double>& curve : of_runs) {
       shares.push_back(100 * curve[std::min(second, curve.size() - 1)]);
     }
