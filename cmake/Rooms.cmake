@@ -2,7 +2,7 @@
 # the configuration. A module may lie in a folder of another ("jobs/spec"): its library is throng_jobs_spec.
 
 # With sanitizers most modules are compiled without optimization, which takes half the time; these would run too slowly.
-set(THRONG_OPTIMIZED_MODULES base world crowd camera calibrate sim skinning render)
+set(THRONG_OPTIMIZED_MODULES base world crowd camera calibrate places sim metrics validation skinning render)
 # The modules that the fuzz targets (tests/fuzz) cover.
 set(THRONG_FUZZED_MODULES base world crowd imports metrics/spec metrics jobs/spec)
 
