@@ -11,13 +11,13 @@ namespace throng {
 
 /// What an archive may hold.
 struct UnpackLimits {
-  std::size_t most_entries = 4000;
-  std::int64_t most_file_bytes = 256LL << 20U;  ///< of each file
-  std::int64_t most_bytes = 1LL << 30U;         ///< of all files together
+  std::size_t max_entries = 4000;
+  std::int64_t max_file_bytes = 256LL << 20U;  ///< of each file
+  std::int64_t max_bytes = 1LL << 30U;         ///< of all files together
   /// Unpacked bytes per packed byte; text and empty images reach some dozens.
-  std::int64_t most_ratio = 200;
-  std::size_t longest_path = 200;  ///< characters
-  std::size_t deepest = 8;         ///< folders and the file's name
+  std::int64_t max_ratio = 200;
+  std::size_t max_path_bytes = 200;  ///< characters
+  std::size_t max_depth = 8;         ///< folders and the file's name
 };
 
 struct Unpacked {

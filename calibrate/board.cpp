@@ -29,33 +29,33 @@ constexpr std::array kDictionaries = {
 /// Pictures are searched at most this large; corners are refined in the whole picture.
 constexpr int kSearchSide = 1400;
 
-cv::Mat wrapped(const GreyImage& image) {
+cv::Mat wrapped(const GrayImage& image) {
   // OpenCV has no view of constant pixels; nothing here writes to it.
   return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
 }
 
 double smallest_spacing(const std::vector<cv::Point2f>& corners, int columns) {
-  double least = INFINITY;
+  double min_value = INFINITY;
   const auto distance = [&](std::size_t a, std::size_t b) {
     return std::hypot(corners[a].x - corners[b].x, corners[a].y - corners[b].y);
   };
   const auto width = static_cast<std::size_t>(columns);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if ((i + 1) % width != 0) least = std::min<double>(least, distance(i, i + 1));
-    if (i + width < corners.size()) least = std::min<double>(least, distance(i, i + width));
+    if ((i + 1) % width != 0) min_value = std::min<double>(min_value, distance(i, i + 1));
+    if (i + width < corners.size()) min_value = std::min<double>(min_value, distance(i, i + width));
   }
-  return least;
+  return min_value;
 }
 
 /// `clear_px`: how far from a corner there is nothing but its own edges.
 void refine(const cv::Mat& image, double clear_px, std::vector<cv::Point2f>& corners) {
-  constexpr int kWidest = 11;
-  constexpr int kMostSteps = 100;
+  constexpr int kMaxHalfWindowPx = 11;
+  constexpr int kMaxSteps = 100;
   constexpr double kPrecise = 1e-4;
-  const int half = std::clamp(static_cast<int>(clear_px), 2, kWidest);
+  const int half = std::clamp(static_cast<int>(clear_px), 2, kMaxHalfWindowPx);
   cv::cornerSubPix(
       image, corners, cv::Size(half, half), cv::Size(-1, -1),
-      cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kMostSteps, kPrecise));
+      cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kMaxSteps, kPrecise));
 }
 
 /// The picture as it is searched, and how much smaller it is.
@@ -136,14 +136,14 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
 std::variant<View, Problem> find_circles(const cv::Mat& image, const Board& board,
                                          const std::string& name) {
   const cv::Size size(board.columns, board.rows);
-  std::vector<cv::Point2f> centres;
-  bool found = cv::findCirclesGrid(image, size, centres, cv::CALIB_CB_ASYMMETRIC_GRID);
+  std::vector<cv::Point2f> centers;
+  bool found = cv::findCirclesGrid(image, size, centers, cv::CALIB_CB_ASYMMETRIC_GRID);
   if (!found) {
-    found = cv::findCirclesGrid(image, size, centres,
+    found = cv::findCirclesGrid(image, size, centers,
                                 cv::CALIB_CB_ASYMMETRIC_GRID | cv::CALIB_CB_CLUSTERING);
   }
   if (!found) return no_board(name, board, "no such grid of circles");
-  return view_of(name, board_points(board), centres);
+  return view_of(name, board_points(board), centers);
 }
 
 cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Board& board) {
@@ -172,7 +172,7 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
   std::vector<cv::Point2f> corners;
   std::vector<int> corner_ids;
   cv::aruco::interpolateCornersCharuco(markers, ids, image, pattern, corners, corner_ids);
-  if (corners.size() < kFewestPoints) {
+  if (corners.size() < kMinPoints) {
     return no_board(name, board,
                     fmt::format("{} markers and {} corners", ids.size(), corners.size()));
   }
@@ -194,7 +194,7 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
 std::variant<View, Problem> view_in(const std::filesystem::path& file, const Board& board,
                                     ImageSize& size) {
   try {
-    const GreyImage image = read_grey_image(file);
+    const GrayImage image = read_gray_image(file);
     size = {image.width, image.height};
     return find_board(image, board, file.string());
   } catch (const InputError& error) {
@@ -206,11 +206,11 @@ std::variant<View, Problem> view_in(const std::filesystem::path& file, const Boa
 
 ImageSize most_frequent(const std::vector<ImageSize>& sizes) {
   ImageSize best;
-  std::ptrdiff_t most = 0;
+  std::ptrdiff_t max_value = 0;
   for (const ImageSize& size : sizes) {
     const auto times = std::count(sizes.begin(), sizes.end(), size);
-    if (size.width > 0 && times > most) {
-      most = times;
+    if (size.width > 0 && times > max_value) {
+      max_value = times;
       best = size;
     }
   }
@@ -231,15 +231,15 @@ Board::Kind board_kind_named(std::string_view name, const std::string& source) {
 }
 
 void check_board(const Board& board, const std::string& source) {
-  constexpr int kFewest = 3;
-  constexpr int kMost = 100;
+  constexpr int kMinCorners = 3;
+  constexpr int kMaxCorners = 100;
   const auto refuse = [&](std::string found, std::string expected) {
     throw InputError(Problem{source, "", std::move(found), std::move(expected)});
   };
-  if (std::min(board.columns, board.rows) < kFewest ||
-      std::max(board.columns, board.rows) > kMost) {
+  if (std::min(board.columns, board.rows) < kMinCorners ||
+      std::max(board.columns, board.rows) > kMaxCorners) {
     refuse(fmt::format("a board of {} x {}", board.columns, board.rows),
-           fmt::format("{} to {} columns and rows", kFewest, kMost));
+           fmt::format("{} to {} columns and rows", kMinCorners, kMaxCorners));
   }
   if (!(board.square > 0) || !(board.marker >= 0 && board.marker < board.square)) {
     refuse(fmt::format("squares of {} with markers of {}", board.square, board.marker),
@@ -260,7 +260,7 @@ void check_board(const Board& board, const std::string& source) {
   }
 }
 
-GreyImage read_grey_image(const std::filesystem::path& file) {
+GrayImage read_gray_image(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   cv::Mat image;
   try {
@@ -273,11 +273,11 @@ GreyImage read_grey_image(const std::filesystem::path& file) {
                              fmt::format("{} bytes that are no picture", bytes.size()),
                              "a picture, for example JPEG or PNG"});
   }
-  GreyImage grey{image.cols, image.rows, {}};
+  GrayImage gray{image.cols, image.rows, {}};
   for (int y = 0; y < image.rows; ++y) {
-    grey.pixels.insert(grey.pixels.end(), image.ptr(y), image.ptr(y) + image.cols);
+    gray.pixels.insert(gray.pixels.end(), image.ptr(y), image.ptr(y) + image.cols);
   }
-  return grey;
+  return gray;
 }
 
 std::vector<Eigen::Vector3d> board_points(const Board& board) {
@@ -294,7 +294,7 @@ std::vector<Eigen::Vector3d> board_points(const Board& board) {
   return points;
 }
 
-std::variant<View, Problem> find_board(const GreyImage& image, const Board& board,
+std::variant<View, Problem> find_board(const GrayImage& image, const Board& board,
                                        const std::string& name) {
   try {
     const cv::Mat pixels = wrapped(image);
@@ -307,25 +307,25 @@ std::variant<View, Problem> find_board(const GreyImage& image, const Board& boar
 }
 
 Correspondences find_boards(const std::vector<std::filesystem::path>& images, const Board& board,
-                            const std::function<bool(std::size_t)>& on_picture) {
+                            const std::function<bool(std::size_t)>& on_image) {
   if (images.empty()) throw InputError(Problem{"images", "", "none", "pictures of a board"});
   std::vector<std::variant<View, Problem>> found(images.size());
   std::vector<ImageSize> sizes(images.size());
   std::mutex mutex;
   std::size_t done = 0;
-  bool go_on = true;
+  bool should_continue = true;
   parallel_ranges(images.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       {
         const std::lock_guard lock(mutex);
-        if (!go_on) return;
+        if (!should_continue) return;
       }
       found[i] = view_in(images[i], board, sizes[i]);
       const std::lock_guard lock(mutex);
-      if (on_picture && !on_picture(++done)) go_on = false;
+      if (on_image && !on_image(++done)) should_continue = false;
     }
   });
-  if (!go_on) throw Cancelled();
+  if (!should_continue) throw Cancelled();
   Correspondences all;
   all.size = most_frequent(sizes);
   for (std::size_t i = 0; i < images.size(); ++i) {

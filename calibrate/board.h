@@ -35,8 +35,8 @@ Board::Kind board_kind_named(std::string_view name, const std::string& source);
 /// is not there.
 void check_board(const Board& board, const std::string& source);
 
-/// A picture, grey.
-struct GreyImage {
+/// A picture, gray.
+struct GrayImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;  ///< rows top-down
@@ -44,13 +44,13 @@ struct GreyImage {
 
 /// Reads any format that OpenCV reads. Throws InputError when it is no picture, EnvironmentError
 /// when the file cannot be read.
-GreyImage read_grey_image(const std::filesystem::path& file);
+GrayImage read_gray_image(const std::filesystem::path& file);
 
 /// The board's points in a picture, to a fraction of a pixel, or why there are none (also: which
 /// size of chessboard is there instead). The window that a corner is refined in is adapted to the
 /// board's size in the picture: at most 11 pixels to each side, and 0.45 of the distance to the
 /// next corner.
-std::variant<View, Problem> find_board(const GreyImage& image, const Board& board,
+std::variant<View, Problem> find_board(const GrayImage& image, const Board& board,
                                        const std::string& name);
 
 /// The board's points in the plane z = 0, in the order in which they are found.
@@ -60,6 +60,6 @@ std::vector<Eigen::Vector3d> board_points(const Board& board);
 /// or without the board, are left out. Throws InputError with one problem per picture when none can
 /// be used; Cancelled when `on_picture` (called after each) says false.
 Correspondences find_boards(const std::vector<std::filesystem::path>& images, const Board& board,
-                            const std::function<bool(std::size_t done)>& on_picture = {});
+                            const std::function<bool(std::size_t done)>& on_image = {});
 
 }  // namespace throng::calibrate

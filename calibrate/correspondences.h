@@ -25,7 +25,7 @@ struct Correspondences {
 };
 
 /// Fewest points of a view that fix its pose beside the lens.
-inline constexpr std::size_t kFewestPoints = 6;
+inline constexpr std::size_t kMinPoints = 6;
 
 /// Whether a pixel lies outside of an image's border by more than a pixel.
 bool is_outside(const Eigen::Vector2d& pixel, const ImageSize& size);

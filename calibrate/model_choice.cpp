@@ -53,8 +53,8 @@ ModelScore score_of(const Calibration& calibration) {
 double bic(double sum_of_squares, std::size_t numbers, std::size_t unknowns) {
   const auto m = static_cast<double>(numbers);
   // Exact data would have -infinity for every model: what is better than this is as good.
-  constexpr double kLeastMean = 1e-16;
-  return m * std::log(std::max(sum_of_squares / m, kLeastMean)) +
+  constexpr double kMinMean = 1e-16;
+  return m * std::log(std::max(sum_of_squares / m, kMinMean)) +
          static_cast<double>(unknowns) * std::log(m);
 }
 

@@ -8,8 +8,8 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
-#include "calibrate/picture.h"
 #include "calibrate/pose.h"
+#include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "calibrate/spec/camera_file.h"
 
@@ -119,7 +119,7 @@ void require_inputs(const Request& request, const std::string& source) {
 }
 
 Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_progress) {
-  const auto say = [&](double share, const std::string& what) {
+  const auto warn = [&](double share, const std::string& what) {
     if (on_progress) on_progress(share, what);
   };
   Correspondences all;
@@ -129,12 +129,12 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
     constexpr double kShareOfSearch = 0.9;
     const auto count = static_cast<double>(request.images.size());
     all = find_boards(request.images, request.board, [&](std::size_t done) {
-      say(kShareOfSearch * static_cast<double>(done) / count,
-          fmt::format("picture {} of {}", done, request.images.size()));
-      return !request.options.fit.go_on || request.options.fit.go_on();
+      warn(kShareOfSearch * static_cast<double>(done) / count,
+           fmt::format("picture {} of {}", done, request.images.size()));
+      return !request.options.fit.should_continue || request.options.fit.should_continue();
     });
   }
-  say(0.9, "solving");
+  warn(0.9, "solving");
   return calibrate_intrinsics(all, request.options);
 }
 
@@ -200,15 +200,15 @@ Calibration carry_out(const Request& request, const OnProgress& on_progress) {
 }
 
 void carry_out_in(const fs::path& folder, const OnProgress& on_progress,
-                  const std::function<bool()>& go_on) {
+                  const std::function<bool()>& should_continue) {
   const json value = parse_json(read_file(folder / "request.json"), "request.json");
   Request request = request_from_json(value, folder / "files");
-  request.options.fit.go_on = go_on;
+  request.options.fit.should_continue = should_continue;
   const Calibration calibration = carry_out(request, on_progress);
   write_file_atomically(folder / kOpenCvName, opencv_yaml(calibration));
   write_file_atomically(folder / kRosName,
                         ros_yaml(calibration, value.value("name", std::string("camera"))));
-  write_file_atomically(folder / kPictureName, residual_picture(calibration));
+  write_file_atomically(folder / kPictureName, residual_plot(calibration));
   write_file_atomically(folder / kCameraName, to_json(calibration).dump(2) + "\n");
 }
 

@@ -22,7 +22,7 @@ struct FitOptions {
   double loss_px = 0;
   /// Of pixel coordinates; nothing: from the residuals.
   std::optional<double> sigma_px;
-  std::function<bool()> go_on = {};  ///< as in SolveOptions
+  std::function<bool()> should_continue = {};  ///< as in SolveOptions
 };
 
 inline constexpr double kOutlierSigmas = 6;
@@ -34,7 +34,7 @@ struct Fit {
   double rms_px = 0;          ///< of distances, OpenCV's convention: sqrt(sum |r|^2 / points)
   std::size_t used = 0;       ///< observations
   std::size_t rejected = 0;   ///< observations
-  Linearisation derivatives;  ///< covariance for the sigma above (or the one that was given)
+  Linearization derivatives;  ///< covariance for the sigma above (or the one that was given)
 };
 
 /// Solves, tells outliers (first against a robust solution, then against the one without them) and

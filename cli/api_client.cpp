@@ -121,13 +121,14 @@ std::string ApiClient::get_text(const std::string& path) {
   return checked(connection_->client.Get(path, connection_->headers), url_, path).body;
 }
 
-std::string ApiClient::wait_for_text(const std::string& path, const std::function<bool()>& go_on) {
+std::string ApiClient::wait_for_text(const std::string& path,
+                                     const std::function<bool()>& should_continue) {
   constexpr int kAccepted = 202;
   while (true) {
     const httplib::Response answer =
         checked(connection_->client.Get(path, connection_->headers), url_, path);
     if (answer.status != kAccepted) return answer.body;
-    if (!go_on()) throw Cancelled();
+    if (!should_continue()) throw Cancelled();
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
 }

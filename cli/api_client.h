@@ -31,8 +31,9 @@ class ApiClient {
 
   nlohmann::json get(const std::string& path);
   std::string get_text(const std::string& path);
-  /// What takes a while to be made: asks until it is there. Throws Cancelled once `go_on` is false.
-  std::string wait_for_text(const std::string& path, const std::function<bool()>& go_on);
+  /// What takes a while to be made: asks until it is there. Throws Cancelled once `should_continue`
+  /// is false.
+  std::string wait_for_text(const std::string& path, const std::function<bool()>& should_continue);
   /// `headers` besides the usual ones, as name and value.
   nlohmann::json post(const std::string& path, const std::string& body = "",
                       const std::pair<std::string, std::string>& header = {});

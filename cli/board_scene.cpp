@@ -101,14 +101,14 @@ std::vector<Vector3d> board_corners_in_world(const calibrate::Board& board) {
 std::vector<camera::Pose> board_views(const calibrate::CameraFile& camera,
                                       const calibrate::Board& board, int count,
                                       std::uint64_t seed) {
-  constexpr std::uint64_t kMostAttempts = 200'000;
+  constexpr std::uint64_t kMaxAttempts = 200'000;
   constexpr double kTilt = std::numbers::pi / 4;
   constexpr double kRoll = 0.3;
   const camera::Intrinsics lens = camera.intrinsics();
   const Vector3d middle = on_board(0.5 * (board.columns - 1), 0.5 * (board.rows - 1));
   const double width = kBoardSquareM * (board.columns + 3);
   std::vector<camera::Pose> poses;
-  for (std::uint64_t i = 0; i < kMostAttempts && static_cast<int>(poses.size()) < count; ++i) {
+  for (std::uint64_t i = 0; i < kMaxAttempts && static_cast<int>(poses.size()) < count; ++i) {
     Random random(seed, Stream::camera_noise, i);
     const Eigen::Matrix3d turn =
         (Eigen::AngleAxisd(random.uniform(-kTilt, kTilt), Vector3d::UnitX()) *
@@ -123,7 +123,7 @@ std::vector<camera::Pose> board_views(const calibrate::CameraFile& camera,
     camera::Pose pose;
     pose.R = turn * board_axes().transpose();
     pose.t = depth * direction->homogeneous() - pose.R * middle;
-    if (pose.centre().z() > 1 && sees_board({lens, pose}, board)) poses.push_back(pose);
+    if (pose.center().z() > 1 && sees_board({lens, pose}, board)) poses.push_back(pose);
   }
   if (static_cast<int>(poses.size()) < count) {
     throw InputError(Problem{"throng calibrate selftest", "",

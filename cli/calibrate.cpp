@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "calibrate/picture.h"
 #include "calibrate/request.h"
+#include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "cli/calibration_child.h"
 #include "cli/commands.h"
@@ -95,7 +95,7 @@ void write_results(const calibrate::Calibration& calibration, const CalibrateArg
                           calibrate::ros_yaml(calibration, fs::path(arguments.ros).stem()));
   }
   if (!arguments.picture.empty()) {
-    write_file_atomically(arguments.picture, calibrate::residual_picture(calibration));
+    write_file_atomically(arguments.picture, calibrate::residual_plot(calibration));
   }
 }
 
@@ -116,7 +116,7 @@ void run(CalibrateArguments& arguments, const std::string& kind) {
   request.options.fit.reject = !arguments.keep_outliers;
   if (arguments.sigma_px > 0) request.options.fit.sigma_px = arguments.sigma_px;
   const Interrupt interrupt;
-  request.options.fit.go_on = [&] { return !interrupt.token().stop_requested(); };
+  request.options.fit.should_continue = [&] { return !interrupt.token().stop_requested(); };
   calibrate::Calibration calibration;
   {
     ProgressBar bar("calibrating");

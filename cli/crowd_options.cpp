@@ -4,11 +4,11 @@ namespace throng::cli {
 
 namespace {
 
-constexpr double kShortestStepS = 1e-4;
-constexpr double kLongestStepS = 10;
-constexpr double kLongestRunS = 1e7;
-constexpr int kMostSubSteps = 1000;
-constexpr int kMostThreads = 1024;
+constexpr double kMinStepS = 1e-4;
+constexpr double kMaxStepS = 10;
+constexpr double kMaxRunS = 1e7;
+constexpr int kMaxSubSteps = 1000;
+constexpr int kMaxThreads = 1024;
 
 void add_run_options(CLI::App& command, CrowdArguments& arguments) {
   command.add_option("project,-p,--project", arguments.project_file,
@@ -20,17 +20,17 @@ void add_run_options(CLI::App& command, CrowdArguments& arguments) {
   command
       .add_option("-d,--duration", arguments.duration_s,
                   "Longest time to simulate, in s, instead of the project's")
-      ->check(CLI::Range(0.0, kLongestRunS));
+      ->check(CLI::Range(0.0, kMaxRunS));
   command.add_option("-r,--random", arguments.seed,
                      "Seed instead of the project's (0 is taken for 1)");
   command
       .add_option("-t,--time-step", arguments.time_step_s,
                   "Time step in s instead of the project's or scene's")
-      ->check(CLI::Range(kShortestStepS, kLongestStepS));
+      ->check(CLI::Range(kMinStepS, kMaxStepS));
   command
       .add_option("--sub-steps,--subSteps", arguments.sub_steps,
                   "Steps in between that are not recorded, per time step")
-      ->check(CLI::Range(0, kMostSubSteps));
+      ->check(CLI::Range(0, kMaxSubSteps));
   command
       .add_option("--compat", arguments.compat,
                   "Whose results are wanted: the sensible ones (none), Menge's with its quirks "
@@ -43,7 +43,7 @@ void add_run_options(CLI::App& command, CrowdArguments& arguments) {
       ->check(CLI::IsMember(std::vector<std::string>(crowd::kSeparationWords.begin(),
                                                      crowd::kSeparationWords.end())));
   command.add_option("--threads", arguments.threads, "Threads to compute with (0: one per core)")
-      ->check(CLI::Range(0, kMostThreads))
+      ->check(CLI::Range(0, kMaxThreads))
       ->capture_default_str();
 }
 

@@ -26,8 +26,8 @@ void print_keys(const std::vector<server::KeyRow>& keys) {
              "made", "revoked", "name");
   for (const server::KeyRow& key : keys) {
     fmt::print("{:<10}{:<8}{:>10}{:>10}  {:<12}{:<12}{}\n", key.id, server::name_of(key.scope),
-               key.most_active == 0 ? "any" : std::to_string(key.most_active),
-               key.most_bytes == 0 ? "any" : std::to_string(key.most_bytes >> kGibShift),
+               key.max_active == 0 ? "any" : std::to_string(key.max_active),
+               key.max_bytes == 0 ? "any" : std::to_string(key.max_bytes >> kGibShift),
                day_of(key.created_ms), key.revoked_ms == 0 ? "" : day_of(key.revoked_ms), key.name);
   }
 }
@@ -46,7 +46,7 @@ void add_keys(CLI::App& app) {
   auto* create = command->add_subcommand("create", "Make a key and print it, once and never again");
   const auto name = std::make_shared<std::string>();
   const auto scope = std::make_shared<std::string>("submit");
-  const auto most = std::make_shared<int>(0);
+  const auto max_value = std::make_shared<int>(0);
   create->add_option("name", *name, "Whose it is, for lists")->required();
   create
       ->add_option("--scope", *scope,
@@ -54,16 +54,16 @@ void add_keys(CLI::App& app) {
                    "change everybody's")
       ->check(CLI::IsMember({"read", "submit", "admin"}))
       ->capture_default_str();
-  create->add_option("--most-jobs", *most, "Jobs that may wait or run at once (0: any number)")
+  create->add_option("--most-jobs", *max_value, "Jobs that may wait or run at once (0: any number)")
       ->check(CLI::NonNegativeNumber);
-  const auto most_gib = std::make_shared<int>(0);
-  create->add_option("--most-gib", *most_gib, "Disk that their jobs may take (0: any)")
+  const auto max_gib = std::make_shared<int>(0);
+  create->add_option("--most-gib", *max_gib, "Disk that their jobs may take (0: any)")
       ->check(CLI::NonNegativeNumber);
   add_data(create);
   create->callback([=] {
     fmt::print("{}\n",
-               server::Keys(*data).create(*name, *server::scope_named(*scope), *most,
-                                          static_cast<std::int64_t>(*most_gib) << kGibShift));
+               server::Keys(*data).create(*name, *server::scope_named(*scope), *max_value,
+                                          static_cast<std::int64_t>(*max_gib) << kGibShift));
   });
 
   auto* list = command->add_subcommand("list", "List the keys");

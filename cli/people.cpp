@@ -34,12 +34,13 @@ void list(const std::string& folder) {
   const skinning::PopulationIndex index = skinning::read_index(folder);
   fmt::print("{:<12} {:<6} {:>3} {:>7}  {:<13} {}\n", "name", "sex", "age", "height", "carries",
              "wears");
-  for (const skinning::Character& who : index.characters) {
-    fmt::print("{:<12} {:<6} {:>3} {:>5.2f} m  {:<13} {}\n", who.name, who.male ? "male" : "female",
-               static_cast<int>(who.age_years), who.stature_m,
-               skinning::kCarryNames[static_cast<std::size_t>(who.carries)], who.wears);
+  for (const skinning::Character& character : index.characters) {
+    fmt::print("{:<12} {:<6} {:>3} {:>5.2f} m  {:<13} {}\n", character.name,
+               character.male ? "male" : "female", static_cast<int>(character.age_years),
+               character.stature_m,
+               skinning::kCarryNames[static_cast<std::size_t>(character.carries)], character.wears);
   }
-  fmt::print("{} people, {}, content hash {}\n", index.characters.size(), index.licence,
+  fmt::print("{} people, {}, content hash {}\n", index.characters.size(), index.license,
              index.content_hash);
 }
 

@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFewest = 800;
-constexpr int kMost = 8000;
+constexpr int kMinWidthPx = 800;
+constexpr int kMaxWidthPx = 8000;
 
 struct SheetArguments {
   std::string folder;
@@ -65,15 +65,16 @@ void check_arguments(const SheetArguments& arguments) {
   if (arguments.count < 1) {
     throw InputError({"", "people sheet: --count", std::to_string(arguments.count), "at least 1"});
   }
-  if (arguments.width_px < kFewest || arguments.width_px > kMost) {
+  if (arguments.width_px < kMinWidthPx || arguments.width_px > kMaxWidthPx) {
     throw InputError({"", "people sheet: --width", std::to_string(arguments.width_px),
-                      fmt::format("{} to {} pixels", kFewest, kMost)});
+                      fmt::format("{} to {} pixels", kMinWidthPx, kMaxWidthPx)});
   }
 }
 
 std::uint32_t find(const skinning::Population& population, const std::string& name) {
-  const auto found = std::find_if(population.characters.begin(), population.characters.end(),
-                                  [&](const skinning::Character& who) { return who.name == name; });
+  const auto found =
+      std::find_if(population.characters.begin(), population.characters.end(),
+                   [&](const skinning::Character& character) { return character.name == name; });
   if (found == population.characters.end()) {
     throw InputError(
         {"", "people sheet: --people", name, "somebody whom `throng people list` names"});

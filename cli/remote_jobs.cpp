@@ -116,7 +116,7 @@ std::string archive_path(const FetchArguments& arguments) {
 }
 
 void fetch(ApiClient& api, const FetchArguments& arguments) {
-  constexpr int kMostAttempts = 20;
+  constexpr int kMaxAttempts = 20;
   const char* suffix = arguments.zip ? ".zip" : ".tar";
   fs::path file = arguments.file;
   if (file.empty() || fs::is_directory(file)) file /= arguments.id + suffix;
@@ -134,7 +134,7 @@ void fetch(ApiClient& api, const FetchArguments& arguments) {
       if (!api.download(archive_path(arguments), file, on_bytes)) throw Cancelled();
       break;
     } catch (const EnvironmentError&) {
-      if (attempt == kMostAttempts) throw;
+      if (attempt == kMaxAttempts) throw;
       std::this_thread::sleep_for(1s);  // and on from where it broke off
     }
   }

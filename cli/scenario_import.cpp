@@ -53,15 +53,15 @@ std::array<double, count> numbers_in(const std::string& text, const std::string&
 }
 
 std::vector<imports::Gate> gates_of(const PlaceArguments& arguments) {
-  constexpr double kFarthestM = 10'000;
-  constexpr double kNarrowestM = 0.8;
+  constexpr double kMaxCoordinateM = 10'000;
+  constexpr double kMinWidthM = 0.8;
   std::vector<imports::Gate> gates;
   for (const std::string& text : arguments.exits) {
     const auto [x1, y1, x2, y2] = numbers_in<4>(text, "--exit", "x1,y1,x2,y2 in metres");
     const imports::Gate gate{{x1, y1}, {x2, y2}, std::hypot(x2 - x1, y2 - y1)};
     const double farthest =
         std::max(gate.from.cwiseAbs().maxCoeff(), gate.to.cwiseAbs().maxCoeff());
-    if (farthest > kFarthestM || gate.share < kNarrowestM) {
+    if (farthest > kMaxCoordinateM || gate.share < kMinWidthM) {
       throw InputError({"--exit", "", text, "a segment of at least 0.8 m within 10 km"});
     }
     gates.push_back(gate);

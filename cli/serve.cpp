@@ -39,12 +39,12 @@ void add_serve(CLI::App& app) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command
-      ->add_option("--least-free", options->least_free_mib,
+      ->add_option("--least-free", options->min_free_mib,
                    "MiB of free disk below which the queue rests")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
-      ->add_option("--task-timeout", options->longest_task_s,
+      ->add_option("--task-timeout", options->max_task_s,
                    "Seconds after which a worker counts as hung (0: any time)")
       ->check(CLI::NonNegativeNumber);
   command

@@ -61,8 +61,8 @@ void find_clogs(ExitSeries& series, const std::vector<double>& time_s) {
     clog.ended = end < samples.size();
     for (std::size_t i = onset; i < end; ++i) {
       samples[i].state_offline = ExitState::clogged;
-      clog.max_normalised_density =
-          std::max(clog.max_normalised_density, samples[i].normalised_density);
+      clog.max_normalized_density =
+          std::max(clog.max_normalized_density, samples[i].normalized_density);
       clog.max_pressure_per_s2 = std::max(clog.max_pressure_per_s2, samples[i].pressure_per_s2);
     }
     last_end = end;

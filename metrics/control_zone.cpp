@@ -91,7 +91,7 @@ bool ControlZone::contains(const Eigen::Vector2d& point) const {
                       [&](const auto& footprint) { return covers(footprint, point); });
 }
 
-double ControlZone::share_of_way(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+double ControlZone::share_of_path(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   const Eigen::Vector2d start = from - middle_;
   const Eigen::Vector2d way = to - from;
   double begin = 0;

@@ -17,7 +17,7 @@ class ControlZone {
 
   bool contains(const Eigen::Vector2d& point) const;
   /// Which share of the straight way between two places lies in the half disc, buildings or not.
-  double share_of_way(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  double share_of_path(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
   double radius_m() const { return radius_m_; }
   /// Walkable ground in the zone; 0 when buildings cover all of it.
   double area_m2() const { return area_m2_; }

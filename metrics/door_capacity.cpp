@@ -74,8 +74,8 @@ double at(const std::array<double, kWidths>& values, double width_m) {
 DoorCapacity door_capacity(std::string_view model, double width_m) {
   const ModelRow& row = row_of(model);
   // Through the narrowest door some models let nobody pass; a bound must not shut it.
-  constexpr double kLeastPerS = 0.3;
-  return {at(row.burst, width_m), std::max(kLeastPerS, at(row.rate_per_s, width_m))};
+  constexpr double kMinPerS = 0.3;
+  return {at(row.burst, width_m), std::max(kMinPerS, at(row.rate_per_s, width_m))};
 }
 
 }  // namespace throng::metrics

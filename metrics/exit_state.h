@@ -6,7 +6,7 @@
 
 namespace throng::metrics {
 
-/// Flow that an exit of `width_m` can take (people/s): 1.3 per metre and second.
+/// Flow that an exit of `width_m` can take (people/s): 1.3 per meter and second.
 double capacity_per_s(double width_m);
 
 /// How long nobody may have gone out for a jam to be a clog: max(2 s, 3 / capacity).

@@ -79,7 +79,7 @@ json clog_json(const ClogEvent& clog) {
           {"until_s", clog.until_s},
           {"ended", clog.ended},
           {"people_at_onset", clog.people_at_onset},
-          {"max_normalised_density", clog.max_normalised_density},
+          {"max_normalised_density", clog.max_normalized_density},
           {"max_pressure_per_s2", clog.max_pressure_per_s2},
           {"members", clog.members}};
 }

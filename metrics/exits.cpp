@@ -112,7 +112,7 @@ class ExitObserver {
       desired_speed_mps_ /= sample.in_zone;
     }
     sample.density_per_m2 = sample.in_zone / zone_.area_m2();
-    sample.normalised_density = sample.density_per_m2 * close_packing_m2();
+    sample.normalized_density = sample.density_per_m2 * close_packing_m2();
     sample.voronoi_density_per_m2 = voronoi_density();
     sample.pressure_per_s2 = pressure_.step(near_);
     const Queue queue = queue_before(zone_, exit_.outward, queuing_);

@@ -22,7 +22,7 @@ bool is_shut(const Departures& departures, std::size_t exit, int second) {
 }
 
 /// How many can pass in a slot. Rounded so that no people get lost over the seconds.
-int room_of(const Departures& departures, std::size_t exit, int second, int first_entry) {
+int spare_capacity(const Departures& departures, std::size_t exit, int second, int first_entry) {
   const double rate = departures.capacity_per_s[exit];
   if (departures.burst.empty()) {
     return static_cast<int>(std::ceil(rate * (second + 1)) - std::ceil(rate * second));
@@ -228,7 +228,7 @@ std::vector<double> earliest_out_s(const Departures& departures) {
     }
     if (next == exits) break;
     const int now = second[next]++;
-    const int room = room_of(departures, next, now, flow.first_entry(next));
+    const int room = spare_capacity(departures, next, now, flow.first_entry(next));
     const int more = flow.open(next, now, room);
     is_spent[next] = room > 0 && more == 0 && now >= flow.last_entry();
     out_s.insert(out_s.end(), static_cast<std::size_t>(more), now + departures.on_s[next]);
@@ -237,7 +237,7 @@ std::vector<double> earliest_out_s(const Departures& departures) {
   return out_s;
 }
 
-double way_out_m(const world::Rectangle& inside, const Vector2d& place) {
+double exit_path_m(const world::Rectangle& inside, const Vector2d& place) {
   const Vector2d to_min = place - inside.min;
   const Vector2d to_max = inside.max - place;
   return std::max(0.0, std::min(to_min.minCoeff(), to_max.minCoeff()));

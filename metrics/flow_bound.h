@@ -30,6 +30,6 @@ struct Departures {
 std::vector<double> earliest_out_s(const Departures& departures);
 
 /// From a place to beyond the nearest side of the rectangle (m); 0 outside.
-double way_out_m(const world::Rectangle& inside, const Eigen::Vector2d& place);
+double exit_path_m(const world::Rectangle& inside, const Eigen::Vector2d& place);
 
 }  // namespace throng::metrics

@@ -32,11 +32,11 @@ struct Journey {
   }
 };
 
-/// Of those who went out through a door; by number of the agent. `ways`: ways_to_exits().
+/// Of those who went out through a door; by number of the agent. `distances`: walking_distances().
 std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& scenario,
                               const std::vector<ExitSeries>& exits,
                               const std::vector<PersonRecord>& people,
-                              const std::vector<WalkingDistance>& ways);
+                              const std::vector<WalkingDistance>& distances);
 
 /// Medians, quantiles and sums over the journeys.
 nlohmann::json to_json(const std::vector<Journey>& journeys);

@@ -123,8 +123,8 @@ double max_speed_mps(const std::vector<const PersonRecord*>& people,
 
 // How long it takes at least from anywhere in a door to beyond the place.
 double beyond_s(const world::Scenario& scenario, const world::Exit& exit, double speed_mps) {
-  const double from_m = way_out_m(scenario.inside, exit.from);
-  return std::min(from_m, way_out_m(scenario.inside, exit.to)) / speed_mps;
+  const double from_m = exit_path_m(scenario.inside, exit.from);
+  return std::min(from_m, exit_path_m(scenario.inside, exit.to)) / speed_mps;
 }
 
 /// Whether a person got out by a door after having set out.
@@ -187,7 +187,7 @@ class LowerBound {
     if (!std::isfinite(out.time_s)) return traveler;
     const double speed_mps = person.max_speed_mps;
     if (person.escaped_s && !went_by_door(person, out)) {
-      const double side_m = way_out_m(scenario_.inside, out.place);
+      const double side_m = exit_path_m(scenario_.inside, out.place);
       const double beside_s = speed_mps > 0 ? out.time_s + side_m / speed_mps : kNever;
       traveler.beside_s = std::min(beside_s, *person.escaped_s);
       return traveler;
@@ -255,7 +255,7 @@ std::optional<BestTimes> reference_of(const world::Scenario& scenario,
   for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
     const world::Exit& exit = scenario.exits[e];
     doors.capacity_per_s.push_back(exit.open ? capacity_per_s[e] : 0);
-    doors.on_s.push_back(way_out_m(scenario.inside, exit.middle()) / max_mps);
+    doors.on_s.push_back(exit_path_m(scenario.inside, exit.middle()) / max_mps);
     doors.shuts_s.push_back(exit.shuts_s);
   }
   std::vector<Traveler> travelers;
@@ -292,7 +292,7 @@ std::optional<BestTimes> lower_bound(const world::Scenario& scenario,
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<PersonRecord>& people, const Alarm& alarm,
                                         double end_s, Knowledge knowledge,
-                                        const std::vector<WalkingDistance>& ways) {
+                                        const std::vector<WalkingDistance>& distances) {
   std::vector<double> capacities;
   for (const world::Exit& exit : scenario.exits) {
     capacities.push_back(capacity_per_s(exit.width_m()));
@@ -301,7 +301,7 @@ std::optional<BestTimes> reference_time(const world::Scenario& scenario,
       scenario, people, alarm, end_s, knowledge, capacities,
       [&](std::size_t exit, const Vector2d& place) {
         // Somebody whom rounding has put into a wall stands somewhere all the same.
-        return ways[exit].from(place).value_or((place - scenario.exits[exit].middle()).norm());
+        return distances[exit].from(place).value_or((place - scenario.exits[exit].middle()).norm());
       },
       [](const PersonRecord& person) { return person.max_desired_mps; });
 }

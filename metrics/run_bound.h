@@ -55,12 +55,12 @@ struct ReferenceSpec {
 
 /// A reference, which real crowds can beat for a while: the quickest flow through doors that pass
 /// their mean capacity (docs/metrics.md) or that of the spec. Without a spec people go at the
-/// greatest speed that each desired, on the shortest way of `ways` (ways_to_exits()). Empty
-/// without evacuees or exits.
+/// greatest speed that each desired, on the shortest way of `distances` (walking_distances()).
+/// Empty without evacuees or exits.
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<PersonRecord>& people, const Alarm& alarm,
                                         double end_s, Knowledge knowledge,
-                                        const std::vector<WalkingDistance>& ways);
+                                        const std::vector<WalkingDistance>& distances);
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<PersonRecord>& people, const Alarm& alarm,
                                         double end_s, Knowledge knowledge,

@@ -43,7 +43,7 @@ Recorded read_csv(std::string_view text, const std::string& name, const Trajecto
 /// pos_y in m) and `metadata` (fps). Else, if the first line that is no comment begins with a
 /// letter, a table, or text: lines `id frame x y ...` with spaces, tabs or commas between, `#`
 /// before comments, of which `framerate: 16` (or `25 fps`) must be one, and `x/cm` or `in cm` says
-/// that lengths are in centimetres. Frames that are all a multiple of up to 100 apart are counted
+/// that lengths are in centimeters. Frames that are all a multiple of up to 100 apart are counted
 /// by it, at the rate divided by it. Velocities are central differences over one frame before and
 /// after. People take part in the frames that have them. Refused are places more than 100 km from
 /// the origin, rates below 0.01 or above 10 000 a second, and more than 40 million pairs of frame

@@ -20,13 +20,13 @@ class WalkingDistance {
   WalkingDistance(const world::Rectangle& ground, const std::vector<world::Building>& buildings,
                   const world::Exit& door);
 
-  /// The straight way where that is free, else linear between the centres of cells. Empty outside
+  /// The straight way where that is free, else linear between the centers of cells. Empty outside
   /// of the rectangle, in buildings and where no way leads to the door (m).
   std::optional<double> from(const Eigen::Vector2d& place) const;
 
  private:
   double& at(int column, int row) { return distance_m_[lattice_.index(column, row)]; }
-  bool straight_way_is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  bool straight_path_is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
   bool sweep(bool left, bool down);
   bool update(int column, int row);
 
@@ -38,6 +38,6 @@ class WalkingDistance {
 };
 
 /// One per exit of the scenario, over the place and its doors.
-std::vector<WalkingDistance> ways_to_exits(const world::Scenario& scenario);
+std::vector<WalkingDistance> walking_distances(const world::Scenario& scenario);
 
 }  // namespace throng::metrics

@@ -18,7 +18,7 @@ class ContactPass {
  public:
   ContactPass(const world::Scenario& scenario, const Daylight& light);
 
-  /// Darkens the ground in the colours alone. Expects the View and Light blocks and the target to
+  /// Darkens the ground in the colors alone. Expects the View and Light blocks and the target to
   /// be bound and the ground to be drawn. People smaller than a few pixels are left out.
   void draw(std::span<const PersonInstance> people, const camera::Camera& camera);
 

@@ -1,6 +1,6 @@
 // How many pixels a person would cover with nothing in front, for those who reach beyond the image
 // (others: silhouettes.h): each is drawn alone into a tile of an atlas, moved by whole pixels so
-// that the rasteriser makes the same decisions as in the picture.
+// that the rasterizer makes the same decisions as in the picture.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -41,7 +41,7 @@ class Slopes {
     if (!is_inside || picture_.id[index_of(next)] != id_) return std::nullopt;
     const float change = 1 / picture_.depth_m[index_of(next)] - inverse_;
     // A body's or prop's other part behind its edge. The ground and buildings have one surface in a
-    // pixel and its neighbours, however steeply they lead away.
+    // pixel and its neighbors, however steeply they lead away.
     constexpr float kOneSurface = 0.02F;
     const bool is_even = id_ == kIdGround || (id_ >= kIdBuilding && id_ < kIdProp);
     if (!is_even && std::abs(change) > kOneSurface * inverse_) return std::nullopt;

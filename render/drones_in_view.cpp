@@ -147,7 +147,7 @@ void set_box(const PropMesh& mesh, DroneInView& drone) {
 
 void measure_drones(const Scene& scene, const Rows& rows, Frame& frame) {
   frame.drones.clear();
-  const Vector3d eye = frame.camera.pose.centre();
+  const Vector3d eye = frame.camera.pose.center();
   const bool is_whole = rows.first == 0 && rows.end == frame.camera.intrinsics.height;
   const Eigen::AlignedBox2d image(Vector2d(0, rows.first), Vector2d(frame.width(), rows.end));
   for (const DroneInstance& instance : scene.drones) {

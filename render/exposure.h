@@ -34,7 +34,7 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 
 /// Draws as many moments as the motion needs: one when nothing moves by a quarter of a pixel, else
 /// one per pixel of blur up to 15, and strips in which the reading moves nothing by more than half
-/// a pixel, 32 at most. Colours are averaged in linear light. Ids, depth, boxes and areas are those
+/// a pixel, 32 at most. Colors are averaged in linear light. Ids, depth, boxes and areas are those
 /// of the middle of each strip's exposure; a person's box is the union over the strips of what
 /// shows in each, their position that of the strip where most of them is. The frame's camera is the
 /// one at `time_s`.

@@ -1,4 +1,4 @@
-// Areas of other materials, kerbs and paint on the ground: flat layers a millimetre above it.
+// Areas of other materials, kerbs and paint on the ground: flat layers a millimeter above it.
 #pragma once
 
 #include <Eigen/Core>

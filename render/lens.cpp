@@ -181,8 +181,8 @@ const LensMap& Lens::map_of(const camera::Intrinsics& lens, const Rows& rows) {
     if (known->is_of(lens, rows)) return known->map;
   }
   // Cameras of one job come in turn; more than these would be a camera that zooms.
-  constexpr std::size_t kMostKnown = 64;
-  if (known_.size() == kMostKnown) known_.erase(known_.begin());
+  constexpr std::size_t kMaxKnown = 64;
+  if (known_.size() == kMaxKnown) known_.erase(known_.begin());
   known_.push_back(std::make_unique<Known>(Known{lens, rows, lens_map(lens, rows)}));
   return known_.back()->map;
 }
@@ -233,10 +233,11 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
   }
   const camera::Intrinsics drawn = map == nullptr ? cropped(lens, rows) : map->wide;
   const PixelWeights weights = map == nullptr ? cropped_weights(lens, rows) : PixelWeights();
-  std::optional<NextFrame> next_drawn;
-  if (next != nullptr) next_drawn = NextFrame{next->scene, {drawn, next->camera.pose}};
-  Frame frame = renderer_->draw(scene, {drawn, camera.pose}, next_drawn ? &*next_drawn : nullptr,
-                                {map == nullptr ? &weights : &map->weights, truth});
+  std::optional<NextFrame> next_rendered;
+  if (next != nullptr) next_rendered = NextFrame{next->scene, {drawn, next->camera.pose}};
+  Frame frame =
+      renderer_->draw(scene, {drawn, camera.pose}, next_rendered ? &*next_rendered : nullptr,
+                      {map == nullptr ? &weights : &map->weights, truth});
   if (map != nullptr) {
     Frame image = looked_up(*map, lens, frame);
     image.people = std::move(frame.people);

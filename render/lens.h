@@ -13,7 +13,7 @@
 
 namespace throng::render {
 
-/// Draws with cameras of any lens. Colours are interpolated; ids, depth, normals, parts and flow
+/// Draws with cameras of any lens. Colors are interpolated; ids, depth, normals, parts and flow
 /// are those of the nearest pixel of the wide picture, depth stays the camera's z, flow is that of
 /// the distorted image. Boxes are those of the skinned vertices
 /// projected through the lens, areas count the image's pixels; both as if the image went on around

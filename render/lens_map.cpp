@@ -20,9 +20,9 @@ using Eigen::Vector2d;
 /// Rows that one task of a loop takes.
 constexpr std::size_t kGrain = 16;
 /// Where a lens magnifies more than this, the wide picture is coarser than the image.
-constexpr double kMostMagnified = 2;
+constexpr double kMaxMagnification = 2;
 /// Farther out are no pixels (px).
-constexpr float kFarthestPosition = 1e6F;
+constexpr float kMaxPosition = 1e6F;
 /// Steps of the search for the largest magnification (px).
 constexpr int kCoarse = 16;
 
@@ -32,16 +32,16 @@ std::size_t cells(int width, int height) {
 
 /// How many wide pixels per image pixel it takes to lose nothing where the lens magnifies most.
 double magnification(const camera::Intrinsics& lens) {
-  double most = 1;
+  double max_value = 1;
   for (int y = 0; y < lens.height; y += kCoarse) {
     for (int x = 0; x < lens.width; x += kCoarse) {
       const auto direction = lens.direction_of({x, y});
       if (!direction) continue;
-      most =
-          std::max(most, lens.distortion->derivatives(*direction).jacobiSvd().singularValues()[0]);
+      max_value = std::max(
+          max_value, lens.distortion->derivatives(*direction).jacobiSvd().singularValues()[0]);
     }
   }
-  return std::min(most, kMostMagnified);
+  return std::min(max_value, kMaxMagnification);
 }
 
 /// Directions of a row of pixels from `first` on, NaN beyond the model.
@@ -135,7 +135,7 @@ PixelWeights weights_of(const camera::Intrinsics& lens, const Rows& rows,
   for (const Vector2d& direction : directions_of(lens, area)) {
     const Eigen::Vector2f at = wide_position(wide, direction);
     // Written so that NaN leaves, too.
-    if (!(at.cwiseAbs().maxCoeff() < kFarthestPosition)) continue;
+    if (!(at.cwiseAbs().maxCoeff() < kMaxPosition)) continue;
     const Eigen::Vector2i pixel(std::lround(at.x()), std::lround(at.y()));
     if (!weights.domain.contains(pixel) || pixel.x() == weights.domain.max().x() ||
         pixel.y() == weights.domain.max().y()) {

@@ -40,7 +40,7 @@ struct LightFrame {
   Eigen::AlignedBox2d shadow_area;  ///< of shadow_area()
   Eigen::AlignedBox2d lamp_area;    ///< of the lamp map
   double tallest_m = 0;
-  Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's centre
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's center
   double time_s = 0;
 };
 
@@ -48,7 +48,7 @@ struct LightFrame {
 /// without edges), LAMPS, WET.
 std::string light_words(const Environment& environment);
 
-/// Displacement of the shadow on the ground per metre of height is minus this.
+/// Displacement of the shadow on the ground per meter of height is minus this.
 Eigen::Vector2d shadow_slope(const Daylight& light);
 
 /// The part of the ground whose lines to the sun matter for what the camera sees of `place`, up to

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "render/corner_colours.h"
+#include "render/corner_colors.h"
 
 namespace throng::render {
 
@@ -137,11 +137,11 @@ class Packer {
       if (is_new) vertices_.push_back(packed(vertex, part));
       indices_.push_back(copy->second);
     }
-    if (weld) colour_corners(mesh, part, first);
+    if (weld) color_corners(mesh, part, first);
   }
 
-  /// Colours the vertices from number `first` on, which are those of the part that came last.
-  void colour_corners(const skinning::Mesh& mesh, const skinning::Part& part, std::size_t first) {
+  /// Colors the vertices from number `first` on, which are those of the part that came last.
+  void color_corners(const skinning::Mesh& mesh, const skinning::Part& part, std::size_t first) {
     const std::size_t count = vertices_.size() - first;
     const std::size_t first_index = indices_.size() - part.index_count;
     std::vector<PicturedTriangle> triangles(part.index_count / 3);
@@ -157,8 +157,8 @@ class Packer {
       triangles[t].weight = 0.5F * (at[1] - at[0]).cross(at[2] - at[0]).norm();
     }
     const auto fit = [&](std::int32_t layer) {
-      return corner_colours(population_.textures[static_cast<std::size_t>(layer)],
-                            population_.texture_size, triangles, count);
+      return corner_colors(population_.textures[static_cast<std::size_t>(layer)],
+                           population_.texture_size, triangles, count);
     };
     if (part.texture >= 0) {
       const std::vector<Rgba> base = fit(part.texture);

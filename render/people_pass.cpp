@@ -168,13 +168,13 @@ PeoplePass::PicturePrograms PeoplePass::make_picture_programs(std::string_view w
 void PeoplePass::load_textures(const skinning::Population& population) {
   const int size = std::max(population.texture_size, 1);
   const auto layers = static_cast<GLsizei>(population.textures.size() + 1);
-  GLint most_layers = 0;
-  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
-  if (layers > most_layers) {
+  GLint max_layers = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
+  if (layers > max_layers) {
     throw InputError({"", "people", fmt::format("{} textures", layers - 1),
                       fmt::format("at most {} on this graphics device (run `throng people build` "
                                   "with a lower --count)",
-                                  most_layers - 1)});
+                                  max_layers - 1)});
   }
   textures_ = make_texture(GL_TEXTURE_2D_ARRAY);
   const GLuint name = textures_.name();

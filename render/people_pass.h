@@ -15,7 +15,7 @@
 
 namespace throng::render {
 
-/// How a person's colours come about, the costliest first.
+/// How a person's colors come about, the costliest first.
 enum class Shading : std::uint8_t {
   textured,        ///< texture and light for each pixel
   lit_by_corners,  ///< texture for each pixel, light for each corner

@@ -83,7 +83,7 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Colour, id, depth and the people's ground truth, all from one draw of one instant. The camera
+  /// Color, id, depth and the people's ground truth, all from one draw of one instant. The camera
   /// is a pinhole; Lens (render/lens.h) draws all cameras. `next` serves the flow only.
   Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr,
              const DrawChoice& choice = {});

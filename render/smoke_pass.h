@@ -17,7 +17,7 @@ class SmokePass {
   /// dangers and all the time.
   SmokePass(const Environment& environment, std::vector<world::Disaster> disasters);
 
-  /// Changes the colours alone: nobody's outline or depth. Expects the View and Light blocks and
+  /// Changes the colors alone: nobody's outline or depth. Expects the View and Light blocks and
   /// the target to be bound and everything solid to be drawn. Does nothing without smoke.
   void draw(const Scene& scene, const camera::Camera& camera);
 

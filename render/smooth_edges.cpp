@@ -10,7 +10,7 @@ namespace throng::render {
 
 namespace {
 
-/// How a pixel's colour changes.
+/// How a pixel's color changes.
 struct Change {
   std::size_t pixel;
   std::array<std::int16_t, 3> by;
@@ -27,7 +27,7 @@ struct Border {
   bool ends_at_rim;
 };
 
-/// Collects what borders do to the picture; all from the colours as they were drawn.
+/// Collects what borders do to the picture; all from the colors as they were drawn.
 class Smoother {
  public:
   explicit Smoother(Frame& frame) : frame_(frame) {}

@@ -29,12 +29,12 @@ json parsed_or(const std::string& text, json otherwise) {
 // Where the job is: the stage of its least advanced run, but simulating once any run is. Runs that
 // have failed hold nothing up.
 jobs::Stage stage_of(const jobs::JobProgress& progress) {
-  jobs::Stage least = jobs::Stage::failed;
+  jobs::Stage min_value = jobs::Stage::failed;
   for (const jobs::RunProgress& run : progress.runs) {
     if (run.stage == jobs::Stage::simulating) return run.stage;
-    least = std::min(least, run.stage);
+    min_value = std::min(min_value, run.stage);
   }
-  return least;
+  return min_value;
 }
 
 json with_pace(json value, const jobs::Pace& pace) {

@@ -22,7 +22,7 @@ struct ConnectionLimits {
   std::chrono::milliseconds stalled{30'000};   ///< in which nothing can be sent
   /// A body may be slower than this for so long.
   double body_bytes_per_s = 16'384;
-  std::chrono::milliseconds body_patience{10'000};
+  std::chrono::milliseconds body_timeout{10'000};
 };
 
 class Connection : public httplib::Stream {
@@ -55,7 +55,7 @@ class Connection : public httplib::Stream {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool receive(std::chrono::milliseconds patience);
+  bool receive(std::chrono::milliseconds timeout);
   std::string_view pending() const { return {buffer_.data() + next_, end_ - next_}; }
   bool is_body_in_time() const;
 

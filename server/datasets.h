@@ -9,7 +9,7 @@
 
 #include "jobs/queue/archive.h"
 #include "jobs/queue/manifest.h"
-#include "server/recent.h"
+#include "server/lru_cache.h"
 
 namespace throng::server {
 
@@ -26,8 +26,8 @@ class Datasets {
                                                   const jobs::Selection& selection);
 
  private:
-  Recent<jobs::Manifest> manifests_{2};
-  Recent<jobs::Archive> archives_{2};
+  LruCache<jobs::Manifest> manifests_{2};
+  LruCache<jobs::Archive> archives_{2};
 };
 
 }  // namespace throng::server

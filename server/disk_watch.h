@@ -18,7 +18,7 @@ class DiskWatch {
 
   /// Looks twice a second. There is room again when a quarter more than
   /// `least_bytes` is free, so that it does not change with every file.
-  DiskWatch(FreeBytes free_bytes, std::int64_t least_bytes, OnChange on_change);
+  DiskWatch(FreeBytes free_bytes, std::int64_t min_bytes, OnChange on_change);
 
   /// Looks now. Why there is no room; "" when there is.
   std::string look();
@@ -27,7 +27,7 @@ class DiskWatch {
   void watch(const std::stop_token& stop);
 
   FreeBytes free_bytes_;
-  std::int64_t least_bytes_;
+  std::int64_t min_bytes_;
   OnChange on_change_;
   std::mutex mutex_;
   std::string reason_;   ///< why there was no room when somebody last looked; guarded by mutex_

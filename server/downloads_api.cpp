@@ -49,8 +49,8 @@ void send_run_file(const Call& call, const Request& request, Response& response,
   const jobs::JobRow row = find_job(call, request);
   const bool complete = row.state == jobs::JobState::succeeded;
   const std::string number = request.matches[2];
-  constexpr std::size_t kMostDigits = 6;
-  const int run = number.size() <= kMostDigits ? std::stoi(number) : -1;
+  constexpr std::size_t kMaxDigits = 6;
+  const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
   if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
     throw HttpError{404, fmt::format("the job has no run {}", number)};
   }

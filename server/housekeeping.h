@@ -17,8 +17,8 @@ namespace throng::server {
 
 struct HousekeepingOptions {
   Retention retention = {};
-  std::int64_t least_free_bytes = 512LL << 20;  ///< below this the queue rests
-  DiskWatch::FreeBytes free_bytes = {};         ///< default: of the data folder's disk
+  std::int64_t min_free_bytes = 512LL << 20;  ///< below this the queue rests
+  DiskWatch::FreeBytes free_bytes = {};       ///< default: of the data folder's disk
 };
 
 /// Safe to use from many threads.

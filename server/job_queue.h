@@ -30,10 +30,10 @@ struct Submission {
   std::string_view job_json;
   int priority = 0;
   std::vector<std::string> labels = {};
-  std::string key = {};         ///< the same key again is the same submission; "" for none
-  std::string owner = {};       ///< the id of the caller's key
-  int most_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
-  std::int64_t most_bytes = 0;  ///< that the owner's jobs may take already; 0: any
+  std::string key = {};        ///< the same key again is the same submission; "" for none
+  std::string owner = {};      ///< the id of the caller's key
+  int max_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
+  std::int64_t max_bytes = 0;  ///< that the owner's jobs may take already; 0: any
 };
 
 /// Safe to use from many threads. Errors are InputError and EnvironmentError.

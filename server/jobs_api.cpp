@@ -21,10 +21,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kHighestPriority = 100;
-constexpr std::size_t kMostLabels = 20;
-constexpr std::size_t kLongestLabel = 60;
-constexpr std::size_t kLongestKey = 200;
+constexpr int kMaxPriority = 100;
+constexpr std::size_t kMaxLabels = 20;
+constexpr std::size_t kMaxLabelLength = 60;
+constexpr std::size_t kMaxKeyLength = 200;
 
 /// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
 jobs::JobRow find_own(const Call& call, const Request& request) {
@@ -44,25 +44,26 @@ std::vector<std::string> all_of(const Request& request, const char* name) {
 
 void check_labels(const std::vector<std::string>& labels, const std::string& pointer) {
   const auto is_wrong = [](const std::string& label) {
-    return label.empty() || label.size() > kLongestLabel ||
+    return label.empty() || label.size() > kMaxLabelLength ||
            std::any_of(label.begin(), label.end(),
                        [](unsigned char c) { return c < ' ' || c == 127; });
   };
   const auto wrong = std::find_if(labels.begin(), labels.end(), is_wrong);
-  if (wrong == labels.end() && labels.size() <= kMostLabels) return;
+  if (wrong == labels.end() && labels.size() <= kMaxLabels) return;
   const std::string found =
       wrong == labels.end() ? fmt::format("{} labels", labels.size()) : '"' + *wrong + '"';
   throw HttpError{400,
                   "labels are wrong",
                   {{"", pointer, found,
-                    fmt::format("at most {} labels of 1 to {} printable characters", kMostLabels,
-                                kLongestLabel)}}};
+                    fmt::format("at most {} labels of 1 to {} printable characters", kMaxLabels,
+                                kMaxLabelLength)}}};
 }
 
 std::string key_of(const Request& request) {
   std::string key = request.get_header_value("Idempotency-Key");
-  if (key.size() > kLongestKey) {
-    throw HttpError{400, fmt::format("an Idempotency-Key has at most {} characters", kLongestKey)};
+  if (key.size() > kMaxKeyLength) {
+    throw HttpError{400,
+                    fmt::format("an Idempotency-Key has at most {} characters", kMaxKeyLength)};
   }
   return key;
 }
@@ -93,8 +94,8 @@ std::optional<Form> form_of(const Request& request) {
 void queue(const Call& call, Submission submission, Response& response,
            const std::string* bundle = nullptr) {
   submission.owner = call.caller.key_id;
-  submission.most_active = call.caller.most_active;
-  submission.most_bytes = call.caller.most_bytes;
+  submission.max_active = call.caller.max_active;
+  submission.max_bytes = call.caller.max_bytes;
   const jobs::Added added = bundle == nullptr ? call.queue.submit(submission)
                                               : call.queue.submit_with_bundle(submission, *bundle);
   if (!added.is_equal) {
@@ -151,7 +152,7 @@ void submit_job(const Call& call, const Request& request, Response& response) {
   }
   Submission submission{job};
   submission.priority =
-      static_cast<int>(number_of(request, "priority", -kHighestPriority, kHighestPriority, 0));
+      static_cast<int>(number_of(request, "priority", -kMaxPriority, kMaxPriority, 0));
   submission.labels = all_of(request, "label");
   check_labels(submission.labels, "?label");
   submission.key = key_of(request);
@@ -204,7 +205,7 @@ void change_job(const Call& call, const Request& request, Response& response) {
   jobs::JobChange wanted{row.priority, row.labels, row.keep};
   for (const auto& [name, value] : change.items()) {
     if (name == "priority") {
-      if (!value.is_number_integer() || value < -kHighestPriority || value > kHighestPriority) {
+      if (!value.is_number_integer() || value < -kMaxPriority || value > kMaxPriority) {
         throw wrong("/priority", value.dump(), "an integer from -100 to 100");
       }
       wanted.priority = value;

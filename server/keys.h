@@ -28,16 +28,16 @@ std::optional<Scope> scope_named(std::string_view name);
 struct Caller {
   std::string key_id;  ///< "" where no keys are needed
   Scope scope = Scope::anybody;
-  int most_active = 0;          ///< jobs that may wait or run at once; 0: any number
-  std::int64_t most_bytes = 0;  ///< disk that their jobs may take; 0: any
+  int max_active = 0;          ///< jobs that may wait or run at once; 0: any number
+  std::int64_t max_bytes = 0;  ///< disk that their jobs may take; 0: any
 };
 
 struct KeyRow {
   std::string id;
   std::string name;
   Scope scope = Scope::read;
-  int most_active = 0;
-  std::int64_t most_bytes = 0;
+  int max_active = 0;
+  std::int64_t max_bytes = 0;
   std::int64_t created_ms = 0;  ///< Unix time
   std::int64_t revoked_ms = 0;  ///< 0: it is good
 };
@@ -52,8 +52,8 @@ class Keys {
   Keys& operator=(const Keys&) = delete;
 
   /// Makes a key and returns what the caller has to send: it can never be asked for again.
-  std::string create(const std::string& name, Scope scope, int most_active = 0,
-                     std::int64_t most_bytes = 0);
+  std::string create(const std::string& name, Scope scope, int max_active = 0,
+                     std::int64_t max_bytes = 0);
   std::vector<KeyRow> list() const;
   /// False when there is no good key of this id.
   bool revoke(const std::string& id);

@@ -44,7 +44,7 @@ void QueueState::note(const JobRow& row, const std::string& type, const std::str
 
 void QueueState::notify_event() {
   ++revision_;
-  bell_.ring();
+  event_counter_.notify();
 }
 
 std::optional<JobRow> QueueState::begin(const std::function<std::optional<JobRow>()>& start,

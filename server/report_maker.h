@@ -34,7 +34,7 @@ class ReportMaker {
   /// `patience`: then it is waited for or being made, ask again. Throws EnvironmentError when
   /// making it has failed; asked again, it is tried again.
   std::optional<std::filesystem::path> report_of(const std::filesystem::path& job,
-                                                 std::chrono::milliseconds patience);
+                                                 std::chrono::milliseconds timeout);
 
   /// Removes the report of a job whose results change.
   static void forget(const std::filesystem::path& job);

@@ -11,8 +11,8 @@
 namespace throng::server {
 
 struct Retention {
-  std::int64_t longest_ms = 0;  ///< after a job's end; 0: for good
-  std::int64_t most_bytes = 0;  ///< that all jobs may take together; 0: any
+  std::int64_t max_wait_ms = 0;  ///< after a job's end; 0: for good
+  std::int64_t max_bytes = 0;    ///< that all jobs may take together; 0: any
 };
 
 /// When the job will be removed for its age (Unix time, ms); nothing when it will not. It may go

@@ -26,8 +26,8 @@ namespace throng::server {
 
 /// What all uploads together may take.
 struct UploadLimits {
-  std::size_t most_uploads = 500;
-  std::int64_t most_bytes = 8LL << 30U;  ///< unpacked
+  std::size_t max_uploads = 500;
+  std::int64_t max_bytes = 8LL << 30U;  ///< unpacked
   UnpackLimits each = {};
 };
 

@@ -20,18 +20,18 @@ constexpr double kDecideEveryS = 0.5;
 constexpr double kReachM = 6;          // of the beacon
 constexpr double kWorthTelling = 0.3;  // people per second of way, at least
 constexpr double kCollectS = 2;        // at least, with the beacon on
-constexpr double kLongestCollectS = 6;
-constexpr double kLongestReleaseS = 20;  // beyond the door, for those who are there
-constexpr double kForTheLastS = 3;       // for those who are not
-constexpr double kBehindM = 9;           // a follower farther away got lost
-constexpr int kMostRescues = 3;
+constexpr double kMaxCollectS = 6;
+constexpr double kMaxReleaseS = 20;  // beyond the door, for those who are there
+constexpr double kForTheLastS = 3;   // for those who are not
+constexpr double kBehindM = 9;       // a follower farther away got lost
+constexpr int kMaxRescues = 3;
 constexpr double kIdleS = 40;         // what standing about costs whom nobody fetches
 constexpr double kWorthSeconds = 15;  // people times seconds that a trip must save
 constexpr double kStandsMps = 0.3;
 constexpr double kAtTheDoorM = 5;
 constexpr double kInVainM = 3;  // who did not come with the drone is left alone for a while
 constexpr double kInVainS = 40;
-constexpr int kLargestBatch = 50;
+constexpr int kMaxBatch = 50;
 constexpr double kLineUpM = 9;      // a batch is long: nearer, its tail would come along the wall
 constexpr double kHalfWorthS = 20;  // a trip that takes so long is worth half
 
@@ -41,7 +41,7 @@ class BalancePolicy : public Policy {
       : place_(*context.place),
         drone_(context.drone),
         lead_mps_(context.mission.guidance.lead_speed_mps.value_or(kLeadSpeedMps)),
-        batch_(context.mission.guidance.batch.value_or(kLargestBatch)),
+        batch_(context.mission.guidance.batch.value_or(kMaxBatch)),
         choice_(exits_to_lead_to(place_, context.mission.guidance.exits)),
         glide_(context.start, context.yaw_rad),
         queues_(place_) {
@@ -191,7 +191,7 @@ class BalancePolicy : public Policy {
   bool go_alerting(const WorldView& view) {
     double best = kWorthTelling;
     for (const PersonSeen& person : view.people) {
-      if (has_noticed(person) || is_anothers(view, person.position)) continue;
+      if (has_noticed(person) || is_led_by_other(view, person.position)) continue;
       const double fly_s = (person.position - glide_.place()).norm() / kFlySpeedMps;
       const double worth = unaware_near(view, person.position) / (1 + fly_s);
       if (worth <= best) continue;
@@ -262,7 +262,7 @@ class BalancePolicy : public Policy {
   }
 
   // Whether another drone is busy at a place, or on its way there.
-  bool is_anothers(const WorldView& view, const Vector2d& place) const {
+  bool is_led_by_other(const WorldView& view, const Vector2d& place) const {
     for (std::size_t d = 0; d < view.drones.size(); ++d) {
       const LeadPlan& plan = view.drones[d].plan;
       if (static_cast<int>(d) == drone_ || !plan.place) continue;
@@ -272,7 +272,7 @@ class BalancePolicy : public Policy {
   }
 
   void consider(const WorldView& view, const Vector2d& pick, Trip& best) const {
-    if (is_anothers(view, pick)) return;
+    if (is_led_by_other(view, pick)) return;
     const Reached here = reached(view, pick);
     if (here.all > batch_) return;
     const double fly_s = (pick - glide_.place()).norm() / kFlySpeedMps + 1;
@@ -282,7 +282,7 @@ class BalancePolicy : public Policy {
           (routes_[static_cast<std::size_t>(to)].mouth() - pick).norm() / lead_mps_;
       const double arrive_s = fly_s + kCollectS + lead_s;
       Trip trip{pick, -1, to, here.all, 0};
-      double most = 0;
+      double max_value = 0;
       for (std::size_t e = 0; e < here.want.size(); ++e) {
         const int from = static_cast<int>(e);
         if (here.want[e] == 0) continue;
@@ -291,8 +291,8 @@ class BalancePolicy : public Policy {
           continue;
         }
         trip.seconds += queues_.saving_s(from, to, arrive_s, here.want[e]);
-        if (here.want[e] > most) {
-          most = here.want[e];
+        if (here.want[e] > max_value) {
+          max_value = here.want[e];
           trip.from = from;
         }
       }
@@ -308,7 +308,7 @@ class BalancePolicy : public Policy {
     if (near_ > 0 && collected_s >= kCollectS) {
       enter(Stage::lead, view.time_s);
       set_out_with_followers();
-    } else if (collected_s >= kLongestCollectS) {
+    } else if (collected_s >= kMaxCollectS) {
       in_vain_.push_back({glide_.place(), view.time_s + kInVainS});
       enter(Stage::wait, view.time_s);
     }
@@ -321,8 +321,8 @@ class BalancePolicy : public Policy {
     double best_s = std::numeric_limits<double>::infinity();
     for (const int exit : choice_) {
       if (!queues_.is_open(exit)) continue;
-      const Vector2d way = routes_[static_cast<std::size_t>(exit)].mouth() - glide_.place();
-      const double out_s = std::max(queues_.wait_s(exit), way.norm() / lead_mps_);
+      const Vector2d offset = routes_[static_cast<std::size_t>(exit)].mouth() - glide_.place();
+      const double out_s = std::max(queues_.wait_s(exit), offset.norm() / lead_mps_);
       if (out_s >= best_s) continue;
       best_s = out_s;
       best = exit;
@@ -365,8 +365,8 @@ class BalancePolicy : public Policy {
     }
     // Beyond the door: those who are here run on, those who got lost must be fetched.
     const double waited_s = view.time_s - arrived_s_;
-    if (waited_s < (near_ > 0 ? kLongestReleaseS : kForTheLastS)) return;
-    if (near_ == followers_ || rescues_ >= kMostRescues) {
+    if (waited_s < (near_ > 0 ? kMaxReleaseS : kForTheLastS)) return;
+    if (near_ == followers_ || rescues_ >= kMaxRescues) {
       enter(Stage::wait, view.time_s);
       return;
     }

@@ -19,7 +19,7 @@ const char* word_of(Obstacle obstacle);
 /// A craft hit something. One per approach: staying in touch, or touching the same thing again
 /// within half a second, is the same one.
 struct Impact {
-  std::size_t craft = 0;
+  std::size_t vehicle = 0;
   Obstacle obstacle = Obstacle::ground;
   int index = -1;         ///< of the building, craft or person; -1: the ground
   double speed_mps = 0;   ///< of one relative to the other just before
@@ -32,7 +32,7 @@ struct Impact {
 
 /// The contact of one pair of bodies during one step.
 struct Touch {
-  std::size_t craft = 0;
+  std::size_t vehicle = 0;
   Obstacle obstacle = Obstacle::ground;
   int index = -1;
   double speed_mps = 0;

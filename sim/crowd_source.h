@@ -38,7 +38,7 @@ class CrowdSource {
   virtual void step() = 0;
   /// See crowd::Simulation. Recorded people neither leave their ways nor see what moves.
   virtual void set_present(std::size_t agent, bool present) = 0;
-  virtual void move_goal(int set, int goal, const Eigen::Vector2f& centre) = 0;
+  virtual void move_goal(int set, int goal, const Eigen::Vector2f& center) = 0;
   virtual void strike(std::size_t agent, const Eigen::Vector2f& impulse_ns) = 0;
 };
 

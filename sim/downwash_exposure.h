@@ -23,7 +23,7 @@ class DownwashExposure {
   static double reach_m(const Jet& jet, double height_m);
 
   /// Counts `dt_s` for everybody that is near one drone.
-  void update(double time_s, double dt_s, std::size_t craft, const Jet& jet,
+  void update(double time_s, double dt_s, std::size_t vehicle, const Jet& jet,
               const Eigen::Vector3d& position, std::span<const NearPerson> people);
 
   /// Writes the exposures that have ended, or all.

@@ -20,8 +20,8 @@ struct Field {
 constexpr std::array kFields{
     Field{kFieldWaypoints, "waypoints", "at least one point",
           [](const DroneMission& m) { return !m.waypoints.empty(); }},
-    Field{kFieldCentre, "centre", "a point [x, y]",
-          [](const DroneMission& m) { return m.guidance.centre.has_value(); }},
+    Field{kFieldCenter, "centre", "a point [x, y]",
+          [](const DroneMission& m) { return m.guidance.center.has_value(); }},
     Field{kFieldRadius, "radius_m", "a radius",
           [](const DroneMission& m) { return m.guidance.radius_m.has_value(); }},
     Field{kFieldArea, "area", "an area",

@@ -33,7 +33,7 @@ class GuidanceLoop {
 
   const std::vector<PlannedDrone>& drones_;
   std::vector<std::optional<world::GoalRef>> goals_;  // per drone
-  Lookout lookout_;
+  CrowdObserver observer_;
   std::vector<std::optional<CameraPerception>> cameras_;  // per drone; none: sees the truth
 };
 

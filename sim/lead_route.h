@@ -9,7 +9,7 @@
 
 namespace throng::sim {
 
-/// Before the door, so that those behind line up; in it; and beyond it, clear of the walls. Metres.
+/// Before the door, so that those behind line up; in it; and beyond it, clear of the walls. Meters.
 struct LeadRoute {
   std::array<Eigen::Vector2d, 3> points;
   const Eigen::Vector2d& mouth() const { return points[1]; }

@@ -19,7 +19,7 @@ struct PeopleView {
 
 /// A circle on the ground.
 struct Area {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
   double radius_m = 0;
 };
 

@@ -14,11 +14,11 @@ namespace throng::sim {
 
 /// The true view. Who has got away, is not there, lies hurt or is a danger is not in it, nor is who
 /// has gone through a door, unless a drone still leads them.
-class Lookout {
+class CrowdObserver {
  public:
   /// `guide_goals`: per drone, the goal that it moves, if any. All must outlive the lookout.
-  Lookout(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
-          const std::vector<std::optional<world::GoalRef>>& guide_goals, double step_s);
+  CrowdObserver(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
+                const std::vector<std::optional<world::GoalRef>>& guide_goals, double step_s);
 
   /// Looks at the crowd as it is now. The drones in the view are the caller's to fill in.
   void look(const CrowdSource& crowd, const CrowdRecorder& recorder, double time_s);

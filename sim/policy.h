@@ -45,7 +45,7 @@ class Policy {
 /// Parameters of GuidanceSpec (and the waypoints), as bits of a mask.
 using GuidanceFields = unsigned;
 inline constexpr GuidanceFields kFieldWaypoints = 1U << 0U;
-inline constexpr GuidanceFields kFieldCentre = 1U << 1U;
+inline constexpr GuidanceFields kFieldCenter = 1U << 1U;
 inline constexpr GuidanceFields kFieldRadius = 1U << 2U;
 inline constexpr GuidanceFields kFieldArea = 1U << 3U;
 inline constexpr GuidanceFields kFieldOverlap = 1U << 4U;

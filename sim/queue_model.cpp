@@ -17,8 +17,8 @@ constexpr double kSurePrior = 100;  // looks: at first everybody is taken to cho
 constexpr double kMemory = 0.99;    // per look
 constexpr double kOnTheWayM = 6;    // farther from the door it was a choice
 constexpr double kLearning = 0.02;  // per look, of the rate
-constexpr double kSlowestPart = 0.5;
-constexpr double kFastestPart = 1.5;
+constexpr double kMinSpeedPart = 0.5;
+constexpr double kMaxSpeedPart = 1.5;
 
 }  // namespace
 
@@ -58,9 +58,9 @@ void QueueModel::update(const WorldView& view, int self) {
   for (std::size_t e = 0; e < people_.size(); ++e) {
     if (pressing[e] < kPressPeople) continue;
     const double prior = kPriorPerMeterSecond * place_.exits[e].width_m();
-    const double learnt =
+    const double learned =
         capacity_per_s_[e] + kLearning * (view.exit_flow_per_s[e] - capacity_per_s_[e]);
-    capacity_per_s_[e] = std::clamp(learnt, kSlowestPart * prior, kFastestPart * prior);
+    capacity_per_s_[e] = std::clamp(learned, kMinSpeedPart * prior, kMaxSpeedPart * prior);
   }
 }
 

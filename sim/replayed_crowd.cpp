@@ -12,10 +12,10 @@ using Eigen::Vector2f;
 
 namespace {
 
-constexpr double kFewestStepsPerS = 5;
-constexpr double kMostStepsPerS = 60;
+constexpr double kMinStepsPerS = 5;
+constexpr double kMaxStepsPerS = 60;
 
-// Heads sway by some centimetres with every step, about twice a second: over this time before and
+// Heads sway by some centimeters with every step, about twice a second: over this time before and
 // after, the way walked says where somebody faces, and over less than kTurnsM it says nothing.
 constexpr double kFacingWindowS = 0.5;
 constexpr float kTurnsM = 0.15F;
@@ -52,10 +52,10 @@ std::vector<float> facings(const world::Trace& recording, std::uint64_t seed) {
       while (to + 1 < recording.steps() && to < step + reach && recording.present(to + 1, agent)) {
         ++to;
       }
-      const Vector2f way = recording.position[recording.at(to, agent)] -
-                           recording.position[recording.at(from, agent)];
-      if (way.norm() >= kTurnsM) {
-        yaw = std::atan2(way.y(), way.x());
+      const Vector2f offset = recording.position[recording.at(to, agent)] -
+                              recording.position[recording.at(from, agent)];
+      if (offset.norm() >= kTurnsM) {
+        yaw = std::atan2(offset.y(), offset.x());
         faced_from = std::min(faced_from, step);
       }
       yaws[recording.at(step, agent)] = yaw;
@@ -135,7 +135,7 @@ class ReplayedCrowd : public CrowdSource {
     take(agent, moment());
   }
 
-  void move_goal(int /*set*/, int /*goal*/, const Vector2f& /*centre*/) override {}
+  void move_goal(int /*set*/, int /*goal*/, const Vector2f& /*center*/) override {}
   void strike(std::size_t /*agent*/, const Vector2f& /*impulse_ns*/) override {}
 
  private:
@@ -193,8 +193,8 @@ class ReplayedCrowd : public CrowdSource {
 
 double replay_step_s(double recorded_dt_s) {
   const double rate = 1 / recorded_dt_s;
-  if (rate > kMostStepsPerS) return recorded_dt_s * std::ceil(rate / kMostStepsPerS);
-  if (rate < kFewestStepsPerS) return recorded_dt_s / std::ceil(kFewestStepsPerS / rate);
+  if (rate > kMaxStepsPerS) return recorded_dt_s * std::ceil(rate / kMaxStepsPerS);
+  if (rate < kMinStepsPerS) return recorded_dt_s / std::ceil(kMinStepsPerS / rate);
   return recorded_dt_s;
 }
 

@@ -79,12 +79,13 @@ class SignagePolicy : public Policy {
     to_ = best;
     const world::Exit& exit = place_.exits[static_cast<std::size_t>(to_)];
     const Vector2d inner = exit.middle() - 2 * exit.outward;
-    const Vector2d way = longest_queue() - inner;
-    const Vector2d aside = way.norm() > 0 ? Vector2d(way.normalized()) : Vector2d(-exit.outward);
-    glide_.go(inner + std::min(kBeforeDoorM, way.norm()) * aside, kSignSpeedMps);
+    const Vector2d offset = max_queue() - inner;
+    const Vector2d aside =
+        offset.norm() > 0 ? Vector2d(offset.normalized()) : Vector2d(-exit.outward);
+    glide_.go(inner + std::min(kBeforeDoorM, offset.norm()) * aside, kSignSpeedMps);
   }
 
-  Vector2d longest_queue() const {
+  Vector2d max_queue() const {
     std::size_t longest = 0;
     for (std::size_t e = 1; e < place_.exits.size(); ++e) {
       if (queues_.wait_s(static_cast<int>(e)) > queues_.wait_s(static_cast<int>(longest))) {

@@ -14,7 +14,7 @@ namespace throng::sim {
 class Gusts {
  public:
   /// `craft` numbers the crafts of a run; each has gusts of its own.
-  Gusts(const WindSpec& spec, std::uint64_t seed, std::uint64_t craft);
+  Gusts(const WindSpec& spec, std::uint64_t seed, std::uint64_t vehicle);
 
   /// Gust velocity in the world. Times must not decrease. The air's speed relative to the craft and
   /// its height are those that the next grid points are made with.

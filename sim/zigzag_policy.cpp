@@ -39,7 +39,7 @@ class ZigzagPolicy : public Policy {
     if (path_.empty()) {
       plan_trip(view);
     } else if (glide_.arrived()) {
-      go_on();
+      next_leg();
     }
   }
 
@@ -59,7 +59,7 @@ class ZigzagPolicy : public Policy {
     return place_.exits[static_cast<std::size_t>(exit)].is_open(time_s_);
   }
 
-  void go_on() {
+  void next_leg() {
     if (point_ + 1 < path_.size()) {
       glide_.go(path_[++point_], speed_mps_);
       arrived_s_ = -1;
@@ -75,23 +75,23 @@ class ZigzagPolicy : public Policy {
     for (const PersonSeen& person : view.people) {
       if (person.exit >= 0) ++heading[static_cast<std::size_t>(person.exit)];
     }
-    const auto most = std::max_element(heading.begin(), heading.end());
-    if (most == heading.end() || *most < kWorthATripPeople) return;
-    from_ = static_cast<int>(most - heading.begin());
+    const auto max_value = std::max_element(heading.begin(), heading.end());
+    if (max_value == heading.end() || *max_value < kWorthATripPeople) return;
+    from_ = static_cast<int>(max_value - heading.begin());
     to_ = next_in_turn();
     if (to_ < 0) return;
     Vector2d middle = Vector2d::Zero();
     for (const PersonSeen& person : view.people) {
-      if (person.exit == from_) middle += person.position / static_cast<double>(*most);
+      if (person.exit == from_) middle += person.position / static_cast<double>(*max_value);
     }
     const LeadRoute route =
         route_through(place_.exits[static_cast<std::size_t>(to_)], place_.buildings);
-    const Vector2d way = route.points[0] - middle;
-    const Vector2d aside = Vector2d(-way.y(), way.x()).normalized();
+    const Vector2d offset = route.points[0] - middle;
+    const Vector2d aside = Vector2d(-offset.y(), offset.x()).normalized();
     path_ = {middle};
     for (int i = 1; i <= kSwings; ++i) {
       const double side = i % 2 == 1 ? kSwingM : -kSwingM;
-      path_.emplace_back(middle + way * i / (kSwings + 1.0) + side * aside);
+      path_.emplace_back(middle + offset * i / (kSwings + 1.0) + side * aside);
     }
     path_.insert(path_.end(), route.points.begin(), route.points.end());
     point_ = 0;

@@ -1,4 +1,4 @@
-// Paints textures for clothes that are coloured per instance: light and shade only.
+// Paints textures for clothes that are colored per instance: light and shade only.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ Mask covered_by(const ClothFaces& faces, const Image& image);
 /// occlusion map. Throws InputError when there is none.
 std::filesystem::path diffuse_picture(const std::filesystem::path& folder);
 
-/// Light and shade of the picture under `covered`, without colour and with its median at
+/// Light and shade of the picture under `covered`, without color and with its median at
 /// kMedianShade; `contrast` is an exponent on brightness.
 void reduce_to_shade(Image& image, const Mask& covered, double contrast);
 

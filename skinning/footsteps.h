@@ -6,7 +6,7 @@
 
 #include "skinning/figure.h"
 #include "skinning/motion.h"
-#include "skinning/way.h"
+#include "skinning/trajectory.h"
 
 namespace throng::skinning {
 
@@ -35,7 +35,7 @@ struct Walk {
 /// Plans the walk along a moving stretch. Strides are the natural ones for the speed at each step;
 /// between two rests they are all a little longer or shorter so that the last one ends where the
 /// way does. What is left (a share of the difference between two clips) is spread over the walk.
-Walk plan_walk(const Way& way, const Stretch& stretch, bool from_rest, bool to_rest,
-               const ClipSet& clips, const Pedestrian& who);
+Walk plan_walk(const Trajectory& trajectory, const Stretch& stretch, bool from_rest, bool to_rest,
+               const ClipSet& clips, const Pedestrian& pedestrian);
 
 }  // namespace throng::skinning

@@ -1,10 +1,10 @@
 // Lower levels of detail: everything that a person wears as one closed surface, simplified to any
-// number of triangles and coloured by pictures of that person.
+// number of triangles and colored by pictures of that person.
 //
 // Simplifying the garments themselves breaks down below some thousand triangles (seams and open
 // borders cannot collapse), and hulls pushed out from the skin make leggings of skirts. One closed
 // surface around the outside has neither trouble, and all its triangles go into the outline: where
-// one colour ends and another begins is in the pictures.
+// one color ends and another begins is in the pictures.
 #pragma once
 
 #include <cstdint>

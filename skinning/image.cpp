@@ -62,8 +62,8 @@ Image decode_picture(std::string_view bytes, const std::string& what) {
   int width = 0;
   int height = 0;
   int sampling = 0;
-  int colours = 0;
-  if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width, &height, &sampling, &colours) !=
+  int colors = 0;
+  if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width, &height, &sampling, &colors) !=
       0) {
     throw InputError({what, "", tjGetErrorStr2(handle.get()), "a JPEG picture"});
   }
@@ -88,7 +88,7 @@ Image resized(const Image& image, int size) {
     for (int x = 0; x < size; ++x) {
       const int left = x * image.width / size;
       const int right = std::max(left + 1, (x + 1) * image.width / size);
-      std::array<float, 3> colour{};
+      std::array<float, 3> color{};
       float weight_sum = 0;
       float alpha_sum = 0;
       for (int from_y = top; from_y < bottom; ++from_y) {
@@ -96,7 +96,7 @@ Image resized(const Image& image, int size) {
           const std::uint8_t* from = image.pixel(from_x, from_y);
           const float weight = static_cast<float>(from[3]) + 1e-3F;
           for (int channel = 0; channel < 3; ++channel) {
-            colour[channel] += weight * linear_of_srgb(from[channel]);
+            color[channel] += weight * linear_of_srgb(from[channel]);
           }
           weight_sum += weight;
           alpha_sum += from[3];
@@ -104,7 +104,7 @@ Image resized(const Image& image, int size) {
       }
       std::uint8_t* to = small.pixel(x, y);
       for (int channel = 0; channel < 3; ++channel) {
-        to[channel] = srgb_of_linear(colour[channel] / weight_sum);
+        to[channel] = srgb_of_linear(color[channel] / weight_sum);
       }
       const auto count = static_cast<float>((bottom - top) * (right - left));
       to[3] = static_cast<std::uint8_t>(std::lround(alpha_sum / count));
@@ -118,7 +118,7 @@ void fill_from_nearest(Image& image, Mask covered, int channels) {
   for (int at = 0; at < static_cast<int>(covered.size()); ++at) {
     if (covered[at] != 0) front.push_back(at);
   }
-  constexpr std::array<std::array<int, 2>, 4> kNeighbours = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  constexpr std::array<std::array<int, 2>, 4> kNeighbors = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   std::vector<int> next;
   while (!front.empty()) {
     next.clear();
@@ -126,7 +126,7 @@ void fill_from_nearest(Image& image, Mask covered, int channels) {
       const int x = at % image.width;
       const int y = at / image.width;
       const std::uint8_t* from = image.pixel(x, y);
-      for (const auto [dx, dy] : kNeighbours) {
+      for (const auto [dx, dy] : kNeighbors) {
         const int to_x = x + dx;
         const int to_y = y + dy;
         if (to_x < 0 || to_y < 0 || to_x >= image.width || to_y >= image.height) continue;

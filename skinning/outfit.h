@@ -1,4 +1,4 @@
-// What a person wears and carries, and the colours that it comes in.
+// What a person wears and carries, and the colors that it comes in.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ enum class Cloth : std::uint8_t {
   band,     ///< one broad band across the breast
   checks,
   print,  ///< light and shade of the package's own picture: denim, buttons, seams
-  own,    ///< that picture with its own colours
+  own,    ///< that picture with its own colors
 };
 
 /// How far down a bottom reaches: trousers end at the foot or become shorts, skirts end at the knee
@@ -35,9 +35,9 @@ struct Outfit {
   Cloth bottom_cloth = Cloth::plain;
   Hem hem = Hem::foot;
   double hair_cut = 0;     ///< long hair ends between the waist (0) and the shoulders (1)
-  bool one_piece = false;  ///< the bottom is of the top's cloth and colour
+  bool one_piece = false;  ///< the bottom is of the top's cloth and color
   Carry carries = Carry::nothing;
-  /// Colours that suit this person, by Tint.
+  /// Colors that suit this person, by Tint.
   std::array<std::vector<Rgb>, kTintCount> tints;
 };
 

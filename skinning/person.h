@@ -40,11 +40,11 @@ struct AdultHeights {
 };
 AdultHeights adult_heights(bool male);
 
-/// Median height of children in metres, for ages from 6 to 18 (de Onis et al. 2007, the WHO growth
+/// Median height of children in meters, for ages from 6 to 18 (de Onis et al. 2007, the WHO growth
 /// reference for school-aged children).
 double child_height_m(bool male, double age_years);
 
-/// How much shorter an adult has become, in metres: 3 cm by 70 for men and 5 cm for women (Sorkin
+/// How much shorter an adult has become, in meters: 3 cm by 70 for men and 5 cm for women (Sorkin
 /// et al. 1999), growing with the square of the years after 40.
 double height_lost_m(bool male, double age_years);
 

@@ -11,14 +11,14 @@
 
 #include "skinning/appearance.h"
 #include "skinning/motion.h"
-#include "skinning/way.h"
+#include "skinning/trajectory.h"
 
 namespace throng::skinning {
 
 /// A piece of motion: from one position in a clip to another, or from a frame to a frame.
 struct Piece {
   double begin = 0;  ///< step of the crowd at which it begins
-  double from = 0;   ///< driver's value at its beginning: metres walked or steps
+  double from = 0;   ///< driver's value at its beginning: meters walked or steps
   double to = 0;     ///< and at its end
   double frame = 0;  ///< of the clip, or a palette
   double to_frame = 0;

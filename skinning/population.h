@@ -38,7 +38,7 @@ enum class Bone : std::uint8_t {
   right_toe,
 };
 
-/// Model space: metres, Z up, facing +X, origin on the ground below the pelvis.
+/// Model space: meters, Z up, facing +X, origin on the ground below the pelvis.
 struct Vertex {
   std::array<float, 3> position;
   std::array<float, 3> normal;
@@ -48,15 +48,15 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 40);
 
-/// What a part of a character is coloured with, per instance. The albedo of a tinted part is its
+/// What a part of a character is colored with, per instance. The albedo of a tinted part is its
 /// texture times the instance's tint, both in linear light; such textures hold light and shade
-/// only. Tint::none is not tinted. Hats are coloured like shoes. A portrait has all colours but the
+/// only. Tint::none is not tinted. Hats are colored like shoes. A portrait has all colors but the
 /// item's at once: its texture holds what is not tinted, black elsewhere, and its shades hold how
 /// bright the rest is: top, bottom, hair and shoes in red, green, blue (as sRGB) and alpha
 /// (linear). Its albedo is the first plus the sum of the latter times the instance's tints.
 enum class Tint : std::uint8_t { none, top, bottom, hair, shoes, item, portrait };
 inline constexpr std::size_t kTintCount =
-    6;  ///< colours of an instance; a portrait has none of its own
+    6;  ///< colors of an instance; a portrait has none of its own
 
 using Rgb = std::array<std::uint8_t, 3>;  ///< sRGB
 
@@ -93,7 +93,7 @@ struct Character {
   std::vector<Mesh> levels;  ///< from most to least detailed; at least one
   /// Where each bone starts in the rest pose, in model space.
   std::array<Eigen::Vector3f, kBoneCount> joints{};
-  /// Colours that suit this character, by Tint: what appearance_of picks from.
+  /// Colors that suit this character, by Tint: what appearance_of picks from.
   std::array<std::vector<Rgb>, kTintCount> tints;
 };
 

@@ -18,7 +18,7 @@ inline constexpr const char* kPalettesFile = "palettes.bin";
 /// population.json.
 struct PopulationIndex {
   std::string content_hash;  ///< of everything that the people were made from
-  std::string licence;       ///< SPDX expression
+  std::string license;       ///< SPDX expression
   int texture_size = 0;
   std::vector<Character> characters;  ///< without their levels, which are in <name>.glb
   std::vector<Clip> clips;

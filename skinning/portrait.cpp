@@ -81,14 +81,14 @@ Eigen::Vector2f Portrait::uv_of(const Eigen::Vector3f& point, bool front) const 
           margin + down * (1 - 2 * margin)};
 }
 
-Image Portrait::colours() const {
-  Image colours = picture_;
-  for (std::size_t at = 0; at < colours.rgba.size(); at += 4) {
-    std::uint8_t* pixel = &colours.rgba[at];
+Image Portrait::colors() const {
+  Image colors = picture_;
+  for (std::size_t at = 0; at < colors.rgba.size(); at += 4) {
+    std::uint8_t* pixel = &colors.rgba[at];
     if (static_cast<Tint>(pixel[3]) != Tint::none) std::fill_n(pixel, 3, std::uint8_t{0});
     pixel[3] = 255;
   }
-  return colours;
+  return colors;
 }
 
 Image Portrait::shades() const {

@@ -1,4 +1,4 @@
-// Pictures of a dressed person that the lower levels of detail are coloured with.
+// Pictures of a dressed person that the lower levels of detail are colored with.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,8 +18,8 @@ class Portrait {
  public:
   Portrait(std::span<const PosedSurface> surfaces, int size);
 
-  /// The parts that are not tinted in their colours, the others black; see Tint::portrait.
-  Image colours() const;
+  /// The parts that are not tinted in their colors, the others black; see Tint::portrait.
+  Image colors() const;
   /// How bright the tinted parts are; see Tint::portrait.
   Image shades() const;
 

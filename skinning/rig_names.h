@@ -21,9 +21,9 @@ bool is_needed(Bone bone);
 
 /// Maps a rig by its names, after what the user says ("left_thigh" to "Leg1.L"). Throws InputError
 /// with one problem for each needed bone that no name fits, naming the bones that were not
-/// recognised and the most similar of them, and for each of the user's names that there is not.
+/// recognized and the most similar of them, and for each of the user's names that there is not.
 /// `where` is the file that the user's names stand in.
-BoneNodes map_bones(const RiggedModel& model, const std::map<std::string, std::string>& said,
+BoneNodes map_bones(const RiggedModel& model, const std::map<std::string, std::string>& overrides,
                     const std::string& where);
 
 /// The most similar of the names; empty when there are none.

@@ -37,7 +37,7 @@ struct ModelPart {
 };
 
 struct ModelMaterial {
-  Image picture;  ///< base colour
+  Image picture;  ///< base color
   bool alpha_tested = false;
 };
 

@@ -21,7 +21,7 @@ extern const std::array<std::string_view, kBoneCount> kBoneNames;
 inline constexpr std::array<std::string_view, kTintCount + 1> kTintNames = {
     "none", "top", "bottom", "hair", "shoes", "item", "portrait"};
 
-/// Where each bone starts, in model space (metres, Z up, facing +X).
+/// Where each bone starts, in model space (meters, Z up, facing +X).
 using Joints = std::array<Eigen::Vector3f, kBoneCount>;
 
 /// A pose: how each bone is turned against the rest pose, all in model axes (not relative to the

@@ -26,7 +26,7 @@ struct Surface {
   std::string texture;  ///< key of a texture
   Tint tint = Tint::none;
   bool alpha_tested = false;
-  bool painted = false;  ///< lies on the skin: colours it but gives it no shape of its own
+  bool painted = false;  ///< lies on the skin: colors it but gives it no shape of its own
 };
 
 /// Splits quads into triangles and shared vertices into one per texture coordinate. `positions`

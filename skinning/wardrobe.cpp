@@ -156,7 +156,7 @@ const std::string& Wardrobe::author_of(const std::string& proxy) const {
 const Proxy& Wardrobe::load(const std::string& kind, const std::string& name) {
   const auto found = proxies_.find(name);
   if (found != proxies_.end()) return found->second;
-  static_cast<void>(licence_of(name));  // only what is listed with its terms gets in
+  static_cast<void>(license_of(name));  // only what is listed with its terms gets in
   Proxy proxy = name == kSkirt ? make_skirt(*makehuman_) : makehuman_->load_proxy(kind, name);
   settle_skin(*makehuman_, kind, proxy);
   if (kind != "clothes") {
@@ -238,7 +238,7 @@ void Wardrobe::add_head(const Key& key, Worn& worn) {
 
 void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::path& folder) {
   const ClothFaces faces{garment.proxy, garment.quads};
-  // What is cut and painted alike is one texture, whatever it is coloured with.
+  // What is cut and painted alike is one texture, whatever it is colored with.
   std::uint64_t corners = 0;
   for (const Quad& quad : garment.quads) corners = 31 * corners + quad.uv[0];
   garment.texture =
@@ -251,7 +251,7 @@ void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::pat
     if (skirt) {
     } else if (cloth == Cloth::print) {
       // Painted hair darkens so much towards its tips, and trainers are so black and white, that
-      // they would look two-coloured.
+      // they would look two-colored.
       const bool is_soft = garment.tint == Tint::hair || garment.tint == Tint::shoes;
       reduce_to_shade(image, covered, is_soft ? 0.5 : 0.9);
     } else if (cloth != Cloth::own) {

@@ -1,4 +1,4 @@
-// Clothes, shoes, hair and eyes cut into pieces that are coloured as one, with their textures.
+// Clothes, shoes, hair and eyes cut into pieces that are colored as one, with their textures.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace throng::skinning {
 
-/// Some faces of a proxy with one colouring.
+/// Some faces of a proxy with one coloring.
 struct Garment {
   const Proxy* proxy = nullptr;
   std::vector<Quad> quads;
@@ -54,7 +54,7 @@ class Wardrobe {
   const std::map<std::string, Image>& textures() const { return textures_; }
 
  private:
-  /// Which part of a suit, in which cloth, coloured how.
+  /// Which part of a suit, in which cloth, colored how.
   struct Key {
     std::string name;
     Slot slot = Slot::top;

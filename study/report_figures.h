@@ -8,7 +8,7 @@
 
 namespace throng::study {
 
-/// Metres, seconds, per cent. `escape`: the curves at 0, 1, 2, ... s with median and quartiles;
+/// Meters, seconds, per cent. `escape`: the curves at 0, 1, 2, ... s with median and quartiles;
 /// `place`: the floor plan; `runs`: of each the exits' states over time, density and pressure on
 /// cells of 1 m (rows from the lowest y, from the lowest x), the fundamental diagram and the ways,
 /// from samples once a second.

@@ -62,7 +62,7 @@ std::string exits_table(const MeasuredRun& run) {
         escaped_markup(exit.exit_id), exit.width_m, exit.crossings.out, exit.crossings.in,
         flow_cell(1), flow_cell(exit.width_m), exit.demand_s, exit.congested_s, exit.clogged_s,
         exit.clogs.size(), exit.mean_clogging_index, exit.max_queue,
-        exit.gaps.longest_s ? fmt::format("{:.1f}", *exit.gaps.longest_s) : "",
+        exit.gaps.max_duration_s ? fmt::format("{:.1f}", *exit.gaps.max_duration_s) : "",
         exit.max_voronoi_density_per_m2, exit.max_pressure_per_s2);
   }
   return html + "</table>\n";

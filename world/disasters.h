@@ -23,9 +23,9 @@ struct Disaster {
   int agent = 0;  ///< that stands for it in the crowd; neither drawn nor counted
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m; where an attacker starts
   double start_s = 0;
-  double radius_m = 2;    ///< when it starts
-  double growth_mps = 0;  ///< of the radius
-  double most_m = 2;      ///< up to which it grows
+  double radius_m = 2;      ///< when it starts
+  double growth_mps = 0;    ///< of the radius
+  double max_radius_m = 2;  ///< up to which it grows
 
   /// How far it reaches from its place; 0 before it starts (m).
   double reach_m(double time_s) const;

@@ -41,9 +41,9 @@ std::string joined(std::initializer_list<std::string_view> first,
 std::string describe(const json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return fmt::format("an array of {}", value.size());
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxShownBytes = 60;
   std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  if (text.size() > kMaxShownBytes) text = text.substr(0, kMaxShownBytes) + "...";
   return text;
 }
 

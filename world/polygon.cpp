@@ -66,7 +66,7 @@ bool is_simple(std::span<const Vector2d> corners) {
     const Vector2d& a = corners[i];
     const Vector2d& b = corners[(i + 1) % n];
     const Vector2d& next = corners[(i + 2) % n];
-    // Neighbours share a corner; they may not fold back over each other.
+    // Neighbors share a corner; they may not fold back over each other.
     if (a == b || (cross(b - a, next - b) == 0 && (b - a).dot(next - b) < 0)) return false;
     for (std::size_t j = i + 2; j < n; ++j) {
       if ((j + 1) % n == i) continue;

@@ -1,5 +1,5 @@
 // A scenario: a place, its exits, who moves there and where the drones start. The JSON file beside
-// the Menge scene and behaviour files that it names.
+// the Menge scene and behavior files that it names.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace throng::world {
 
-/// A goal of the behaviour file: `<GoalSet id=set><Goal id=goal>`.
+/// A goal of the behavior file: `<GoalSet id=set><Goal id=goal>`.
 struct GoalRef {
   int set = 0;
   int goal = 0;
@@ -61,7 +61,7 @@ struct PlacedMesh {
   std::filesystem::path file;                          ///< absolute
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
   double yaw_rad = 0;
-  double scale = 1;  ///< metres per unit of the file
+  double scale = 1;  ///< meters per unit of the file
 };
 
 struct DroneStart {
@@ -84,7 +84,7 @@ struct Scenario {
   std::string name;
   std::string description;
   std::filesystem::path scene_file;     ///< Menge scene XML, absolute
-  std::filesystem::path behavior_file;  ///< Menge behaviour XML, absolute
+  std::filesystem::path behavior_file;  ///< Menge behavior XML, absolute
   std::string crowd_model;              ///< pedestrian model that it was made for; empty: any
   Rectangle ground;                     ///< what is drawn as ground
   std::string ground_material;          ///< "pavers", "asphalt", "grass", "concrete"
@@ -96,7 +96,7 @@ struct Scenario {
   /// Those of `disasters` are among them.
   std::vector<int> disaster_agents;
   std::vector<Disaster> disasters;
-  /// Whether the behaviour file lets people who have noticed nothing follow a drone.
+  /// Whether the behavior file lets people who have noticed nothing follow a drone.
   bool guides_alert = false;
   std::vector<Prop> props;       ///< placed ones in the file's order, then scattered ones
   std::size_t placed_props = 0;  ///< how many of them are placed

@@ -4,15 +4,15 @@ layout(std140, binding = 1) uniform Light {
   vec4 sun;            // radiance of a white surface that faces it
   vec4 sky;            // the same under open sky, no sun
   vec4 bounce;         // light that comes back from the ground
-  vec4 haze;           // colour of far air; w: its thickness, in powers of two per metre
+  vec4 haze;           // color of far air; w: its thickness, in powers of two per meter
   vec4 shadow_area;    // corner of the shadow map on the ground, then 1 / size (1/m)
   // Shadow of height 1 m on the ground is at -xy; z: 1 / tallest thing (1/m); w: half the width, m,
   // of the sun's disc on the ground across that direction, seen through a hole 1 m high.
   vec4 shadow_slope;
-  vec4 zenith;         // colour of the sky above
+  vec4 zenith;         // color of the sky above
   vec4 lamps;          // radiance of a white surface in one unit of lamp light
   vec4 lamp_area;      // corner of the lamp map on the ground, then 1 / size (1/m)
-  vec4 eye;            // the camera's centre; w: time, s
+  vec4 eye;            // the camera's center; w: time, s
 } light;
 
 layout(binding = 1) uniform sampler2DShadow shadow_map;

@@ -1,10 +1,10 @@
 // A person: blends two palettes, skins, turns and places the body. With SHADOW it is flattened into
-// the shadow map instead of being seen by the camera; with CORNERS it is lit and coloured corner by
+// the shadow map instead of being seen by the camera; with CORNERS it is lit and colored corner by
 // corner, with LIT_CORNERS only lit so; with SURFACE it carries what person_surface.frag.glsl writes.
 layout(location = 0) in vec3 position_in;
 layout(location = 1) in uvec4 skin;     // bones, weights, part, normal: see render/people_meshes.h
 layout(location = 2) in vec2 uv_in;
-layout(location = 3) in uvec2 colours;  // the texture around this corner, sRGB; of a portrait, linear
+layout(location = 3) in uvec2 colors;  // the texture around this corner, sRGB; of a portrait, linear
 layout(location = 4) in vec3 foot;      // per instance from here: position, m
 layout(location = 5) in uvec4 pose;     // palettes a and b, blend (a float's bits), id
 layout(location = 6) in uvec4 tints;    // top, bottom, hair, shoes: sRGB, red lowest; item: high bytes
@@ -135,8 +135,8 @@ void main() {
   mat3x4 rows = blended_rows();
   vec3 world = placed(vec4(position_in, 1.0) * rows);
   vec3 n = turned(normalize(vec4(normal_in(), 0.0) * rows));
-  vec3 base = unpackUnorm4x8(colours.x).rgb;
-  vec4 shades = unpackUnorm4x8(colours.y);
+  vec3 base = unpackUnorm4x8(colors.x).rgb;
+  vec4 shades = unpackUnorm4x8(colors.y);
   vec3 albedo = linear_from_srgb(base) * linear_from_srgb(unpackUnorm4x8(tint_of(tint_slot())).rgb);
   for (int i = 0; i < 4; ++i) {
     albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(tints[i]).rgb);

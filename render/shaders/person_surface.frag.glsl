@@ -1,4 +1,4 @@
-// What a pixel shows of a person beyond its colour: normal, motion to the next frame, body part.
+// What a pixel shows of a person beyond its color: normal, motion to the next frame, body part.
 in vec3 normal;
 in vec3 next;
 in vec2 uv;

@@ -6,7 +6,7 @@ flat in vec3 normal;
 flat in uint id;
 flat in float facade_kind;  // number of the world::Facade, or of a WallLook
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
 
 struct Surface {
@@ -19,14 +19,14 @@ struct Surface {
 const float kWindow = 3.0e-4;  // light of a window, in units of lamp light
 #endif
 
-vec3 render_colour(float pick) {
+vec3 render_color(float pick) {
   const vec3 kPlaster[5] = vec3[](vec3(0.56, 0.50, 0.40), vec3(0.60, 0.57, 0.51),
                                   vec3(0.52, 0.40, 0.29), vec3(0.45, 0.45, 0.43),
                                   vec3(0.58, 0.47, 0.36));
   return kPlaster[int(pick * 4.999)];
 }
 
-vec3 brick_colour(vec2 p, vec2 width) {
+vec3 brick_color(vec2 p, vec2 width) {
   const vec2 kBrick = vec2(0.25, 0.08);
   float row = floor(p.y / kBrick.y);
   vec2 brick = vec2(p.x / kBrick.x + 0.5 * mod(row, 2.0), p.y / kBrick.y);
@@ -168,7 +168,7 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
   return s;
 }
 
-// What stands on a roof: grey metal with slots, lighter on top.
+// What stands on a roof: gray metal with slots, lighter on top.
 Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
   vec2 width = fwidth(p);
   float tone = 0.8 + 0.4 * hash(key + ivec2(int(size.x * 53.0), int(size.y * 31.0)));
@@ -182,7 +182,7 @@ Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
   return s;
 }
 
-// A wall too low for a storey: brick or plaster under a coping.
+// A wall too low for a story: brick or plaster under a coping.
 Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
   vec2 width = fwidth(p);
   float stain = noise(p * vec2(0.7, 0.9)) - 0.5;
@@ -192,7 +192,7 @@ Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
   Surface s;
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
-  s.albedo = brick ? brick_colour(p, width) : render_colour(hash(key + 31)) * (1.0 - 0.25 * post);
+  s.albedo = brick ? brick_color(p, width) : render_color(hash(key + 31)) * (1.0 - 0.25 * post);
   s.albedo *= (1.0 + 0.2 * stain) * (1.0 - 0.4 * splash);
   s.albedo = mix(s.albedo, vec3(0.48, 0.46, 0.42), coping);
   return s;
@@ -210,7 +210,7 @@ Surface hedge(vec2 p, vec2 size) {
 }
 
 Surface facade(vec2 p, vec2 size, uint building) {
-  const float kLowestStorey = 2.6;  // kLowestStoreyM of render/lamps.cpp
+  const float kLowestStory = 2.6;  // kMinStoryM of render/lamps.cpp
   vec2 width = fwidth(p);
   ivec2 key = ivec2(int(building), 3);
   int kind = int(facade_kind + 0.5);
@@ -218,7 +218,7 @@ Surface facade(vec2 p, vec2 size, uint building) {
   if (kind == 4 || kind == 5) return exit_door(p, size, kind == 4);
   if (kind == 6) return roof_plant(p, size, key);
   bool brick = kind == 0 ? hash(key) < 0.4 : kind == 2;
-  if (size.y < kLowestStorey && kind != 3) return low_wall(p, size, key, brick);
+  if (size.y < kLowestStory && kind != 3) return low_wall(p, size, key, brick);
   if (kind == 3) return glass_facade(p, size, key);
   float floors = max(1.0, round(size.y / 3.3));
   float bays = max(1.0, round(size.x / 2.8));
@@ -236,7 +236,7 @@ Surface facade(vec2 p, vec2 size, uint building) {
   Surface s;
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
-  s.albedo = brick && !ground_floor ? brick_colour(p, width) : render_colour(hash(key + 31));
+  s.albedo = brick && !ground_floor ? brick_color(p, width) : render_color(hash(key + 31));
   s.albedo *= (1.0 + 0.2 * stain + 0.1 * rough) * (1.0 - 0.45 * streak) * (1.0 - 0.4 * splash);
   vec2 half_size = ground_floor ? vec2(0.36 * bay.x, 0.37 * bay.y) : vec2(0.6, 0.25 * bay.y);
   float sill_height = ground_floor ? 0.35 : 0.29 * bay.y;
@@ -277,6 +277,6 @@ void main() {
   glow = s.glow * light.lamps.rgb * kWindow;
 #endif
   vec3 radiance = s.albedo * received + s.shine * mirrored_in_glass() + glow;
-  colour = vec4(film(through_air(radiance, world)), 1.0);
+  color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

@@ -17,7 +17,7 @@ inline constexpr double kGravity = 9.81;  ///< m/s²
 struct Airframe {
   std::string name;
   double mass_kg = 0;
-  double arm_m = 0;     ///< centre to rotor axis
+  double arm_m = 0;     ///< center to rotor axis
   double height_m = 0;  ///< of the body, for collisions
   double propeller_radius_m = 0;
   Eigen::Vector3d inertia = Eigen::Vector3d::Zero();  ///< kg m², about x (ahead), y (left), z (up)

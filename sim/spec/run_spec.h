@@ -35,10 +35,10 @@ struct PerceptionSpec {
 
 /// Parameters that only some policies have; which ones is in the table of policy.cpp.
 struct GuidanceSpec {
-  std::optional<Eigen::Vector2d> centre;  ///< orbit: what it circles, m
+  std::optional<Eigen::Vector2d> center;  ///< orbit: what it circles, m
   std::optional<double> radius_m;         ///< orbit
   std::optional<world::Rectangle> area;   ///< survey
-  std::optional<double> overlap;          ///< survey: share that neighbouring lanes have in common
+  std::optional<double> overlap;          ///< survey: share that neighboring lanes have in common
   std::optional<double> lead_speed_mps;   ///< with people behind
   std::optional<int> batch;               ///< most people that are led at once
   std::vector<std::string> exits;      ///< ids of exits to lead to; none given: all that are open

@@ -88,8 +88,8 @@ TEST_F(Unpacking, NamesThatLeadElsewhereAreRefused) {
   EXPECT_EQ(refusal_of({{"com/console/nullable.txt", "x"}}), "");
   EXPECT_FALSE(fs::exists(outer / "x"));
   UnpackLimits limits;
-  limits.longest_path = 10;
-  limits.deepest = 2;
+  limits.max_path_bytes = 10;
+  limits.max_depth = 2;
   EXPECT_THAT(refusal_of({{"12345678901", "x"}}, limits), HasSubstr("at most 10"));
   EXPECT_THAT(refusal_of({{"a/b/c", "x"}}, limits), HasSubstr("at most 2"));
 }
@@ -122,13 +122,13 @@ TEST_F(Unpacking, NamesThatDifferInTheirCaseOnlyAreRefused) {
 
 TEST_F(Unpacking, BombsAreRefusedEarly) {
   UnpackLimits limits;
-  limits.most_entries = 3;
+  limits.max_entries = 3;
   EXPECT_THAT(refusal_of({{"1"}, {"2"}, {"3"}, {"4"}}, limits), HasSubstr("at most 3"));
   limits = {};
-  limits.most_file_bytes = 1000;
+  limits.max_file_bytes = 1000;
   EXPECT_THAT(refusal_of({{"a", std::string(1001, 'x')}}, limits), HasSubstr("at most 1000 bytes"));
   limits = {};
-  limits.most_bytes = 1500;
+  limits.max_bytes = 1500;
   const std::string kilobyte(1000, 'x');
   EXPECT_THAT(refusal_of({{"a", kilobyte}, {"b", kilobyte}}, limits), HasSubstr("together"));
   const std::string zeros(20 << 20, '\0');

@@ -11,8 +11,8 @@
 #include "boards.h"
 #include "calibrate/control_points.h"
 #include "calibrate/intrinsics.h"
-#include "calibrate/picture.h"
 #include "calibrate/request.h"
+#include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "calibrate/spec/camera_file.h"
 
@@ -175,7 +175,7 @@ TEST_F(Files, ResultsSayHowSureTheyAre) {
   EXPECT_EQ(poses.at<double>(3, 5), found.views[3].pose.translation.z());
   EXPECT_THAT(ros_yaml(found, "d1"), HasSubstr("camera_name: d1"));
   EXPECT_THAT(summary(found), HasSubstr("12 views"));
-  const std::string picture = residual_picture(found);
+  const std::string picture = residual_plot(found);
   EXPECT_THAT(picture, HasSubstr("<svg"));
   EXPECT_THAT(picture, HasSubstr("fill=\"red\""));
 }

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "boards.h"
-#include "calibrate/initialise.h"
+#include "calibrate/initialize.h"
 
 namespace throng::calibrate {
 namespace {
@@ -257,7 +257,7 @@ TEST(Intrinsics, LeaveOutAViewThatIsWrong) {
 
 TEST(Intrinsics, EndWhenTheyAreCancelled) {
   IntrinsicsOptions options;
-  options.fit.go_on = [] { return false; };
+  options.fit.should_continue = [] { return false; };
   EXPECT_THROW(calibrate_intrinsics(synthetic_views({}, 5, 0.2, 4).all, options), Cancelled);
 }
 

@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 Remaining remaining_in(const world::Trace& trace, const world::Scenario& scenario) {
   return remaining_of(trace, scenario, person_records(trace, scenario, alarm_of(scenario)),
-                      ways_to_exits(scenario));
+                      walking_distances(scenario));
 }
 
 /// Sets what the last step says of somebody.

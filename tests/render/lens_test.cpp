@@ -108,7 +108,7 @@ TEST(Lens, MapAgreesWithTheModelToATwentiethPixel) {
 double edge_in_row(const Camera& camera, int row) {
   const Eigen::AlignedBox3d box(Vector3d(4, -3, 0), Vector3d(5, 0, 6));
   const auto hits = [&](double x) {
-    const Vector3d from = camera.pose.centre();
+    const Vector3d from = camera.pose.center();
     const Vector3d direction = camera.unproject({x, row}, 1) - from;
     double enter = 0;
     double leave = 1e9;
@@ -142,7 +142,7 @@ double edge_in_row(const Camera& camera, int row) {
 /// it.
 struct EdgeErrors {
   double ids = 0;
-  double colours = 0;
+  double colors = 0;
   int rows = 0;
 };
 
@@ -163,13 +163,13 @@ void add_errors(const Frame& frame, EdgeErrors& errors) {
       covered += static_cast<double>(brightness(frame, x, y) - right) / (left - right);
     }
     errors.ids += first - 0.5 - edge;
-    errors.colours += near - 4 - 0.5 + covered - edge;
+    errors.colors += near - 4 - 0.5 + covered - edge;
     ++errors.rows;
   }
 }
 
 TEST(Lens, EdgesAreWhereTheModelShowsThem) {
-  // In a draft walls and ground are of one colour each, or nearly so.
+  // In a draft walls and ground are of one color each, or nearly so.
   Set set(open_ground({block(4, 5, -3, 0, 6)}), {.quality = Quality::draft});
   for (const Distortion& distortion : {barrel(), pincushion(), fisheye()}) {
     EdgeErrors errors;
@@ -180,7 +180,7 @@ TEST(Lens, EdgesAreWhereTheModelShowsThem) {
     }
     ASSERT_GT(errors.rows, 1000);
     EXPECT_NEAR(errors.ids / errors.rows, 0, 0.05);
-    EXPECT_NEAR(errors.colours / errors.rows, 0, 0.1);
+    EXPECT_NEAR(errors.colors / errors.rows, 0, 0.1);
   }
 }
 

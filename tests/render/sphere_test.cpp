@@ -59,7 +59,7 @@ class Spheres : public testing::Test {
     double depth_m;
   };
   static Meeting meeting(const camera::Camera& camera, int x, int y) {
-    const Vector3d eye = camera.pose.centre();
+    const Vector3d eye = camera.pose.center();
     const Vector3d ray = camera.unproject({x, y}, 1.0) - eye;
     const Vector3d to = kMiddle - eye;
     const double along = to.dot(ray) / ray.squaredNorm();

@@ -228,7 +228,7 @@ TEST_F(Uploads, AreRemovedByTheirOwnerAndNotInUse) {
 
 TEST_F(Uploads, HaveABoundTogether) {
   UploadLimits limits;
-  limits.most_uploads = 1;
+  limits.max_uploads = 1;
   ScenarioStore store(data.path() / "small", scenarios.path(), service.confined(), limits);
   ScenarioStore::Staged first = store.stage("one", yard_bundle(), "");
   store.publish(first);

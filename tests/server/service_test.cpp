@@ -207,7 +207,7 @@ TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   std::atomic<std::int64_t> free = 1000;
   ServiceOptions limited = options();
   limited.housekeeping.free_bytes = [&] { return free.load(); };
-  limited.housekeeping.least_free_bytes = 100;
+  limited.housekeeping.min_free_bytes = 100;
   // Fails as a worker does that cannot write, once there is no room.
   executor.before = [&](const Task& task) {
     if (task.kind == Task::Kind::render) free = 50;
@@ -236,7 +236,7 @@ TEST_F(ServiceTest, WhatHasBeenKeptForLongEnoughIsRemoved) {
   std::atomic<std::int64_t> now_ms = 1'700'000'000'000;
   ServiceOptions keeping = options();
   keeping.clock = [&] { return now_ms.load(); };
-  keeping.housekeeping.retention.longest_ms = 1000;
+  keeping.housekeeping.retention.max_wait_ms = 1000;
   Service service(keeping, executor);
   const std::string old = service.queue().submit({kJob}).row.id;
   const std::string kept = service.queue().submit({kJob}).row.id;

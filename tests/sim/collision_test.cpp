@@ -128,7 +128,7 @@ TEST(Downwash, EveryPassageCountsItsSeconds) {
 }
 
 TEST(Downwash, ShakesACraftBelowThatHoldsAllTheSame) {
-  // Without the jet, the lower craft stays within a millimetre.
+  // Without the jet, the lower craft stays within a millimeter.
   const PlannedDrone above = planned_drone({0.15, 0, 12}, {}, 1);
   const PlannedDrone below = planned_drone({0, 0, 10}, {}, 1);
   const FlightRecord record = fly_with({above, below}, 15);

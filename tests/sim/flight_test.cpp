@@ -44,9 +44,10 @@ Record fly(const std::vector<world::Building>& buildings, const std::vector<Plan
 }
 
 double closest(const std::vector<world::DroneSample>& samples, const Vector3d& point) {
-  double least = INFINITY;
-  for (const auto& sample : samples) least = std::min(least, (sample.position - point).norm());
-  return least;
+  double min_value = INFINITY;
+  for (const auto& sample : samples)
+    min_value = std::min(min_value, (sample.position - point).norm());
+  return min_value;
 }
 
 TEST(Flight, PassesEveryWaypointAndHoversAtTheLast) {

@@ -104,12 +104,12 @@ TEST(TheTruth, IsOfThoseWhoStandAndNotOfThoseWhoLieHurt) {
   const std::vector<world::GoalRef> moving;
   const std::vector<std::optional<world::GoalRef>> guides;
   CrowdRecorder recorder(place, roles, moving);
-  Lookout lookout(place, roles, guides, crowd->dt_s());
+  CrowdObserver observer(place, roles, guides, crowd->dt_s());
   RunObserver nobody;
   recorder.record(*crowd, 0, nobody);
-  lookout.look(*crowd, recorder, 0);
-  ASSERT_EQ(lookout.view().people.size(), 1U);
-  EXPECT_NEAR(lookout.view().people[0].position.x(), 1, 1e-6);
+  observer.look(*crowd, recorder, 0);
+  ASSERT_EQ(observer.view().people.size(), 1U);
+  EXPECT_NEAR(observer.view().people[0].position.x(), 1, 1e-6);
   EXPECT_EQ(crowd->now().flags,
             (std::vector<std::uint8_t>{world::kPresent, world::kPresent | world::kFallen}))
       << "the trace says who lies";

@@ -19,7 +19,7 @@ using testing::yard;
 TEST(Policies, OrbitKeepsItsDistanceAndLooksInwards) {
   const world::Scenario place = yard();
   DroneMission mission = mission_of("orbit");
-  mission.guidance.centre = Vector2d(5, -3);
+  mission.guidance.center = Vector2d(5, -3);
   mission.guidance.radius_m = 8;
   IdealFlight flight(place, mission, {0, 0, 15});
   double turned_rad = 0;
@@ -27,10 +27,10 @@ TEST(Policies, OrbitKeepsItsDistanceAndLooksInwards) {
   for (int i = 0; i < 600; ++i) {
     const Vector3d at = flight.step({});
     if (flight.time_s() < 10) continue;
-    const Vector2d from_centre = at.head<2>() - Vector2d(5, -3);
-    EXPECT_NEAR(from_centre.norm(), 8, 0.05);
+    const Vector2d from_center = at.head<2>() - Vector2d(5, -3);
+    EXPECT_NEAR(from_center.norm(), 8, 0.05);
     EXPECT_DOUBLE_EQ(at.z(), 15);
-    const double angle_rad = std::atan2(from_centre.y(), from_centre.x());
+    const double angle_rad = std::atan2(from_center.y(), from_center.x());
     const double yaw_rad = flight.setpoint().yaw_rad;
     EXPECT_NEAR(std::remainder(yaw_rad - angle_rad - EIGEN_PI, 2 * EIGEN_PI), 0, 1e-6);
     if (last_rad != 0) turned_rad += std::remainder(angle_rad - last_rad, 2 * EIGEN_PI);
@@ -114,14 +114,14 @@ TEST(Policies, SignageStandsBeforeTheExitWithRoom) {
 /// Whoever is near a lit beacon follows it from then on at 2 m/s; others stay.
 void follow(WorldView& view, const Vector3d& drone, bool beacon) {
   for (PersonSeen& person : view.people) {
-    const Vector2d way = drone.head<2>() - person.position;
-    if (beacon && way.norm() < 6) {
+    const Vector2d offset = drone.head<2>() - person.position;
+    if (beacon && offset.norm() < 6) {
       person.guide = 0;
       person.exit = -1;
     }
     if (person.guide != 0) continue;
-    const double step_m = std::min(0.2, std::max(0.0, way.norm() - 1));
-    if (way.norm() > 0) person.position += step_m * way.normalized();
+    const double step_m = std::min(0.2, std::max(0.0, offset.norm() - 1));
+    if (offset.norm() > 0) person.position += step_m * offset.normalized();
   }
   std::erase_if(view.people, [](const PersonSeen& person) {
     return std::abs(person.position.x()) > 20 && std::abs(person.position.y()) < 3;

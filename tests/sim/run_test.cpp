@@ -230,14 +230,14 @@ TEST_F(Evacuation, WhoRunsToAnExitIntendsItAndStillDoesOnTheWayToSafety) {
 }
 
 TEST_F(Evacuation, NobodyTeleports) {
-  constexpr double kFastestMps = 2.5;
+  constexpr double kMaxSpeedMps = 2.5;
   for (std::size_t step = 1; step < trace().steps(); ++step) {
     for (std::size_t i = 0; i < trace().agents(); ++i) {
       if (trace().header.role[i] != AgentRole::person) continue;
       const float moved_m =
           (trace().position[trace().at(step, i)] - trace().position[trace().at(step - 1, i)])
               .norm();
-      ASSERT_LT(moved_m, kFastestMps * trace().header.dt_s) << "agent " << i << " step " << step;
+      ASSERT_LT(moved_m, kMaxSpeedMps * trace().header.dt_s) << "agent " << i << " step " << step;
     }
   }
 }
@@ -392,7 +392,7 @@ TEST(Run, WhoWalksThroughAThingIsAWarning) {
   FAIL() << "everybody stays where somebody was";
 }
 
-/// A drone that ploughs through the people of the square.
+/// A drone that plows through the people of the square.
 RunSpec low_flight(bool physical) {
   RunSpec spec = short_run();
   spec.duration_s = 8;

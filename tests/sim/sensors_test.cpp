@@ -95,7 +95,7 @@ TEST(Sensors, WhiteNoiseHasItsDensity) {
   }
 }
 
-// Standard deviation of neighbouring means over `n` readings, by Allan (1966): of white noise it
+// Standard deviation of neighboring means over `n` readings, by Allan (1966): of white noise it
 // falls with the root of the time, of a wandering bias it rises.
 double allan_deviation(const SensorLog& log, std::size_t n) {
   std::vector<double> means;

@@ -90,7 +90,7 @@ TEST(Separation, FastDronesDoNotSlipThroughEachOther) {
 TEST(Separation, AnOrbitThatGoesThroughAHoveringDrone) {
   DroneMission orbit = mission("o", {10, 0, 20});
   orbit.policy = "orbit";
-  orbit.guidance.centre = Eigen::Vector2d(0, 0);
+  orbit.guidance.center = Eigen::Vector2d(0, 0);
   orbit.guidance.radius_m = 10;
   EXPECT_EQ(problems_of({mission("a", {0, 10, 20}), orbit}).size(), 1U);
   EXPECT_TRUE(problems_of({mission("a", {0, 10, 22}), orbit}).empty());

@@ -183,7 +183,7 @@ TEST_F(BakingTest, TheNoticeNamesEverythingThatIsWorn) {
     }
     EXPECT_EQ(notice.find("CC BY 3.0 (") != std::string::npos, with_attribution);
     EXPECT_EQ(notice.find("punkduck") != std::string::npos, with_attribution);
-    EXPECT_EQ(licence_expression(people).find("CC-BY") != std::string::npos, with_attribution);
+    EXPECT_EQ(license_expression(people).find("CC-BY") != std::string::npos, with_attribution);
   }
 }
 

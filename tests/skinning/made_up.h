@@ -49,11 +49,11 @@ inline Vertex made_up_vertex(const Eigen::Vector3f& position, Bone bone, Bone ot
   return vertex;
 }
 
-/// A picture of one colour.
-inline Image plain(int size, Rgb colour) {
+/// A picture of one color.
+inline Image plain(int size, Rgb color) {
   Image image(size, size);
   for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
-    std::copy(colour.begin(), colour.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(at));
+    std::copy(color.begin(), color.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(at));
     image.rgba[at + 3] = 255;
   }
   return image;

@@ -85,7 +85,7 @@ TEST_F(PeopleTest, ShoesAreDyedWhateverTheyAre) {
   }
 }
 
-TEST_F(PeopleTest, ColoursAreThoseOfWhatIsDrawn) {
+TEST_F(PeopleTest, ColorsAreThoseOfWhatIsDrawn) {
   const auto everything = [](const Vertex&) { return true; };
   for (const Character& character : people_->characters) {
     const Mesh& mesh = character.levels.front();
@@ -95,9 +95,9 @@ TEST_F(PeopleTest, ColoursAreThoseOfWhatIsDrawn) {
       const auto tint = static_cast<std::size_t>(part.tint);
       drawn[tint] += area_m2(mesh, part, everything);
       if (part.tint == Tint::none || character.tints[tint].empty()) continue;
-      // A suit keeps its colours.
+      // A suit keeps its colors.
       if (character.wears.starts_with("suit") && part.tint == Tint::top) continue;
-      // Light and shade only: the colour is the instance's.
+      // Light and shade only: the color is the instance's.
       const Texture& texture = people_->textures[static_cast<std::size_t>(part.texture)];
       for (std::uint32_t at = 0; at < part.index_count; ++at) {
         const auto& uv = mesh.vertices[mesh.indices[part.first_index + at]].uv;
@@ -300,7 +300,7 @@ TEST_F(PeopleTest, BlendingHalfwayLiesBetweenTheFrames) {
   }
 }
 
-// Pixels that a mesh covers, seen from the front, 100 to the metre.
+// Pixels that a mesh covers, seen from the front, 100 to the meter.
 std::vector<bool> silhouette(const Mesh& mesh, const Palette& palette, float yaw_rad) {
   constexpr int kSize = 220;
   std::vector<bool> covered(static_cast<std::size_t>(kSize) * kSize, false);
@@ -404,11 +404,11 @@ const Vertex* ball_of(const Mesh& mesh, Bone toe) {
   return found;
 }
 
-// How far the ball of the left foot moves over the ground while it stands on it, in millimetres.
+// How far the ball of the left foot moves over the ground while it stands on it, in millimeters.
 double slide_mm(const Population& people, std::uint32_t character, double speed_mps,
                 float amplitude) {
   const Mesh& mesh = people.characters[character].levels.front();
-  const std::vector<Moment> moments = straight_way(std::vector<double>(70, speed_mps), 0.1);
+  const std::vector<Moment> moments = straight_trajectory(std::vector<double>(70, speed_mps), 0.1);
   Appearance appearance;
   appearance.character = character;
   appearance.amplitude = amplitude;

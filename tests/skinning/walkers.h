@@ -65,7 +65,7 @@ inline Population population_of(const std::vector<Walker>& walkers) {
 }
 
 /// A straight way along +x with this speed, in m/s, at every step.
-inline std::vector<Moment> straight_way(std::span<const double> speed_mps, double dt_s) {
+inline std::vector<Moment> straight_trajectory(std::span<const double> speed_mps, double dt_s) {
   std::vector<Moment> moments(1);
   for (const double speed : speed_mps) {
     Moment next = moments.back();

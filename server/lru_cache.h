@@ -12,32 +12,32 @@ namespace throng::server {
 
 /// Things by name: the last few that were asked for are kept, and all that somebody uses. Safe to
 /// use from many threads; each thing is made once.
-template <typename Thing>
-class Recent {
+template <typename Value>
+class LruCache {
  public:
-  explicit Recent(std::size_t kept) : most_(kept) {}
+  explicit LruCache(std::size_t kept) : capacity_(kept) {}
 
   /// The thing of the name; what `make` returns when there is none.
   template <typename Make>
-  std::shared_ptr<const Thing> get(const std::string& name, const Make& make) {
+  std::shared_ptr<const Value> get(const std::string& name, const Make& make) {
     const std::lock_guard lock(mutex_);
-    std::shared_ptr<const Thing> thing = used_[name].lock();
-    if (!thing) {
+    std::shared_ptr<const Value> value = used_[name].lock();
+    if (!value) {
       std::erase_if(used_, [](const auto& entry) { return entry.second.expired(); });
-      thing = std::make_shared<const Thing>(make());
-      used_[name] = thing;
+      value = std::make_shared<const Value>(make());
+      used_[name] = value;
     }
-    std::erase(kept_, thing);
-    kept_.push_back(thing);
-    if (kept_.size() > most_) kept_.pop_front();
-    return thing;
+    std::erase(kept_, value);
+    kept_.push_back(value);
+    if (kept_.size() > capacity_) kept_.pop_front();
+    return value;
   }
 
  private:
-  std::size_t most_;
+  std::size_t capacity_;
   std::mutex mutex_;
-  std::map<std::string, std::weak_ptr<const Thing>> used_;
-  std::deque<std::shared_ptr<const Thing>> kept_;  ///< the last one last
+  std::map<std::string, std::weak_ptr<const Value>> used_;
+  std::deque<std::shared_ptr<const Value>> kept_;  ///< the last one last
 };
 
 }  // namespace throng::server

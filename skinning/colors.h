@@ -1,4 +1,4 @@
-// Colours that clothes, hair, shoes and bags come in.
+// Colors that clothes, hair, shoes and bags come in.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace throng::skinning {
 
-/// Something that is coloured from one palette. `suit` holds faint tints for a picture that has
-/// colours of its own.
+/// Something that is colored from one palette. `suit` holds faint tints for a picture that has
+/// colors of its own.
 enum class Dye : std::uint8_t {
   shirt,
   dress,
@@ -24,11 +24,11 @@ enum class Dye : std::uint8_t {
   umbrella
 };
 
-/// `count` colours of a dye, drawn by how often they are seen (with repetition).
-std::vector<Rgb> draw_colours(Dye dye, std::size_t count, Random& random);
+/// `count` colors of a dye, drawn by how often they are seen (with repetition).
+std::vector<Rgb> draw_colors(Dye dye, std::size_t count, Random& random);
 
 /// Who the hair belongs to.
-enum class HairRange : std::uint8_t { dark, any, greying, grey };
+enum class HairRange : std::uint8_t { dark, any, graying, gray };
 std::vector<Rgb> draw_hair(HairRange range, std::size_t count, Random& random);
 
 }  // namespace throng::skinning

@@ -22,21 +22,21 @@ struct Moment {
   Gaze gaze = Gaze::none;
 };
 
-enum class Doing : std::uint8_t { standing, moving, lying };
+enum class Activity : std::uint8_t { standing, moving, lying };
 
 /// Steps `first` to `last`; the next stretch begins where this one ends.
 struct Stretch {
-  Doing doing = Doing::standing;
+  Activity activity = Activity::standing;
   std::size_t first = 0;
   std::size_t last = 0;
 };
 
 /// Points in time are steps, fractions included; between steps everything is linear, as it is
 /// drawn.
-class Way {
+class Trajectory {
  public:
   /// Throws nothing; `moments` must outlive this and hold at least one.
-  Way(std::span<const Moment> moments, double dt_s);
+  Trajectory(std::span<const Moment> moments, double dt_s);
 
   std::span<const Moment> moments() const { return moments_; }
   double dt_s() const { return dt_s_; }
