@@ -29,13 +29,13 @@ constexpr const char* kPlainName =
 using ArchiveHandle = std::unique_ptr<archive, int (*)(archive*)>;
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t kMaxShownBytes = 120;
+  constexpr std::size_t kMaxPrintedBytes = 120;
   std::string out;
-  for (const char c : text.substr(0, kMaxShownBytes)) {
+  for (const char c : text.substr(0, kMaxPrintedBytes)) {
     const auto byte = static_cast<unsigned char>(c);
     out += byte >= ' ' && byte < 0x7F ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
   }
-  return text.size() > kMaxShownBytes ? out + "..." : out;
+  return text.size() > kMaxPrintedBytes ? out + "..." : out;
 }
 
 [[noreturn]] void refuse(std::string_view entry, std::string found, std::string expected) {
@@ -92,7 +92,7 @@ std::vector<std::string> parts_of(std::string_view name, const UnpackLimits& lim
   return parts;
 }
 
-/// Tells when two entries want the same name, on systems that know no case, too.
+/// Detects two entries of the same name, also for case-insensitive systems.
 class Names {
  public:
   /// Notes the entry and the folders it lies in.
@@ -120,7 +120,7 @@ class Names {
   std::map<std::string, Known> names_;
 };
 
-/// What stays out: macOS adds it without asking.
+/// Skipped entries, which macOS adds by itself.
 bool is_clutter(const std::vector<std::string>& parts) {
   return parts.empty() || parts.front() == "__MACOSX" || parts.back() == ".DS_Store";
 }
@@ -182,7 +182,7 @@ class Unpacking {
     if (archive_entry_is_encrypted(entry) != 0)
       refuse(name, "an encrypted entry", "one that is not");
     require_known_compression(name);
-    // What is left out, or should have no bytes, counts too: passing over it is work.
+    // Skipped entries, and entries that should have no bytes, count too: reading past them is work.
     if (is_clutter(parts)) return pass_on(name, [](std::string_view) {});
     names_.add(name, parts, type == AE_IFDIR);
     fs::path place = folder_;

@@ -9,7 +9,7 @@
 
 namespace throng {
 
-/// What an archive may hold.
+/// Limits on an archive's contents.
 struct UnpackLimits {
   std::size_t max_entries = 4000;
   std::int64_t max_file_bytes = 256LL << 20U;  ///< of each file
@@ -25,10 +25,10 @@ struct Unpacked {
   std::int64_t bytes = 0;
 };
 
-/// Unpacks a zip, tar or tar.gz file, which it tells apart by its bytes, into an empty folder.
-/// Names are relative paths of printable ASCII that any system could hold; files and folders only:
-/// no links, no devices; nothing encrypted; no two names that differ in their case alone. What
-/// macOS adds to zip files (__MACOSX, .DS_Store) is left out. Throws InputError naming the entry
+/// Unpacks a zip, tar or tar.gz file, recognized by its first bytes, into an empty folder. Names
+/// are relative paths of printable ASCII that any system could hold; files and folders only: no
+/// links, no devices; nothing encrypted; no two names that differ in their case alone. Files that
+/// macOS adds to zip files (__MACOSX, .DS_Store) are skipped. Throws InputError naming the entry
 /// and EnvironmentError; the folder then holds a part.
 Unpacked unpack_archive(std::string_view bytes, const std::filesystem::path& folder,
                         const UnpackLimits& limits = {});

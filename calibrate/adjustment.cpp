@@ -24,7 +24,7 @@ constexpr int kPoseNumbers = 6;
 constexpr int kPointNumbers = 3;
 constexpr int kLensNumbers = static_cast<int>(kParameters);
 
-/// What all residuals of an adjustment share.
+/// Data shared by all residuals of an adjustment.
 struct Model {
   bool fisheye;
   const Rules* rules;
@@ -375,7 +375,7 @@ Linearization linearize(const Adjustment& adjustment) {
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
   const Sparse scaled = scale.asDiagonal() * normal * scale.asDiagonal();
   const Eigen::SimplicialLDLT<Sparse> factors(scaled);
-  // What rounding leaves of a pivot that ought to be 0.
+  // Rounding error of a pivot that should be 0.
   constexpr double kNothing = 1e-13;
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kNothing)) {
     note_open(open_directions(scaled), result);

@@ -83,7 +83,7 @@ struct Linearization {
   /// adjustment's sigma_px. Empty when the data leave something open.
   Eigen::MatrixXd covariance;
   std::vector<std::size_t> places;  ///< of the free lens parameters in Parameters
-  /// What the data leave open: places of lens parameters.
+  /// Indices of the lens parameters that the data do not determine.
   std::vector<std::size_t> undetermined;
   bool poses_determined = true;
 };

@@ -26,7 +26,7 @@ constexpr std::array kDictionaries = {
     "4X4_50",  "4X4_100",  "4X4_250", "4X4_1000", "5X5_50",        "5X5_100",
     "5X5_250", "5X5_1000", "6X6_50",  "6X6_100",  "6X6_250",       "6X6_1000",
     "7X7_50",  "7X7_100",  "7X7_250", "7X7_1000", "ARUCO_ORIGINAL"};
-/// Pictures are searched at most this large; corners are refined in the whole picture.
+/// Images are searched at most this large; corners are refined in the whole image.
 constexpr int kSearchSide = 1400;
 
 cv::Mat wrapped(const GrayImage& image) {
@@ -58,7 +58,7 @@ void refine(const cv::Mat& image, double clear_px, std::vector<cv::Point2f>& cor
       cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kMaxSteps, kPrecise));
 }
 
-/// The picture as it is searched, and how much smaller it is.
+/// The image as it is searched, and how much smaller it is.
 struct Reduced {
   cv::Mat image;
   double scale = 1;
@@ -111,7 +111,7 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
   const std::optional<cv::Size> there = size_of_any_chessboard(small.image);
   const bool fits = there && ((there->width == size.width && there->height == size.height) ||
                               (there->width == size.height && there->height == size.width));
-  // What looks like another row may be a shadow at the border: the other method has to see it, too.
+  // An apparent extra row may be a shadow at the border: the other method has to find it, too.
   std::vector<cv::Point2f> others;
   const bool larger = there && found && there->area() > size.area() &&
                       cv::findChessboardCorners(small.image, *there, others);
@@ -127,7 +127,8 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
     corner = (corner + cv::Point2f(0.5F, 0.5F)) / static_cast<float>(small.scale) -
              cv::Point2f(0.5F, 0.5F);
   }
-  // Wider than nearly half a square, a window holds the next corner, too, and is drawn to it.
+  // Wider than nearly half a square, a window contains the next corner, too, and is attracted by
+  // it.
   constexpr double kClearShare = 0.45;
   refine(image, kClearShare * smallest_spacing(corners, board.columns), corners);
   return view_of(name, board_points(board), corners);

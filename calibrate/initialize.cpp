@@ -64,7 +64,7 @@ ViewPose any_pose(const View& view) {
   return {Vector3d::Zero(), Vector3d(0, 0, kRadiiAway * radius) - middle};
 }
 
-/// What `rules` fixes replaces what was guessed.
+/// Values that `rules` fixes replace the initial guess.
 void keep_fixed(const Rules& rules, const Vector2d& center, Parameters& p) {
   for (std::size_t i = 0; i < kParameters; ++i) {
     if (rules.free[i] || rules.source[i] != i) continue;

@@ -7,7 +7,7 @@ namespace throng::calibrate {
 
 namespace {
 
-/// What the first, robust calibration used.
+/// Points that the first, robust calibration used.
 Correspondences used_in(const Calibration& calibration) {
   Correspondences used;
   used.size = calibration.size;
@@ -23,7 +23,7 @@ Correspondences used_in(const Calibration& calibration) {
   return used;
 }
 
-/// Without what is said of parameters that the lens has not.
+/// Without settings for parameters that the lens does not have.
 Wishes wishes_for(Lens lens, Wishes wishes) {
   const auto has = [&](const std::string& name) {
     for (std::size_t i = 0; i < kParameters; ++i) {

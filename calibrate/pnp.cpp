@@ -27,7 +27,7 @@ std::optional<ViewPose> pose_from_directions(const std::vector<Eigen::Vector3d>&
       return std::nullopt;
     }
   } catch (const cv::Exception&) {
-    return std::nullopt;  // how it says that it found nothing
+    return std::nullopt;  // its report that it found nothing
   }
   ViewPose pose;
   for (int i = 0; i < 3; ++i) {

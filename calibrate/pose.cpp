@@ -43,7 +43,7 @@ Vector3d middle_of(const ControlPoints& points) {
   return middle;
 }
 
-/// What grows while images and points are placed.
+/// State that grows while images and points are placed.
 class Bundle {
  public:
   Bundle(const CameraFile& camera, const ControlPoints& control_points, Images images)

@@ -101,7 +101,7 @@ Wishes wishes_of(const json& value) {
   return wishes;
 }
 
-/// What the kind needs and lacks.
+/// Required fields of the kind that are missing.
 void require_inputs(const Request& request, const std::string& source) {
   const auto require = [&](bool there, const char* expected) {
     if (!there) throw InputError(Problem{source, "", "nothing of the kind", expected});

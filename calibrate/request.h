@@ -1,4 +1,4 @@
-// A calibration as it is asked for, on the command line and over HTTP, and its way to a result.
+// A calibration request, from the command line or over HTTP, and its processing.
 #pragma once
 
 #include <filesystem>

@@ -12,7 +12,7 @@ namespace throng::calibrate {
 
 namespace {
 
-constexpr double kImageWidth = 800;  ///< of the drawn image, in units of the picture
+constexpr double kImageWidth = 800;  ///< of the drawn image, in units of the image
 constexpr double kSide = 320;        ///< of the scatter
 constexpr double kGap = 40;
 constexpr double kTop = 60;

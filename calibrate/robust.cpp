@@ -11,7 +11,7 @@ namespace {
 /// Scale of the loss under which outliers are looked for (px): they are pixels off, corners a few
 /// tenths.
 constexpr double kSearchLossPx = 1;
-/// Good enough to tell them.
+/// Accurate enough to detect outliers.
 constexpr double kSearchTolerance = 1e-4;
 
 std::vector<double> view_sigmas(const Adjustment& adjustment,
@@ -63,7 +63,7 @@ double sum_of_squares(const Adjustment& adjustment) {
   return sum;
 }
 
-/// What is known beforehand is weighed against the pixels' deviation, which has to be known for it.
+/// Priors are weighed against the pixels' standard deviation, which has to be known for that.
 bool weighs_knowledge(const Adjustment& adjustment) {
   return std::any_of(adjustment.rules.priors.begin(), adjustment.rules.priors.end(),
                      [](const auto& prior) { return prior.has_value(); }) ||

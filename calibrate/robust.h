@@ -14,8 +14,8 @@ struct FitOptions {
   /// Leave out what lies farther off than `kOutlierSigmas` robust standard deviations and
   /// outlier_px.
   bool reject = true;
-  /// What is closer than this is kept: an unsharp corner rather than a mistake, and programs that
-  /// know no outliers give the same result.
+  /// Smaller residuals are kept: an unsharp corner rather than a mistake, and programs that know no
+  /// outliers give the same result.
   double outlier_px = 4;
   /// Keep Cauchy's loss with this scale (px) to the end; 0: plain least squares, so that equal data
   /// give the result of any other such program.
@@ -37,8 +37,8 @@ struct Fit {
   Linearization derivatives;  ///< covariance for the sigma above (or the one that was given)
 };
 
-/// Solves, tells outliers (first against a robust solution, then against the one without them) and
-/// solves again until nothing changes. A deviation is compared with the larger of that of all
+/// Solves, detects outliers (first against a robust solution, then against the one without them)
+/// and solves again until nothing changes. A deviation is compared with the larger of that of all
 /// observations and that of its own view, so that a view that is blurred as a whole stays. Leaves
 /// Observation::used and Adjustment::sigma_px as they were found.
 Fit fit(Adjustment& adjustment, const FitOptions& options);

@@ -89,7 +89,7 @@ void warn_of_repeated_views(Calibration& calibration) {
                    repeated, views.size()));
 }
 
-// What a wrong image size leads to.
+// Symptoms of a wrong image size.
 void warn_of_size(Calibration& calibration) {
   std::size_t outside = 0;
   for (const ViewResult& view : calibration.views) {

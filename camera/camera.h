@@ -1,4 +1,4 @@
-// The camera: a pinhole, and what its lens makes of the pinhole's picture. Camera frame: x right, y
+// The camera: a pinhole, and what its lens makes of the pinhole's image. Camera frame: x right, y
 // down, z forward. Pixels as OpenCV counts them: the center of the top-left pixel is (0, 0), so a
 // projected point u lies at u + 0.5 in the coordinates of boxes and masks, where pixel i covers [i,
 // i + 1).
@@ -24,7 +24,7 @@ struct Intrinsics {
   double skew_px = 0;
 
   Eigen::Matrix3d matrix() const;
-  /// What a pixel is of the picture in front of the focal lengths, as Distortion takes it.
+  /// A pixel in normalized image coordinates, the input of Distortion.
   Eigen::Vector2d shown_at(const Eigen::Vector2d& pixel) const;
   /// The pixel that shows the direction (x / z, y / z); nothing outside the distortion's range.
   std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& direction) const;

@@ -127,7 +127,7 @@ Matrix2d Distortion::derivatives(const Vector2d& pinhole) const {
 
 std::optional<Vector2d> Distortion::distort(const Vector2d& pinhole) const {
   if (!(pinhole.norm() <= limit_)) return std::nullopt;
-  // Tangential terms fold the picture before the radial ones do, on one side.
+  // Tangential terms fold the image before the radial ones do, on one side.
   const bool is_tangential = coefficients_[2] != 0 || coefficients_[3] != 0;
   if (model_ == Model::brown_conrady && is_tangential &&
       !(derivatives(pinhole).determinant() > kNearAxis)) {

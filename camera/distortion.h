@@ -1,5 +1,5 @@
-// What a real lens does to the pinhole's picture, in OpenCV's conventions (calib3d and its fisheye
-// module), so that calibrations of real cameras can be used as they are.
+// Lens distortion in OpenCV's conventions (calib3d and its fisheye module), so that calibrations of
+// real cameras can be used as they are.
 #pragma once
 
 #include <Eigen/Core>

@@ -29,7 +29,7 @@ std::string variable(const char* name, const char* otherwise) {
   return value == nullptr || *value == '\0' ? otherwise : value;
 }
 
-/// What a problem document says, with every mistake in a line of its own.
+/// Text of a problem document, one line per error.
 std::vector<Problem> problems_in(const httplib::Response& response, const std::string& path) {
   const json document = parse_json_or_discard(response.body);
   std::vector<Problem> problems;
@@ -104,7 +104,7 @@ const httplib::Response& checked(const httplib::Result& result, const std::strin
 
 namespace {
 
-// What answers is not necessarily throng.
+// The server that answers is not necessarily throng.
 json answer_json(const std::string& body, const std::string& path) {
   try {
     return parse_json(body, path);
@@ -204,7 +204,7 @@ bool ApiClient::download(const std::string& path, const fs::path& file, const On
   out.close();
   if (!goes_on) return false;
   if (result && result->status == 416) {
-    // The part is all there is, or of something else: begin anew.
+    // The part is complete, or belongs to another file: start again.
     fs::remove(part);
     fs::remove(tag_file);
     return download(path, file, on_bytes);

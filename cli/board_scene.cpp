@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Where the board's first inner corner is.
+/// Position of the board's first inner corner.
 const Vector3d& board_origin() {
   static const Vector3d origin(0, 0, 8);
   return origin;
@@ -64,7 +64,7 @@ world::Scenario board_place(const std::filesystem::path& folder, const calibrate
   for (int row = -1; row <= board.rows + 1; ++row) {
     for (int column = -1; column <= board.columns + 1; ++column) {
       std::string& list = faces[is_black(column, row, board) ? 1 : 0];
-      // Square (0, 0) lies before the first inner corner. Files have y up and z towards the reader.
+      // Square (0, 0) lies before the first inner corner. Files have y up and z toward the reader.
       for (const auto& [x, y] :
            {std::pair(0, 1), std::pair(1, 1), std::pair(1, 0), std::pair(0, 0)}) {
         vertices += fmt::format("v {} {} 0\n", kBoardSquareM * (column + x - 1),

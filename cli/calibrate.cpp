@@ -1,4 +1,4 @@
-// throng calibrate: lenses and poses of real cameras, from pictures of boards, points and control
+// throng calibrate: lenses and poses of real cameras, from images of boards, points and control
 // points.
 #include <fmt/core.h>
 
@@ -216,7 +216,7 @@ CLI::App* add_with_control_points(CLI::App& app, const char* name, const char* t
   return command;
 }
 
-/// What `throng serve` starts for each calibration.
+/// The child process that `throng serve` starts for each calibration.
 void add_request(CLI::App& app) {
   auto* command = app.add_subcommand("request", "Work off a calibration of the service");
   command->group("");  // not for users

@@ -1,5 +1,5 @@
 // throng calibrate selftest: renders a board through a distorting camera, calibrates from those
-// pictures, and compares with the truth.
+// images, and compares with the truth.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// What must hold.
+/// Tolerances.
 constexpr double kMaxFocalError = 1e-3;  // of the focal length
 constexpr double kMaxCenterErrorPx = 0.5;
 constexpr double kMaxRmsPx = 0.15;

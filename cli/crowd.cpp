@@ -1,4 +1,4 @@
-// throng crowd: a Menge project, here and now, without people, drones or pictures.
+// throng crowd: a Menge project, here and now, without people, drones or images.
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 

@@ -71,7 +71,7 @@ void add_output_options(CLI::App& command, CrowdArguments& arguments) {
   command.add_flag("--markdown", arguments.markdown, "Print the list as docs/ has it")->needs(list);
 }
 
-/// What Menge's program takes and is of no use without its viewer.
+/// Options of Menge's program that have no effect without its viewer.
 void add_ignored_options(CLI::App& command, CrowdArguments& arguments) {
   command.add_option("--view", arguments.ignored_view, "As Menge's, for its viewer; ignored");
   command.add_option("-u,--dumpPath", arguments.ignored_dump_path,

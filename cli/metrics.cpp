@@ -103,7 +103,7 @@ void measure(const MetricsArguments& arguments) {
   if (!arguments.csv.empty()) write_csv(exits, trace, arguments.csv);
 }
 
-// What a trajectory does not say of itself, as in a job's block crowd.recorded.
+// Metadata that a trajectory file lacks, as in a job's block crowd.recorded.
 void add_format(CLI::App& command, const std::shared_ptr<MetricsArguments>& arguments) {
   metrics::TrajectoryFormat& format = arguments->format;
   static const std::map<std::string, metrics::TrajectoryKind> kKinds = {

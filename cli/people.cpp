@@ -1,4 +1,4 @@
-// throng people: bakes the people that frames are drawn with, lists and draws them.
+// throng people: builds the character library, lists and renders its characters.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>

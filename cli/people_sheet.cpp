@@ -1,4 +1,4 @@
-// throng people sheet: draws a population for people to judge it by.
+// throng people sheet: renders an overview of a character library.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -45,7 +45,7 @@ std::string extension_of(const fs::path& file) {
   return extension;
 }
 
-// All that can be wrong is found before anything is drawn.
+// All input is checked before anything is rendered.
 void check_arguments(const SheetArguments& arguments) {
   const std::string extension = extension_of(arguments.output);
   if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") {

@@ -19,7 +19,7 @@ void add_worker(CLI::App& app) {
   command->add_option("--job", arguments->job_folder, "The job's folder")->required();
   command->add_option("--task", arguments->task, "The task's name, e.g. run000/shard0003")
       ->required();
-  // The worker's own exit codes tell its supervisor whether a retry makes sense.
+  // The worker's exit codes: its supervisor retries only where that makes sense.
   command->callback(
       [arguments] { std::exit(jobs::run_worker(arguments->job_folder, arguments->task)); });
 }

@@ -38,7 +38,7 @@ std::vector<std::string> words_of(const std::string& list) {
   return words;
 }
 
-/// What a behavior says of states, as far as the alarm needs it.
+/// The states of a behavior, as far as the alarm needs them.
 struct StateGraph {
   struct Edge {
     std::string from;
@@ -65,7 +65,7 @@ struct StateGraph {
 };
 
 // Whether a condition, or any part of it, is about the disaster, panic or a guide. A part that is
-// negated (the guide is gone) tells nobody anything.
+// negated (the guide is gone) informs nobody.
 bool informs(const Element& element, StateGraph& graph) {
   const std::string type = text_of(element, "type");
   if (element.name() == "Condition" && type == "not") return false;

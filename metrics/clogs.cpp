@@ -21,7 +21,7 @@ std::size_t onset_of(const std::vector<ExitSample>& samples, const std::vector<d
   return onset;
 }
 
-// The step of the next passage, or the first one without demand or with the door shut.
+// The step of the next passage, or the first one without demand or with the door closed.
 std::size_t end_of(const std::vector<ExitSample>& samples, std::size_t from) {
   std::size_t end = from;
   while (end < samples.size() && samples[end].demand && samples[end].state != ExitState::closed &&
@@ -55,7 +55,7 @@ void find_clogs(ExitSeries& series, const std::vector<double>& time_s) {
     ClogEvent& clog = series.clogs.back();
     std::size_t end = step;
     while (end < samples.size() && samples[end].state == ExitState::clogged) ++end;
-    // Who stops pressing has not passed yet.
+    // A person who stops pressing has not passed yet.
     end = std::max(end, end_of(samples, end));
     clog.until_s = end < samples.size() ? time_s[end] : time_s.back();
     clog.ended = end < samples.size();

@@ -73,7 +73,7 @@ double at(const std::array<double, kWidths>& values, double width_m) {
 
 DoorCapacity door_capacity(std::string_view model, double width_m) {
   const ModelRow& row = row_of(model);
-  // Through the narrowest door some models let nobody pass; a bound must not shut it.
+  // Through the narrowest door some models let nobody pass; a bound must not closed it.
   constexpr double kMinPerS = 0.3;
   return {at(row.burst, width_m), std::max(kMinPerS, at(row.rate_per_s, width_m))};
 }

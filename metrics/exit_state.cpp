@@ -27,7 +27,7 @@ double clogging_index(const ExitSample& sample, const ExitDemand& demand, double
   if (!demand.demand) return 0;
   const double density = std::min(1.0, sample.normalized_density / kFullDensity);
   const double flow_lack = std::clamp(1 - sample.flow_per_s / capacity_per_s, 0.0, 1.0);
-  // Where nobody wants to move, nobody is held up.
+  // Without anybody who wants to move, nobody is held up.
   const double free_speed = kFreeSpeed * demand.desired_speed_mps;
   const double speed_lack =
       free_speed > 0 ? std::clamp(1 - sample.approach_speed_mps / free_speed, 0.0, 1.0) : 0.0;

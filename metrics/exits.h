@@ -1,5 +1,5 @@
-// What happens at each exit over time: crossings, flow, density, queue, pressure, clogging.
-// Definitions and sources: docs/metrics.md.
+// Time series of each exit: crossings, flow, density, queue, pressure, clogging. Definitions and
+// sources: docs/metrics.md.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct ExitSample {
   int in_zone = 0;                ///< people in the control zone who intend this exit
   double density_per_m2 = 0;      ///< in_zone / zone area
   double normalized_density = 0;  ///< density / close packing of the people's discs
-  double approach_speed_mps = 0;  ///< mean speed towards the exit's middle
+  double approach_speed_mps = 0;  ///< mean speed toward the exit's middle
   int crossed_out = 0;            ///< outward crossings since the start
   int crossed_in = 0;             ///< inward crossings since the start
   double flow_per_s = 0;          ///< growth of net_out() per second over the last 4 s

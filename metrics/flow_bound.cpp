@@ -37,7 +37,7 @@ int spare_capacity(const Departures& departures, std::size_t exit, int second, i
 
 /// Maximum flow from people through doors that opens one slot after another. The network: each
 /// person comes to each door in the second in which they can be there, and may wait from each
-/// second of a door to its next. Who has got a slot keeps one, if not always the same.
+/// second of a door to its next. A person who has a slot keeps one, though not always the same.
 class DoorFlow {
  public:
   DoorFlow(const Departures& departures)
@@ -78,7 +78,7 @@ class DoorFlow {
     return door.people.empty() ? 0 : entry_[door.people.front()][exit];
   }
 
-  /// Opens a slot of the door for `room` people; returns how many more are out.
+  /// Opens a slot of the door for `room` more people; returns how many more are out.
   int open(std::size_t exit, int second, int room) {
     Door& door = doors_[exit];
     door.waiting.resize(static_cast<std::size_t>(second) + 1, 0);
@@ -100,7 +100,7 @@ class DoorFlow {
     int second = 0;
   };
 
-  /// How a free way from some place to the new slot goes on.
+  /// Next edge of a free path from a node to the new slot.
   struct On {
     enum class Kind { arrived, waits, waits_less, person };
     int search = 0;  ///< in which it was found
@@ -155,7 +155,8 @@ class DoorFlow {
     next_.push_back(place);
   }
 
-  // Whoever comes to the place and goes elsewhere yet: the end of the search if that is nowhere.
+  // The person who comes to the node and continues elsewhere: the end of the search if there is
+  // none.
   bool take_from(const Place& place) {
     const auto e = static_cast<std::ptrdiff_t>(place.exit);
     const std::vector<std::size_t>& people = doors_[place.exit].people;
@@ -177,7 +178,7 @@ class DoorFlow {
     return false;
   }
 
-  // Moves the flow along the way that was found.
+  // Moves the flow along the augmenting path.
   void follow(std::size_t person) {
     for (;;) {
       Place place = target_[person];
@@ -215,7 +216,7 @@ std::vector<double> earliest_out_s(const Departures& departures) {
   check(departures.on_s.size() == exits, "every exit has a way out");
   DoorFlow flow(departures);
   std::vector<int> second(exits, 0);
-  // Doors that serve nobody any more: who has no slot cannot get there, and others shut too soon.
+  // Doors that serve nobody any more: who has no slot cannot get there, and others closed too soon.
   std::vector<bool> is_spent(exits, false);
   std::vector<double> out_s;
   while (flow.left() > 0) {

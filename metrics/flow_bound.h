@@ -8,7 +8,7 @@
 
 namespace throng::metrics {
 
-/// Who can be at which door when, and what the doors take.
+/// Earliest arrival of each person at each door, and the doors' capacity.
 struct Departures {
   std::vector<std::vector<double>> access_s;  ///< per person and exit; infinite: never
   std::vector<double> capacity_per_s;         ///< per exit, people; 0: closed

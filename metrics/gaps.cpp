@@ -53,7 +53,7 @@ json or_null(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-// Says why, where there is no exponent or it means nothing.
+// Reason why there is no exponent or it is meaningless.
 json tail_json(const GapFigures& figures) {
   json result = {{"valid", figures.tail && figures.tail->plausible()},
                  {"why_not", nullptr},

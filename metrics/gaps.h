@@ -25,7 +25,7 @@ struct GapTail {
   bool clogging_regime() const { return plausible() && alpha <= 2; }
 };
 
-/// Fewer gaps in a tail say nothing about its law.
+/// Fewer gaps in a tail do not determine its law.
 inline constexpr int kMinInTail = 50;
 
 /// Empty if less than kMinInTail gaps would be in the tail, or all of them are equal.

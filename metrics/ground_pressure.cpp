@@ -79,7 +79,7 @@ double GroundPressure::finish_step() {
     if (pressure <= 0) continue;
     now.emplace_back(place, pressure);
     sums.mean += pressure;
-    // Where nobody is now the mean cannot be the greatest one: it was greater before.
+    // At an empty point the mean cannot be the maximum: it was greater before.
     max_value = std::max(max_value, sums.mean);
   }
   touched_.clear();

@@ -41,7 +41,7 @@ json spread_json(std::vector<double> values) {
           {"max", values.back()}};
 }
 
-// Where somebody sets out inside a door's cells, the ratio means nothing.
+// For a start inside a door's cells the ratio is meaningless.
 void add_detour(const std::optional<double>& detour, std::vector<double>& detours) {
   if (detour) detours.push_back(*detour);
 }
@@ -68,7 +68,7 @@ std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& 
     if (found == by_agent.end()) continue;
     Journey& journey = found->second;
     journey.from_s = person.noticed_s.value_or(person.start_s);
-    // Who wandered out before noticing anything did not travel to a door.
+    // A person who wandered out before noticing anything did not travel to a door.
     if (journey.from_s > journey.to_s) continue;
     const auto first =
         static_cast<std::size_t>(std::lower_bound(trace.time_s.begin(), trace.time_s.end(),

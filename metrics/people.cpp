@@ -16,7 +16,7 @@ std::string in_lower_case(std::string text) {
   return text;
 }
 
-// A state that the header does not name has none of the properties that names tell.
+// A state without a name in the header has none of the properties that follow from names.
 bool holds(const std::vector<bool>& states, std::uint8_t state) {
   return state < states.size() && states[state];
 }

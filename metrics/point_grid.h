@@ -83,7 +83,7 @@ class PointGrid {
   }
 
  private:
-  /// Who is looked at together lies together.
+  /// Points that are visited together are stored together.
   struct Sorted {
     Eigen::Vector2d point;
     std::size_t index = 0;
@@ -112,7 +112,7 @@ class PointGrid {
     }
   }
 
-  /// Where the points of a row's cells begin and end; nowhere, where there are no such cells.
+  /// Range of the points of a row's cells; empty if there are no such cells.
   std::pair<std::size_t, std::size_t> slots_of(int row, int from_column, int to_column) const {
     const int from = std::max(0, from_column);
     const int to = std::min(columns_ - 1, to_column);

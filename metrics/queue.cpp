@@ -18,9 +18,9 @@ constexpr double kLinkM = 1.2;
 constexpr double kSlow = 0.5;  // of the desired speed
 constexpr double kAboveRounding = 1 + 1e-9;
 
-/// Shortest ways over the links from everybody in the zone at once. Ways that end within 0.25 m are
-/// taken in any order, and again when they get shorter (Dial 1969; Meyer and Sanders 2003): what
-/// comes out is what Dijkstra's order gives, for less than its heap costs.
+/// Shortest paths over the links from everybody in the zone at once. Paths that end within 0.25 m
+/// are taken in any order, and again when they get shorter (Dial 1969; Meyer and Sanders 2003):
+/// what comes out is what Dijkstra's order gives, for less than its heap costs.
 class PathsBack {
  public:
   PathsBack(std::size_t people) : path_m_(people, kUnknown), taken_m_(people, kUnknown) {}
@@ -64,7 +64,7 @@ class PathsBack {
   static constexpr double kBinM = 0.25;
 
   std::vector<double> path_m_;   ///< per person
-  std::vector<double> taken_m_;  ///< the way when the links were followed last
+  std::vector<double> taken_m_;  ///< the path when the links were followed last
   std::vector<std::vector<std::size_t>> bins_;
   std::size_t bin_ = 0;  ///< all before it are empty
 };
@@ -108,7 +108,7 @@ WaitPredictor::WaitPredictor(double capacity_per_s, double dt_s)
       window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kWindowS / dt_s)))) {}
 
 double WaitPredictor::step(int queue, int crossed_out) {
-  // Who crosses in a step was in the queue at the step before.
+  // A person who crosses in a step was in the queue at the step before.
   const Step now{had_queue_, crossed_out - crossed_out_};
   crossed_out_ = crossed_out;
   had_queue_ = queue > 0;

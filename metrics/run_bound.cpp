@@ -75,7 +75,7 @@ Departures departures_of(const std::vector<const Traveler*>& travelers, const Do
   return departures;
 }
 
-// Who is there from the origin on shares the doors; later ones have them for themselves, which
+// People present from the origin on share the doors; later ones have them for themselves, which
 // makes their times no longer.
 BestTimes best_times(const std::vector<Traveler>& travelers, const Doors& doors, double origin_s) {
   BestTimes best;
@@ -171,7 +171,7 @@ class LowerBound {
       const DoorPassage& passage = *people_[i]->last_out;
       const std::size_t e = passage.exit;
       doors_.on_s[e] = std::min(doors_.on_s[e], *people_[i]->escaped_s - passage.time_s);
-      // People who know of nothing pass doors that are shut to the others.
+      // People who know of nothing pass doors that are closed to the others.
       if (doors_.capacity_per_s[e] <= 0) {
         doors_.capacity_per_s[e] = door_capacity(model_, scenario_.exits[e].width_m()).rate_per_s;
         doors_.shuts_s[e] = 0;
@@ -202,7 +202,7 @@ class LowerBound {
     return traveler;
   }
 
-  // Where more people passed a door than its capacity says, it can pass that many.
+  // If more people passed a door than its capacity allows, it can pass that many.
   void raise_bursts(const std::vector<Traveler>& travelers) {
     for (std::size_t e = 0; e < doors_.on_s.size(); ++e) {
       double first_s = kNever;

@@ -108,7 +108,7 @@ class TableReader {
     return std::move(tracks_);
   }
 
-  /// What it read of the table, after read().
+  /// The table, after read().
   bool by_time() const { return by_time_; }
   std::optional<double> frames_per_s() const { return frames_per_s_; }
   std::optional<double> unit_m() const { return unit_m_; }
@@ -201,7 +201,7 @@ class TableReader {
   const TrajectoryFormat& format_;
   bool by_time_;
   bool has_names_ = true;
-  std::optional<double> frames_per_s_;  // as comments say
+  std::optional<double> frames_per_s_;  // from comments
   std::optional<double> unit_m_;
   int line_ = 0;
   char separator_ = 0;  // 0: the names have not been read yet

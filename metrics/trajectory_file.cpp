@@ -225,7 +225,7 @@ bool begins_with_names(std::string_view text) {
   return false;
 }
 
-// Who was filmed at 25 frames a second and noted down in each tenth of them is there in between:
+// A person filmed at 25 frames per second and recorded in every tenth frame is present in between:
 // frames are counted by the largest step that all have in common.
 void count_by_steps(Recorded& recorded) {
   constexpr std::int64_t kMaxStep = 100;
@@ -272,7 +272,7 @@ Recorded read_recorded(const fs::path& file, const TrajectoryFormat& format) {
   }
 }
 
-// Gives all places their meters and refuses those that cannot be, and what memory has no room for.
+// Converts all positions to meters and refuses invalid ones, and files that exceed memory.
 void check_recorded(const std::string& file, const TrajectoryFormat& format, Recorded& recorded) {
   if (!(recorded.frames_per_s >= kMinRate && recorded.frames_per_s <= kMaxRate)) {
     throw InputError({file, "", fmt::format("{:g} frames per second", recorded.frames_per_s),

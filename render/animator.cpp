@@ -53,7 +53,7 @@ struct Curiosity {
   bool at(double time_s) const { return looks && std::fmod(time_s + offset_s, every_s) < for_s; }
 };
 
-/// Where a drone is that is near and high enough to be looked at.
+/// Direction of a drone that is near and high enough to be looked at.
 Gaze gaze_at(const Eigen::Vector3d& drone, const Eigen::Vector2f& from, float yaw_rad) {
   constexpr double kFar_m = 45;
   constexpr double kEyes_m = 1.6;

@@ -1,4 +1,4 @@
-// Drawing what only the picture shows.
+// Drawing what only the image shows.
 #pragma once
 
 #include <epoxy/gl.h>

@@ -68,7 +68,7 @@ void ContactPass::draw(std::span<const PersonInstance> people, const camera::Cam
     if ((foot - eye).norm() > max_distance_m || is_outside(planes, foot, kPersonReachM)) continue;
     seen.push_back(&person);
   }
-  // Where rims overlap, rounding depends on their order.
+  // Rounding of overlapping rims depends on their order.
   std::sort(seen.begin(), seen.end(),
             [](const PersonInstance* a, const PersonInstance* b) { return a->agent < b->agent; });
   rims_ = still_;

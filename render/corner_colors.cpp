@@ -14,19 +14,19 @@ using Colors = std::vector<Eigen::Array4f>;
 
 /// How closely colors are sought.
 struct Effort {
-  int cuts;    ///< of a triangle's sides: so many looks at the picture, squared
+  int cuts;    ///< of a triangle's sides: so many looks at the image, squared
   int rounds;  ///< The first gives each corner the mean around it.
 };
 
 /// The error's slowest part falls by a quarter in each round: the matrix of linear elements,
-/// divided by its row sums, has eigenvalues from 1/4 to 1 (Wathen 1987, table 1). Where triangles
-/// are many, they are small, and means nearly right.
+/// divided by its row sums, has eigenvalues from 1/4 to 1 (Wathen 1987, table 1). Many triangles
+/// are small triangles, whose means are nearly right.
 Effort effort_for(std::size_t triangles) {
   constexpr std::size_t kMany = 1000;
   return triangles > kMany ? Effort{1, 3} : Effort{3, 8};
 }
 
-/// A look at the picture: the shares that the triangle's corners have in it.
+/// A look at the image: the shares that the triangle's corners have in it.
 struct Look {
   Eigen::Array3f shares;
 };

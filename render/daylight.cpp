@@ -57,8 +57,8 @@ Array3d clear_sun(double elevation_rad) {
   return 1.85 * through_air * smooth(-0.8 * kDegree, 2 * kDegree, elevation_rad);
 }
 
-/// What is left of a clear sky's light on level ground under this weather's clouds. A closed cover
-/// lets a quarter through: 1 - 0.75 n^3.4 for n = 1 (Kasten and Czeplak 1980).
+/// Share of a clear sky's light that reaches level ground under this weather's clouds. A closed
+/// cover lets a quarter through: 1 - 0.75 n^3.4 for n = 1 (Kasten and Czeplak 1980).
 double cloud_share(Weather weather) {
   switch (weather) {
     case Weather::overcast:
@@ -74,7 +74,7 @@ double cloud_share(Weather weather) {
 }
 
 /// Exposure for a mean illuminance: the camera opens up as it gets darker, as automatic exposure
-/// does, but not all the way. Below daylight it follows more closely, or nights would be black.
+/// does, but only in part. Below daylight it follows more closely, or nights would be black.
 double exposure_for(double mean) {
   constexpr double kNoonIlluminance = 1.55;
   constexpr double kDusk = 0.02;
@@ -83,7 +83,7 @@ double exposure_for(double mean) {
   return seen * std::pow(std::min(mean / kDusk, 1.0), 0.06) / mean;
 }
 
-/// The camera meters the light of a fog too, and closes: pictures of fog are gray, not white.
+/// The camera meters the light of a fog too, and closes: images of fog are gray, not white.
 double closed_for_fog(const Environment& environment, double extinction_per_m) {
   constexpr double kMeteredM = 40;  // what a drone looks at is about that far away
   constexpr double kAirShare = 0.35;

@@ -34,7 +34,7 @@ double moved_px(const camera::Camera& before, const Vector3d& point_before,
   return (a.pixel - b.pixel).norm();
 }
 
-/// What a pixel shows of the ground, or, above the horizon, of something far away.
+/// Ground point seen by a pixel, or, above the horizon, a far point.
 std::optional<Vector3d> far_point(const camera::Camera& camera, const Vector2d& pixel) {
   constexpr double kFar_m = 300;
   const Vector3d center = camera.pose.center();

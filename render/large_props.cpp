@@ -38,7 +38,7 @@ void cloth(PropBuilder& builder, const std::array<Vector3d, 4>& corners, const V
 
 }  // namespace
 
-// What keeps a crowd back: a frame with bars on two feet.
+// Crowd barrier: a frame with bars on two feet.
 void make_barrier(PropBuilder& builder) {
   constexpr double kHalfM = 1.22;
   constexpr int kBars = 11;

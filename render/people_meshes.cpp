@@ -66,7 +66,7 @@ void pack_skin(const skinning::Vertex& vertex, DeviceVertex& packed) {
   packed.weights = word_of(weights);
 }
 
-/// What the shader knows of a part; `white` is the layer of those without a texture.
+/// Shader data of a part; `white` is the layer of those without a texture.
 std::uint32_t info_of(const skinning::Part& part, bool apart, std::uint32_t white) {
   const auto layer = [](std::int32_t number) { return static_cast<std::uint32_t>(number); };
   const std::uint32_t texture = part.texture < 0 ? white : layer(part.texture);
@@ -101,7 +101,7 @@ class Packer {
   Buffer indices() const { return make_buffer(indices_); }
 
  private:
-  /// Where a vertex is and faces; which of a mesh's it is, where that matters too.
+  /// Position and normal of a vertex; also its index in the mesh, if that matters.
   using Place = std::array<std::uint32_t, 7>;
 
   static Place place_of(const skinning::Vertex& vertex, std::uint32_t own) {

@@ -49,7 +49,7 @@ void add_visible(const Frame& frame, std::uint32_t agent, PixelMask& mask) {
   }
 }
 
-/// What the pixels [min, max) that show a person count for.
+/// Weight of the pixels [min, max) that show a person.
 std::uint64_t visible_in(const Frame& frame, std::uint32_t agent, const Eigen::AlignedBox2i& pixels,
                          const PixelWeights* weights) {
   const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
@@ -259,7 +259,7 @@ void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& cam
   lap("draw");
 }
 
-/// Colors that have several samples a pixel, drawn for their own sake.
+/// Colors that have several samples a pixel, rendered for their own sake.
 void Renderer::State::draw_smooth(const Scene& scene, const camera::Camera& camera,
                                   const std::vector<Seen>& seen, Frame& frame) {
   if (quality.supersampling > 1) {

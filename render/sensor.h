@@ -1,5 +1,4 @@
-// What a sensor and its electronics make of a picture: exposure, white balance, vignetting, noise.
-// Only colors change.
+// Model of an image sensor: exposure, white balance, vignetting, noise. Only colors change.
 #pragma once
 
 #include <Eigen/Core>

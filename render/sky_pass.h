@@ -1,4 +1,4 @@
-// Draws the sky where nothing else is, and rain between the camera and everything.
+// Renders the sky where nothing else is, and rain between the camera and everything.
 #pragma once
 
 #include <string>

@@ -65,7 +65,7 @@ SmokePass::Source SmokePass::source_of(const world::Disaster& disaster, double t
   return source;
 }
 
-// Every puff rises, widens and thins out over kLifeS, and then begins anew.
+// Every puff rises, widens and thins out over kLifeS, and then starts again.
 void SmokePass::add_puffs(const Source& source, std::size_t number, double time_s,
                           const camera::Camera& camera) {
   Random wind(environment_.seed, Stream::environment, kSmoke);

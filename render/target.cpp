@@ -29,7 +29,7 @@ int size_within_limits(int width, int height) {
   return width;
 }
 
-/// Between sRGB values and light: pictures are averaged in the latter, as a lens does.
+/// Between sRGB values and light: images are averaged in the latter, as a lens does.
 class LightTable {
  public:
   LightTable() {
@@ -91,7 +91,7 @@ void Target::read(bool color, Frame& frame) {
   glReadBuffer(GL_COLOR_ATTACHMENT1);
   glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, frame.id.data());
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, frame.depth_m.data());
-  // Depth is stored as kNear / z, 0 where nothing was drawn: that becomes infinity here.
+  // Depth is stored as kNear / z, 0 where nothing was rendered: that becomes infinity here.
   for (float& depth : frame.depth_m) depth = kNear / depth;
 }
 

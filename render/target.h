@@ -1,4 +1,4 @@
-// What the camera's draw writes: color, instance id and depth, and how they come back.
+// Render target of the camera: color, instance id and depth, and how they come back.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@
 
 namespace throng::render {
 
-/// Nothing closer to the camera plane is drawn (m); also in shaders/view.glsl.
+/// Nothing closer to the camera plane is rendered (m); also in shaders/view.glsl.
 inline constexpr float kNear = 0.1F;
 
 /// Pixels around the image in which triangles are rasterized rather than clipped.

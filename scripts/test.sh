@@ -62,8 +62,8 @@ step_tsan() {
   TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" ctest --preset tsan -j2 -L '^(base|crowd|jobs_queue|server)$'
 }
 
-# Half a minute of new inputs each on top of the corpus. What it finds stays in build/fuzz; make it a file of
-# tests/fuzz/corpus once it is mended.
+# Half a minute of new inputs each on top of the corpus. Findings stay in build/fuzz; make them files of
+# tests/fuzz/corpus once they are fixed.
 step_fuzz() {
   say "fuzzing the files' readers (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build fuzz

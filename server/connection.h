@@ -33,7 +33,7 @@ class Connection : public httplib::Stream {
   struct Ended {};
   /// Reads the next request's head from the socket.
   std::variant<RequestHead, HeadError, Ended> read_head();
-  /// What the library reads from now on is this request, its body included.
+  /// From now on the library reads this request, its body included.
   void begin_request(const RequestHead& head);
   /// Whether the library has read the request to its end, so that another may follow.
   bool is_consumed() const { return head_next_ == head_.size() && body_left_ == 0; }

@@ -1,6 +1,5 @@
-// What is known of datasets that are downloaded: manifests and the plans of archives. With hundreds
-// of thousands of files they take a second and much memory to make, and clients ask for many
-// ranges.
+// Cache for downloaded datasets: manifests and the plans of archives. With hundreds of thousands of
+// files they take a second and much memory to make, and clients ask for many ranges.
 #pragma once
 
 #include <filesystem>

@@ -68,7 +68,7 @@ std::string key_of(const Request& request) {
   return key;
 }
 
-/// What comes as multipart/form-data: a job, and a bundle of scenarios of its own.
+/// A multipart/form-data upload: a job, and a bundle with its scenarios.
 struct Form {
   std::string job;
   const std::string* bundle = nullptr;
@@ -109,7 +109,7 @@ void queue(const Call& call, Submission submission, Response& response,
              job_json(added.row, call.housekeeping.retention()));
 }
 
-/// What a job would be, without queueing it.
+/// Dry run: resolves a job without queueing it.
 void answer_dry_run(const jobs::ResolvedJob& resolved, Response& response) {
   const jobs::JobSpec& job = resolved.spec();
   const auto cameras = static_cast<std::int64_t>(job.drones.size());

@@ -12,7 +12,7 @@
 
 namespace throng::server {
 
-/// What a caller may do; each holds those before it.
+/// Permissions of a caller; each includes those before it.
 enum class Scope : std::uint8_t {
   anybody,  ///< nothing but ask whether the service lives
   read,     ///< look at everything
@@ -24,7 +24,7 @@ std::string_view name_of(Scope scope);
 /// read, submit or admin; nothing for any other word.
 std::optional<Scope> scope_named(std::string_view name);
 
-/// Who makes a request.
+/// Sender of a request.
 struct Caller {
   std::string key_id;  ///< "" where no keys are needed
   Scope scope = Scope::anybody;
@@ -60,7 +60,7 @@ class Keys {
 
   /// Whether a key has ever been made: from then on every caller needs one.
   bool are_needed() const;
-  /// Who sends this; nothing when it is no good key. Where no keys are needed everybody is an
+  /// Owner of the key; nothing when the key is invalid. If no keys are required, everybody is an
   /// administrator.
   std::optional<Caller> caller_of(std::string_view token) const;
 

@@ -1,4 +1,4 @@
-// What takes long to make, for the many clients that ask for the same.
+// LRU cache of values that are expensive to create, for many clients that request the same.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace throng::server {
 
-/// Things by name: the last few that were asked for are kept, and all that somebody uses. Safe to
-/// use from many threads; each thing is made once.
+/// Values by name: keeps the most recently requested ones, and all in use. Safe to use from many
+/// threads; each value is created once.
 template <typename Value>
 class LruCache {
  public:
   explicit LruCache(std::size_t kept) : capacity_(kept) {}
 
-  /// The thing of the name; what `make` returns when there is none.
+  /// The value of the name; the result of `make` when there is none.
   template <typename Make>
   std::shared_ptr<const Value> get(const std::string& name, const Make& make) {
     const std::lock_guard lock(mutex_);

@@ -119,7 +119,7 @@ void QueueState::pause(const std::string& reason) {
     const std::lock_guard lock(mutex_);
     paused_ = reason;
     if (active_) row = active_->row;
-    // What has been published stays; the rest is done again when there is room.
+    // Published output stays; the rest is done again when there is disk space.
     if (active_ && !reason.empty()) active_->stop.request_stop();
   }
   if (reason.empty()) {

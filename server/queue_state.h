@@ -1,5 +1,5 @@
-// What the parts of the service share of the queue: the job that is being worked on, whether the
-// queue rests, and the signals that something has happened.
+// State of the queue shared by the parts of the service: the running job, whether the queue is
+// paused, and the signals that something has happened.
 #pragma once
 
 #include <atomic>

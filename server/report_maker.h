@@ -47,7 +47,7 @@ class ReportMaker {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<std::filesystem::path> waiting_;              ///< the first is being made
-  std::map<std::filesystem::path, std::string> failures_;  ///< not yet told to anybody
+  std::map<std::filesystem::path, std::string> failures_;  ///< not yet reported
   std::jthread worker_;
 };
 

@@ -1,4 +1,4 @@
-// What the handlers of all routes share: errors that become problem documents, answers, and
+// Shared by the handlers of all routes: errors that become problem documents, answers, and
 // parameters of lists.
 #pragma once
 

@@ -19,8 +19,8 @@ struct Retention {
 /// earlier where all jobs together take too much.
 std::optional<std::int64_t> expiry_ms(const jobs::JobRow& row, const Retention& retention);
 
-/// Which of the jobs to remove now, of those that have ended and need not be kept, those that ended
-/// first before others: what is too old, and then the oldest until the others fit.
+/// Selects the jobs to remove now, among ended jobs that need not be kept, in the order in which
+/// they ended: jobs that are too old, and then the oldest until the others fit.
 std::vector<std::string> expired(const std::vector<jobs::JobRow>& ended, std::int64_t total_bytes,
                                  std::int64_t now_ms, const Retention& retention);
 

@@ -57,7 +57,7 @@ ScenarioUpload read_note(const fs::path& folder) {
           note.value("summaries", std::vector<json>{})};
 }
 
-/// Where the bundle's own files begin: below a single folder that holds everything.
+/// Root of the bundle's files: below a single folder that holds everything.
 fs::path root_of(const fs::path& unpacked) {
   std::vector<fs::directory_entry> entries;
   for (const fs::directory_entry& entry : fs::directory_iterator(unpacked)) {
@@ -112,7 +112,7 @@ void ScenarioStore::find_uploads() {
   }
 }
 
-/// An upload of an earlier version, whose note does not say what its scenarios are.
+/// An upload of an earlier version, whose record lacks the scenarios' summaries.
 void ScenarioStore::describe(ScenarioUpload& upload) const {
   const fs::path folder = uploads_ / upload.name;
   try {

@@ -50,8 +50,8 @@ class SignalWatch {
   std::jthread thread_;
 };
 
-// A line per message; as JSON for whoever gathers logs of many services. What is logged are ids and
-// what happened, never keys, bodies or headers.
+// A line per message; as JSON for log collectors. Ids and events are logged, never keys, bodies or
+// headers.
 void set_up_log(bool as_json) {
   const auto logger = spdlog::stderr_logger_mt("throng");
   if (as_json) {

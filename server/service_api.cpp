@@ -25,7 +25,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Memory of this process that is in RAM; 0 where the kernel does not say.
+/// Memory of this process that is in RAM; 0 where the kernel does not report it.
 std::int64_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
   std::int64_t total = 0;

@@ -120,7 +120,7 @@ std::optional<Delivery> WebhookSender::ping(const std::string& id) {
   const auto webhook = webhooks_.get(id);
   if (!webhook) return std::nullopt;
   Delivery delivery = post(*webhook, 0, "ping", 1, R"({"type": "ping"})");
-  // What a ping meets says nothing of the events that wait.
+  // The result of a ping does not affect the waiting events.
   webhooks_.settle(*webhook, delivery);
   return delivery;
 }

@@ -18,7 +18,7 @@ constexpr double kFlySpeedMps = 4;
 constexpr double kLeadSpeedMps = 1.6;  // people run at 2 m/s
 constexpr double kDecideEveryS = 0.5;
 constexpr double kReachM = 6;          // of the beacon
-constexpr double kWorthTelling = 0.3;  // people per second of way, at least
+constexpr double kWorthTelling = 0.3;  // min people per second of travel
 constexpr double kCollectS = 2;        // at least, with the beacon on
 constexpr double kMaxCollectS = 6;
 constexpr double kMaxReleaseS = 20;  // beyond the door, for those who are there
@@ -139,8 +139,9 @@ class BalancePolicy : public Policy {
     });
   }
 
-  // Not those whom another drone leads; whom this one has left behind waits for it. Who has noticed
-  // nothing can be led where drones can tell them, and who is at the door is as good as out.
+  // Excludes people led by another drone; people whom this drone has left behind wait for it.
+  // People who have not noticed the alarm can be led if drones can inform them, and people at the
+  // door count as out.
   bool can_be_led(const PersonSeen& person) const {
     if (person.guide >= 0) return person.guide == drone_;
     if (person.exit < 0) return place_.guides_alert;
@@ -187,7 +188,7 @@ class BalancePolicy : public Policy {
         }));
   }
 
-  // To where most people can be told soon; false when there is nobody worth the way.
+  // Flies to where most people can be informed soon; false when nobody is worth the trip.
   bool go_alerting(const WorldView& view) {
     double best = kWorthTelling;
     for (const PersonSeen& person : view.people) {
@@ -240,7 +241,8 @@ class BalancePolicy : public Policy {
     glide_.go(pick_, kFlySpeedMps);
   }
 
-  // Whom a beacon at `pick` would reach: per exit how many want it, and how many stand about.
+  // People whom a beacon at `pick` would reach: the number per intended exit, and the number
+  // standing.
   struct Reached {
     std::vector<double> want;
     double idle = 0;
@@ -261,7 +263,7 @@ class BalancePolicy : public Policy {
     return result;
   }
 
-  // Whether another drone is busy at a place, or on its way there.
+  // Whether another drone is busy at a position, or heading there.
   bool is_led_by_other(const WorldView& view, const Vector2d& place) const {
     for (std::size_t d = 0; d < view.drones.size(); ++d) {
       const LeadPlan& plan = view.drones[d].plan;

@@ -12,7 +12,7 @@
 
 namespace throng::sim {
 
-/// Who stands in air faster than 5 m/s at the height of the head, and for how long.
+/// People exposed to air faster than 5 m/s at the height of the head, and the duration.
 class DownwashExposure {
  public:
   using Log = std::function<void(const world::TraceEvent&)>;

@@ -13,7 +13,7 @@ constexpr double kControlHz = 240;
 constexpr double kSampleHz = 60;
 // Slower contact is a landing.
 constexpr double kCollisionMps = 0.3;
-// Rotors stopped and slower than this, a craft lies where it has come down.
+// Rotors stopped and slower than this, a vehicle lies where it has come down.
 constexpr double kRestMps = 0.1;
 
 int whole_ticks(double interval_s, double max_tick_s) {
@@ -25,7 +25,7 @@ int nearest_ticks(double hz, double tick_s) {
   return std::max(1, static_cast<int>(std::lround(1 / (hz * tick_s))));
 }
 
-// The air that one hovering craft blows down on another's rotors.
+// The air that one hovering vehicle blows down on another's rotors.
 void add_downwash(const Jet& jet, const FlightState& from, const FlightState& to,
                   const Airframe& frame, PerRotor& downwash_mps) {
   const double seat_m = frame.arm_m / std::sqrt(2.0);
@@ -94,7 +94,7 @@ void Flight::finish() {
   exposure_.flush(time_s_, true);
 }
 
-// Whoever no drone comes near costs no more than a look at where they are, and nothing while all
+// People far from all drones cost no more than a lookup of their positions, and nothing while all
 // drones are high up.
 void Flight::meet_people() {
   near_.clear();
@@ -133,7 +133,7 @@ void Flight::control() {
   }
 }
 
-// Lets the wind blow, and each craft on those below it.
+// Lets the wind blow, and each vehicle on those below it.
 void Flight::blow() {
   for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = world_.state(i);
   for (std::size_t i = 0; i < pilots_.size(); ++i) {

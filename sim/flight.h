@@ -19,7 +19,7 @@
 
 namespace throng::sim {
 
-/// Where a flight's record goes.
+/// Output of a flight's record.
 struct FlightLog {
   std::function<void(std::size_t drone, const world::DroneSample&)> sample;
   std::function<void(const world::TraceEvent&)> event;

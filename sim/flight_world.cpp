@@ -19,7 +19,7 @@ constexpr double kFriction = 0.5;
 btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-// What a body is, for whoever meets it.
+// Labels a body with its kind, for contact handling.
 void label(btCollisionObject& body, Obstacle obstacle, int index) {
   body.setUserIndex(static_cast<int>(obstacle));
   body.setUserIndex2(index);
@@ -28,7 +28,7 @@ Obstacle obstacle_of(const btCollisionObject& body) {
   return static_cast<Obstacle>(body.getUserIndex());
 }
 
-// One craft: its rotors, and its body in Bullet. Stays where it is, since Bullet points to it.
+// One vehicle: its rotors, and its body in Bullet. Stays where it is, since Bullet points to it.
 struct Vehicle {
   Vehicle(const Airframe& airframe, double dt_s, const Vector3d& position, double yaw_rad)
       : quadcopter(airframe, dt_s),
@@ -76,7 +76,7 @@ struct Vehicle {
   bool has_moved = false;
 };
 
-// Somebody's body. Kinematic: Bullet moves it as told and lets crafts bounce off it.
+// Somebody's body. Kinematic: Bullet moves it as commanded and lets vehicles bounce off it.
 struct PersonBody {
   explicit PersonBody(btCollisionShape& shape) : body(0, nullptr, &shape) {
     body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -159,7 +159,7 @@ struct FlightWorld::Bodies {
       person.person = list[i];
       person.place();
       label(person.body, Obstacle::person, list[i].agent);
-      // Else Bullet would take the way here for motion.
+      // Else Bullet would take this displacement for motion.
       if (moved_in) person.body.setInterpolationWorldTransform(person.body.getWorldTransform());
       if (is_new) world.addRigidBody(&person.body);
     }
@@ -181,7 +181,7 @@ struct FlightWorld::Bodies {
     contacts.advance(dt_s);
   }
 
-  // The contact of two bodies as the first or the second of them, if that is a craft, meets it.
+  // The contact of two bodies as the first or the second of them, if that is a vehicle, meets it.
   void note_contact(const btPersistentManifold& manifold, bool first) {
     const btCollisionObject& vehicle = first ? *manifold.getBody0() : *manifold.getBody1();
     const btCollisionObject& other = first ? *manifold.getBody1() : *manifold.getBody0();

@@ -83,7 +83,7 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const GimbalC
     }
     const Vector3d angle = response.advance(target, next, dt_s);
     target = next;
-    // What the motors cannot hold dies away as fast as they answer.
+    // The part that the motors cannot hold decays with their time constant.
     const double kept = std::exp(-dt_s * spec.natural_rad_s);
     jitter = kept * jitter + std::sqrt(1 - kept * kept) * normal3(random);
     const Vector3d held = angle + spec.jitter_rad * jitter;

@@ -11,7 +11,7 @@ std::vector<std::optional<world::GoalRef>> goals_of(const std::vector<PlannedDro
   return goals;
 }
 
-// A craft that is so far below where it should be has come down, whatever its pilot thinks.
+// A vehicle that is so far below where it should be has come down, whatever its pilot thinks.
 bool is_down(const Flight& flight, std::size_t drone) {
   constexpr double kDownM = 5;
   const double should_be_m = flight.pilot(drone).setpoint().position.z();

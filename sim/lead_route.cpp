@@ -14,7 +14,7 @@ LeadRoute route_through(const world::Exit& exit, const std::vector<world::Buildi
   constexpr double kDeepestM = 30;
   constexpr double kStepM = 0.5;
   const Vector2d middle = exit.middle();
-  // The walls beside the way out end where no building is about as near as the jambs are.
+  // The walls beside the exit path end where no building is about as near as the jambs are.
   double walls_end_m = 0;
   for (double depth_m = 0; depth_m <= kDeepestM; depth_m += kStepM) {
     const Vector2d point = middle + depth_m * exit.outward;

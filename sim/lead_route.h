@@ -1,4 +1,4 @@
-// The way on which a drone leads people out by an exit.
+// The path along which a drone leads people out by an exit.
 #pragma once
 
 #include <Eigen/Core>

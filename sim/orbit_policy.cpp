@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kMaxPullMps2 = kGravity / 3;  // towards the center
+constexpr double kMaxPullMps2 = kGravity / 3;  // toward the center
 
 class OrbitPolicy : public Policy {
  public:

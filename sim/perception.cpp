@@ -86,7 +86,7 @@ CameraPerception::CameraPerception(const world::Scenario& scenario, const Percep
                                    std::uint64_t seed, std::size_t drone)
     : scenario_(scenario), spec_(spec), seed_(seed), drone_(drone) {}
 
-// Who moves is taken to go to the exit most nearly ahead, who stands to the nearest.
+// Moving people are assumed to go to the exit most nearly ahead, standing people to the nearest.
 void CameraPerception::guess(const WorldView& seen, PersonSeen& person) const {
   constexpr double kBeaconReachM = 6;
   constexpr double kStandsMps = 0.3;

@@ -14,7 +14,7 @@
 
 namespace throng::sim {
 
-/// What a policy knows when it is made. All that it refers to outlives the policy.
+/// Context of a policy's construction. All that it refers to outlives the policy.
 struct PolicyContext {
   const DroneMission& mission;
   Eigen::Vector3d start;
@@ -33,12 +33,12 @@ class Policy {
 
   /// Shows it the world, once per step of the crowd.
   virtual void see(const WorldView&) {}
-  /// Where the drone should be `dt_s` after the last call, seeing where it is.
+  /// Set-point of the drone `dt_s` after the last call, given its position.
   virtual Setpoint next(const FlightState& state, double dt_s) = 0;
   /// Policies that guide: whether people may follow the drone now. Off, the goal that it moves is
   /// out of sight.
   virtual bool beacon() const { return false; }
-  /// What the other drones should know.
+  /// Information for the other drones.
   virtual LeadPlan plan() const { return {}; }
 };
 
@@ -65,7 +65,7 @@ struct PolicyEntry {
 };
 
 /// Whether the policy itself decides when people may follow. The beacon of any other is off for the
-/// whole run, or on where the mission says so: a camera drone must not lead people astray.
+/// whole run, or on where the mission requires it: a camera drone must not lead people astray.
 constexpr bool guides(const PolicyEntry& policy) {
   return ((policy.needs | policy.takes) & kFieldBeacon) == 0;
 }

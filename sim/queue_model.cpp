@@ -8,7 +8,7 @@ namespace throng::sim {
 
 namespace {
 
-constexpr double kNeverS = 600;               // to wait for a shut door
+constexpr double kNeverS = 600;               // to wait for a closed door
 constexpr double kPriorPerMeterSecond = 1.1;  // discs of 0.4 m through clean doors
 constexpr double kPressM = 4;                 // from the door: who is nearer presses on it
 constexpr int kPressPeople = 4;
@@ -64,7 +64,7 @@ void QueueModel::update(const WorldView& view, int self) {
   }
 }
 
-// Whom the news reaches later will choose as those before chose from there.
+// People who are informed later choose like earlier people at the same place.
 void QueueModel::learn_habits(const WorldView& view) {
   for (std::vector<double>& chosen : habits_) {
     for (double& looks : chosen) looks *= kMemory;
@@ -103,7 +103,7 @@ double QueueModel::wait_s(int exit) const {
   return is_open(exit) ? people_[index(exit)] / capacity_per_s_[index(exit)] : kNeverS;
 }
 
-// Who leaves a queue shortens it for those behind, who joins one lengthens it for whoever comes
+// Leaving a queue shortens it for the people behind, joining one lengthens it for those who come
 // after: m people led save m (wait_from - wait_to) - m²/2 (1/C_from + 1/C_to).
 double QueueModel::saving_s(int from, int to, double arrive_s, double people) const {
   const double difference_s = wait_s(from) - std::max(wait_s(to), arrive_s);

@@ -87,7 +87,7 @@ std::vector<world::GoalRef> goals_moved_by(const std::vector<PlannedDrone>& dron
   return goals;
 }
 
-// Who is a person and there; fills and returns `there`.
+// People who are present; fills and returns `there`.
 std::span<const std::uint8_t> people_there(const CrowdSource& crowd,
                                            const std::vector<world::AgentRole>& roles,
                                            std::vector<std::uint8_t>& there) {

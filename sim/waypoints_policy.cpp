@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAcceleration = 2;  // m/s², along the path
 constexpr double kMaxLeadM = 3;      // how far the set-point may run ahead of the drone
-constexpr double kCreepMps = 0.05;   // keeps the set-point moving where the profile says zero
+constexpr double kCreepMps = 0.05;   // keeps the set-point moving where the profile is zero
 constexpr double kMinLegM = 1e-6;
 
 struct Leg {

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kSwingM = 4;  // to either side of the way
+constexpr double kSwingM = 4;  // to either side of the path
 constexpr int kSwings = 3;
 constexpr double kPatienceS = 20;  // how long it waits for followers to run on
 constexpr std::size_t kWorthATripPeople = 4;
@@ -69,7 +69,8 @@ class ZigzagPolicy : public Policy {
     if (followers_ == 0 || time_s_ - arrived_s_ > kPatienceS) path_.clear();
   }
 
-  // Those before the exit that most people want, and the way from there to the next exit in turn.
+  // People before the exit with the most demand, and the direction from there to the next exit in
+  // turn.
   void plan_trip(const WorldView& view) {
     std::vector<std::size_t> heading(place_.exits.size());
     for (const PersonSeen& person : view.people) {

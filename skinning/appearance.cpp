@@ -79,7 +79,7 @@ std::vector<std::uint32_t> take_part(const Population& population, bool umbrella
 }
 
 // Everybody without an umbrella once, and so many with one, again and again from the front, as make
-// up their share. Who has none to leave at home comes with it.
+// up their share. If all characters have umbrellas, all come with them.
 std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
                            const Styling& styling) {
   const std::vector<std::uint32_t> dry = take_part(population, true, seed, styling);
@@ -102,8 +102,8 @@ std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
   return cast;
 }
 
-// Which of its colors a character shows in a block: the next one each time, from a start of its
-// own, and the kinds of things drift against each other, so that equal outfits are far apart.
+// Selects the color of a character in a block: the next one each time, from a start of its own, and
+// the kinds of things drift against each other, so that equal outfits are far apart.
 std::size_t color_number(std::uint64_t seed, std::uint32_t character, std::size_t tint,
                          std::uint32_t block, std::size_t colors) {
   Random random(seed, Stream::appearance, kColors + kTintCount * character + tint);

@@ -1,4 +1,4 @@
-// Who of the population an agent looks like, in which colors.
+// Assignment of characters and colors to agents.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace throng::skinning {
 
-/// What sets an agent apart from the others; a pure function of (run seed, agent id).
+/// Individual traits of an agent; a pure function of (run seed, agent id).
 struct Appearance {
   std::uint32_t character = 0;  ///< index into Population::characters
   float phase_offset = 0;       ///< strides, in [0, 1)

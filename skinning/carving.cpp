@@ -28,7 +28,7 @@ std::vector<Outline> outlines_of(std::span<const PosedSurface> surfaces) {
   std::vector<Outline> outlines;
   for (const Round& round : kRounds) {
     for (int i = 0; i < round.views; ++i) {
-      // Spread so that neighbors come late: most of the room around is carved by the first few.
+      // Spread so that neighbors come late: most of the volume around is carved by the first few.
       const int view = (5 * i) % round.views;
       outlines.emplace_back(surfaces, kDegree * round.turn_deg * view / round.views,
                             kDegree * round.elevation_deg);
@@ -106,8 +106,8 @@ void Carving::drop_specks() {
   }
 }
 
-// Where parts of the hull touch along an edge or in a corner of the grid only, its surface would
-// pass there twice and could not be simplified: fills in what lies between until there is no such
+// Parts of the hull that touch along an edge or in a corner of the grid only would make a
+// non-manifold surface, which cannot be simplified: fills the voxels between until there is no such
 // place (well-composed sets, Latecki, Eckhardt and Rosenfeld 1995).
 void Carving::close_pinches() {
   const std::array<std::size_t, 3> step = {place({1, 0, 0}), place({0, 1, 0}), place({0, 0, 1})};

@@ -74,7 +74,7 @@ Figure standing_figure(const Walker& walker, const Clip& clip, double share) {
   return held(walker, clip, share);
 }
 
-// What of its own a character shows in a clip that gets on; null for nothing.
+// A character's own motion for a clip that moves forward; null for none.
 const OwnMotion::Cycle* own_cycle(const OwnMotion& own, const Clip& clip) {
   const bool walks =
       clip.name == "walk" || clip.name.rfind("start", 0) == 0 || clip.name.rfind("stop", 0) == 0;

@@ -8,7 +8,7 @@
 
 namespace throng::skinning {
 
-/// Something that is colored from one palette. `suit` holds faint tints for a picture that has
+/// Something that is colored from one palette. `suit` holds faint tints for an image that has
 /// colors of its own.
 enum class Dye : std::uint8_t {
   shirt,
@@ -24,10 +24,10 @@ enum class Dye : std::uint8_t {
   umbrella
 };
 
-/// `count` colors of a dye, drawn by how often they are seen (with repetition).
+/// `count` colors of a dye, sampled by how often they are seen (with repetition).
 std::vector<Rgb> draw_colors(Dye dye, std::size_t count, Random& random);
 
-/// Who the hair belongs to.
+/// Character that the hair belongs to.
 enum class HairRange : std::uint8_t { dark, any, graying, gray };
 std::vector<Rgb> draw_hair(HairRange range, std::size_t count, Random& random);
 

@@ -1,4 +1,4 @@
-// What a user says of a character of their own: a small JSON file beside the model.
+// Description of an imported character: a small JSON file beside the model.
 #pragma once
 
 #include <filesystem>

@@ -10,7 +10,7 @@ namespace {
 
 Side other(Side side) { return side == Side::left ? Side::right : Side::left; }
 
-// What somebody would do if steps could have any length.
+// Preferred steps if steps could have any length.
 struct WishedStep {
   double length_m;
   std::string_view clip;
@@ -30,7 +30,7 @@ class Planner {
   Walk plan(bool from_rest, bool to_rest) {
     Walk walk{{}, from_rest, to_rest};
     side_ = pedestrian_.phase_offset < 0.5 ? Side::left : Side::right;
-    // Who is already walking is somewhere within a step.
+    // A person who is already walking is somewhere within a step.
     const double done =
         from_rest ? 0 : 2 * pedestrian_.phase_offset - std::floor(2 * pedestrian_.phase_offset);
     if (to_rest) {
@@ -49,7 +49,8 @@ class Planner {
     const auto step =
         static_cast<std::size_t>(trajectory_.step_at(at_m, stretch_.first, stretch_.last));
     const Moment& moment = trajectory_.moments()[step];
-    // Whoever runs goes on running until clearly slower than when they began.
+    // A running person keeps running until clearly slower than at the start of the run
+    // (hysteresis).
     double change = running_speed_mps(stature) * (runs_ ? 0.94 : 1.04);
     if (moment.panicked) change *= 0.8;
     runs_ = speed > change;
@@ -63,7 +64,7 @@ class Planner {
             clip};
   }
 
-  // Steps up to the end of the way and beyond.
+  // Steps up to the end of the path and beyond.
   void walk_on(double done, Walk& walk) {
     double walked_m = 0;
     while (begin_m_ + walked_m < end_m_) {
@@ -115,7 +116,7 @@ class Planner {
     return best_count;
   }
 
-  // Steps that end where the way does: each makes up for what the ones before were too long or too
+  // Steps that end where the path does: each makes up for what the ones before were too long or too
   // short.
   void walk_to_rest(double done, Walk& walk) {
     std::vector<WishedStep> wishes = wish(done);

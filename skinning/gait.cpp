@@ -56,7 +56,7 @@ Arm arm_swing(const Gait& gait, const Manner& manner, double own) {
             22};
   }
   const double reach = swing * std::clamp(30 * gait.stride - 7, 4.0, 24.0);
-  // Who walks as fast as others jog bends the elbows.
+  // People who walk at jogging speed bend the elbows.
   const double elbow = 16 + manner.elbow_deg + 30 * smooth(0.9, 1.1, gait.stride);
   return {1 + reach * forward, elbow + 0.5 * reach * forward, manner.arms_out_deg, 4};
 }
@@ -169,7 +169,7 @@ Foot Stride::stance_foot(Side side, double own) const {
   return standing_foot(*walker_, side, standing_x - passed_m, pitch_rad(side, own));
 }
 
-// Where the measured joint angles swing the foot.
+// Foot position during swing from the measured joint angles.
 Foot Stride::swung_foot(Side side, double own, const Pose& pose) const {
   if (own_ != nullptr) {
     Eigen::Vector3f leg = own_->gait.leg(side, own);

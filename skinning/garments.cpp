@@ -22,7 +22,7 @@ constexpr Wearers kWomen{false, true, false};
 constexpr Wearers kGirlsToo{false, true, true};
 constexpr Wearers kBoysToo{true, false, true};
 
-// The CC0 part follows the owners' release of September 2020 (NOTICE.txt says where it stands); the
+// The CC0 part follows the owners' release of September 2020 (its address is in NOTICE.txt); the
 // rest carries its author's CC BY in the package itself.
 constexpr std::array kGarments = {
     GarmentInfo{"male_casualsuit02", "long-sleeved shirt", top, cc0, kAll, true},

@@ -1,4 +1,4 @@
-// What the package holds that people may wear, and under which terms.
+// Garments of the package, and their licenses.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ std::string_view spdx_name(License license);
 /// are worn apart, with one entry for each.
 enum class Slot : std::uint8_t { top, bottom, whole, dress, shoes, hat, hair };
 
-/// Whom a garment suits.
+/// Wearers that a garment suits.
 struct Wearers {
   bool men = true;
   bool women = true;
@@ -32,7 +32,7 @@ struct GarmentInfo {
   Wearers wearers;
   /// Tops that end at the waist need bottoms that reach up to it.
   bool high = false;
-  /// Of 1 drawn, how many are kept.
+  /// Acceptance rate of a sample.
   double share = 1;
 };
 

@@ -80,13 +80,13 @@ class Reader {
     }
   }
 
-  // The number of the first picture that there is; -1 for none.
+  // The number of the first image that there is; -1 for none.
   std::int32_t picture_of(const aiMaterial& material, std::size_t pictures,
                           std::initializer_list<aiTextureType> types) const {
     for (const aiTextureType type : types) {
       aiString picture;
       if (material.GetTexture(type, 0, &picture) != aiReturn_SUCCESS) continue;
-      const std::string reference = picture.C_Str();  // "*3" is embedded picture 3
+      const std::string reference = picture.C_Str();  // "*3" is embedded image 3
       const bool embedded = reference.size() > 1 && reference.front() == '*' &&
                             reference.find_first_not_of("0123456789", 1) == std::string::npos;
       const std::int32_t number = embedded ? std::stoi(reference.substr(1)) : -1;

@@ -139,7 +139,8 @@ BoneWeights Hull::weights_at(const Eigen::Vector3f& point) const {
 // inside, so that silhouettes keep their area.
 void Hull::fit(ClosedSurface& coarse) const {
   constexpr int kRounds = 6;
-  constexpr int kParts = 4;  // points per edge of a triangle, as many as tell inside from outside
+  constexpr int kParts =
+      4;  // points per edge of a triangle, enough to separate inside from outside
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Eigen::Vector3f> normals = normals_of(coarse.points, coarse.indices);
     std::vector<float> outside(coarse.points.size(), 0);

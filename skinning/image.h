@@ -1,4 +1,4 @@
-// Small RGBA pictures: PNG in and out, resizing, and filling what is not covered.
+// Small RGBA images: PNG in and out, resizing, and filling what is not covered.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Image {
   }
 };
 
-/// Which pixels count; row-major, one entry per pixel.
+/// Mask of the pixels in use; row-major, one entry per pixel.
 using Mask = std::vector<std::uint8_t>;
 
 /// Throws InputError naming `what` when the bytes are not a PNG.

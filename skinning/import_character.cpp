@@ -101,8 +101,8 @@ class Import {
     return mesh;
   }
 
-  // Pictures are not repeated when they are drawn: each triangle's part of an endless pattern is
-  // moved into the picture.
+  // Textures are not repeated when they are rendered: each triangle's part of an endless pattern is
+  // moved into the image.
   void add_part(const ModelPart& part, const Palette& to_neutral, Mesh& mesh) {
     std::map<std::array<std::int64_t, 3>, std::uint32_t> known;
     for (std::size_t at = 0; at + 2 < part.indices.size(); at += 3) {
@@ -232,7 +232,8 @@ class Import {
   Sampled sample(const ClipDescription& clip, const char* key, const Walker& walker) const {
     if (clip.file.empty()) return sample_of(model_, rig_, scale_, clip, key);
     const RiggedModel other = read_rigged_model(clip.file, ModelUse::motion);
-    // Names that the user says are of the model; where they are there too, they mean the same.
+    // Bone names that the user gives are those of the model; the same names in the clip mean the
+    // same bones.
     std::map<std::string, std::string> overrides;
     for (const auto& [ours, theirs] : description_->bones) {
       const bool there =

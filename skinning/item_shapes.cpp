@@ -19,7 +19,7 @@ using Eigen::Vector3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// Places on the picture: cloth with seams and a pocket on the left half, plain cloth on the upper
+// Places on the image: cloth with seams and a pocket on the left half, plain cloth on the upper
 // right, dark straps and sticks on the lower right quarter.
 constexpr float kHalf = 0.5F;
 const Vector2f kPlain(0.75F, 0.25F);
@@ -130,7 +130,7 @@ void add_strap(Shape& shape, const std::vector<StrapPoint>& path, float width_m,
 constexpr int kItemShapes = 5;
 int shape_of_level(int level) { return level < 3 ? level : level < 6 ? 3 : 4; }
 
-// What an item is built around.
+// Frame of reference of an item.
 struct Site {
   const DressedPerson* person;
   float scale;  // 1 for a person of 1.7 m
@@ -337,7 +337,7 @@ double shade_at(double u, double v, int x, int y) {
   const auto near = [](double value, double line, double width) {
     return std::abs(value - line) < width;
   };
-  // A zip around the top, the border of a pocket, and darkening towards the edges.
+  // A zip around the top, the border of a pocket, and darkening toward the edges.
   double shade = 1 - 0.25 * std::pow(std::abs(2 * across - 1), 6.0) - 0.2 * v * v;
   if (near(v, 0.22, 0.012) && across > 0.1 && across < 0.9) shade *= 0.55;
   const bool beside = across > 0.18 && across < 0.82;

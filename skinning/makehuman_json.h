@@ -45,7 +45,7 @@ std::vector<Eigen::Vector2f> read_uvs(const nlohmann::json& mesh);
 std::vector<Quad> read_quads(const nlohmann::json& mesh, const std::filesystem::path& path,
                              int material, std::size_t vertices, std::size_t uvs);
 
-/// Which bones move which vertices, by MakeHuman's names.
+/// Skinning weights, by MakeHuman's bone names.
 struct NamedInfluences {
   std::vector<std::string> bone_names;
   std::vector<std::uint32_t> bone;  ///< [vertex][slot], into bone_names

@@ -31,7 +31,7 @@ struct PoseBlend {
   float blend = 0;
 };
 
-/// The frame of a clip at a position in frames; cyclic clips go on for ever both ways.
+/// The frame of a clip at a position in frames; cyclic clips repeat in both directions.
 PoseBlend frame_of(const Clip& clip, double frame);
 
 /// Somebody who moves on steadily: `phase` in strides (any value), `speed_mps` >= 0, `time_s`

@@ -1,4 +1,4 @@
-// Who made what the people are made of, and under which terms.
+// Attribution and licenses of the assets that characters are built from.
 #pragma once
 
 #include <string>

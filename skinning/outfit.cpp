@@ -81,7 +81,7 @@ class Stylist {
   void wear_whole(const GarmentInfo* suit) {
     outfit_.top = outfit_.bottom = suit->name;
     outfit_.one_piece = true;
-    // Dark cloth with a white shirt and a tie cannot be told apart by brightness alone: the suit
+    // Dark cloth with a white shirt and a tie cannot be separated by brightness alone: the suit
     // keeps its colors, and its tints are faint.
     outfit_.top_cloth = suit->name == "male_elegantsuit01" ? Cloth::own : Cloth::plain;
     outfit_.bottom_cloth = outfit_.top_cloth;
@@ -138,7 +138,7 @@ class Stylist {
     }
   }
 
-  // Without hair the skin's picture shows; only these show no stubble of a color of its own.
+  // Without hair the skin's image shows; only these show no stubble of a color of its own.
   bool may_be_bald() const { return wearer_.curly || wearer_.age_years > 58; }
 
   void pick_hair() {
@@ -163,7 +163,7 @@ class Stylist {
     const GarmentInfo* hat = draw_from(Slot::hat);
     if (hat == nullptr) return;
     outfit_.hat = hat->name;
-    // What stands far off the head would come through the hat.
+    // Hair that stands far off the head would come through the hat.
     if (hair == "afro01" || hair == "short01") hair = "short04";
   }
 

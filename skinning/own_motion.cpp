@@ -41,7 +41,7 @@ std::vector<Pose> on_the_spot(std::vector<Pose> poses) {
   const float on = travel.head<2>().norm();
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    // Swaying is no way.
+    // Swaying is not travel.
     constexpr float kMinTravel_m = 0.3F;
     if (on > kMinTravel_m) poses[i].shift -= travel * (static_cast<float>(i) / count);
     mean += poses[i].shift / count;
@@ -73,8 +73,8 @@ OwnGait::OwnGait(const Walker& walker, const std::vector<Pose>& poses, double du
   find_stride(walker, joints, middle);
 }
 
-// Where the left toe passes from before the place where it is in standing to behind it, the foot
-// being low, it stands: in the air it moves forwards.
+// The left foot is in stance when its toe passes from in front of its standing position to behind
+// it while the foot is low: in swing it moves forward.
 void OwnGait::find_stride(const Walker& walker, const std::vector<Joints>& joints, double middle) {
   const std::size_t count = joints.size();
   const std::size_t toe = index_of(Bone::left_toe);

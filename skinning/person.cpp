@@ -76,7 +76,7 @@ void sample_shape(PersonSpec& person, Random& random) {
   shape.breast_firmness = std::clamp(0.75 - 0.005 * person.age_years, 0.3, 0.7);
 }
 
-// Who has which skin: the ancestry that dominates picks the texture, the rest mixes into the form.
+// Choice of the skin: the dominant ancestry selects the texture, the others blend into the shape.
 Ancestry sample_ancestry(PersonSpec& person, double share_of_all, Random& random) {
   Ancestry main = Ancestry::african;
   if (share_of_all < 0.48) {

@@ -28,8 +28,8 @@ struct PersonSpec {
 /// 65 to 85, evenly within each range. Adult heights are normal, 1.76 +- 0.07 m for men and 1.63
 /// +- 0.065 m for women; children follow the WHO's growth reference, and from 40 on people shrink
 /// (see person.cpp). Weight and muscle are normal on MakeHuman's scales, with one adult of ten
-/// drawn from the heavy end. Ancestry: 48 % mostly Caucasian, 26 % Asian, 26 % African; a quarter
-/// at most is mixed in. Age, sex and ancestry are drawn from a sequence that spreads evenly, so
+/// sampled from the heavy end. Ancestry: 48 % mostly Caucasian, 26 % Asian, 26 % African; a quarter
+/// at most is mixed in. Age, sex and ancestry are sampled from a sequence that spreads evenly, so
 /// that small populations hold everybody too.
 PersonSpec sample_person(std::uint64_t seed, int index, bool with_attribution = false);
 

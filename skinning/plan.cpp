@@ -13,7 +13,7 @@ namespace throng::skinning {
 
 namespace {
 
-// Within this share of a stride one way of getting on becomes another.
+// Share of a stride over which one gait blends into another.
 constexpr double kChangeStrides = 0.15;
 
 double half(Side side) { return side == Side::left ? 0.0 : 0.5; }
@@ -49,7 +49,7 @@ class WalkLayer {
            static_cast<double>(clip.frames);
   }
 
-  // Where on the way a phase of a step's clip is, the step's own middle being its beginning.
+  // Position along the path of a phase of a step's clip; the middle of the step is its beginning.
   static double place_m(const Footstep& step, double phase) {
     return step.begin_m + 2 * step.length_m * (phase - static_cast<double>(step.clip->middle));
   }
@@ -60,7 +60,7 @@ class WalkLayer {
                          pieces_.back().to_frame == frame_ && clip.cyclic && laid_;
     if (goes_on) {
       Piece& last = pieces_.back();
-      // Only strides of one length: the frames stay in step with the way.
+      // Only strides of one length: the frames stay in step with the path.
       last.to_frame = to_frame;
       last.to = to_m;
     } else {

@@ -38,8 +38,8 @@ Character read_character(const std::filesystem::path& path);
 /// Throws InputError unless it is from 32 to 2048 pixels.
 void check_texture_size(int pixels);
 
-/// Throws InputError unless the folder is new, empty or holds baked people: only people make room
-/// for people.
+/// Throws InputError unless the folder is new, empty or holds character library: only a character
+/// library is replaced for people.
 void check_replaceable(const std::filesystem::path& folder);
 
 /// The palettes of all characters, whose joints these are, one character after the other; see

@@ -16,7 +16,7 @@ constexpr double kElevation = 20 * std::numbers::pi / 180;  // radians
 constexpr float kMarginPx = 2;                              // pixels
 constexpr float kUnseen = -1e9F;                            // depth where nobody is seen
 
-// Right and up in the camera's picture, and towards the camera.
+// Right and up in the camera's image, and toward the camera.
 Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
   const auto c = static_cast<float>(std::cos(kElevation));
   const auto s = static_cast<float>(std::sin(kElevation));

@@ -1,4 +1,4 @@
-// Pictures of a dressed person that the lower levels of detail are colored with.
+// Images of a dressed person that the lower levels of detail are colored with.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace throng::skinning {
 
-/// A person seen from the front (left half of the pictures) and from behind (right half), slightly
+/// A person seen from the front (left half of the images) and from behind (right half), slightly
 /// from above so that crowns and shoulders show.
 class Portrait {
  public:

@@ -1,4 +1,4 @@
-// Which pixels a triangle covers.
+// Rasterization of a triangle.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace throng::skinning {
 
-/// Calls visit(x, y, barycentric) for every pixel of a width x height picture whose center lies in
+/// Calls visit(x, y, barycentric) for every pixel of a width x height image whose center lies in
 /// the triangle (either winding), row by row. Corners are in pixels; pixel i covers [i, i + 1).
 template <typename Visit>
 void for_each_pixel(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c,

@@ -26,7 +26,7 @@ struct Turning {
   int times = 1;
 };
 
-// Which turns, how often, come nearest to an angle.
+// Combination of turns that comes nearest to an angle.
 Turning turning_of(const ClipSet& clips, double angle_rad) {
   Turning best;
   double best_error = 1e9;
@@ -152,7 +152,7 @@ double RestLayer::idle_once(double begin, double end) {
       return until;
     }
   }
-  // Whoever has nothing to look at sees it when it comes.
+  // A person who is looking at nothing notices it when it comes.
   const double until = gaze == Gaze::none ? gaze_begins(begin, end) : end;
   const double left_s = (until - begin) * trajectory_.dt_s();
   const Clip& stand = clips_.nearest("idle");

@@ -12,7 +12,7 @@ namespace throng::skinning {
 
 namespace {
 
-// What a name says: a part of the body and its side.
+// Meaning of a bone name: a part of the body and its side.
 struct Meaning {
   std::string part;  // lower case, words joined: "upleg"
   char side = 'm';   // 'l', 'r' or 'm' for the middle

@@ -172,7 +172,7 @@ class ModelReader {
     return image;
   }
 
-  // Where files say that their pictures are is often where they were on another machine.
+  // Texture paths in files are often those of another machine.
   fs::path file_of(std::string name) const {
     std::replace(name.begin(), name.end(), '\\', '/');
     const fs::path stated(name);
@@ -214,7 +214,7 @@ class ModelReader {
       }
     }
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      // What hangs on no bone follows the node that it is attached to.
+      // Meshes without a bone follow the node that they are attached to.
       const bool loose = sums[i] < 1e-4F;
       if (loose) part.weights[i] = {{node, 1}};
       const Eigen::Matrix4f matrix =

@@ -9,12 +9,12 @@ namespace throng::skinning {
 
 namespace {
 
-// Nobody moves faster; a longer way within a step is a jump and no walk.
+// Nobody moves faster; a longer displacement within a step is a jump.
 constexpr double kMaxSpeedMps = 12;
-// Who gets no further than this within this time stands.
+// A person who moves less than this within this time is standing.
 constexpr double kShuffleM = 0.02;
 constexpr double kPauseS = 0.9;
-// Shorter ways are no walk.
+// Shorter displacements are not walks.
 constexpr double kMinLengthM = 0.12;
 
 }  // namespace

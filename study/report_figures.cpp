@@ -146,7 +146,7 @@ std::vector<metrics::NearPerson> people_at(const world::Trace& trace, std::size_
   return people;
 }
 
-// What the maps and the fundamental diagram show, from one sample a second.
+// Data of the maps and the fundamental diagram, from one sample per second.
 struct GroundFigures {
   FieldMap density;
   FieldMap pressure;

@@ -50,7 +50,7 @@ std::string exits_table(const MeasuredRun& run) {
       "<th>clogs</th><th>clogging index</th><th>longest queue</th><th>longest gap (s)</th>"
       "<th>max density (1/m²)</th><th>max pressure (1/s²)</th></tr>\n";
   for (const metrics::ExitTotals& exit : run.metrics.exits) {
-    // Where nobody wanted to go out, no flow is none, not 0.
+    // Without demand the flow is undefined, not 0.
     const auto flow_cell = [&](double per) {
       const auto& flow = exit.demand_flow_per_s;
       return flow ? fmt::format("{:.2f}", *flow / per) : std::string();
@@ -78,7 +78,7 @@ std::string shown_when_chosen(std::size_t runs) {
   return style + "@media print{section{display:block}}.printing section{display:block}";
 }
 
-/// Exits, maps, diagram and ways of one run.
+/// Exits, maps, diagram and paths of one run.
 std::string run_section(std::size_t index, const MeasuredRun& run) {
   const auto chart = [&](const std::string& title, const std::string& name) {
     return chart_frame(title, fmt::format("data-chart=\"{}\" data-run=\"{}\"", name, index));

@@ -26,8 +26,8 @@ export const colours = {
 // A browser draws as many marks as SVG, which stays sharp in print; more are pixels.
 const MOST_SVG_MARKS = 5000;
 
-// What A4 holds between usual margins, in px: while a page is being laid out for paper, elements
-// still tell the width that they have on the screen.
+// Width of A4 between usual margins, in px: during the layout for print, elements still report
+// their width on the screen.
 const PAPER_WIDTH = 690;
 
 export const axis = (name, more) => ({

@@ -1,4 +1,4 @@
-// What happens where, over the floor plan: maps of values, and people's ways.
+// Charts over the floor plan: maps of values, and people's paths.
 import { axis, colours, escaped, number } from './charts.js';
 
 const margin = { left: 62, right: 110, top: 36, bottom: 48 };

@@ -12,7 +12,7 @@ export function timeline({ runs }, element) {
     const stop = api.coord([until, row]);
     const thickness = api.size([0, 1])[1] * 0.7;
     const { x, y, width, height } = params.coordSys;
-    // What zooming moves out of sight is cut off.
+    // Content outside the zoomed range is clipped.
     const left = Math.max(start[0], x);
     const right = Math.min(stop[0], x + width);
     if (right <= left) return null;

@@ -179,8 +179,8 @@ bool RowDataset::is_whole_chunk(hsize_t count) const {
   return as_in_file_ && has_values && count == rows_per_chunk_ && shape_[0] % rows_per_chunk_ == 0;
 }
 
-// What the dataset's filters would make of a chunk: all first bytes of its values, all second ones
-// and so on, as one zlib stream.
+// Output of the dataset's filters for a chunk: all first bytes of its values, all second ones and
+// so on, as one zlib stream.
 void RowDataset::append_chunk(const void* data) {
   std::vector<hsize_t> start(shape_.size(), 0);
   start[0] = shape_[0];

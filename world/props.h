@@ -1,4 +1,4 @@
-// Things that stand about in a place: placed one by one, or scattered by a seed.
+// Props of a scenario: placed one by one, or scattered by a seed.
 #pragma once
 
 #include <Eigen/Core>

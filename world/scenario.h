@@ -43,9 +43,8 @@ struct Exit {
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
 };
 
-/// What a building's walls look like. by_id: plaster or brick, by the building's number. The
-/// numbers are those of shaders/wall.frag.glsl, which has others for what render/ adds
-/// (render::WallLook).
+/// Appearance of a building's walls. by_id: plaster or brick, by the building's number. The numbers
+/// are those of shaders/wall.frag.glsl, which has others for what render/ adds (render::WallLook).
 enum class Facade : std::uint8_t { by_id = 0, plaster = 1, brick = 2, glass = 3, hedge = 8 };
 
 /// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.
@@ -86,13 +85,13 @@ struct Scenario {
   std::filesystem::path scene_file;     ///< Menge scene XML, absolute
   std::filesystem::path behavior_file;  ///< Menge behavior XML, absolute
   std::string crowd_model;              ///< pedestrian model that it was made for; empty: any
-  Rectangle ground;                     ///< what is drawn as ground
+  Rectangle ground;                     ///< what is rendered as ground
   std::string ground_material;          ///< "pavers", "asphalt", "grass", "concrete"
   Rectangle inside;                     ///< who leaves this rectangle has escaped
   std::vector<Exit> exits;
   std::vector<Building> buildings;
   std::vector<DroneStart> drones;
-  /// Agents that are not people (the paper's disaster is an agent); neither drawn nor counted.
+  /// Agents that are not people (the paper's disaster is an agent); neither rendered nor counted.
   /// Those of `disasters` are among them.
   std::vector<int> disaster_agents;
   std::vector<Disaster> disasters;
@@ -106,9 +105,9 @@ struct Scenario {
 };
 
 /// Reads and checks a scenario file. `id` becomes Scenario::id. One that `extends` another file of
-/// its folder says only what differs: fields of objects replace those of the same name, anything
-/// else replaces the whole (RFC 7396). Throws InputError (file, JSON
-/// pointer, found, expected) for bad content and EnvironmentError when the file cannot be read.
+/// its folder contains only the differences: fields of objects replace those of the same name,
+/// anything else replaces the whole (RFC 7396). Throws InputError (file, JSON pointer, found,
+/// expected) for bad content and EnvironmentError when the file cannot be read.
 Scenario load_scenario(const std::filesystem::path& file, std::string id);
 
 /// Leaves this share (0 to 1) of the scattered props where they are, chosen by the seed, and takes

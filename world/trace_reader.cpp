@@ -120,7 +120,7 @@ class Reader {
     mark_lying(trace);
   }
 
-  /// Files written before kFallen covered the states whose names say that people lie.
+  /// Files written before kFallen covered the states whose names imply that people lie.
   static void mark_lying(Trace& trace) {
     std::vector<bool> is_lying;
     for (const std::string& name : trace.header.state_names) is_lying.push_back(is_down(name));

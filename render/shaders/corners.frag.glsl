@@ -1,4 +1,4 @@
-// Whatever has been lit corner by corner.
+// Geometry lit per vertex.
 in vec3 lit;
 flat in uint id;
 

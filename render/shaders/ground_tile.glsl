@@ -1,5 +1,5 @@
-// Irregularity for the grounds, repeated with the tile that their textures hold. `salt` tells
-// patterns of one material apart.
+// Irregularity for the grounds, repeated with the tile that their textures hold. `salt`
+// distinguishes patterns of one material apart.
 const float kTileM = 14.4;  // also in render/ground_texture.h
 
 ivec2 wrapped(ivec2 cell, ivec2 count) {
@@ -42,7 +42,7 @@ float spot(vec2 p, float per_meter, float share, float radius, int salt) {
   return pick(cell, count, salt + 2) < share ? clamp(1.0 - away / r, 0.0, 1.0) : 0.0;
 }
 
-// Thin winding lines, where `where` says that there are any.
+// Thin winding lines, where `where` selects them.
 float cracks(vec2 p, float per_meter, float where, int salt) {
   float level = grain(p, per_meter, salt) + 0.35 * grain(p, 5.0 * per_meter, salt + 1) - 0.67;
   return smoothstep(0.016, 0.004, abs(level)) * step(where, grain(p, 0.21, salt + 2));

@@ -84,7 +84,7 @@ uint part() { return skin.z; }
 
 uint tint_slot() { return part() >> 24 & 0x7Fu; }
 
-// Whether it is a thing of its own: an umbrella.
+// Whether it is a separate object: an umbrella.
 bool is_apart() { return part() >> 31 != 0u; }
 
 uint instance_id() { return is_apart() ? pose.w | 0x40000000u : pose.w; }  // kIdUmbrella
@@ -96,14 +96,14 @@ uint tint_of(uint slot) {
 }
 
 #ifdef SILHOUETTES
-flat out ivec2 to_tile;  // from the picture, pixels
+flat out ivec2 to_tile;  // from the image, pixels
 
-// What is apart leaves no silhouette: it leads out of every atlas.
+// Separate parts have no silhouette: they map outside every atlas.
 ivec2 way_to_tile() { return is_apart() ? ivec2(1 << 24) : shift(); }
 #endif
 
 #if defined(CORNERS) || defined(LIT_CORNERS)
-// What a corner receives of sun, sky and lamps.
+// Light of sun, sky and lamps at a vertex.
 vec3 light_at(vec3 world, vec3 n) {
   vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z);
 #ifdef LAMPS

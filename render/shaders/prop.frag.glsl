@@ -1,5 +1,5 @@
-// Things that stand about; the finishes are those of render/prop_shapes.h. With LEAVES: cards with
-// leaves on them and holes between.
+// Props; the finishes are those of render/prop_shapes.h. With LEAVES: cards with leaves on them and
+// holes between.
 in vec3 world;
 in vec3 normal;
 in vec2 card;

@@ -28,7 +28,7 @@ vec4 project(vec3 world) {
 }
 
 // The same, moved by whole pixels. The window position is first rounded to the rasterizer's own
-// grid: a triangle then covers the same pixels wherever, and in whichever viewport, it is drawn.
+// grid: a triangle then covers the same pixels wherever, and in whichever viewport, it is rendered.
 vec4 project_movable(vec3 world, ivec2 shift) {
   vec3 p = seen(world);
   if (p.z < kNear) {  // will be clipped, and has no window position

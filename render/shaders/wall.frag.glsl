@@ -111,8 +111,8 @@ void add_sign(inout Surface s, ivec2 key, int bay_number, vec2 p, vec2 bay, vec2
   s.albedo = mix(s.albedo, paint.r > 0.3 ? vec3(0.05) : vec3(0.55, 0.53, 0.46), board * letters);
 }
 
-// What a pane mirrors: the sky above, the street and the houses across it below; the more of it the
-// flatter one looks (Fresnel's law in Schlick's form, 1994, for two panes of glass).
+// Reflection of a pane: the sky above, the street and the houses across it below; stronger at
+// grazing angles (Fresnel's law in Schlick's form, 1994, for two panes of glass).
 vec3 mirrored_in_glass() {
   vec3 to_eye = normalize(light.eye.xyz - world);
   vec3 d = reflect(-to_eye, normal);
@@ -138,7 +138,7 @@ void add_door(inout Surface s, ivec2 key, vec2 p, vec2 width) {
 }
 
 // The doorway of an exit (render/place_details.h): a stone frame, a lit sign above, and either a dark
-// passage between opened leaves or shut ones, each about 1 m wide.
+// passage between opened leaves or closed ones, each about 1 m wide.
 Surface exit_door(vec2 p, vec2 size, bool open) {
   vec2 width = fwidth(p);
   float inside = band(p.x, 0.14, size.x - 0.14, width.x) * band(p.y, -1.0, size.y - 0.34, width.y);
@@ -154,7 +154,7 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
   s.albedo = vec3(0.46, 0.44, 0.40);
-  // Light falls a little way in along the floor.
+  // Light reaches a short distance in along the floor.
   vec3 passage = mix(vec3(0.10, 0.095, 0.085), vec3(0.018), clamp(p.y / 1.3, 0.0, 1.0));
   vec3 shut = mix(vec3(0.10, 0.11, 0.12) * (1.0 - 0.6 * edge), vec3(0.03), pane);
   float jamb = 1.0 - band(p.x, 0.22, size.x - 0.22, width.x);
@@ -168,7 +168,7 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
   return s;
 }
 
-// What stands on a roof: gray metal with slots, lighter on top.
+// Roof installations: gray metal with slots, lighter on top.
 Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
   vec2 width = fwidth(p);
   float tone = 0.8 + 0.4 * hash(key + ivec2(int(size.x * 53.0), int(size.y * 31.0)));
@@ -198,7 +198,7 @@ Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
   return s;
 }
 
-// A clipped hedge: tufts of leaves, darker towards the ground.
+// A clipped hedge: tufts of leaves, darker toward the ground.
 Surface hedge(vec2 p, vec2 size) {
   float fade = clamp(1.5 - 6.0 * max(fwidth(p.x), fwidth(p.y)), 0.0, 1.0);
   float tufts = noise(p * 3.1) + 0.7 * (noise(p * 9.7) - 0.5) * fade;

@@ -1,4 +1,4 @@
-// What a picture's quality means, in one table. The job's word picks a row.
+// Rendering quality levels, in one table. The job's keyword selects a row.
 #pragma once
 
 #include <array>
@@ -20,12 +20,12 @@ struct QualitySettings {
   int people_places;
   int shadow_texels;  ///< along each side of the shadow map; 0: no shadows
   bool fine_shadows;  ///< edges on ground and walls as soft as the sun's disc makes them
-  /// Along the outlines of people and things: on the CPU by what the ids say, on a GPU with
-  /// kSamples a pixel.
+  /// Along the outlines of people and props: on the CPU from the ids, on a GPU with kSamples a
+  /// pixel.
   bool smooth_edges;
   int supersampling;      ///< samples of color along each side of a pixel
   double detail;          ///< people's levels of detail are chosen as if they were so much larger
-  double proxy_below_px;  ///< smaller people are drawn at their last level
+  double proxy_below_px;  ///< smaller people are rendered at their last level
 };
 
 /// Samples of color per pixel on a GPU.

@@ -28,7 +28,7 @@ class Unpacking : public ::testing::Test {
   }
   ~Unpacking() override { fs::remove_all(outer); }
 
-  /// What is refused, and where; "" when nothing is.
+  /// Location and value that are refused; "" when nothing is.
   std::string refusal_of(const std::string& bytes, const UnpackLimits& limits = {}) {
     fs::remove_all(folder);
     fs::create_directories(folder);
@@ -153,7 +153,7 @@ TEST_F(Unpacking, DamagedAndForeignFilesAreRefused) {
     const std::string whole = packed(packing, {{"a", text}, {"b", text}});
     EXPECT_NE(refusal_of(whole.substr(0, whole.size() / 3)), "");
   }
-  // An entry that says it is encrypted: bit 0 of the flags, in both of its headers.
+  // An entry marked as encrypted: bit 0 of the flags, in both of its headers.
   std::string zip = packed(Packing::zip_stored, {{"a", "hello"}});
   constexpr std::size_t kLocalFlags = 6;
   constexpr std::size_t kCentralFlags = 8;
@@ -161,7 +161,7 @@ TEST_F(Unpacking, DamagedAndForeignFilesAreRefused) {
   const std::size_t central = zip.find("PK\x01\x02");
   zip[central + kCentralFlags] = static_cast<char>(zip[central + kCentralFlags] | 1);
   EXPECT_THAT(refusal_of(zip), HasSubstr("encrypted"));
-  // Compressed by a method whose reader takes what memory it is told to: LZMA is 14.
+  // Compressed by a method whose reader allocates what the file requests: LZMA is 14.
   zip = packed(Packing::zip_stored, {{"a", "hello"}});
   constexpr std::size_t kLocalMethod = 8;
   constexpr std::size_t kCentralMethod = 10;

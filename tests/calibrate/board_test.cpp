@@ -1,4 +1,4 @@
-// Boards found in pictures: real ones, and drawn ones whose corners are known.
+// Boards found in images: real ones, and rendered ones whose corners are known.
 #include "calibrate/board.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ GrayImage gray_of(const cv::Mat& image) {
   return {image.cols, image.rows, {image.datastart, image.dataend}};
 }
 
-/// A flat picture seen askew: 900 x 700 pixels with noise of the lens's blur.
+/// A flat image seen askew: 900 x 700 pixels with noise of the lens's blur.
 struct Askew {
   cv::Mat homography;
   GrayImage image;
@@ -50,7 +50,7 @@ Askew askew(const cv::Mat& flat, double shift = 0) {
   return result;
 }
 
-/// Where a point of the flat picture (pixels from its corner) is seen.
+/// Projection of a point of the flat image (pixels from its corner).
 Eigen::Vector2d seen(const Askew& askew, double x, double y) {
   // The middle of a pixel is half a pixel from its corner, on both sides.
   std::vector<cv::Point2d> to;

@@ -164,7 +164,7 @@ TEST_F(Files, ResultsSayHowSureTheyAre) {
   for (const json& view : value.at("views")) outliers += view.at("outliers").size();
   EXPECT_EQ(outliers, found.rejected);
   EXPECT_EQ(camera_from_json(value, "x").parameters, found.parameters);
-  // What the text says is what OpenCV reads.
+  // OpenCV reads the values of the text.
   const cv::FileStorage yaml(opencv_yaml(found), cv::FileStorage::READ | cv::FileStorage::MEMORY);
   cv::Mat matrix;
   cv::Mat poses;

@@ -50,7 +50,7 @@ TEST(Intrinsics, FindSkew) {
 }
 
 // 200 repetitions: errors are within three of the standard deviations that go with them, the whole
-// error is as large as the whole covariance says, and the residuals are the noise.
+// error is as large as the covariance predicts, and the residuals are the noise.
 TEST(Intrinsics, ErrorsAreWhatTheCovarianceSays) {
   constexpr int kRepetitions = 200;
   constexpr double kSigma = 0.2;
@@ -148,7 +148,7 @@ TEST(Intrinsics, WarnOfFlatBoards) {
 }
 
 TEST(Intrinsics, SayWhichParametersTheDataLeaveOpen) {
-  // Boards exactly frontal: nothing tells focal length from distance.
+  // Boards exactly frontal: focal length and distance are not separable.
   SyntheticCamera camera;
   Correspondences all;
   all.size = camera.size;

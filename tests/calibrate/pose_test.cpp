@@ -42,7 +42,7 @@ Eigen::Vector3d ground_point(const CameraFile& file, const camera::Pose& pose, R
   }
 }
 
-/// Where the calibration has the camera of an image.
+/// Position of an image's camera in the calibration.
 Eigen::Vector3d center_of(const Calibration& calibration, const std::string& image) {
   for (const ViewResult& view : calibration.views) {
     if (view.name == image) return view.pose.pose().center();

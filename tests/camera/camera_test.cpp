@@ -23,7 +23,7 @@ Camera camera_looking(double yaw_rad, double pitch_rad) {
           pose_looking({10, -4, 25}, yaw_rad, pitch_rad)};
 }
 
-// Where a point a step away from a point on the optical axis is seen, relative to the center.
+// Projection of a point one step away from the optical axis, relative to the center.
 Vector2d seen_towards(const Camera& camera, const Vector3d& step) {
   const Vector3d on_axis = camera.pose.center() + 20 * camera.pose.R.row(2).transpose();
   return camera.project(on_axis + step).pixel - camera.project(on_axis).pixel;

@@ -289,7 +289,7 @@ class Crash(unittest.TestCase):
         manifest = self.server.request("GET", f"/v1/jobs/{job}/manifest")
         self.assertEqual([run["run"] for run in manifest["runs"]], ["run000"])
         self.assertEqual(manifest["failed_runs"], [{"run": "run001", "task": "run001/shard0001"}])
-        # What there is of it is whole.
+        # Everything present is complete.
         checked = subprocess.run([THRONG, "validate", str(self.server.data / "jobs" / job / "dataset")],
                                  capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)

@@ -106,7 +106,7 @@ TEST(ShippedAlarms, AreThoseOfTheirFiles) {
   }
 }
 
-// Without states that say it: who begins to head for an exit after the alarm, or for another one.
+// Without such states: people who begin to head for an exit after the alarm, or for another one.
 TEST(Noticing, IsANewIntentWhereStatesDoNotTell) {
   world::Scenario place = place_with_door(2);
   add_alarm(place, 5);

@@ -203,7 +203,7 @@ TEST(ExitSeries, ACrowdThatStopsFlowsCongestsClogsAndRecovers) {
   }
 }
 
-// Who finds the door blocked did not wait before they came.
+// A person who finds the door blocked did not wait before arriving.
 TEST(ExitSeries, TheGapStartsWithTheDemand) {
   std::vector<Walk> walks;
   for (const Vector2d& place : block(7, 7, 0.42)) {

@@ -74,7 +74,8 @@ TEST(EarliestOut, AtOneDoorIsTheQueueOfArrivals) {
   EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{3, 3, 4, 4, 5, 5, 22, 23}));
 }
 
-// Who can take either door must leave the near one to those who cannot: only rerouting finds that.
+// People who can take either door must leave the near one to those who cannot: only rerouting finds
+// that.
 TEST(EarliestOut, PeopleMakeRoomForThoseWhoHaveNoChoice) {
   const double never = std::numeric_limits<double>::infinity();
   Departures departures;

@@ -79,7 +79,7 @@ TEST(Gaps, NobodyAndOneHaveNoGaps) {
   EXPECT_TRUE(to_json(figures).at("median_s").is_null());
 }
 
-// Independent gaps drawn from the law, as a door's are: within three standard errors of the
+// Independent gaps sampled from the law, as a door's are: within three standard errors of the
 // exponent.
 TEST(Gaps, ARandomSampleGivesTheExponentWithinItsError) {
   int within_one = 0;

@@ -131,7 +131,7 @@ TEST(WalkingDistance, IsStraightWhereTheGroundIsFree) {
 
 TEST(WalkingDistance, ThroughTwoCornersOfABuildingIsNoWay) {
   const WalkingDistance distance({{-20, -20}, {1, 20}}, {box({-6, -1}, {-4, 1})}, door(2));
-  // The straight way to (0, 1) runs along the building's upper edge; that to (0, 0) through its
+  // The straight path to (0, 1) runs along the building's upper edge; that to (0, 0) through its
   // middle.
   EXPECT_NEAR(*distance.from({-10, 1}), 10, 0.2);
   EXPECT_GT(*distance.from({-10, 0}), 10.1);
@@ -254,7 +254,7 @@ TEST(ExposureFigures, CrushIsAQuestionOfPeoplePerSquareMeter) {
     const Exposure above_six = lattice_exposure(1 / std::sqrt(6.5), radius_m, 0);
     EXPECT_GE(above_six.above_person_s.back(), inner - 1e-6) << radius_m;
   }
-  // The discs' own figure says how close they are packed: 4 per m² of 1.8 possible ones.
+  // The discs' own figure is their packing density: 4 per m² of 1.8 possible ones.
   EXPECT_GT(lattice_exposure(0.5, 0.4F, 0).disc_packing_person_s[0], inner - 1e-6);
   EXPECT_EQ(lattice_exposure(0.5, 0.1F, 0).disc_packing_person_s[0], 0);
 }

@@ -15,7 +15,7 @@ Remaining remaining_in(const world::Trace& trace, const world::Scenario& scenari
                       walking_distances(scenario));
 }
 
-/// Sets what the last step says of somebody.
+/// Sets a person's state at the last step.
 void mark_end(world::Trace& trace, std::size_t agent, std::uint8_t flags, std::int8_t intent) {
   const std::size_t at = trace.at(trace.steps() - 1, agent);
   trace.flags[at] |= flags;

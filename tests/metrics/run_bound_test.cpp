@@ -132,7 +132,7 @@ void expect_bounded(const world::Trace& trace, const world::Scenario& scenario) 
 
 // People who go where they like at what speed they like: through the door one behind the other with
 // no distance, beside the door, faster than they desire, arriving late, leaving before the alarm,
-// gone in the middle of the place, and with the door shut before their eyes.
+// gone in the middle of the place, and with the door closed before their eyes.
 TEST(LowerBound, IsBeatenByNobody) {
   Random random(17, Stream::wind);
   for (int trial = 0; trial < 40; ++trial) {
@@ -172,7 +172,7 @@ TEST(LowerBound, IsBeatenByNobody) {
   }
 }
 
-// 200 people who stand at a door of 2 m: no more pass in t seconds than its capacity says.
+// 200 people who stand at a door of 2 m: no more pass in t seconds than its capacity allows.
 TEST(LowerBound, IsLimitedByTheDoor) {
   world::Scenario scenario = place_with_door(2);
   add_alarm(scenario, 0);

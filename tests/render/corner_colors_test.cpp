@@ -22,7 +22,7 @@ skinning::Texture picture_of(Value value) {
   return picture;
 }
 
-/// The picture as `cells` x `cells` squares of two triangles each.
+/// The image as `cells` x `cells` squares of two triangles each.
 struct Grid {
   std::vector<PicturedTriangle> triangles;
   std::size_t corners;

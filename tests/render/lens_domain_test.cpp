@@ -121,7 +121,7 @@ TEST_F(LensDomain, PointsBeyondTheModelDoNotProject) {
         continue;
       }
       ++seen;
-      // What is seen at the pixel is the point: the model has not turned back before.
+      // The pixel shows the point: the model is monotonic up to there.
       EXPECT_LT((camera.unproject(place.pixel, place.depth_m) - point).norm(),
                 1e-4 * place.depth_m + 1e-6)
           << point.transpose();
@@ -153,7 +153,7 @@ TEST_F(LensDomain, KeypointsAreLabeledWhereTheModelReaches) {
   }
 }
 
-/// Where the ray through a pixel meets the ground or the block, as its z in the camera's frame.
+/// Intersection of a pixel's ray with the ground or the block, as its z in the camera's frame.
 double true_depth(const Camera& camera, const Vector2d& pixel, std::uint32_t id) {
   const Vector3d from = camera.pose.center();
   const Vector3d direction = camera.unproject(pixel, 1) - from;

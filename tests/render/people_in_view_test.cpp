@@ -1,4 +1,4 @@
-// Who of a scene is in view, and who of them is worth textures.
+// People of a scene in view, and those who need textures.
 #include "render/people_in_view.h"
 
 #include <gtest/gtest.h>

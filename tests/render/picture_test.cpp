@@ -1,4 +1,4 @@
-// Color, id and depth against what the camera's geometry says they must be.
+// Color, id and depth against the camera's geometry.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace throng::render {
 namespace {
 
-/// Where a ray from the camera through a box-coordinate point first meets an axis-aligned box or
+/// First intersection of the camera ray through a box-coordinate point with an axis-aligned box or
 /// the ground: id and camera depth.
 struct Hit {
   std::uint32_t id = kIdNothing;
@@ -272,8 +272,8 @@ TEST(Picture, TintColorsClothesAndNotSkin) {
   EXPECT_EQ(pixel_at(in_red, 1.56), pixel_at(in_blue, 1.56)) << "chin";
 }
 
-// Every color at once, as the lower levels of detail have them: where a portrait says that all of
-// a texel is of one tint, it looks like a part of that tint.
+// Every color at once, as the lower levels of detail have them: where a portrait defines that all
+// of a texel is of one tint, it looks like a part of that tint.
 TEST(Picture, PortraitsAreTintedTexelByTexel) {
   using skinning::Tint;
   const skinning::Population people = synthetic_people(1);

@@ -83,7 +83,7 @@ TEST_P(PropOutline, IdsCoverWhatTheProjectedMeshCovers) {
     wrong += is_prop != (expected.count(i) == 1) ? 1 : 0;
   }
   EXPECT_GT(drawn, 100U);
-  // Where an edge passes within 1/256 pixel of a pixel's middle either answer is right.
+  // If an edge passes within 1/256 pixel of a pixel's center, either answer is right.
   EXPECT_LE(wrong, drawn / 100);
 }
 

@@ -1,4 +1,4 @@
-// What may differ between the qualities of a picture, and what may not.
+// Permitted differences between rendering qualities.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +85,7 @@ double penumbra_m(double height_m, Quality quality) {
   lighting.sun_elevation_rad = 45 * kDegree;
   Stage stage(open_ground({block(0, 6, -8, 8, height_m)}), lighting, {.quality = quality});
   Stage bare(open_ground(), lighting, {.quality = quality});
-  // The shadow's edge is in the middle of the picture, its direction is up.
+  // The shadow's edge is in the middle of the image, its direction is up.
   const camera::Camera camera = camera_at({-height_m, 0, 9}, 0, -90, 200, 400, 8);
   const Frame frame = stage.draw(camera);
   const Frame lit = bare.draw(camera);
@@ -154,7 +154,7 @@ TEST(Quality, SmoothEdgesAreNearTheShareOfAPixelThatALineCovers) {
     };
     const double before = error();
     smooth_edges(frame);
-    // Steps of a pixel or two say little about the line between them.
+    // Steps of a pixel or two do not determine the line between them.
     const double flatness = std::max(std::abs(slope), 1 / std::abs(slope));
     EXPECT_LT(error(), (flatness > 4   ? 0.45
                         : flatness > 2 ? 0.6

@@ -1,4 +1,4 @@
-// Spheres, drawn as a user's mesh, against what geometry says of them: through pinholes and lenses.
+// Spheres, rendered as a user's mesh, against analytic geometry: through pinholes and lenses.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -113,7 +113,7 @@ TEST_F(Spheres, CoverWhatALensMakesOfTheirOutline) {
         const bool is_sphere = frame.id[index_of(frame, x, y)] == kIdProp;
         expected += inside_px > 0 ? 1 : 0;
         drawn += is_sphere ? 1 : 0;
-        // Ids are those of the nearest pixel of a wider picture.
+        // Ids are those of the nearest pixel of a wider image.
         if (std::abs(inside_px) < 1) continue;
         ASSERT_EQ(is_sphere, inside_px > 0) << x << ' ' << y << ' ' << inside_px;
       }

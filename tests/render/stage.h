@@ -74,7 +74,7 @@ inline int brightness(const Frame& frame, int x, int y) {
   return frame.rgb[i] + frame.rgb[i + 1] + frame.rgb[i + 2];
 }
 
-/// A renderer of `scenario` on the CPU, with the population it draws.
+/// A renderer of `scenario` on the CPU, with the population it renders.
 class Stage {
  public:
   explicit Stage(world::Scenario scenario, Environment lighting = {},

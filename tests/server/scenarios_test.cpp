@@ -119,7 +119,7 @@ TEST_F(Uploads, WhatIsWrongIsSaidWithFileElementAndRemedy) {
   testing::Yard walled;
   walled.scenario["exits"][0]["goals"] = json::array({json::array({7, 0})});
   const httplib::Result answer = upload(packed(Packing::zip, yard_files(walled)));
-  // It can be used; whether that is wise is for its owner to say.
+  // It can be used, at the owner's risk.
   ASSERT_EQ(answer->status, 201) << answer->body;
   const json findings = json::parse(answer->body)["findings"];
   ASSERT_FALSE(findings.empty());

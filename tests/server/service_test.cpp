@@ -116,7 +116,7 @@ TEST_F(ServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
   EXPECT_EQ(service.queue().get(running)->state, JobState::succeeded);
   EXPECT_EQ(service.queue().get(running)->attempt, 2);
   EXPECT_EQ(service.queue().get(queued)->attempt, 1);
-  // What had been published was not done again: 6 tasks per job in all.
+  // Published tasks were not repeated: 6 tasks per job in all.
   EXPECT_EQ(done_before + second.done().size(), 12U);
 }
 
@@ -208,7 +208,7 @@ TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   ServiceOptions limited = options();
   limited.housekeeping.free_bytes = [&] { return free.load(); };
   limited.housekeeping.min_free_bytes = 100;
-  // Fails as a worker does that cannot write, once there is no room.
+  // Fails like a worker that cannot write, once there is no free space.
   executor.before = [&](const Task& task) {
     if (task.kind == Task::Kind::render) free = 50;
     return free < 100 ? TaskResult{Outcome::environment_error, 3, "no space left", {}}

@@ -162,7 +162,7 @@ TEST(Flight, OneDroneDoesNotDisturbAnotherFarAway) {
 }
 
 TEST(FlightWorld, ACraftThatCannotHoldLeansAsFarAsItMay) {
-  // A storm that no F450 withstands: it is blown away, upright, and says that it leans too far.
+  // A storm that no F450 withstands: it is blown away, upright, and reports that it leans too far.
   FlightWorld world({}, 1.0 / 480);
   const Airframe frame = airframe_named("f450");
   world.add(frame, {0, 0, 50}, 0);

@@ -1,4 +1,4 @@
-// What a counting camera makes of the truth.
+// The estimate of a counting camera against the truth.
 #include "sim/perception.h"
 
 #include <fmt/core.h>

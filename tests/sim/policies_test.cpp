@@ -1,4 +1,4 @@
-// What each policy does with what it sees, flown without physics.
+// Decisions of each policy for given observations, flown without physics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,7 +72,7 @@ TEST(Policies, FollowDensityLooksAtTheCrowd) {
   view.people.insert(view.people.end(), few.begin(), few.end());
   Vector3d at;
   for (int i = 0; i < 200; ++i) at = flight.step(view);
-  // The camera looks to the left (+y) at 45 degrees: it meets the ground 12 m that way.
+  // The camera looks to the left (+y) at 45 degrees: it meets the ground 12 m to the left.
   EXPECT_LT((at.head<2>() + Vector2d(0, 12) - Vector2d(10, 5)).norm(), 2.5);
 }
 
@@ -111,7 +111,7 @@ TEST(Policies, SignageStandsBeforeTheExitWithRoom) {
   EXPECT_LT(shown, 290) << "and lets them go";
 }
 
-/// Whoever is near a lit beacon follows it from then on at 2 m/s; others stay.
+/// People near an active beacon follow it from then on at 2 m/s; others stay.
 void follow(WorldView& view, const Vector3d& drone, bool beacon) {
   for (PersonSeen& person : view.people) {
     const Vector2d offset = drone.head<2>() - person.position;

@@ -1,4 +1,4 @@
-// What the model of queues makes of where people run.
+// The queue model against people's choice of exits.
 #include "sim/queue_model.h"
 
 #include <gtest/gtest.h>
@@ -62,8 +62,8 @@ TEST(QueueModel, WhoHasNotNoticedIsExpectedAtTheNearestOpenExit) {
 }
 
 TEST(QueueModel, LearnsWherePeopleRunFromWhereTheyAre) {
-  // Half of the people beside the left door run to the right one, as if told so; those who have not
-  // noticed will do alike.
+  // Half of the people beside the left door run to the right one, as if informed so; those who have
+  // not noticed will do alike.
   const world::Scenario place = yard();
   std::vector<PersonSeen> people = people_about({-8, 0}, 20, 0);
   for (std::size_t i = 0; i < people.size(); i += 2) people[i].exit = 1;

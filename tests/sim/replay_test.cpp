@@ -1,5 +1,4 @@
-// Recorded people as a crowd: where they are when, which way they face, and what a run makes of
-// them.
+// Recorded people as a crowd: their positions and headings over time, and their use in them.
 #include <gtest/gtest.h>
 
 #include <cmath>

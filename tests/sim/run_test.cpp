@@ -87,7 +87,7 @@ TEST(Run, SameSpecGivesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(hashes.size(), 1U);
 }
 
-/// The events of a run of a shipped scenario, and what its header says.
+/// The events of a run of a shipped scenario, and its header.
 struct Told : public RunObserver {
   void begin(const world::TraceHeader& told) override { header = told; }
   void step(const world::CrowdStep& step) override { steps.push_back(step); }
@@ -333,7 +333,7 @@ TEST(Run, NobodyWalksThroughTheThingsThatStandInTheSquare) {
   }
 }
 
-/// Whether the square with nothing but a bench is refused, and else what is said against it.
+/// Whether the square with nothing but a bench is refused, and the message.
 std::pair<bool, std::vector<Problem>> verdict_on_bench(const Eigen::Vector2d& position,
                                                        std::size_t placed) {
   world::Scenario scenario = city_square();

@@ -1,4 +1,4 @@
-// The sensors' errors have the sizes and the durations that they are said to have.
+// The sensors' errors have the documented sizes and durations.
 #include "sim/sensors.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// That a crowd drawn from few bodies shows no twins side by side.
+// A crowd sampled from few characters shows no twins side by side.
 #include "skinning/appearance.h"
 
 #include <gtest/gtest.h>

@@ -53,7 +53,7 @@ class ImportTest : public testing::Test {
     return load_population(folder / "out");
   }
 
-  /// What an import complains of.
+  /// Errors of an import.
   std::string complaint(const fs::path& description, const ImportOptions& options = {}) {
     try {
       import_characters({description}, folder / "out", options);
@@ -250,7 +250,7 @@ TEST_F(ImportTest, ClipsMayComeFromAnotherFile) {
   fs::rename(folder / "out", folder / "other");
   write_model();
   const Population own = import(describe(kStroll));
-  // The same motion, whichever way it came.
+  // The same motion from either source.
   float apart_m = 0;
   for (std::size_t i = 0; i < own.palettes.size(); ++i) {
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
@@ -320,7 +320,7 @@ TEST_F(ImportTest, IsPutAmongOthersAndGivesTheSameTwice) {
   EXPECT_THROW(import_characters({second}, folder / "first", options), InputError);
 }
 
-// What is wrong, and how to mend it.
+// The error, and how to fix it.
 
 TEST_F(ImportTest, AModelWithoutBonesIsRefused) {
   rig.bones = false;

@@ -1,4 +1,4 @@
-// Small things made up for the tests.
+// Small test fixtures.
 #pragma once
 
 #include <string>
@@ -49,7 +49,7 @@ inline Vertex made_up_vertex(const Eigen::Vector3f& position, Bone bone, Bone ot
   return vertex;
 }
 
-/// A picture of one color.
+/// An image of one color.
 inline Image plain(int size, Rgb color) {
   Image image(size, size);
   for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
@@ -59,7 +59,7 @@ inline Image plain(int size, Rgb color) {
   return image;
 }
 
-/// Two levels, three parts, two pictures; every bone is used.
+/// Two levels, three parts, two images; every bone is used.
 inline CharacterAsset made_up_asset() {
   CharacterAsset asset;
   asset.name = "made_up";

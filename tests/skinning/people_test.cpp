@@ -324,7 +324,8 @@ std::vector<bool> silhouette(const Mesh& mesh, const Palette& palette, float yaw
 TEST_F(PeopleTest, NobodyHasGapsFromHeadToFoot) {
   const Palette rest = rest_palette();
   for (const Character& character : people_->characters) {
-    // The last level is chosen by nobody's size, and has no room for narrow necks and ankles.
+    // The last level is chosen by nobody's size, and has too few triangles for narrow necks and
+    // ankles.
     for (std::size_t level = 0; level + 1 < character.levels.size(); ++level) {
       const std::vector<bool> covered = silhouette(character.levels[level], rest, 0);
       const int crown = 215 - static_cast<int>(100 * 0.97F * character.stature_m);
@@ -359,7 +360,7 @@ TEST_F(PeopleTest, NobodyCanBeLookedThroughAtTheWaist) {
       const Eigen::Vector2f c = place(mesh.indices[at + 2]);
       const Eigen::Vector2f ab = b - corner;
       const Eigen::Vector2f ac = c - corner;
-      if (ab.x() * ac.y() < ab.y() * ac.x()) continue;  // seen from behind, so not drawn
+      if (ab.x() * ac.y() < ab.y() * ac.x()) continue;  // seen from behind, so not rendered
       for_each_pixel(corner, b, c, kWidth, height, [&](int x, int y, const Eigen::Vector3f&) {
         covered[static_cast<std::size_t>(y) * kWidth + x] = 1;
       });
@@ -384,7 +385,7 @@ int share_of(const Vertex& vertex, Bone bone) {
 }
 
 // The ball of the foot: of what follows the toes more than the rest of the foot, the rearmost
-// vertex of the sole. The soles of some shoes rise towards their tips, which stay in the air.
+// vertex of the sole. The soles of some shoes rise toward their tips, which stay in the air.
 const Vertex* ball_of(const Mesh& mesh, Bone toe) {
   constexpr float kSole_m = 0.006F;
   std::vector<const Vertex*> forefoot;

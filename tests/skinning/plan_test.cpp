@@ -105,7 +105,7 @@ TEST(Plan, FeetDoNotSkateWhenTheSpeedChanges) {
 }
 
 TEST(Plan, StridesFollowThePublishedLaw) {
-  // Counts the strikes of the left heel over a long way.
+  // Counts the strikes of the left heel over a long path.
   for (const double speed : {0.5, 0.8, 1.04, 1.32, 1.62, 1.9, 2.5, 3.0, 3.5}) {
     const std::vector<Moment> moments = straight_trajectory(std::vector<double>(600, speed), kDtS);
     const MotionPlan plan = plan_for(moments);
