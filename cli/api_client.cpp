@@ -30,14 +30,14 @@ std::string variable(const char* name, const char* otherwise) {
 }
 
 /// Text of a problem document, one line per error.
-std::vector<Problem> problems_in(const httplib::Response& response, const std::string& path) {
+std::vector<Problem> problems_in(const httplib::Response& response, const std::string& url) {
   const json document = parse_json_or_discard(response.body);
   std::vector<Problem> problems;
   if (document.is_object()) problems = problems_of(document.value("errors", json::array()));
   if (problems.empty()) {
     const std::string detail = document.is_object() ? document.value("detail", "") : "";
-    problems.push_back({path, "", fmt::format("answer {}", response.status),
-                        detail.empty() ? "another request" : detail});
+    problems.push_back(
+        {url, "", detail.empty() ? fmt::format("HTTP status {}", response.status) : detail, ""});
   }
   return problems;
 }
@@ -86,18 +86,19 @@ namespace {
 const httplib::Response& checked(const httplib::Result& result, const std::string& url,
                                  const std::string& path) {
   if (!result) {
-    throw EnvironmentError(
-        fmt::format("cannot reach {}: {} (is `throng serve` running? "
-                    "THRONG_URL says where)",
-                    url, httplib::to_string(result.error())));
+    throw EnvironmentError(fmt::format(
+        "cannot reach {}{} (is `throng serve` running? The environment variable "
+        "THRONG_URL sets the address)",
+        url,
+        result.error() == httplib::Error::Connection ? ""
+                                                     : ": " + httplib::to_string(result.error())));
   }
   if (is_success(result->status)) return *result;
   constexpr int kServersFault = 500;
   if (result->status >= kServersFault) {
-    throw EnvironmentError(
-        fmt::format("{}{}: {}", url, path, problems_in(*result, path).front().expected));
+    throw EnvironmentError(problems_in(*result, url + path).front().text());
   }
-  throw InputError(problems_in(*result, path));
+  throw InputError(problems_in(*result, url));
 }
 
 }  // namespace

@@ -216,22 +216,24 @@ void selftest(const SelftestArguments& arguments) {
 
 void add_calibrate_selftest(CLI::App& calibrate) {
   auto* command = calibrate.add_subcommand(
-      "selftest", "Render a board through a lens, calibrate from the pictures, compare");
+      "selftest", "Render a board through a lens, calibrate from the images, compare");
   const auto arguments = std::make_shared<SelftestArguments>();
-  command->add_option("--camera", arguments->camera,
-                      "Camera JSON to render with; default: a wide one with barrel distortion");
-  command->add_option("--views", arguments->views, "Pictures of the board")
+  command->add_option(
+      "--camera", arguments->camera,
+      "Camera JSON to render with; default: a wide-angle lens with barrel distortion");
+  command->add_option("--views", arguments->views, "Number of images of the board")
       ->check(CLI::Range(3, 200))
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Of where the camera is")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Seed of the camera positions")
+      ->capture_default_str();
   command->add_option("--device", arguments->device, "auto, gpu or software")
       ->check(CLI::IsMember({"auto", "gpu", "software"}))
       ->capture_default_str();
-  command->add_option("--people", arguments->people, "Folder of baked people")
+  command->add_option("--people", arguments->people, "Folder of the character library")
       ->capture_default_str();
-  command->add_option("--images", arguments->images, "Folder to keep the pictures in (PNG)");
+  command->add_option("--images", arguments->images, "Folder to keep the images in (PNG)");
   command->add_option("-o,--output", arguments->output, "JSON report to write");
-  command->add_option("--picture", arguments->picture, "Also draw residuals and coverage (SVG)");
+  command->add_option("--picture", arguments->picture, "Also plot residuals and coverage (SVG)");
   command->callback([arguments] { selftest(*arguments); });
 }
 

@@ -127,7 +127,8 @@ void run(const CrowdArguments& arguments) {
 }  // namespace
 
 void add_crowd(CLI::App& app) {
-  auto* command = app.add_subcommand("crowd", "Run a Menge project and write what its crowd does");
+  auto* command =
+      app.add_subcommand("crowd", "Simulate a Menge project and write its trajectories");
   const auto arguments = std::make_shared<CrowdArguments>();
   add_crowd_options(*command, *arguments);
   command->callback([arguments] {

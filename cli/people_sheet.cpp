@@ -135,19 +135,19 @@ void draw(const SheetArguments& arguments) {
 
 void add_people_sheet(CLI::App& people) {
   auto* command = people.add_subcommand(
-      "sheet", "Draw a population from near and far, its motion and how tall it is");
+      "sheet", "Render an overview of a character library: near, far, in motion, and body heights");
   const auto arguments = std::make_shared<SheetArguments>();
   arguments->folder = skinning::population_folder().string();
-  command->add_option("folder", arguments->folder, "Folder of baked people")->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Picture to write: .png or .jpg")
-      ->required();
+  command->add_option("folder", arguments->folder, "Folder of the character library")
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "Image to write: .png or .jpg")->required();
   auto* names = command->add_option("--people", arguments->people,
-                                    "Only these, by name, separated by commas");
+                                    "Only these characters, by name, separated by commas");
   names->delimiter(',');
-  command->add_option("--count", arguments->count, "How many to portray, from the first on")
+  command->add_option("--count", arguments->count, "Number of characters, from the first on")
       ->capture_default_str()
       ->excludes(names);
-  command->add_option("--seed", arguments->seed, "Seed of colours, of the crowd and of the heights")
+  command->add_option("--seed", arguments->seed, "Seed of colors, of the crowd and of the heights")
       ->capture_default_str();
   command->add_option("--width", arguments->width_px, "Pixels across, 800 to 8000")
       ->capture_default_str();

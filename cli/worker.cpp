@@ -14,7 +14,7 @@ void add_worker(CLI::App& app) {
     std::string task;
   };
   auto* command =
-      app.add_subcommand("worker", "Do one task of a job folder (started by run and serve)");
+      app.add_subcommand("worker", "Run one task of a job folder (started by run and serve)");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("--job", arguments->job_folder, "The job's folder")->required();
   command->add_option("--task", arguments->task, "The task's name, e.g. run000/shard0003")

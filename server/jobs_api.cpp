@@ -220,7 +220,8 @@ void change_job(const Call& call, const Request& request, Response& response) {
       if (!value.is_boolean()) throw wrong("/keep", value.dump(), "true or false");
       wanted.keep = value;
     } else {
-      throw wrong("/" + name, "an unknown field", "priority, labels or keep");
+      throw wrong("/" + name, fmt::format("unknown field \"{}\"", name),
+                  "one of: priority, labels, keep");
     }
   }
   const auto changed = call.queue.change(row.id, wanted);

@@ -96,7 +96,8 @@ json body_of(const Request& request, std::initializer_list<std::string_view> kno
   json body = json_body_of(request);
   for (const auto& [name, value] : body.items()) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw wrong("/" + name, "an unknown field", fmt::format("{}", *known.begin()));
+      throw wrong("/" + name, fmt::format("unknown field \"{}\"", name),
+                  fmt::format("one of: {}", fmt::join(known, ", ")));
     }
   }
   return body;

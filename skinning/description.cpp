@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
-#include "skinning/rig_names.h"
+#include "base/suggest.h"
 
 namespace throng::skinning {
 
@@ -74,8 +75,8 @@ class DescriptionReader {
   void known(const json& object, const std::string& where, const std::vector<std::string>& keys) {
     for (const auto& [key, value] : object.items()) {
       if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-      wrong(where + "/" + key, "an unknown field",
-            fmt::format("one of {} (\"{}\"?)", fmt::join(keys, ", "), most_similar(key, keys)));
+      problems_.push_back(unknown_name(file_.string(), where + "/" + key, "field", key,
+                                       std::vector<std::string_view>(keys.begin(), keys.end())));
     }
   }
 

@@ -9,12 +9,15 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
+#include <span>
+#include <string_view>
 
 #include "base/confine.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "base/resources.h"
+#include "base/suggest.h"
 #include "world/json_reader.h"
 #include "world/polygon.h"
 
@@ -313,6 +316,10 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
   // A server's folder holds links to shipped scenarios and to uploads.
   fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink,
                                            error);
+  if (error == std::errc::no_such_file_or_directory) {
+    throw InputError({folder.string(), "", "no such folder",
+                      "the folder of scenarios (environment variable THRONG_SCENARIOS)"});
+  }
   if (error) {
     throw EnvironmentError(
         fmt::format("cannot read the scenarios in {}: {}", folder.string(), error.message()));
@@ -335,12 +342,16 @@ Scenario find_scenario(const fs::path& folder, const std::string& id) {
   const fs::path file = folder / (id + ".json");
   if (!is_scenario_id(id) || !fs::is_regular_file(file)) {
     constexpr std::size_t kMaxNamed = 50;
-    std::vector<std::string> known = list_scenarios(folder);
-    const bool some = known.size() > kMaxNamed;
-    if (some) known.resize(kMaxNamed);
-    throw InputError(
-        Problem{"", "", fmt::format("scenario \"{}\"", id),
-                fmt::format("one of: {}{}", fmt::join(known, ", "), some ? " and others" : "")});
+    const std::vector<std::string> ids = list_scenarios(folder);
+    const std::vector<std::string_view> known(ids.begin(), ids.end());
+    Problem problem = unknown_name("", "", "scenario", id, known);
+    if (!closest(id, known)) {
+      problem.expected =
+          fmt::format("one of: {}{} (folder {}; the environment variable THRONG_SCENARIOS sets it)",
+                      fmt::join(std::span(known).first(std::min(known.size(), kMaxNamed)), ", "),
+                      known.size() > kMaxNamed ? " and others" : "", folder.string());
+    }
+    throw InputError(std::move(problem));
   }
   return load_scenario(file, id);
 }

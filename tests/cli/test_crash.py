@@ -347,7 +347,7 @@ class Crash(unittest.TestCase):
             self.skipTest("no right to mount a small disk")
         self.addCleanup(lambda: subprocess.run(["umount", "-l", str(disk)]))
         self.server.data = disk / "data"
-        self.server.options = ("--least-free", "8")
+        self.server.options = ("--min-free", "8")
         self.server.start(faults="slow:*:0.2")
         job = self.server.request("POST", "/v1/jobs", JOB)["id"]
         wait_until(lambda: self.server.state(job) == "running")
