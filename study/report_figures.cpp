@@ -234,7 +234,7 @@ json report_figures(const world::Scenario& scenario, const std::vector<MeasuredR
                     {"density", ground.density.figures("/m²")},
                     {"pressure", ground.pressure.figures("/s²")},
                     {"fundamental", fundamental_figures(ground.density_and_speed)},
-                    {"ways", path_figures(run, scenario)}});
+                    {"paths", path_figures(run, scenario)}});
   }
   return {{"escape", escape_figures(runs)},
           {"place", scenario_figures(scenario)},

@@ -94,7 +94,7 @@ std::string run_section(std::size_t index, const MeasuredRun& run) {
   return "<h3>Exits, " + escaped_markup(run.name) + "</h3>\n" + exits + "<h3>Ground, " +
          escaped_markup(run.name) + "</h3>\n" + map("Mean density over the run", "density") +
          map("Greatest crowd pressure (sampled each second)", "pressure") +
-         chart("Fundamental diagram", "fundamental") + chart("Ways of the people", "ways");
+         chart("Fundamental diagram", "fundamental") + chart("Paths of the people", "paths");
 }
 
 std::string all_runs(const std::vector<MeasuredRun>& runs) {

@@ -17,9 +17,9 @@ echarts.use([
   LinesChart, ScatterChart, SVGRenderer, ToolboxComponent, TooltipComponent, VisualMapContinuousComponent,
 ]);
 
-// Colours that people with any kind of colour vision can tell apart (Okabe and Ito 2008).
-export const colours = {
-  black: '#000000', blue: '#0072B2', green: '#009E73', grey: '#8a8a8a', orange: '#E69F00', pale: '#e4e4e4',
+// Colors that people with any kind of color vision can tell apart (Okabe and Ito 2008).
+export const colors = {
+  black: '#000000', blue: '#0072B2', green: '#009E73', gray: '#8a8a8a', orange: '#E69F00', pale: '#e4e4e4',
   pink: '#CC79A7', sky: '#56B4E9', vermilion: '#D55E00',
 };
 

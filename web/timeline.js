@@ -1,8 +1,8 @@
 // The state of each exit over time.
-import { axis, colours, escaped, number, timeZoom } from './charts.js';
+import { axis, colors, escaped, number, timeZoom } from './charts.js';
 
 const states = ['idle', 'flowing', 'congested', 'clogged', 'closed'];
-const shades = [colours.pale, colours.green, colours.orange, colours.vermilion, colours.black];
+const shades = [colors.pale, colors.green, colors.orange, colors.vermilion, colors.black];
 
 export function timeline({ runs }, element) {
   const { exits, duration_s: end } = runs[Number(element.dataset.run)];

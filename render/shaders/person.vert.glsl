@@ -13,7 +13,7 @@ layout(location = 7) in uvec4 placing;  // shift in pixels; cosine and sine of t
 layout(binding = 3) uniform usamplerBuffer posed_bones;  // [character][palette][bone]; device_palettes.h
 
 const int kBones = 21;
-const float kFarthestShift = 8.0;  // m; also in render/device_palettes.h
+const float kMaxShift = 8.0;  // m; also in render/device_palettes.h
 const float kAboveGround = 0.002;  // m; also in render/person_geometry.cpp
 
 uint first_byte(uint word) { return word & 0xFFu; }
@@ -21,7 +21,7 @@ uint first_byte(uint word) { return word & 0xFFu; }
 // The rows of a bone's matrix.
 mat3x4 rows_of(uvec4 bone) {
   vec4 q = vec4(unpackSnorm2x16(bone.x), unpackSnorm2x16(bone.y));
-  vec3 shift = kFarthestShift * vec3(unpackSnorm2x16(bone.z), unpackSnorm2x16(bone.w).x);
+  vec3 shift = kMaxShift * vec3(unpackSnorm2x16(bone.z), unpackSnorm2x16(bone.w).x);
   vec3 d = q.xyz * (2.0 / dot(q, q));
   vec3 squares = d * q.xyz;
   vec3 products = d.xxy * q.yzz;  // xy, xz, yz

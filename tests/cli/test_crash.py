@@ -1,9 +1,9 @@
-"""What a crash does to a job: the server, its workers, or both are killed at random moments and at every change of a
+"""Effect of crashes on a job: the server, its workers, or both are killed at random moments and at every change of a
 job's state, the disk is full, the database is locked, what was half-written is damaged. In every case the job has to
 end with the bytes of an undisturbed one.
 
 usage: test_crash.py THRONG [unittest's arguments]
-$THRONG_CRASHES says how many random moments there are of each kind (default: 4); `bench/crash.sh` takes 50.
+$THRONG_CRASHES is the number of random moments of each kind (default: 4); `bench/crash.sh` takes 50.
 """
 import contextlib
 import hashlib
@@ -145,7 +145,7 @@ class Server:
 class Crash(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """What an undisturbed job gives, and how long it takes."""
+        """Result and duration of an undisturbed job."""
         cls.undisturbed = tempfile.TemporaryDirectory()
         server = Server(pathlib.Path(cls.undisturbed.name))
         server.start()

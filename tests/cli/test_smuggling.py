@@ -376,7 +376,7 @@ class ThroughNginx(Attacks, unittest.TestCase):
         self.assertEqual(code, b"200")
 
     def test_other_connections_of_the_upstream_are_shared(self):
-        """What the attacks need to be attacks: two users' requests on one connection to throng."""
+        """Precondition of the attacks: two users' requests on one connection to throng."""
         for _ in range(20):
             self.ask("/v1/version")
         ends = subprocess.run(["ss", "-tn", "state", "established", f"( dport = :{self.throng.port} )"],

@@ -70,10 +70,10 @@ TEST_F(Uploads, AreUsedLikeThoseThatComeWithThrong) {
   const httplib::Result job = client().Post("/v1/jobs", kMine, "application/json");
   ASSERT_EQ(job->status, 201);
   const std::string id = json::parse(job->body)["id"];
-  const httplib::Result ways = get("/v1/jobs/" + id + "/plan");
-  ASSERT_EQ(ways->status, 200) << ways->body;
-  EXPECT_EQ(ways->get_header_value("Content-Type"), "image/svg+xml");
-  EXPECT_THAT(ways->body, HasSubstr(">d1, "));
+  const httplib::Result plan_of_job = get("/v1/jobs/" + id + "/plan");
+  ASSERT_EQ(plan_of_job->status, 200) << plan_of_job->body;
+  EXPECT_EQ(plan_of_job->get_header_value("Content-Type"), "image/svg+xml");
+  EXPECT_THAT(plan_of_job->body, HasSubstr(">d1, "));
   expect_problem(get("/v1/jobs/nowhere/plan"), 404);
 }
 
