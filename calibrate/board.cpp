@@ -201,7 +201,7 @@ std::variant<View, Problem> view_in(const std::filesystem::path& file, const Boa
   } catch (const InputError& error) {
     return error.problems().front();
   } catch (const EnvironmentError& error) {
-    return Problem{file.string(), "", error.what(), "a picture that can be read"};
+    return Problem{file.string(), "", error.what(), "an image that can be read"};
   }
 }
 
@@ -271,8 +271,8 @@ GrayImage read_gray_image(const std::filesystem::path& file) {
   }
   if (image.empty()) {
     throw InputError(Problem{file.string(), "",
-                             fmt::format("{} bytes that are no picture", bytes.size()),
-                             "a picture, for example JPEG or PNG"});
+                             fmt::format("{} bytes that are not an image", bytes.size()),
+                             "an image, for example JPEG or PNG"});
   }
   GrayImage gray{image.cols, image.rows, {}};
   for (int y = 0; y < image.rows; ++y) {
@@ -303,13 +303,13 @@ std::variant<View, Problem> find_board(const GrayImage& image, const Board& boar
     if (board.kind == Board::Kind::circles) return find_circles(pixels, board, name);
     return find_chessboard(pixels, board, name);
   } catch (const cv::Exception& error) {
-    return no_board(name, board, fmt::format("a picture that OpenCV refuses ({})", error.err));
+    return no_board(name, board, fmt::format("an image that OpenCV cannot decode ({})", error.err));
   }
 }
 
 Correspondences find_boards(const std::vector<std::filesystem::path>& images, const Board& board,
                             const std::function<bool(std::size_t)>& on_image) {
-  if (images.empty()) throw InputError(Problem{"images", "", "none", "pictures of a board"});
+  if (images.empty()) throw InputError(Problem{"images", "", "none", "images of a board"});
   std::vector<std::variant<View, Problem>> found(images.size());
   std::vector<ImageSize> sizes(images.size());
   std::mutex mutex;
@@ -335,7 +335,7 @@ Correspondences find_boards(const std::vector<std::filesystem::path>& images, co
     } else if (!(sizes[i] == all.size)) {
       all.left_out.push_back(
           {images[i].string(), "", fmt::format("{} x {} pixels", sizes[i].width, sizes[i].height),
-           fmt::format("{} x {}, which the other pictures have", all.size.width, all.size.height)});
+           fmt::format("{} x {}, as the other images", all.size.width, all.size.height)});
     } else {
       all.views.push_back(std::move(std::get<View>(found[i])));
     }

@@ -41,7 +41,8 @@ T member(const json& object, const std::string& pointer, const char* name, T oth
   } catch (const json::exception&) {
     // said below
   }
-  refuse(pointer + "/" + name, *found, fmt::format("what {} needs: see docs/calibration.md", name));
+  refuse(pointer + "/" + name, *found,
+         fmt::format("the input of {}: see docs/calibration.md", name));
 }
 
 /// A file of the request, which must be one of those that came with it.
@@ -108,7 +109,7 @@ void require_inputs(const Request& request, const std::string& source) {
   };
   if (request.kind == "intrinsics") {
     require(request.images.empty() != request.points.empty(),
-            "either pictures of a board or a table of points");
+            "either images of a board or a table of points");
     require(request.points.empty() || request.size.has_value(),
             "the size of the images that the points are of");
     return;
@@ -130,7 +131,7 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
     const auto count = static_cast<double>(request.images.size());
     all = find_boards(request.images, request.board, [&](std::size_t done) {
       warn(kShareOfSearch * static_cast<double>(done) / count,
-           fmt::format("picture {} of {}", done, request.images.size()));
+           fmt::format("image {} of {}", done, request.images.size()));
       return !request.options.fit.should_continue || request.options.fit.should_continue();
     });
   }

@@ -155,14 +155,13 @@ std::string residual_plot(const Calibration& calibration) {
       "{0:.0f} {1:.0f}\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"#fafafa\"/>\n",
       width, height);
-  svg +=
-      text_at(kGap, 36,
-              fmt::format("{}: {} views, {} points, {} outliers; RMS {:.4f} px; points in {:.0f} "
-                          "% of the image (grey: none); residuals x {:.0f}",
-                          calibration.kind, calibration.views.size(), calibration.points,
-                          calibration.rejected, calibration.rms_px, 100 * coverage_of(calibration),
-                          kResidualTimes),
-              15);
+  svg += text_at(kGap, 36,
+                 fmt::format("{}: {} views, {} points, {} outliers; RMS {:.4f} px; points in "
+                             "{:.0f} % of the image (gray: none); residuals x {:.0f}",
+                             calibration.kind, calibration.views.size(), calibration.points,
+                             calibration.rejected, calibration.rms_px,
+                             100 * coverage_of(calibration), kResidualTimes),
+                 15);
   return svg + image_panel(calibration) + scatter_panel(calibration, left) +
          bars_panel(calibration, left, bars) + "</svg>\n";
 }

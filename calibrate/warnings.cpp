@@ -60,7 +60,7 @@ void warn_of_views(const Rules& rules, Calibration& calibration) {
     warn(calibration,
          fmt::format(
              "the boards' planes differ by at most {:.1f} degrees: focal lengths and distances "
-             "cannot be told apart; tilt the board by 30 to 45 degrees in several directions",
+             "cannot be separated; tilt the board by 30 to 45 degrees in several directions",
              *tilts * kDegrees));
   }
   constexpr double kThin = 0.4;
@@ -142,9 +142,10 @@ void warn_of_parameters(const Fit& fit, Calibration& calibration) {
     }
     if (place >= kCoefficients && std::abs(value) < sd) {
       warn(calibration,
-           fmt::format("{} = {:.2g} cannot be told from 0 (standard deviation {:.2g}): a "
-                       "lens with fewer coefficients may do",
-                       name, value, sd));
+           fmt::format(
+               "{} = {:.2g} does not differ significantly from 0 (standard deviation {:.2g}): a "
+               "lens with fewer coefficients may do",
+               name, value, sd));
     }
   }
 }
@@ -212,8 +213,8 @@ void add_intrinsics_warnings(const Rules& rules, const Fit& fit, Calibration& ca
   if (!holds_at_border(calibration)) {
     warn(calibration,
          "the lens's model folds or ends (at most 80 degrees off its axis) within the image: "
-         "rendered "
-         "pictures are black beyond; take views with points near the borders, or a lens with fewer "
+         "rendered images are black beyond; take views with points near the borders, or a lens "
+         "with fewer "
          "coefficients, if the real camera shows more");
   }
 }

@@ -112,7 +112,7 @@ void add_export(CLI::App& app) {
   command
       ->add_option("--split", arguments->splits,
                    "Shares of the runs or runs: train=0.8,val=0.2 or test=run003; without train it "
-                   "gets what the others leave")
+                   "gets the remaining runs")
       ->delimiter(',');
   command
       ->add_option("--min-visibility", arguments->min_visibility,

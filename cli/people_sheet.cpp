@@ -76,8 +76,7 @@ std::uint32_t find(const skinning::Population& population, const std::string& na
       std::find_if(population.characters.begin(), population.characters.end(),
                    [&](const skinning::Character& character) { return character.name == name; });
   if (found == population.characters.end()) {
-    throw InputError(
-        {"", "people sheet: --people", name, "somebody whom `throng people list` names"});
+    throw InputError({"", "people sheet: --people", name, "a name of `throng people list`"});
   }
   return static_cast<std::uint32_t>(found - population.characters.begin());
 }

@@ -101,7 +101,7 @@ void import_place(const PlaceArguments& arguments) {
   for (const imports::Skipped& skipped : place.skipped) {
     fmt::print(stderr, "skipped: {}\n", skipped.text());
   }
-  fmt::print("{}: {:.0f} m x {:.0f} m, {} buildings, {} things, {} exits, {} people, {} skipped\n",
+  fmt::print("{}: {:.0f} m x {:.0f} m, {} buildings, {} props, {} exits, {} people, {} skipped\n",
              written.string(), place.inside.max.x() - place.inside.min.x(),
              place.inside.max.y() - place.inside.min.y(), place.buildings.size(),
              place.things.size() + place.props.size(), population.gates.size(),

@@ -78,7 +78,7 @@ std::vector<Rgba> corner_colors(const skinning::Texture& picture, int size,
   std::vector<float> weights(count, 0);
   for (const PicturedTriangle& triangle : triangles) {
     for (const std::uint32_t corner : triangle.corners) {
-      check(corner < count, "a triangle's corners have colours");
+      check(corner < count, "a triangle's corners have colors");
       weights[corner] += triangle.weight / 3;
     }
     for (const Look& look : all_looks) {

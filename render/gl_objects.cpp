@@ -91,7 +91,7 @@ Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth)
   const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     throw EnvironmentError(
-        fmt::format("the GL driver cannot draw into these buffers (status {:#06x})", status));
+        fmt::format("the GL driver cannot render into these buffers (status {:#06x})", status));
   }
   return framebuffer;
 }

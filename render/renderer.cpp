@@ -372,7 +372,7 @@ Renderer::~Renderer() = default;
 
 Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next,
                      const DrawChoice& choice) {
-  check(!camera.intrinsics.distortion, "a renderer draws pinhole cameras");
+  check(!camera.intrinsics.distortion, "a renderer renders pinhole cameras");
   State& state = *state_;
   state.context.make_current();
   Frame frame = std::move(state.spare);

@@ -23,7 +23,7 @@ int size_within_limits(int width, int height) {
   const int limit = std::min({texture, viewport[0] - 2 * kGuardBand, viewport[1] - 2 * kGuardBand});
   if (std::min(width, height) < 1 || std::max(width, height) > limit) {
     throw EnvironmentError(
-        fmt::format("cannot draw an image of {} x {} pixels: this device draws up to {} x {}",
+        fmt::format("cannot render an image of {} x {} pixels: this device supports up to {} x {}",
                     width, height, limit, limit));
   }
   return width;

@@ -30,7 +30,7 @@ std::vector<Problem> read_problems(const fs::path& file) {
 std::string last_line(const fs::path& log) {
   const std::string text = fs::exists(log) ? read_file(log) : "";
   const std::size_t end = text.find_last_not_of('\n');
-  if (end == std::string::npos) return "it said nothing";
+  if (end == std::string::npos) return "no message";
   const std::size_t before = text.find_last_of('\n', end);
   const std::size_t first = before == std::string::npos ? 0 : before + 1;
   return text.substr(first, end - first + 1);

@@ -99,7 +99,7 @@ void queue(const Call& call, Submission submission, Response& response,
   const jobs::Added added = bundle == nullptr ? call.queue.submit(submission)
                                               : call.queue.submit_with_bundle(submission, *bundle);
   if (!added.is_equal) {
-    throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and what was sent "
+    throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and the request "
                                      "with it then was something else",
                                      added.row.id)};
   }

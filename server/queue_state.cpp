@@ -125,7 +125,7 @@ void QueueState::pause(const std::string& reason) {
   if (reason.empty()) {
     spdlog::info("queue: goes on");
   } else {
-    spdlog::warn("queue: rests, {}", reason);
+    spdlog::warn("queue: paused, {}", reason);
   }
   if (row && !reason.empty()) note(*row, "paused", text_of({{"reason", reason}}));
   changed_.notify_all();

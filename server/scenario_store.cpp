@@ -179,7 +179,7 @@ ScenarioUpload ScenarioStore::publish(Staged& staged) {
   for (const auto& [name, other] : known_) bytes += other.bytes;
   if (known_.size() >= limits_.max_uploads || bytes > limits_.max_bytes) {
     throw UploadsFull(
-        fmt::format("uploads may be {} of {} bytes together, and there is no room for this one",
+        fmt::format("uploads may be {} of {} bytes together, and there is no space for this one",
                     limits_.max_uploads, limits_.max_bytes));
   }
   staged.folder->commit();

@@ -46,7 +46,7 @@ class DescriptionReader {
     description.model = path(text(document, "", "model", true));
     description.height_m =
         number(document, "", "height_m", {0.5, 2.5},
-               "in metres, from the soles to the top of the head; the model may have "
+               "in meters, from the soles to the top of the head; the model may have "
                "any unit, it is scaled to this height")
             .value_or(description.height_m);
     description.license = text(document, "", "licence", true);
@@ -167,7 +167,7 @@ class DescriptionReader {
     read.file = path(text(clip, where, "file", false));
     if (speed_mps) {
       read.speed_mps =
-          number(clip, where, "speed_mps", *speed_mps, "metres per second at the described height")
+          number(clip, where, "speed_mps", *speed_mps, "meters per second at the described height")
               .value_or(1);
     }
     return read;

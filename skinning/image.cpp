@@ -19,12 +19,12 @@ Image decode_png(std::string_view bytes, const std::string& what) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0) {
-    throw InputError({what, "", header.message, "a PNG picture"});
+    throw InputError({what, "", header.message, "a PNG image"});
   }
   header.format = PNG_FORMAT_RGBA;
   Image image(static_cast<int>(header.width), static_cast<int>(header.height));
   if (png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr) == 0) {
-    throw InputError({what, "", header.message, "a complete PNG picture"});
+    throw InputError({what, "", header.message, "a complete PNG image"});
   }
   return image;
 }
@@ -40,7 +40,7 @@ std::string encode_png(const Image& image) {
   png_alloc_size_t size = bytes.size();
   const int written =
       png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr);
-  check(written != 0, "an RGBA picture can be written as PNG");
+  check(written != 0, "an RGBA image can be written as PNG");
   bytes.resize(size);
   return bytes;
 }
@@ -53,7 +53,7 @@ Image decode_picture(std::string_view bytes, const std::string& what) {
   const bool jpeg = bytes.substr(0, 3) == "\xFF\xD8\xFF";
   if (!jpeg) {
     if (bytes.substr(1, 3) == "PNG") return decode_png(bytes, what);
-    throw InputError({what, "", "another kind of picture", "PNG or JPEG: convert it"});
+    throw InputError({what, "", "another kind of image", "PNG or JPEG: convert it"});
   }
   using Handle = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
   const Handle handle(tjInitDecompress(), &tjDestroy);
@@ -65,12 +65,12 @@ Image decode_picture(std::string_view bytes, const std::string& what) {
   int colors = 0;
   if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width, &height, &sampling, &colors) !=
       0) {
-    throw InputError({what, "", tjGetErrorStr2(handle.get()), "a JPEG picture"});
+    throw InputError({what, "", tjGetErrorStr2(handle.get()), "a JPEG image"});
   }
   Image image(width, height);
   if (tjDecompress2(handle.get(), data, bytes.size(), image.rgba.data(), width, 0, height,
                     TJPF_RGBA, TJFLAG_ACCURATEDCT) != 0) {
-    throw InputError({what, "", tjGetErrorStr2(handle.get()), "a complete JPEG picture"});
+    throw InputError({what, "", tjGetErrorStr2(handle.get()), "a complete JPEG image"});
   }
   return image;
 }

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kRemedy = " (run `throng people build` to bake the people)";
+constexpr const char* kRemedy = " (run `throng people build` to build the character library)";
 
 std::string hex_of(const Rgb& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
@@ -45,7 +45,7 @@ Rgb color_of(const std::string& hex) {
 
 Carry carry_named(const std::string& name) {
   const auto found = std::find(kCarryNames.begin(), kCarryNames.end(), name);
-  if (found == kCarryNames.end()) throw std::out_of_range("thing to carry");
+  if (found == kCarryNames.end()) throw std::out_of_range("carried item");
   return static_cast<Carry>(found - kCarryNames.begin());
 }
 
@@ -144,12 +144,13 @@ std::string encode_index(const PopulationIndex& index) {
 PopulationIndex read_index(const fs::path& folder) {
   const fs::path path = folder / kIndexFile;
   if (!fs::is_regular_file(path)) {
-    throw InputError({path.string(), "", "no such file", std::string("baked people") + kRemedy});
+    throw InputError(
+        {path.string(), "", "no such file", std::string("a character library") + kRemedy});
   }
   const json document = parse_json_or_discard(read_file(path));
   if (!document.is_object() || !document.contains("format")) {
     throw InputError(
-        {path.string(), "", "no index of people", std::string("baked people") + kRemedy});
+        {path.string(), "", "no index of people", std::string("a character library") + kRemedy});
   }
   if (document["format"] != kPopulationFormat) {
     throw InputError({path.string(), "/format", document["format"].dump(),
@@ -183,8 +184,8 @@ void check_replaceable(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
   if (fs::is_directory(folder, error) && fs::exists(folder / kIndexFile, error)) return;
-  throw InputError({folder.string(), "", "something else than baked people",
-                    "a folder that is new, empty or holds baked people"});
+  throw InputError({folder.string(), "", "something else than a character library",
+                    "a folder that is new, empty or holds a character library"});
 }
 
 std::vector<Palette> read_palettes(const fs::path& folder, const std::vector<Joints>& characters,

@@ -159,7 +159,7 @@ class ModelReader {
     if (embedded == nullptr) return read_picture(file_of(std::move(name)));
     if (embedded->mHeight == 0) {
       return decode_picture({reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
-                            fmt::format("{}, picture {}", path_.string(), name));
+                            fmt::format("{}, image {}", path_.string(), name));
     }
     Image image(static_cast<int>(embedded->mWidth), static_cast<int>(embedded->mHeight));
     for (std::size_t i = 0; 4 * i < image.rgba.size(); ++i) {
@@ -181,7 +181,7 @@ class ModelReader {
          {folder / stated, folder / stated.filename(), folder / "textures" / stated.filename()}) {
       if (fs::is_regular_file(place)) return place;
     }
-    fail(fmt::format("the picture \"{}\", which is not there", name),
+    fail(fmt::format("the missing image \"{}\"", name),
          fmt::format("{} beside the model", stated.filename().string()));
   }
 

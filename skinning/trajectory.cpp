@@ -29,7 +29,7 @@ double at_step(std::span<const float> values, double step) {
 
 Trajectory::Trajectory(std::span<const Moment> moments, double dt_s)
     : moments_(moments), dt_s_(dt_s) {
-  check(!moments.empty() && dt_s > 0, "a way has steps");
+  check(!moments.empty() && dt_s > 0, "a trajectory has steps");
   distance_m_.reserve(moments.size());
   double distance = 0;
   distance_m_.push_back(0);

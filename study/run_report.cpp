@@ -103,7 +103,7 @@ std::string all_runs(const std::vector<MeasuredRun>& runs) {
   for (const MeasuredRun& run : runs) figures.push_back(&run.metrics);
   return fmt::format("<h2>{}</h2>\n{}", runs.size() == 1 ? "Run" : "All runs", runs_table(runs)) +
          chart_frame("People who have escaped", "data-chart=\"escape\"") +
-         "<h3>What the figures are</h3>\n" + metric_table(figures);
+         "<h3>Definitions of the figures</h3>\n" + metric_table(figures);
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(Intrinsics, TheBicFindsTheLensThatWasThere) {
 TEST(Intrinsics, WarnOfFlatBoards) {
   const SyntheticViews views = synthetic_views({}, 12, 0.2, 4, 0.03);
   const Calibration found = calibrate_intrinsics(views.all, {});
-  EXPECT_THAT(found.warnings, Contains(HasSubstr("cannot be told apart")));
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("cannot be separated")));
 }
 
 TEST(Intrinsics, SayWhichParametersTheDataLeaveOpen) {
@@ -163,7 +163,7 @@ TEST(Intrinsics, SayWhichParametersTheDataLeaveOpen) {
   camera.parameters = {1200, 1200, 959.5, 539.5};
   try {
     const Calibration found = calibrate_intrinsics(all, options);
-    EXPECT_THAT(found.warnings, Contains(HasSubstr("cannot be told apart")));
+    EXPECT_THAT(found.warnings, Contains(HasSubstr("cannot be separated")));
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("views"));
   }

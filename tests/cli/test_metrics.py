@@ -289,7 +289,7 @@ class Metrics(unittest.TestCase):
         command = [THRONG, "metrics", "--trajectory", str(file), "--scenario", str(self.base / "place.json")]
         done = subprocess.run(command, capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("centimetres.txt: found nobody in the place at any time", done.stderr)
+        self.assertIn("centimetres.txt: found nobody inside the scenario at any time", done.stderr)
         self.assertIn("--unit-m 0.01", done.stderr)
         done = subprocess.run([*command, "--unit-m", "0.01"], capture_output=True, text=True, timeout=60)
         self.assertEqual(json.loads(done.stdout)["people"], 1)
