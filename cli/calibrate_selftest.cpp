@@ -122,11 +122,11 @@ Photographs photograph(const SelftestArguments& arguments, const calibrate::Came
   const Interrupt interrupt;
   ProgressBar bar("rendering the board");
   const WorkFolder work;
-  const world::Scenario place = board_place(work.path(), board);
+  const world::Scenario scenario = board_place(work.path(), board);
   const skinning::Population people = skinning::load_population(arguments.people);
   render::Environment light;
   light.weather = render::Weather::overcast;
-  render::Renderer renderer(place, people, light, {arguments.device},
+  render::Renderer renderer(scenario, people, light, {arguments.device},
                             {.quality = render::Quality::high});
   render::Lens lens(renderer, people);
   Photographs result;

@@ -19,8 +19,8 @@ void add(const ExitSample& sample, int net_out_now, double dt_s, ExitTotals& tot
          int& net_out_in_demand) {
   totals.state_s[static_cast<std::size_t>(sample.state)] += dt_s;
   totals.clogging_index_s += sample.clogging_index * dt_s;
-  const bool shut = sample.state == ExitState::closed;
-  if (shut ? sample.demand : sample.state != ExitState::idle) {
+  const bool closed = sample.state == ExitState::closed;
+  if (closed ? sample.demand : sample.state != ExitState::idle) {
     totals.demand_s += dt_s;
     net_out_in_demand += net_out_now;
   }

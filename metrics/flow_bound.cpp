@@ -17,8 +17,8 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Whether a door is closed from a second's beginning on.
-bool is_shut(const Departures& departures, std::size_t exit, int second) {
-  return !departures.shuts_s.empty() && second >= departures.shuts_s[exit];
+bool is_closed(const Departures& departures, std::size_t exit, int second) {
+  return !departures.closes_at_s.empty() && second >= departures.closes_at_s[exit];
 }
 
 /// How many can pass in a slot. Rounded so that no people get lost over the seconds.
@@ -49,7 +49,7 @@ class DoorFlow {
         const double access_s = departures.access_s[person][e];
         if (departures.capacity_per_s[e] <= 0 || !std::isfinite(access_s)) continue;
         const int second = std::max(0, static_cast<int>(std::ceil(access_s - 1)));
-        if (is_shut(departures, e, second)) continue;
+        if (is_closed(departures, e, second)) continue;
         entry[e] = second;
         last_entry_ = std::max(last_entry_, second);
         doors_[e].people.push_back(person);
@@ -223,7 +223,7 @@ std::vector<double> earliest_out_s(const Departures& departures) {
     std::size_t next = exits;
     for (std::size_t e = 0; e < exits; ++e) {
       if (departures.capacity_per_s[e] <= 0 || is_spent[e]) continue;
-      if (is_shut(departures, e, second[e])) continue;
+      if (is_closed(departures, e, second[e])) continue;
       const auto out_at_s = [&](std::size_t exit) { return second[exit] + departures.on_s[exit]; };
       if (next == exits || out_at_s(e) < out_at_s(next)) next = e;
     }

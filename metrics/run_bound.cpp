@@ -48,14 +48,14 @@ struct Traveler {
 
 /// The doors of Departures, by the run's clock.
 struct Doors {
-  std::vector<double> capacity_per_s, burst, on_s, shuts_s;
+  std::vector<double> capacity_per_s, burst, on_s, closes_at_s;
 };
 
 // When a traveler could be out if the doors were theirs alone.
 double alone_s(const Traveler& traveler, const Doors& doors) {
   double best_s = kNever;
   for (std::size_t e = 0; e < traveler.access_s.size(); ++e) {
-    if (doors.capacity_per_s[e] <= 0 || traveler.access_s[e] > doors.shuts_s[e]) continue;
+    if (doors.capacity_per_s[e] <= 0 || traveler.access_s[e] > doors.closes_at_s[e]) continue;
     best_s = std::min(best_s, traveler.access_s[e] + doors.on_s[e]);
   }
   return best_s;
@@ -67,7 +67,8 @@ Departures departures_of(const std::vector<const Traveler*>& travelers, const Do
   departures.capacity_per_s = doors.capacity_per_s;
   departures.burst = doors.burst;
   departures.on_s = doors.on_s;
-  for (const double shuts_s : doors.shuts_s) departures.shuts_s.push_back(shuts_s - origin_s);
+  for (const double closes_at_s : doors.closes_at_s)
+    departures.closes_at_s.push_back(closes_at_s - origin_s);
   for (const Traveler* traveler : travelers) {
     auto& row = departures.access_s.emplace_back(traveler->access_s);
     for (double& access_s : row) access_s = std::max(0.0, access_s - origin_s);
@@ -164,7 +165,7 @@ class LowerBound {
       doors_.capacity_per_s.push_back(exit.open ? capacity.rate_per_s : 0);
       doors_.burst.push_back(capacity.burst);
       doors_.on_s.push_back(max_mps_ > 0 ? beyond_s(scenario_, exit, max_mps_) : kNever);
-      doors_.shuts_s.push_back(exit.shuts_s);
+      doors_.closes_at_s.push_back(exit.closes_at_s);
     }
     for (std::size_t i = 0; i < people_.size(); ++i) {
       if (!people_[i]->escaped_s || !went_by_door(*people_[i], starts_[i])) continue;
@@ -174,9 +175,10 @@ class LowerBound {
       // People who know of nothing pass doors that are closed to the others.
       if (doors_.capacity_per_s[e] <= 0) {
         doors_.capacity_per_s[e] = door_capacity(model_, scenario_.exits[e].width_m()).rate_per_s;
-        doors_.shuts_s[e] = 0;
+        doors_.closes_at_s[e] = 0;
       }
-      doors_.shuts_s[e] = std::max(doors_.shuts_s[e], passage.time_s + 2 * world::kTimeSlackS);
+      doors_.closes_at_s[e] =
+          std::max(doors_.closes_at_s[e], passage.time_s + 2 * world::kTimeSlackS);
     }
   }
 
@@ -256,7 +258,7 @@ std::optional<BestTimes> reference_of(const world::Scenario& scenario,
     const world::Exit& exit = scenario.exits[e];
     doors.capacity_per_s.push_back(exit.open ? capacity_per_s[e] : 0);
     doors.on_s.push_back(exit_path_m(scenario.inside, exit.middle()) / max_mps);
-    doors.shuts_s.push_back(exit.shuts_s);
+    doors.closes_at_s.push_back(exit.closes_at_s);
   }
   std::vector<Traveler> travelers;
   for (const PersonRecord* person : evacuees) {

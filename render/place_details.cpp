@@ -186,7 +186,7 @@ std::optional<Panel> door_in(const world::Exit& exit, const Vector2d& from, cons
                0,
                0,
                0,
-               exit.open ? WallLook::open_door : WallLook::shut_door};
+               exit.open ? WallLook::open_door : WallLook::closed_door};
 }
 
 }  // namespace

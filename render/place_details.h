@@ -10,7 +10,7 @@ namespace throng::render {
 
 /// Looks of walls beyond the scenario's facades (PlaceVertex::facade); also in
 /// shaders/wall.frag.glsl.
-enum class WallLook : std::uint8_t { open_door = 4, shut_door = 5, plant = 6 };
+enum class WallLook : std::uint8_t { open_door = 4, closed_door = 5, plant = 6 };
 
 /// Max height of installations on roofs (m).
 inline constexpr double kRoofPlantM = 2.2;

@@ -29,8 +29,8 @@ constexpr double kIdleS = 40;         // what standing about costs whom nobody f
 constexpr double kWorthSeconds = 15;  // people times seconds that a trip must save
 constexpr double kStandsMps = 0.3;
 constexpr double kAtTheDoorM = 5;
-constexpr double kInVainM = 3;  // who did not come with the drone is left alone for a while
-constexpr double kInVainS = 40;
+constexpr double kAbandonedM = 3;  // who did not come with the drone is left alone for a while
+constexpr double kAbandonedS = 40;
 constexpr int kMaxBatch = 50;
 constexpr double kLineUpM = 9;      // a batch is long: nearer, its tail would come along the wall
 constexpr double kHalfWorthS = 20;  // a trip that takes so long is worth half
@@ -38,15 +38,15 @@ constexpr double kHalfWorthS = 20;  // a trip that takes so long is worth half
 class BalancePolicy : public Policy {
  public:
   explicit BalancePolicy(const PolicyContext& context)
-      : place_(*context.place),
+      : scenario_(*context.scenario),
         drone_(context.drone),
         lead_mps_(context.mission.guidance.lead_speed_mps.value_or(kLeadSpeedMps)),
         batch_(context.mission.guidance.batch.value_or(kMaxBatch)),
-        choice_(exits_to_lead_to(place_, context.mission.guidance.exits)),
+        choice_(exits_to_lead_to(scenario_, context.mission.guidance.exits)),
         glide_(context.start, context.yaw_rad),
-        queues_(place_) {
-    for (const world::Exit& exit : place_.exits) {
-      routes_.push_back(route_through(exit, place_.buildings, kLineUpM));
+        queues_(scenario_) {
+    for (const world::Exit& exit : scenario_.exits) {
+      routes_.push_back(route_through(exit, scenario_.buildings, kLineUpM));
     }
   }
 
@@ -55,7 +55,7 @@ class BalancePolicy : public Policy {
     count_followers(view);
     const bool on_a_trip =
         stage_ == Stage::fly || stage_ == Stage::collect || stage_ == Stage::lead;
-    if (on_a_trip && !queues_.is_open(to_)) turn_from_shut_door(view);
+    if (on_a_trip && !queues_.is_open(to_)) turn_from_closed_door(view);
     switch (stage_) {
       case Stage::wait:
         if (view.time_s >= decide_s_) decide(view);
@@ -105,7 +105,7 @@ class BalancePolicy : public Policy {
     double people = 0;
     double seconds = 0;
   };
-  struct InVain {
+  struct Abandoned {
     Vector2d place;
     double until_s;
   };
@@ -133,9 +133,9 @@ class BalancePolicy : public Policy {
     }
   }
 
-  bool in_vain(const Vector2d& place, double time_s) const {
-    return std::any_of(in_vain_.begin(), in_vain_.end(), [&](const InVain& one) {
-      return time_s < one.until_s && (place - one.place).norm() < kInVainM;
+  bool abandoned(const Vector2d& place, double time_s) const {
+    return std::any_of(abandoned_.begin(), abandoned_.end(), [&](const Abandoned& one) {
+      return time_s < one.until_s && (place - one.place).norm() < kAbandonedM;
     });
   }
 
@@ -144,14 +144,14 @@ class BalancePolicy : public Policy {
   // door count as out.
   bool can_be_led(const PersonSeen& person) const {
     if (person.guide >= 0) return person.guide == drone_;
-    if (person.exit < 0) return place_.guides_alert;
-    const world::Exit& exit = place_.exits[static_cast<std::size_t>(person.exit)];
+    if (person.exit < 0) return scenario_.guides_alert;
+    const world::Exit& exit = scenario_.exits[static_cast<std::size_t>(person.exit)];
     return !queues_.is_open(person.exit) || (person.position - exit.middle()).norm() > kAtTheDoorM;
   }
 
   bool is_idle(const PersonSeen& person) const {
     if (person.exit < 0) return true;
-    const world::Exit& exit = place_.exits[static_cast<std::size_t>(person.exit)];
+    const world::Exit& exit = scenario_.exits[static_cast<std::size_t>(person.exit)];
     return person.velocity.norm() < kStandsMps &&
            (!queues_.is_open(person.exit) ||
             (person.position - exit.middle()).norm() > 2 * kAtTheDoorM);
@@ -161,11 +161,11 @@ class BalancePolicy : public Policy {
     decide_s_ = view.time_s + kDecideEveryS;
     const bool alarmed = std::any_of(view.people.begin(), view.people.end(),
                                      [](const auto& p) { return p.exit >= 0; });
-    if (alarmed && place_.guides_alert && go_alerting(view)) return;
+    if (alarmed && scenario_.guides_alert && go_alerting(view)) return;
     Trip best;
     if (alarmed) {
       for (const PersonSeen& person : view.people) {
-        if (!can_be_led(person) || in_vain(person.position, view.time_s)) continue;
+        if (!can_be_led(person) || abandoned(person.position, view.time_s)) continue;
         consider(view, person.position, best);
       }
     }
@@ -249,7 +249,7 @@ class BalancePolicy : public Policy {
     double all = 0;
   };
   Reached reached(const WorldView& view, const Vector2d& pick) const {
-    Reached result{std::vector<double>(place_.exits.size())};
+    Reached result{std::vector<double>(scenario_.exits.size())};
     for (const PersonSeen& person : view.people) {
       if (!can_be_led(person)) continue;
       if ((person.position - pick).norm() > kReachM) continue;
@@ -311,14 +311,14 @@ class BalancePolicy : public Policy {
       enter(Stage::lead, view.time_s);
       set_out_with_followers();
     } else if (collected_s >= kMaxCollectS) {
-      in_vain_.push_back({glide_.place(), view.time_s + kInVainS});
+      abandoned_.push_back({glide_.place(), view.time_s + kAbandonedS});
       enter(Stage::wait, view.time_s);
     }
   }
 
   // A disaster has reached the door: with those who follow to the one at which they are out
   // soonest; without any, or without such a door, it gives up.
-  void turn_from_shut_door(const WorldView& view) {
+  void turn_from_closed_door(const WorldView& view) {
     int best = -1;
     double best_s = std::numeric_limits<double>::infinity();
     for (const int exit : choice_) {
@@ -379,7 +379,7 @@ class BalancePolicy : public Policy {
     start_leg(0);
   }
 
-  const world::Scenario& place_;
+  const world::Scenario& scenario_;
   int drone_;
   double lead_mps_;
   int batch_;
@@ -387,7 +387,7 @@ class BalancePolicy : public Policy {
   Glide glide_;
   QueueModel queues_;
   std::vector<LeadRoute> routes_;
-  std::vector<InVain> in_vain_;
+  std::vector<Abandoned> abandoned_;
 
   Stage stage_ = Stage::wait;
   double since_s_ = 0;   // when the stage began

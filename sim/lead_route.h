@@ -21,7 +21,7 @@ LeadRoute route_through(const world::Exit& exit, const std::vector<world::Buildi
 
 /// The exits that a drone may lead to: those of these ids, or all, as far as they are open at
 /// first.
-std::vector<int> exits_to_lead_to(const world::Scenario& place,
+std::vector<int> exits_to_lead_to(const world::Scenario& scenario,
                                   const std::vector<std::string>& ids);
 
 }  // namespace throng::sim

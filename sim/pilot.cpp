@@ -25,7 +25,7 @@ constexpr double kRestingS = 0.5;
 Pilot::Pilot(const PlannedDrone& drone, const FlightLimits& limits)
     : airframe_(drone.airframe),
       policy_(drone.policy->make(
-          {drone.mission, drone.start, drone.yaw_rad, limits, drone.place, drone.index})),
+          {drone.mission, drone.start, drone.yaw_rad, limits, drone.scenario, drone.index})),
       guides_(guides(*drone.policy)),
       beacon_asked_(drone.mission.guidance.beacon.value_or(false)),
       controller_(drone.airframe, limits),

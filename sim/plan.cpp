@@ -218,7 +218,7 @@ std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
   std::vector<PlannedDrone> drones;
   for (std::size_t i = 0; i < missions.size(); ++i) {
     drones.push_back(MissionCheck(scenario, missions[i], i, problems).plan(airframes));
-    drones[i].place = &scenario;
+    drones[i].scenario = &scenario;
     drones[i].index = static_cast<int>(i);
     for (std::size_t j = 0; j < i; ++j) {
       if (missions[j].id == missions[i].id) {

@@ -20,8 +20,8 @@ struct PolicyContext {
   Eigen::Vector3d start;
   double yaw_rad;
   FlightLimits limits;
-  const world::Scenario* place = nullptr;  ///< null only for policies that need none
-  int drone = 0;                           ///< index among the run's drones
+  const world::Scenario* scenario = nullptr;  ///< null only for policies that need none
+  int drone = 0;                              ///< index among the run's drones
 };
 
 class Policy {

@@ -14,7 +14,7 @@ namespace throng::sim {
 /// happened.
 class QueueModel {
  public:
-  explicit QueueModel(const world::Scenario& place);
+  explicit QueueModel(const world::Scenario& scenario);
 
   /// Learns the rates from what flows out while people press, and counts who wants which exit;
   /// the plans of all drones but `self` are taken for done.
@@ -27,7 +27,7 @@ class QueueModel {
   /// Time until everybody who wants this exit is out; far more than any run for a closed one.
   double wait_s(int exit) const;
   /// Whether people can get out there as of the last update.
-  bool is_open(int exit) const { return place_.exits[index(exit)].is_open(time_s_); }
+  bool is_open(int exit) const { return scenario_.exits[index(exit)].is_open(time_s_); }
 
   /// Total savings (person-seconds) of leading `people` from one queue to another, which they reach
   /// in `arrive_s`; negative when it costs.
@@ -42,7 +42,7 @@ class QueueModel {
   void expect(const PersonSeen& unaware);
   static std::size_t index(int exit) { return static_cast<std::size_t>(exit); }
 
-  const world::Scenario& place_;
+  const world::Scenario& scenario_;
   double time_s_ = 0;
   std::vector<double> capacity_per_s_;
   std::vector<double> people_;  // who want each exit, with what is planned

@@ -113,8 +113,8 @@ void report_falls(const CrowdSource& crowd, double time_s, RunObserver& observer
 }
 
 // Doors that have been reached by a disaster since the step before.
-void report_shut_doors(const world::Scenario& scenario, double before_s, double time_s,
-                       RunObserver& observer) {
+void report_closed_doors(const world::Scenario& scenario, double before_s, double time_s,
+                         RunObserver& observer) {
   for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
     const world::Exit& exit = scenario.exits[e];
     if (!exit.is_open(before_s) || exit.is_open(time_s)) continue;
@@ -230,7 +230,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
     props.look(crowd.positions(), there, time_s);
     recorder.record(crowd, time_s, observer);
     report_falls(crowd, time_s, observer);
-    report_shut_doors(scenario, static_cast<double>(step - 1) * dt_s, time_s, observer);
+    report_closed_doors(scenario, static_cast<double>(step - 1) * dt_s, time_s, observer);
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
   }
   flight.finish();

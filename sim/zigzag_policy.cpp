@@ -21,10 +21,10 @@ constexpr std::size_t kWorthATripPeople = 4;
 class ZigzagPolicy : public Policy {
  public:
   explicit ZigzagPolicy(const PolicyContext& context)
-      : place_(*context.place),
+      : scenario_(*context.scenario),
         drone_(context.drone),
         speed_mps_(context.mission.speed_mps),
-        choice_(exits_to_lead_to(place_, context.mission.guidance.exits)),
+        choice_(exits_to_lead_to(scenario_, context.mission.guidance.exits)),
         glide_(context.start, context.yaw_rad) {}
 
   void see(const WorldView& view) override {
@@ -56,7 +56,7 @@ class ZigzagPolicy : public Policy {
 
  private:
   bool is_open(int exit) const {
-    return place_.exits[static_cast<std::size_t>(exit)].is_open(time_s_);
+    return scenario_.exits[static_cast<std::size_t>(exit)].is_open(time_s_);
   }
 
   void next_leg() {
@@ -72,7 +72,7 @@ class ZigzagPolicy : public Policy {
   // People before the exit with the most demand, and the direction from there to the next exit in
   // turn.
   void plan_trip(const WorldView& view) {
-    std::vector<std::size_t> heading(place_.exits.size());
+    std::vector<std::size_t> heading(scenario_.exits.size());
     for (const PersonSeen& person : view.people) {
       if (person.exit >= 0) ++heading[static_cast<std::size_t>(person.exit)];
     }
@@ -86,7 +86,7 @@ class ZigzagPolicy : public Policy {
       if (person.exit == from_) middle += person.position / static_cast<double>(*max_value);
     }
     const LeadRoute route =
-        route_through(place_.exits[static_cast<std::size_t>(to_)], place_.buildings);
+        route_through(scenario_.exits[static_cast<std::size_t>(to_)], scenario_.buildings);
     const Vector2d offset = route.points[0] - middle;
     const Vector2d aside = Vector2d(-offset.y(), offset.x()).normalized();
     path_ = {middle};
@@ -109,7 +109,7 @@ class ZigzagPolicy : public Policy {
     return -1;
   }
 
-  const world::Scenario& place_;
+  const world::Scenario& scenario_;
   int drone_;
   double speed_mps_;
   std::vector<int> choice_;

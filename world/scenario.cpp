@@ -93,7 +93,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
     }
     if (item["open"].exists()) exit.open = item["open"].boolean();
     if (item["shuts_s"].exists()) {
-      exit.shuts_s = item["shuts_s"].number(0, kMaxClosingS);
+      exit.closes_at_s = item["shuts_s"].number(0, kMaxClosingS);
       if (!exit.open) item["shuts_s"].reject("a time, though the door is never open", "none");
     }
     // A place for recorded people has no goals to name.

@@ -32,12 +32,12 @@ struct Exit {
   bool open = true;                                    ///< otherwise nobody can ever get out here
   std::vector<GoalRef> goals;  ///< an agent heading for one of these intends this exit
   /// From when on nobody can: a disaster has reached it (s).
-  double shuts_s = std::numeric_limits<double>::infinity();
+  double closes_at_s = std::numeric_limits<double>::infinity();
 
   /// Whether people can get out here at a time of the run (s), which is that of a step.
   bool is_open(double time_s) const {
     constexpr double kRoundingS = 1e-6;
-    return open && time_s < shuts_s - kRoundingS;
+    return open && time_s < closes_at_s - kRoundingS;
   }
   double width_m() const { return (to - from).norm(); }
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }

@@ -156,9 +156,9 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
   s.albedo = vec3(0.46, 0.44, 0.40);
   // Light reaches a short distance in along the floor.
   vec3 passage = mix(vec3(0.10, 0.095, 0.085), vec3(0.018), clamp(p.y / 1.3, 0.0, 1.0));
-  vec3 shut = mix(vec3(0.10, 0.11, 0.12) * (1.0 - 0.6 * edge), vec3(0.03), pane);
+  vec3 closed = mix(vec3(0.10, 0.11, 0.12) * (1.0 - 0.6 * edge), vec3(0.03), pane);
   float jamb = 1.0 - band(p.x, 0.22, size.x - 0.22, width.x);
-  s.albedo = mix(s.albedo, open ? mix(passage, vec3(0.10, 0.11, 0.12), jamb) : shut, inside);
+  s.albedo = mix(s.albedo, open ? mix(passage, vec3(0.10, 0.11, 0.12), jamb) : closed, inside);
   s.shine += open ? vec3(0.0) : vec3(0.8 * pane * inside);
   s.albedo = mix(s.albedo, open ? vec3(0.03, 0.30, 0.12) : vec3(0.10), sign_board);
 #ifdef LAMPS

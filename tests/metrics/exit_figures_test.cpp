@@ -198,7 +198,7 @@ TEST(ExitTotals, AClosedDoorIsClosedAllTheTime) {
 
 TEST(ExitTotals, ADoorThatADisasterReachesIsClosedFromThenOn) {
   world::Scenario scenario = place_with_door(2);
-  scenario.exits[0].shuts_s = 20;
+  scenario.exits[0].closes_at_s = 20;
   const world::Trace trace = trace_of(two_passers());
   const auto exits = exit_series(trace, scenario);
   const auto& samples = exits[0].samples;

@@ -138,7 +138,7 @@ TEST(LowerBound, IsBeatenByNobody) {
   for (int trial = 0; trial < 40; ++trial) {
     world::Scenario scenario = place_with_door(random.uniform(0.8, 3));
     add_alarm(scenario, trial % 3 == 0 ? 0 : random.uniform(1, 6));
-    if (trial % 4 == 0) scenario.exits[0].shuts_s = random.uniform(2, 8);
+    if (trial % 4 == 0) scenario.exits[0].closes_at_s = random.uniform(2, 8);
     if (trial % 5 == 0) scenario.exits[0].open = false;
     if (trial % 7 == 0) scenario.buildings.push_back(box({-4, -3}, {-3, 3}));
     std::vector<Walk> walks;

@@ -127,20 +127,20 @@ TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
 
 TEST(Run, TellsWhenADisasterReachesADoor) {
   world::Scenario square = city_square();
-  square.exits[1].shuts_s = 1.25;
+  square.exits[1].closes_at_s = 1.25;
   square.exits[2].open = false;
-  square.exits[3].shuts_s = 2;
+  square.exits[3].closes_at_s = 2;
   Told told;
   watch(square, 3, told);
-  std::vector<std::pair<double, double>> shut;
+  std::vector<std::pair<double, double>> closed;
   for (const world::TraceEvent& event : told.events) {
-    if (event.type == "exit_shut") shut.emplace_back(event.time_s, event.value);
+    if (event.type == "exit_shut") closed.emplace_back(event.time_s, event.value);
   }
-  ASSERT_EQ(shut.size(), 2U);
-  EXPECT_NEAR(shut[0].first, 1.3, 0.06) << "the first step from then on";
-  EXPECT_EQ(shut[0].second, 1);
-  EXPECT_NEAR(shut[1].first, 2, 1e-9);
-  EXPECT_EQ(shut[1].second, 3);
+  ASSERT_EQ(closed.size(), 2U);
+  EXPECT_NEAR(closed[0].first, 1.3, 0.06) << "the first step from then on";
+  EXPECT_EQ(closed[0].second, 1);
+  EXPECT_NEAR(closed[1].first, 2, 1e-9);
+  EXPECT_EQ(closed[1].second, 3);
 }
 
 TEST(Run, AnotherSeedGivesAnotherRun) {

@@ -110,13 +110,13 @@ TEST(Separation, GuidesAtOneHeightMayMeet) {
 }
 
 TEST(Separation, SetPointsDoNotLeadThroughABuilding) {
-  world::Scenario place;
-  place.buildings = {{"tower", {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, 60}};
+  world::Scenario scenario;
+  scenario.buildings = {{"tower", {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, 60}};
   DroneMission log = mission("a", {-10, 0, 20});
   log.policy = "pilot_log";
   log.guidance.setpoints = {{0, {-10, 0, 20}, 0, false}, {9, {10, 0, 20}, 0, false}};
   std::vector<Problem> problems;
-  plan_drones(place, {log}, 60, problems);
+  plan_drones(scenario, {log}, 60, problems);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/drones/0/guidance/setpoints/1");
   EXPECT_THAT(problems[0].expected, HasSubstr("tower"));
