@@ -19,6 +19,7 @@ step_format() {
     return 1
   fi
   bash -n scripts/*.sh .ci/run
+  /usr/bin/python3 scripts/check_language.py
   /usr/bin/python3 python/generate_types.py --check
   mypy --strict --cache-dir build/mypy python/throng python/generate_types.py
 }
