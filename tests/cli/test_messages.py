@@ -13,8 +13,9 @@ THRONG = sys.argv.pop(1)
 
 
 def throng(*arguments, **environment):
-    return subprocess.run([THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=60,
-                          env={**os.environ, **environment})
+    return subprocess.run(
+        [THRONG, *map(str, arguments)], capture_output=True, text=True, timeout=60, env={**os.environ, **environment}
+    )
 
 
 class Messages(unittest.TestCase):
@@ -55,8 +56,13 @@ class Messages(unittest.TestCase):
         self.assertIn("{any,text,sqlite,scb,csv}", throng("metrics", "--help").stdout)
 
     def test_an_unknown_field_is_named_with_the_nearest_one(self):
-        self.refused('/drone: unknown field "drone"; did you mean "drones"?', "run", self.job(drone=[]), "-o",
-                     self.folder / "out")
+        self.refused(
+            '/drone: unknown field "drone"; did you mean "drones"?',
+            "run",
+            self.job(drone=[]),
+            "-o",
+            self.folder / "out",
+        )
 
     def test_a_missing_field_is_named(self):
         study = self.folder / "my.study.json"
@@ -64,16 +70,25 @@ class Messages(unittest.TestCase):
         self.refused('missing required field "policies"', "study", study, "-o", self.folder / "out")
 
     def test_an_unknown_scenario_is_named_with_the_nearest_one(self):
-        self.refused('unknown scenario "city_square/nearest_exti"; did you mean "city_square/nearest_exit"?', "scenario",
-                     "plan", "city_square/nearest_exti", "-o", self.folder / "plan.svg")
+        self.refused(
+            'unknown scenario "city_square/nearest_exti"; did you mean "city_square/nearest_exit"?',
+            "scenario",
+            "plan",
+            "city_square/nearest_exti",
+            "-o",
+            self.folder / "plan.svg",
+        )
         self.refused("THRONG_SCENARIOS", "scenario", "plan", "atlantis", "-o", self.folder / "plan.svg")
 
     def test_a_missing_file_is_wrong_input(self):
         missing = self.folder / "nothing.json"
         self.refused(f"{missing}: found no such file, expected a scenario file", "scenario", "check", missing)
         self.refused("nowhere.h5: found no such file, expected a trace", "metrics", "nowhere.h5")
-        self.refused("found no such folder, expected the folder of scenarios", "scenarios",
-                     THRONG_SCENARIOS=str(self.folder / "nowhere"))
+        self.refused(
+            "found no such folder, expected the folder of scenarios",
+            "scenarios",
+            THRONG_SCENARIOS=str(self.folder / "nowhere"),
+        )
 
     def test_a_server_that_is_not_there_is_named(self):
         with socket.socket() as free:
