@@ -1,4 +1,4 @@
-"""What the service answers, as TypedDicts.
+"""Answers of the service as TypedDicts.
 
 Made by python/generate_types.py from server/openapi.json; do not edit.
 """
