@@ -88,7 +88,7 @@ std::optional<Refusal> refusal_of(const Prop& prop, const Scenario& scenario) {
   for (const Exit& exit : scenario.exits) {
     if (exit.width_m() <= 0 || !blocks(exit, corners)) continue;
     return Refusal{
-        fmt::format("a position that blocks exit \"{}\""", exit.id),
+        fmt::format("a position that blocks exit \"{}\"", exit.id),
         fmt::format("a place at least {} m in front of or behind every exit", kClearOfExitsM)};
   }
   return std::nullopt;
