@@ -25,7 +25,7 @@ std::string Problem::text() const {
   if (!source.empty() && !where.empty()) place += ": ";
   place += where;
   if (!place.empty()) place += ": ";
-  if (expected.empty()) return place + found;
+  if (expected.empty() || found.starts_with("missing ")) return place + found;
   if (!found.starts_with("unknown ")) {
     return fmt::format("{}found {}, expected {}", place, found, expected);
   }

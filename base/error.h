@@ -18,8 +18,8 @@ struct Problem {
   std::string expected;  ///< The value or form expected there.
 
   /// "demo.job.json: /crowd/agents: found -3, expected an integer of at least 1". Where `found`
-  /// begins with "unknown": `/drone: unknown field "drone"; did you mean "drones"?`. Without
-  /// `expected` it is `found` alone.
+  /// begins with "unknown": `/drone: unknown field "drone"; did you mean "drones"?`. Where it
+  /// begins with "missing", and without `expected`, it is `found` alone.
   std::string text() const;
 };
 

@@ -51,15 +51,17 @@ CommandLine::CommandLine(int argc, const char* const* argv) {
   for (const std::string& word : words_) pointers_.push_back(word.c_str());
 }
 
-const CLI::App* help_asked(const CLI::App& app, std::span<const std::string> words) {
-  if (words.empty() || words.front() != "help") return nullptr;
+std::optional<std::string> help_text(const CLI::App& app, std::span<const std::string> words) {
+  if (words.empty() || words.front() != "help") return std::nullopt;
   const CLI::App* asked = &app;
+  std::string before = "throng";
   for (const std::string& word : words.subspan(1)) {
     const CLI::App* next = command_named(*asked, word);
     if (next == nullptr) refuse_command(*asked, word);
+    if (asked != &app) before += " " + asked->get_name();
     asked = next;
   }
-  return asked;
+  return asked->help(before);
 }
 
 void check_commands(const CLI::App& app, std::span<const std::string> words) {

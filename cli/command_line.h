@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,9 +27,9 @@ class CommandLine {
   std::vector<const char*> pointers_;  ///< into words_
 };
 
-/// The command whose help `help [COMMAND...]` asks for; null if the words are another command.
-/// Throws InputError on an unknown command.
-const CLI::App* help_asked(const CLI::App& app, std::span<const std::string> words);
+/// The answer to `help [COMMAND...]`; nothing if the words are another command. Throws InputError
+/// on an unknown command.
+std::optional<std::string> help_text(const CLI::App& app, std::span<const std::string> words);
 
 /// Throws InputError if a word that should name a command does not, with the nearest one.
 void check_commands(const CLI::App& app, std::span<const std::string> words);

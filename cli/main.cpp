@@ -33,8 +33,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   for (const auto add : kCommands) add(app);
   const cli::CommandLine line(argc, argv);
-  if (const CLI::App* asked = cli::help_asked(app, line.words())) {
-    fmt::print("{}", asked->help(asked == &app ? "" : app.get_name() + " "));
+  if (const auto help = cli::help_text(app, line.words())) {
+    fmt::print("{}", *help);
     return cli::exit_ok;
   }
   cli::check_commands(app, line.words());

@@ -61,7 +61,8 @@ void JsonValue::fields(std::initializer_list<std::string_view> required,
   if (value_ == nullptr) return;
   if (!value_->is_object()) return reject("an object");
   for (const std::string_view key : required) {
-    if (!value_->contains(key)) reject(fmt::format("missing required field \"{}\"", key), "");
+    if (!value_->contains(key))
+      reject(fmt::format("missing required field \"{}\"", key), fmt::format("\"{}\"", key));
   }
   std::vector<std::string_view> known(required);
   known.insert(known.end(), optional.begin(), optional.end());

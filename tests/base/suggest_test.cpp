@@ -29,7 +29,9 @@ TEST(UnknownName, ListsAllNamesIfNoneIsNear) {
 }
 
 TEST(ProblemText, IsTheStatementAloneWithoutAnExpectation) {
-  EXPECT_EQ((Problem{"f.json", "/", "missing required field \"seed\"", ""}.text()),
+  EXPECT_EQ((Problem{"http://localhost", "", "there is no job x", ""}.text()),
+            "http://localhost: there is no job x");
+  EXPECT_EQ((Problem{"f.json", "/", "missing required field \"seed\"", "\"seed\""}.text()),
             "f.json: /: missing required field \"seed\"");
 }
 

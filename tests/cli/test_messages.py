@@ -46,6 +46,8 @@ class Messages(unittest.TestCase):
         done = throng("help")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("validate-crowd", done.stdout)
+        self.assertIn("Usage: throng ", done.stdout)
+        self.assertIn("Usage: throng scenario check [OPTIONS]", throng("help", "scenario", "check").stdout)
         self.assertIn("--output", throng("help", "run").stdout)
         self.assertIn("FILE.json, a folder or an id", throng("help", "scenario", "check").stdout)
 
