@@ -74,7 +74,7 @@ std::vector<std::uint32_t> take_part(const Population& population, bool umbrella
   throw InputError(
       {"", "/appearance",
        fmt::format("nobody from {:g} to {:g} years", styling.youngest_years, styling.oldest_years),
-       fmt::format("a range that includes some characters, whose ages are {:.0f} to {:.0f}",
+       fmt::format("a range that includes some characters, whose ages are from {:.0f} to {:.0f}",
                    youngest->age_years, oldest->age_years)});
 }
 
