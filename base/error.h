@@ -17,8 +17,8 @@ struct Problem {
   std::string found;     ///< The value found there.
   std::string expected;  ///< The value or form expected there.
 
-  /// "demo.job.json: /crowd/agents: found -3, expected an integer of at least 1". Where `found`
-  /// begins with "unknown": `/drone: unknown field "drone"; did you mean "drones"?`. Where it
+  /// "demo.job.json: /crowd/agents: found -3, expected an integer of at least 1". If `found`
+  /// begins with "unknown": `/drone: unknown field "drone"; did you mean "drones"?`. If it
   /// begins with "missing", and without `expected`, it is `found` alone.
   std::string text() const;
 };
