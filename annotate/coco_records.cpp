@@ -180,7 +180,7 @@ void append_image_record(std::string& text, const CocoImage& image, const FrameL
   text += R"(,"t":)";
   append_exact(text, image.camera.pose.t);
   text += R"(,"centre":)";
-  append_exact(text, image.camera.pose.centre());
+  append_exact(text, image.camera.pose.center());
   append_lens(text, image.camera.intrinsics.distortion);
   text.push_back('}');
   if (!image.sensor.empty()) text += R"(,"sensor":)" + image.sensor;

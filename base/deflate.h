@@ -9,7 +9,7 @@
 namespace throng {
 
 /// One zlib stream (RFC 1950) of `input`, at ISA-L's level 1: several times as fast as zlib's own.
-/// The result lies in `output`, whose room grows as needed and may serve again.
+/// The result lies in `output`, whose capacity grows as needed and may be reused.
 std::string_view deflated(std::span<const std::uint8_t> input, std::vector<std::uint8_t>& output);
 
 }  // namespace throng

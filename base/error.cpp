@@ -24,8 +24,13 @@ std::string Problem::text() const {
   std::string place = source;
   if (!source.empty() && !where.empty()) place += ": ";
   place += where;
-  return fmt::format("{}{}found {}, expected {}", place, place.empty() ? "" : ": ", found,
-                     expected);
+  if (!place.empty()) place += ": ";
+  if (expected.empty() || found.starts_with("missing ")) return place + found;
+  if (!found.starts_with("unknown ")) {
+    return fmt::format("{}found {}, expected {}", place, found, expected);
+  }
+  return expected.starts_with('"') ? fmt::format("{}{}; did you mean {}?", place, found, expected)
+                                   : fmt::format("{}{}; expected {}", place, found, expected);
 }
 
 InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}

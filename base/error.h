@@ -10,14 +10,16 @@
 
 namespace throng {
 
-/// One thing wrong in the user's input.
+/// One error in the user's input.
 struct Problem {
   std::string source;    ///< File name, or "" for a request body.
   std::string where;     ///< JSON pointer ("/crowd/agents") or "line 12, element <Goal>".
-  std::string found;     ///< What stands there.
-  std::string expected;  ///< What should stand there.
+  std::string found;     ///< The value found there.
+  std::string expected;  ///< The value or form expected there.
 
-  /// "demo.job.json: /crowd/agents: found -3, expected an integer of at least 1"
+  /// "demo.job.json: /crowd/agents: found -3, expected an integer of at least 1". If `found`
+  /// begins with "unknown": `/drone: unknown field "drone"; did you mean "drones"?`. If it
+  /// begins with "missing", and without `expected`, it is `found` alone.
   std::string text() const;
 };
 
@@ -44,7 +46,7 @@ class Cancelled : public std::runtime_error {
   Cancelled() : std::runtime_error("cancelled") {}
 };
 
-/// Where a check stands in the source (std::source_location, which clang 14 lacks).
+/// Source location of a check (std::source_location, which clang 14 lacks).
 struct CodeLocation {
   const char* file;
   int line;

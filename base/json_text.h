@@ -21,12 +21,12 @@ struct JsonLimits {
   std::size_t max_number_chars = 100;  ///< of a number with more digits than 64 bits hold
 };
 
-/// What comes over the network: at most about 20 MB of memory for the values beside the text.
+/// Limits for input from the network: at most about 20 MB of memory for the values beside the text.
 inline constexpr JsonLimits kRequestJsonLimits = {.max_values = 200'000, .max_object_keys = 10'000};
-/// A job, wherever it comes from; with room for what is filled in before it is stored.
+/// A job, wherever it comes from; with space for fields that are filled in before it is stored.
 inline constexpr JsonLimits kJobJsonLimits = {
     .max_bytes = 16 << 20, .max_values = 1'000'000, .max_object_keys = 10'000};
-/// What this program has written itself, such as the manifest of a large dataset.
+/// Limits for files that this program has written itself, such as the manifest of a large dataset.
 inline constexpr JsonLimits kOwnJsonLimits = {.max_bytes = std::size_t{16} << 30,
                                               .max_values = 1'000'000'000};
 

@@ -21,7 +21,7 @@ template <typename Body>
 void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
   if (count == 0) return;
 #if defined(__SANITIZE_THREAD__)
-  // TBB itself is not instrumented: tell ThreadSanitizer of its fork and join.
+  // TBB itself is not instrumented: inform ThreadSanitizer of its fork and join.
   char fork = 0;
   char join = 0;
   __tsan_release(&fork);
@@ -39,8 +39,8 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
 #endif
 }
 
-/// What each thread of a loop works with, made before the loop, so that a thread that joins late
-/// makes nothing.
+/// Per-thread state of a loop, created before the loop, so that a thread that joins late creates
+/// nothing.
 template <typename T>
 class PerThread {
  public:

@@ -1,4 +1,4 @@
-// Problems as JSON, as processes of ours tell them each other. For rooms that link nlohmann's JSON.
+// Problems as JSON, for the exchange between processes. For modules that link nlohmann's JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

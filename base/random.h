@@ -1,5 +1,5 @@
 // Counter-based random numbers: a value depends only on (seed, stream, index, draw), never on the
-// order in which others draw, so results do not change with threads, shards or retries.
+// order in which others sample, so results do not change with threads, shards or retries.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Stream : std::uint32_t {
   sensors = 8,
   population = 9,  ///< bodies that are baked
   environment = 10,
-  randomize = 11,     ///< values drawn for a job's distributions
+  randomize = 11,     ///< values sampled for a job's distributions
   participants = 12,  ///< who of a scenario's people takes part in a run
   crowd_arrivals = 13,
   crowd_groups = 14,  ///< who walks with whom

@@ -1,4 +1,4 @@
-// Where data that comes with the program lies: scenarios, baked people.
+// Folders of the data that comes with the program: scenarios, character library.
 #pragma once
 
 #include <filesystem>

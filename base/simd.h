@@ -18,7 +18,7 @@ namespace throng {
 
 using Float4 [[gnu::vector_size(16)]] = float;
 using Float8 [[gnu::vector_size(32)]] = float;
-/// What comparisons give: -1 where true, 0 elsewhere.
+/// Result of comparisons: -1 where true, 0 elsewhere.
 using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 using Int8 [[gnu::vector_size(32)]] = std::int32_t;
 
@@ -27,7 +27,7 @@ inline Float4 high_half(Float8 v) { return __builtin_shufflevector(v, v, 4, 5, 6
 inline Int4 low_half(Int8 v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
 inline Int4 high_half(Int8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
 
-/// Bit i tells whether lane i of a mask is true.
+/// Bit i is set if lane i of a mask is true.
 inline unsigned bits(Int4 mask) {
 #if defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
@@ -106,7 +106,7 @@ void store(Vector v, Value* to) {
   std::memcpy(to, &v, sizeof(v));
 }
 
-/// Where the lanes that are true in a mask come from when they are moved together: [bits][lane].
+/// Source lanes of a compress-store, for each mask: [bits][lane].
 inline constexpr auto kPackedLanes = [] {
   std::array<std::array<std::int32_t, 8>, 256> lanes{};
   for (std::size_t mask = 0; mask < lanes.size(); ++mask) {

@@ -1,4 +1,4 @@
-// Where the time of repeated work goes: whoever works says what has just ended.
+// Profile of repeated work: the code reports each stage that has just ended.
 #pragma once
 
 #include <chrono>

@@ -29,13 +29,13 @@ constexpr const char* kPlainName =
 using ArchiveHandle = std::unique_ptr<archive, int (*)(archive*)>;
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t kLongest = 120;
+  constexpr std::size_t kMaxPrintedBytes = 120;
   std::string out;
-  for (const char c : text.substr(0, kLongest)) {
+  for (const char c : text.substr(0, kMaxPrintedBytes)) {
     const auto byte = static_cast<unsigned char>(c);
     out += byte >= ' ' && byte < 0x7F ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
   }
-  return text.size() > kLongest ? out + "..." : out;
+  return text.size() > kMaxPrintedBytes ? out + "..." : out;
 }
 
 [[noreturn]] void refuse(std::string_view entry, std::string found, std::string expected) {
@@ -65,9 +65,9 @@ bool is_plain(char c) {
 
 /// An entry's path in its parts. Throws InputError.
 std::vector<std::string> parts_of(std::string_view name, const UnpackLimits& limits) {
-  if (name.size() > limits.longest_path) {
+  if (name.size() > limits.max_path_bytes) {
     refuse(name, fmt::format("a path of {} characters", name.size()),
-           fmt::format("at most {}", limits.longest_path));
+           fmt::format("at most {}", limits.max_path_bytes));
   }
   if (name.starts_with('/') || !std::all_of(name.begin(), name.end(), is_plain)) {
     refuse(name, "this path", kPlainName);
@@ -85,14 +85,14 @@ std::vector<std::string> parts_of(std::string_view name, const UnpackLimits& lim
     if (is_reserved(part)) refuse(name, "a name that is reserved for devices", kPlainName);
     parts.emplace_back(part);
   }
-  if (parts.size() > limits.deepest) {
+  if (parts.size() > limits.max_depth) {
     refuse(name, fmt::format("a path of {} levels", parts.size()),
-           fmt::format("at most {}", limits.deepest));
+           fmt::format("at most {}", limits.max_depth));
   }
   return parts;
 }
 
-/// Tells when two entries want the same name, on systems that know no case, too.
+/// Detects two entries of the same name, also for case-insensitive systems.
 class Names {
  public:
   /// Notes the entry and the folders it lies in.
@@ -120,7 +120,7 @@ class Names {
   std::map<std::string, Known> names_;
 };
 
-/// What stays out: macOS adds it without asking.
+/// Skipped entries, which macOS adds by itself.
 bool is_clutter(const std::vector<std::string>& parts) {
   return parts.empty() || parts.front() == "__MACOSX" || parts.back() == ".DS_Store";
 }
@@ -152,8 +152,8 @@ class Unpacking {
       const int status = archive_read_next_header(archive_.get(), &entry);
       if (status == ARCHIVE_EOF) break;
       if (status != ARCHIVE_OK && status != ARCHIVE_WARN) fail("");
-      if (++entries > limits_.most_entries) {
-        refuse("", "more entries", fmt::format("at most {}", limits_.most_entries));
+      if (++entries > limits_.max_entries) {
+        refuse("", "more entries", fmt::format("at most {}", limits_.max_entries));
       }
       take(entry);
     }
@@ -182,7 +182,7 @@ class Unpacking {
     if (archive_entry_is_encrypted(entry) != 0)
       refuse(name, "an encrypted entry", "one that is not");
     require_known_compression(name);
-    // What is left out, or should have no bytes, counts too: passing over it is work.
+    // Skipped entries, and entries that should have no bytes, count too: reading past them is work.
     if (is_clutter(parts)) return pass_on(name, [](std::string_view) {});
     names_.add(name, parts, type == AE_IFDIR);
     fs::path place = folder_;
@@ -228,17 +228,17 @@ class Unpacking {
   }
 
   void require_allowed(const std::string& name, std::int64_t file_bytes) const {
-    if (file_bytes > limits_.most_file_bytes) {
-      refuse(name, "a larger file", fmt::format("at most {} bytes", limits_.most_file_bytes));
+    if (file_bytes > limits_.max_file_bytes) {
+      refuse(name, "a larger file", fmt::format("at most {} bytes", limits_.max_file_bytes));
     }
-    if (result_.bytes > limits_.most_bytes) {
+    if (result_.bytes > limits_.max_bytes) {
       refuse(name, "more bytes so far",
-             fmt::format("at most {} in all files together", limits_.most_bytes));
+             fmt::format("at most {} in all files together", limits_.max_bytes));
     }
     constexpr std::int64_t kAlwaysFine = 4 << 20;
-    if (result_.bytes > kAlwaysFine && result_.bytes / packed_bytes_ > limits_.most_ratio) {
+    if (result_.bytes > kAlwaysFine && result_.bytes / packed_bytes_ > limits_.max_ratio) {
       refuse(name, "a file that was packed too well",
-             fmt::format("at most {} bytes for each byte of the archive", limits_.most_ratio));
+             fmt::format("at most {} bytes for each byte of the archive", limits_.max_ratio));
     }
   }
 

@@ -9,15 +9,15 @@
 
 namespace throng {
 
-/// What an archive may hold.
+/// Limits on an archive's contents.
 struct UnpackLimits {
-  std::size_t most_entries = 4000;
-  std::int64_t most_file_bytes = 256LL << 20U;  ///< of each file
-  std::int64_t most_bytes = 1LL << 30U;         ///< of all files together
+  std::size_t max_entries = 4000;
+  std::int64_t max_file_bytes = 256LL << 20U;  ///< of each file
+  std::int64_t max_bytes = 1LL << 30U;         ///< of all files together
   /// Unpacked bytes per packed byte; text and empty images reach some dozens.
-  std::int64_t most_ratio = 200;
-  std::size_t longest_path = 200;  ///< characters
-  std::size_t deepest = 8;         ///< folders and the file's name
+  std::int64_t max_ratio = 200;
+  std::size_t max_path_bytes = 200;  ///< characters
+  std::size_t max_depth = 8;         ///< folders and the file's name
 };
 
 struct Unpacked {
@@ -25,10 +25,10 @@ struct Unpacked {
   std::int64_t bytes = 0;
 };
 
-/// Unpacks a zip, tar or tar.gz file, which it tells apart by its bytes, into an empty folder.
-/// Names are relative paths of printable ASCII that any system could hold; files and folders only:
-/// no links, no devices; nothing encrypted; no two names that differ in their case alone. What
-/// macOS adds to zip files (__MACOSX, .DS_Store) is left out. Throws InputError naming the entry
+/// Unpacks a zip, tar or tar.gz file, recognized by its first bytes, into an empty folder. Names
+/// are relative paths of printable ASCII that any system could hold; files and folders only: no
+/// links, no devices; nothing encrypted; no two names that differ in their case alone. Files that
+/// macOS adds to zip files (__MACOSX, .DS_Store) are skipped. Throws InputError naming the entry
 /// and EnvironmentError; the folder then holds a part.
 Unpacked unpack_archive(std::string_view bytes, const std::filesystem::path& folder,
                         const UnpackLimits& limits = {});

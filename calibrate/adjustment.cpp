@@ -24,7 +24,7 @@ constexpr int kPoseNumbers = 6;
 constexpr int kPointNumbers = 3;
 constexpr int kLensNumbers = static_cast<int>(kParameters);
 
-/// What all residuals of an adjustment share.
+/// Data shared by all residuals of an adjustment.
 struct Model {
   bool fisheye;
   const Rules* rules;
@@ -222,15 +222,16 @@ class CeresProblem {
   ceres::Problem problem_;
 };
 
-class GoOn : public ceres::IterationCallback {
+class ContinueCallback : public ceres::IterationCallback {
  public:
-  explicit GoOn(const std::function<bool()>& go_on) : go_on_(&go_on) {}
+  explicit ContinueCallback(const std::function<bool()>& should_continue)
+      : should_continue_(&should_continue) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
-    return (*go_on_)() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_ABORT;
+    return (*should_continue_)() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_ABORT;
   }
 
  private:
-  const std::function<bool()>* go_on_;
+  const std::function<bool()>* should_continue_;
 };
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -260,14 +261,14 @@ std::vector<Eigen::Index> open_directions(const Sparse& scaled) {
   Eigen::VectorXd direction = Eigen::VectorXd::LinSpaced(scaled.rows(), 1, 2).normalized();
   for (int i = 0; i < kRounds; ++i) direction = solver.solve(direction).normalized();
   std::vector<Eigen::Index> entries;
-  const double most = direction.cwiseAbs().maxCoeff();
+  const double max_value = direction.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < direction.size(); ++i) {
-    if (std::abs(direction[i]) > kTakesPart * most) entries.push_back(i);
+    if (std::abs(direction[i]) > kTakesPart * max_value) entries.push_back(i);
   }
   return entries;
 }
 
-void note_open(const std::vector<Eigen::Index>& entries, Linearisation& result) {
+void note_open(const std::vector<Eigen::Index>& entries, Linearization& result) {
   for (const Eigen::Index entry : entries) {
     const auto i = static_cast<std::size_t>(entry);
     if (i < result.places.size()) {
@@ -338,15 +339,15 @@ SolveReport solve(Adjustment& adjustment, const SolveOptions& options) {
   solver.linear_solver_type =
       adjustment.poses.size() <= kDenseViews ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
   solver.linear_solver_ordering = ceres.ordering();
-  solver.max_num_iterations = options.most_iterations;
+  solver.max_num_iterations = options.max_iterations;
   constexpr double kTolerance = 1e-14;
   solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = kTolerance;
   solver.gradient_tolerance = kTolerance;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;
-  GoOn go_on(options.go_on);
-  if (options.go_on) solver.callbacks.push_back(&go_on);
+  ContinueCallback should_continue(options.should_continue);
+  if (options.should_continue) solver.callbacks.push_back(&should_continue);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &ceres.problem(), &summary);
   if (summary.termination_type == ceres::USER_FAILURE) throw Cancelled();
@@ -356,9 +357,9 @@ SolveReport solve(Adjustment& adjustment, const SolveOptions& options) {
       summary.IsSolutionUsable() ? summary.final_cost : std::numeric_limits<double>::infinity()};
 }
 
-Linearisation linearise(const Adjustment& adjustment) {
+Linearization linearize(const Adjustment& adjustment) {
   CeresProblem ceres(adjustment, 0);
-  Linearisation result;
+  Linearization result;
   if (ceres.lens_unknowns() > 0) result.places = adjustment.rules.free_places();
   const Sparse normal = normal_matrix(ceres);
   const Eigen::Index count = normal.rows();
@@ -374,7 +375,7 @@ Linearisation linearise(const Adjustment& adjustment) {
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
   const Sparse scaled = scale.asDiagonal() * normal * scale.asDiagonal();
   const Eigen::SimplicialLDLT<Sparse> factors(scaled);
-  // What rounding leaves of a pivot that ought to be 0.
+  // Rounding error of a pivot that should be 0.
   constexpr double kNothing = 1e-13;
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kNothing)) {
     note_open(open_directions(scaled), result);

@@ -58,12 +58,12 @@ struct Adjustment {
 struct SolveOptions {
   /// Cauchy's loss with this scale (px); 0: plain least squares.
   double loss_px = 0;
-  int most_iterations = 100;
+  int max_iterations = 100;
   /// Ends when a step makes the cost smaller by a smaller share: parameters are then within about
   /// its root of a standard deviation.
   double tolerance = 1e-12;
   /// Asked after every step whether to go on; false ends with Cancelled.
-  std::function<bool()> go_on = {};
+  std::function<bool()> should_continue = {};
 };
 
 struct SolveReport {
@@ -77,16 +77,16 @@ struct SolveReport {
 SolveReport solve(Adjustment& adjustment, const SolveOptions& options = {});
 
 /// Derivatives at the solution.
-struct Linearisation {
+struct Linearization {
   /// Covariance of [free lens parameters, 6 per view], in units of sigma_px = 1 px: multiply by
   /// sigma^2. Priors of parameters and points, which have their own units, are weighed by the
   /// adjustment's sigma_px. Empty when the data leave something open.
   Eigen::MatrixXd covariance;
   std::vector<std::size_t> places;  ///< of the free lens parameters in Parameters
-  /// What the data leave open: places of lens parameters.
+  /// Indices of the lens parameters that the data do not determine.
   std::vector<std::size_t> undetermined;
   bool poses_determined = true;
 };
-Linearisation linearise(const Adjustment& adjustment);
+Linearization linearize(const Adjustment& adjustment);
 
 }  // namespace throng::calibrate

@@ -26,39 +26,39 @@ constexpr std::array kDictionaries = {
     "4X4_50",  "4X4_100",  "4X4_250", "4X4_1000", "5X5_50",        "5X5_100",
     "5X5_250", "5X5_1000", "6X6_50",  "6X6_100",  "6X6_250",       "6X6_1000",
     "7X7_50",  "7X7_100",  "7X7_250", "7X7_1000", "ARUCO_ORIGINAL"};
-/// Pictures are searched at most this large; corners are refined in the whole picture.
+/// Images are searched at most this large; corners are refined in the whole image.
 constexpr int kSearchSide = 1400;
 
-cv::Mat wrapped(const GreyImage& image) {
+cv::Mat wrapped(const GrayImage& image) {
   // OpenCV has no view of constant pixels; nothing here writes to it.
   return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
 }
 
 double smallest_spacing(const std::vector<cv::Point2f>& corners, int columns) {
-  double least = INFINITY;
+  double min_value = INFINITY;
   const auto distance = [&](std::size_t a, std::size_t b) {
     return std::hypot(corners[a].x - corners[b].x, corners[a].y - corners[b].y);
   };
   const auto width = static_cast<std::size_t>(columns);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if ((i + 1) % width != 0) least = std::min<double>(least, distance(i, i + 1));
-    if (i + width < corners.size()) least = std::min<double>(least, distance(i, i + width));
+    if ((i + 1) % width != 0) min_value = std::min<double>(min_value, distance(i, i + 1));
+    if (i + width < corners.size()) min_value = std::min<double>(min_value, distance(i, i + width));
   }
-  return least;
+  return min_value;
 }
 
 /// `clear_px`: how far from a corner there is nothing but its own edges.
 void refine(const cv::Mat& image, double clear_px, std::vector<cv::Point2f>& corners) {
-  constexpr int kWidest = 11;
-  constexpr int kMostSteps = 100;
+  constexpr int kMaxHalfWindowPx = 11;
+  constexpr int kMaxSteps = 100;
   constexpr double kPrecise = 1e-4;
-  const int half = std::clamp(static_cast<int>(clear_px), 2, kWidest);
+  const int half = std::clamp(static_cast<int>(clear_px), 2, kMaxHalfWindowPx);
   cv::cornerSubPix(
       image, corners, cv::Size(half, half), cv::Size(-1, -1),
-      cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kMostSteps, kPrecise));
+      cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kMaxSteps, kPrecise));
 }
 
-/// The picture as it is searched, and how much smaller it is.
+/// The image as it is searched, and how much smaller it is.
 struct Reduced {
   cv::Mat image;
   double scale = 1;
@@ -111,7 +111,7 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
   const std::optional<cv::Size> there = size_of_any_chessboard(small.image);
   const bool fits = there && ((there->width == size.width && there->height == size.height) ||
                               (there->width == size.height && there->height == size.width));
-  // What looks like another row may be a shadow at the border: the other method has to see it, too.
+  // An apparent extra row may be a shadow at the border: the other method has to find it, too.
   std::vector<cv::Point2f> others;
   const bool larger = there && found && there->area() > size.area() &&
                       cv::findChessboardCorners(small.image, *there, others);
@@ -127,7 +127,8 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
     corner = (corner + cv::Point2f(0.5F, 0.5F)) / static_cast<float>(small.scale) -
              cv::Point2f(0.5F, 0.5F);
   }
-  // Wider than nearly half a square, a window holds the next corner, too, and is drawn to it.
+  // Wider than nearly half a square, a window contains the next corner, too, and is attracted by
+  // it.
   constexpr double kClearShare = 0.45;
   refine(image, kClearShare * smallest_spacing(corners, board.columns), corners);
   return view_of(name, board_points(board), corners);
@@ -136,14 +137,14 @@ std::variant<View, Problem> find_chessboard(const cv::Mat& image, const Board& b
 std::variant<View, Problem> find_circles(const cv::Mat& image, const Board& board,
                                          const std::string& name) {
   const cv::Size size(board.columns, board.rows);
-  std::vector<cv::Point2f> centres;
-  bool found = cv::findCirclesGrid(image, size, centres, cv::CALIB_CB_ASYMMETRIC_GRID);
+  std::vector<cv::Point2f> centers;
+  bool found = cv::findCirclesGrid(image, size, centers, cv::CALIB_CB_ASYMMETRIC_GRID);
   if (!found) {
-    found = cv::findCirclesGrid(image, size, centres,
+    found = cv::findCirclesGrid(image, size, centers,
                                 cv::CALIB_CB_ASYMMETRIC_GRID | cv::CALIB_CB_CLUSTERING);
   }
   if (!found) return no_board(name, board, "no such grid of circles");
-  return view_of(name, board_points(board), centres);
+  return view_of(name, board_points(board), centers);
 }
 
 cv::Ptr<cv::aruco::Dictionary> dictionary_of(const Board& board) {
@@ -172,7 +173,7 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
   std::vector<cv::Point2f> corners;
   std::vector<int> corner_ids;
   cv::aruco::interpolateCornersCharuco(markers, ids, image, pattern, corners, corner_ids);
-  if (corners.size() < kFewestPoints) {
+  if (corners.size() < kMinPoints) {
     return no_board(name, board,
                     fmt::format("{} markers and {} corners", ids.size(), corners.size()));
   }
@@ -194,23 +195,23 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
 std::variant<View, Problem> view_in(const std::filesystem::path& file, const Board& board,
                                     ImageSize& size) {
   try {
-    const GreyImage image = read_grey_image(file);
+    const GrayImage image = read_gray_image(file);
     size = {image.width, image.height};
     return find_board(image, board, file.string());
   } catch (const InputError& error) {
     return error.problems().front();
   } catch (const EnvironmentError& error) {
-    return Problem{file.string(), "", error.what(), "a picture that can be read"};
+    return Problem{file.string(), "", error.what(), "an image that can be read"};
   }
 }
 
 ImageSize most_frequent(const std::vector<ImageSize>& sizes) {
   ImageSize best;
-  std::ptrdiff_t most = 0;
+  std::ptrdiff_t max_value = 0;
   for (const ImageSize& size : sizes) {
     const auto times = std::count(sizes.begin(), sizes.end(), size);
-    if (size.width > 0 && times > most) {
-      most = times;
+    if (size.width > 0 && times > max_value) {
+      max_value = times;
       best = size;
     }
   }
@@ -231,15 +232,15 @@ Board::Kind board_kind_named(std::string_view name, const std::string& source) {
 }
 
 void check_board(const Board& board, const std::string& source) {
-  constexpr int kFewest = 3;
-  constexpr int kMost = 100;
+  constexpr int kMinCorners = 3;
+  constexpr int kMaxCorners = 100;
   const auto refuse = [&](std::string found, std::string expected) {
     throw InputError(Problem{source, "", std::move(found), std::move(expected)});
   };
-  if (std::min(board.columns, board.rows) < kFewest ||
-      std::max(board.columns, board.rows) > kMost) {
+  if (std::min(board.columns, board.rows) < kMinCorners ||
+      std::max(board.columns, board.rows) > kMaxCorners) {
     refuse(fmt::format("a board of {} x {}", board.columns, board.rows),
-           fmt::format("{} to {} columns and rows", kFewest, kMost));
+           fmt::format("{} to {} columns and rows", kMinCorners, kMaxCorners));
   }
   if (!(board.square > 0) || !(board.marker >= 0 && board.marker < board.square)) {
     refuse(fmt::format("squares of {} with markers of {}", board.square, board.marker),
@@ -260,7 +261,7 @@ void check_board(const Board& board, const std::string& source) {
   }
 }
 
-GreyImage read_grey_image(const std::filesystem::path& file) {
+GrayImage read_gray_image(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   cv::Mat image;
   try {
@@ -270,14 +271,14 @@ GreyImage read_grey_image(const std::filesystem::path& file) {
   }
   if (image.empty()) {
     throw InputError(Problem{file.string(), "",
-                             fmt::format("{} bytes that are no picture", bytes.size()),
-                             "a picture, for example JPEG or PNG"});
+                             fmt::format("{} bytes that are not an image", bytes.size()),
+                             "an image, for example JPEG or PNG"});
   }
-  GreyImage grey{image.cols, image.rows, {}};
+  GrayImage gray{image.cols, image.rows, {}};
   for (int y = 0; y < image.rows; ++y) {
-    grey.pixels.insert(grey.pixels.end(), image.ptr(y), image.ptr(y) + image.cols);
+    gray.pixels.insert(gray.pixels.end(), image.ptr(y), image.ptr(y) + image.cols);
   }
-  return grey;
+  return gray;
 }
 
 std::vector<Eigen::Vector3d> board_points(const Board& board) {
@@ -294,7 +295,7 @@ std::vector<Eigen::Vector3d> board_points(const Board& board) {
   return points;
 }
 
-std::variant<View, Problem> find_board(const GreyImage& image, const Board& board,
+std::variant<View, Problem> find_board(const GrayImage& image, const Board& board,
                                        const std::string& name) {
   try {
     const cv::Mat pixels = wrapped(image);
@@ -302,30 +303,30 @@ std::variant<View, Problem> find_board(const GreyImage& image, const Board& boar
     if (board.kind == Board::Kind::circles) return find_circles(pixels, board, name);
     return find_chessboard(pixels, board, name);
   } catch (const cv::Exception& error) {
-    return no_board(name, board, fmt::format("a picture that OpenCV refuses ({})", error.err));
+    return no_board(name, board, fmt::format("an image that OpenCV cannot decode ({})", error.err));
   }
 }
 
 Correspondences find_boards(const std::vector<std::filesystem::path>& images, const Board& board,
-                            const std::function<bool(std::size_t)>& on_picture) {
-  if (images.empty()) throw InputError(Problem{"images", "", "none", "pictures of a board"});
+                            const std::function<bool(std::size_t)>& on_image) {
+  if (images.empty()) throw InputError(Problem{"images", "", "none", "images of a board"});
   std::vector<std::variant<View, Problem>> found(images.size());
   std::vector<ImageSize> sizes(images.size());
   std::mutex mutex;
   std::size_t done = 0;
-  bool go_on = true;
+  bool should_continue = true;
   parallel_ranges(images.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       {
         const std::lock_guard lock(mutex);
-        if (!go_on) return;
+        if (!should_continue) return;
       }
       found[i] = view_in(images[i], board, sizes[i]);
       const std::lock_guard lock(mutex);
-      if (on_picture && !on_picture(++done)) go_on = false;
+      if (on_image && !on_image(++done)) should_continue = false;
     }
   });
-  if (!go_on) throw Cancelled();
+  if (!should_continue) throw Cancelled();
   Correspondences all;
   all.size = most_frequent(sizes);
   for (std::size_t i = 0; i < images.size(); ++i) {
@@ -334,7 +335,7 @@ Correspondences find_boards(const std::vector<std::filesystem::path>& images, co
     } else if (!(sizes[i] == all.size)) {
       all.left_out.push_back(
           {images[i].string(), "", fmt::format("{} x {} pixels", sizes[i].width, sizes[i].height),
-           fmt::format("{} x {}, which the other pictures have", all.size.width, all.size.height)});
+           fmt::format("{} x {}, as the other images", all.size.width, all.size.height)});
     } else {
       all.views.push_back(std::move(std::get<View>(found[i])));
     }

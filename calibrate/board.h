@@ -1,4 +1,4 @@
-// Calibration boards in pictures: chessboards, ChArUco boards and asymmetric grids of circles,
+// Calibration boards in images: chessboards, ChArUco boards and asymmetric grids of circles,
 // found by OpenCV.
 #pragma once
 
@@ -20,8 +20,8 @@ struct Board {
   /// other row is shifted by half a distance).
   int columns = 9;
   int rows = 6;
-  /// Side of a square; of circles: half the distance between two of one row. What the unit is, so
-  /// are translations.
+  /// Side of a square; of circles: half the distance between two of one row. Translations have the
+  /// same unit.
   double square = 1;
   double marker = 0;                  ///< ChArUco: side of a marker; 0: 0.75 squares
   std::string dictionary = "4X4_50";  ///< ChArUco: OpenCV's name without DICT_
@@ -35,31 +35,31 @@ Board::Kind board_kind_named(std::string_view name, const std::string& source);
 /// is not there.
 void check_board(const Board& board, const std::string& source);
 
-/// A picture, grey.
-struct GreyImage {
+/// An image, gray.
+struct GrayImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;  ///< rows top-down
 };
 
-/// Reads any format that OpenCV reads. Throws InputError when it is no picture, EnvironmentError
+/// Reads any format that OpenCV reads. Throws InputError when it is no image, EnvironmentError
 /// when the file cannot be read.
-GreyImage read_grey_image(const std::filesystem::path& file);
+GrayImage read_gray_image(const std::filesystem::path& file);
 
-/// The board's points in a picture, to a fraction of a pixel, or why there are none (also: which
+/// The board's points in an image, to a fraction of a pixel, or why there are none (also: which
 /// size of chessboard is there instead). The window that a corner is refined in is adapted to the
-/// board's size in the picture: at most 11 pixels to each side, and 0.45 of the distance to the
+/// board's size in the image: at most 11 pixels to each side, and 0.45 of the distance to the
 /// next corner.
-std::variant<View, Problem> find_board(const GreyImage& image, const Board& board,
+std::variant<View, Problem> find_board(const GrayImage& image, const Board& board,
                                        const std::string& name);
 
 /// The board's points in the plane z = 0, in the order in which they are found.
 std::vector<Eigen::Vector3d> board_points(const Board& board);
 
-/// Looks for the board in all pictures, several at once. Pictures of another size than most have,
-/// or without the board, are left out. Throws InputError with one problem per picture when none can
+/// Looks for the board in all images, several at once. Images of another size than most have,
+/// or without the board, are left out. Throws InputError with one problem per image when none can
 /// be used; Cancelled when `on_picture` (called after each) says false.
 Correspondences find_boards(const std::vector<std::filesystem::path>& images, const Board& board,
-                            const std::function<bool(std::size_t done)>& on_picture = {});
+                            const std::function<bool(std::size_t done)>& on_image = {});
 
 }  // namespace throng::calibrate

@@ -13,7 +13,7 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr Eigen::Index kPoseUnknowns = 6;
 
-void take_lens(const Adjustment& adjustment, const Linearisation& derivatives,
+void take_lens(const Adjustment& adjustment, const Linearization& derivatives,
                Calibration& calibration) {
   calibration.parameters = adjustment.parameters;
   calibration.places = derivatives.places;
@@ -33,7 +33,7 @@ void take_lens(const Adjustment& adjustment, const Linearisation& derivatives,
   }
 }
 
-void take_views(const Adjustment& adjustment, const Linearisation& derivatives,
+void take_views(const Adjustment& adjustment, const Linearization& derivatives,
                 const std::vector<std::string>& names, Calibration& calibration) {
   calibration.views.clear();
   for (std::size_t v = 0; v < names.size(); ++v) {

@@ -1,4 +1,4 @@
-// What a calibration gives.
+// Result of a calibration.
 #pragma once
 
 #include <Eigen/Core>

@@ -56,17 +56,17 @@ void check_image_size(const Correspondences& all) {
     return all_finite(view) && is_of_another_size(view, all.size);
   });
   if (wrong == 0 || kOneIn * wrong < static_cast<std::ptrdiff_t>(all.views.size())) return;
-  Eigen::Vector2d most = Eigen::Vector2d::Zero();
+  Eigen::Vector2d max_value = Eigen::Vector2d::Zero();
   for (const View& view : all.views) {
     for (const Eigen::Vector2d& pixel : view.pixels) {
-      if (pixel.allFinite()) most = most.cwiseMax(pixel);
+      if (pixel.allFinite()) max_value = max_value.cwiseMax(pixel);
     }
   }
   throw InputError(
       Problem{"", "/size", fmt::format("{} x {}", all.size.width, all.size.height),
               fmt::format("the images' own size: {} of {} images have points outside of this one, "
                           "which reach to pixel ({:.0f}, {:.0f})",
-                          wrong, all.views.size(), most.x(), most.y())});
+                          wrong, all.views.size(), max_value.x(), max_value.y())});
 }
 
 struct Reading {
@@ -87,9 +87,9 @@ std::vector<Problem> problems_of(const View& view, const ImageSize& size) {
     return std::vector<Problem>{{view.name, "", std::move(found), std::move(expected)}};
   };
   if (!all_finite(view)) return problem("coordinates that are not finite", "finite numbers");
-  if (view.points.size() < kFewestPoints) {
+  if (view.points.size() < kMinPoints) {
     return problem(fmt::format("{} points", view.points.size()),
-                   fmt::format("at least {}", kFewestPoints));
+                   fmt::format("at least {}", kMinPoints));
   }
   if (const std::size_t twins = twins_in(view.points); twins > 0) {
     return problem(fmt::format("{} points given twice", twins), "each point of the world once");

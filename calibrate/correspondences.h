@@ -1,4 +1,4 @@
-// What a calibration starts from: points of the world and the pixels at which images show them.
+// Input of a calibration: correspondences of world points and image pixels.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,13 +25,13 @@ struct Correspondences {
 };
 
 /// Fewest points of a view that fix its pose beside the lens.
-inline constexpr std::size_t kFewestPoints = 6;
+inline constexpr std::size_t kMinPoints = 6;
 
 /// Whether a pixel lies outside of an image's border by more than a pixel.
 bool is_outside(const Eigen::Vector2d& pixel, const ImageSize& size);
 
-/// What is wrong with a view: too few points, more than a tenth of them outside the image, values
-/// that are not finite, points or pixels that occur twice, points in a line. Empty: nothing.
+/// Errors of a view: too few points, more than a tenth of them outside the image, values that are
+/// not finite, points or pixels that occur twice, points in a line. Empty: nothing.
 std::vector<Problem> problems_of(const View& view, const ImageSize& size);
 
 /// Moves views that have problems to `left_out`. Throws InputError when a quarter of the views or

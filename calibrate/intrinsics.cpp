@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/initialise.h"
+#include "calibrate/initialize.h"
 #include "calibrate/model_choice.h"
 #include "calibrate/repeated_views.h"
 #include "calibrate/warnings.h"
@@ -16,9 +16,9 @@ namespace {
 
 /// Above this (px) a solution is taken for a wrong minimum, and another guess is tried.
 constexpr double kDoubtfulRmsPx = 2;
-constexpr std::size_t kMostGuesses = 6;
+constexpr std::size_t kMaxGuesses = 6;
 /// A view with a larger share of outliers is wrong as a whole.
-constexpr double kMostOutliers = 0.5;
+constexpr double kMaxOutliers = 0.5;
 
 struct Solved {
   Adjustment adjustment;
@@ -91,7 +91,7 @@ Solved solve_views(const Correspondences& all, Lens lens, const Rules& rules,
                    const IntrinsicsOptions& options) {
   const std::vector<Guess> starts = guesses(all, lens, rules);
   std::optional<Solved> best;
-  for (std::size_t i = 0; i < std::min(starts.size(), kMostGuesses); ++i) {
+  for (std::size_t i = 0; i < std::min(starts.size(), kMaxGuesses); ++i) {
     Solved tried{adjustment_of(all, lens, rules, starts[i]), {}};
     tried.fit = fit(tried.adjustment, options.fit);
     const auto worth = [](const Solved& s) {
@@ -120,7 +120,7 @@ std::vector<std::size_t> wrong_views(const Solved& solved) {
   std::vector<std::size_t> wrong;
   for (std::size_t v = 0; v < seen.size(); ++v) {
     const auto outliers = static_cast<double>(seen[v] - used[v]);
-    if (used[v] < kFewestPoints || outliers > kMostOutliers * static_cast<double>(seen[v])) {
+    if (used[v] < kMinPoints || outliers > kMaxOutliers * static_cast<double>(seen[v])) {
       wrong.push_back(v);
     }
   }

@@ -7,7 +7,7 @@ namespace throng::calibrate {
 
 namespace {
 
-/// What the first, robust calibration used.
+/// Points that the first, robust calibration used.
 Correspondences used_in(const Calibration& calibration) {
   Correspondences used;
   used.size = calibration.size;
@@ -23,7 +23,7 @@ Correspondences used_in(const Calibration& calibration) {
   return used;
 }
 
-/// Without what is said of parameters that the lens has not.
+/// Without settings for parameters that the lens does not have.
 Wishes wishes_for(Lens lens, Wishes wishes) {
   const auto has = [&](const std::string& name) {
     for (std::size_t i = 0; i < kParameters; ++i) {
@@ -53,8 +53,8 @@ ModelScore score_of(const Calibration& calibration) {
 double bic(double sum_of_squares, std::size_t numbers, std::size_t unknowns) {
   const auto m = static_cast<double>(numbers);
   // Exact data would have -infinity for every model: what is better than this is as good.
-  constexpr double kLeastMean = 1e-16;
-  return m * std::log(std::max(sum_of_squares / m, kLeastMean)) +
+  constexpr double kMinMean = 1e-16;
+  return m * std::log(std::max(sum_of_squares / m, kMinMean)) +
          static_cast<double>(unknowns) * std::log(m);
 }
 

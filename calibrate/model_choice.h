@@ -1,4 +1,4 @@
-// Which lens model the data speak for.
+// Selection of the lens model.
 #pragma once
 
 #include "calibrate/calibration.h"

@@ -62,18 +62,18 @@ std::optional<ViewPose> resect(const std::vector<Sighting>& all, const camera::I
     sightings.push_back(sighting);
     directions.push_back(*direction);
   }
-  constexpr std::size_t kFewest = 4;
-  if (sightings.size() < kFewest) return std::nullopt;
+  constexpr std::size_t kMinSightings = 4;
+  if (sightings.size() < kMinSightings) return std::nullopt;
   std::vector<std::size_t> everything(sightings.size());
   for (std::size_t i = 0; i < everything.size(); ++i) everything[i] = i;
   std::optional<ViewPose> best;
-  double least = std::numeric_limits<double>::infinity();
+  double min_value = std::numeric_limits<double>::infinity();
   const auto consider = [&](const std::optional<ViewPose>& pose) {
     if (!pose) return;
     const double miss = median_miss(sightings, {lens, pose->pose()});
-    if (best && !(miss < least)) return;
+    if (best && !(miss < min_value)) return;
     best = pose;
-    least = miss;
+    min_value = miss;
   };
   consider(pose_of(sightings, directions, everything));
   // With five of six right, 60 subsets of five miss an all-right one once in 10^13.
@@ -98,15 +98,15 @@ std::optional<Vector3d> intersect(const std::vector<Ray>& rays, const camera::In
     const Vector3d direction = (ray.pose.R.transpose() * seen->homogeneous()).normalized();
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - direction * direction.transpose();
     sum += across;
-    right += across * ray.pose.centre();
+    right += across * ray.pose.center();
     directions.push_back(direction);
   }
-  constexpr double kNarrowest = std::numbers::pi / 180;
+  constexpr double kMinWidth = std::numbers::pi / 180;
   double widest = 0;
   for (const Vector3d& a : directions) {
     for (const Vector3d& b : directions) widest = std::max(widest, a.cross(b).norm());
   }
-  if (widest < std::sin(kNarrowest)) return std::nullopt;
+  if (widest < std::sin(kMinWidth)) return std::nullopt;
   const Vector3d point = sum.ldlt().solve(right);
   const bool before = std::all_of(rays.begin(), rays.end(), [&](const Ray& ray) {
     return (ray.pose.R * point + ray.pose.t).z() > 0;

@@ -15,7 +15,7 @@ struct Sighting {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
-/// The pose that most sightings agree with (least median of squares over drawn subsets, Rousseeuw
+/// The pose that most sightings agree with (least median of squares over sampled subsets, Rousseeuw
 /// 1984), so that up to a third of them may be wrong. Nothing when no pose shows them.
 std::optional<ViewPose> resect(const std::vector<Sighting>& sightings,
                                const camera::Intrinsics& lens);
@@ -26,8 +26,8 @@ struct Ray {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
-/// Where the rays come nearest to each other (linear least squares); nothing when they are nearly
-/// parallel, or meet behind a camera.
+/// Point nearest to all rays (linear least squares); nothing when they are nearly parallel, or meet
+/// behind a camera.
 std::optional<Eigen::Vector3d> intersect(const std::vector<Ray>& rays,
                                          const camera::Intrinsics& lens);
 

@@ -7,9 +7,9 @@ namespace throng::calibrate {
 
 std::optional<ViewPose> pose_from_directions(const std::vector<Eigen::Vector3d>& points,
                                              const std::vector<Eigen::Vector2d>& directions) {
-  constexpr std::size_t kFewest = 4;
-  if (points.size() < kFewest || points.size() != directions.size()) return std::nullopt;
-  // Around their middle: maps have coordinates of millions of metres.
+  constexpr std::size_t kMinPoses = 4;
+  if (points.size() < kMinPoses || points.size() != directions.size()) return std::nullopt;
+  // Around their middle: maps have coordinates of millions of meters.
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points) middle += p / static_cast<double>(points.size());
   std::vector<cv::Point3d> world;
@@ -27,7 +27,7 @@ std::optional<ViewPose> pose_from_directions(const std::vector<Eigen::Vector3d>&
       return std::nullopt;
     }
   } catch (const cv::Exception&) {
-    return std::nullopt;  // how it says that it found nothing
+    return std::nullopt;  // its report that it found nothing
   }
   ViewPose pose;
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,5 @@
-// Where a camera stands, from points of the world and the directions in which it sees them.
+// Camera pose from world points and the directions in which the camera sees them
+// (perspective-n-point).
 #pragma once
 
 #include <Eigen/Core>

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::size_t kFewestControlPoints = 4;
+constexpr std::size_t kMinControlPoints = 4;
 
 /// Pixels by image, in the order of the file; points by name.
 struct Images {
@@ -34,7 +34,7 @@ Images images_of(const std::vector<NamedPixel>& pixels) {
   return images;
 }
 
-/// Middle of the control points: maps' coordinates of millions of metres lose digits.
+/// Middle of the control points: maps' coordinates of millions of meters lose digits.
 Vector3d middle_of(const ControlPoints& points) {
   Vector3d middle = Vector3d::Zero();
   for (const auto& [name, point] : points) {
@@ -43,7 +43,7 @@ Vector3d middle_of(const ControlPoints& points) {
   return middle;
 }
 
-/// What grows while images and points are placed.
+/// State that grows while images and points are placed.
 class Bundle {
  public:
   Bundle(const CameraFile& camera, const ControlPoints& control_points, Images images)
@@ -180,9 +180,8 @@ void require_control_points(const Bundle& bundle, const std::string& source,
                             std::vector<Problem> left_out) {
   const std::vector<Vector3d> control = bundle.seen_control_points();
   if (!bundle.placed_images().empty() && !in_a_line(control)) return;
-  Problem problem{
-      source, "", fmt::format("{} control points in usable images", control.size()),
-      fmt::format("an image that shows at least {} control points", kFewestControlPoints)};
+  Problem problem{source, "", fmt::format("{} control points in usable images", control.size()),
+                  fmt::format("an image that shows at least {} control points", kMinControlPoints)};
   if (!bundle.placed_images().empty()) problem.expected = "control points beside a line";
   left_out.insert(left_out.begin(), problem);
   throw InputError(left_out);
@@ -214,9 +213,9 @@ Rules fixed_lens() {
 Calibration calibrate_pose(const CameraFile& camera, const ControlPoints& control_points,
                            const std::vector<NamedPixel>& pixels, const PoseOptions& options) {
   Bundle bundle(camera, control_points, images_of(pixels));
-  bundle.place_images(kFewestControlPoints);
+  bundle.place_images(kMinControlPoints);
   const std::vector<Problem> left_out =
-      bundle.left_out(fmt::format("at least {} control points", kFewestControlPoints));
+      bundle.left_out(fmt::format("at least {} control points", kMinControlPoints));
   require_control_points(bundle, options.source, left_out);
   Adjustment adjustment = bundle.adjustment();
   adjustment.rules = fixed_lens();
@@ -227,15 +226,14 @@ Calibration adjust_bundle(const CameraFile& start, const ControlPoints& control_
                           const std::vector<NamedPixel>& pixels, const BundleOptions& options) {
   Bundle bundle(start, control_points, images_of(pixels));
   // By control points first; then by what these images have fixed, which is less sure.
-  constexpr std::size_t kFewestOthers = 6;
-  bool any = bundle.place_images(kFewestControlPoints);
+  constexpr std::size_t kMinOthers = 6;
+  bool any = bundle.place_images(kMinControlPoints);
   while (any) {
     bundle.place_points();
-    any = bundle.place_images(kFewestOthers);
+    any = bundle.place_images(kMinOthers);
   }
-  const std::vector<Problem> left_out =
-      bundle.left_out(fmt::format("{} control points, or {} points that other images fix",
-                                  kFewestControlPoints, kFewestOthers));
+  const std::vector<Problem> left_out = bundle.left_out(fmt::format(
+      "{} control points, or {} points that other images fix", kMinControlPoints, kMinOthers));
   require_control_points(bundle, options.source, left_out);
   Adjustment adjustment = bundle.adjustment();
   adjustment.rules =

@@ -1,4 +1,4 @@
-// Where cameras of a known lens stand, from ground control points; and the bundle adjustment of
+// Poses of cameras with a known lens, from ground control points; and the bundle adjustment of
 // several images with control points and others.
 #pragma once
 

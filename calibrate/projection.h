@@ -43,8 +43,8 @@ Shown<T> distorted(bool fisheye, const T* k, const T& x, const T& y) {
 /// all Parameters, with the tied ones applied.
 template <typename T>
 bool project(bool fisheye, const T* p, const T* point, T* pixel) {
-  constexpr double kNearest = 1e-9;
-  if (point[2] < T(kNearest)) return false;
+  constexpr double kMinDepth = 1e-9;
+  if (point[2] < T(kMinDepth)) return false;
   const T x = point[0] / point[2];
   const T y = point[1] / point[2];
   const Shown<T> shown = distorted(fisheye, p + kCoefficients, x, y);

@@ -71,7 +71,7 @@ void leave_out_copies(Correspondences& all) {
     } else {
       all.left_out.push_back({view.name, "",
                               fmt::format("the same pixels as in image {}", copied->name),
-                              "each picture once"});
+                              "each image once"});
     }
   }
   all.views = std::move(kept);

@@ -1,4 +1,4 @@
-// Views that show the object exactly where another one does: they say nothing new.
+// Views that show the object exactly where another one does: they add no information.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ std::vector<std::size_t> first_alike(const std::vector<View>& views);
 std::size_t distinct_views(const std::vector<View>& views);
 
 /// Moves views whose points and pixels are all those of an earlier one to `left_out`: the same
-/// picture given twice.
+/// image given twice.
 void leave_out_copies(Correspondences& all);
 
 }  // namespace throng::calibrate

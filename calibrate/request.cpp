@@ -8,8 +8,8 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
-#include "calibrate/picture.h"
 #include "calibrate/pose.h"
+#include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "calibrate/spec/camera_file.h"
 
@@ -41,7 +41,8 @@ T member(const json& object, const std::string& pointer, const char* name, T oth
   } catch (const json::exception&) {
     // said below
   }
-  refuse(pointer + "/" + name, *found, fmt::format("what {} needs: see docs/calibration.md", name));
+  refuse(pointer + "/" + name, *found,
+         fmt::format("the input of {}: see docs/calibration.md", name));
 }
 
 /// A file of the request, which must be one of those that came with it.
@@ -101,14 +102,14 @@ Wishes wishes_of(const json& value) {
   return wishes;
 }
 
-/// What the kind needs and lacks.
+/// Required fields of the kind that are missing.
 void require_inputs(const Request& request, const std::string& source) {
   const auto require = [&](bool there, const char* expected) {
     if (!there) throw InputError(Problem{source, "", "nothing of the kind", expected});
   };
   if (request.kind == "intrinsics") {
     require(request.images.empty() != request.points.empty(),
-            "either pictures of a board or a table of points");
+            "either images of a board or a table of points");
     require(request.points.empty() || request.size.has_value(),
             "the size of the images that the points are of");
     return;
@@ -119,7 +120,7 @@ void require_inputs(const Request& request, const std::string& source) {
 }
 
 Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_progress) {
-  const auto say = [&](double share, const std::string& what) {
+  const auto warn = [&](double share, const std::string& what) {
     if (on_progress) on_progress(share, what);
   };
   Correspondences all;
@@ -129,12 +130,12 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
     constexpr double kShareOfSearch = 0.9;
     const auto count = static_cast<double>(request.images.size());
     all = find_boards(request.images, request.board, [&](std::size_t done) {
-      say(kShareOfSearch * static_cast<double>(done) / count,
-          fmt::format("picture {} of {}", done, request.images.size()));
-      return !request.options.fit.go_on || request.options.fit.go_on();
+      warn(kShareOfSearch * static_cast<double>(done) / count,
+           fmt::format("image {} of {}", done, request.images.size()));
+      return !request.options.fit.should_continue || request.options.fit.should_continue();
     });
   }
-  say(0.9, "solving");
+  warn(0.9, "solving");
   return calibrate_intrinsics(all, request.options);
 }
 
@@ -200,15 +201,15 @@ Calibration carry_out(const Request& request, const OnProgress& on_progress) {
 }
 
 void carry_out_in(const fs::path& folder, const OnProgress& on_progress,
-                  const std::function<bool()>& go_on) {
+                  const std::function<bool()>& should_continue) {
   const json value = parse_json(read_file(folder / "request.json"), "request.json");
   Request request = request_from_json(value, folder / "files");
-  request.options.fit.go_on = go_on;
+  request.options.fit.should_continue = should_continue;
   const Calibration calibration = carry_out(request, on_progress);
   write_file_atomically(folder / kOpenCvName, opencv_yaml(calibration));
   write_file_atomically(folder / kRosName,
                         ros_yaml(calibration, value.value("name", std::string("camera"))));
-  write_file_atomically(folder / kPictureName, residual_picture(calibration));
+  write_file_atomically(folder / kPictureName, residual_plot(calibration));
   write_file_atomically(folder / kCameraName, to_json(calibration).dump(2) + "\n");
 }
 

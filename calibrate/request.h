@@ -1,4 +1,4 @@
-// A calibration as it is asked for, on the command line and over HTTP, and its way to a result.
+// A calibration request, from the command line or over HTTP, and its processing.
 #pragma once
 
 #include <filesystem>
@@ -37,12 +37,12 @@ Request request_from_json(const nlohmann::json& value, const std::filesystem::pa
 using OnProgress = std::function<void(double share, const std::string& what)>;
 
 /// Throws InputError, EnvironmentError (a file cannot be read) and Cancelled (by
-/// options.fit.go_on).
+/// options.fit.should_continue).
 Calibration carry_out(const Request& request, const OnProgress& on_progress = {});
 
 /// Reads folder/request.json, whose files lie in folder/files, and writes the results into the
 /// folder, the camera last. Throws as carry_out().
 void carry_out_in(const std::filesystem::path& folder, const OnProgress& on_progress,
-                  const std::function<bool()>& go_on);
+                  const std::function<bool()>& should_continue);
 
 }  // namespace throng::calibrate

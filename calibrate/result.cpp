@@ -53,7 +53,7 @@ json view_json(const ViewResult& view) {
           {"rms_px", known(view.rms_px)},
           {"rotation_vector", list_of(view.pose.rotation)},
           {"translation", list_of(view.pose.translation)},
-          {"camera_centre", list_of(view.pose.pose().centre())},
+          {"camera_centre", list_of(view.pose.pose().center())},
           {"pose_std", list_of(view.pose_sd)},
           {"outliers", std::move(outliers)}};
 }
@@ -141,7 +141,7 @@ std::string summary(const Calibration& calibration) {
     text += fmt::format("  {}: {} of {} points, RMS {:.4f} px\n", view.name, view.used(),
                         view.points.size(), view.rms_px);
     if (calibration.kind == "intrinsics") continue;
-    const Eigen::Vector3d at = view.pose.pose().centre();
+    const Eigen::Vector3d at = view.pose.pose().center();
     text += fmt::format("    camera at {:.4f} {:.4f} {:.4f}\n", at.x(), at.y(), at.z());
   }
   for (const ModelScore& score : calibration.models) {

@@ -9,7 +9,7 @@
 namespace throng::calibrate {
 
 /// A camera (calibrate/spec/camera_file.h) with rms_px, sigma_px, std, covariance, views, left_out,
-/// warnings and, where a lens was chosen, models. What is not known is null.
+/// warnings and, where a lens was chosen, models. Unknown values are null.
 nlohmann::json to_json(const Calibration& calibration);
 
 /// For cv::FileStorage, with the fields of OpenCV's own calibration program: camera, standard
@@ -19,7 +19,7 @@ std::string opencv_yaml(const Calibration& calibration);
 /// For ROS' camera_info_manager.
 std::string ros_yaml(const Calibration& calibration, const std::string& camera_name);
 
-/// A few lines that say what was found and how well.
+/// A few lines of summary: the result and its accuracy.
 std::string summary(const Calibration& calibration);
 
 }  // namespace throng::calibrate

@@ -11,7 +11,7 @@ namespace {
 /// Scale of the loss under which outliers are looked for (px): they are pixels off, corners a few
 /// tenths.
 constexpr double kSearchLossPx = 1;
-/// Good enough to tell them.
+/// Accurate enough to detect outliers.
 constexpr double kSearchTolerance = 1e-4;
 
 std::vector<double> view_sigmas(const Adjustment& adjustment,
@@ -33,7 +33,7 @@ std::vector<double> view_sigmas(const Adjustment& adjustment,
 }
 
 /// Whether the marks changed.
-bool mark_outliers(Adjustment& adjustment, double least_px) {
+bool mark_outliers(Adjustment& adjustment, double min_px) {
   std::vector<Eigen::Vector2d> residuals;
   residuals.reserve(adjustment.observations.size());
   for (const Observation& seen : adjustment.observations) {
@@ -42,13 +42,13 @@ bool mark_outliers(Adjustment& adjustment, double least_px) {
   double overall = 0;
   const std::vector<double> sigmas = view_sigmas(adjustment, residuals, overall);
   // A view that is worse than this is not unsharp, but wrong.
-  constexpr double kMostUnsharp = 4;
+  constexpr double kMaxUnsharp = 4;
   bool changed = false;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     Observation& seen = adjustment.observations[i];
-    const double most = std::max(
-        least_px, kOutlierSigmas * std::clamp(sigmas[seen.view], overall, kMostUnsharp * overall));
-    const bool used = residuals[i].norm() <= most;  // false for NaN
+    const double max_value = std::max(
+        min_px, kOutlierSigmas * std::clamp(sigmas[seen.view], overall, kMaxUnsharp * overall));
+    const bool used = residuals[i].norm() <= max_value;  // false for NaN
     changed = changed || used != seen.used;
     seen.used = used;
   }
@@ -63,7 +63,7 @@ double sum_of_squares(const Adjustment& adjustment) {
   return sum;
 }
 
-/// What is known beforehand is weighed against the pixels' deviation, which has to be known for it.
+/// Priors are weighed against the pixels' standard deviation, which has to be known for that.
 bool weighs_knowledge(const Adjustment& adjustment) {
   return std::any_of(adjustment.rules.priors.begin(), adjustment.rules.priors.end(),
                      [](const auto& prior) { return prior.has_value(); }) ||
@@ -76,7 +76,7 @@ void solve_without_outliers(Adjustment& adjustment, const FitOptions& options, b
                             Fit& fit) {
   SolveOptions plain;
   plain.loss_px = options.loss_px;
-  plain.go_on = options.go_on;
+  plain.should_continue = options.should_continue;
   const auto run = [&](const SolveOptions& how) {
     const SolveReport report = solve(adjustment, how);
     fit.converged = report.converged;
@@ -90,8 +90,8 @@ void solve_without_outliers(Adjustment& adjustment, const FitOptions& options, b
     mark_outliers(adjustment, options.outlier_px);
   }
   run(plain);
-  constexpr int kMostRounds = 6;
-  for (int round = 0; options.reject && round < kMostRounds; ++round) {
+  constexpr int kMaxRounds = 6;
+  for (int round = 0; options.reject && round < kMaxRounds; ++round) {
     if (!mark_outliers(adjustment, options.outlier_px)) break;
     run(plain);
   }
@@ -113,7 +113,7 @@ Fit fit(Adjustment& adjustment, const FitOptions& options) {
   const double sigma_before = adjustment.sigma_px;
   adjustment.sigma_px = options.sigma_px.value_or(sigma_before);
   solve_without_outliers(adjustment, options, true, result);
-  constexpr double kLeastSigmaPx = 1e-6;
+  constexpr double kMinSigmaPx = 1e-6;
   const auto estimate = [&] {
     const std::ptrdiff_t surplus = adjustment.surplus();
     result.sigma_px = surplus > 0
@@ -121,7 +121,7 @@ Fit fit(Adjustment& adjustment, const FitOptions& options) {
                           : std::numeric_limits<double>::quiet_NaN();
     const double before = adjustment.sigma_px;
     if (!options.sigma_px && surplus > 0) {
-      adjustment.sigma_px = std::max(result.sigma_px, kLeastSigmaPx);
+      adjustment.sigma_px = std::max(result.sigma_px, kMinSigmaPx);
     }
     return std::abs(adjustment.sigma_px / before - 1);
   };
@@ -132,7 +132,7 @@ Fit fit(Adjustment& adjustment, const FitOptions& options) {
     solve_without_outliers(adjustment, options, false, result);
     change = estimate();
   }
-  result.derivatives = linearise(adjustment);
+  result.derivatives = linearize(adjustment);
   for (const Observation& seen : adjustment.observations) {
     ++(seen.used ? result.used : result.rejected);
   }

@@ -14,15 +14,15 @@ struct FitOptions {
   /// Leave out what lies farther off than `kOutlierSigmas` robust standard deviations and
   /// outlier_px.
   bool reject = true;
-  /// What is closer than this is kept: an unsharp corner rather than a mistake, and programs that
-  /// know no outliers give the same result.
+  /// Smaller residuals are kept: an unsharp corner rather than a mistake, and programs that know no
+  /// outliers give the same result.
   double outlier_px = 4;
   /// Keep Cauchy's loss with this scale (px) to the end; 0: plain least squares, so that equal data
   /// give the result of any other such program.
   double loss_px = 0;
   /// Of pixel coordinates; nothing: from the residuals.
   std::optional<double> sigma_px;
-  std::function<bool()> go_on = {};  ///< as in SolveOptions
+  std::function<bool()> should_continue = {};  ///< as in SolveOptions
 };
 
 inline constexpr double kOutlierSigmas = 6;
@@ -34,11 +34,11 @@ struct Fit {
   double rms_px = 0;          ///< of distances, OpenCV's convention: sqrt(sum |r|^2 / points)
   std::size_t used = 0;       ///< observations
   std::size_t rejected = 0;   ///< observations
-  Linearisation derivatives;  ///< covariance for the sigma above (or the one that was given)
+  Linearization derivatives;  ///< covariance for the sigma above (or the one that was given)
 };
 
-/// Solves, tells outliers (first against a robust solution, then against the one without them) and
-/// solves again until nothing changes. A deviation is compared with the larger of that of all
+/// Solves, detects outliers (first against a robust solution, then against the one without them)
+/// and solves again until nothing changes. A deviation is compared with the larger of that of all
 /// observations and that of its own view, so that a view that is blurred as a whole stays. Leaves
 /// Observation::used and Adjustment::sigma_px as they were found.
 Fit fit(Adjustment& adjustment, const FitOptions& options);

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "calibrate/initialise.h"
+#include "calibrate/initialize.h"
 #include "calibrate/repeated_views.h"
 
 namespace throng::calibrate {
@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kEnoughViews = 10;
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-void say(Calibration& calibration, std::string text) {
+void warn(Calibration& calibration, std::string text) {
   calibration.warnings.push_back(std::move(text));
 }
 
@@ -35,40 +35,40 @@ std::optional<double> spread_of_tilts(const Calibration& calibration) {
     if (!plane) return std::nullopt;
     normals.emplace_back(view.pose.pose().R * plane->axes.col(2));
   }
-  double most = 0;
+  double max_value = 0;
   for (const Eigen::Vector3d& a : normals) {
     for (const Eigen::Vector3d& b : normals) {
-      most = std::max(most, std::acos(std::min(1.0, std::abs(a.dot(b)))));
+      max_value = std::max(max_value, std::acos(std::min(1.0, std::abs(a.dot(b)))));
     }
   }
-  return most;
+  return max_value;
 }
 
 void warn_of_views(const Rules& rules, Calibration& calibration) {
   const std::size_t views = calibration.views.size();
   if (views < kEnoughViews) {
-    say(calibration,
-        fmt::format(
-            "{} views: with fewer than {} the lens depends much on each; take more, or give "
-            "priors (--prior cx={:.0f}:20)",
-            views, kEnoughViews, 0.5 * (calibration.size.width - 1)));
+    warn(calibration,
+         fmt::format(
+             "{} views: with fewer than {} the lens depends much on each; take more, or give "
+             "priors (--prior cx={:.0f}:20)",
+             views, kEnoughViews, 0.5 * (calibration.size.width - 1)));
   }
   constexpr double kFlatDeg = 15;
   const bool focal_free = rules.free[kFx] || rules.free[kFy];
   const std::optional<double> tilts = spread_of_tilts(calibration);
   if (focal_free && tilts && *tilts * kDegrees < kFlatDeg) {
-    say(calibration,
-        fmt::format(
-            "the boards' planes differ by at most {:.1f} degrees: focal lengths and distances "
-            "cannot be told apart; tilt the board by 30 to 45 degrees in several directions",
-            *tilts * kDegrees));
+    warn(calibration,
+         fmt::format(
+             "the boards' planes differ by at most {:.1f} degrees: focal lengths and distances "
+             "cannot be separated; tilt the board by 30 to 45 degrees in several directions",
+             *tilts * kDegrees));
   }
   constexpr double kThin = 0.4;
   const double coverage = coverage_of(calibration);
   if (coverage < kThin) {
-    say(calibration, fmt::format("points cover {:.0f} % of the image: outside of them the lens is "
-                                 "extrapolated; show the board near borders and corners, too",
-                                 100 * coverage));
+    warn(calibration, fmt::format("points cover {:.0f} % of the image: outside of them the lens is "
+                                  "extrapolated; show the board near borders and corners, too",
+                                  100 * coverage));
   }
 }
 
@@ -83,13 +83,13 @@ void warn_of_repeated_views(Calibration& calibration) {
   }
   const std::size_t repeated = views.size() - distinct_views(views);
   if (repeated == 0) return;
-  say(calibration,
-      fmt::format("{} of {} views show the object where another view shows it: they add nothing, "
-                  "and standard deviations come out too small",
-                  repeated, views.size()));
+  warn(calibration,
+       fmt::format("{} of {} views show the object where another view shows it: they add nothing, "
+                   "and standard deviations come out too small",
+                   repeated, views.size()));
 }
 
-// What a wrong image size leads to.
+// Symptoms of a wrong image size.
 void warn_of_size(Calibration& calibration) {
   std::size_t outside = 0;
   for (const ViewResult& view : calibration.views) {
@@ -98,8 +98,9 @@ void warn_of_size(Calibration& calibration) {
     }
   }
   if (outside > 0) {
-    say(calibration, fmt::format("{} points lie outside of an image of {} x {}: is the size right?",
-                                 outside, calibration.size.width, calibration.size.height));
+    warn(calibration,
+         fmt::format("{} points lie outside of an image of {} x {}: is the size right?", outside,
+                     calibration.size.width, calibration.size.height));
   }
   constexpr double kFarFromMiddle = 0.15;  // of the side
   const auto far = [&](double center, int side) {
@@ -108,10 +109,10 @@ void warn_of_size(Calibration& calibration) {
   const double cx = calibration.parameters[kCx];
   const double cy = calibration.parameters[kCy];
   if (far(cx, calibration.size.width) || far(cy, calibration.size.height)) {
-    say(calibration,
-        fmt::format("the principal point ({:.0f}, {:.0f}) is far from the middle of an "
-                    "image of {} x {}: is the size right, or the image cropped?",
-                    cx, cy, calibration.size.width, calibration.size.height));
+    warn(calibration,
+         fmt::format("the principal point ({:.0f}, {:.0f}) is far from the middle of an "
+                     "image of {} x {}: is the size right, or the image cropped?",
+                     cx, cy, calibration.size.width, calibration.size.height));
   }
 }
 
@@ -122,28 +123,29 @@ void warn_of_parameters(const Fit& fit, Calibration& calibration) {
     open.push_back(parameter_name(calibration.lens, place));
   }
   if (!open.empty()) {
-    say(calibration,
-        fmt::format("the data leave {} open: fix them (--fix), tie them (--tie) or give "
-                    "priors (--prior)",
-                    fmt::join(open, ", ")));
+    warn(calibration,
+         fmt::format("the data leave {} open: fix them (--fix), tie them (--tie) or give "
+                     "priors (--prior)",
+                     fmt::join(open, ", ")));
   }
   constexpr double kLooseFocal = 0.02;
-  constexpr double kLooseCentrePx = 0.02;  // of the width
+  constexpr double kLooseCenterPx = 0.02;  // of the width
   for (const std::size_t place : calibration.places) {
     const double sd = calibration.sd.at(place);
     const std::string name = parameter_name(calibration.lens, place);
     const double value = calibration.parameters.at(place);
     if ((place == kFx || place == kFy) && sd > kLooseFocal * value) {
-      say(calibration, fmt::format("{} is known to {:.1f} % only", name, 100 * sd / value));
+      warn(calibration, fmt::format("{} is known to {:.1f} % only", name, 100 * sd / value));
     }
-    if ((place == kCx || place == kCy) && sd > kLooseCentrePx * calibration.size.width) {
-      say(calibration, fmt::format("{} is known to {:.1f} px only", name, sd));
+    if ((place == kCx || place == kCy) && sd > kLooseCenterPx * calibration.size.width) {
+      warn(calibration, fmt::format("{} is known to {:.1f} px only", name, sd));
     }
     if (place >= kCoefficients && std::abs(value) < sd) {
-      say(calibration,
-          fmt::format("{} = {:.2g} cannot be told from 0 (standard deviation {:.2g}): a "
-                      "lens with fewer coefficients may do",
-                      name, value, sd));
+      warn(calibration,
+           fmt::format(
+               "{} = {:.2g} does not differ significantly from 0 (standard deviation {:.2g}): a "
+               "lens with fewer coefficients may do",
+               name, value, sd));
     }
   }
 }
@@ -152,10 +154,10 @@ void warn_of_outliers(Calibration& calibration) {
   constexpr double kMany = 0.05;
   const auto all = static_cast<double>(calibration.points + calibration.rejected);
   if (static_cast<double>(calibration.rejected) > kMany * all) {
-    say(calibration, fmt::format("{} of {} points were taken for outliers: look at the residuals",
-                                 calibration.rejected, all));
+    warn(calibration, fmt::format("{} of {} points were taken for outliers: look at the residuals",
+                                  calibration.rejected, all));
   }
-  if (!calibration.converged) say(calibration, "the solver ended before it converged");
+  if (!calibration.converged) warn(calibration, "the solver ended before it converged");
 }
 
 /// Whether the lens holds along the image's border.
@@ -209,11 +211,11 @@ void add_intrinsics_warnings(const Rules& rules, const Fit& fit, Calibration& ca
   warn_of_parameters(fit, calibration);
   warn_of_outliers(calibration);
   if (!holds_at_border(calibration)) {
-    say(calibration,
-        "the lens's model folds or ends (at most 80 degrees off its axis) within the image: "
-        "rendered "
-        "pictures are black beyond; take views with points near the borders, or a lens with fewer "
-        "coefficients, if the real camera shows more");
+    warn(calibration,
+         "the lens's model folds or ends (at most 80 degrees off its axis) within the image: "
+         "rendered images are black beyond; take views with points near the borders, or a lens "
+         "with fewer "
+         "coefficients, if the real camera shows more");
   }
 }
 
@@ -221,8 +223,8 @@ void add_control_point_warnings(const std::vector<Eigen::Vector3d>& control_poin
                                 Calibration& calibration) {
   const std::size_t count = control_points.size();
   if (count < kEnoughControlPoints) {
-    say(calibration, fmt::format("{} control points: with fewer than {} the pose is unreliable",
-                                 count, kEnoughControlPoints));
+    warn(calibration, fmt::format("{} control points: with fewer than {} the pose is unreliable",
+                                  count, kEnoughControlPoints));
   }
   Eigen::MatrixXd all(3, count);
   for (std::size_t i = 0; i < count; ++i) all.col(static_cast<Eigen::Index>(i)) = control_points[i];
@@ -230,14 +232,14 @@ void add_control_point_warnings(const std::vector<Eigen::Vector3d>& control_poin
   const Eigen::Vector3d extents = (all * all.transpose()).jacobiSvd().singularValues().cwiseSqrt();
   constexpr double kNearlyLine = 0.05;
   if (extents[1] < kNearlyLine * extents[0]) {
-    say(calibration, "the control points are nearly in a line: turning about it is barely fixed");
+    warn(calibration, "the control points are nearly in a line: turning about it is barely fixed");
   }
   constexpr double kThin = 0.15;
   if (coverage_of(calibration) < kThin && count >= kEnoughControlPoints) {
-    say(calibration, "the control points are in a small part of the image");
+    warn(calibration, "the control points are in a small part of the image");
   }
   if (!fit.derivatives.poses_determined) {
-    say(calibration, "the points leave the pose of at least one view open");
+    warn(calibration, "the points leave the pose of at least one view open");
   }
   warn_of_outliers(calibration);
 }

@@ -1,4 +1,4 @@
-// What a calibration's data cannot support, said in words.
+// Warnings about results that a calibration's data cannot support.
 #pragma once
 
 #include <array>

@@ -20,7 +20,7 @@ Intrinsics intrinsics_from_hfov(int width, int height, double hfov_rad) {
   return {width, height, focal_px, focal_px, 0.5 * (width - 1), 0.5 * (height - 1)};
 }
 
-Pose pose_looking(const Eigen::Vector3d& centre, double yaw_rad, double pitch_rad) {
+Pose pose_looking(const Eigen::Vector3d& center, double yaw_rad, double pitch_rad) {
   const double cos_yaw = std::cos(yaw_rad);
   const double sin_yaw = std::sin(yaw_rad);
   const double cos_pitch = std::cos(pitch_rad);
@@ -31,7 +31,7 @@ Pose pose_looking(const Eigen::Vector3d& centre, double yaw_rad, double pitch_ra
   pose.R.row(0) = right;
   pose.R.row(1) = forward.cross(right);
   pose.R.row(2) = forward;
-  pose.t = -pose.R * centre;
+  pose.t = -pose.R * center;
   return pose;
 }
 

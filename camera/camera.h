@@ -1,5 +1,5 @@
-// The camera: a pinhole, and what its lens makes of the pinhole's picture. Camera frame: x right, y
-// down, z forward. Pixels as OpenCV counts them: the centre of the top-left pixel is (0, 0), so a
+// The camera: a pinhole, and what its lens makes of the pinhole's image. Camera frame: x right, y
+// down, z forward. Pixels as OpenCV counts them: the center of the top-left pixel is (0, 0), so a
 // projected point u lies at u + 0.5 in the coordinates of boxes and masks, where pixel i covers [i,
 // i + 1).
 #pragma once
@@ -16,7 +16,7 @@ struct Intrinsics {
   int height = 0;
   double fx_px = 0;
   double fy_px = 0;
-  double cx_px = 0;  ///< OpenCV convention: (width - 1) / 2 for a centred camera
+  double cx_px = 0;  ///< OpenCV convention: (width - 1) / 2 for a centered camera
   double cy_px = 0;
   std::optional<Distortion> distortion = std::nullopt;  ///< nothing: a pinhole
   /// How far a column leans: u = fx x + skew y + cx. A renderer wants a distortion (of zeros)
@@ -24,7 +24,7 @@ struct Intrinsics {
   double skew_px = 0;
 
   Eigen::Matrix3d matrix() const;
-  /// What a pixel is of the picture in front of the focal lengths, as Distortion takes it.
+  /// A pixel in normalized image coordinates, the input of Distortion.
   Eigen::Vector2d shown_at(const Eigen::Vector2d& pixel) const;
   /// The pixel that shows the direction (x / z, y / z); nothing outside the distortion's range.
   std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& direction) const;
@@ -35,7 +35,7 @@ struct Intrinsics {
                                               const Eigen::Vector2d& guess) const;
 };
 
-/// Square pixels, centred principal point, horizontal field of view in radians in (0, pi).
+/// Square pixels, centered principal point, horizontal field of view in radians in (0, pi).
 Intrinsics intrinsics_from_hfov(int width, int height, double hfov_rad);
 
 /// World to camera: X_camera = R * X_world + t.
@@ -43,13 +43,13 @@ struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 
-  Eigen::Vector3d centre() const { return -R.transpose() * t; }
+  Eigen::Vector3d center() const { return -R.transpose() * t; }
 };
 
 /// A camera at `centre` that looks along the heading `yaw_rad` (counter-clockwise from +x) and
 /// `pitch_rad` above the horizon (negative looks down), without roll. Well defined at +-90 degrees:
 /// the image's up direction then points along the heading (looking down) or against it.
-Pose pose_looking(const Eigen::Vector3d& centre, double yaw_rad, double pitch_rad);
+Pose pose_looking(const Eigen::Vector3d& center, double yaw_rad, double pitch_rad);
 
 struct Camera {
   Intrinsics intrinsics;

@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kWidestAngle = 80 * std::numbers::pi / 180;
+constexpr double kMaxAngle = 80 * std::numbers::pi / 180;
 constexpr double kNearAxis = 1e-9;
 constexpr double kConverged = 1e-13;
 
@@ -32,7 +32,7 @@ Distortion::Distortion(Model model, const Coefficients& coefficients)
     : model_(model),
       coefficients_(coefficients),
       limit_(find_limit()),
-      farthest_shown_(radial(limit_).shown) {}
+      max_shown_(radial(limit_).shown) {}
 
 Distortion::Radial Distortion::radial(double r) const {
   const Coefficients& k = coefficients_;
@@ -54,7 +54,7 @@ double Distortion::find_limit() const {
   // A pole of the rational model makes the slope negative or huge on one of its sides; steps this
   // small see the change of sign of any lens that somebody would calibrate.
   constexpr int kSteps = 4096;
-  const double widest = std::tan(kWidestAngle);
+  const double widest = std::tan(kMaxAngle);
   double good = 0;
   double before = 0;
   for (int i = 1; i <= kSteps; ++i) {
@@ -80,8 +80,8 @@ double Distortion::inverse_radial(double shown) const {
   double low = 0;
   double high = limit_;
   double r = std::min(shown, limit_);
-  constexpr int kMostSteps = 100;
-  for (int i = 0; i < kMostSteps; ++i) {
+  constexpr int kMaxSteps = 100;
+  for (int i = 0; i < kMaxSteps; ++i) {
     const Radial here = radial(r);
     const double error = here.shown - shown;
     (error > 0 ? high : low) = r;
@@ -127,7 +127,7 @@ Matrix2d Distortion::derivatives(const Vector2d& pinhole) const {
 
 std::optional<Vector2d> Distortion::distort(const Vector2d& pinhole) const {
   if (!(pinhole.norm() <= limit_)) return std::nullopt;
-  // Tangential terms fold the picture before the radial ones do, on one side.
+  // Tangential terms fold the image before the radial ones do, on one side.
   const bool is_tangential = coefficients_[2] != 0 || coefficients_[3] != 0;
   if (model_ == Model::brown_conrady && is_tangential &&
       !(derivatives(pinhole).determinant() > kNearAxis)) {
@@ -139,9 +139,9 @@ std::optional<Vector2d> Distortion::distort(const Vector2d& pinhole) const {
 std::optional<Vector2d> Distortion::undistort(const Vector2d& distorted) const {
   const double shown = distorted.norm();
   Vector2d p = distorted;
-  if (shown >= kNearAxis) p *= inverse_radial(std::min(shown, farthest_shown_)) / shown;
-  constexpr int kMostSteps = 20;
-  for (int i = 0; i < kMostSteps; ++i) {
+  if (shown >= kNearAxis) p *= inverse_radial(std::min(shown, max_shown_)) / shown;
+  constexpr int kMaxSteps = 20;
+  for (int i = 0; i < kMaxSteps; ++i) {
     const Vector2d error = apply(p) - distorted;
     const Matrix2d j = derivatives(p);
     const double determinant = j.determinant();
@@ -156,11 +156,11 @@ std::optional<Vector2d> Distortion::undistort(const Vector2d& distorted) const {
 
 std::optional<Vector2d> Distortion::undistort(const Vector2d& distorted,
                                               const Vector2d& guess) const {
-  constexpr int kMostSteps = 4;
+  constexpr int kMaxSteps = 4;
   // Each step squares the error, but for a factor near 1.
   constexpr double kLastStep = 1e-7;
   Vector2d p = guess;
-  for (int i = 0; i < kMostSteps && p.norm() <= limit_; ++i) {
+  for (int i = 0; i < kMaxSteps && p.norm() <= limit_; ++i) {
     const Matrix2d j = derivatives(p);
     if (!(j.determinant() > kNearAxis)) break;
     const Vector2d step = j.inverse() * (apply(p) - distorted);

@@ -1,5 +1,5 @@
-// What a real lens does to the pinhole's picture, in OpenCV's conventions (calib3d and its fisheye
-// module), so that calibrations of real cameras can be used as they are.
+// Lens distortion in OpenCV's conventions (calib3d and its fisheye module), so that calibrations of
+// real cameras can be used as they are.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,7 +38,7 @@ class Distortion {
   std::optional<Eigen::Vector2d> distort(const Eigen::Vector2d& pinhole) const;
   /// The inverse, found by Newton's method to 1e-12; nothing if no valid point is shown there.
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted) const;
-  /// The same, several times as fast where `guess` is near, as a neighbour's result is.
+  /// The same, several times as fast where `guess` is near, as a neighbor's result is.
   std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted,
                                            const Eigen::Vector2d& guess) const;
   /// Derivatives of distort: column 0 by x, column 1 by y.
@@ -59,7 +59,7 @@ class Distortion {
   Model model_;
   Coefficients coefficients_;
   double limit_;
-  double farthest_shown_;
+  double max_shown_;
 };
 
 }  // namespace throng::camera

@@ -1,4 +1,4 @@
-// throng airframes: what quadcopters there are, and how to describe one's own.
+// throng airframes: lists the built-in quadcopters, as templates for custom ones.
 #include "sim/spec/airframe.h"
 
 #include <fmt/core.h>
@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "cli/commands.h"
 #include "sim/battery.h"
 
@@ -30,15 +31,14 @@ void list_airframes(const std::vector<sim::Airframe>& frames) {
 }
 
 void print_airframe(const std::vector<sim::Airframe>& frames, const std::string& name) {
-  std::vector<std::string> names;
+  std::vector<std::string_view> names;
   for (const sim::Airframe& frame : frames) {
-    names.push_back(frame.name);
+    names.emplace_back(frame.name);
     if (frame.name != name) continue;
     fmt::print("{}\n", sim::to_json(frame).dump(2));
     return;
   }
-  throw InputError(
-      {"", "NAME", fmt::format("\"{}\"", name), fmt::format("one of: {}", fmt::join(names, ", "))});
+  throw InputError(unknown_name("", "", "airframe", name, names));
 }
 
 }  // namespace

@@ -29,15 +29,15 @@ std::string variable(const char* name, const char* otherwise) {
   return value == nullptr || *value == '\0' ? otherwise : value;
 }
 
-/// What a problem document says, with every mistake in a line of its own.
-std::vector<Problem> problems_in(const httplib::Response& response, const std::string& path) {
+/// Text of a problem document, one line per error.
+std::vector<Problem> problems_in(const httplib::Response& response, const std::string& url) {
   const json document = parse_json_or_discard(response.body);
   std::vector<Problem> problems;
   if (document.is_object()) problems = problems_of(document.value("errors", json::array()));
   if (problems.empty()) {
     const std::string detail = document.is_object() ? document.value("detail", "") : "";
-    problems.push_back({path, "", fmt::format("answer {}", response.status),
-                        detail.empty() ? "another request" : detail});
+    problems.push_back(
+        {url, "", detail.empty() ? fmt::format("HTTP status {}", response.status) : detail, ""});
   }
   return problems;
 }
@@ -86,25 +86,26 @@ namespace {
 const httplib::Response& checked(const httplib::Result& result, const std::string& url,
                                  const std::string& path) {
   if (!result) {
-    throw EnvironmentError(
-        fmt::format("cannot reach {}: {} (is `throng serve` running? "
-                    "THRONG_URL says where)",
-                    url, httplib::to_string(result.error())));
+    throw EnvironmentError(fmt::format(
+        "cannot reach {}{} (is `throng serve` running? The environment variable "
+        "THRONG_URL sets the address)",
+        url,
+        result.error() == httplib::Error::Connection ? ""
+                                                     : ": " + httplib::to_string(result.error())));
   }
   if (is_success(result->status)) return *result;
   constexpr int kServersFault = 500;
   if (result->status >= kServersFault) {
-    throw EnvironmentError(
-        fmt::format("{}{}: {}", url, path, problems_in(*result, path).front().expected));
+    throw EnvironmentError(problems_in(*result, url + path).front().text());
   }
-  throw InputError(problems_in(*result, path));
+  throw InputError(problems_in(*result, url));
 }
 
 }  // namespace
 
 namespace {
 
-// What answers is not necessarily throng.
+// The server that answers is not necessarily throng.
 json answer_json(const std::string& body, const std::string& path) {
   try {
     return parse_json(body, path);
@@ -121,13 +122,14 @@ std::string ApiClient::get_text(const std::string& path) {
   return checked(connection_->client.Get(path, connection_->headers), url_, path).body;
 }
 
-std::string ApiClient::wait_for_text(const std::string& path, const std::function<bool()>& go_on) {
+std::string ApiClient::wait_for_text(const std::string& path,
+                                     const std::function<bool()>& should_continue) {
   constexpr int kAccepted = 202;
   while (true) {
     const httplib::Response answer =
         checked(connection_->client.Get(path, connection_->headers), url_, path);
     if (answer.status != kAccepted) return answer.body;
-    if (!go_on()) throw Cancelled();
+    if (!should_continue()) throw Cancelled();
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
 }
@@ -203,7 +205,7 @@ bool ApiClient::download(const std::string& path, const fs::path& file, const On
   out.close();
   if (!goes_on) return false;
   if (result && result->status == 416) {
-    // The part is all there is, or of something else: begin anew.
+    // The part is complete, or belongs to another file: start again.
     fs::remove(part);
     fs::remove(tag_file);
     return download(path, file, on_bytes);

@@ -1,5 +1,5 @@
-// The HTTP API as the command line's clients use it: $THRONG_URL says where, $THRONG_KEY with which
-// key.
+// The HTTP API as the command line's clients use it: $THRONG_URL is its address, $THRONG_KEY with
+// which key.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace throng::cli {
 /// Mistakes as the API lists them: [{"pointer", "found", "expected", "source"?}].
 std::vector<Problem> problems_of(const nlohmann::json& list);
 
-/// Answers that are no success are thrown: InputError for what the server says is wrong with the
+/// Answers that are no success are thrown: InputError for errors that the server finds in the
 /// request, EnvironmentError when the server cannot be reached or has failed.
 class ApiClient {
  public:
@@ -31,8 +31,9 @@ class ApiClient {
 
   nlohmann::json get(const std::string& path);
   std::string get_text(const std::string& path);
-  /// What takes a while to be made: asks until it is there. Throws Cancelled once `go_on` is false.
-  std::string wait_for_text(const std::string& path, const std::function<bool()>& go_on);
+  /// Polls a resource that takes a while to be created. Throws Cancelled once `should_continue` is
+  /// false.
+  std::string wait_for_text(const std::string& path, const std::function<bool()>& should_continue);
   /// `headers` besides the usual ones, as name and value.
   nlohmann::json post(const std::string& path, const std::string& body = "",
                       const std::pair<std::string, std::string>& header = {});
@@ -51,9 +52,9 @@ class ApiClient {
   /// Called with the bytes that are there and those there will be; false ends the download.
   using OnBytes = std::function<bool(std::int64_t done, std::int64_t total)>;
 
-  /// Downloads into a file that appears when it is complete. What an earlier attempt has left
-  /// beside it ("FILE.part") is taken up, if the server still has the same. False when `on_bytes`
-  /// has ended it.
+  /// Downloads into a file that appears when it is complete. A partial file of an earlier attempt
+  /// ("FILE.part") is resumed, if the server still has the same file. False when `on_bytes` has
+  /// ended it.
   bool download(const std::string& path, const std::filesystem::path& file,
                 const OnBytes& on_bytes);
 

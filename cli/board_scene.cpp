@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Where the board's first inner corner is.
+/// Position of the board's first inner corner.
 const Vector3d& board_origin() {
   static const Vector3d origin(0, 0, 8);
   return origin;
@@ -64,7 +64,7 @@ world::Scenario board_place(const std::filesystem::path& folder, const calibrate
   for (int row = -1; row <= board.rows + 1; ++row) {
     for (int column = -1; column <= board.columns + 1; ++column) {
       std::string& list = faces[is_black(column, row, board) ? 1 : 0];
-      // Square (0, 0) lies before the first inner corner. Files have y up and z towards the reader.
+      // Square (0, 0) lies before the first inner corner. Files have y up and z toward the reader.
       for (const auto& [x, y] :
            {std::pair(0, 1), std::pair(1, 1), std::pair(1, 0), std::pair(0, 0)}) {
         vertices += fmt::format("v {} {} 0\n", kBoardSquareM * (column + x - 1),
@@ -101,14 +101,14 @@ std::vector<Vector3d> board_corners_in_world(const calibrate::Board& board) {
 std::vector<camera::Pose> board_views(const calibrate::CameraFile& camera,
                                       const calibrate::Board& board, int count,
                                       std::uint64_t seed) {
-  constexpr std::uint64_t kMostAttempts = 200'000;
+  constexpr std::uint64_t kMaxAttempts = 200'000;
   constexpr double kTilt = std::numbers::pi / 4;
   constexpr double kRoll = 0.3;
   const camera::Intrinsics lens = camera.intrinsics();
   const Vector3d middle = on_board(0.5 * (board.columns - 1), 0.5 * (board.rows - 1));
   const double width = kBoardSquareM * (board.columns + 3);
   std::vector<camera::Pose> poses;
-  for (std::uint64_t i = 0; i < kMostAttempts && static_cast<int>(poses.size()) < count; ++i) {
+  for (std::uint64_t i = 0; i < kMaxAttempts && static_cast<int>(poses.size()) < count; ++i) {
     Random random(seed, Stream::camera_noise, i);
     const Eigen::Matrix3d turn =
         (Eigen::AngleAxisd(random.uniform(-kTilt, kTilt), Vector3d::UnitX()) *
@@ -123,7 +123,7 @@ std::vector<camera::Pose> board_views(const calibrate::CameraFile& camera,
     camera::Pose pose;
     pose.R = turn * board_axes().transpose();
     pose.t = depth * direction->homogeneous() - pose.R * middle;
-    if (pose.centre().z() > 1 && sees_board({lens, pose}, board)) poses.push_back(pose);
+    if (pose.center().z() > 1 && sees_board({lens, pose}, board)) poses.push_back(pose);
   }
   if (static_cast<int>(poses.size()) < count) {
     throw InputError(Problem{"throng calibrate selftest", "",

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kLargestBundle = 64 << 20;
+constexpr std::size_t kMaxBundleBytes = 64 << 20;
 
 std::string name_of(const fs::path& from) {
   fs::path name = fs::absolute(from).lexically_normal();
@@ -50,7 +50,7 @@ std::vector<std::string> files_of(const fs::path& folder) {
 
 [[noreturn]] void refuse_size(const fs::path& from) {
   throw InputError(Problem{from.string(), "", "a larger bundle",
-                           fmt::format("at most {} bytes", kLargestBundle)});
+                           fmt::format("at most {} bytes", kMaxBundleBytes)});
 }
 
 std::string tar_of(const fs::path& folder) {
@@ -64,7 +64,7 @@ std::string tar_of(const fs::path& folder) {
   };
   archive_write_open(writer.get(), &bytes, nullptr, append, nullptr);
   for (const std::string& name : files_of(folder)) {
-    if (fs::file_size(folder / name) + bytes.size() > kLargestBundle) refuse_size(folder);
+    if (fs::file_size(folder / name) + bytes.size() > kMaxBundleBytes) refuse_size(folder);
     const std::string content = read_file(folder / name);
     const std::unique_ptr<archive_entry, void (*)(archive_entry*)> entry(archive_entry_new(),
                                                                          archive_entry_free);
@@ -91,7 +91,7 @@ Bundle read_bundle(const fs::path& from) {
     throw InputError(Problem{from.string(), "", "no file or folder",
                              "a folder of scenarios, or a zip or tar file"});
   }
-  if (fs::file_size(from) > kLargestBundle) refuse_size(from);
+  if (fs::file_size(from) > kMaxBundleBytes) refuse_size(from);
   return {name_of(from), read_file(from)};
 }
 

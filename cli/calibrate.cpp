@@ -1,4 +1,4 @@
-// throng calibrate: lenses and poses of real cameras, from pictures of boards, points and control
+// throng calibrate: lenses and poses of real cameras, from images of boards, points and control
 // points.
 #include <fmt/core.h>
 
@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "calibrate/picture.h"
 #include "calibrate/request.h"
+#include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "cli/calibration_child.h"
 #include "cli/commands.h"
@@ -95,7 +95,7 @@ void write_results(const calibrate::Calibration& calibration, const CalibrateArg
                           calibrate::ros_yaml(calibration, fs::path(arguments.ros).stem()));
   }
   if (!arguments.picture.empty()) {
-    write_file_atomically(arguments.picture, calibrate::residual_picture(calibration));
+    write_file_atomically(arguments.picture, calibrate::residual_plot(calibration));
   }
 }
 
@@ -116,7 +116,7 @@ void run(CalibrateArguments& arguments, const std::string& kind) {
   request.options.fit.reject = !arguments.keep_outliers;
   if (arguments.sigma_px > 0) request.options.fit.sigma_px = arguments.sigma_px;
   const Interrupt interrupt;
-  request.options.fit.go_on = [&] { return !interrupt.token().stop_requested(); };
+  request.options.fit.should_continue = [&] { return !interrupt.token().stop_requested(); };
   calibrate::Calibration calibration;
   {
     ProgressBar bar("calibrating");
@@ -131,7 +131,7 @@ void add_results(CLI::App& command, CalibrateArguments& arguments) {
                      "Camera JSON to write; default: standard output");
   command.add_option("--opencv", arguments.opencv, "Also write OpenCV's YAML");
   command.add_option("--ros", arguments.ros, "Also write ROS' camera_info (YAML)");
-  command.add_option("--picture", arguments.picture, "Also draw residuals and coverage (SVG)");
+  command.add_option("--picture", arguments.picture, "Also plot residuals and coverage (SVG)");
 }
 
 void add_fit(CLI::App& command, CalibrateArguments& arguments) {
@@ -139,7 +139,7 @@ void add_fit(CLI::App& command, CalibrateArguments& arguments) {
   command.add_flag("--keep-outliers", arguments.keep_outliers, "Use every point");
   command
       .add_option("--outlier-px", fit.outlier_px,
-                  "Points at least so far off, and 6 robust deviations, are outliers")
+                  "Residuals above this and above 6 robust standard deviations are outliers")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
@@ -160,17 +160,17 @@ void add_lens(CLI::App& command, CalibrateArguments& arguments) {
   command.add_option("--tie", arguments.tied,
                      "NAME=OTHER or NAME=OTHER*RATIO: fx=fy for square pixels; repeatable");
   command.add_option("--prior", arguments.priors,
-                     "NAME=MEAN:DEVIATION: what is known beforehand (cx=320:20); repeatable");
+                     "NAME=MEAN:DEVIATION: prior of a parameter (cx=320:20); repeatable");
 }
 
 void add_intrinsics(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "intrinsics", "The lens, from pictures of a board or from points and their pixels");
+      "intrinsics", "Calibrate the lens from images of a board or from points and their pixels");
   const auto arguments = std::make_shared<CalibrateArguments>();
   calibrate::Request& request = arguments->request;
-  command->add_option("images", request.images, "Pictures of the board");
+  command->add_option("images", request.images, "Images of the board");
   command->add_option("--points", request.points,
-                      "Instead of pictures: CSV with the columns image,i,X,Y,Z,u,v");
+                      "Instead of images: CSV with the columns image,i,X,Y,Z,u,v");
   command->add_option("--size", arguments->size, "WIDTHxHEIGHT of the images of --points");
   command->add_option("--board", arguments->board, "chessboard, charuco or circles (asymmetric)")
       ->capture_default_str();
@@ -209,14 +209,14 @@ CLI::App* add_with_control_points(CLI::App& app, const char* name, const char* t
       ->required();
   command
       ->add_option("--observations", request.observations,
-                   "Where images show points: CSV with the columns image,point,u,v")
+                   "Image observations: CSV with the columns image,point,u,v")
       ->required();
   add_fit(*command, *arguments);
   add_results(*command, *arguments);
   return command;
 }
 
-/// What `throng serve` starts for each calibration.
+/// The child process that `throng serve` starts for each calibration.
 void add_request(CLI::App& app) {
   auto* command = app.add_subcommand("request", "Work off a calibration of the service");
   command->group("");  // not for users
@@ -228,17 +228,17 @@ void add_request(CLI::App& app) {
 }  // namespace
 
 void add_calibrate(CLI::App& app) {
-  auto* command = app.add_subcommand("calibrate", "Make the synthetic camera a real one");
+  auto* command = app.add_subcommand("calibrate", "Calibrate real cameras for use in jobs");
   command->require_subcommand(1);
   add_intrinsics(*command);
   const auto pose = std::make_shared<CalibrateArguments>();
-  add_with_control_points(*command, "pose", "Where a known camera stands, from control points",
-                          pose)
+  add_with_control_points(*command, "pose",
+                          "Estimate the pose of a calibrated camera from control points", pose)
       ->callback([pose] { run(*pose, "pose"); });
   const auto bundle = std::make_shared<CalibrateArguments>();
   auto* adjust = add_with_control_points(
-      *command, "bundle", "Poses, points and the lens of several images together", bundle);
-  adjust->add_flag("--fix-lens", bundle->request.fix_lens, "Leave the camera's lens as it is");
+      *command, "bundle", "Bundle adjustment: poses, points and lens of several images", bundle);
+  adjust->add_flag("--fix-lens", bundle->request.fix_lens, "Keep the camera's lens fixed");
   add_lens(*adjust, *bundle);
   adjust->callback([bundle] { run(*bundle, "bundle"); });
   add_calibrate_selftest(*command);

@@ -1,5 +1,5 @@
 // throng calibrate selftest: renders a board through a distorting camera, calibrates from those
-// pictures, and compares with the truth.
+// images, and compares with the truth.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -14,7 +14,7 @@
 #include "base/files.h"
 #include "calibrate/board.h"
 #include "calibrate/intrinsics.h"
-#include "calibrate/picture.h"
+#include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "cli/board_scene.h"
 #include "cli/commands.h"
@@ -31,11 +31,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// What must hold.
-constexpr double kMostFocalError = 1e-3;  // of the focal length
-constexpr double kMostCentreErrorPx = 0.5;
-constexpr double kMostRmsPx = 0.15;
-constexpr double kMostTruthErrorPx = 0.05;
+/// Tolerances.
+constexpr double kMaxFocalError = 1e-3;  // of the focal length
+constexpr double kMaxCenterErrorPx = 0.5;
+constexpr double kMaxRmsPx = 0.15;
+constexpr double kMaxTruthErrorPx = 0.05;
 
 struct SelftestArguments {
   std::string camera;
@@ -73,8 +73,8 @@ class WorkFolder {
   fs::path path_;
 };
 
-calibrate::GreyImage grey_of(const render::Frame& frame) {
-  calibrate::GreyImage image{frame.width(), frame.camera.intrinsics.height, {}};
+calibrate::GrayImage gray_of(const render::Frame& frame) {
+  calibrate::GrayImage image{frame.width(), frame.camera.intrinsics.height, {}};
   constexpr double kRed = 0.299;  // as cameras' JPEG files weigh them
   constexpr double kGreen = 0.587;
   constexpr double kBlue = 0.114;
@@ -122,11 +122,11 @@ Photographs photograph(const SelftestArguments& arguments, const calibrate::Came
   const Interrupt interrupt;
   ProgressBar bar("rendering the board");
   const WorkFolder work;
-  const world::Scenario place = board_place(work.path(), board);
+  const world::Scenario scenario = board_place(work.path(), board);
   const skinning::Population people = skinning::load_population(arguments.people);
   render::Environment light;
   light.weather = render::Weather::overcast;
-  render::Renderer renderer(place, people, light, {arguments.device},
+  render::Renderer renderer(scenario, people, light, {arguments.device},
                             {.quality = render::Quality::high});
   render::Lens lens(renderer, people);
   Photographs result;
@@ -139,12 +139,12 @@ Photographs photograph(const SelftestArguments& arguments, const calibrate::Came
     const camera::Camera camera{truth.intrinsics(), poses[i]};
     const render::Frame frame = lens.draw({}, camera);
     const std::string name = fmt::format("view{:02}", i);
-    const calibrate::GreyImage grey = grey_of(frame);
+    const calibrate::GrayImage gray = gray_of(frame);
     if (!arguments.images.empty()) {
       write_file_atomically(fs::path(arguments.images) / (name + ".png"),
-                            annotate::png_bytes({grey.width, grey.height, 1}, grey.pixels));
+                            annotate::png_bytes({gray.width, gray.height, 1}, gray.pixels));
     }
-    auto found = calibrate::find_board(grey, board, name);
+    auto found = calibrate::find_board(gray, board, name);
     if (const auto* problem = std::get_if<Problem>(&found)) {
       result.all.left_out.push_back(*problem);
     } else {
@@ -159,21 +159,19 @@ Photographs photograph(const SelftestArguments& arguments, const calibrate::Came
 json comparison(const calibrate::CameraFile& truth, const calibrate::Calibration& found,
                 const TruthError& truth_error) {
   json checks = json::array();
-  const auto check_at_most = [&](const std::string& what, double value, double most) {
-    checks.push_back({{"check", what}, {"value", value}, {"most", most}, {"holds", value <= most}});
+  const auto check_max = [&](const std::string& what, double value, double max_value) {
+    checks.push_back(
+        {{"check", what}, {"value", value}, {"most", max_value}, {"holds", value <= max_value}});
   };
   const auto off = [&](std::size_t place) {
     return std::abs(found.parameters.at(place) - truth.parameters.at(place));
   };
-  check_at_most("fx, share", off(calibrate::kFx) / truth.parameters[calibrate::kFx],
-                kMostFocalError);
-  check_at_most("fy, share", off(calibrate::kFy) / truth.parameters[calibrate::kFy],
-                kMostFocalError);
-  check_at_most("cx, px", off(calibrate::kCx), kMostCentreErrorPx);
-  check_at_most("cy, px", off(calibrate::kCy), kMostCentreErrorPx);
-  check_at_most("RMS, px", found.rms_px, kMostRmsPx);
-  check_at_most("corners against the ground truth, mean, px", truth_error.mean_px(),
-                kMostTruthErrorPx);
+  check_max("fx, share", off(calibrate::kFx) / truth.parameters[calibrate::kFx], kMaxFocalError);
+  check_max("fy, share", off(calibrate::kFy) / truth.parameters[calibrate::kFy], kMaxFocalError);
+  check_max("cx, px", off(calibrate::kCx), kMaxCenterErrorPx);
+  check_max("cy, px", off(calibrate::kCy), kMaxCenterErrorPx);
+  check_max("RMS, px", found.rms_px, kMaxRmsPx);
+  check_max("corners against the ground truth, mean, px", truth_error.mean_px(), kMaxTruthErrorPx);
   return checks;
 }
 
@@ -209,7 +207,7 @@ void selftest(const SelftestArguments& arguments) {
     write_file_atomically(arguments.output, report.dump(2) + "\n");
   }
   if (!arguments.picture.empty()) {
-    write_file_atomically(arguments.picture, calibrate::residual_picture(found));
+    write_file_atomically(arguments.picture, calibrate::residual_plot(found));
   }
   if (!all_hold) throw EnvironmentError("the calibration differs from the camera that rendered");
 }
@@ -218,22 +216,24 @@ void selftest(const SelftestArguments& arguments) {
 
 void add_calibrate_selftest(CLI::App& calibrate) {
   auto* command = calibrate.add_subcommand(
-      "selftest", "Render a board through a lens, calibrate from the pictures, compare");
+      "selftest", "Render a board through a lens, calibrate from the images, compare");
   const auto arguments = std::make_shared<SelftestArguments>();
-  command->add_option("--camera", arguments->camera,
-                      "Camera JSON to render with; default: a wide one with barrel distortion");
-  command->add_option("--views", arguments->views, "Pictures of the board")
+  command->add_option(
+      "--camera", arguments->camera,
+      "Camera JSON to render with; default: a wide-angle lens with barrel distortion");
+  command->add_option("--views", arguments->views, "Number of images of the board")
       ->check(CLI::Range(3, 200))
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Of where the camera is")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Seed of the camera positions")
+      ->capture_default_str();
   command->add_option("--device", arguments->device, "auto, gpu or software")
       ->check(CLI::IsMember({"auto", "gpu", "software"}))
       ->capture_default_str();
-  command->add_option("--people", arguments->people, "Folder of baked people")
+  command->add_option("--people", arguments->people, "Folder of the character library")
       ->capture_default_str();
-  command->add_option("--images", arguments->images, "Folder to keep the pictures in (PNG)");
+  command->add_option("--images", arguments->images, "Folder to keep the images in (PNG)");
   command->add_option("-o,--output", arguments->output, "JSON report to write");
-  command->add_option("--picture", arguments->picture, "Also draw residuals and coverage (SVG)");
+  command->add_option("--picture", arguments->picture, "Also plot residuals and coverage (SVG)");
   command->callback([arguments] { selftest(*arguments); });
 }
 

@@ -1,4 +1,4 @@
-// throng crowd: a Menge project, here and now, without people, drones or pictures.
+// throng crowd: a Menge project, here and now, without people, drones or images.
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 
@@ -28,12 +28,12 @@ namespace fs = std::filesystem;
 using Recorders = std::vector<std::unique_ptr<crowd::Recorder>>;
 
 void print_warnings(const std::vector<Problem>& warnings) {
-  constexpr std::size_t kMost = 30;
-  for (std::size_t i = 0; i < std::min(warnings.size(), kMost); ++i) {
+  constexpr std::size_t kMaxWarnings = 30;
+  for (std::size_t i = 0; i < std::min(warnings.size(), kMaxWarnings); ++i) {
     fmt::print(stderr, "throng: warning: {}\n", warnings[i].text());
   }
-  if (warnings.size() > kMost) {
-    fmt::print(stderr, "throng: and {} more warnings\n", warnings.size() - kMost);
+  if (warnings.size() > kMaxWarnings) {
+    fmt::print(stderr, "throng: and {} more warnings\n", warnings.size() - kMaxWarnings);
   }
 }
 
@@ -75,15 +75,15 @@ long simulate(crowd::Simulation& crowd, double duration_s, const Recorders& reco
   std::optional<ProgressBar> bar;
   if (!quiet) bar.emplace("crowd");
   constexpr double kRounding = 1e-9;
-  const long most = std::lround(std::ceil(duration_s / crowd.dt_s() - kRounding));
+  const long max_steps = std::lround(std::ceil(duration_s / crowd.dt_s() - kRounding));
   long steps = 0;
   while (true) {
     for (const auto& recorder : recorders) recorder->record(crowd);
     if (bar) {
-      bar->show(most > 0 ? static_cast<double>(steps) / static_cast<double>(most) : 1,
+      bar->show(max_steps > 0 ? static_cast<double>(steps) / static_cast<double>(max_steps) : 1,
                 fmt::format("{:.1f} of {:g} s", crowd.time_s(), duration_s));
     }
-    if (steps == most || crowd.all_final()) break;
+    if (steps == max_steps || crowd.all_final()) break;
     if (interrupt.token().stop_requested()) throw Cancelled();
     crowd.step();
     ++steps;
@@ -127,7 +127,8 @@ void run(const CrowdArguments& arguments) {
 }  // namespace
 
 void add_crowd(CLI::App& app) {
-  auto* command = app.add_subcommand("crowd", "Run a Menge project and write what its crowd does");
+  auto* command =
+      app.add_subcommand("crowd", "Simulate a Menge project and write its trajectories");
   const auto arguments = std::make_shared<CrowdArguments>();
   add_crowd_options(*command, *arguments);
   command->callback([arguments] {

@@ -58,7 +58,7 @@ std::string code(const std::string& text) {
 
 std::string as_markdown() {
   std::string out =
-      "# What the crowd engine's files may say\n\n"
+      "# Vocabulary of the crowd engine's files\n\n"
       "Printed by `throng crowd --list --markdown` from the tables that read the files. See "
       "[crowd.md](crowd.md) for how they fit together.\n";
   for (const VocabularyKind& kind : crowd::vocabulary()) {

@@ -1,4 +1,4 @@
-// `throng crowd --list`: what the crowd engine's files may say, for people, programs and the
+// `throng crowd --list`: the vocabulary of the crowd engine's files, for people, programs and the
 // documentation.
 #pragma once
 

@@ -4,33 +4,32 @@ namespace throng::cli {
 
 namespace {
 
-constexpr double kShortestStepS = 1e-4;
-constexpr double kLongestStepS = 10;
-constexpr double kLongestRunS = 1e7;
-constexpr int kMostSubSteps = 1000;
-constexpr int kMostThreads = 1024;
+constexpr double kMinStepS = 1e-4;
+constexpr double kMaxStepS = 10;
+constexpr double kMaxRunS = 1e7;
+constexpr int kMaxSubSteps = 1000;
+constexpr int kMaxThreads = 1024;
 
 void add_run_options(CLI::App& command, CrowdArguments& arguments) {
   command.add_option("project,-p,--project", arguments.project_file,
                      "Menge project file (docs/crowd.md)");
   command.add_option("-s,--scene", arguments.scene_file, "Scene file instead of the project's");
   command.add_option("-b,--behavior", arguments.behavior_file,
-                     "Behaviour file instead of the project's");
+                     "Behavior file instead of the project's");
   command.add_option("-m,--model", arguments.model, "Pedestrian model instead of the project's");
   command
       .add_option("-d,--duration", arguments.duration_s,
-                  "Longest time to simulate, in s, instead of the project's")
-      ->check(CLI::Range(0.0, kLongestRunS));
-  command.add_option("-r,--random", arguments.seed,
-                     "Seed instead of the project's (0 is taken for 1)");
+                  "Max simulated time in s, instead of the project's")
+      ->check(CLI::Range(0.0, kMaxRunS));
+  command.add_option("-r,--random", arguments.seed, "Seed instead of the project's (0 becomes 1)");
   command
       .add_option("-t,--time-step", arguments.time_step_s,
                   "Time step in s instead of the project's or scene's")
-      ->check(CLI::Range(kShortestStepS, kLongestStepS));
+      ->check(CLI::Range(kMinStepS, kMaxStepS));
   command
       .add_option("--sub-steps,--subSteps", arguments.sub_steps,
-                  "Steps in between that are not recorded, per time step")
-      ->check(CLI::Range(0, kMostSubSteps));
+                  "Unrecorded sub-steps per time step")
+      ->check(CLI::Range(0, kMaxSubSteps));
   command
       .add_option("--compat", arguments.compat,
                   "Whose results are wanted: the sensible ones (none), Menge's with its quirks "
@@ -42,8 +41,8 @@ void add_run_options(CLI::App& command, CrowdArguments& arguments) {
                   "hard: no two bodies overlap by more than 1 cm, whatever the model does")
       ->check(CLI::IsMember(std::vector<std::string>(crowd::kSeparationWords.begin(),
                                                      crowd::kSeparationWords.end())));
-  command.add_option("--threads", arguments.threads, "Threads to compute with (0: one per core)")
-      ->check(CLI::Range(0, kMostThreads))
+  command.add_option("--threads", arguments.threads, "Threads (0: one per core)")
+      ->check(CLI::Range(0, kMaxThreads))
       ->capture_default_str();
 }
 
@@ -55,23 +54,26 @@ void add_output_options(CLI::App& command, CrowdArguments& arguments) {
       ->check(CLI::IsMember(
           std::vector<std::string>(crowd::kScbVersions.begin(), crowd::kScbVersions.end())));
   command.add_option("--series", arguments.series_file,
-                     "Table (CSV) to write: what the crowd does as a whole, every second");
-  auto* positions = command.add_option("--positions", arguments.positions_file,
-                                       "Table (CSV) to write: where everybody is at some times");
+                     "CSV table to write: figures of the whole crowd, every second");
+  auto* positions =
+      command.add_option("--positions", arguments.positions_file,
+                         "CSV table to write: positions of all agents at given times");
   command
       .add_option("--at", arguments.positions_at_s,
                   "Times of --positions in s (without: begin, 10, 25, 50, 75 % and end)")
       ->delimiter(',')
       ->check(CLI::NonNegativeNumber)
       ->needs(positions);
-  command.add_flag("-q,--quiet", arguments.quiet, "Say nothing but errors");
-  auto* list = command.add_flag("-l,-L,--list", arguments.list,
-                                "Print all that the files may say, and run nothing");
+  command.add_flag("-q,--quiet", arguments.quiet, "Print errors only");
+  auto* list =
+      command.add_flag("-l,-L,--list", arguments.list,
+                       "Print the vocabulary of project, scene and behavior files and exit");
   command.add_flag("--json", arguments.json, "Print the list as JSON")->needs(list);
-  command.add_flag("--markdown", arguments.markdown, "Print the list as docs/ has it")->needs(list);
+  command.add_flag("--markdown", arguments.markdown, "Print the list as Markdown, as in docs/")
+      ->needs(list);
 }
 
-/// What Menge's program takes and is of no use without its viewer.
+/// Options of Menge's program that have no effect without its viewer.
 void add_ignored_options(CLI::App& command, CrowdArguments& arguments) {
   command.add_option("--view", arguments.ignored_view, "As Menge's, for its viewer; ignored");
   command.add_option("-u,--dumpPath", arguments.ignored_dump_path,

@@ -1,5 +1,4 @@
-// What `throng crowd` is asked to do: a project file with whatever the command line puts in its
-// place.
+// Options of `throng crowd`: a project file with overrides from the command line.
 #pragma once
 
 #include <CLI/CLI.hpp>

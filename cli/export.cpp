@@ -106,29 +106,27 @@ void add_export(CLI::App& app) {
   auto* command = app.add_subcommand("export", "Write a finished dataset in other formats");
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("dataset", arguments->dataset, "Folder of the dataset");
-  command->add_option("-o,--output", arguments->output, "Folder to make");
-  command
-      ->add_option("--formats", arguments->formats,
-                   "Which, separated by commas (--list names them)")
+  command->add_option("-o,--output", arguments->output, "Output folder, which must not exist");
+  command->add_option("--formats", arguments->formats, "Formats, separated by commas (see --list)")
       ->delimiter(',');
   command
       ->add_option("--split", arguments->splits,
                    "Shares of the runs or runs: train=0.8,val=0.2 or test=run003; without train it "
-                   "gets what the others leave")
+                   "gets the remaining runs")
       ->delimiter(',');
   command
       ->add_option("--min-visibility", arguments->min_visibility,
-                   "Who is less visible becomes an ignore region")
+                   "People less visible than this become ignore regions")
       ->check(CLI::Range(0.0, 1.0));
   command
       ->add_option("--min-height", arguments->min_height_px,
-                   "Who is fewer pixels high becomes an ignore region")
+                   "People smaller than this height in pixels become ignore regions")
       ->check(CLI::Range(0.0, 1e6));
   command
       ->add_option("--shard-mb", arguments->shard_mb, "Size of WebDataset's tar files (10^6 bytes)")
       ->check(CLI::Range(1.0, 1e5))
       ->capture_default_str();
-  command->add_option("--classes", arguments->classes, "What classes tell apart")
+  command->add_option("--classes", arguments->classes, "Attribute that defines the classes")
       ->check(CLI::IsMember([] {
         std::vector<std::string> names;
         for (const std::string_view name : formats::class_properties()) names.emplace_back(name);
@@ -139,7 +137,7 @@ void add_export(CLI::App& app) {
                    "Another name for a value: female=woman,male=man")
       ->delimiter(',');
   const auto list = std::make_shared<bool>(false);
-  command->add_flag("--list", *list, "List the formats and do nothing");
+  command->add_flag("--list", *list, "List the formats and exit");
   command->callback([arguments, list] {
     if (*list) {
       for (const formats::Format& format : formats::all_formats()) {
@@ -150,7 +148,9 @@ void add_export(CLI::App& app) {
     for (const auto& [name, is_missing] : {std::pair{"DATASET", arguments->dataset.empty()},
                                            {"--output", arguments->output.empty()},
                                            {"--formats", arguments->formats.empty()}}) {
-      if (is_missing) throw InputError({"", name, "nothing", "a value (throng export --help)"});
+      if (is_missing) {
+        throw InputError({"", "", fmt::format("missing {} (throng export --help)", name), ""});
+      }
     }
     export_formats(*arguments);
   });

@@ -50,15 +50,15 @@ void show(ProgressBar& bar, const jobs::JobProgress& progress) {
 void add_job_options(CLI::App& command, JobArguments& arguments) {
   command.add_option("job", arguments.job_file, "Job file (JSON; see docs/job.md)")->required();
   command
-      .add_option("-o,--output", arguments.output,
-                  "Folder for the dataset/ and the work that leads to it; an interrupted job goes "
-                  "on where it stopped")
+      .add_option(
+          "-o,--output", arguments.output,
+          "Folder for the dataset/ and the intermediate files; an interrupted job is resumed")
       ->required();
-  command.add_option("--workers", arguments.workers, "Processes at work at once (0: one per core)")
+  command.add_option("--workers", arguments.workers, "Parallel worker processes (0: one per core)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command.add_flag("--profile", arguments.profile,
-                   "Print where the time of drawing, labelling and writing went, stage by stage");
+                   "Print a profile of rendering, labeling and writing");
 }
 
 jobs::ResolvedJob read_job_file(const std::string& path) {

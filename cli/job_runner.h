@@ -1,4 +1,4 @@
-// What `throng run` and `throng render` share: a job folder worked off by local processes, with a
+// Shared by `throng run` and `throng render`: a job folder processed by local workers, with a
 // progress bar and Ctrl-C.
 #pragma once
 

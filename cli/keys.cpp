@@ -26,8 +26,8 @@ void print_keys(const std::vector<server::KeyRow>& keys) {
              "made", "revoked", "name");
   for (const server::KeyRow& key : keys) {
     fmt::print("{:<10}{:<8}{:>10}{:>10}  {:<12}{:<12}{}\n", key.id, server::name_of(key.scope),
-               key.most_active == 0 ? "any" : std::to_string(key.most_active),
-               key.most_bytes == 0 ? "any" : std::to_string(key.most_bytes >> kGibShift),
+               key.max_active == 0 ? "any" : std::to_string(key.max_active),
+               key.max_bytes == 0 ? "any" : std::to_string(key.max_bytes >> kGibShift),
                day_of(key.created_ms), key.revoked_ms == 0 ? "" : day_of(key.revoked_ms), key.name);
   }
 }
@@ -35,48 +35,49 @@ void print_keys(const std::vector<server::KeyRow>& keys) {
 }  // namespace
 
 void add_keys(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "keys", "Keys for the HTTP service: once there is one, every caller needs one");
+  auto* command =
+      app.add_subcommand("keys", "Manage API keys; as soon as one exists, every request needs one");
   command->require_subcommand(1);
   const auto data = std::make_shared<std::string>("throng-data");
   const auto add_data = [data](CLI::App* to) {
     to->add_option("--data", *data, "Folder of the service")->capture_default_str();
   };
 
-  auto* create = command->add_subcommand("create", "Make a key and print it, once and never again");
+  auto* create =
+      command->add_subcommand("create", "Create a key and print it; it cannot be shown again");
   const auto name = std::make_shared<std::string>();
   const auto scope = std::make_shared<std::string>("submit");
-  const auto most = std::make_shared<int>(0);
-  create->add_option("name", *name, "Whose it is, for lists")->required();
+  const auto max_jobs = std::make_shared<int>(0);
+  create->add_option("name", *name, "Name of the owner, shown in lists")->required();
   create
       ->add_option("--scope", *scope,
-                   "read: look at everything; submit: also queue jobs and change one's own; admin: "
-                   "change everybody's")
+                   "read: read everything; submit: also queue jobs and change own ones; admin: "
+                   "change all jobs")
       ->check(CLI::IsMember({"read", "submit", "admin"}))
       ->capture_default_str();
-  create->add_option("--most-jobs", *most, "Jobs that may wait or run at once (0: any number)")
+  create->add_option("--max-jobs", *max_jobs, "Max queued and running jobs (0: no limit)")
       ->check(CLI::NonNegativeNumber);
-  const auto most_gib = std::make_shared<int>(0);
-  create->add_option("--most-gib", *most_gib, "Disk that their jobs may take (0: any)")
+  const auto max_gib = std::make_shared<int>(0);
+  create->add_option("--max-gib", *max_gib, "Max disk usage of their jobs in GiB (0: no limit)")
       ->check(CLI::NonNegativeNumber);
   add_data(create);
   create->callback([=] {
     fmt::print("{}\n",
-               server::Keys(*data).create(*name, *server::scope_named(*scope), *most,
-                                          static_cast<std::int64_t>(*most_gib) << kGibShift));
+               server::Keys(*data).create(*name, *server::scope_named(*scope), *max_jobs,
+                                          static_cast<std::int64_t>(*max_gib) << kGibShift));
   });
 
   auto* list = command->add_subcommand("list", "List the keys");
   add_data(list);
   list->callback([=] { print_keys(server::Keys(*data).list()); });
 
-  auto* revoke = command->add_subcommand("revoke", "Let a key be good no more, at once");
+  auto* revoke = command->add_subcommand("revoke", "Revoke a key immediately");
   const auto id = std::make_shared<std::string>();
-  revoke->add_option("id", *id, "Its id, from the list")->required();
+  revoke->add_option("id", *id, "Id of the key (throng keys list)")->required();
   add_data(revoke);
   revoke->callback([=] {
     if (!server::Keys(*data).revoke(*id)) {
-      throw InputError(Problem{"throng keys revoke", "id", *id, "the id of a key that is good"});
+      throw InputError(Problem{"throng keys revoke", "id", *id, "the id of a valid key"});
     }
   });
 }

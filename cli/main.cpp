@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "cli/command_line.h"
 #include "cli/commands.h"
 
 namespace {
@@ -31,8 +32,14 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", std::string(throng::kGenerator));
   app.require_subcommand(1);
   for (const auto add : kCommands) add(app);
+  const cli::CommandLine line(argc, argv);
+  if (const auto help = cli::help_text(app, line.words())) {
+    fmt::print("{}", *help);
+    return cli::exit_ok;
+  }
+  cli::check_commands(app, line.words());
   try {
-    app.parse(argc, argv);
+    app.parse(line.count(), line.pointers());
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? cli::exit_ok : cli::exit_input;
   }

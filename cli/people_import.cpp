@@ -38,15 +38,15 @@ void import_all(const ImportArguments& arguments) {
 
 void add_people_import(CLI::App& people) {
   auto* command = people.add_subcommand(
-      "import", "Make people of rigged models (glTF, FBX, DAE): see docs/people.md");
+      "import", "Import rigged models (glTF, FBX, DAE) as characters: see docs/people.md");
   const auto arguments = std::make_shared<ImportArguments>();
-  command->add_option("descriptions", arguments->descriptions, "A JSON file for each character")
+  command->add_option("descriptions", arguments->descriptions, "JSON description of each character")
       ->required();
   command->add_option("--with", arguments->options.with,
-                      "Folder of baked people to put them among; may be the output");
+                      "Character library to add them to; may be the output");
   command
       ->add_option("--texture-size", arguments->options.texture_size,
-                   "Pixels a side of pictures, unless --with has others")
+                   "Texture size in pixels, unless --with has another")
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output, "Folder to write")->required();
   command->callback([arguments] { import_all(*arguments); });

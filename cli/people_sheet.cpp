@@ -1,4 +1,4 @@
-// throng people sheet: draws a population for people to judge it by.
+// throng people sheet: renders an overview of a character library.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFewest = 800;
-constexpr int kMost = 8000;
+constexpr int kMinWidthPx = 800;
+constexpr int kMaxWidthPx = 8000;
 
 struct SheetArguments {
   std::string folder;
@@ -45,7 +45,7 @@ std::string extension_of(const fs::path& file) {
   return extension;
 }
 
-// All that can be wrong is found before anything is drawn.
+// All input is checked before anything is rendered.
 void check_arguments(const SheetArguments& arguments) {
   const std::string extension = extension_of(arguments.output);
   if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") {
@@ -65,18 +65,18 @@ void check_arguments(const SheetArguments& arguments) {
   if (arguments.count < 1) {
     throw InputError({"", "people sheet: --count", std::to_string(arguments.count), "at least 1"});
   }
-  if (arguments.width_px < kFewest || arguments.width_px > kMost) {
+  if (arguments.width_px < kMinWidthPx || arguments.width_px > kMaxWidthPx) {
     throw InputError({"", "people sheet: --width", std::to_string(arguments.width_px),
-                      fmt::format("{} to {} pixels", kFewest, kMost)});
+                      fmt::format("{} to {} pixels", kMinWidthPx, kMaxWidthPx)});
   }
 }
 
 std::uint32_t find(const skinning::Population& population, const std::string& name) {
-  const auto found = std::find_if(population.characters.begin(), population.characters.end(),
-                                  [&](const skinning::Character& who) { return who.name == name; });
+  const auto found =
+      std::find_if(population.characters.begin(), population.characters.end(),
+                   [&](const skinning::Character& character) { return character.name == name; });
   if (found == population.characters.end()) {
-    throw InputError(
-        {"", "people sheet: --people", name, "somebody whom `throng people list` names"});
+    throw InputError({"", "people sheet: --people", name, "a name of `throng people list`"});
   }
   return static_cast<std::uint32_t>(found - population.characters.begin());
 }
@@ -134,19 +134,19 @@ void draw(const SheetArguments& arguments) {
 
 void add_people_sheet(CLI::App& people) {
   auto* command = people.add_subcommand(
-      "sheet", "Draw a population from near and far, its motion and how tall it is");
+      "sheet", "Render an overview of a character library: near, far, in motion, and body heights");
   const auto arguments = std::make_shared<SheetArguments>();
   arguments->folder = skinning::population_folder().string();
-  command->add_option("folder", arguments->folder, "Folder of baked people")->capture_default_str();
-  command->add_option("-o,--output", arguments->output, "Picture to write: .png or .jpg")
-      ->required();
+  command->add_option("folder", arguments->folder, "Folder of the character library")
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments->output, "Image to write: .png or .jpg")->required();
   auto* names = command->add_option("--people", arguments->people,
-                                    "Only these, by name, separated by commas");
+                                    "Only these characters, by name, separated by commas");
   names->delimiter(',');
-  command->add_option("--count", arguments->count, "How many to portray, from the first on")
+  command->add_option("--count", arguments->count, "Number of characters, from the first on")
       ->capture_default_str()
       ->excludes(names);
-  command->add_option("--seed", arguments->seed, "Seed of colours, of the crowd and of the heights")
+  command->add_option("--seed", arguments->seed, "Seed of colors, of the crowd and of the heights")
       ->capture_default_str();
   command->add_option("--width", arguments->width_px, "Pixels across, 800 to 8000")
       ->capture_default_str();

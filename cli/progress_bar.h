@@ -14,7 +14,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `fraction` in [0, 1]; `note` says what is going on ("simulating run 2 of 5").
+  /// `fraction` in [0, 1]; `note` describes the current step ("simulating run 2 of 5").
   void show(double fraction, std::string_view note);
 
  private:

@@ -116,7 +116,7 @@ std::string archive_path(const FetchArguments& arguments) {
 }
 
 void fetch(ApiClient& api, const FetchArguments& arguments) {
-  constexpr int kMostAttempts = 20;
+  constexpr int kMaxAttempts = 20;
   const char* suffix = arguments.zip ? ".zip" : ".tar";
   fs::path file = arguments.file;
   if (file.empty() || fs::is_directory(file)) file /= arguments.id + suffix;
@@ -134,7 +134,7 @@ void fetch(ApiClient& api, const FetchArguments& arguments) {
       if (!api.download(archive_path(arguments), file, on_bytes)) throw Cancelled();
       break;
     } catch (const EnvironmentError&) {
-      if (attempt == kMostAttempts) throw;
+      if (attempt == kMaxAttempts) throw;
       std::this_thread::sleep_for(1s);  // and on from where it broke off
     }
   }
@@ -173,8 +173,11 @@ void submit(const SubmitArguments& arguments) {
   };
   if (arguments.dry_run) {
     const json answer = post("/v1/jobs?dry_run");
-    fmt::print("valid: {} runs, {} shards, {} frames\n", answer["runs"].dump(),
-               answer["shards"].dump(), answer["frames"].dump());
+    const auto count = [&](const char* key, std::string_view noun) {
+      return fmt::format("{} {}{}", answer[key].dump(), noun, answer[key] == 1 ? "" : "s");
+    };
+    fmt::print("valid: {}, {}, {}\n", count("runs", "run"), count("shards", "shard"),
+               count("frames", "frame"));
     return;
   }
   const std::pair<std::string, std::string> header =
@@ -239,45 +242,46 @@ void add_submit(CLI::App& app) {
   auto* command = app.add_subcommand("submit", "Send a job to a server ($THRONG_URL, $THRONG_KEY)");
   const auto arguments = std::make_shared<SubmitArguments>();
   command->add_option("job", arguments->job_file, "Job file (JSON; see docs/job.md)")->required();
-  command->add_option("--priority", arguments->priority, "Higher ones are begun first")
+  command->add_option("--priority", arguments->priority, "Jobs with higher priority start first")
       ->check(CLI::Range(-100, 100))
       ->capture_default_str();
-  command->add_option("--label", arguments->labels, "Words to find it by; may be given again");
+  command->add_option("--label", arguments->labels, "Label; may be repeated");
   command->add_option("--key", arguments->key,
-                      "The same key again is the same submission (Idempotency-Key)");
+                      "Idempotency-Key: the same key again is the same submission");
   command->add_option("--scenario", arguments->scenario,
                       "Folder, zip or tar file of scenarios to send along; the job names one as "
                       "\"bundle/NAME\"");
-  command->add_flag("--dry-run", arguments->dry_run, "Only check it");
-  command->add_flag("--watch", arguments->watch, "Follow it to its end");
-  command->add_option("--fetch", arguments->fetch_to, "Then download its archive to this file");
+  command->add_flag("--dry-run", arguments->dry_run, "Only check the job");
+  command->add_flag("--watch", arguments->watch, "Follow the job to its end");
+  command->add_option("--fetch", arguments->fetch_to,
+                      "Download the job's archive to this file at the end");
   command->callback([arguments] { submit(*arguments); });
 }
 
 void add_job_list(CLI::App& app) {
-  auto* command = app.add_subcommand("jobs", "List a server's jobs, the newest first");
+  auto* command = app.add_subcommand("jobs", "List a server's jobs, newest first");
   const auto arguments = std::make_shared<ListArguments>();
   command->add_option("--state", arguments->states, "Only these")
       ->check(CLI::IsMember({"queued", "running", "succeeded", "partial", "failed", "cancelled"}));
-  command->add_option("--label", arguments->label, "Only those that have it");
-  command->add_option("--name", arguments->name, "Only those whose name contains it");
-  command->add_option("--limit", arguments->limit, "So many at most")
+  command->add_option("--label", arguments->label, "Only jobs with this label");
+  command->add_option("--name", arguments->name, "Only jobs whose name contains this");
+  command->add_option("--limit", arguments->limit, "Max number of jobs")
       ->check(CLI::Range(1, 500))
       ->capture_default_str();
   command->callback([arguments] { list(*arguments); });
 }
 
 void add_fetch(CLI::App& app) {
-  auto* command = app.add_subcommand("fetch", "Download a job's dataset; the same again resumes");
+  auto* command = app.add_subcommand("fetch", "Download a job's dataset; run again to resume");
   const auto arguments = std::make_shared<FetchArguments>();
   command->add_option("id", arguments->id, "The job's id (throng jobs)")->required();
   command->add_option("-o,--output", arguments->file,
-                      "File, or folder for it (else named by the id)");
+                      "File or folder to write; default: named by the id");
   command->add_flag("--zip", arguments->zip, "As a zip file instead of a tar file");
   command->add_option("--include", arguments->include,
-                      "Only these: folders and files at the dataset's top, formats, coco");
-  command->add_option("--runs", arguments->runs, "Only these runs' own files: 0-3,7");
-  command->add_option("--split", arguments->split, "Only the files of this split's runs");
+                      "Only these top-level folders and files, formats, coco");
+  command->add_option("--runs", arguments->runs, "Only files of these runs: 0-3,7");
+  command->add_option("--split", arguments->split, "Only files of this split's runs");
   command->callback([arguments] {
     ApiClient api;
     fetch(api, *arguments);
@@ -294,17 +298,17 @@ void add_remote_jobs(CLI::App& app) {
     ApiClient api;
     require_success(watched(api, *id));
   });
-  add_for_id(app, "cancel", "End a job; what it has done is kept for a retry", id)->callback([id] {
+  add_for_id(app, "cancel", "Cancel a job; finished work is kept for a retry", id)->callback([id] {
     ApiClient().post(path_of(*id) + "/cancel");
   });
-  add_for_id(app, "retry", "Queue a job again that failed, at least in part, or was cancelled", id)
+  add_for_id(app, "retry", "Queue a failed, partly failed or cancelled job again", id)
       ->callback([id] { ApiClient().post(path_of(*id) + "/retry"); });
-  add_for_id(app, "remove", "End a job and remove its files", id)->callback([id] {
+  add_for_id(app, "remove", "Cancel a job and delete its files", id)->callback([id] {
     ApiClient().remove(path_of(*id));
   });
-  auto* show_logs = add_for_id(app, "logs", "What a job's workers said", id);
+  auto* show_logs = add_for_id(app, "logs", "Print the logs of a job's workers", id);
   const auto name = std::make_shared<std::string>();
-  show_logs->add_option("name", *name, "Which of them; without it their names");
+  show_logs->add_option("name", *name, "Name of a log; default: list the names");
   show_logs->callback([id, name] { logs(*id, *name); });
   add_fetch(app);
 }

@@ -57,8 +57,7 @@ void render(const RenderArguments& arguments) {
 }  // namespace
 
 void add_render(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("render", "Render and annotate a trace as a job's cameras see it");
+  auto* command = app.add_subcommand("render", "Render and annotate a trace with a job's cameras");
   const auto arguments = std::make_shared<RenderArguments>();
   add_job_options(*command, *arguments);
   command->add_option("--trace", arguments->trace_file, "Trace that `throng simulate` wrote")

@@ -59,7 +59,7 @@ void find_traces(const fs::path& input, std::vector<NamedTrace>& traces) {
   traces.insert(traces.end(), found.begin(), found.end());
 }
 
-/// Where a job took place, which may have been made for it.
+/// The scenario of a job, which may have been generated for it.
 std::optional<world::Scenario> scenario_of_job(const fs::path& input) {
   const jobs::JobFolder folder(input);
   if (!fs::exists(folder.job_file())) return std::nullopt;

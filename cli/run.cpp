@@ -8,7 +8,7 @@
 namespace throng::cli {
 
 void add_run(CLI::App& app) {
-  auto* command = app.add_subcommand("run", "Do a job here and now: simulate, render, annotate");
+  auto* command = app.add_subcommand("run", "Run a job locally: simulate, render, annotate");
   const auto arguments = std::make_shared<JobArguments>();
   add_job_options(*command, *arguments);
   command->callback([arguments] {

@@ -31,17 +31,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A path as it is, else the file of a shipped scenario's id.
+/// An existing path, else the file of a shipped scenario's id.
 fs::path scenario_path(const std::string& name) {
   if (fs::exists(name)) return name;
+  if (fs::path(name).extension() == ".json") {
+    throw InputError({name, "", "no such file", "a scenario file, a folder or a scenario id"});
+  }
   return world::scenarios_folder() / (name + ".json");
 }
 
 void add_check(CLI::App& scenario) {
-  auto* command = scenario.add_subcommand(
-      "check",
-      "Check a scenario file, a folder of them or the one with an id; exit code 2 if "
-      "anything is wrong");
+  auto* command = scenario.add_subcommand("check",
+                                          "Check a scenario file, a folder of scenarios or a "
+                                          "scenario id; exit code 2 if there are errors");
   const auto name = std::make_shared<std::string>();
   command->add_option("scenario", *name, "FILE.json, a folder or an id")->required();
   command->callback([name] {
@@ -86,24 +88,23 @@ void draw_plan(const PlanArguments& arguments) {
 
 void add_plan(CLI::App& scenario) {
   auto* command = scenario.add_subcommand(
-      "plan", "Draw a scenario's floor plan, or a job's with the ways of its drones");
+      "plan", "Plot the floor plan of a scenario, or of a job with its drones' paths");
   const auto arguments = std::make_shared<PlanArguments>();
   command->add_option("scenario", arguments->name, "FILE.json, an id or a job's file")->required();
-  command->add_option("--trace", arguments->trace,
-                      "draw the ways that the drones of this run flew (TRACE.h5)");
+  command->add_option("--trace", arguments->trace, "Plot the flight paths of this run (TRACE.h5)");
   command->add_option("-o,--output", arguments->output, "PLAN.svg or PLAN.png")->required();
-  command->add_option("--size", arguments->size_px, "the longer side in pixels")
+  command->add_option("--size", arguments->size_px, "Longer side in pixels")
       ->check(CLI::Range(200, 8000));
   command->callback([arguments] { draw_plan(*arguments); });
 }
 
 void add_make(CLI::App& scenario) {
   auto* command = scenario.add_subcommand(
-      "make", "Make a scenario's files, those of its crowd among them, from a blueprint");
+      "make", "Make a scenario's files, including its Menge files, from a blueprint");
   const auto file = std::make_shared<fs::path>();
   const auto folder = std::make_shared<fs::path>(".");
   command->add_option("blueprint", *file, "ID.place.json (docs/blueprint.md)")->required();
-  command->add_option("-o,--output", *folder, "the folder for ID.json and its Menge files");
+  command->add_option("-o,--output", *folder, "Folder for ID.json and its Menge files");
   command->callback([file, folder] {
     const std::string id = file->stem().stem().string();
     const fs::path made =
@@ -136,13 +137,13 @@ void generate(const GenerateArguments& arguments) {
 }
 
 void add_generate(CLI::App& scenario) {
-  auto* command = scenario.add_subcommand("generate", "Make places from a seed");
+  auto* command = scenario.add_subcommand("generate", "Generate scenarios from a seed");
   const auto arguments = std::make_shared<GenerateArguments>();
   command->add_option("--kind", arguments->kind, "plaza, street, campus or block");
-  command->add_option("--seed", arguments->seed, "the first place's");
-  command->add_option("--count", arguments->count, "how many, of one seed after the other")
+  command->add_option("--seed", arguments->seed, "Seed of the first scenario");
+  command->add_option("--count", arguments->count, "Number of scenarios, with consecutive seeds")
       ->check(CLI::Range(1, 100'000));
-  command->add_option("-o,--output", arguments->folder, "the folder for the scenarios");
+  command->add_option("-o,--output", arguments->folder, "Folder for the scenarios");
   const auto number = [&](const char* option, const char* field, const char* help) {
     command->add_option_function<double>(
         option, [arguments, field](double value) { arguments->spec[field] = value; }, help);
@@ -151,13 +152,14 @@ void add_generate(CLI::App& scenario) {
     command->add_option_function<int>(
         option, [arguments, field](int value) { arguments->spec[field] = value; }, help);
   };
-  number("--size", "size_m", "of the longer side, 30 to 200 m");
-  integer("--exits", "exits", "2 to 8");
-  number("--exit-width", "exit_width_m", "2 to 12 m");
-  number("--building-density", "building_density", "0 to 1");
-  number("--clutter", "clutter", "0 to 1: how many things stand about");
-  number("--demand", "demand_per_minute", "people who come in by each exit in a minute");
-  integer("--people", "people", "who are there from the start");
+  number("--size", "size_m", "Length of the longer side, 30 to 200 m");
+  integer("--exits", "exits", "Number of exits, 2 to 8");
+  number("--exit-width", "exit_width_m", "Width of the exits, 2 to 12 m");
+  number("--building-density", "building_density",
+         "Share of the ground covered by buildings, 0 to 1");
+  number("--clutter", "clutter", "Density of props, 0 to 1");
+  number("--demand", "demand_per_minute", "People entering through each exit per minute");
+  integer("--people", "people", "Number of people at the start");
   command->callback([arguments] { generate(*arguments); });
 }
 
@@ -165,7 +167,7 @@ void add_generate(CLI::App& scenario) {
 
 void add_scenario(CLI::App& app) {
   auto* command =
-      app.add_subcommand("scenario", "Make, generate, check, draw and import scenarios");
+      app.add_subcommand("scenario", "Make, generate, check, plot and import scenarios");
   command->require_subcommand(1);
   add_check(*command);
   add_plan(*command);

@@ -53,15 +53,15 @@ std::array<double, count> numbers_in(const std::string& text, const std::string&
 }
 
 std::vector<imports::Gate> gates_of(const PlaceArguments& arguments) {
-  constexpr double kFarthestM = 10'000;
-  constexpr double kNarrowestM = 0.8;
+  constexpr double kMaxCoordinateM = 10'000;
+  constexpr double kMinWidthM = 0.8;
   std::vector<imports::Gate> gates;
   for (const std::string& text : arguments.exits) {
-    const auto [x1, y1, x2, y2] = numbers_in<4>(text, "--exit", "x1,y1,x2,y2 in metres");
+    const auto [x1, y1, x2, y2] = numbers_in<4>(text, "--exit", "x1,y1,x2,y2 in meters");
     const imports::Gate gate{{x1, y1}, {x2, y2}, std::hypot(x2 - x1, y2 - y1)};
     const double farthest =
         std::max(gate.from.cwiseAbs().maxCoeff(), gate.to.cwiseAbs().maxCoeff());
-    if (farthest > kFarthestM || gate.share < kNarrowestM) {
+    if (farthest > kMaxCoordinateM || gate.share < kMinWidthM) {
       throw InputError({"--exit", "", text, "a segment of at least 0.8 m within 10 km"});
     }
     gates.push_back(gate);
@@ -101,7 +101,7 @@ void import_place(const PlaceArguments& arguments) {
   for (const imports::Skipped& skipped : place.skipped) {
     fmt::print(stderr, "skipped: {}\n", skipped.text());
   }
-  fmt::print("{}: {:.0f} m x {:.0f} m, {} buildings, {} things, {} exits, {} people, {} skipped\n",
+  fmt::print("{}: {:.0f} m x {:.0f} m, {} buildings, {} props, {} exits, {} people, {} skipped\n",
              written.string(), place.inside.max.x() - place.inside.min.x(),
              place.inside.max.y() - place.inside.min.y(), place.buildings.size(),
              place.things.size() + place.props.size(), population.gates.size(),
@@ -112,18 +112,18 @@ void import_place(const PlaceArguments& arguments) {
 
 void add_scenario_import(CLI::App& scenario) {
   auto* command = scenario.add_subcommand(
-      "import", "Make a scenario of a Gazebo world or an OpenStreetMap extract");
+      "import", "Import a Gazebo world or an OpenStreetMap extract as a scenario");
   const auto arguments = std::make_shared<PlaceArguments>();
   command->add_option("file", arguments->file, "WORLD.sdf, WORLD.world or MAP.osm")->required();
   command->add_option("-o,--output", arguments->folder, "Folder of scenarios to write into")
       ->required();
-  command->add_option("--people", arguments->population.people, "How many are there at first")
+  command->add_option("--people", arguments->population.people, "Number of people at the start")
       ->check(CLI::Range(0, 100'000))
       ->capture_default_str();
-  command->add_option("--seed", arguments->population.seed, "Of where they stand")
+  command->add_option("--seed", arguments->population.seed, "Seed of the initial positions")
       ->capture_default_str();
   command->add_option("--exit", arguments->exits,
-                      "x1,y1,x2,y2 in metres, may be repeated; default: found at the edge");
+                      "x1,y1,x2,y2 in meters, may be repeated; default: detected at the boundary");
   command->add_option("--models", arguments->models,
                       "SDF: folder for model://, may be repeated; always: the world's own");
   command->add_option("--origin", arguments->origin,

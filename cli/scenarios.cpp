@@ -48,7 +48,7 @@ void add_upload(CLI::App& scenarios) {
       ->required();
   command->add_option("--name", arguments->name,
                       "The first part of their ids; default: the folder's or file's name");
-  command->add_flag("--dry-run", arguments->dry_run, "Only check them");
+  command->add_flag("--dry-run", arguments->dry_run, "Only check the scenarios");
   command->callback([arguments] { upload(*arguments); });
 }
 

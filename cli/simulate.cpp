@@ -56,9 +56,9 @@ void add_simulate(CLI::App& app) {
   const auto arguments = std::make_shared<SimulateArguments>();
   command->add_option("job", arguments->job_file, "Job file (JSON)")->required();
   command->add_option("-o,--output", arguments->trace_file, "Trace to write (HDF5)")->required();
-  command->add_option("--run", arguments->run, "Which of the job's runs")->capture_default_str();
+  command->add_option("--run", arguments->run, "Index of the job's run")->capture_default_str();
   command->add_option("--pilot-logs", arguments->pilot_logs,
-                      "Folder for DRONE.csv: where each drone was sent, for the policy pilot_log");
+                      "Folder for DRONE.csv: each drone's set-points, for the policy pilot_log");
   command->callback([arguments] { simulate(*arguments); });
 }
 

@@ -46,18 +46,18 @@ void run_study(const StudyArguments& arguments) {
 
 void add_study(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "study", "Compare ways to guide people over many simulations, without drawing anything");
+      "study", "Compare guidance policies over many simulations, without rendering");
   const auto arguments = std::make_shared<StudyArguments>();
   command->add_option("study", arguments->file, "Study file (JSON; see docs/guidance.md)")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,
-                   "Folder for results and report; an interrupted study goes on where it stopped")
+                   "Folder for results and report; an interrupted study is resumed")
       ->required();
-  command->add_option("-j,--threads", arguments->threads, "Runs at once (0: one per core)")
+  command->add_option("-j,--threads", arguments->threads, "Parallel runs (0: one per core)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--runs", arguments->runs, "Only the first so many seeds of each (0: all)")
+  command->add_option("--runs", arguments->runs, "Limit the number of seeds per case (0: all)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->callback([arguments] { run_study(*arguments); });

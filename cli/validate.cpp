@@ -34,7 +34,8 @@ void validate(const std::string& dataset) {
 
 void add_validate(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "validate", "Check a dataset against itself; exit code 2 and a list if something is wrong");
+      "validate",
+      "Check the consistency of a dataset; exit code 2 and a list of errors if it fails");
   const auto dataset = std::make_shared<std::string>();
   command->add_option("dataset", *dataset, "Folder of the dataset")->required();
   command->callback([dataset] { validate(*dataset); });

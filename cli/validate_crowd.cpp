@@ -50,13 +50,14 @@ void validate_crowd(const ValidateCrowdArguments& arguments) {
 void add_validate_crowd(CLI::App& app) {
   auto* command = app.add_subcommand(
       "validate-crowd",
-      "Put pedestrian models to the tests of RiMEA and NIST (docs/validation.md)");
+      "Run the RiMEA and NIST verification tests of pedestrian models (docs/validation.md)");
   const auto arguments = std::make_shared<ValidateCrowdArguments>();
-  command->add_option("-m,--models", arguments->models, "Only these (a,b,...)")->delimiter(',');
-  command->add_option("--tests", arguments->tests, "Only these (rimea_1,nist_2_8,...)")
+  command->add_option("-m,--models", arguments->models, "Only these models (a,b,...)")
+      ->delimiter(',');
+  command->add_option("--tests", arguments->tests, "Only these tests (rimea_1,nist_2_8,...)")
       ->delimiter(',');
   command->add_flag("--reduced", arguments->reduced, "Fewer people and runs: seconds per model");
-  command->add_option("-j,--threads", arguments->threads, "Tests at once (0: one per core)")
+  command->add_option("-j,--threads", arguments->threads, "Parallel tests (0: one per core)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("-o,--output", arguments->output,

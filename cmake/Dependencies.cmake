@@ -77,7 +77,7 @@ foreach(package IN ITEMS pluginlib class_loader ament_index_cpp rcutils rcpputil
   target_include_directories(throng_rosbag SYSTEM INTERFACE "${ROS_INCLUDE}/${package}")
 endforeach()
 
-# What finds calibration boards in pictures, for the room that does.
+# OpenCV's modules for the detection of calibration boards, for the one module that uses them.
 add_library(throng_opencv_calib INTERFACE)
 foreach(module IN ITEMS imgcodecs calib3d features2d aruco)
   find_library(OPENCV_${module} opencv_${module} REQUIRED)

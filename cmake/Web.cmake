@@ -1,4 +1,4 @@
-# What throng shows in a browser: scripts of web/, bundled by esbuild while CMake configures, embedded in the program.
+# Scripts of web/ for HTML reports, bundled by esbuild while CMake configures, embedded in the program.
 
 # Installs the packages of web/package-lock.json, once for all builds of this tree; needs npm's registry then only.
 function(throng_web_packages)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A certificate that signs itself, to try the container with: clients have to be told to trust it.
+# A certificate that signs itself, to try the container with: clients must be configured to trust it.
 # usage: docker/make_certificate.sh FOLDER NAME    writes FOLDER/tls.crt and FOLDER/tls.key
 set -euo pipefail
 folder="${1:?usage: make_certificate.sh FOLDER NAME}"

@@ -115,7 +115,7 @@ void check_box_is_tight(const Shot& shot, const Person& person, Findings& findin
 /// The head is seen near the upper end of an upright body, and among its keypoints.
 void check_head(const Shot& shot, const Person& person, Findings& findings) {
   if (!person.head || !shot.at_once) return;
-  const Eigen::Vector3d centre = shot.camera.pose.centre();
+  const Eigen::Vector3d centre = shot.camera.pose.center();
   const Eigen::Vector3d at = shot.camera.unproject(Eigen::Vector2d(person.head->array() - 0.5), 1);
   if (!at.allFinite()) return;
   const Eigen::ParametrizedLine<double, 3> ray(centre, (at - centre).normalized());

@@ -45,7 +45,7 @@ double common_ratio(std::vector<double> ratios) {
 std::optional<Vector2d> on_ground(const camera::Camera& camera, const json& point) {
   const Vector2d pixel(point.at(0).get<double>() - 0.5, point.at(1).get<double>() - 0.5);
   const Vector3d at = camera.unproject(pixel, 1);
-  const Vector3d centre = camera.pose.centre();
+  const Vector3d centre = camera.pose.center();
   const double down = centre.z() - at.z();
   if (!at.allFinite() || !(down > 1e-6)) return std::nullopt;
   return Vector2d((centre + (at - centre) * (centre.z() / down)).head<2>());

@@ -60,7 +60,7 @@ std::optional<Eigen::Vector3d> normal_by_depth(const Shot& shot, int x, int y, i
   };
   if (size < kLeastM || bend(1, 2) > 0.06 * size || bend(3, 4) > 0.06 * size) return std::nullopt;
   Eigen::Vector3d normal = across.cross(down).normalized();
-  if (normal.dot(points[0] - shot.camera.pose.centre()) > 0) normal = -normal;
+  if (normal.dot(points[0] - shot.camera.pose.center()) > 0) normal = -normal;
   return normal;
 }
 
@@ -83,7 +83,7 @@ void check_normals(const Shot& shot, Findings& findings) {
   const int step =
       std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostPoints)));
   std::map<Kind, NormalTally> tallies;
-  const Eigen::Vector3d centre = shot.camera.pose.centre();
+  const Eigen::Vector3d centre = shot.camera.pose.center();
   for (int y = 1; y < pixels.height; y += step) {
     for (int x = 1 + y % step; x < pixels.width; x += step) {
       const std::size_t pixel = pixels.at(x, y);

@@ -126,7 +126,7 @@ bool has_geometry(const Shot& shot) {
 std::optional<double> ground_depth_at(const Shot& shot, int x, int y) {
   const Eigen::Vector3d at = shot.camera.unproject({x, y}, 1);
   if (!at.allFinite()) return std::nullopt;
-  const Eigen::Vector3d centre = shot.camera.pose.centre();
+  const Eigen::Vector3d centre = shot.camera.pose.center();
   const double down = centre.z() - at.z();
   if (!(down > 1e-3)) return std::nullopt;
   return centre.z() / down;

@@ -38,15 +38,15 @@ std::vector<std::string> words_of(const std::string& list) {
   return words;
 }
 
-/// What a behavior says of states, as far as the alarm needs it.
+/// The states of a behavior, as far as the alarm needs them.
 struct StateGraph {
   struct Edge {
     std::string from;
     std::string to;
   };
   std::vector<Edge> ordinary;
-  std::vector<Edge> telling;  ///< transitions by which people get to know of the alarm
-  Names told_by_events;
+  std::vector<Edge> informing;  ///< transitions by which people get to know of the alarm
+  Names informed_by_events;
   std::optional<double> first_proximity_s;
 
   Names reached_from(Names states, bool by_telling) const {
@@ -58,15 +58,15 @@ struct StateGraph {
         }
       };
       follow(ordinary);
-      if (by_telling) follow(telling);
+      if (by_telling) follow(informing);
     }
     return states;
   }
 };
 
 // Whether a condition, or any part of it, is about the disaster, panic or a guide. A part that is
-// negated (the guide is gone) tells nobody anything.
-bool tells(const Element& element, StateGraph& graph) {
+// negated (the guide is gone) informs nobody.
+bool informs(const Element& element, StateGraph& graph) {
   const std::string type = text_of(element, "type");
   if (element.name() == "Condition" && type == "not") return false;
   bool found = false;
@@ -77,7 +77,7 @@ bool tells(const Element& element, StateGraph& graph) {
     }
     found = type == "proximity" || type == "panicked" || type == "follow";
   }
-  for (const Element& child : element.children()) found = tells(child, graph) || found;
+  for (const Element& child : element.children()) found = informs(child, graph) || found;
   return found;
 }
 
@@ -91,12 +91,12 @@ void gather_targets(const Element& element, Names& targets) {
 void read_transition(const Element& element, StateGraph& graph) {
   Names targets;
   for (const std::string& to : words_of(text_of(element, "to"))) targets.insert(to);
-  bool telling = false;
+  bool informing = false;
   for (const Element& child : element.children()) {
-    if (child.name() == "Condition") telling = tells(child, graph) || telling;
+    if (child.name() == "Condition") informing = informs(child, graph) || informing;
     if (child.name() == "Target") gather_targets(child, targets);
   }
-  auto& edges = telling ? graph.telling : graph.ordinary;
+  auto& edges = informing ? graph.informing : graph.ordinary;
   for (const std::string& from : words_of(text_of(element, "from"))) {
     for (const std::string& to : targets) edges.push_back({from, to});
   }
@@ -109,8 +109,8 @@ void read_behavior(const Element& element, StateGraph& graph) {
       continue;
     }
     const std::string type = text_of(child, "type");
-    if (type == "change_state") graph.told_by_events.insert(text_of(child, "state"));
-    if (child.name() == "StateSelector") graph.told_by_events.insert(text_of(child, "name"));
+    if (type == "change_state") graph.informed_by_events.insert(text_of(child, "state"));
+    if (child.name() == "StateSelector") graph.informed_by_events.insert(text_of(child, "name"));
     read_behavior(child, graph);
   }
 }
@@ -138,9 +138,9 @@ Alarm alarm_of(const world::Scenario& scenario) {
   Names initial;
   gather_initial(crowd::XmlFile(scenario.scene_file, "Experiment").root(), false, initial);
   const Names unaware = graph.reached_from(std::move(initial), false);
-  Names told = graph.told_by_events;
-  for (const StateGraph::Edge& edge : graph.telling) told.insert(edge.to);
-  for (const std::string& state : graph.reached_from(std::move(told), true)) {
+  Names informed = graph.informed_by_events;
+  for (const StateGraph::Edge& edge : graph.informing) informed.insert(edge.to);
+  for (const std::string& state : graph.reached_from(std::move(informed), true)) {
     if (unaware.count(state) == 0 && !world::is_down(state)) alarm.aware_states.push_back(state);
   }
   return alarm;

@@ -14,7 +14,7 @@ struct Alarm {
   /// The earliest start of a disaster; where the scenario places none, the earliest start of the
   /// behavior's conditions "proximity" (s). Empty: nothing ever happens here.
   std::optional<double> at_s;
-  /// Names of the states that are reached only by way of a transition whose condition asks for the
+  /// Names of the states that are reached only through a transition whose condition asks for the
   /// reach of a disaster, for panic or for a guide, or of an event that changes states; states of
   /// people who cannot stand are left out. Empty where the behavior has no such transition.
   std::vector<std::string> aware_states = {};

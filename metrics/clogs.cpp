@@ -21,7 +21,7 @@ std::size_t onset_of(const std::vector<ExitSample>& samples, const std::vector<d
   return onset;
 }
 
-// The step of the next passage, or the first one without demand or with the door shut.
+// The step of the next passage, or the first one without demand or with the door closed.
 std::size_t end_of(const std::vector<ExitSample>& samples, std::size_t from) {
   std::size_t end = from;
   while (end < samples.size() && samples[end].demand && samples[end].state != ExitState::closed &&
@@ -55,14 +55,14 @@ void find_clogs(ExitSeries& series, const std::vector<double>& time_s) {
     ClogEvent& clog = series.clogs.back();
     std::size_t end = step;
     while (end < samples.size() && samples[end].state == ExitState::clogged) ++end;
-    // Who stops pressing has not passed yet.
+    // A person who stops pressing has not passed yet.
     end = std::max(end, end_of(samples, end));
     clog.until_s = end < samples.size() ? time_s[end] : time_s.back();
     clog.ended = end < samples.size();
     for (std::size_t i = onset; i < end; ++i) {
       samples[i].state_offline = ExitState::clogged;
-      clog.max_normalised_density =
-          std::max(clog.max_normalised_density, samples[i].normalised_density);
+      clog.max_normalized_density =
+          std::max(clog.max_normalized_density, samples[i].normalized_density);
       clog.max_pressure_per_s2 = std::max(clog.max_pressure_per_s2, samples[i].pressure_per_s2);
     }
     last_end = end;

@@ -91,18 +91,18 @@ bool ControlZone::contains(const Eigen::Vector2d& point) const {
                       [&](const auto& footprint) { return covers(footprint, point); });
 }
 
-double ControlZone::share_of_way(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+double ControlZone::share_of_path(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   const Eigen::Vector2d start = from - middle_;
   const Eigen::Vector2d way = to - from;
   double begin = 0;
   double end = 1;
-  // Inside of the line: start + s way has to lie before it.
+  // Inside of the line: start + s offset has to lie before it.
   const double before = start.dot(outward_);
   const double outward = way.dot(outward_);
   if (outward > 0) end = std::min(end, -before / outward);
   if (outward < 0) begin = std::max(begin, -before / outward);
   if (outward == 0 && before >= 0) return 0;
-  // In the disc: between the roots of |start + s way|² = radius².
+  // In the disc: between the roots of |start + s offset|² = radius².
   const double a = way.squaredNorm();
   const double b = start.dot(way);
   const double c = start.squaredNorm() - radius_m_ * radius_m_;

@@ -16,8 +16,8 @@ class ControlZone {
   ControlZone(const world::Exit& exit, std::span<const world::Building> buildings);
 
   bool contains(const Eigen::Vector2d& point) const;
-  /// Which share of the straight way between two places lies in the half disc, buildings or not.
-  double share_of_way(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  /// Share of the straight line between two points that lies in the half disc, ignoring buildings.
+  double share_of_path(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
   double radius_m() const { return radius_m_; }
   /// Walkable ground in the zone; 0 when buildings cover all of it.
   double area_m2() const { return area_m2_; }

@@ -16,7 +16,7 @@ class ExitLine {
 
   /// Distance beyond the line, outward positive (m).
   double beyond_m(const Eigen::Vector2d& point) const;
-  /// Whether the straight way from `a` to `b`, which lie on different sides, leads through the
+  /// Whether the straight line from `a` to `b`, which lie on different sides, leads through the
   /// door.
   bool leads_through_door(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
 

@@ -22,8 +22,8 @@ struct ModelRow {
 // karamouzas do not keep bodies apart, so that people pass through each other and through jambs.
 constexpr std::array kModels = {
     ModelRow{"ttc",
-             {1.65, 2.1, 2.35, 3.05, 3.6, 6.05, 8.85, 13.5, 20.5, 36.9},
-             {5.4, 4.7, 5.9, 5.9, 5.8, 5, 6.2, 7.5, 12.5, 25.2}},
+             {1.1, 1.45, 2, 2.75, 3.6, 6.05, 8.65, 13.65, 20.35, 36.75},
+             {2.4, 3.1, 3, 3.5, 3.4, 3, 5.3, 6.3, 10.6, 24.2}},
     ModelRow{"orca",
              {2.25, 3.5, 4.85, 6.25, 8.25, 14.5, 21.2, 35, 58.35, 96.2},
              {5.5, 5, 5.7, 9.2, 10.2, 20.5, 33.4, 65, 99.9, 211.2}},
@@ -73,9 +73,9 @@ double at(const std::array<double, kWidths>& values, double width_m) {
 
 DoorCapacity door_capacity(std::string_view model, double width_m) {
   const ModelRow& row = row_of(model);
-  // Through the narrowest door some models let nobody pass; a bound must not shut it.
-  constexpr double kLeastPerS = 0.3;
-  return {at(row.burst, width_m), std::max(kLeastPerS, at(row.rate_per_s, width_m))};
+  // Through the narrowest door some models let nobody pass; a bound must not closed it.
+  constexpr double kMinPerS = 0.3;
+  return {at(row.burst, width_m), std::max(kMinPerS, at(row.rate_per_s, width_m))};
 }
 
 }  // namespace throng::metrics

@@ -1,4 +1,4 @@
-// What each drone of a run did and suffered.
+// Summary of each drone's flight in a run.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ namespace throng::metrics {
 
 struct DroneFigures {
   std::string id;
-  double flown_m = 0;    ///< way through the world
+  double flown_m = 0;    ///< path length in the world
   double energy_wh = 0;  ///< taken from the battery
   double fastest_mps = 0;
   double wind_mps = 0;     ///< mean over time of the air's speed where the drone was

@@ -14,7 +14,7 @@ void EdieRegion::add_time(const ControlZone& zone, double duration_s) {
 }
 
 void EdieRegion::add_walk(const ControlZone& zone, const Vector2d& from, const Vector2d& to) {
-  const double share = zone.share_of_way(from, to);
+  const double share = zone.share_of_path(from, to);
   person_s_ += share * step_s_;
   walked_m_ += share * (to - from).norm();
 }

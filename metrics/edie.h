@@ -20,9 +20,9 @@ class EdieRegion {
   double duration_s() const { return duration_s_; }
   /// Time that people spent in the region over its area and duration (1/m²).
   double density_per_m2() const;
-  /// Way that people walked in it over its area and duration (1/(m s)).
+  /// Distance that people walked in it over its area and duration (1/(m s)).
   double flow_per_ms() const;
-  /// Way over time (m/s); 0 where nobody was.
+  /// Distance over time (m/s); 0 where nobody was.
   double speed_mps() const;
 
  private:

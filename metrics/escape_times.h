@@ -36,10 +36,10 @@ struct EscapeTimes {
   double mean_censored_s() const;
   /// Restricted mean survival time: the area below the share still inside, up to `until_s` (Royston
   /// and Parmar, BMC Med. Res. Methodol. 13, 2013). The share is the product-limit estimate of the
-  /// unhurt; casualties stay. Where everybody was watched for so long it is the mean of min(escape
+  /// unhurt; casualties stay. If everybody was observed for that long, it is the mean of min(escape
   /// time, until_s). Empty where the estimate is not known for so long, and without anybody.
   std::optional<double> restricted_mean_s(double until_s) const;
-  /// Who had been watched for `after_s` and was still inside then, unhurt.
+  /// Number of people observed for `after_s` who were still inside then, unhurt.
   int inside_after(double after_s) const;
   /// The share that has escaped after 0, 1, 2, ... s by the same estimate, as far as somebody was
   /// watched.

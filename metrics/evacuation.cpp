@@ -91,14 +91,14 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   metrics.guidance = guidance_of(people, metrics.drones);
   metrics.exposure = exposure_of(trace, scenario, people);
   if (!people.empty()) {
-    const std::vector<WalkingDistance> ways = ways_to_exits(scenario);
-    metrics.journeys = journeys(trace, scenario, exits, people, ways);
+    const std::vector<WalkingDistance> distances = walking_distances(scenario);
+    metrics.journeys = journeys(trace, scenario, exits, people, distances);
     metrics.lower_bound =
         lower_bound(scenario, people, alarm, metrics.duration_s,
                     {scenario.crowd_model, max_radius_m(trace.header), Knowledge::as_noticed});
-    metrics.reference =
-        reference_time(scenario, people, alarm, metrics.duration_s, Knowledge::as_noticed, ways);
-    metrics.remaining = remaining_of(trace, scenario, people, ways);
+    metrics.reference = reference_time(scenario, people, alarm, metrics.duration_s,
+                                       Knowledge::as_noticed, distances);
+    metrics.remaining = remaining_of(trace, scenario, people, distances);
   }
   for (const world::TraceEvent& event : trace.events) {
     if (event.type != "fall") continue;

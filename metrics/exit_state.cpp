@@ -8,7 +8,7 @@ namespace throng::metrics {
 
 namespace {
 
-constexpr double kSpecificFlow = 1.3;  // people per metre and second
+constexpr double kSpecificFlow = 1.3;  // people per meter and second
 
 constexpr double kCongestedDensity = 0.35;  // of close packing
 constexpr double kCongestedSpeed = 0.3;     // of the desired speed
@@ -25,9 +25,9 @@ double capacity_per_s(double width_m) { return kSpecificFlow * width_m; }
 
 double clogging_index(const ExitSample& sample, const ExitDemand& demand, double capacity_per_s) {
   if (!demand.demand) return 0;
-  const double density = std::min(1.0, sample.normalised_density / kFullDensity);
+  const double density = std::min(1.0, sample.normalized_density / kFullDensity);
   const double flow_lack = std::clamp(1 - sample.flow_per_s / capacity_per_s, 0.0, 1.0);
-  // Where nobody wants to move, nobody is held up.
+  // Without anybody who wants to move, nobody is held up.
   const double free_speed = kFreeSpeed * demand.desired_speed_mps;
   const double speed_lack =
       free_speed > 0 ? std::clamp(1 - sample.approach_speed_mps / free_speed, 0.0, 1.0) : 0.0;
@@ -51,7 +51,7 @@ ExitState ExitStateMachine::step(double time_s, bool open, const ExitSample& sam
 ExitState ExitStateMachine::next(double time_s, const ExitSample& sample,
                                  const ExitDemand& demand) {
   if (state_ < ExitState::congested) {
-    const bool jams = sample.normalised_density >= kCongestedDensity &&
+    const bool jams = sample.normalized_density >= kCongestedDensity &&
                       sample.approach_speed_mps < kCongestedSpeed * demand.desired_speed_mps;
     if (!jams) return ExitState::flowing;
   } else if (relieved(time_s, sample, demand)) {
@@ -65,7 +65,7 @@ ExitState ExitStateMachine::next(double time_s, const ExitSample& sample,
 // Whether the jam has been over for long enough.
 bool ExitStateMachine::relieved(double time_s, const ExitSample& sample, const ExitDemand& demand) {
   const bool relief = sample.approach_speed_mps > kRelievedSpeed * demand.desired_speed_mps ||
-                      sample.normalised_density < kRelievedDensity;
+                      sample.normalized_density < kRelievedDensity;
   if (!relief) {
     relief_since_s_ = -1;
     return false;

@@ -6,13 +6,13 @@
 
 namespace throng::metrics {
 
-/// Flow that an exit of `width_m` can take (people/s): 1.3 per metre and second.
+/// Flow that an exit of `width_m` can take (people/s): 1.3 per meter and second.
 double capacity_per_s(double width_m);
 
 /// How long nobody may have gone out for a jam to be a clog: max(2 s, 3 / capacity).
 double clog_after_s(double width_m);
 
-/// What the state depends on besides the sample's own values.
+/// Inputs of the state besides the sample's own values.
 struct ExitDemand {
   bool demand = false;           ///< enough people in the zone to fill the door
   double desired_speed_mps = 0;  ///< mean over the zone

@@ -19,8 +19,8 @@ void add(const ExitSample& sample, int net_out_now, double dt_s, ExitTotals& tot
          int& net_out_in_demand) {
   totals.state_s[static_cast<std::size_t>(sample.state)] += dt_s;
   totals.clogging_index_s += sample.clogging_index * dt_s;
-  const bool shut = sample.state == ExitState::closed;
-  if (shut ? sample.demand : sample.state != ExitState::idle) {
+  const bool closed = sample.state == ExitState::closed;
+  if (closed ? sample.demand : sample.state != ExitState::idle) {
     totals.demand_s += dt_s;
     net_out_in_demand += net_out_now;
   }
@@ -79,7 +79,7 @@ json clog_json(const ClogEvent& clog) {
           {"until_s", clog.until_s},
           {"ended", clog.ended},
           {"people_at_onset", clog.people_at_onset},
-          {"max_normalised_density", clog.max_normalised_density},
+          {"max_normalised_density", clog.max_normalized_density},
           {"max_pressure_per_s2", clog.max_pressure_per_s2},
           {"members", clog.members}};
 }

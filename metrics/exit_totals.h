@@ -1,4 +1,4 @@
-// What each exit of a run came to, and how evenly they were used.
+// Totals of each exit of a run, and how evenly the exits were used.
 #pragma once
 
 #include <array>

@@ -39,7 +39,7 @@ std::vector<std::size_t> people_of(const Trace& trace) {
   return people;
 }
 
-// What the trace calls this exit in Trace::exit_intent, if it knows it.
+// Index of this exit in Trace::exit_intent, if the trace has it.
 std::optional<std::size_t> intent_of(const Trace& trace, const std::string& exit_id) {
   const auto& ids = trace.header.exit_ids;
   const auto found = std::find(ids.begin(), ids.end(), exit_id);
@@ -93,7 +93,7 @@ class ExitObserver {
     return step > window ? samples[step - window].net_out() : 0;
   }
 
-  // What can be measured at the step itself.
+  // Quantities measured at the step itself.
   ExitSample observe_step(std::size_t step, std::vector<Passage>& passages) {
     look_around(step, passages);
     ExitSample sample;
@@ -112,7 +112,7 @@ class ExitObserver {
       desired_speed_mps_ /= sample.in_zone;
     }
     sample.density_per_m2 = sample.in_zone / zone_.area_m2();
-    sample.normalised_density = sample.density_per_m2 * close_packing_m2();
+    sample.normalized_density = sample.density_per_m2 * close_packing_m2();
     sample.voronoi_density_per_m2 = voronoi_density();
     sample.pressure_per_s2 = pressure_.step(near_);
     const Queue queue = queue_before(zone_, exit_.outward, queuing_);
@@ -122,7 +122,7 @@ class ExitObserver {
     return sample;
   }
 
-  // What depends on earlier steps as well.
+  // Quantities that depend on earlier steps as well.
   void finish(ExitSample& sample, double time_s, double net_out_4s_ago) {
     sample.flow_per_s = (sample.net_out() - net_out_4s_ago) / kFlowWindowS;
     sample.specific_flow_per_ms = sample.flow_per_s / exit_.width_m();
@@ -169,7 +169,7 @@ class ExitObserver {
     }
   }
 
-  // The way from this step to the next of those who are near and intend this exit.
+  // The displacement from this step to the next of people who are near and intend this exit.
   void add_walks(std::size_t step, EdieRegion& edie) const {
     edie.add_time(zone_, trace_.time_s[step + 1] - trace_.time_s[step]);
     for (const NearPerson& person : near_) {
@@ -231,7 +231,7 @@ class ExitObserver {
   const VoronoiCutter& cutter_;
   const ControlZone& zone_;
   const world::Exit& exit_;
-  std::optional<std::size_t> intent_;  ///< empty: the trace does not say who wants this exit
+  std::optional<std::size_t> intent_;  ///< empty: the trace has no intents for this exit
   double mean_radius_m_;
   ExitLine line_;
   double capacity_per_s_;

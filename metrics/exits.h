@@ -1,5 +1,5 @@
-// What happens at each exit over time: crossings, flow, density, queue, pressure, clogging.
-// Definitions and sources: docs/metrics.md.
+// Time series of each exit: crossings, flow, density, queue, pressure, clogging. Definitions and
+// sources: docs/metrics.md.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ std::string name_of(ExitState state);
 struct ExitSample {
   int in_zone = 0;                ///< people in the control zone who intend this exit
   double density_per_m2 = 0;      ///< in_zone / zone area
-  double normalised_density = 0;  ///< density / close packing of the people's discs
-  double approach_speed_mps = 0;  ///< mean speed towards the exit's middle
+  double normalized_density = 0;  ///< density / close packing of the people's discs
+  double approach_speed_mps = 0;  ///< mean speed toward the exit's middle
   int crossed_out = 0;            ///< outward crossings since the start
   int crossed_in = 0;             ///< inward crossings since the start
   double flow_per_s = 0;          ///< growth of net_out() per second over the last 4 s
@@ -35,7 +35,7 @@ struct ExitSample {
   ExitState state = ExitState::idle;
   double clogging_index = 0;          ///< in [0, 1]
   double voronoi_density_per_m2 = 0;  ///< of all people, over the zone (metrics/voronoi.h)
-  double specific_flow_per_ms = 0;    ///< flow per metre of width
+  double specific_flow_per_ms = 0;    ///< flow per meter of width
   bool demand = false;                ///< enough people in the zone to fill the door
   int queue = 0;                      ///< people (metrics/queue.h)
   double queue_length_m = 0;
@@ -52,7 +52,7 @@ struct ClogEvent {
   double until_s = 0;
   bool ended = true;        ///< otherwise the run ended first
   int people_at_onset = 0;  ///< in the zone
-  double max_normalised_density = 0;
+  double max_normalized_density = 0;
   double max_pressure_per_s2 = 0;
   std::vector<std::size_t> members;  ///< agents within 1.5 widths of the middle at any time of it
 };
@@ -73,7 +73,7 @@ struct ExitSeries {
   EdieRegion edie = {};                ///< those who intend the exit, in the zone, under demand
 };
 
-/// One series per exit of the scenario, at the trace's rate, causal but for what is called offline
+/// One series per exit of the scenario, at the trace's rate, causal except for values named "offline"
 /// and the clogs: a sample depends only on the trace up to its step.
 std::vector<ExitSeries> exit_series(const world::Trace& trace, const world::Scenario& scenario);
 

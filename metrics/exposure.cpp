@@ -60,14 +60,14 @@ class SquareMeter {
       for (const auto& [square, people] : last_.front()) square->sum -= people;
       last_.pop_front();
     }
-    double most = 0;
+    double max_value = 0;
     for (auto& [square, people] : now_) {
       people = std::exchange(square->now, 0);
       square->sum += people;
-      most = std::max(most, square->sum);
+      max_value = std::max(max_value, square->sum);
     }
     last_.push_back(std::exchange(now_, {}));
-    return most / (static_cast<double>(last_.size()) * kSquareM * kSquareM);
+    return max_value / (static_cast<double>(last_.size()) * kSquareM * kSquareM);
   }
 
  private:

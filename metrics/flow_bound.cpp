@@ -17,12 +17,12 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Whether a door is closed from a second's beginning on.
-bool is_shut(const Departures& departures, std::size_t exit, int second) {
-  return !departures.shuts_s.empty() && second >= departures.shuts_s[exit];
+bool is_closed(const Departures& departures, std::size_t exit, int second) {
+  return !departures.closes_at_s.empty() && second >= departures.closes_at_s[exit];
 }
 
 /// How many can pass in a slot. Rounded so that no people get lost over the seconds.
-int room_of(const Departures& departures, std::size_t exit, int second, int first_entry) {
+int spare_capacity(const Departures& departures, std::size_t exit, int second, int first_entry) {
   const double rate = departures.capacity_per_s[exit];
   if (departures.burst.empty()) {
     return static_cast<int>(std::ceil(rate * (second + 1)) - std::ceil(rate * second));
@@ -37,7 +37,7 @@ int room_of(const Departures& departures, std::size_t exit, int second, int firs
 
 /// Maximum flow from people through doors that opens one slot after another. The network: each
 /// person comes to each door in the second in which they can be there, and may wait from each
-/// second of a door to its next. Who has got a slot keeps one, if not always the same.
+/// second of a door to its next. A person who has a slot keeps one, though not always the same.
 class DoorFlow {
  public:
   DoorFlow(const Departures& departures)
@@ -49,7 +49,7 @@ class DoorFlow {
         const double access_s = departures.access_s[person][e];
         if (departures.capacity_per_s[e] <= 0 || !std::isfinite(access_s)) continue;
         const int second = std::max(0, static_cast<int>(std::ceil(access_s - 1)));
-        if (is_shut(departures, e, second)) continue;
+        if (is_closed(departures, e, second)) continue;
         entry[e] = second;
         last_entry_ = std::max(last_entry_, second);
         doors_[e].people.push_back(person);
@@ -78,7 +78,7 @@ class DoorFlow {
     return door.people.empty() ? 0 : entry_[door.people.front()][exit];
   }
 
-  /// Opens a slot of the door for `room` people; returns how many more are out.
+  /// Opens a slot of the door for `room` more people; returns how many more are out.
   int open(std::size_t exit, int second, int room) {
     Door& door = doors_[exit];
     door.waiting.resize(static_cast<std::size_t>(second) + 1, 0);
@@ -100,7 +100,7 @@ class DoorFlow {
     int second = 0;
   };
 
-  /// How a free way from some place to the new slot goes on.
+  /// Next edge of a free path from a node to the new slot.
   struct On {
     enum class Kind { arrived, waits, waits_less, person };
     int search = 0;  ///< in which it was found
@@ -155,7 +155,8 @@ class DoorFlow {
     next_.push_back(place);
   }
 
-  // Whoever comes to the place and goes elsewhere yet: the end of the search if that is nowhere.
+  // The person who comes to the node and continues elsewhere: the end of the search if there is
+  // none.
   bool take_from(const Place& place) {
     const auto e = static_cast<std::ptrdiff_t>(place.exit);
     const std::vector<std::size_t>& people = doors_[place.exit].people;
@@ -177,7 +178,7 @@ class DoorFlow {
     return false;
   }
 
-  // Moves the flow along the way that was found.
+  // Moves the flow along the augmenting path.
   void follow(std::size_t person) {
     for (;;) {
       Place place = target_[person];
@@ -215,20 +216,20 @@ std::vector<double> earliest_out_s(const Departures& departures) {
   check(departures.on_s.size() == exits, "every exit has a way out");
   DoorFlow flow(departures);
   std::vector<int> second(exits, 0);
-  // Doors that serve nobody any more: who has no slot cannot get there, and others shut too soon.
+  // Doors that serve nobody any more: who has no slot cannot get there, and others closed too soon.
   std::vector<bool> is_spent(exits, false);
   std::vector<double> out_s;
   while (flow.left() > 0) {
     std::size_t next = exits;
     for (std::size_t e = 0; e < exits; ++e) {
       if (departures.capacity_per_s[e] <= 0 || is_spent[e]) continue;
-      if (is_shut(departures, e, second[e])) continue;
+      if (is_closed(departures, e, second[e])) continue;
       const auto out_at_s = [&](std::size_t exit) { return second[exit] + departures.on_s[exit]; };
       if (next == exits || out_at_s(e) < out_at_s(next)) next = e;
     }
     if (next == exits) break;
     const int now = second[next]++;
-    const int room = room_of(departures, next, now, flow.first_entry(next));
+    const int room = spare_capacity(departures, next, now, flow.first_entry(next));
     const int more = flow.open(next, now, room);
     is_spent[next] = room > 0 && more == 0 && now >= flow.last_entry();
     out_s.insert(out_s.end(), static_cast<std::size_t>(more), now + departures.on_s[next]);
@@ -237,7 +238,7 @@ std::vector<double> earliest_out_s(const Departures& departures) {
   return out_s;
 }
 
-double way_out_m(const world::Rectangle& inside, const Vector2d& place) {
+double exit_path_m(const world::Rectangle& inside, const Vector2d& place) {
   const Vector2d to_min = place - inside.min;
   const Vector2d to_max = inside.max - place;
   return std::max(0.0, std::min(to_min.minCoeff(), to_max.minCoeff()));

@@ -8,12 +8,12 @@
 
 namespace throng::metrics {
 
-/// Who can be at which door when, and what the doors take.
+/// Earliest arrival of each person at each door, and the doors' capacity.
 struct Departures {
   std::vector<std::vector<double>> access_s;  ///< per person and exit; infinite: never
   std::vector<double> capacity_per_s;         ///< per exit, people; 0: closed
   std::vector<double> on_s;                   ///< per exit, from the door out of the place
-  std::vector<double> shuts_s = {};           ///< per exit, from when on it is closed; empty: none
+  std::vector<double> closes_at_s = {};       ///< per exit, from when on it is closed; empty: none
   /// Per exit, people beyond `capacity_per_s` times any length of time that pass in it; empty:
   /// none. Then t seconds from the slot on in which the first person can be at the door let
   /// floor(burst + capacity_per_s * t) people pass: the arrival curve of Cruz (IEEE Trans. Inf.
@@ -30,6 +30,6 @@ struct Departures {
 std::vector<double> earliest_out_s(const Departures& departures);
 
 /// From a place to beyond the nearest side of the rectangle (m); 0 outside.
-double way_out_m(const world::Rectangle& inside, const Eigen::Vector2d& place);
+double exit_path_m(const world::Rectangle& inside, const Eigen::Vector2d& place);
 
 }  // namespace throng::metrics

@@ -53,13 +53,13 @@ json or_null(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-// Says why, where there is no exponent or it means nothing.
+// Reason why there is no exponent or it is meaningless.
 json tail_json(const GapFigures& figures) {
   json result = {{"valid", figures.tail && figures.tail->plausible()},
                  {"why_not", nullptr},
-                 {"fewest_gaps", kFewestInTail}};
+                 {"fewest_gaps", kMinInTail}};
   if (!figures.tail) {
-    const bool few = static_cast<int>(figures.gaps_s.size()) < kFewestInTail;
+    const bool few = static_cast<int>(figures.gaps_s.size()) < kMinInTail;
     result["why_not"] = few ? "too few gaps" : "no tail of so many gaps that differ";
     return result;
   }
@@ -80,7 +80,7 @@ std::optional<GapTail> fit_tail(std::vector<double> gaps_s) {
   std::erase_if(gaps_s, [](double gap) { return gap <= 0; });
   std::sort(gaps_s.begin(), gaps_s.end());
   std::optional<GapTail> best;
-  for (std::size_t first = 0; first + static_cast<std::size_t>(kFewestInTail) <= gaps_s.size();
+  for (std::size_t first = 0; first + static_cast<std::size_t>(kMinInTail) <= gaps_s.size();
        ++first) {
     if (first > 0 && gaps_s[first] == gaps_s[first - 1]) continue;
     const auto tail = tail_from(gaps_s, first);
@@ -102,7 +102,7 @@ GapFigures gap_figures(std::span<const double> crossings_s, double clog_after_s)
   std::sort(sorted.begin(), sorted.end());
   figures.median_s = quantile_of_sorted(sorted, 0.5);
   figures.p90_s = quantile_of_sorted(sorted, 0.9);
-  figures.longest_s = sorted.back();
+  figures.max_duration_s = sorted.back();
   const auto is_long = [&](double gap) { return gap > clog_after_s; };
   figures.long_share = static_cast<double>(std::count_if(sorted.begin(), sorted.end(), is_long)) /
                        static_cast<double>(sorted.size());
@@ -118,7 +118,7 @@ json to_json(const GapFigures& figures) {
   return {{"count", figures.gaps_s.size()},
           {"median_s", or_null(figures.median_s)},
           {"p90_s", or_null(figures.p90_s)},
-          {"longest_s", or_null(figures.longest_s)},
+          {"longest_s", or_null(figures.max_duration_s)},
           {"share_longer_than_clog_time", or_null(figures.long_share)},
           {"list_s", figures.gaps_s},
           {"tail", tail_json(figures)},

@@ -25,18 +25,18 @@ struct GapTail {
   bool clogging_regime() const { return plausible() && alpha <= 2; }
 };
 
-/// Fewer gaps in a tail say nothing about its law.
-inline constexpr int kFewestInTail = 50;
+/// Fewer gaps in a tail do not determine its law.
+inline constexpr int kMinInTail = 50;
 
-/// Empty if less than kFewestInTail gaps would be in the tail, or all of them are equal.
+/// Empty if less than kMinInTail gaps would be in the tail, or all of them are equal.
 std::optional<GapTail> fit_tail(std::vector<double> gaps_s);
 
 inline constexpr std::array kBurstGapsS = {1.0, 2.0, 3.0};
 
 struct GapFigures {
   std::vector<double> gaps_s;  ///< between consecutive passages outward, in order
-  std::optional<double> median_s, p90_s, longest_s;  ///< empty without gaps
-  std::optional<double> long_share;                  ///< of gaps longer than the clog time
+  std::optional<double> median_s, p90_s, max_duration_s;  ///< empty without gaps
+  std::optional<double> long_share;                       ///< of gaps longer than the clog time
   /// Per entry of kBurstGapsS: sizes of the longest runs of passages with shorter gaps, in order.
   std::array<std::vector<int>, kBurstGapsS.size()> bursts;
   std::optional<GapTail> tail;

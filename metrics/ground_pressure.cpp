@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kGroundLatticeM = 0.5;
-constexpr double kMostPlaces = 250'000;
+constexpr double kMaxPlaces = 250'000;
 // Places of the lattice within the kernel's reach along one axis, at most.
 constexpr std::size_t kAcross = 9;
 
@@ -21,7 +21,7 @@ constexpr std::size_t kAcross = 9;
 
 GroundPressure::GroundPressure(const world::Rectangle& ground,
                                std::span<const world::Building> buildings, double dt_s)
-    : lattice_(lattice_over(ground, kGroundLatticeM, kMostPlaces)),
+    : lattice_(lattice_over(ground, kGroundLatticeM, kMaxPlaces)),
       covered_(covered_by(buildings, lattice_)),
       sums_(lattice_.size()),
       window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(1 / dt_s)))) {}
@@ -71,7 +71,7 @@ double GroundPressure::finish_step() {
     last_.pop_front();
   }
   auto& now = last_.emplace_back();
-  double most = 0;
+  double max_value = 0;
   for (const std::size_t place : touched_) {
     Sums& sums = sums_[place];
     const double pressure = pressure_of(sums.weight, Vector2d(sums.x, sums.y), sums.squares);
@@ -79,11 +79,11 @@ double GroundPressure::finish_step() {
     if (pressure <= 0) continue;
     now.emplace_back(place, pressure);
     sums.mean += pressure;
-    // Where nobody is now the mean cannot be the greatest one: it was greater before.
-    most = std::max(most, sums.mean);
+    // At an empty point the mean cannot be the maximum: it was greater before.
+    max_value = std::max(max_value, sums.mean);
   }
   touched_.clear();
-  return most / static_cast<double>(last_.size());
+  return max_value / static_cast<double>(last_.size());
 }
 
 double GroundPressure::mean_at(const Vector2d& place) const {

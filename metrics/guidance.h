@@ -1,4 +1,4 @@
-// What guides did for people.
+// Effect of guides on people.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

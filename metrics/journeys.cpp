@@ -41,7 +41,7 @@ json spread_json(std::vector<double> values) {
           {"max", values.back()}};
 }
 
-// Where somebody sets out inside a door's cells, the ratio means nothing.
+// For a start inside a door's cells the ratio is meaningless.
 void add_detour(const std::optional<double>& detour, std::vector<double>& detours) {
   if (detour) detours.push_back(*detour);
 }
@@ -51,7 +51,7 @@ void add_detour(const std::optional<double>& detour, std::vector<double>& detour
 std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& scenario,
                               const std::vector<ExitSeries>& exits,
                               const std::vector<PersonRecord>& people,
-                              const std::vector<WalkingDistance>& ways) {
+                              const std::vector<WalkingDistance>& distances) {
   std::map<std::size_t, Journey> by_agent;
   for (std::size_t e = 0; e < exits.size(); ++e) {
     for (const Passage& passage : exits[e].passages) {
@@ -68,17 +68,17 @@ std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& 
     if (found == by_agent.end()) continue;
     Journey& journey = found->second;
     journey.from_s = person.noticed_s.value_or(person.start_s);
-    // Who wandered out before noticing anything did not travel to a door.
+    // A person who wandered out before noticing anything did not travel to a door.
     if (journey.from_s > journey.to_s) continue;
     const auto first =
         static_cast<std::size_t>(std::lower_bound(trace.time_s.begin(), trace.time_s.end(),
                                                   journey.from_s - world::kTimeSlackS) -
                                  trace.time_s.begin());
     const Vector2d start = trace.position[trace.at(first, person.agent)].cast<double>();
-    journey.to_used_m = ways[journey.exit].from(start);
+    journey.to_used_m = distances[journey.exit].from(start);
     for (std::size_t e = 0; e < exits.size(); ++e) {
       const auto way =
-          scenario.exits[e].is_open(journey.from_s) ? ways[e].from(start) : std::nullopt;
+          scenario.exits[e].is_open(journey.from_s) ? distances[e].from(start) : std::nullopt;
       if (way && (!journey.to_nearest_m || *way < *journey.to_nearest_m)) {
         journey.to_nearest_m = way;
       }

@@ -1,4 +1,4 @@
-// The ways that people took out.
+// People's paths to the exits.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -19,12 +19,12 @@ struct Journey {
   double from_s = 0;
   double to_s = 0;
   double walked_m = 0;
-  std::optional<double> to_used_m;     ///< shortest way around buildings to that door
+  std::optional<double> to_used_m;     ///< shortest path around buildings to that door
   std::optional<double> to_nearest_m;  ///< to the door nearest on foot, open at first
   double speed_ratio = 0;              ///< mean speed over mean desired speed; 0 if nothing desired
   int stops = 0;                       ///< times slower than 0.1 m/s for more than 1 s
 
-  /// Way walked over a shortest one; empty within 0.5 m of the door, where none is to speak of.
+  /// Walked over shortest path length; empty within 0.5 m of the door, where it is meaningless.
   std::optional<double> detour(const std::optional<double>& shortest_m) const {
     constexpr double kNoWayM = 0.5;
     if (!shortest_m || *shortest_m <= kNoWayM) return std::nullopt;
@@ -32,11 +32,11 @@ struct Journey {
   }
 };
 
-/// Of those who went out through a door; by number of the agent. `ways`: ways_to_exits().
+/// Of those who went out through a door; by number of the agent. `distances`: walking_distances().
 std::vector<Journey> journeys(const world::Trace& trace, const world::Scenario& scenario,
                               const std::vector<ExitSeries>& exits,
                               const std::vector<PersonRecord>& people,
-                              const std::vector<WalkingDistance>& ways);
+                              const std::vector<WalkingDistance>& distances);
 
 /// Medians, quantiles and sums over the journeys.
 nlohmann::json to_json(const std::vector<Journey>& journeys);

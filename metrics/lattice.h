@@ -29,7 +29,7 @@ struct Lattice {
 };
 
 /// Every `pitch_m`, or coarser where that would be more than about `most` places.
-Lattice lattice_over(const world::Rectangle& ground, double pitch_m, double most);
+Lattice lattice_over(const world::Rectangle& ground, double pitch_m, double max_value);
 
 /// Per place, whether a building covers it.
 std::vector<bool> covered_by(std::span<const world::Building> buildings, const Lattice& lattice);

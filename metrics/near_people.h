@@ -1,4 +1,4 @@
-// Who is about an exit at one step, as far as its figures need it.
+// People near an exit at one step, as far as its figures need them.
 #pragma once
 
 #include <Eigen/Core>

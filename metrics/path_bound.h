@@ -10,9 +10,9 @@ namespace throng::metrics {
 
 /// Shortest paths of a point around the buildings to each door, exactly, over the visibility graph
 /// of the buildings' convex corners (Lozano-Perez and Wesley, Comm. ACM 22, 1979). Doors are
-/// widened at both ends by `margin_m`, since the bodies of people who pass overlap the jambs. Where
-/// rounding leaves a choice the shorter path is taken. With more than kMaxCorners corners, inside a
-/// building and where no path is found, it is the straight distance.
+/// widened at both ends by `margin_m`, since the bodies of people who pass overlap the jambs. If
+/// rounding leaves a choice, the shorter path is taken. With more than kMaxCorners corners, inside
+/// a building and where no path is found, it is the straight distance.
 class PathBound {
  public:
   static constexpr std::size_t kMaxCorners = 500;

@@ -16,8 +16,8 @@ std::string in_lower_case(std::string text) {
   return text;
 }
 
-// A state that the header does not name has none of the properties that names tell.
-bool says(const std::vector<bool>& states, std::uint8_t state) {
+// A state without a name in the header has none of the properties that follow from names.
+bool holds(const std::vector<bool>& states, std::uint8_t state) {
   return state < states.size() && states[state];
 }
 
@@ -100,7 +100,7 @@ void PeopleTracker::follow(Person& person, const PeopleStep& step, bool present)
     return;
   }
   const std::uint8_t state = step.state[record.agent];
-  if (!says(is_down_, state)) {
+  if (!holds(is_down_, state)) {
     record.hurt_s.reset();
   } else if (!record.hurt_s) {
     record.hurt_s = step.time_s;
@@ -111,7 +111,7 @@ void PeopleTracker::follow(Person& person, const PeopleStep& step, bool present)
     record.noticed_s = step.time_s;
     record.noticed_place = place;
   }
-  if (!says(follows_, state)) return;
+  if (!holds(follows_, state)) return;
   record.followed_s += dt_s_;
   if (person.present_before) record.followed_m += (place - person.last_place).norm();
 }
@@ -132,9 +132,9 @@ void PeopleTracker::add_motion(Person& person, const PeopleStep& step) {
 bool PeopleTracker::notices(const Person& person, const PeopleStep& step) const {
   if (!alarm_.at_s) return false;
   const std::uint8_t state = step.state[person.record.agent];
-  if (!alarm_.aware_states.empty()) return says(is_aware_, state);
+  if (!alarm_.aware_states.empty()) return holds(is_aware_, state);
   const std::int8_t intent = step.exit_intent[person.record.agent];
-  return says(follows_, state) || (intent >= 0 && intent != person.intent_before_alarm);
+  return holds(follows_, state) || (intent >= 0 && intent != person.intent_before_alarm);
 }
 
 void PeopleTracker::count_doors(Person& person, const PeopleStep& step) {

@@ -15,7 +15,7 @@
 
 namespace throng::metrics {
 
-/// Somebody's last way out through a door.
+/// A person's last passage out through a door.
 struct DoorPassage {
   std::size_t exit = 0;
   double time_s = 0;  ///< on the line
@@ -30,7 +30,7 @@ struct PersonRecord {
   std::optional<double> noticed_s;                        ///< knows of the alarm; never before it
   Eigen::Vector2d noticed_place = Eigen::Vector2d::Zero();
   std::optional<double> escaped_s;  ///< first outside of Scenario::inside, or gone for good
-  std::optional<double> hurt_s;     ///< lies from then on in a state that says so, to the end
+  std::optional<double> hurt_s;     ///< lies from then on in a state for that, to the end
   double followed_s = 0;            ///< time in states whose name contains "follow"
   double followed_m = 0;            ///< distance walked in them
   double max_desired_mps = 0;       ///< greatest desired speed before the escape
@@ -69,7 +69,7 @@ double max_radius_m(const world::TraceHeader& header);
 /// Watches people step by step. The scenario outlives it.
 ///
 /// Noticing: the first step, from the later of alarm and arrival on, at which somebody is in a
-/// state of people who know (Alarm::aware_states). Where the behavior does not say which those are,
+/// state of people who know (Alarm::aware_states). If the behavior does not define those states,
 /// the first such step at which somebody follows a guide or heads for an exit that they did not
 /// head for before the alarm. Without an alarm nobody notices anything.
 class PeopleTracker {

@@ -1,4 +1,4 @@
-// What each person of a run did, as columns.
+// Table of the people of a run, as columns.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

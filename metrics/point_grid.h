@@ -25,8 +25,8 @@ class PointGrid {
     }
     const Eigen::Vector2d size = max - min_;
     // A few who are far away must not cost memory for all the ground in between.
-    const double most = 4.0 * static_cast<double>(points_.size()) + 64;
-    while ((size.x() / cell_m_ + 1) * (size.y() / cell_m_ + 1) > most) cell_m_ *= 1.5;
+    const double max_value = 4.0 * static_cast<double>(points_.size()) + 64;
+    while ((size.x() / cell_m_ + 1) * (size.y() / cell_m_ + 1) > max_value) cell_m_ *= 1.5;
     columns_ = static_cast<int>(size.x() / cell_m_) + 1;
     rows_ = static_cast<int>(size.y() / cell_m_) + 1;
     fill();
@@ -83,7 +83,7 @@ class PointGrid {
   }
 
  private:
-  /// Who is looked at together lies together.
+  /// Points that are visited together are stored together.
   struct Sorted {
     Eigen::Vector2d point;
     std::size_t index = 0;
@@ -112,7 +112,7 @@ class PointGrid {
     }
   }
 
-  /// Where the points of a row's cells begin and end; nowhere, where there are no such cells.
+  /// Range of the points of a row's cells; empty if there are no such cells.
   std::pair<std::size_t, std::size_t> slots_of(int row, int from_column, int to_column) const {
     const int from = std::max(0, from_column);
     const int to = std::min(columns_ - 1, to_column);

@@ -18,19 +18,19 @@ constexpr double kLinkM = 1.2;
 constexpr double kSlow = 0.5;  // of the desired speed
 constexpr double kAboveRounding = 1 + 1e-9;
 
-/// Shortest ways over the links from everybody in the zone at once. Ways that end within 0.25 m are
-/// taken in any order, and again when they get shorter (Dial 1969; Meyer and Sanders 2003): what
-/// comes out is what Dijkstra's order gives, for less than its heap costs.
-class WaysBack {
+/// Shortest paths over the links from everybody in the zone at once. Paths that end within 0.25 m
+/// are taken in any order, and again when they get shorter (Dial 1969; Meyer and Sanders 2003):
+/// what comes out is what Dijkstra's order gives, for less than its heap costs.
+class PathsBack {
  public:
-  WaysBack(std::size_t people) : way_m_(people, kUnknown), taken_m_(people, kUnknown) {}
+  PathsBack(std::size_t people) : path_m_(people, kUnknown), taken_m_(people, kUnknown) {}
 
-  double of(std::size_t person) const { return way_m_[person]; }
+  double of(std::size_t person) const { return path_m_[person]; }
 
-  void offer(std::size_t person, double way_m) {
-    if (way_m >= way_m_[person]) return;
-    way_m_[person] = way_m;
-    const auto bin = static_cast<std::size_t>(way_m / kBinM);
+  void offer(std::size_t person, double path_m) {
+    if (path_m >= path_m_[person]) return;
+    path_m_[person] = path_m;
+    const auto bin = static_cast<std::size_t>(path_m / kBinM);
     if (bin >= bins_.size()) bins_.resize(bin + 1);
     bins_[bin].push_back(person);
   }
@@ -41,8 +41,8 @@ class WaysBack {
       while (!bins_[bin_].empty()) {
         const std::size_t person = bins_[bin_].back();
         bins_[bin_].pop_back();
-        if (taken_m_[person] == way_m_[person]) continue;
-        taken_m_[person] = way_m_[person];
+        if (taken_m_[person] == path_m_[person]) continue;
+        taken_m_[person] = path_m_[person];
         return person;
       }
     }
@@ -51,10 +51,10 @@ class WaysBack {
 
   Queue queue() const {
     Queue queue;
-    for (const double way_m : way_m_) {
-      if (way_m == kUnknown) continue;
+    for (const double path_m : path_m_) {
+      if (path_m == kUnknown) continue;
       ++queue.people;
-      queue.length_m = std::max(queue.length_m, way_m);
+      queue.length_m = std::max(queue.length_m, path_m);
     }
     return queue;
   }
@@ -63,8 +63,8 @@ class WaysBack {
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
   static constexpr double kBinM = 0.25;
 
-  std::vector<double> way_m_;    ///< per person
-  std::vector<double> taken_m_;  ///< the way when the links were followed last
+  std::vector<double> path_m_;   ///< per person
+  std::vector<double> taken_m_;  ///< the path when the links were followed last
   std::vector<std::vector<std::size_t>> bins_;
   std::size_t bin_ = 0;  ///< all before it are empty
 };
@@ -82,24 +82,24 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
   }
   if (slow.empty()) return {};
   const PointGrid grid(slow, kLinkM);
-  WaysBack ways(grid.size());
+  PathsBack paths(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Vector2d& place = grid.stored(i);
-    if (zone.contains(place)) ways.offer(i, (place - zone.middle()).norm());
+    if (zone.contains(place)) paths.offer(i, (place - zone.middle()).norm());
   }
-  while (const auto next = ways.next()) {
+  while (const auto next = paths.next()) {
     const Vector2d& from = grid.stored(*next);
-    const double so_far = ways.of(*next);
+    const double so_far = paths.of(*next);
     grid.for_stored_about(from, kLinkM, [&](std::size_t other, const Vector2d& there) {
-      const double left_m = ways.of(other) - so_far;
+      const double left_m = paths.of(other) - so_far;
       if (left_m <= 0) return;
       const double squared = (there - from).squaredNorm();
       // Most are not worth a root.
       if (squared > kLinkM * kLinkM || squared > kAboveRounding * left_m * left_m) return;
-      ways.offer(other, so_far + std::sqrt(squared));
+      paths.offer(other, so_far + std::sqrt(squared));
     });
   }
-  return ways.queue();
+  return paths.queue();
 }
 
 WaitPredictor::WaitPredictor(double capacity_per_s, double dt_s)
@@ -108,7 +108,7 @@ WaitPredictor::WaitPredictor(double capacity_per_s, double dt_s)
       window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kWindowS / dt_s)))) {}
 
 double WaitPredictor::step(int queue, int crossed_out) {
-  // Who crosses in a step was in the queue at the step before.
+  // A person who crosses in a step was in the queue at the step before.
   const Step now{had_queue_, crossed_out - crossed_out_};
   crossed_out_ = crossed_out;
   had_queue_ = queue > 0;

@@ -11,10 +11,10 @@ namespace {
 constexpr double kWindowS = 60;
 constexpr double kMovedM = 6;
 
-bool can_leave(const world::Scenario& scenario, const std::vector<WalkingDistance>& ways,
+bool can_leave(const world::Scenario& scenario, const std::vector<WalkingDistance>& distances,
                const Eigen::Vector2d& place, double time_s) {
   for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
-    if (scenario.exits[e].is_open(time_s) && ways[e].from(place)) return true;
+    if (scenario.exits[e].is_open(time_s) && distances[e].from(place)) return true;
   }
   return false;
 }
@@ -42,7 +42,7 @@ bool is_walking(const world::Trace& trace, const Window& window, const PersonRec
 
 Remaining remaining_of(const world::Trace& trace, const world::Scenario& scenario,
                        const std::vector<PersonRecord>& people,
-                       const std::vector<WalkingDistance>& ways) {
+                       const std::vector<WalkingDistance>& distances) {
   Remaining remaining;
   if (trace.steps() == 0) return remaining;
   const Window window = window_of(trace);
@@ -56,7 +56,7 @@ Remaining remaining_of(const world::Trace& trace, const world::Scenario& scenari
       ++remaining.guided;
     } else if (trace.exit_intent[at] < 0) {
       ++remaining.waiting;
-    } else if (!can_leave(scenario, ways, place, trace.duration_s())) {
+    } else if (!can_leave(scenario, distances, place, trace.duration_s())) {
       ++remaining.blocked;
     } else if (is_walking(trace, window, person)) {
       ++remaining.walking;

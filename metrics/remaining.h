@@ -25,10 +25,10 @@ struct Remaining {
   int total() const { return casualty + guided + waiting + blocked + walking + stalled; }
 };
 
-/// `ways` is ways_to_exits() of the scenario.
+/// `distances` is walking_distances() of the scenario.
 Remaining remaining_of(const world::Trace& trace, const world::Scenario& scenario,
                        const std::vector<PersonRecord>& people,
-                       const std::vector<WalkingDistance>& ways);
+                       const std::vector<WalkingDistance>& distances);
 
 nlohmann::json to_json(const Remaining& remaining);
 

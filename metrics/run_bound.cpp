@@ -48,14 +48,14 @@ struct Traveler {
 
 /// The doors of Departures, by the run's clock.
 struct Doors {
-  std::vector<double> capacity_per_s, burst, on_s, shuts_s;
+  std::vector<double> capacity_per_s, burst, on_s, closes_at_s;
 };
 
 // When a traveler could be out if the doors were theirs alone.
 double alone_s(const Traveler& traveler, const Doors& doors) {
   double best_s = kNever;
   for (std::size_t e = 0; e < traveler.access_s.size(); ++e) {
-    if (doors.capacity_per_s[e] <= 0 || traveler.access_s[e] > doors.shuts_s[e]) continue;
+    if (doors.capacity_per_s[e] <= 0 || traveler.access_s[e] > doors.closes_at_s[e]) continue;
     best_s = std::min(best_s, traveler.access_s[e] + doors.on_s[e]);
   }
   return best_s;
@@ -67,7 +67,8 @@ Departures departures_of(const std::vector<const Traveler*>& travelers, const Do
   departures.capacity_per_s = doors.capacity_per_s;
   departures.burst = doors.burst;
   departures.on_s = doors.on_s;
-  for (const double shuts_s : doors.shuts_s) departures.shuts_s.push_back(shuts_s - origin_s);
+  for (const double closes_at_s : doors.closes_at_s)
+    departures.closes_at_s.push_back(closes_at_s - origin_s);
   for (const Traveler* traveler : travelers) {
     auto& row = departures.access_s.emplace_back(traveler->access_s);
     for (double& access_s : row) access_s = std::max(0.0, access_s - origin_s);
@@ -75,7 +76,7 @@ Departures departures_of(const std::vector<const Traveler*>& travelers, const Do
   return departures;
 }
 
-// Who is there from the origin on shares the doors; later ones have them for themselves, which
+// People present from the origin on share the doors; later ones have them for themselves, which
 // makes their times no longer.
 BestTimes best_times(const std::vector<Traveler>& travelers, const Doors& doors, double origin_s) {
   BestTimes best;
@@ -123,8 +124,8 @@ double max_speed_mps(const std::vector<const PersonRecord*>& people,
 
 // How long it takes at least from anywhere in a door to beyond the place.
 double beyond_s(const world::Scenario& scenario, const world::Exit& exit, double speed_mps) {
-  const double from_m = way_out_m(scenario.inside, exit.from);
-  return std::min(from_m, way_out_m(scenario.inside, exit.to)) / speed_mps;
+  const double from_m = exit_path_m(scenario.inside, exit.from);
+  return std::min(from_m, exit_path_m(scenario.inside, exit.to)) / speed_mps;
 }
 
 /// Whether a person got out by a door after having set out.
@@ -164,19 +165,20 @@ class LowerBound {
       doors_.capacity_per_s.push_back(exit.open ? capacity.rate_per_s : 0);
       doors_.burst.push_back(capacity.burst);
       doors_.on_s.push_back(max_mps_ > 0 ? beyond_s(scenario_, exit, max_mps_) : kNever);
-      doors_.shuts_s.push_back(exit.shuts_s);
+      doors_.closes_at_s.push_back(exit.closes_at_s);
     }
     for (std::size_t i = 0; i < people_.size(); ++i) {
       if (!people_[i]->escaped_s || !went_by_door(*people_[i], starts_[i])) continue;
       const DoorPassage& passage = *people_[i]->last_out;
       const std::size_t e = passage.exit;
       doors_.on_s[e] = std::min(doors_.on_s[e], *people_[i]->escaped_s - passage.time_s);
-      // People who know of nothing pass doors that are shut to the others.
+      // People who know of nothing pass doors that are closed to the others.
       if (doors_.capacity_per_s[e] <= 0) {
         doors_.capacity_per_s[e] = door_capacity(model_, scenario_.exits[e].width_m()).rate_per_s;
-        doors_.shuts_s[e] = 0;
+        doors_.closes_at_s[e] = 0;
       }
-      doors_.shuts_s[e] = std::max(doors_.shuts_s[e], passage.time_s + 2 * world::kTimeSlackS);
+      doors_.closes_at_s[e] =
+          std::max(doors_.closes_at_s[e], passage.time_s + 2 * world::kTimeSlackS);
     }
   }
 
@@ -187,7 +189,7 @@ class LowerBound {
     if (!std::isfinite(out.time_s)) return traveler;
     const double speed_mps = person.max_speed_mps;
     if (person.escaped_s && !went_by_door(person, out)) {
-      const double side_m = way_out_m(scenario_.inside, out.place);
+      const double side_m = exit_path_m(scenario_.inside, out.place);
       const double beside_s = speed_mps > 0 ? out.time_s + side_m / speed_mps : kNever;
       traveler.beside_s = std::min(beside_s, *person.escaped_s);
       return traveler;
@@ -202,7 +204,7 @@ class LowerBound {
     return traveler;
   }
 
-  // Where more people passed a door than its capacity says, it can pass that many.
+  // If more people passed a door than its capacity allows, it can pass that many.
   void raise_bursts(const std::vector<Traveler>& travelers) {
     for (std::size_t e = 0; e < doors_.on_s.size(); ++e) {
       double first_s = kNever;
@@ -255,8 +257,8 @@ std::optional<BestTimes> reference_of(const world::Scenario& scenario,
   for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
     const world::Exit& exit = scenario.exits[e];
     doors.capacity_per_s.push_back(exit.open ? capacity_per_s[e] : 0);
-    doors.on_s.push_back(way_out_m(scenario.inside, exit.middle()) / max_mps);
-    doors.shuts_s.push_back(exit.shuts_s);
+    doors.on_s.push_back(exit_path_m(scenario.inside, exit.middle()) / max_mps);
+    doors.closes_at_s.push_back(exit.closes_at_s);
   }
   std::vector<Traveler> travelers;
   for (const PersonRecord* person : evacuees) {
@@ -292,7 +294,7 @@ std::optional<BestTimes> lower_bound(const world::Scenario& scenario,
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<PersonRecord>& people, const Alarm& alarm,
                                         double end_s, Knowledge knowledge,
-                                        const std::vector<WalkingDistance>& ways) {
+                                        const std::vector<WalkingDistance>& distances) {
   std::vector<double> capacities;
   for (const world::Exit& exit : scenario.exits) {
     capacities.push_back(capacity_per_s(exit.width_m()));
@@ -301,7 +303,7 @@ std::optional<BestTimes> reference_time(const world::Scenario& scenario,
       scenario, people, alarm, end_s, knowledge, capacities,
       [&](std::size_t exit, const Vector2d& place) {
         // Somebody whom rounding has put into a wall stands somewhere all the same.
-        return ways[exit].from(place).value_or((place - scenario.exits[exit].middle()).norm());
+        return distances[exit].from(place).value_or((place - scenario.exits[exit].middle()).norm());
       },
       [](const PersonRecord& person) { return person.max_desired_mps; });
 }

@@ -39,15 +39,15 @@ struct BoundSpec {
 /// they were when they knew, goes at the greatest speed that they reached in the run on the
 /// shortest path to any open door (metrics/path_bound.h), which passes at most its capacity
 /// (metrics/door_capacity.h), and goes on to the nearest side of Scenario::inside at the greatest
-/// speed of all. What the run itself shows to be possible is granted: nobody is at a door later
-/// than they passed it, no door passes fewer or closes sooner, and who got out through no door
-/// does so at once when they can be at the nearest side. People present at the alarm share the
-/// doors' capacity; later ones have it for themselves. Empty without evacuees.
+/// speed of all. The run itself bounds the model: nobody is at a door later than they passed it, no
+/// door passes fewer or closes sooner, and who got out through no door does so at once when they
+/// can be at the nearest side. People present at the alarm share the doors' capacity; later ones
+/// have it for themselves. Empty without evacuees.
 std::optional<BestTimes> lower_bound(const world::Scenario& scenario,
                                      const std::vector<PersonRecord>& people, const Alarm& alarm,
                                      double end_s, const BoundSpec& spec);
 
-/// What a reference time counts with.
+/// Knowledge assumed by a reference time.
 struct ReferenceSpec {
   double speed_mps = 2;                ///< of everybody, straight to the doors through all walls
   std::vector<double> capacity_per_s;  ///< per exit of the scenario, people
@@ -55,12 +55,12 @@ struct ReferenceSpec {
 
 /// A reference, which real crowds can beat for a while: the quickest flow through doors that pass
 /// their mean capacity (docs/metrics.md) or that of the spec. Without a spec people go at the
-/// greatest speed that each desired, on the shortest way of `ways` (ways_to_exits()). Empty
-/// without evacuees or exits.
+/// greatest speed that each desired, on the shortest path of `distances` (walking_distances()).
+/// Empty without evacuees or exits.
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<PersonRecord>& people, const Alarm& alarm,
                                         double end_s, Knowledge knowledge,
-                                        const std::vector<WalkingDistance>& ways);
+                                        const std::vector<WalkingDistance>& distances);
 std::optional<BestTimes> reference_time(const world::Scenario& scenario,
                                         const std::vector<PersonRecord>& people, const Alarm& alarm,
                                         double end_s, Knowledge knowledge,

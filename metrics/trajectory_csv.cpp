@@ -19,15 +19,16 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kLongestGapS = 1;
-constexpr double kLatestS = 1e6;
+constexpr double kMaxGapS = 1;
+constexpr double kMaxTimeS = 1e6;
 
 char separator_of(std::string_view line) {
   constexpr std::array kSeparators = {',', ';', '\t'};
-  const char most = *std::max_element(kSeparators.begin(), kSeparators.end(), [&](char a, char b) {
-    return std::count(line.begin(), line.end(), a) < std::count(line.begin(), line.end(), b);
-  });
-  return line.find(most) == std::string_view::npos ? ' ' : most;
+  const char max_value =
+      *std::max_element(kSeparators.begin(), kSeparators.end(), [&](char a, char b) {
+        return std::count(line.begin(), line.end(), a) < std::count(line.begin(), line.end(), b);
+      });
+  return line.find(max_value) == std::string_view::npos ? ' ' : max_value;
 }
 
 std::string_view trimmed(std::string_view field) {
@@ -73,9 +74,9 @@ const Synonyms& synonyms_of(const std::string& name) {
 
 // The number of a column of a table without names, from 0.
 std::optional<std::size_t> number_of_column(const std::string& name) {
-  constexpr double kMost = 1000;
+  constexpr double kMaxInteger = 1000;
   const auto number = number_in(name);
-  if (!number || *number != std::floor(*number) || *number < 1 || *number > kMost) {
+  if (!number || *number != std::floor(*number) || *number < 1 || *number > kMaxInteger) {
     return std::nullopt;
   }
   return static_cast<std::size_t>(*number) - 1;
@@ -107,7 +108,7 @@ class TableReader {
     return std::move(tracks_);
   }
 
-  /// What it read of the table, after read().
+  /// The table, after read().
   bool by_time() const { return by_time_; }
   std::optional<double> frames_per_s() const { return frames_per_s_; }
   std::optional<double> unit_m() const { return unit_m_; }
@@ -137,7 +138,7 @@ class TableReader {
     const double when = number(fields[column_[when_column]]);
     if (!by_time_ && when != std::floor(when))
       reject(fmt::format("frame {}", when), "a whole number");
-    if (std::abs(when) > kLatestS * (by_time_ ? 1 : 10)) {
+    if (std::abs(when) > kMaxTimeS * (by_time_ ? 1 : 10)) {
       reject(fmt::format("{:g}", when), "a time within 1e6 s, or a frame within 1e7");
     }
     const auto [known, is_new] = numbers_.try_emplace(std::string(person), tracks_.size());
@@ -200,7 +201,7 @@ class TableReader {
   const TrajectoryFormat& format_;
   bool by_time_;
   bool has_names_ = true;
-  std::optional<double> frames_per_s_;  // as comments say
+  std::optional<double> frames_per_s_;  // from comments
   std::optional<double> unit_m_;
   int line_ = 0;
   char separator_ = 0;  // 0: the names have not been read yet
@@ -237,7 +238,7 @@ std::map<std::int64_t, Vector2d> on_frames(const Track& track, double frames_per
     const auto next = std::next(now);
     if (next == track.end()) break;
     const double step_s = next->first - now->first;
-    if (step_s > std::max(kLongestGapS, 1.5 / frames_per_s)) continue;
+    if (step_s > std::max(kMaxGapS, 1.5 / frames_per_s)) continue;
     const double until = next->first * frames_per_s - kSlack;
     for (double frame = std::floor(at + kSlack) + 1; frame < until; ++frame) {
       const double share = (frame - at) / (step_s * frames_per_s);

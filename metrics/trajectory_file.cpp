@@ -25,12 +25,12 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr std::int64_t kMostFrames = 10'000'000;
-constexpr std::size_t kMostPairs = 40'000'000;  ///< frames times people
-constexpr double kLargestPerson = 1e15;
-constexpr double kFarthestPlaceM = 100'000;
-constexpr double kSlowestRate = 0.01;
-constexpr double kFastestRate = 10'000;
+constexpr std::int64_t kMaxFrames = 10'000'000;
+constexpr std::size_t kMaxPairs = 40'000'000;  ///< frames times people
+constexpr double kMaxPersonId = 1e15;
+constexpr double kMaxCoordinateM = 100'000;
+constexpr double kMinRate = 0.01;
+constexpr double kMaxRate = 10'000;
 constexpr std::string_view kDatabaseStart = "SQLite format 3";
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -79,8 +79,8 @@ class TextReader {
       numbers.push_back(*number);
     }
     if (numbers.size() < 4) reject(fmt::format("{} values", numbers.size()));
-    if (std::abs(numbers[0]) > kLargestPerson) reject(std::string(words[0]));
-    if (std::abs(numbers[1]) > kMostFrames) reject(std::string(words[1]));
+    if (std::abs(numbers[0]) > kMaxPersonId) reject(std::string(words[0]));
+    if (std::abs(numbers[1]) > kMaxFrames) reject(std::string(words[1]));
     const auto place = recorded_.places[std::llround(numbers[0])].try_emplace(
         std::llround(numbers[1]), numbers[2], numbers[3]);
     if (!place.second) reject("the same person and frame again");
@@ -113,7 +113,7 @@ Recorded read_database(const fs::path& file, const TrajectoryFormat& format) {
       const std::int64_t frame = rows.getColumn(1).getInt64();
       const auto place = recorded.places[rows.getColumn(0).getInt64()].try_emplace(
           frame, rows.getColumn(2).getDouble(), rows.getColumn(3).getDouble());
-      if (!place.second || frame > kMostFrames || frame < -kMostFrames) {
+      if (!place.second || frame > kMaxFrames || frame < -kMaxFrames) {
         throw InputError({file.string(), "table trajectory_data", fmt::format("frame {}", frame),
                           "frames within 10 million, each person once a frame"});
       }
@@ -225,10 +225,10 @@ bool begins_with_names(std::string_view text) {
   return false;
 }
 
-// Who was filmed at 25 frames a second and noted down in each tenth of them is there in between:
+// A person filmed at 25 frames per second and recorded in every tenth frame is present in between:
 // frames are counted by the largest step that all have in common.
 void count_by_steps(Recorded& recorded) {
-  constexpr std::int64_t kLargestStep = 100;
+  constexpr std::int64_t kMaxStep = 100;
   std::optional<std::int64_t> first;
   std::int64_t step = 0;
   for (const auto& [id, places] : recorded.places) {
@@ -238,7 +238,7 @@ void count_by_steps(Recorded& recorded) {
     }
     if (step == 1) return;
   }
-  if (step < 2 || step > kLargestStep) return;
+  if (step < 2 || step > kMaxStep) return;
   for (auto& [id, places] : recorded.places) {
     std::map<std::int64_t, Vector2d> counted;
     for (const auto& [frame, place] : places) counted[(frame - *first) / step] = place;
@@ -272,17 +272,17 @@ Recorded read_recorded(const fs::path& file, const TrajectoryFormat& format) {
   }
 }
 
-// Gives all places their metres and refuses those that cannot be, and what memory has no room for.
+// Converts all positions to meters and refuses invalid ones, and files that exceed memory.
 void check_recorded(const std::string& file, const TrajectoryFormat& format, Recorded& recorded) {
-  if (!(recorded.frames_per_s >= kSlowestRate && recorded.frames_per_s <= kFastestRate)) {
+  if (!(recorded.frames_per_s >= kMinRate && recorded.frames_per_s <= kMaxRate)) {
     throw InputError({file, "", fmt::format("{:g} frames per second", recorded.frames_per_s),
-                      fmt::format("{:g} to {:g}", kSlowestRate, kFastestRate)});
+                      fmt::format("{:g} to {:g}", kMinRate, kMaxRate)});
   }
   const double unit_m = format.unit_m.value_or(recorded.unit_m);
   for (auto& [id, places] : recorded.places) {
     for (auto& [frame, place] : places) {
       place *= unit_m;
-      if (!(place.cwiseAbs().maxCoeff() <= kFarthestPlaceM)) {
+      if (!(place.cwiseAbs().maxCoeff() <= kMaxCoordinateM)) {
         throw InputError({file, fmt::format("person {}, frame {}", id, frame),
                           fmt::format("[{:g}, {:g}] m", place.x(), place.y()),
                           "a place within 100 km of the origin"});
@@ -307,16 +307,16 @@ world::Trace read_trajectory(const fs::path& file, const WalkerDefaults& walkers
     first = std::min(first, places.begin()->first);
     last = std::max(last, places.rbegin()->first);
   }
-  if (last - first > kMostFrames) {
+  if (last - first > kMaxFrames) {
     throw InputError({file.string(), "", fmt::format("frames {} to {}", first, last),
-                      fmt::format("at most {} frames", kMostFrames)});
+                      fmt::format("at most {} frames", kMaxFrames)});
   }
   const std::size_t cells = static_cast<std::size_t>(last - first + 1) * recorded.places.size();
-  if (cells > kMostPairs) {
+  if (cells > kMaxPairs) {
     throw InputError(
         {file.string(), "",
          fmt::format("{} people in {} frames", recorded.places.size(), last - first + 1),
-         fmt::format("at most {} pairs of frame and person", kMostPairs)});
+         fmt::format("at most {} pairs of frame and person", kMaxPairs)});
   }
   world::Trace trace;
   trace.header.scenario_id = file.stem().string();

@@ -15,16 +15,16 @@
 
 namespace throng::metrics {
 
-/// Where everybody was, as files have it.
+/// Positions of all people, as read from a file.
 struct Recorded {
   double frames_per_s = 0;
-  double unit_m = 1;                                                       ///< as the file says
+  double unit_m = 1;                                                       ///< as given in the file
   std::map<std::int64_t, std::map<std::int64_t, Eigen::Vector2d>> places;  ///< by person and frame,
                                                                            ///< in the file's unit
 };
 
-/// Reads Menge's .scb from version 2.0 on (1.0 does not say how long a frame is); agents are people
-/// with ids from 1. Throws InputError and EnvironmentError.
+/// Reads Menge's .scb from version 2.0 on (1.0 does not contain the frame duration); agents are
+/// people with ids from 1. Throws InputError and EnvironmentError.
 Recorded read_scb(const std::filesystem::path& file);
 /// Writes the people of a trace as .scb 2.1, their class being 0.
 void write_scb(const world::Trace& trace, const std::filesystem::path& file);
@@ -33,17 +33,17 @@ void write_scb(const world::Trace& trace, const std::filesystem::path& file);
 /// which commas, semicolons, tabs or, if it has none, spaces separate (whichever that line has most
 /// of); fields may stand in double quotes. A default name also stands for what means the same
 /// ("ped_id", "Pos_X [cm]"), and time for frame where there is none. Comments and the name of x may
-/// say frame rate and unit. Persons are any words. With a column of times instead of frames, people
-/// are put on frames of `frames_per_s` (default: as the file says, else the median step between
-/// times) by linear interpolation; they are not there in gaps of more than 1 s.
+/// give frame rate and unit. Persons are any words. With a column of times instead of frames,
+/// people are put on frames of `frames_per_s` (default: as given in the file, else the median step
+/// between times) by linear interpolation; they are not there in gaps of more than 1 s.
 Recorded read_csv(std::string_view text, const std::string& name, const TrajectoryFormat& format);
 
 /// Reads a file as a trace of people without states and intents. Tables (read_csv) by the suffix
 /// .csv and Menge's by .scb; SQLite by its first bytes: tables `trajectory_data` (frame, id, pos_x,
 /// pos_y in m) and `metadata` (fps). Else, if the first line that is no comment begins with a
 /// letter, a table, or text: lines `id frame x y ...` with spaces, tabs or commas between, `#`
-/// before comments, of which `framerate: 16` (or `25 fps`) must be one, and `x/cm` or `in cm` says
-/// that lengths are in centimetres. Frames that are all a multiple of up to 100 apart are counted
+/// before comments, of which `framerate: 16` (or `25 fps`) must be one, and `x/cm` or `in cm` gives
+/// that lengths are in centimeters. Frames that are all a multiple of up to 100 apart are counted
 /// by it, at the rate divided by it. Velocities are central differences over one frame before and
 /// after. People take part in the frames that have them. Refused are places more than 100 km from
 /// the origin, rates below 0.01 or above 10 000 a second, and more than 40 million pairs of frame

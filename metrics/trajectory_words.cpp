@@ -61,14 +61,14 @@ std::optional<double> unit_in(std::string_view text) {
   for (const std::string_view word : {"unit", "coordinate", "position", "length", "x,", "x and"}) {
     speaks_of_places |= lower.find(word) != std::string::npos;
   }
-  for (const auto& [unit, metres] : kUnits) {
+  for (const auto& [unit, meters] : kUnits) {
     for (const std::string_view before : {"x/", "x [", "x[", "x (", "x(", "in "}) {
       if (before == "in " && !speaks_of_places) continue;
       const std::string words = std::string(before) + std::string(unit);
       const std::size_t at = lower.find(words);
       if (at == std::string::npos) continue;
       const std::size_t end = at + words.size();
-      if (end == lower.size() || !is_letter(lower[end])) return metres;
+      if (end == lower.size() || !is_letter(lower[end])) return meters;
     }
   }
   return std::nullopt;

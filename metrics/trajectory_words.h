@@ -1,4 +1,4 @@
-// What comments and names of columns in files of trajectories say.
+// Comments and column names of trajectory files.
 #pragma once
 
 #include <optional>

@@ -35,15 +35,15 @@ constexpr int kDiscCorners = 32;
 constexpr double kNoAreaM2 = 1e-9;
 
 // Somebody whose half of the ground is to be cut away.
-struct Neighbour {
+struct Neighbor {
   double squared_m2 = 0;
   Vector2d offset;
 };
 
-// Neighbours by distance. Numbers are sorted, which is quick: each is a distance to 32 binary
-// digits (the bits of doubles that are not negative are in their order) and the neighbour's place
+// Neighbors by distance. Numbers are sorted, which is quick: each is a distance to 32 binary
+// digits (the bits of doubles that are not negative are in their order) and the neighbor's place
 // in the list.
-class Neighbours {
+class Neighbors {
  public:
   void clear() {
     list_.clear();
@@ -56,11 +56,11 @@ class Neighbours {
   }
   void sort() { std::sort(order_.begin(), order_.end()); }
   std::size_t size() const { return list_.size(); }
-  const Neighbour& operator[](std::size_t i) const { return list_[order_[i] & kPlace]; }
+  const Neighbor& operator[](std::size_t i) const { return list_[order_[i] & kPlace]; }
 
  private:
-  static constexpr std::uint64_t kPlace = (1U << 20U) - 1;  // a million neighbours
-  std::vector<Neighbour> list_;
+  static constexpr std::uint64_t kPlace = (1U << 20U) - 1;  // a million neighbors
+  std::vector<Neighbor> list_;
   std::vector<std::uint64_t> order_;
 };
 
@@ -68,7 +68,7 @@ class Neighbours {
 struct Scratch {
   std::vector<double> beyond;
   Ring kept;
-  Neighbours near;
+  Neighbors near;
 };
 
 // Cuts away what lies beyond the line through `point`, on the side to which `normal` points. False
@@ -121,7 +121,7 @@ bool beside(const Ring& ring, const Vector2d& min, const Vector2d& max) {
   return (low.array() >= max.array()).any() || (high.array() <= min.array()).any();
 }
 
-double farthest_sq(const Ring& ring, const Vector2d& from) {
+double max_distance_sq(const Ring& ring, const Vector2d& from) {
   double farthest = 0;
   for (const Vector2d& corner : ring) {
     farthest = std::max(farthest, (corner - from).squaredNorm());
@@ -220,14 +220,14 @@ void VoronoiCutter::cut(const PointGrid& people, std::size_t index, VoronoiCell&
         continue;
       }
       if (!clip(ring, person + 0.5 * offset, offset, memory)) continue;
-      reach_sq = std::min(reach_sq, farthest_sq(ring, person));
+      reach_sq = std::min(reach_sq, max_distance_sq(ring, person));
     }
     near.clear();
     const double seen_m = number * people.cell_m();
     if (seen_m * seen_m >= 4 * reach_sq) break;
   }
   const double inner = radius * std::cos(std::numbers::pi / kDiscCorners);
-  if (farthest_sq(ring, person) > inner * inner) {
+  if (max_distance_sq(ring, person) > inner * inner) {
     Ring disc = disc_;
     for (Vector2d& corner : disc) corner += person;
     clip_to(ring, disc);

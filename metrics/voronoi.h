@@ -14,7 +14,7 @@ namespace throng::metrics {
 /// Corners in order, counter-clockwise around ground, clockwise around holes.
 using Ring = std::vector<Eigen::Vector2d>;
 
-/// Who has nobody near owns a disc of this radius at most.
+/// Max radius of the cell of a person without neighbors.
 inline constexpr double kCellRadiusM = 2.0;
 
 struct VoronoiCell {
@@ -29,7 +29,7 @@ class VoronoiCutter {
  public:
   explicit VoronoiCutter(std::span<const world::Building> buildings);
 
-  /// What is nearer to the point `index` than to any other, within kCellRadiusM (a polygon of 32
+  /// Region nearer to the point `index` than to any other, within kCellRadiusM (a polygon of 32
   /// corners with the disc's area), outside of buildings and connected to the point. People at one
   /// place share one cell.
   VoronoiCell cell(const PointGrid& people, std::size_t index) const;

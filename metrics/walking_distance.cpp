@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFinestM = 0.25;
-constexpr double kMostCells = 1e6;
+constexpr double kMaxCells = 1e6;
 constexpr double kSameM = 1e-9;
 
 Vector2d nearest_on_segment(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
@@ -40,7 +40,7 @@ WalkingDistance::WalkingDistance(const world::Rectangle& ground,
                                  const world::Exit& door)
     : door_from_(door.from),
       door_to_(door.to),
-      lattice_(lattice_over(ground, kFinestM, kMostCells)),
+      lattice_(lattice_over(ground, kFinestM, kMaxCells)),
       blocked_(covered_by(buildings, lattice_)),
       distance_m_(lattice_.size(), kInfinity) {
   footprints_.reserve(buildings.size());
@@ -109,10 +109,10 @@ std::optional<double> WalkingDistance::from(const Vector2d& place) const {
   }
   if (weights <= 0) return std::nullopt;
   const Vector2d door = nearest_on_segment(place, door_from_, door_to_);
-  return straight_way_is_free(place, door) ? (place - door).norm() : sum / weights;
+  return straight_path_is_free(place, door) ? (place - door).norm() : sum / weights;
 }
 
-bool WalkingDistance::straight_way_is_free(const Vector2d& from, const Vector2d& to) const {
+bool WalkingDistance::straight_path_is_free(const Vector2d& from, const Vector2d& to) const {
   return std::none_of(footprints_.begin(), footprints_.end(), [&](const auto& footprint) {
     for (std::size_t i = 0; i < footprint.size(); ++i) {
       const Vector2d& next = footprint[i + 1 < footprint.size() ? i + 1 : 0];
@@ -123,18 +123,18 @@ bool WalkingDistance::straight_way_is_free(const Vector2d& from, const Vector2d&
   });
 }
 
-std::vector<WalkingDistance> ways_to_exits(const world::Scenario& scenario) {
+std::vector<WalkingDistance> walking_distances(const world::Scenario& scenario) {
   world::Rectangle ground = scenario.inside;
   for (const world::Exit& exit : scenario.exits) {
     ground.min = ground.min.cwiseMin(exit.from).cwiseMin(exit.to);
     ground.max = ground.max.cwiseMax(exit.from).cwiseMax(exit.to);
   }
-  std::vector<WalkingDistance> ways;
-  ways.reserve(scenario.exits.size());
+  std::vector<WalkingDistance> distances;
+  distances.reserve(scenario.exits.size());
   for (const world::Exit& exit : scenario.exits) {
-    ways.emplace_back(ground, scenario.buildings, exit);
+    distances.emplace_back(ground, scenario.buildings, exit);
   }
-  return ways;
+  return distances;
 }
 
 }  // namespace throng::metrics

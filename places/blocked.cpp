@@ -18,7 +18,7 @@ constexpr std::uint32_t kFirstLateClass = 8;
 
 /// How much the radius grows (m).
 double growth_of(const world::Disaster& seen) {
-  return std::clamp(seen.most_m - seen.radius_m, 0.0, seen.growth_mps * kLookAheadS);
+  return std::clamp(seen.max_radius_m - seen.radius_m, 0.0, seen.growth_mps * kLookAheadS);
 }
 
 bool does_grow(const Danger& danger) {

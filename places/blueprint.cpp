@@ -43,7 +43,7 @@ json disasters_json(const People& people) {
                     {"start_s", seen.start_s},
                     {"radius_m", seen.radius_m},
                     {"growth_mps", seen.growth_mps},
-                    {"most_m", seen.most_m}});
+                    {"most_m", seen.max_radius_m}});
   }
   return list;
 }

@@ -168,7 +168,7 @@ class ApiTypes:
         return name
 
     def text(self) -> str:
-        head = '''"""What the service answers, as TypedDicts.
+        head = '''"""Answers of the service as TypedDicts.
 
 Made by python/generate_types.py from server/openapi.json; do not edit.
 """

@@ -8,12 +8,12 @@
 
 namespace throng::render {
 
-/// What the look of a quadcopter follows from (sim/spec/airframe.h has all of them).
+/// Parameters of a quadcopter's appearance (sim/spec/airframe.h has all of them).
 struct AirframeShape {
-  double arm_m = 0;               ///< centre to rotor axis
+  double arm_m = 0;               ///< center to rotor axis
   double height_m = 0;            ///< of the body
   double propeller_radius_m = 0;  ///< half a blade pair
-  /// Of a sphere about the centre that holds everything.
+  /// Of a sphere about the center that holds everything.
   double reach_m() const { return 1.1 * (arm_m + propeller_radius_m) + height_m; }
 };
 
@@ -30,9 +30,9 @@ struct DroneInstance {
 /// camera sees little of them.
 PropMesh airframe_mesh(const DroneInstance& drone);
 
-/// Whether a camera with its centre here hangs from this drone, and therefore sees nothing of it.
-inline bool carries(const DroneInstance& drone, const Eigen::Vector3d& camera_centre) {
-  return (drone.position - camera_centre).norm() < drone.shape.arm_m;
+/// Whether a camera with its center here hangs from this drone, and therefore sees nothing of it.
+inline bool carries(const DroneInstance& drone, const Eigen::Vector3d& camera_center) {
+  return (drone.position - camera_center).norm() < drone.shape.arm_m;
 }
 
 }  // namespace throng::render

@@ -24,7 +24,7 @@ void AirframePass::prepare() {
 void AirframePass::draw(const std::vector<DroneInstance>& drones, const camera::Camera& camera) {
   std::vector<PropVertex> vertices;
   std::vector<std::uint32_t> indices;
-  const Eigen::Vector3d eye = camera.pose.centre();
+  const Eigen::Vector3d eye = camera.pose.center();
   for (const DroneInstance& drone : drones) {
     if (carries(drone, eye)) continue;
     const PropMesh mesh = airframe_mesh(drone);

@@ -1,4 +1,4 @@
-// Draws the drones that a camera may see: all but the one that it hangs from.
+// Renders the drones that a camera may see: all but the one that it hangs from.
 #pragma once
 
 #include <string>

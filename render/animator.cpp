@@ -16,7 +16,7 @@ namespace {
 using skinning::Gaze;
 using skinning::Moment;
 
-/// Two neighbouring crowd steps and how far between them.
+/// Two neighboring crowd steps and how far between them.
 struct Between {
   std::size_t before;
   std::size_t after;
@@ -53,16 +53,16 @@ struct Curiosity {
   bool at(double time_s) const { return looks && std::fmod(time_s + offset_s, every_s) < for_s; }
 };
 
-/// Where a drone is that is near and high enough to be looked at.
+/// Direction of a drone that is near and high enough to be looked at.
 Gaze gaze_at(const Eigen::Vector3d& drone, const Eigen::Vector2f& from, float yaw_rad) {
   constexpr double kFar_m = 45;
   constexpr double kEyes_m = 1.6;
-  constexpr double kLowest = 15 * kDegree;
+  constexpr double kMinElevationRad = 15 * kDegree;
   constexpr double kAhead = 35 * kDegree;
   constexpr double kBehind = 120 * kDegree;
   const Eigen::Vector2d to = drone.head<2>() - from.cast<double>();
   const double away = to.norm();
-  if (away > kFar_m || std::atan2(drone.z() - kEyes_m, away) < kLowest) return Gaze::none;
+  if (away > kFar_m || std::atan2(drone.z() - kEyes_m, away) < kMinElevationRad) return Gaze::none;
   const double bearing =
       std::remainder(std::atan2(to.y(), to.x()) - static_cast<double>(yaw_rad), 360 * kDegree);
   if (std::abs(bearing) < kAhead) return Gaze::ahead;
@@ -102,7 +102,7 @@ class Watcher {
   std::vector<std::vector<Eigen::Vector3d>> drones_;  ///< [step]
 };
 
-bool is_drawn(world::AgentRole role) {
+bool is_rendered(world::AgentRole role) {
   return role == world::AgentRole::person || role == world::AgentRole::attacker;
 }
 
@@ -116,7 +116,7 @@ Animator::Animator(const world::Trace& trace, const skinning::Population& popula
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     appearance_.push_back(skinning::appearance_of(population, trace.header.seed,
                                                   static_cast<std::uint32_t>(agent), styling));
-    if (!is_drawn(trace.header.role[agent])) continue;
+    if (!is_rendered(trace.header.role[agent])) continue;
     const std::uint64_t key = derive_seed(trace.header.seed, Stream::motion, agent);
     const Curiosity curiosity(Random(key, Stream::motion, 1));
     for (std::size_t step = 0; step < trace.steps(); ++step) {
@@ -142,7 +142,7 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
   const Between at = find(trace.time_s, time_s);
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (!trace.present(at.before, agent)) continue;
-    if (!is_drawn(trace.header.role[agent])) {
+    if (!is_rendered(trace.header.role[agent])) {
       scene.dangers.push_back(trace.position[trace.at(at.before, agent)]);
       continue;
     }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/colour_only.h"
+#include "render/color_only.h"
 #include "render/shaders.h"
 
 namespace throng::render {
@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSmallestPx = 48;  // standing height of people who still get a rim: it costs as
-                                    // much as they do, and shows as a few pixels
+constexpr double kMinSizePx = 48;  // standing height of people who still get a rim: it costs as
+                                   // much as they do, and shows as a few pixels
 constexpr double kPersonReachM = 0.5;
 constexpr double kTypicalStatureM = 1.7;
 
@@ -60,15 +60,15 @@ ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
 
 void ContactPass::draw(std::span<const PersonInstance> people, const camera::Camera& camera) {
   const ClipPlanes planes = clip_planes(camera);
-  const Eigen::Vector3d eye = camera.pose.centre();
-  const double farthest_m = camera.intrinsics.fy_px * kTypicalStatureM / kSmallestPx;
+  const Eigen::Vector3d eye = camera.pose.center();
+  const double max_distance_m = camera.intrinsics.fy_px * kTypicalStatureM / kMinSizePx;
   std::vector<const PersonInstance*> seen;
   for (const PersonInstance& person : people) {
     const Eigen::Vector3d foot = person.position.cast<double>();
-    if ((foot - eye).norm() > farthest_m || is_outside(planes, foot, kPersonReachM)) continue;
+    if ((foot - eye).norm() > max_distance_m || is_outside(planes, foot, kPersonReachM)) continue;
     seen.push_back(&person);
   }
-  // Where rims overlap, rounding depends on their order.
+  // Rounding of overlapping rims depends on their order.
   std::sort(seen.begin(), seen.end(),
             [](const PersonInstance* a, const PersonInstance* b) { return a->agent < b->agent; });
   rims_ = still_;
@@ -79,7 +79,7 @@ void ContactPass::draw(std::span<const PersonInstance> people, const camera::Cam
   if (rims_.empty()) return;
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(rims_.size() * sizeof(Rim)),
                     rims_.data(), GL_STREAM_DRAW);
-  const ColourOnly guard;
+  const ColorOnly guard;
   glBindVertexArray(array_.name());
   glUseProgram(program_.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rims_.size()));

@@ -18,8 +18,8 @@ class ContactPass {
  public:
   ContactPass(const world::Scenario& scenario, const Daylight& light);
 
-  /// Darkens the ground in the colours alone. Expects the View and Light blocks and the target to
-  /// be bound and the ground to be drawn. People smaller than a few pixels are left out.
+  /// Darkens the ground in the colors alone. Expects the View and Light blocks and the target to
+  /// be bound and the ground to be rendered. People smaller than a few pixels are left out.
   void draw(std::span<const PersonInstance> people, const camera::Camera& camera);
 
  private:

@@ -52,12 +52,12 @@ bool can_load(const char* library) {
 void require_libraries() {
   if (!can_load("libEGL.so.1")) {
     throw EnvironmentError(
-        "cannot draw: libEGL.so.1 is not installed; install libegl1 (and libgl1-mesa-dri for "
+        "cannot render: libEGL.so.1 is not installed; install libegl1 (and libgl1-mesa-dri for "
         "drawing on the CPU)");
   }
   if (!can_load("libOpenGL.so.0") && !can_load("libGL.so.1")) {
     throw EnvironmentError(
-        "cannot draw: neither libOpenGL.so.0 nor libGL.so.1 is installed; install libopengl0 or "
+        "cannot render: neither libOpenGL.so.0 nor libGL.so.1 is installed; install libopengl0 or "
         "libgl1");
   }
 }
@@ -203,7 +203,7 @@ Context::Context(const std::string& device) {
   }
   if (opened.context == EGL_NO_CONTEXT) {
     throw EnvironmentError(fmt::format(
-        "cannot draw on device \"{}\": no OpenGL 4.5 context through EGL. For the CPU install "
+        "cannot render on device \"{}\": no OpenGL 4.5 context through EGL. For the CPU install "
         "libegl1, libegl-mesa0 and libgl1-mesa-dri; for an NVIDIA GPU install libegl1, libopengl0 "
         "and the driver's libnvidia-gl with its EGL vendor file (10_nvidia.json in "
         "/usr/share/glvnd/egl_vendor.d, or named by __EGL_VENDOR_LIBRARY_FILENAMES). Tried:{}",

@@ -11,7 +11,7 @@ class Context {
   /// `device` is "software" (Mesa on the CPU), "gpu" (the first device with a hardware driver that
   /// works), "gpu:N" (the one of this number, from 0, and no other) or "auto": $THRONG_DEVICE if
   /// set, else a GPU if there is one, else software. Throws InputError for any other name, and
-  /// EnvironmentError that says which libraries to install when no context can be made.
+  /// EnvironmentError naming the libraries to install when no context can be created.
   explicit Context(const std::string& device);
   ~Context();
   Context(const Context&) = delete;
@@ -21,7 +21,7 @@ class Context {
 
   /// "vendor, renderer, version" as the driver reports them.
   const std::string& description() const { return description_; }
-  /// Whether the CPU draws.
+  /// Whether the device is the CPU.
   bool is_software() const { return is_software_; }
 
  private:

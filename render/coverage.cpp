@@ -19,7 +19,7 @@ constexpr int kAtlasSize = 2048;
 constexpr int kBlock = 8;
 
 int block_below(int pixel) {
-  // Rounds towards minus infinity, also left of and above the image.
+  // Rounds toward minus infinity, also left of and above the image.
   return pixel >= 0 ? pixel / kBlock * kBlock : -((-pixel + kBlock - 1) / kBlock * kBlock);
 }
 

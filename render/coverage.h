@@ -1,6 +1,6 @@
 // How many pixels a person would cover with nothing in front, for those who reach beyond the image
-// (others: silhouettes.h): each is drawn alone into a tile of an atlas, moved by whole pixels so
-// that the rasteriser makes the same decisions as in the picture.
+// (others: silhouettes.h): each is rendered alone into a tile of an atlas, moved by whole pixels so
+// that the rasterizer makes the same decisions as in the image.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 
 namespace throng::render {
 
-/// Whom to measure, and the image pixels [min, max) of the silhouette, limited as that is
+/// The person to measure, and the image pixels [min, max) of the silhouette, with its limits
 /// (render/person_geometry.h).
 struct CoverageRequest {
   PersonDraw draw;
@@ -27,8 +27,8 @@ class CoverageCounter {
  public:
   CoverageCounter();
 
-  /// Covered pixels for each request, also those outside the image, counted as `weights` say or
-  /// once each; `masks`, if given, one for each request, get those that lie in them. Leaves its own
+  /// Covered pixels for each request, also those outside the image, weighted by `weights`, or once
+  /// each; `masks`, if given, one for each request, get those that lie in them. Leaves its own
   /// target, viewport and View block bound.
   std::vector<std::uint64_t> count(PeoplePass& pass, std::span<const PersonInstance> people,
                                    std::span<const CoverageRequest> requests,

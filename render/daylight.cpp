@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Array3d;
 
-constexpr double kLowestShadowRad = 0.05;
+constexpr double kMinShadowRad = 0.05;
 constexpr double kTownGlow = 1e-4;  // the darkest sky, as a share of a high sun's
 
 double smooth(double low, double high, double x) {
@@ -42,7 +42,7 @@ double sky_strength(double elevation_rad) {
   return y0 * std::pow(y1 / y0, share);
 }
 
-/// The sky's hue by the sun's elevation: bluer in twilight, when ozone colours it.
+/// The sky's hue by the sun's elevation: bluer in twilight, when ozone colors it.
 Array3d sky_hue(double elevation_rad) {
   const double degrees = elevation_rad / kDegree;
   const Array3d day(0.34, 0.395, 0.475);
@@ -52,13 +52,13 @@ Array3d sky_hue(double elevation_rad) {
 
 /// A lower sun shines through more air: weaker and warmer (optical depths for clear air).
 Array3d clear_sun(double elevation_rad) {
-  const double sine = std::sin(std::max(elevation_rad, kLowestShadowRad));
+  const double sine = std::sin(std::max(elevation_rad, kMinShadowRad));
   const Array3d through_air = (-Array3d(0.08, 0.14, 0.24) / (sine + 0.05)).exp();
   return 1.85 * through_air * smooth(-0.8 * kDegree, 2 * kDegree, elevation_rad);
 }
 
-/// What is left of a clear sky's light on level ground under this weather's clouds. A closed cover
-/// lets a quarter through: 1 - 0.75 n^3.4 for n = 1 (Kasten and Czeplak 1980).
+/// Share of a clear sky's light that reaches level ground under this weather's clouds. A closed
+/// cover lets a quarter through: 1 - 0.75 n^3.4 for n = 1 (Kasten and Czeplak 1980).
 double cloud_share(Weather weather) {
   switch (weather) {
     case Weather::overcast:
@@ -74,7 +74,7 @@ double cloud_share(Weather weather) {
 }
 
 /// Exposure for a mean illuminance: the camera opens up as it gets darker, as automatic exposure
-/// does, but not all the way. Below daylight it follows more closely, or nights would be black.
+/// does, but only in part. Below daylight it follows more closely, or nights would be black.
 double exposure_for(double mean) {
   constexpr double kNoonIlluminance = 1.55;
   constexpr double kDusk = 0.02;
@@ -83,7 +83,7 @@ double exposure_for(double mean) {
   return seen * std::pow(std::min(mean / kDusk, 1.0), 0.06) / mean;
 }
 
-/// The camera meters the light of a fog too, and closes: pictures of fog are grey, not white.
+/// The camera meters the light of a fog too, and closes: images of fog are gray, not white.
 double closed_for_fog(const Environment& environment, double extinction_per_m) {
   constexpr double kMeteredM = 40;  // what a drone looks at is about that far away
   constexpr double kAirShare = 0.35;
@@ -94,7 +94,7 @@ double closed_for_fog(const Environment& environment, double extinction_per_m) {
 /// Sun and clouds' light before exposure.
 void light_up(const Environment& environment, Daylight& light) {
   const double elevation = environment.sun_elevation_rad;
-  const double shown = std::max(elevation, kLowestShadowRad);
+  const double shown = std::max(elevation, kMinShadowRad);
   light.direction = {std::cos(shown) * std::cos(environment.sun_azimuth_rad),
                      std::cos(shown) * std::sin(environment.sun_azimuth_rad), std::sin(shown)};
   light.sun = clear_sun(elevation);
@@ -109,25 +109,25 @@ void light_up(const Environment& environment, Daylight& light) {
   const double direct = environment.weather == Weather::fog
                             ? std::exp(-light.extinction_per_m * kFogDepthM / light.direction.z())
                             : 0.0;
-  const Array3d grey(0.96, 1.0, 1.05);
+  const Array3d gray(0.96, 1.0, 1.05);
   // Clouds give a town its own light back.
   const double diffuse =
       std::max(cloud_share(environment.weather) * level, kTownGlow * sky_hue(elevation).mean());
   if (direct > 0.1) {
     light.sun *= direct;
-    light.sky = grey * diffuse;
+    light.sky = gray * diffuse;
     light.dark = light.sun.maxCoeff() <= 0;
     return;
   }
-  // The zenith of a grey sky is three times as bright as its horizon (Moon and Spencer 1942): that
+  // The zenith of a gray sky is three times as bright as its horizon (Moon and Spencer 1942): that
   // excess is a soft light from above.
   light.soft = true;
   light.direction = Eigen::Vector3d::UnitZ();
-  light.sun = 0.3 * diffuse * grey;
-  light.sky = 0.7 * diffuse * grey;
+  light.sun = 0.3 * diffuse * gray;
+  light.sky = 0.7 * diffuse * gray;
 }
 
-void colour_the_air(const Environment& environment, Daylight& light) {
+void color_the_air(const Environment& environment, Daylight& light) {
   const double degrees = environment.sun_elevation_rad / kDegree;
   // Bright as the sky's light is, compared with an afternoon's.
   constexpr double kAfternoon = 0.366;
@@ -165,7 +165,7 @@ Daylight daylight(const Environment& environment) {
   light.sky *= exposure;
   // Warm white, half of which the white balance takes back.
   if (light.lamps_on) light.lamps = Array3d(1.16, 0.98, 0.74) * exposure;
-  colour_the_air(environment, light);
+  color_the_air(environment, light);
   return light;
 }
 

@@ -8,7 +8,7 @@ namespace throng::render {
 
 namespace {
 
-/// How 1 / z changes from a pixel to the one a step away, if that shows more of the same thing.
+/// How 1 / z changes from a pixel to the one a step away, if that shows the same surface.
 class Slopes {
  public:
   Slopes(const Frame& picture, const Eigen::Vector2i& at) : picture_(picture), at_(at) {
@@ -18,8 +18,8 @@ class Slopes {
 
   float inverse() const { return inverse_; }
 
-  /// The change along an axis: the smaller one of both sides, since at an edge within the thing the
-  /// other one leads elsewhere.
+  /// The change along an axis: the smaller one of both sides, since at an edge within the object
+  /// the other one leads elsewhere.
   float along(const Eigen::Vector2i& step) const {
     const std::optional<float> ahead = towards(step);
     std::optional<float> behind = towards(-step);
@@ -41,7 +41,7 @@ class Slopes {
     if (!is_inside || picture_.id[index_of(next)] != id_) return std::nullopt;
     const float change = 1 / picture_.depth_m[index_of(next)] - inverse_;
     // A body's or prop's other part behind its edge. The ground and buildings have one surface in a
-    // pixel and its neighbours, however steeply they lead away.
+    // pixel and its neighbors, however steeply they lead away.
     constexpr float kOneSurface = 0.02F;
     const bool is_even = id_ == kIdGround || (id_ >= kIdBuilding && id_ < kIdProp);
     if (!is_even && std::abs(change) > kOneSurface * inverse_) return std::nullopt;

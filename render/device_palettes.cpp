@@ -26,13 +26,13 @@ bool is_rigid(const skinning::BoneMatrix& matrix) {
   const Eigen::Matrix3f turn = matrix.leftCols<3>();
   return matrix.allFinite() &&
          (turn * turn.transpose() - Eigen::Matrix3f::Identity()).norm() < kTolerance &&
-         turn.determinant() > 0 && matrix.col(3).cwiseAbs().maxCoeff() <= kFarthestShiftM;
+         turn.determinant() > 0 && matrix.col(3).cwiseAbs().maxCoeff() <= kMaxShiftM;
 }
 
 DeviceBone device_bone(const skinning::BoneMatrix& matrix) {
   const Eigen::Matrix3f turn = matrix.leftCols<3>();
   const Eigen::Vector4f q = Eigen::Quaternionf(turn).normalized().coeffs();
-  const Eigen::Vector3f shift = matrix.col(3) / kFarthestShiftM;
+  const Eigen::Vector3f shift = matrix.col(3) / kMaxShiftM;
   return {word_of(q[0], q[1]), word_of(q[2], q[3]), word_of(shift[0], shift[1]),
           word_of(shift[2], 0)};
 }
@@ -40,15 +40,15 @@ DeviceBone device_bone(const skinning::BoneMatrix& matrix) {
 }  // namespace
 
 std::vector<DeviceBone> device_palettes(const skinning::Population& population,
-                                        std::uint64_t most_bytes) {
+                                        std::uint64_t max_bytes) {
   constexpr std::uint64_t kPaletteBytes = skinning::kBoneCount * sizeof(DeviceBone);
-  if (population.palettes.size() * kPaletteBytes > most_bytes) {
-    const std::uint64_t most =
-        most_bytes / (kPaletteBytes * std::max(population.palettes_per_character, 1U));
+  if (population.palettes.size() * kPaletteBytes > max_bytes) {
+    const std::uint64_t max_people =
+        max_bytes / (kPaletteBytes * std::max(population.palettes_per_character, 1U));
     throw InputError({"", "people", fmt::format("{} of them", population.characters.size()),
                       fmt::format("at most {}, whose motion fits the {} MiB that this graphics "
                                   "device gives (run `throng people build --count {}`)",
-                                  most, most_bytes >> 20U, most)});
+                                  max_people, max_bytes >> 20U, max_people)});
   }
   std::vector<DeviceBone> bones;
   bones.reserve(population.palettes.size() * skinning::kBoneCount);

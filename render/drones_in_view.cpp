@@ -19,11 +19,11 @@ using Eigen::Vector3d;
 
 constexpr float kUnknownFlow = std::numeric_limits<float>::quiet_NaN();
 
-/// A mesh in the picture: its vertices in box coordinates, NaN where the camera sees nothing.
+/// A mesh in the image: its vertices in box coordinates, NaN where the camera sees nothing.
 struct Projected {
   std::vector<Vector2d> vertices;
   Eigen::AlignedBox2d box;
-  bool is_cut = false;  ///< some vertices are nowhere in the picture
+  bool is_cut = false;  ///< some vertices are nowhere in the image
 };
 
 Projected projected(const PropMesh& mesh, const camera::Camera& camera) {
@@ -67,7 +67,7 @@ void fill(const std::array<Vector2d, 3>& corners, PixelMask& mask) {
   }
 }
 
-/// What a drone covers of these rows and, at the image's borders, beyond them.
+/// Pixels covered by a drone in these rows and, at the image's borders, beyond them.
 PixelMask covered(const PropMesh& mesh, const Projected& seen, const Rows& rows,
                   const Frame& frame) {
   const int width = frame.width();
@@ -147,7 +147,7 @@ void set_box(const PropMesh& mesh, DroneInView& drone) {
 
 void measure_drones(const Scene& scene, const Rows& rows, Frame& frame) {
   frame.drones.clear();
-  const Vector3d eye = frame.camera.pose.centre();
+  const Vector3d eye = frame.camera.pose.center();
   const bool is_whole = rows.first == 0 && rows.end == frame.camera.intrinsics.height;
   const Eigen::AlignedBox2d image(Vector2d(0, rows.first), Vector2d(frame.width(), rows.end));
   for (const DroneInstance& instance : scene.drones) {

@@ -9,7 +9,7 @@ namespace throng::render {
 
 /// Sets Frame::drones from what the frame, which holds these rows, shows. Whole masks are the
 /// projected triangles, filled where they hold a pixel's middle, and what is visible: the
-/// rasteriser rounds corners to 1/256 of a pixel.
+/// rasterizer rounds corners to 1/256 of a pixel.
 void measure_drones(const Scene& scene, const Rows& rows, Frame& frame);
 
 /// Fills Frame::flow where the ids show drones, which move as a whole. The frame is a pinhole's.

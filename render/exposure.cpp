@@ -20,9 +20,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kStillPx = 0.25;
-constexpr int kMostSamples = 15;
+constexpr int kMaxSamples = 15;
 constexpr double kStripMotionPx = 0.5;
-constexpr int kMostStrips = 32;
+constexpr int kMaxStrips = 32;
 
 double moved_px(const camera::Camera& before, const Vector3d& point_before,
                 const camera::Camera& after, const Vector3d& point_after) {
@@ -34,41 +34,41 @@ double moved_px(const camera::Camera& before, const Vector3d& point_before,
   return (a.pixel - b.pixel).norm();
 }
 
-/// What a pixel shows of the ground, or, above the horizon, of something far away.
+/// Ground point seen by a pixel, or, above the horizon, a far point.
 std::optional<Vector3d> far_point(const camera::Camera& camera, const Vector2d& pixel) {
   constexpr double kFar_m = 300;
-  const Vector3d centre = camera.pose.centre();
-  const Vector3d ray = camera.unproject(pixel, 1) - centre;
+  const Vector3d center = camera.pose.center();
+  const Vector3d ray = camera.unproject(pixel, 1) - center;
   if (ray.hasNaN()) return std::nullopt;
-  const double to_ground = -centre.z() / ray.z();
-  return centre + ray * (to_ground > 0 ? std::min(to_ground, kFar_m) : kFar_m);
+  const double to_ground = -center.z() / ray.z();
+  return center + ray * (to_ground > 0 ? std::min(to_ground, kFar_m) : kFar_m);
 }
 
 double camera_motion_px(const camera::Camera& before, const camera::Camera& after) {
   constexpr int kSteps = 4;
   const camera::Intrinsics& k = before.intrinsics;
-  double most = 0;
+  double max_value = 0;
   for (int row = 0; row <= kSteps; ++row) {
     for (int column = 0; column <= kSteps; ++column) {
       const Vector2d pixel((k.width - 1.0) * column / kSteps, (k.height - 1.0) * row / kSteps);
       const std::optional<Vector3d> point = far_point(before, pixel);
-      if (point) most = std::max(most, moved_px(before, *point, after, *point));
+      if (point) max_value = std::max(max_value, moved_px(before, *point, after, *point));
     }
   }
-  return most;
+  return max_value;
 }
 
 /// An odd number, so that one sample is in the middle.
 int samples_for(double motion_px) {
   if (motion_px < kStillPx) return 1;
   const int wanted = std::max(3, static_cast<int>(std::ceil(motion_px)));
-  return std::min(wanted + 1 - wanted % 2, kMostSamples);
+  return std::min(wanted + 1 - wanted % 2, kMaxSamples);
 }
 
 int strips_for(double motion_px, int rows) {
   if (motion_px < kStillPx) return 1;
   const int wanted = static_cast<int>(std::ceil(std::min(motion_px, 1e3) / kStripMotionPx));
-  return std::min({wanted, kMostStrips, rows});
+  return std::min({wanted, kMaxStrips, rows});
 }
 
 double motion_during(const MomentAt& moment_at, double time_s, double duration_s) {
@@ -76,7 +76,7 @@ double motion_during(const MomentAt& moment_at, double time_s, double duration_s
   return image_motion_px(moment_at(time_s - duration_s / 2), moment_at(time_s + duration_s / 2));
 }
 
-/// A strip of rows: the middle moment's everything, with the colours of all moments.
+/// A strip of rows: the middle moment's everything, with the colors of all moments.
 Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double exposure_s,
                     int samples, const Rows& rows, std::optional<double> next_s) {
   std::vector<float> light;
@@ -234,23 +234,24 @@ class DronesInStrips {
 }  // namespace
 
 double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
-  double most = camera_motion_px(from.camera, to.camera);
+  double max_value = camera_motion_px(from.camera, to.camera);
   std::unordered_map<std::uint32_t, const PersonInstance*> later;
   for (const PersonInstance& person : to.scene->people) later[person.agent] = &person;
   for (const PersonInstance& person : from.scene->people) {
     const auto found = later.find(person.agent);
     if (found == later.end()) continue;
-    most = std::max(most, moved_px(from.camera, person.position.cast<double>(), to.camera,
-                                   found->second->position.cast<double>()));
+    max_value = std::max(max_value, moved_px(from.camera, person.position.cast<double>(), to.camera,
+                                             found->second->position.cast<double>()));
   }
   for (const DroneInstance& drone : from.scene->drones) {
-    if (carries(drone, from.camera.pose.centre())) continue;
+    if (carries(drone, from.camera.pose.center())) continue;
     for (const DroneInstance& after : to.scene->drones) {
       if (after.drone != drone.drone) continue;
-      most = std::max(most, moved_px(from.camera, drone.position, to.camera, after.position));
+      max_value =
+          std::max(max_value, moved_px(from.camera, drone.position, to.camera, after.position));
     }
   }
-  return most;
+  return max_value;
 }
 
 Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Exposure& exposure,

@@ -1,4 +1,4 @@
-// What the renderer returns for one instant and one camera: every buffer from the same draw.
+// Output of the renderer for one instant and one camera: every buffer from the same draw.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ inline constexpr bool is_umbrella(std::uint32_t id) {
   return id >= kIdUmbrella && id < kIdBuilding;
 }
 inline constexpr bool is_drone(std::uint32_t id) { return id >= kIdDrone && id < kIdGround; }
-/// Whether it is posed anew in every frame: people and what they hold above themselves.
+/// Whether it is posed again in every frame: people and what they hold above themselves.
 inline constexpr bool is_posed(std::uint32_t id) { return is_agent(id) || is_umbrella(id); }
 inline constexpr std::uint32_t agent_of_id(std::uint32_t id) { return id - 1; }
 
@@ -64,9 +64,9 @@ struct PersonInView {
   Eigen::AlignedBox2d amodal_box;
   /// Pixels that the person would cover were nothing in front of it, image borders included.
   std::uint64_t amodal_area_px = 0;
-  std::uint32_t level = 0;  ///< of detail, that it was drawn with
-  /// The middle of the head in box coordinates, where the frame's camera does not say it: rows of a
-  /// rolling shutter see it from elsewhere.
+  std::uint32_t level = 0;  ///< of detail, that it was rendered with
+  /// The middle of the head in box coordinates, where it does not follow from the frame's camera:
+  /// rows of a rolling shutter see it from elsewhere.
   std::optional<Eigen::Vector2d> head_px = std::nullopt;
   /// As posed, m, world.
   skinning::Keypoints keypoints = skinning::keypoints_at(Eigen::Vector3f::Zero());
@@ -77,7 +77,7 @@ struct PersonInView {
   /// Like head_px, of the keypoints: x and y in box coordinates and the camera's z (m); NaN where
   /// the camera sees nothing.
   std::optional<skinning::Keypoints> keypoints_px = std::nullopt;
-  /// What of the image the person would cover were nothing in front of it; null unless
+  /// Amodal mask: the pixels that the person would cover without occluders; null unless
   /// RenderOptions asks for it.
   std::shared_ptr<const PixelMask> whole_mask = nullptr;
 };
@@ -107,8 +107,7 @@ inline std::optional<Eigen::Vector2d> head_in(const PersonInView& person,
   return Eigen::Vector2d(seen.pixel.array() + 0.5);
 }
 
-/// Where a person's keypoints are in a frame of this camera, hidden or not, as keypoints_px has
-/// them.
+/// A person's keypoints in a frame of this camera, visible or not, as in keypoints_px.
 inline skinning::Keypoints keypoints_in(const PersonInView& person, const camera::Camera& camera) {
   if (person.keypoints_px) return *person.keypoints_px;
   skinning::Keypoints seen;
@@ -129,7 +128,7 @@ struct Frame {
   std::vector<std::uint32_t> id;     ///< width * height
   std::vector<float> depth_m;        ///< camera z; +infinity for sky
   std::vector<PersonInView> people;  ///< by agent id
-  std::vector<DroneInView> drones;   ///< by number; only where Lens draws
+  std::vector<DroneInView> drones;   ///< by number; only where Lens renders
   // Only as asked for in RenderOptions, else empty.
   /// width * height * 3: world x, y, z of the surface's normal n as round(128 + 127 n); 0 for sky.
   std::vector<std::uint8_t> normal;

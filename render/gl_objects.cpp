@@ -77,21 +77,21 @@ Texture make_texture_2d(GLenum format, int width, int height) {
   return texture;
 }
 
-Framebuffer make_framebuffer(std::initializer_list<GLuint> colours, GLuint depth) {
+Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth) {
   GLuint name = 0;
   glCreateFramebuffers(1, &name);
   Framebuffer framebuffer(name);
   std::vector<GLenum> attachments;
-  for (const GLuint colour : colours) {
+  for (const GLuint color : colors) {
     attachments.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachments.size()));
-    glNamedFramebufferTexture(name, attachments.back(), colour, 0);
+    glNamedFramebufferTexture(name, attachments.back(), color, 0);
   }
   if (depth != 0) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth, 0);
   glNamedFramebufferDrawBuffers(name, static_cast<GLsizei>(attachments.size()), attachments.data());
   const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE) {
     throw EnvironmentError(
-        fmt::format("the GL driver cannot draw into these buffers (status {:#06x})", status));
+        fmt::format("the GL driver cannot render into these buffers (status {:#06x})", status));
   }
   return framebuffer;
 }
@@ -128,9 +128,9 @@ void describe_vertices(const VertexArray& array, GLuint binding, const Buffer& b
   glVertexArrayBindingDivisor(name, binding, divisor);
   for (const Attribute& a : attributes) {
     const auto offset = static_cast<GLuint>(a.offset);
-    if (a.type == GL_FLOAT || a.normalised) {
+    if (a.type == GL_FLOAT || a.normalized) {
       glVertexArrayAttribFormat(name, a.location, a.count, a.type,
-                                a.normalised ? GL_TRUE : GL_FALSE, offset);
+                                a.normalized ? GL_TRUE : GL_FALSE, offset);
     } else {
       glVertexArrayAttribIFormat(name, a.location, a.count, a.type, offset);
     }

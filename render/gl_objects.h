@@ -72,9 +72,9 @@ Sampler make_sampler();
 /// A single-level 2D texture, sampled to the nearest texel, clamped to its edge.
 Texture make_texture_2d(GLenum format, int width, int height);
 
-/// A framebuffer with these colour textures (in order) and depth texture (0: none). Throws
+/// A framebuffer with these color textures (in order) and depth texture (0: none). Throws
 /// EnvironmentError when the driver cannot draw into it.
-Framebuffer make_framebuffer(std::initializer_list<GLuint> colours, GLuint depth);
+Framebuffer make_framebuffer(std::initializer_list<GLuint> colors, GLuint depth);
 
 /// A stage is the concatenation of its pieces below "#version 450 core". An empty fragment stage
 /// makes a program that only writes depth. Throws EnvironmentError with the driver's log.
@@ -84,12 +84,12 @@ Program make_program(std::initializer_list<std::string_view> vertex,
 /// Throws EnvironmentError naming `what` was being done if GL has recorded an error.
 void check_gl(std::string_view what);
 
-/// How one attribute is stored in a vertex; integers stay integers unless normalised.
+/// How one attribute is stored in a vertex; integers stay integers unless normalized.
 struct Attribute {
   GLuint location;
   GLint count;
   GLenum type;
-  bool normalised;
+  bool normalized;
   std::size_t offset;
 };
 

@@ -15,7 +15,7 @@ using Polygon = std::vector<Vector2d>;
 
 constexpr double kAreaHeightM = 0.0006;
 constexpr double kNextAreaM = 0.0001;
-constexpr std::size_t kMostHeights = 6;
+constexpr std::size_t kMaxHeights = 6;
 constexpr double kKerbHeightM = 0.0014;
 constexpr double kPaintHeightM = 0.0017;
 
@@ -59,11 +59,11 @@ class LayerBuilder {
 
   /// The same cut along a grid, so that openness is sampled within it.
   void add_in_cells(const Polygon& polygon, double height_m) {
-    constexpr double kSmallestCellM = 3;
-    constexpr double kMostCells = 48;
+    constexpr double kMinCellM = 3;
+    constexpr double kMaxCells = 48;
     Eigen::AlignedBox2d bounds;
     for (const Vector2d& p : polygon) bounds.extend(p);
-    const double cell = std::max(kSmallestCellM, bounds.sizes().maxCoeff() / kMostCells);
+    const double cell = std::max(kMinCellM, bounds.sizes().maxCoeff() / kMaxCells);
     for (double x = bounds.min().x(); x < bounds.max().x(); x += cell) {
       const Polygon column = cut(cut(polygon, {1, 0}, x + cell), {-1, 0}, -x);
       for (double y = bounds.min().y(); y < bounds.max().y(); y += cell) {
@@ -132,7 +132,7 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
   for (std::size_t i = scenario.areas.size(); i-- > 0;) {
     const world::GroundArea& area = scenario.areas[i];
     const double height_m =
-        kAreaHeightM + kNextAreaM * static_cast<double>(std::min(i, kMostHeights));
+        kAreaHeightM + kNextAreaM * static_cast<double>(std::min(i, kMaxHeights));
     layer(area.material, [&] {
       for (const auto& triangle : triangulate(area.corners)) {
         builder.add_in_cells(

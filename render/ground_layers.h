@@ -1,4 +1,4 @@
-// Areas of other materials, kerbs and paint on the ground: flat layers a millimetre above it.
+// Areas of other materials, kerbs and paint on the ground: flat layers a millimeter above it.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ struct GroundLayer {
 using Openness = std::function<float(const Eigen::Vector2d&)>;
 
 /// Appends the layers of a scenario to the mesh, uppermost first, so that what they hide need not
-/// be drawn. All lie below kAboveGround of the people (2 mm), who therefore stand on top.
+/// be rendered. All lie below kAboveGround of the people (2 mm), who therefore stand on top.
 std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
                                            const Openness& openness, PlaceMesh& mesh);
 

@@ -8,7 +8,7 @@ namespace throng::render {
 
 namespace {
 
-// A picture seen at a slant is sharper than the mipmaps allow for.
+// An image seen at a slant is sharper than the mipmaps allow for.
 constexpr float kSharper = -0.4F;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Textures of the ground's materials, drawn once when a place is loaded: looking one up for each
+// Textures of the ground's materials, rendered once when a place is loaded: looking one up for each
 // pixel costs a fraction of working the material out there, however rich it is.
 #pragma once
 

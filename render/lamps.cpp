@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kHeightM = 4.2;
 constexpr double kSpacingM = 12;
-constexpr double kShortestWallM = 4;
-constexpr double kLowestStoreyM = 2.6;  // lower walls have no lamps; also in shaders/wall.frag.glsl
+constexpr double kMinWallM = 4;
+constexpr double kMinStoryM = 2.6;  // lower walls have no lamps; also in shaders/wall.frag.glsl
 constexpr double kReachM = 26;
 constexpr double kPlaneM = 1;  // height at which the light is taken
 // About 1000 candela over 54 000 lux: 57 lux on the ground below a lamp 4.2 m up.
@@ -47,13 +47,13 @@ std::vector<Lamp> wall_lamps(const world::Scenario& scenario) {
   constexpr double kOffWallM = 0.35;
   std::vector<Lamp> lamps;
   for (const world::Building& building : scenario.buildings) {
-    if (building.height_m < kLowestStoreyM) continue;
+    if (building.height_m < kMinStoryM) continue;
     const std::vector<Eigen::Vector2d>& corners = building.footprint;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Eigen::Vector2d& from = corners[i];
       const Eigen::Vector2d edge = corners[(i + 1) % corners.size()] - from;
       const double length = edge.norm();
-      if (length < kShortestWallM) continue;
+      if (length < kMinWallM) continue;
       const Eigen::Vector2d out = Eigen::Vector2d(edge.y(), -edge.x()) / length;
       const int count = std::max(1, static_cast<int>(length / kSpacingM));
       for (int k = 0; k < count; ++k) {

@@ -23,7 +23,7 @@ std::vector<Lamp> wall_lamps(const world::Scenario& scenario);
 /// The lamps on walls and on lamp posts.
 std::vector<Lamp> all_lamps(const world::Scenario& scenario);
 
-/// What the lamps give 1 m above a point of the ground, behind no building: the sum of the unit
+/// Lamp light 1 m above a point of the ground, without occlusion by buildings: the sum of the unit
 /// directions to them times their strengths, and the sum of their strengths. One unit of light is
 /// that of render/daylight.h.
 Eigen::Vector4f lamp_light_at(const world::Scenario& scenario, const std::vector<Lamp>& lamps,

@@ -38,7 +38,7 @@ void cloth(PropBuilder& builder, const std::array<Vector3d, 4>& corners, const V
 
 }  // namespace
 
-// What keeps a crowd back: a frame with bars on two feet.
+// Crowd barrier: a frame with bars on two feet.
 void make_barrier(PropBuilder& builder) {
   constexpr double kHalfM = 1.22;
   constexpr int kBars = 11;
@@ -96,7 +96,7 @@ void make_tent(PropBuilder& builder) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector2d& a = corners[i];
     const Vector2d& b = corners[(i + 1) % corners.size()];
-    // Each side as two cloths of different colours, from the eaves to the peak.
+    // Each side as two cloths of different colors, from the eaves to the peak.
     const Vector2d middle = 0.5 * (a + b);
     const Vector3d peak(0, 0, kPeakM);
     const auto eaves = [&](const Vector2d& p) { return Vector3d(p.x(), p.y(), kEavesM); };

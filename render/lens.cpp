@@ -50,7 +50,7 @@ std::uint8_t mixed(const std::uint8_t* above, const std::uint8_t* below, int rig
   return static_cast<std::uint8_t>(std::lrint(top + v * (bottom - top)));
 }
 
-/// How far the image moves where the wide picture moves by `flow` from one of its pixels; NaN
+/// How far the image moves where the wide image moves by `flow` from one of its pixels; NaN
 /// where the lens shows nothing.
 Eigen::Vector2f flow_through(const camera::Intrinsics& lens, const camera::Intrinsics& wide,
                              const Vector2d& pixel, const Eigen::Vector2f& flow) {
@@ -61,14 +61,14 @@ Eigen::Vector2f flow_through(const camera::Intrinsics& lens, const camera::Intri
   return (*to - *from).cast<float>();
 }
 
-/// What of the wide picture is not interpolated.
+/// Buffers of the wide image that are not interpolated.
 void copy_nearest(const Frame& wide, std::size_t from, std::size_t to, Frame& image) {
   image.id[to] = wide.id[from];
   if (!image.part.empty()) image.part[to] = wide.part[from];
   if (!image.normal.empty()) std::copy_n(&wide.normal[from * 3], 3, &image.normal[to * 3]);
 }
 
-/// What a pixel shows that the lens's model does not reach.
+/// Value of a pixel outside the domain of the lens model.
 void show_nothing(std::size_t pixel, Frame& image) {
   image.id[pixel] = kIdNothing;
   image.depth_m[pixel] = std::numeric_limits<float>::infinity();
@@ -77,7 +77,7 @@ void show_nothing(std::size_t pixel, Frame& image) {
   image.flow[2 * pixel + 1] = std::numeric_limits<float>::quiet_NaN();
 }
 
-/// Looks pixels [begin, end) of the image up in the wide picture.
+/// Looks pixels [begin, end) of the image up in the wide image.
 void look_up(const LensMap& map, const camera::Intrinsics& lens, const Frame& wide,
              std::size_t begin, std::size_t end, Frame& image) {
   constexpr int kChannels = 3;
@@ -112,7 +112,7 @@ void look_up(const LensMap& map, const camera::Intrinsics& lens, const Frame& wi
   }
 }
 
-/// The image's buffers, from those of the wide picture.
+/// The image's buffers, from those of the wide image.
 Frame looked_up(const LensMap& map, const camera::Intrinsics& lens, const Frame& wide) {
   Frame image;
   image.index = wide.index;
@@ -181,15 +181,15 @@ const LensMap& Lens::map_of(const camera::Intrinsics& lens, const Rows& rows) {
     if (known->is_of(lens, rows)) return known->map;
   }
   // Cameras of one job come in turn; more than these would be a camera that zooms.
-  constexpr std::size_t kMostKnown = 64;
-  if (known_.size() == kMostKnown) known_.erase(known_.begin());
+  constexpr std::size_t kMaxKnown = 64;
+  if (known_.size() == kMaxKnown) known_.erase(known_.begin());
   known_.push_back(std::make_unique<Known>(Known{lens, rows, lens_map(lens, rows)}));
   return known_.back()->map;
 }
 
 namespace {
 
-/// A mask of a picture of rows, or of a wide picture, as pixels of the image.
+/// A mask of an image of rows, or of a wide image, as pixels of the image.
 PixelMask seen_through(const LensMap* map, const camera::Intrinsics& lens, const Rows& rows,
                        const PersonInView& person) {
   const PixelMask& drawn = *person.whole_mask;
@@ -233,10 +233,11 @@ Frame Lens::draw_rows(const Scene& scene, const camera::Camera& camera, const Ro
   }
   const camera::Intrinsics drawn = map == nullptr ? cropped(lens, rows) : map->wide;
   const PixelWeights weights = map == nullptr ? cropped_weights(lens, rows) : PixelWeights();
-  std::optional<NextFrame> next_drawn;
-  if (next != nullptr) next_drawn = NextFrame{next->scene, {drawn, next->camera.pose}};
-  Frame frame = renderer_->draw(scene, {drawn, camera.pose}, next_drawn ? &*next_drawn : nullptr,
-                                {map == nullptr ? &weights : &map->weights, truth});
+  std::optional<NextFrame> next_rendered;
+  if (next != nullptr) next_rendered = NextFrame{next->scene, {drawn, next->camera.pose}};
+  Frame frame =
+      renderer_->draw(scene, {drawn, camera.pose}, next_rendered ? &*next_rendered : nullptr,
+                      {map == nullptr ? &weights : &map->weights, truth});
   if (map != nullptr) {
     Frame image = looked_up(*map, lens, frame);
     image.people = std::move(frame.people);

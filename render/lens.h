@@ -1,5 +1,5 @@
-// Pictures through any lens. A renderer draws pinhole pictures; for a lens that distorts, a pinhole
-// picture that is wide enough is drawn and looked up pixel by pixel.
+// Images through any lens. A renderer renders pinhole images; for a lens that distorts, a pinhole
+// image that is wide enough is rendered and looked up pixel by pixel.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@
 
 namespace throng::render {
 
-/// Draws with cameras of any lens. Colours are interpolated; ids, depth, normals, parts and flow
-/// are those of the nearest pixel of the wide picture, depth stays the camera's z, flow is that of
+/// Renders with cameras of any lens. Colors are interpolated; ids, depth, normals, parts and flow
+/// are those of the nearest pixel of the wide image, depth stays the camera's z, flow is that of
 /// the distorted image. Boxes are those of the skinned vertices
 /// projected through the lens, areas count the image's pixels; both as if the image went on around
-/// itself for a quarter of its size. Pinholes are drawn as they are. The renderer and the
+/// itself for a quarter of its size. Pinholes are rendered as they are. The renderer and the
 /// population, which is the renderer's, must outlive it.
 class Lens {
  public:

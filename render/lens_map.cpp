@@ -19,10 +19,10 @@ using Eigen::Vector2d;
 
 /// Rows that one task of a loop takes.
 constexpr std::size_t kGrain = 16;
-/// Where a lens magnifies more than this, the wide picture is coarser than the image.
-constexpr double kMostMagnified = 2;
+/// At a magnification above this the wide image is coarser than the output image.
+constexpr double kMaxMagnification = 2;
 /// Farther out are no pixels (px).
-constexpr float kFarthestPosition = 1e6F;
+constexpr float kMaxPosition = 1e6F;
 /// Steps of the search for the largest magnification (px).
 constexpr int kCoarse = 16;
 
@@ -32,16 +32,16 @@ std::size_t cells(int width, int height) {
 
 /// How many wide pixels per image pixel it takes to lose nothing where the lens magnifies most.
 double magnification(const camera::Intrinsics& lens) {
-  double most = 1;
+  double max_value = 1;
   for (int y = 0; y < lens.height; y += kCoarse) {
     for (int x = 0; x < lens.width; x += kCoarse) {
       const auto direction = lens.direction_of({x, y});
       if (!direction) continue;
-      most =
-          std::max(most, lens.distortion->derivatives(*direction).jacobiSvd().singularValues()[0]);
+      max_value = std::max(
+          max_value, lens.distortion->derivatives(*direction).jacobiSvd().singularValues()[0]);
     }
   }
-  return std::min(most, kMostMagnified);
+  return std::min(max_value, kMaxMagnification);
 }
 
 /// Directions of a row of pixels from `first` on, NaN beyond the model.
@@ -76,7 +76,7 @@ std::vector<Vector2d> directions_of(const camera::Intrinsics& lens,
   return directions;
 }
 
-/// The pinhole picture that holds all these directions but NaN, with a pixel more at each side for
+/// The pinhole image that holds all these directions but NaN, with a pixel more at each side for
 /// the interpolation.
 camera::Intrinsics wide_pinhole(const camera::Intrinsics& lens,
                                 const std::vector<Vector2d>& directions) {
@@ -84,7 +84,7 @@ camera::Intrinsics wide_pinhole(const camera::Intrinsics& lens,
   for (const Vector2d& direction : directions) {
     if (!direction.hasNaN()) field.extend(direction);
   }
-  // Rows that show nothing still are a picture.
+  // Rows that show nothing still are an image.
   if (field.isEmpty()) field.extend(Vector2d(0, 0));
   const double finer = magnification(lens);
   camera::Intrinsics wide;
@@ -113,7 +113,7 @@ void extend_to_limit(const camera::Intrinsics& lens, std::vector<Vector2d>& dire
   }
 }
 
-/// Where in the wide picture a direction is seen. Floats, since it is kept for every pixel.
+/// Position of a direction in the wide image. Floats, since it is stored for every pixel.
 Eigen::Vector2f wide_position(const camera::Intrinsics& wide, const Vector2d& direction) {
   return Vector2d(direction.x() * wide.fx_px + wide.cx_px, direction.y() * wide.fy_px + wide.cy_px)
       .cast<float>();
@@ -135,7 +135,7 @@ PixelWeights weights_of(const camera::Intrinsics& lens, const Rows& rows,
   for (const Vector2d& direction : directions_of(lens, area)) {
     const Eigen::Vector2f at = wide_position(wide, direction);
     // Written so that NaN leaves, too.
-    if (!(at.cwiseAbs().maxCoeff() < kFarthestPosition)) continue;
+    if (!(at.cwiseAbs().maxCoeff() < kMaxPosition)) continue;
     const Eigen::Vector2i pixel(std::lround(at.x()), std::lround(at.y()));
     if (!weights.domain.contains(pixel) || pixel.x() == weights.domain.max().x() ||
         pixel.y() == weights.domain.max().y()) {
@@ -173,7 +173,7 @@ Eigen::Vector2i wide_size(const camera::Intrinsics& lens) {
 
 bool shows_everywhere(const camera::Intrinsics& lens) {
   if (!lens.distortion) return true;
-  // What a lens shows is round: an image whose border is within it is so, too.
+  // The image circle of a lens is convex: an image whose border is within it lies in it entirely.
   for (int x = 0; x < lens.width; ++x) {
     if (!lens.direction_of({x, 0}) || !lens.direction_of({x, lens.height - 1})) return false;
   }

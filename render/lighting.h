@@ -1,10 +1,10 @@
 // The Light block of shaders/light.glsl, the pieces of shader that an environment needs, and where
 // the shadow map lies.
 //
-// The shadow map is laid out on the ground: every texel is the line towards the sun through one
-// square of the plane z = 0, and holds the height of the highest thing on that line. A point is in
-// the shade if something on its line is higher. The texels of the ground are the map's own, so
-// shadows on it are equally sharp everywhere and do not swim when the camera moves.
+// The shadow map is laid out on the ground: every texel is the line toward the sun through one
+// square of the plane z = 0, and holds the max height on that line. A point is in the shade if
+// something on its line is higher. The texels of the ground are the map's own, so shadows on it are
+// equally sharp everywhere and do not swim when the camera moves.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,12 +35,12 @@ struct LightBlock {
   std::array<float, 4> eye{};
 };
 
-/// What a frame adds to the environment's light.
+/// Light that depends on the frame, in addition to the environment's.
 struct LightFrame {
   Eigen::AlignedBox2d shadow_area;  ///< of shadow_area()
   Eigen::AlignedBox2d lamp_area;    ///< of the lamp map
   double tallest_m = 0;
-  Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's centre
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the camera's center
   double time_s = 0;
 };
 
@@ -48,7 +48,7 @@ struct LightFrame {
 /// without edges), LAMPS, WET.
 std::string light_words(const Environment& environment);
 
-/// Displacement of the shadow on the ground per metre of height is minus this.
+/// Displacement of the shadow on the ground per meter of height is minus this.
 Eigen::Vector2d shadow_slope(const Daylight& light);
 
 /// The part of the ground whose lines to the sun matter for what the camera sees of `place`, up to

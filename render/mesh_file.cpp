@@ -21,16 +21,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A material's colour, linear; light grey when it has none.
+/// A material's color, linear; light gray when it has none.
 std::array<std::uint8_t, 4> paint_of(const aiMaterial& material) {
-  aiColor4D colour(0.6F, 0.6F, 0.6F, 1.0F);
-  if (material.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) {
-    material.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+  aiColor4D color(0.6F, 0.6F, 0.6F, 1.0F);
+  if (material.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS) {
+    material.Get(AI_MATKEY_COLOR_DIFFUSE, color);
   }
   const auto byte = [](float share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0F, 1.0F)));
   };
-  return {byte(colour.r), byte(colour.g), byte(colour.b), static_cast<std::uint8_t>(Finish::matt)};
+  return {byte(color.r), byte(color.g), byte(color.b), static_cast<std::uint8_t>(Finish::matt)};
 }
 
 /// Files have y up; the world has z up.

@@ -8,7 +8,7 @@
 
 namespace throng::render {
 
-/// The mesh where the scenario puts it, coloured by its materials (no textures), with `id` for the
+/// The mesh where the scenario puts it, colored by its materials (no textures), with `id` for the
 /// id buffer. Throws InputError naming the file when it cannot be read or has no triangles.
 PropMesh mesh_from_file(const world::PlacedMesh& placed, std::uint32_t id);
 

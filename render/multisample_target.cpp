@@ -23,11 +23,11 @@ Texture make_multisample_texture(GLenum format, int width, int height, int sampl
 MultisampleTarget::MultisampleTarget(int width, int height, int samples)
     : width_(width),
       height_(height),
-      colour_(make_multisample_texture(GL_SRGB8_ALPHA8, width, height, samples)),
+      color_(make_multisample_texture(GL_SRGB8_ALPHA8, width, height, samples)),
       depth_(make_multisample_texture(GL_DEPTH_COMPONENT32F, width, height, samples)),
-      framebuffer_(make_framebuffer({colour_.name()}, depth_.name())),
-      resolved_colour_(make_texture_2d(GL_SRGB8_ALPHA8, width, height)),
-      resolved_(make_framebuffer({resolved_colour_.name()}, 0)) {}
+      framebuffer_(make_framebuffer({color_.name()}, depth_.name())),
+      resolved_color_(make_texture_2d(GL_SRGB8_ALPHA8, width, height)),
+      resolved_(make_framebuffer({resolved_color_.name()}, 0)) {}
 
 void MultisampleTarget::begin() const {
   const GLuint name = framebuffer_.name();

@@ -1,4 +1,4 @@
-// Colours with several samples a pixel, for devices on which that is nearly free. Ids, depth and
+// Colors with several samples a pixel, for devices on which that is nearly free. Ids, depth and
 // everything else that is exact comes from a draw of its own, one sample a pixel (target.h).
 #pragma once
 
@@ -27,10 +27,10 @@ class MultisampleTarget {
  private:
   int width_;
   int height_;
-  Texture colour_;
+  Texture color_;
   Texture depth_;
   Framebuffer framebuffer_;
-  Texture resolved_colour_;
+  Texture resolved_color_;
   Framebuffer resolved_;
   std::vector<std::uint32_t> rgba_;  ///< as read, kept between frames
 };

@@ -1,5 +1,4 @@
-// Who of a scene a camera may see: how detailed they are drawn, and what of them is measured on the
-// CPU.
+// Visible people of a scene: their level of detail, and which measurements are made on the CPU.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +21,8 @@ inline constexpr double kPersonReach = 1.2;
 /// A person who may be in view, and what was measured so far.
 struct Seen {
   PersonDraw draw;
-  /// Else only their umbrella touches the image: they are drawn, but not among the frame's people.
+  /// Else only their umbrella touches the image: they are rendered, but not among the frame's
+  /// people.
   bool is_listed = true;
   PersonInView truth;
   std::optional<std::size_t> tile;  ///< of their silhouette
@@ -34,11 +34,11 @@ class PeopleFinder {
   PeopleFinder(const skinning::Population& population, const QualitySettings& quality);
 
   /// Everybody whose box, or whose umbrella's, touches the image of a pinhole camera, by agent:
-  /// with box, body, level of detail and whether they are drawn with textures. A pure function of
-  /// the arguments.
+  /// with box, body, level of detail and whether they are rendered with textures. A pure function
+  /// of the arguments.
   std::vector<Seen> find(const Scene& scene, const camera::Camera& camera) const;
 
-  /// How somebody is drawn into the shadow map, which shows no more than the coarsest level.
+  /// How somebody is rendered into the shadow map, which shows no more than the coarsest level.
   PersonDraw caster(std::uint32_t person, const PersonInstance& instance) const;
 
  private:

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "render/corner_colours.h"
+#include "render/corner_colors.h"
 
 namespace throng::render {
 
@@ -66,7 +66,7 @@ void pack_skin(const skinning::Vertex& vertex, DeviceVertex& packed) {
   packed.weights = word_of(weights);
 }
 
-/// What the shader knows of a part; `white` is the layer of those without a texture.
+/// Shader data of a part; `white` is the layer of those without a texture.
 std::uint32_t info_of(const skinning::Part& part, bool apart, std::uint32_t white) {
   const auto layer = [](std::int32_t number) { return static_cast<std::uint32_t>(number); };
   const std::uint32_t texture = part.texture < 0 ? white : layer(part.texture);
@@ -101,7 +101,7 @@ class Packer {
   Buffer indices() const { return make_buffer(indices_); }
 
  private:
-  /// Where a vertex is and faces; which of a mesh's it is, where that matters too.
+  /// Position and normal of a vertex; also its index in the mesh, if that matters.
   using Place = std::array<std::uint32_t, 7>;
 
   static Place place_of(const skinning::Vertex& vertex, std::uint32_t own) {
@@ -137,11 +137,11 @@ class Packer {
       if (is_new) vertices_.push_back(packed(vertex, part));
       indices_.push_back(copy->second);
     }
-    if (weld) colour_corners(mesh, part, first);
+    if (weld) color_corners(mesh, part, first);
   }
 
-  /// Colours the vertices from number `first` on, which are those of the part that came last.
-  void colour_corners(const skinning::Mesh& mesh, const skinning::Part& part, std::size_t first) {
+  /// Colors the vertices from number `first` on, which are those of the part that came last.
+  void color_corners(const skinning::Mesh& mesh, const skinning::Part& part, std::size_t first) {
     const std::size_t count = vertices_.size() - first;
     const std::size_t first_index = indices_.size() - part.index_count;
     std::vector<PicturedTriangle> triangles(part.index_count / 3);
@@ -157,8 +157,8 @@ class Packer {
       triangles[t].weight = 0.5F * (at[1] - at[0]).cross(at[2] - at[0]).norm();
     }
     const auto fit = [&](std::int32_t layer) {
-      return corner_colours(population_.textures[static_cast<std::size_t>(layer)],
-                            population_.texture_size, triangles, count);
+      return corner_colors(population_.textures[static_cast<std::size_t>(layer)],
+                           population_.texture_size, triangles, count);
     };
     if (part.texture >= 0) {
       const std::vector<Rgba> base = fit(part.texture);

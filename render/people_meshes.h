@@ -31,17 +31,17 @@ struct PeopleLevel {
   Range alpha_tested;
 };
 
-/// What is packed of each level, by its number.
+/// Packed data of each level, by its number.
 struct Packing {
   std::size_t textured_below = 0;  ///< so many levels with their texture coordinates
-  std::size_t corners_from = 0;    ///< those from here on coloured corner by corner
+  std::size_t corners_from = 0;    ///< those from here on colored corner by corner
 };
 
 struct PeopleMeshes {
   Buffer vertices;
   Buffer indices;
-  /// [character][level]. Of those coloured by their corners, opaque vertices that differ in texture
-  /// coordinates alone are one. What is not packed is empty.
+  /// [character][level]. Of those colored by their corners, opaque vertices that differ in texture
+  /// coordinates alone are one. Levels that are not packed are empty.
   std::vector<std::vector<PeopleLevel>> textured;
   std::vector<std::vector<PeopleLevel>> by_corners;
 };

@@ -17,7 +17,7 @@ namespace throng::render {
 
 namespace {
 
-/// What differs between people.
+/// Per-instance data of people.
 struct Instance {
   std::array<float, 3> position;
   std::uint32_t palette_a;
@@ -30,7 +30,7 @@ struct Instance {
 };
 static_assert(sizeof(Instance) == 60, "less than 64 bytes for each person and frame");
 
-/// What differs between people's motion to the next frame.
+/// Per-instance data of people's motion to the next frame.
 struct NextInstance {
   std::array<float, 3> position;
   std::uint32_t palette_a;
@@ -168,13 +168,13 @@ PeoplePass::PicturePrograms PeoplePass::make_picture_programs(std::string_view w
 void PeoplePass::load_textures(const skinning::Population& population) {
   const int size = std::max(population.texture_size, 1);
   const auto layers = static_cast<GLsizei>(population.textures.size() + 1);
-  GLint most_layers = 0;
-  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
-  if (layers > most_layers) {
+  GLint max_layers = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &max_layers);
+  if (layers > max_layers) {
     throw InputError({"", "people", fmt::format("{} textures", layers - 1),
                       fmt::format("at most {} on this graphics device (run `throng people build` "
                                   "with a lower --count)",
-                                  most_layers - 1)});
+                                  max_layers - 1)});
   }
   textures_ = make_texture(GL_TEXTURE_2D_ARRAY);
   const GLuint name = textures_.name();
@@ -322,8 +322,8 @@ void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
   const std::vector<Batch> batches = upload(people, draws);
   bind(array_);
   if (purpose == Purpose::shadow) {
-    // What faces the sun is counter-clockwise in the map, which is not upside down like the
-    // picture.
+    // Faces toward the sun are counter-clockwise in the map, which is not upside down like the
+    // image.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     glUseProgram(shadow_.name());

@@ -1,4 +1,4 @@
-// Draws people with instanced GPU skinning: for the picture, into the shadow map, or as bare
+// Renders people with instanced GPU skinning: for the image, into the shadow map, or as bare
 // silhouettes.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace throng::render {
 
-/// How a person's colours come about, the costliest first.
+/// How a person's colors come about, the costliest first.
 enum class Shading : std::uint8_t {
   textured,        ///< texture and light for each pixel
   lit_by_corners,  ///< texture for each pixel, light for each corner
@@ -27,9 +27,9 @@ struct PersonDraw {
   std::uint32_t person = 0;  ///< index into the scene's people
   std::uint32_t level = 0;   ///< of detail
   Shading shading = Shading::by_corners;
-  float depth_m = 0;  ///< nearer ones are drawn first
-  /// Pixels right and down: from the picture to the person's silhouette (Purpose::coverage, and
-  /// Purpose::picture with silhouettes).
+  float depth_m = 0;  ///< nearer ones are rendered first
+  /// Pixels right and down: from the image to the person's silhouette (Purpose::coverage, and
+  /// Purpose::image with silhouettes).
   std::array<std::int32_t, 2> shift = kNowhere;
 
   /// Leads out of every atlas.
@@ -44,11 +44,11 @@ class PeoplePass {
   PeoplePass(const skinning::Population& population, const QualitySettings& quality,
              std::string_view words);
 
-  /// With silhouettes a picture's people also leave their whole outlines, hidden or not, in the
+  /// With silhouettes an image's people also leave their whole outlines, hidden or not, in the
   /// image that is bound at unit 0 (render/silhouettes.h).
   enum class Purpose { picture, picture_and_silhouettes, shadow, coverage };
 
-  /// Draws level by level, near to far within a character. The order is a function of `draws`'
+  /// Renders level by level, near to far within a character. The order is a function of `draws`'
   /// values, so equal scenes give equal pixels.
   void draw(Purpose purpose, std::span<const PersonInstance> people, std::vector<PersonDraw> draws);
 
@@ -58,7 +58,7 @@ class PeoplePass {
                      std::span<const PersonInstance> next);
 
  private:
-  /// People drawn by one call.
+  /// People rendered by one call.
   struct Batch {
     const PeopleLevel* level;
     Shading shading;

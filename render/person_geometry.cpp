@@ -201,8 +201,8 @@ Silhouette silhouette(const BodyShape& shape, const skinning::Palette& palette,
 
 namespace {
 
-/// Where a camera shows points of a pinhole's picture of directions (u z, v z, z), in box
-/// coordinates; nothing before the near plane and where the lens's model does not hold.
+/// Projection of directions (u z, v z, z) into box coordinates of a camera; nothing before the near
+/// plane and outside the domain of the lens model.
 std::optional<Eigen::Vector2d> shown_place(const camera::Intrinsics& k, const Eigen::Vector4f& p) {
   if (p.z() < kNear) return std::nullopt;
   std::optional<Eigen::Vector2d> shown =
@@ -211,7 +211,7 @@ std::optional<Eigen::Vector2d> shown_place(const camera::Intrinsics& k, const Ei
   return shown;
 }
 
-/// The last place that is shown on the way from one point, which is, to another, which is not.
+/// The last visible point on the segment from a visible point to one that is not.
 Eigen::Vector2d last_shown(const camera::Intrinsics& k, Eigen::Vector4f from, Eigen::Vector4f to) {
   constexpr int kHalvings = 16;
   for (int i = 0; i < kHalvings; ++i) {

@@ -1,5 +1,5 @@
 // A person's mesh on the CPU: the same skinning and projection as shaders/person.vert.glsl, for the
-// ground truth that is measured rather than drawn.
+// ground truth that is measured rather than rendered.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ inline constexpr float kHipsShare = 0.53F;
 skinning::Palette blended_palette(const skinning::Population& population,
                                   const PersonInstance& person);
 
-/// Where a point on the body's axis, `height_m` above the ground when standing, is carried by a
-/// bone of the posed person (m, world).
+/// Position (m, world) of a point on the body's axis, `height_m` above the ground when standing,
+/// after a bone of the posed person has moved it.
 Eigen::Vector3d posed_point(const skinning::Palette& palette, const PersonInstance& person,
                             skinning::Bone bone, float height_m);
 
@@ -35,7 +35,7 @@ struct SkinPoint {
   std::uint32_t bone_count;
 };
 
-/// What of a person's mesh is theirs, and what is an umbrella.
+/// Split of a person's mesh into the body and the umbrella.
 enum class Share : std::uint8_t { body, umbrella };
 std::vector<skinning::Part> parts_of(const skinning::Character& character,
                                      const skinning::Mesh& mesh, Share share);
@@ -55,7 +55,7 @@ void measure_body(const BodyShape& shape, const skinning::Landmarks& landmarks,
                   const skinning::Palette& palette, const PersonInstance& person,
                   PersonInView& truth);
 
-/// Where a mesh appears in the image.
+/// Image bounds of a mesh.
 struct Silhouette {
   /// Bounds in box coordinates. Parts behind the near plane are cut off; what remains is limited to
   /// three times the image around its middle, where somebody right at the camera would otherwise
@@ -75,7 +75,7 @@ struct Rows {
 /// Bounds in box coordinates of what a camera with any lens shows of these parts of a mesh in these
 /// rows of its image, from their vertices and edges, which end where the lens's model does; limited
 /// like Silhouette::box. Empty if there is nothing. Sets `is_cut` if some of the vertices are
-/// nowhere in the picture.
+/// nowhere in the image.
 Eigen::AlignedBox2d shown_box(const skinning::Mesh& mesh, const std::vector<skinning::Part>& parts,
                               const skinning::Palette& palette, const PersonInstance& person,
                               const camera::Camera& camera, const Rows& rows, bool& is_cut);

@@ -1,4 +1,4 @@
-// What somebody covers of an image with nothing in front, pixel by pixel.
+// Amodal mask of a person: the pixels covered without occluders.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -36,7 +36,7 @@ struct PixelMask {
   }
 };
 
-/// What is set in either.
+/// Union of two masks.
 inline PixelMask union_of(const PixelMask& a, const PixelMask& b) {
   if (a.set.empty()) return b;
   if (b.set.empty()) return a;

@@ -1,4 +1,4 @@
-// What each drawn pixel counts for, where the image that is delivered is not the one that is drawn.
+// Weight of each rendered pixel, if the delivered image is resampled from the rendered one.
 #pragma once
 
 #include <Eigen/Geometry>

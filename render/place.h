@@ -13,7 +13,7 @@ struct PlaceVertex {
   std::array<float, 3> position{};  ///< m
   std::array<float, 3> normal{};
   /// Walls: along the wall, up, wall length, wall height. Roofs: from the corner of the roof's
-  /// bounds, then their size. In metres. Ground: ground_tone_at().
+  /// bounds, then their size. In meters. Ground: ground_tone_at().
   std::array<float, 4> local{};
   float openness = 1;    ///< share of the sky's light that reaches the ground here, 0 to 1
   std::uint32_t id = 0;  ///< what the id buffer gets

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSmallestRoofM2 = 80;
+constexpr double kMinRoofM2 = 80;
 
 /// A vertical rectangle, seen from the side that is to the right of its direction.
 struct Panel {
@@ -117,7 +117,7 @@ double area_m2(const std::vector<Vector2d>& footprint) {
 }
 
 /// The direction of the longest wall.
-Vector2d longest_side(const std::vector<Vector2d>& footprint) {
+Vector2d max_side(const std::vector<Vector2d>& footprint) {
   Vector2d longest = Vector2d::Zero();
   for (std::size_t i = 0; i < footprint.size(); ++i) {
     const Vector2d edge = footprint[(i + 1) % footprint.size()] - footprint[i];
@@ -143,7 +143,7 @@ void add_machines(const world::Building& building, std::uint32_t number, PlaceMe
   Random random(number, Stream::environment, 0x0F00F);
   Eigen::AlignedBox2d bounds;
   for (const Vector2d& corner : building.footprint) bounds.extend(corner);
-  const Vector2d along = longest_side(building.footprint);
+  const Vector2d along = max_side(building.footprint);
   std::vector<Machine> placed;
   for (Machine& machine : wanted_machines(area_m2(building.footprint), random)) {
     const double reach = machine.half.norm();
@@ -176,24 +176,24 @@ std::optional<Panel> door_in(const world::Exit& exit, const Vector2d& from, cons
   double last = (exit.to - from).dot(along);
   if (first > last) std::swap(first, last);
   // A gap beside a building touches its corner only.
-  constexpr double kLeastShare = 0.9;
+  constexpr double kMinShare = 0.9;
   const double low = std::max(first, 0.0);
   const double high = std::min(last, length);
-  if (high - low < kLeastShare * exit.width_m()) return std::nullopt;
+  if (high - low < kMinShare * exit.width_m()) return std::nullopt;
   const Vector2d shift = kInFrontM * normal;
   return Panel{from + low * along + shift,
                from + high * along + shift,
                0,
                0,
                0,
-               exit.open ? WallLook::open_door : WallLook::shut_door};
+               exit.open ? WallLook::open_door : WallLook::closed_door};
 }
 
 }  // namespace
 
 bool has_roof_plant(const world::Building& building) {
-  constexpr double kLowestM = 2.6;  // lower ones are walls, pedestals and the like
-  return building.height_m >= kLowestM && area_m2(building.footprint) >= kSmallestRoofM2;
+  constexpr double kMinHeightM = 2.6;  // lower ones are walls, pedestals and the like
+  return building.height_m >= kMinHeightM && area_m2(building.footprint) >= kMinRoofM2;
 }
 
 void add_exit_doors(const world::Scenario& scenario, PlaceMesh& mesh) {

@@ -54,7 +54,7 @@ bool is_baked(std::string_view material) {
   return material != "kerb" && material != "paint" && material != kPlain;
 }
 
-/// Mean colours of facades and roofs, in the words of a ground.
+/// Mean colors of facades and roofs, in the words of a ground.
 constexpr std::string_view kWallAlbedo =
     "vec3 ground_albedo(vec2 p, vec2 width) { return vec3(0.41, 0.36, 0.30); }\n";
 constexpr std::string_view kRoofAlbedo =

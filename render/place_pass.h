@@ -1,4 +1,4 @@
-// Draws ground and buildings.
+// Renders ground and buildings.
 #pragma once
 
 #include <map>
@@ -28,7 +28,7 @@ class PlacePass {
   void draw_shadow() const;
 
  private:
-  /// What a material's triangles are drawn with; drafts, kerbs and paint need no texture.
+  /// Shader and texture of a material; drafts, kerbs and paint need no texture.
   struct Look {
     Program program;
     Texture texture;

@@ -1,4 +1,4 @@
-// Draws trees, benches, lamp posts, cars and the like, the meshes of users, and rubble.
+// Renders trees, benches, lamp posts, cars and the like, the meshes of users, and rubble.
 #pragma once
 
 #include <Eigen/Core>

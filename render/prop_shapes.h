@@ -1,5 +1,4 @@
-// Procedural shapes of the things that stand about: few triangles, drawn to be seen from 15 to 60
-// m.
+// Procedural shapes of props: few triangles, designed for distances of 15 to 60 m.
 #pragma once
 
 #include <array>

@@ -31,7 +31,7 @@ namespace throng::render {
 
 namespace {
 
-/// Whole pixels that a box touches, and one more on each side for the rasteriser's rounding.
+/// Whole pixels that a box touches, and one more on each side for the rasterizer's rounding.
 Eigen::AlignedBox2i pixels_of(const Eigen::AlignedBox2d& box) {
   return {box.min().array().floor().cast<int>() - 1, box.max().array().ceil().cast<int>() + 1};
 }
@@ -49,7 +49,7 @@ void add_visible(const Frame& frame, std::uint32_t agent, PixelMask& mask) {
   }
 }
 
-/// What the pixels [min, max) that show a person count for.
+/// Weight of the pixels [min, max) that show a person.
 std::uint64_t visible_in(const Frame& frame, std::uint32_t agent, const Eigen::AlignedBox2i& pixels,
                          const PixelWeights* weights) {
   const Eigen::AlignedBox2i image(Eigen::Vector2i::Zero(),
@@ -82,7 +82,7 @@ camera::Camera scaled(const camera::Camera& camera, int times) {
   k.height *= times;
   k.fx_px *= times;
   k.fy_px *= times;
-  // Pixel centres are whole numbers: the image begins half a pixel before the first.
+  // Pixel centers are whole numbers: the image begins half a pixel before the first.
   k.cx_px = (k.cx_px + 0.5) * times - 0.5;
   k.cy_px = (k.cy_px + 0.5) * times - 0.5;
   return fine;
@@ -149,7 +149,7 @@ struct Renderer::State {
   Buffer next_view_buffer;
   Buffer light_buffer;
   std::optional<Target> target;
-  /// For colour alone, when a pixel has several samples of it.
+  /// For color alone, when a pixel has several samples of it.
   std::optional<Target> fine_target;
   std::optional<MultisampleTarget> multisample_target;
   std::optional<SurfaceTarget> surface_target;
@@ -242,7 +242,7 @@ void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& cam
   const Eigen::AlignedBox2d area =
       shadow_area(clip_planes(camera), ground, tallest, shadow_slope(daylight));
   const LightBlock light =
-      light_block(daylight, {area, ground, tallest, camera.pose.centre(), scene.time_s});
+      light_block(daylight, {area, ground, tallest, camera.pose.center(), scene.time_s});
   glNamedBufferData(light_buffer.name(), sizeof(light), &light, GL_STREAM_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 1, light_buffer.name());
   glEnable(GL_DEPTH_TEST);
@@ -259,7 +259,7 @@ void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& cam
   lap("draw");
 }
 
-/// Colours that have several samples a pixel, drawn for their own sake.
+/// Colors that have several samples a pixel, rendered for their own sake.
 void Renderer::State::draw_smooth(const Scene& scene, const camera::Camera& camera,
                                   const std::vector<Seen>& seen, Frame& frame) {
   if (quality.supersampling > 1) {
@@ -372,7 +372,7 @@ Renderer::~Renderer() = default;
 
 Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next,
                      const DrawChoice& choice) {
-  check(!camera.intrinsics.distortion, "a renderer draws pinhole cameras");
+  check(!camera.intrinsics.distortion, "a renderer renders pinhole cameras");
   State& state = *state_;
   state.context.make_current();
   Frame frame = std::move(state.spare);

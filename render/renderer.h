@@ -1,4 +1,4 @@
-// Draws a scenario and its people with OpenGL through EGL, without a window.
+// Renders a scenario and its people with OpenGL through EGL, without a window.
 #pragma once
 
 #include <memory>
@@ -19,13 +19,13 @@
 
 namespace throng::render {
 
-/// Which GL device draws: "auto" (an NVIDIA GPU if there is one, else software), "gpu",
+/// The GL device for rendering: "auto" (an NVIDIA GPU if there is one, else software), "gpu",
 /// "software".
 struct DeviceChoice {
   std::string name = "auto";
 };
 
-/// What is drawn beside the scene itself.
+/// Ground truth to render beside the scene itself.
 struct RenderOptions {
   Quality quality = Quality::standard;
   bool normals = false;      ///< fill Frame::normal
@@ -33,13 +33,13 @@ struct RenderOptions {
   bool parts = false;        ///< fill Frame::part
   bool whole_masks = false;  ///< fill PersonInView::whole_mask
   /// How edges are smoothed: by several samples a pixel, or afterwards. Nothing: as QualitySettings
-  /// says, so this is for tests and comparisons.
+  /// determines, so this is for tests and comparisons.
   std::optional<bool> multisample = std::nullopt;
-  /// Told where the time goes, if given; drawing is then waited for at the end of every stage.
+  /// Receives the profile, if given; rendering is then waited for at the end of every stage.
   StageClock* clock = nullptr;
 };
 
-/// One person as drawn: where, which body, which pose.
+/// One person as rendered: where, which body, which pose.
 struct PersonInstance {
   std::uint32_t agent = 0;
   Eigen::Vector3f position = Eigen::Vector3f::Zero();
@@ -65,7 +65,7 @@ struct NextFrame {
   camera::Camera camera;
 };
 
-/// What else a draw is to do, or not.
+/// Options of a draw.
 struct DrawChoice {
   const PixelWeights* weights = nullptr;  ///< what people's areas are counted in; nothing: pixels
   bool truth = true;  ///< else people's areas are 0 and there are no normals, flow or parts
@@ -83,8 +83,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Colour, id, depth and the people's ground truth, all from one draw of one instant. The camera
-  /// is a pinhole; Lens (render/lens.h) draws all cameras. `next` serves the flow only.
+  /// Color, id, depth and the people's ground truth, all from one draw of one instant. The camera
+  /// is a pinhole; Lens (render/lens.h) renders all cameras. `next` serves the flow only.
   Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr,
              const DrawChoice& choice = {});
 

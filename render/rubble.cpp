@@ -41,11 +41,12 @@ std::vector<RubblePiece> rubble_of(const world::Disaster& disaster, std::uint32_
   std::vector<RubblePiece> pieces;
   if (disaster.kind != world::DisasterKind::collapse) return pieces;
   constexpr double kPerM2 = 0.8;
-  constexpr double kMostPieces = 300;
-  const double reach_m =
-      disaster.growth_mps > 0 ? std::max(disaster.radius_m, disaster.most_m) : disaster.radius_m;
+  constexpr double kMaxPieces = 300;
+  const double reach_m = disaster.growth_mps > 0
+                             ? std::max(disaster.radius_m, disaster.max_radius_m)
+                             : disaster.radius_m;
   const auto count = static_cast<std::uint64_t>(
-      std::clamp(kPerM2 * std::numbers::pi * reach_m * reach_m, 1.0, kMostPieces));
+      std::clamp(kPerM2 * std::numbers::pi * reach_m * reach_m, 1.0, kMaxPieces));
   for (std::uint64_t i = 0; i < count; ++i) {
     Random random(static_cast<std::uint64_t>(disaster.agent), Stream::environment, kRubble + i);
     // More of it in the middle than evenly spread.

@@ -1,4 +1,4 @@
-// What a collapse leaves on the ground.
+// Rubble of a collapse on the ground.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct RubblePiece {
 };
 
 /// The pieces of a collapse, with `id` for the id buffer: as far as it comes to reach, higher
-/// towards its middle, each from when it has reached it. Nothing for other disasters.
+/// toward its middle, each from when it has reached it. Nothing for other disasters.
 std::vector<RubblePiece> rubble_of(const world::Disaster& disaster, std::uint32_t id);
 
 }  // namespace throng::render

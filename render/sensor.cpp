@@ -98,8 +98,8 @@ Eigen::Vector3d white(double temperature_k) {
   Eigen::Matrix3d rgb_of_xyz;
   rgb_of_xyz << 3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570;
   // Below some 1900 K, blue is outside of what sRGB shows.
-  constexpr double kLeast = 0.02;
-  return (rgb_of_xyz * xyz).cwiseMax(kLeast);
+  constexpr double kMinGain = 0.02;
+  return (rgb_of_xyz * xyz).cwiseMax(kMinGain);
 }
 
 /// Share of light that falls on each pixel of a row.

@@ -1,5 +1,4 @@
-// What a sensor and its electronics make of a picture: exposure, white balance, vignetting, noise.
-// Only colours change.
+// Model of an image sensor: exposure, white balance, vignetting, noise. Only colors change.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +15,7 @@ namespace throng::render {
 /// 7024034, cubic splines), in linear sRGB. From 1667 K to 25000 K.
 Eigen::Vector3d white_balance_gains(double temperature_k);
 
-/// Changes the frame's colours, in linear light. The noise, of photons (its variance is the light
+/// Changes the frame's colors, in linear light. The noise, of photons (its variance is the light
 /// in electrons) and of reading, is independent in all pixels and channels and a function of `seed`
 /// only.
 void apply_sensor(const Sensor& sensor, std::uint64_t seed, Frame& frame);

@@ -7,7 +7,7 @@ namespace throng::render {
 
 class ShadowMap {
  public:
-  /// `texels` along each side; 0 makes a map in which everything is lit, not to be drawn into.
+  /// `texels` along each side; 0 makes a map in which everything is lit, not to be rendered into.
   explicit ShadowMap(int texels);
 
   /// Binds it for drawing, empty.

@@ -11,7 +11,7 @@ class Shelves {
  public:
   explicit Shelves(const Eigen::Vector2i& size) : size_(size) {}
 
-  /// Where a rectangle lies; nothing when the room is used up. Others may still fit.
+  /// Position of a rectangle; nothing when the space is used up. Others may still fit.
   std::optional<Eigen::Vector2i> place(const Eigen::Vector2i& size);
 
   /// Rows that hold something.

@@ -7,7 +7,7 @@ namespace throng::render {
 
 namespace {
 
-/// Along each side. Whoever finds no room is measured by CoverageCounter.
+/// Along each side. People that do not fit are measured by CoverageCounter.
 constexpr int kSilhouetteAtlas = 4096;
 constexpr std::uint8_t kCovered = 255;
 

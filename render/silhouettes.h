@@ -1,4 +1,4 @@
-// Whole outlines of the people in a picture, left behind by the picture's own draw: every fragment
+// Whole outlines of the people in an image, left behind by the image's own draw: every fragment
 // of a person, hidden or not, marks its pixel in that person's tile of an atlas. So what they cover
 // with nothing in front is exact, and contains what is visible.
 #pragma once
@@ -23,7 +23,7 @@ class Silhouettes {
   /// Forgets all tiles.
   void begin();
 
-  /// A tile for the image pixels [min, max); gives the way (pixels) from the image to it, or
+  /// A tile for the image pixels [min, max); returns the offset (pixels) from the image to it, or
   /// nothing when the atlas is full.
   std::optional<Eigen::Vector2i> add(const Eigen::AlignedBox2i& pixels);
 
@@ -33,7 +33,7 @@ class Silhouettes {
   /// Fetches what the draw left.
   void read();
 
-  /// Covered pixels of the `tile`-th one that was added, counted as `weights` say or once each.
+  /// Covered pixels of the `tile`-th one that was added, weighted by `weights`, or once each.
   std::uint64_t count(std::size_t tile, const PixelWeights* weights) const;
 
   /// The same pixels themselves.

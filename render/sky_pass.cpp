@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "render/colour_only.h"
+#include "render/color_only.h"
 #include "render/lighting.h"
 #include "render/shaders.h"
 #include "render/view.h"
@@ -18,13 +18,13 @@ namespace {
 bool sees_sky(const camera::Camera& camera) {
   constexpr double kPlainM = 2000;
   const camera::Intrinsics& k = camera.intrinsics;
-  const Eigen::Vector3d centre = camera.pose.centre();
+  const Eigen::Vector3d center = camera.pose.center();
   const std::array<Eigen::Vector2d, 4> corners = {
       Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(k.width - 0.5, -0.5),
       Eigen::Vector2d(-0.5, k.height - 0.5), Eigen::Vector2d(k.width - 0.5, k.height - 0.5)};
   return std::any_of(corners.begin(), corners.end(), [&](const Eigen::Vector2d& corner) {
-    const Eigen::Vector3d ray = camera.unproject(corner, 1.0) - centre;
-    return ray.z() > -centre.z() / kPlainM * ray.head<2>().norm();
+    const Eigen::Vector3d ray = camera.unproject(corner, 1.0) - center;
+    return ray.z() > -center.z() / kPlainM * ray.head<2>().norm();
   });
 }
 
@@ -47,7 +47,7 @@ SkyPass::SkyPass(const Environment& environment)
 
 void SkyPass::draw_sky(const camera::Camera& camera) const {
   if (!sees_sky(camera)) return;
-  const ColourOnly guard;
+  const ColorOnly guard;
   glDepthFunc(GL_GEQUAL);
   glBindVertexArray(nothing_.name());
   glUseProgram(sky_.name());
@@ -57,7 +57,7 @@ void SkyPass::draw_sky(const camera::Camera& camera) const {
 
 void SkyPass::draw_rain(const camera::Camera& camera, std::int64_t frame) const {
   if (environment_.weather != Weather::rain || environment_.rain_mm_per_h <= 0) return;
-  const ColourOnly guard;
+  const ColorOnly guard;
   glBindVertexArray(nothing_.name());
   glUseProgram(rain_.name());
   Random random(environment_.seed, Stream::environment, static_cast<std::uint64_t>(frame));

@@ -1,4 +1,4 @@
-// Draws the sky where nothing else is, and rain between the camera and everything.
+// Renders the sky where nothing else is, and rain between the camera and everything.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ class SkyPass {
   explicit SkyPass(const Environment& environment);
 
   /// Fills what is infinitely far. Expects the View and Light blocks and the target to be bound;
-  /// touches the colour only.
+  /// touches the color only.
   void draw_sky(const camera::Camera& camera) const;
 
   /// Drops as the streaks that they leave in 1/60 s. `frame` decides where they fall. Does nothing
-  /// unless it rains; touches the colour only.
+  /// unless it rains; touches the color only.
   void draw_rain(const camera::Camera& camera, std::int64_t frame) const;
 
  private:

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/random.h"
-#include "render/colour_only.h"
+#include "render/color_only.h"
 #include "render/lighting.h"
 #include "render/shaders.h"
 #include "render/view.h"
@@ -65,7 +65,7 @@ SmokePass::Source SmokePass::source_of(const world::Disaster& disaster, double t
   return source;
 }
 
-// Every puff rises, widens and thins out over kLifeS, and then begins anew.
+// Every puff rises, widens and thins out over kLifeS, and then starts again.
 void SmokePass::add_puffs(const Source& source, std::size_t number, double time_s,
                           const camera::Camera& camera) {
   Random wind(environment_.seed, Stream::environment, kSmoke);
@@ -105,7 +105,7 @@ void SmokePass::add_puffs(const Source& source, std::size_t number, double time_
 
 void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, double time_s,
                            const camera::Camera& camera) {
-  constexpr std::uint64_t kMost = 60;
+  constexpr std::uint64_t kMaxPuffs = 60;
   constexpr double kFlameS = 1.1;
   constexpr double kFireballS = 4;
   const double since_s = time_s - disaster.start_s;
@@ -114,8 +114,8 @@ void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, 
   if (!explodes && disaster.kind != world::DisasterKind::fire) return;
   const double reach_m = 0.6 * disaster.reach_m(time_s);
   const double fades = explodes ? 1 - since_s / kFireballS : 1;
-  for (std::uint64_t i = 0; i < kMost; ++i) {
-    Random random(environment_.seed, Stream::environment, kFlames + kMost * number + i);
+  for (std::uint64_t i = 0; i < kMaxPuffs; ++i) {
+    Random random(environment_.seed, Stream::environment, kFlames + kMaxPuffs * number + i);
     const double whole = time_s / kFlameS + random.uniform();
     const double share = whole - std::floor(whole);
     const double angle = random.uniform(0, 2 * std::numbers::pi);
@@ -152,7 +152,7 @@ void SmokePass::draw(const Scene& scene, const camera::Camera& camera) {
   if (puffs_.empty()) return;
   glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(puffs_.size() * sizeof(Puff)),
                     puffs_.data(), GL_STREAM_DRAW);
-  const ColourOnly guard;
+  const ColorOnly guard;
   glBindVertexArray(array_.name());
   glUseProgram(program_.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(puffs_.size()));

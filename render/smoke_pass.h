@@ -17,8 +17,8 @@ class SmokePass {
   /// dangers and all the time.
   SmokePass(const Environment& environment, std::vector<world::Disaster> disasters);
 
-  /// Changes the colours alone: nobody's outline or depth. Expects the View and Light blocks and
-  /// the target to be bound and everything solid to be drawn. Does nothing without smoke.
+  /// Changes the colors alone: nobody's outline or depth. Expects the View and Light blocks and
+  /// the target to be bound and everything solid to be rendered. Does nothing without smoke.
   void draw(const Scene& scene, const camera::Camera& camera);
 
  private:
@@ -30,7 +30,7 @@ class SmokePass {
     std::array<float, 4> look{};
     float depth_m = 0;  ///< of the camera
   };
-  /// What the puffs of one danger have in common.
+  /// Shared properties of the puffs of one hazard.
   struct Source {
     Eigen::Vector2d place;
     double age_s = 0;        ///< older puffs have not been

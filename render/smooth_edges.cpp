@@ -10,7 +10,7 @@ namespace throng::render {
 
 namespace {
 
-/// How a pixel's colour changes.
+/// How a pixel's color changes.
 struct Change {
   std::size_t pixel;
   std::array<std::int16_t, 3> by;
@@ -27,7 +27,7 @@ struct Border {
   bool ends_at_rim;
 };
 
-/// Collects what borders do to the picture; all from the colours as they were drawn.
+/// Collects what borders do to the image; all from the colors as they were rendered.
 class Smoother {
  public:
   explicit Smoother(Frame& frame) : frame_(frame) {}
@@ -55,7 +55,7 @@ class Smoother {
   }
 
  private:
-  /// Where the border goes on beyond its i-th pixel: half a pixel towards the near side, the far
+  /// Direction of the border beyond its i-th pixel: half a pixel toward the near side, the far
   /// side (negative), or straight.
   double step(const Border& border, int i, std::ptrdiff_t beyond) const {
     const std::size_t near = border.first + static_cast<std::size_t>(i * border.along);
@@ -140,7 +140,7 @@ class ColumnBorders {
       if (top != kNone && (above[x] != row[x] || above[x + 1] != row[x + 1])) close(x, y);
       if (top == kNone) top = y;
     }
-    // Whoever was open and is not here has ended.
+    // Open segments that are missing here have ended.
     auto still = here_.begin();
     for (const int x : open_) {
       while (still != here_.end() && *still < x) ++still;

@@ -1,5 +1,5 @@
-// What is drawn of people beyond the picture: normals, flow and body parts, where the picture's
-// depth buffer shows them.
+// Render target of people's normals, flow and body parts, where the color pass's depth buffer shows
+// them.
 #pragma once
 
 #include <vector>
@@ -11,16 +11,16 @@ namespace throng::render {
 
 class SurfaceTarget {
  public:
-  /// `depth` is the picture's depth texture, of this size. Throws EnvironmentError when the device
+  /// `depth` is the image's depth texture, of this size. Throws EnvironmentError when the device
   /// cannot make the buffers.
   SurfaceTarget(int width, int height, GLuint depth);
 
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Binds it for drawing, empty; only what has exactly the depth that is there is drawn.
+  /// Binds it for drawing, empty; only what has exactly the depth that is there is rendered.
   void begin() const;
-  /// Ends that way of testing depth.
+  /// Ends that mode of depth testing.
   void end() const;
 
   /// Fills the frame's normal, flow and part for people; elsewhere they are 0, NaN and none.

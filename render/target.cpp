@@ -23,23 +23,23 @@ int size_within_limits(int width, int height) {
   const int limit = std::min({texture, viewport[0] - 2 * kGuardBand, viewport[1] - 2 * kGuardBand});
   if (std::min(width, height) < 1 || std::max(width, height) > limit) {
     throw EnvironmentError(
-        fmt::format("cannot draw an image of {} x {} pixels: this device draws up to {} x {}",
+        fmt::format("cannot render an image of {} x {} pixels: this device supports up to {} x {}",
                     width, height, limit, limit));
   }
   return width;
 }
 
-/// Between sRGB values and light: pictures are averaged in the latter, as a lens does.
+/// Between sRGB values and light: images are averaged in the latter, as a lens does.
 class LightTable {
  public:
   LightTable() {
     for (std::size_t i = 0; i < light_.size(); ++i) {
       light_[i] = static_cast<std::uint32_t>(
-          std::lround(kMost * std::pow(static_cast<double>(i) / 255, kGamma)));
+          std::lround(kMaxCode * std::pow(static_cast<double>(i) / 255, kGamma)));
     }
     for (std::size_t i = 0; i < value_.size(); ++i) {
       value_[i] = static_cast<std::uint8_t>(
-          std::lround(255 * std::pow(static_cast<double>(i) / kMost, 1 / kGamma)));
+          std::lround(255 * std::pow(static_cast<double>(i) / kMaxCode, 1 / kGamma)));
     }
   }
   std::uint32_t light(std::uint32_t value) const { return light_[value]; }
@@ -47,9 +47,9 @@ class LightTable {
 
  private:
   static constexpr double kGamma = 2.2;
-  static constexpr std::uint32_t kMost = 4095;
+  static constexpr std::uint32_t kMaxCode = 4095;
   std::array<std::uint32_t, 256> light_{};
-  std::array<std::uint8_t, kMost + 1> value_{};
+  std::array<std::uint8_t, kMaxCode + 1> value_{};
 };
 
 }  // namespace
@@ -57,11 +57,11 @@ class LightTable {
 Target::Target(int width, int height)
     : width_(size_within_limits(width, height)),
       height_(height),
-      colour_(make_texture_2d(GL_RGBA8, width, height)),
+      color_(make_texture_2d(GL_RGBA8, width, height)),
       id_(make_texture_2d(GL_R32UI, width, height)),
       depth_(make_texture_2d(GL_DEPTH_COMPONENT32F, width, height)) {
   check_gl("making the image buffers");
-  framebuffer_ = make_framebuffer({colour_.name(), id_.name()}, depth_.name());
+  framebuffer_ = make_framebuffer({color_.name(), id_.name()}, depth_.name());
 }
 
 void Target::begin(const Eigen::Vector3f& sky) const {
@@ -69,20 +69,20 @@ void Target::begin(const Eigen::Vector3f& sky) const {
   glBindFramebuffer(GL_FRAMEBUFFER, name);
   const Viewport viewport = guarded_viewport(width_, height_);
   glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  const std::array<float, 4> colour = {sky.x(), sky.y(), sky.z(), 1.0F};
+  const std::array<float, 4> color = {sky.x(), sky.y(), sky.z(), 1.0F};
   const std::array<GLuint, 4> nothing = {kIdNothing, 0, 0, 0};
   const float infinitely_far = 0.0F;
-  glClearNamedFramebufferfv(name, GL_COLOR, 0, colour.data());
+  glClearNamedFramebufferfv(name, GL_COLOR, 0, color.data());
   glClearNamedFramebufferuiv(name, GL_COLOR, 1, nothing.data());
   glClearNamedFramebufferfv(name, GL_DEPTH, 0, &infinitely_far);
 }
 
-void Target::read(bool colour, Frame& frame) {
+void Target::read(bool color, Frame& frame) {
   const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   frame.id.resize(pixels);
   frame.depth_m.resize(pixels);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-  if (colour) {
+  if (color) {
     rgba_.resize(pixels);
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
@@ -91,7 +91,7 @@ void Target::read(bool colour, Frame& frame) {
   glReadBuffer(GL_COLOR_ATTACHMENT1);
   glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, frame.id.data());
   glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, frame.depth_m.data());
-  // Depth is stored as kNear / z, 0 where nothing was drawn: that becomes infinity here.
+  // Depth is stored as kNear / z, 0 where nothing was rendered: that becomes infinity here.
   for (float& depth : frame.depth_m) depth = kNear / depth;
 }
 
@@ -125,13 +125,13 @@ void Target::read_light(int samples, Frame& frame) {
 void pack_rgb(const std::vector<std::uint32_t>& rgba, std::vector<std::uint8_t>& rgb) {
   // Four pixels at a time are three words.
   static_assert(std::endian::native == std::endian::little);
-  constexpr std::uint32_t kColour = 0xFFFFFFU;
+  constexpr std::uint32_t kColor = 0xFFFFFFU;
   rgb.resize(rgba.size() * 3);
   std::size_t i = 0;
   for (; i + 4 <= rgba.size(); i += 4) {
-    const std::uint32_t a = rgba[i] & kColour;
-    const std::uint32_t b = rgba[i + 1] & kColour;
-    const std::uint32_t c = rgba[i + 2] & kColour;
+    const std::uint32_t a = rgba[i] & kColor;
+    const std::uint32_t b = rgba[i + 1] & kColor;
+    const std::uint32_t c = rgba[i + 2] & kColor;
     const std::uint32_t d = rgba[i + 3];
     const std::array<std::uint32_t, 3> words = {a | (b << 24U), (b >> 8U) | (c << 16U),
                                                 (c >> 16U) | (d << 8U)};

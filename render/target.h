@@ -1,4 +1,4 @@
-// What the camera's draw writes: colour, instance id and depth, and how they come back.
+// Render target of the camera: color, instance id and depth, and how they come back.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ class Target {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Binds it for drawing, with colour = `sky`, ids kIdNothing and depth infinite.
+  /// Binds it for drawing, with color = `sky`, ids kIdNothing and depth infinite.
   void begin(const Eigen::Vector3f& sky) const;
 
   /// Fills the frame's id and depth_m, and its rgb if `colour` is wanted.
-  void read(bool colour, Frame& frame);
+  void read(bool color, Frame& frame);
 
   /// Fills the frame's rgb alone, which is smaller by `samples` along each side: each pixel is the
   /// mean of its light.
@@ -32,7 +32,7 @@ class Target {
  private:
   int width_;
   int height_;
-  Texture colour_;
+  Texture color_;
   Texture id_;
   Texture depth_;
   Framebuffer framebuffer_;

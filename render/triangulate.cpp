@@ -41,7 +41,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Eigen::V
   while (left.size() >= 3) {
     std::size_t cut = 0;
     while (cut < left.size() && !is_ear(polygon, left, cut)) ++cut;
-    // What is left without an ear has no area (corners on one line): any cut will do.
+    // A remainder without an ear has no area (collinear corners): any cut is valid.
     if (cut == left.size()) cut = 0;
     triangles.push_back(
         {left[(cut + left.size() - 1) % left.size()], left[cut], left[(cut + 1) % left.size()]});

@@ -42,7 +42,7 @@ ViewBlock view_block(const camera::Camera& camera, const Viewport& viewport) {
   block.right = four(camera.pose.R.row(0));
   block.down = four(camera.pose.R.row(1));
   block.forward = four(camera.pose.R.row(2));
-  block.centre = four(camera.pose.centre());
+  block.center = four(camera.pose.center());
   // OpenCV counts from the middle of the first pixel, GL from its corner.
   block.focal = {static_cast<float>(k.fx_px), static_cast<float>(k.fy_px),
                  static_cast<float>(k.cx_px + 0.5), static_cast<float>(k.cy_px + 0.5)};
@@ -71,9 +71,9 @@ ClipPlanes clip_planes(const camera::Camera& camera) {
   return planes;
 }
 
-bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& centre, double radius_m) {
+bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& center, double radius_m) {
   return std::any_of(planes.begin(), planes.end(), [&](const Eigen::Vector4d& plane) {
-    return plane.head<3>().dot(centre) + plane.w() < -radius_m;
+    return plane.head<3>().dot(center) + plane.w() < -radius_m;
   });
 }
 

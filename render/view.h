@@ -12,10 +12,10 @@
 
 namespace throng::render {
 
-/// Nothing closer to the camera plane is drawn (m); also in shaders/view.glsl.
+/// Nothing closer to the camera plane is rendered (m); also in shaders/view.glsl.
 inline constexpr float kNear = 0.1F;
 
-/// Pixels around the image in which triangles are rasterised rather than clipped.
+/// Pixels around the image in which triangles are rasterized rather than clipped.
 inline constexpr int kGuardBand = 1024;
 
 /// A window of image pixels as GL's viewport sees it.
@@ -34,7 +34,7 @@ struct ViewBlock {
   std::array<float, 4> right{};
   std::array<float, 4> down{};
   std::array<float, 4> forward{};
-  std::array<float, 4> centre{};
+  std::array<float, 4> center{};
   std::array<float, 4> focal{};
   std::array<float, 4> viewport{};
 };
@@ -47,7 +47,7 @@ using ClipPlanes = std::array<Eigen::Vector4d, 5>;
 ClipPlanes clip_planes(const camera::Camera& camera);
 
 /// Whether a sphere is wholly outside one of the planes.
-bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& centre, double radius_m);
+bool is_outside(const ClipPlanes& planes, const Eigen::Vector3d& center, double radius_m);
 
 /// Bounds (m) of the part of the horizontal rectangle `area` at height z that the camera sees;
 /// empty if it sees none of it.

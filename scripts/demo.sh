@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The main job from nothing: installs, builds, starts a server on a free loopback port, submits
-# scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows what is in it.
+# scenarios/city_square/demo.job.json over HTTP, downloads the archive and shows its contents.
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 "$root/scripts/setup.sh"

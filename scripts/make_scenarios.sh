@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the scenarios of the library anew from their blueprints (scenarios/*/*.place.json).
-# usage: scripts/make_scenarios.sh [THRONG]
+# Regenerates the scenarios of the library from their blueprints (scenarios/*/*.place.json). usage:
+# scripts/make_scenarios.sh [THRONG]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 throng="${1:-build/release/cli/throng}"

@@ -3,7 +3,7 @@
 
 usage: scripts/make_stadium.py    (writes scenarios/stadium_exit/stadium.obj and stadium.mtl)
 
-World coordinates are x east, y north, z up, in metres; the file's are y up. What people walk around is in
+World coordinates are x east, y north, z up, in meters; the file's are y up. The crowd's obstacles are in
 everyday.place.json and must agree with SOUTH_BLOCKS.
 """
 import math
@@ -42,8 +42,8 @@ class Mesh:
             lines.append(f"usemtl {material}")
             lines += ["f " + " ".join(map(str, face)) for face in faces]
         (folder / f"{name}.obj").write_text("\n".join(lines) + "\n")
-        colours = [f"newmtl {m}\nKd {r} {g} {b}" for m, (r, g, b) in MATERIALS.items() if m in self.faces]
-        (folder / f"{name}.mtl").write_text("\n".join(colours) + "\n")
+        colors = [f"newmtl {m}\nKd {r} {g} {b}" for m, (r, g, b) in MATERIALS.items() if m in self.faces]
+        (folder / f"{name}.mtl").write_text("\n".join(colors) + "\n")
 
 
 def stand(mesh, place, length_m, rows, front_m=1.0, rise_m=0.36, depth_m=0.9, light=lambda along, row: False):
@@ -57,16 +57,16 @@ def stand(mesh, place, length_m, rows, front_m=1.0, rise_m=0.36, depth_m=0.9, li
             start = section * length_m / sections + aisle_m / 2
             end = (section + 1) * length_m / sections - aisle_m / 2
             cells = max(1, round((end - start) / seats_m / 2))
-            begun, colour = start, None
-            for cell in range(cells + 1):  # neighbours of the same colour are one box
+            begun, color = start, None
+            for cell in range(cells + 1):  # neighbors of the same color are one box
                 along = start + cell * (end - start) / cells
                 now = None if cell == cells else ("seat_light" if light(along, row) else "seat")
-                if now == colour:
+                if now == color:
                     continue
-                if colour:
-                    mesh.box(colour, (begun, back + 0.42, top + 0.2), (along, back + 0.84, top + 0.42), place)
-                    mesh.box(colour, (begun, back + 0.78, top + 0.42), (along, back + 0.86, top + 0.78), place)
-                begun, colour = along, now
+                if color:
+                    mesh.box(color, (begun, back + 0.42, top + 0.2), (along, back + 0.84, top + 0.42), place)
+                    mesh.box(color, (begun, back + 0.78, top + 0.42), (along, back + 0.86, top + 0.78), place)
+                begun, color = along, now
     depth, height = rows * depth_m, front_m + rows * rise_m
     mesh.box("wall", (0, depth - 0.02, 0), (length_m, depth + 0.25, height + 0.9), place)
     for along in (0, length_m - 0.2):  # what closes a stand to its sides, up to the rows

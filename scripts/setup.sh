@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what throng needs, builds it and bakes its people. Quick when nothing has changed.
+# Installs what throng needs, builds it and the character library. Quick when nothing has changed.
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 mkdir -p "$root/build"

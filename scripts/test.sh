@@ -19,6 +19,7 @@ step_format() {
     return 1
   fi
   bash -n scripts/*.sh .ci/run
+  /usr/bin/python3 scripts/check_language.py
   /usr/bin/python3 python/generate_types.py --check
   mypy --strict --cache-dir build/mypy python/throng python/generate_types.py
 }
@@ -61,8 +62,8 @@ step_tsan() {
   TSAN_OPTIONS="suppressions=$root/tests/tsan.supp" ctest --preset tsan -j2 -L '^(base|crowd|jobs_queue|server)$'
 }
 
-# Half a minute of new inputs each on top of the corpus, with the sanitizers' build. What it finds stays in build/fuzz;
-# make it a file of tests/fuzz/corpus once it is mended. The time limit is generous, since both cores are busy.
+# Half a minute of new inputs each on top of the corpus, with the sanitizers' build. Findings stay in build/fuzz; make them
+# files of tests/fuzz/corpus once they are fixed. The time limit is generous, since both cores are busy.
 step_fuzz() {
   say "fuzzing the files' readers (AddressSanitizer, UndefinedBehaviorSanitizer)"
   build asan throng_fuzz

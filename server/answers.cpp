@@ -26,15 +26,15 @@ json parsed_or(const std::string& text, json otherwise) {
   return text.empty() ? std::move(otherwise) : parse_own_json(text, "a row of the store");
 }
 
-// Where the job is: the stage of its least advanced run, but simulating once any run is. Runs that
-// have failed hold nothing up.
+// Stage of a job: that of its least advanced run, but simulating once any run is. Runs that have
+// failed hold nothing up.
 jobs::Stage stage_of(const jobs::JobProgress& progress) {
-  jobs::Stage least = jobs::Stage::failed;
+  jobs::Stage min_value = jobs::Stage::failed;
   for (const jobs::RunProgress& run : progress.runs) {
     if (run.stage == jobs::Stage::simulating) return run.stage;
-    least = std::min(least, run.stage);
+    min_value = std::min(min_value, run.stage);
   }
-  return least;
+  return min_value;
 }
 
 json with_pace(json value, const jobs::Pace& pace) {
@@ -43,7 +43,7 @@ json with_pace(json value, const jobs::Pace& pace) {
   return value;
 }
 
-/// What all that is queued has.
+/// Fields of everything that is queued.
 json row_json(const jobs::JobRow& row, const Retention& retention) {
   return {{"id", row.id},
           {"name", row.name},

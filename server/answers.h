@@ -1,4 +1,4 @@
-// What the API says, as JSON.
+// JSON answers of the API.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ nlohmann::json time_json(std::int64_t unix_ms);
 /// {"stage", "frames_done", "frames_total", "runs": [...]}
 nlohmann::json progress_json(const jobs::JobProgress& progress);
 
-/// What of the progress is worth an event: {"stage", "runs": {"run000": stage}}
+/// The part of the progress that makes an event: {"stage", "runs": {"run000": stage}}
 nlohmann::json stages_json(const jobs::JobProgress& progress);
 
 /// {"seq", "job", "at", "type", "data"}

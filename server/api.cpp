@@ -152,7 +152,7 @@ bool names_this_machine(const Request& request) {
   return host.empty() || is_loopback(host);
 }
 
-/// Who sends a request; nothing when they need a key and have none.
+/// Identity of a request's sender; nothing when a key is required and missing.
 std::optional<Caller> caller_in(const Keys& keys, const Request& request) {
   constexpr std::string_view kBearer = "Bearer ";
   const std::string header = request.get_header_value("Authorization");
@@ -164,7 +164,7 @@ constexpr std::size_t kMaxPicturesBytes = 256 << 20;
 constexpr std::size_t kMaxBundleBytes = 64 << 20;
 constexpr std::size_t kMaxTextBytes = 1 << 20;
 
-// A browser sends forms of other sites' pages without asking, and says where they are from.
+// A browser sends forms of other sites' pages without asking, with their origin.
 void refuse_other_sites(const Request& request) {
   const std::string origin = request.get_header_value("Origin");
   const std::string host = request.get_header_value("Host");
@@ -172,7 +172,7 @@ void refuse_other_sites(const Request& request) {
   throw HttpError{403, "pages of other sites may not ask for this"};
 }
 
-// Who calls, if they may do what the route does.
+// Identity of the caller, if it may use the route.
 Caller admitted(const Keys& keys, const Request& request, Scope needed) {
   if (needed == Scope::anybody) return {};
   const auto caller = caller_in(keys, request);
@@ -196,7 +196,7 @@ const Route* route_of(const Request& request) {
   return found == all.end() ? nullptr : &*found;
 }
 
-// Who may call a route, whatever the call says. Throws HttpError.
+// Access control of a route, independent of the call. Throws HttpError.
 Caller checked_caller(const Keys& keys, const Request& request, const Route& route, bool loopback) {
   if (loopback && !names_this_machine(request)) {
     throw HttpError{421, "this service is for its own machine"};

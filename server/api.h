@@ -21,8 +21,8 @@ std::span<const Route> routes();
 /// Serves the API on a port of its own. Service, keys and webhooks must outlive it.
 class Api {
  public:
-  /// Binds at once; `options` says where. Unless the address is loopback, requests may name any
-  /// Host. Throws EnvironmentError.
+  /// Binds at once, to the address in `options`. Unless the address is loopback, requests may name
+  /// any Host. Throws EnvironmentError.
   Api(Service& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options);
 
   int port() const { return server_.port(); }

@@ -1,4 +1,4 @@
-// Which part of a file a client asks for (RFC 9110, section 14).
+// Byte range that a client requests (RFC 9110, section 14).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct ByteRange {
   bool operator==(const ByteRange&) const = default;
 };
 
-/// What to answer: everything, a part, or that there is no such part.
+/// Answer to a range request: everything, a part, or that there is no such part.
 struct RangeAnswer {
   enum class Kind { whole, part, unsatisfiable };
   Kind kind = Kind::whole;

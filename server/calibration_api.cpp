@@ -75,9 +75,9 @@ void submit_calibration(const Call& call, const Request& request, Response& resp
     throw HttpError{415, "a calibration is sent as multipart/form-data or application/json"};
   }
   const Sent sent = type == "application/json" ? sent_as_json(request) : sent_as_form(request);
-  const jobs::JobRow row = call.calibrations.submit(
-      sent.request, sent.files,
-      {call.caller.key_id, call.caller.most_active, call.caller.most_bytes});
+  const jobs::JobRow row =
+      call.calibrations.submit(sent.request, sent.files,
+                               {call.caller.key_id, call.caller.max_active, call.caller.max_bytes});
   response.set_header("Location", fmt::format("/v1/calibrations/{}", row.id));
   write_json(response, 201, calibration_json(row, call.housekeeping.retention()));
 }

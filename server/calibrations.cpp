@@ -46,8 +46,8 @@ JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upl
                                           .spec_json = text_of(request),
                                           .kind = jobs::JobKind::calibration,
                                           .owner = quota.owner,
-                                          .most_active = quota.most_active,
-                                          .most_bytes = quota.most_bytes});
+                                          .max_active = quota.max_active,
+                                          .max_bytes = quota.max_bytes});
     if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
     row = added.row;
     fs::rename(staging.path(), folders_.folder_of(row));

@@ -22,9 +22,9 @@ struct Upload {
 
 /// Whose submission it is, and what all of theirs may be.
 struct Quota {
-  std::string owner = {};       ///< the id of the caller's key
-  int most_active = 0;          ///< that may wait or run; 0: any number
-  std::int64_t most_bytes = 0;  ///< that all may take already; 0: any
+  std::string owner = {};      ///< the id of the caller's key
+  int max_active = 0;          ///< that may wait or run; 0: any number
+  std::int64_t max_bytes = 0;  ///< that all may take already; 0: any
 };
 
 /// Safe to use from many threads.

@@ -26,11 +26,11 @@ std::vector<Problem> read_problems(const fs::path& file) {
   return parse_own_json(read_file(file), file.string()).get<std::vector<Problem>>();
 }
 
-/// The last line of what the child said when it failed.
+/// The last line of the child's output when it failed.
 std::string last_line(const fs::path& log) {
   const std::string text = fs::exists(log) ? read_file(log) : "";
   const std::size_t end = text.find_last_not_of('\n');
-  if (end == std::string::npos) return "it said nothing";
+  if (end == std::string::npos) return "no message";
   const std::size_t before = text.find_last_of('\n', end);
   const std::size_t first = before == std::string::npos ? 0 : before + 1;
   return text.substr(first, end - first + 1);

@@ -16,12 +16,12 @@ using Calibrator = std::function<void(
     const std::function<void(double share, const std::string& what)>& on_progress,
     const std::stop_token& stop)>;
 
-/// Where the child leaves what is wrong with its input, and the exit codes that it then has.
+/// File for the child's input errors, and its exit codes in that case.
 inline constexpr const char* kCalibrationProblems = "problems.json";
 inline constexpr int kCalibrationInputExit = 2;
 inline constexpr int kCalibrationEnvironmentExit = 3;
 
-/// In a child, `command` with the folder appended, so that a picture that a decoder stumbles over
+/// In a child, `command` with the folder appended, so that an image that a decoder stumbles over
 /// costs one request and not the service. The child prints "SHARE WHAT" lines; it is
 /// cli/calibration_child.h.
 Calibrator calibrator_in_child(std::vector<std::string> command);

@@ -1,5 +1,5 @@
-// What the service does not do in its own process: whatever loads a scenario or needs the engine is
-// done by a confined child (jobs/pipeline/confined_work.h).
+// Work outside the service's own process: everything that loads a scenario or needs the engine runs
+// in a confined child (jobs/pipeline/confined_work.h).
 #pragma once
 
 #include <filesystem>
@@ -23,15 +23,15 @@ class ConfinedChecks {
 
   /// The scenarios in a folder.
   jobs::CheckedScenarios scenarios(const std::filesystem::path& folder) const;
-  /// The job, resolved with the scenarios in a folder. What the schema does not allow is refused
-  /// before a child is started.
+  /// The job, resolved with the scenarios in a folder. Violations of the schema are refused before
+  /// a child is started.
   jobs::ResolvedJob job(std::string_view job_json, const std::filesystem::path& scenarios) const;
   /// Floor plans as SVG: of a scenario, and of a resolved job with the paths of its drones.
   std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
   std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;
   /// A calibration's request, whose files lie in the folder.
   void calibration(const nlohmann::json& request, const std::filesystem::path& files) const;
-  /// What jobs may name (jobs/pipeline/catalog.h); asked for once.
+  /// Names that jobs may use (jobs/pipeline/catalog.h); queried once.
   const nlohmann::json& catalog() const;
   nlohmann::json people() const;
 

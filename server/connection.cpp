@@ -20,11 +20,11 @@ namespace {
 using std::chrono::milliseconds;
 
 /// Whether the event comes in time; also true when the connection has broken.
-bool waits_for(socket_t socket, short event, milliseconds patience) {
+bool waits_for(socket_t socket, short event, milliseconds timeout) {
   pollfd wait{socket, event, 0};
   int result = 0;
   do {
-    result = ::poll(&wait, 1, static_cast<int>(std::max(patience, milliseconds(0)).count()));
+    result = ::poll(&wait, 1, static_cast<int>(std::max(timeout, milliseconds(0)).count()));
   } while (result < 0 && errno == EINTR);
   return result > 0;
 }
@@ -47,14 +47,14 @@ void read_name(socket_t socket, NameOf name_of, std::string& ip, int& port) {
 
 }  // namespace
 
-bool Connection::receive(milliseconds patience) {
+bool Connection::receive(milliseconds timeout) {
   if (next_ == end_) next_ = end_ = 0;
   if (end_ == buffer_.size()) {
     std::memmove(buffer_.data(), buffer_.data() + next_, end_ - next_);
     end_ -= next_;
     next_ = 0;
   }
-  if (!waits_for(socket_, POLLIN, patience)) return false;
+  if (!waits_for(socket_, POLLIN, timeout)) return false;
   ssize_t count = 0;
   do {
     count = ::recv(socket_, buffer_.data() + end_, buffer_.size() - end_, 0);
@@ -104,7 +104,7 @@ void Connection::begin_request(const RequestHead& head) {
 }
 
 bool Connection::is_body_in_time() const {
-  const std::chrono::duration<double> slow = Clock::now() - began_ - limits_.body_patience;
+  const std::chrono::duration<double> slow = Clock::now() - began_ - limits_.body_timeout;
   return static_cast<double>(body_bytes_) >= slow.count() * limits_.body_bytes_per_s;
 }
 
@@ -169,12 +169,12 @@ void Connection::get_local_ip_and_port(std::string& ip, int& port) const {
 }
 
 void close_gently(socket_t socket) {
-  constexpr std::size_t kMostBytes = 8 << 20;
-  constexpr milliseconds kLongest(2'000);
+  constexpr std::size_t kMaxBytes = 8 << 20;
+  constexpr milliseconds kMaxDrainTime(2'000);
   ::shutdown(socket, SHUT_WR);
   std::array<char, 16 << 10> block{};
-  const auto end = std::chrono::steady_clock::now() + kLongest;
-  for (std::size_t seen = 0; seen < kMostBytes;) {
+  const auto end = std::chrono::steady_clock::now() + kMaxDrainTime;
+  for (std::size_t seen = 0; seen < kMaxBytes;) {
     const auto left =
         std::chrono::duration_cast<milliseconds>(end - std::chrono::steady_clock::now());
     if (left.count() <= 0 || !waits_for(socket, POLLIN, left)) break;

@@ -22,7 +22,7 @@ struct ConnectionLimits {
   std::chrono::milliseconds stalled{30'000};   ///< in which nothing can be sent
   /// A body may be slower than this for so long.
   double body_bytes_per_s = 16'384;
-  std::chrono::milliseconds body_patience{10'000};
+  std::chrono::milliseconds body_timeout{10'000};
 };
 
 class Connection : public httplib::Stream {
@@ -33,7 +33,7 @@ class Connection : public httplib::Stream {
   struct Ended {};
   /// Reads the next request's head from the socket.
   std::variant<RequestHead, HeadError, Ended> read_head();
-  /// What the library reads from now on is this request, its body included.
+  /// From now on the library reads this request, its body included.
   void begin_request(const RequestHead& head);
   /// Whether the library has read the request to its end, so that another may follow.
   bool is_consumed() const { return head_next_ == head_.size() && body_left_ == 0; }
@@ -55,7 +55,7 @@ class Connection : public httplib::Stream {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool receive(std::chrono::milliseconds patience);
+  bool receive(std::chrono::milliseconds timeout);
   std::string_view pending() const { return {buffer_.data() + next_, end_ - next_}; }
   bool is_body_in_time() const;
 

@@ -1,4 +1,4 @@
-// What a server finds in its data folder when it starts.
+// Recovery of the data folder when a server starts.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 namespace throng::server {
 
 /// Folders of jobs and calibrations that the store knows nothing of are moved to DATA/quarantine,
-/// never deleted: somebody may have put an older store back. What has lain there for a month, and
-/// what half-finished uploads and removals have left, is removed. Throws EnvironmentError.
+/// never deleted: somebody may have put an older store back. Entries older than a month, and the
+/// remains of half-finished uploads and removals, are removed. Throws EnvironmentError.
 void tidy_data_folder(const std::filesystem::path& data, const jobs::Store& store);
 
 /// Disk that everything in a folder takes; files with several names count once. 0 when there is

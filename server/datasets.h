@@ -1,6 +1,5 @@
-// What is known of datasets that are downloaded: manifests and the plans of archives. With hundreds
-// of thousands of files they take a second and much memory to make, and clients ask for many
-// ranges.
+// Cache for downloaded datasets: manifests and the plans of archives. With hundreds of thousands of
+// files they take a second and much memory to make, and clients ask for many ranges.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +8,7 @@
 
 #include "jobs/queue/archive.h"
 #include "jobs/queue/manifest.h"
-#include "server/recent.h"
+#include "server/lru_cache.h"
 
 namespace throng::server {
 
@@ -26,8 +25,8 @@ class Datasets {
                                                   const jobs::Selection& selection);
 
  private:
-  Recent<jobs::Manifest> manifests_{2};
-  Recent<jobs::Archive> archives_{2};
+  LruCache<jobs::Manifest> manifests_{2};
+  LruCache<jobs::Archive> archives_{2};
 };
 
 }  // namespace throng::server

@@ -11,9 +11,9 @@
 
 namespace throng::server {
 
-DiskWatch::DiskWatch(FreeBytes free_bytes, std::int64_t least_bytes, OnChange on_change)
+DiskWatch::DiskWatch(FreeBytes free_bytes, std::int64_t min_bytes, OnChange on_change)
     : free_bytes_(std::move(free_bytes)),
-      least_bytes_(least_bytes),
+      min_bytes_(min_bytes),
       on_change_(std::move(on_change)),
       thread_([this](const std::stop_token& stop) { watch(stop); }) {}
 
@@ -23,10 +23,10 @@ std::string DiskWatch::look() {
   const std::int64_t free = free_bytes_();
   const std::lock_guard lock(mutex_);
   const bool was_full = !reason_.empty();
-  const bool is_full = free < least_bytes_ + (was_full ? least_bytes_ / kSlackShare : 0);
+  const bool is_full = free < min_bytes_ + (was_full ? min_bytes_ / kSlackShare : 0);
   if (is_full == was_full) return reason_;
   reason_ = is_full ? fmt::format("the disk is full: {} MiB are free, {} MiB are needed",
-                                  free / kMib, least_bytes_ / kMib)
+                                  free / kMib, min_bytes_ / kMib)
                     : std::string();
   on_change_(reason_);
   return reason_;

@@ -1,4 +1,4 @@
-// Looks at how much room there is on a disk, again and again.
+// Watches the free space of a disk.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,26 @@ namespace throng::server {
 class DiskWatch {
  public:
   using FreeBytes = std::function<std::int64_t()>;
-  /// Called with why nothing more should be written, and with "" once there is room again.
+  /// Called with the reason why nothing more should be written, and with "" once there is free
+  /// space again.
   using OnChange = std::function<void(const std::string& reason)>;
 
-  /// Looks twice a second. There is room again when a quarter more than
-  /// `least_bytes` is free, so that it does not change with every file.
-  DiskWatch(FreeBytes free_bytes, std::int64_t least_bytes, OnChange on_change);
+  /// Checks twice a second. There is free space again when a quarter more than `least_bytes` is
+  /// free, so that it does not change with every file.
+  DiskWatch(FreeBytes free_bytes, std::int64_t min_bytes, OnChange on_change);
 
-  /// Looks now. Why there is no room; "" when there is.
+  /// Checks now. The reason why there is no free space; "" when there is.
   std::string look();
 
  private:
   void watch(const std::stop_token& stop);
 
   FreeBytes free_bytes_;
-  std::int64_t least_bytes_;
+  std::int64_t min_bytes_;
   OnChange on_change_;
   std::mutex mutex_;
-  std::string reason_;   ///< why there was no room when somebody last looked; guarded by mutex_
+  std::string
+      reason_;  ///< the reason why there was no free space at the last check; guarded by mutex_
   std::jthread thread_;  ///< last: ends before what it uses
 };
 

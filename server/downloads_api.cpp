@@ -49,8 +49,8 @@ void send_run_file(const Call& call, const Request& request, Response& response,
   const jobs::JobRow row = find_job(call, request);
   const bool complete = row.state == jobs::JobState::succeeded;
   const std::string number = request.matches[2];
-  constexpr std::size_t kMostDigits = 6;
-  const int run = number.size() <= kMostDigits ? std::stoi(number) : -1;
+  constexpr std::size_t kMaxDigits = 6;
+  const int run = number.size() <= kMaxDigits ? std::stoi(number) : -1;
   if (run < 0 || run >= parse_own_json(row.spec_json, "the job").at("runs").get<int>()) {
     throw HttpError{404, fmt::format("the job has no run {}", number)};
   }
@@ -74,7 +74,7 @@ jobs::ArchiveFormat format_of(const Request& request) {
   throw HttpError{400, "format is wrong", {{"", "?format", format, "tar or zip"}}};
 }
 
-/// Numbers of the runs that are in a split, as dataset.json says.
+/// Numbers of the runs of a split in dataset.json.
 std::vector<int> runs_of_split(const fs::path& dataset, const std::string& split) {
   const fs::path card = dataset / "dataset.json";
   const json splits =
@@ -96,7 +96,7 @@ std::vector<int> runs_of_split(const fs::path& dataset, const std::string& split
   return numbers;
 }
 
-/// What ?include=, ?runs= and ?split= ask for. Throws HttpError and InputError.
+/// Selection by ?include=, ?runs= and ?split=. Throws HttpError and InputError.
 jobs::Selection selection_of(const Request& request, const fs::path& dataset, const json& job) {
   jobs::Selection selection;
   std::istringstream names(request.get_param_value("include"));
@@ -126,7 +126,7 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Where the dataset's files of a job are: in it, or in the shards that have been published so far.
+/// Folders of a job's dataset files: the dataset, or the shards that have been published so far.
 std::vector<fs::path> places_of_images(const fs::path& job) {
   if (fs::exists(job / "dataset")) return {job / "dataset"};
   std::vector<fs::path> places;
@@ -142,7 +142,7 @@ std::vector<fs::path> places_of_images(const fs::path& job) {
   return places;
 }
 
-/// A picture with drawn annotations, and the same without.
+/// An image with drawn annotations, and the same without.
 struct Preview {
   std::string name;
   fs::path drawn;
@@ -211,7 +211,7 @@ void send_file(const Call& call, const Request& request, Response& response) {
   const std::string wanted = request.matches[2];
   const auto manifest = call.datasets.manifest_of(dataset);
   const std::vector<jobs::FileEntry>& files = manifest->files;
-  // What is in the manifest is in the dataset: no path leads out of it.
+  // Files of the manifest are in the dataset: no path leads out of it.
   const auto file =
       std::lower_bound(files.begin(), files.end(), wanted,
                        [](const auto& entry, const auto& path) { return entry.path < path; });

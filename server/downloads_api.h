@@ -1,4 +1,4 @@
-// What a finished job has made: its archive, its figures, each of its files.
+// Downloads of a finished job: its archive, its figures, each of its files.
 #pragma once
 
 #include "server/call.h"
@@ -19,7 +19,7 @@ void send_run_metrics_csv(const Call& call, const httplib::Request& request,
 /// The report of all runs as one HTML page; 202 as long as it is being made.
 void send_report(const Call& call, const httplib::Request& request, httplib::Response& response);
 
-/// What the workers said, and the pictures with drawn annotations: also while the job is at work.
+/// Logs of the workers, and the images with annotation overlays: also while the job is running.
 void list_logs(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_log(const Call& call, const httplib::Request& request, httplib::Response& response);
 void list_previews(const Call& call, const httplib::Request& request, httplib::Response& response);

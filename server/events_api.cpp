@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr int kMostStreams = 128;  // each holds a thread of the server
+constexpr int kMaxStreams = 128;  // each holds a thread of the server
 constexpr int kPage = 500;
 constexpr auto kBeat = 500ms;  // how often a stream looks for progress, and for its end
 constexpr auto kKeepAlive = 10s;
@@ -30,13 +30,10 @@ constexpr std::int64_t kLastNumber = std::numeric_limits<std::int64_t>::max();
 class EventStream {
  public:
   EventStream(JobQueue& queue, std::string job, std::int64_t after)
-      : watch_(queue.begin_watch(kMostStreams)),
-        queue_(queue),
-        job_(std::move(job)),
-        after_(after) {
+      : watch_(queue.begin_watch(kMaxStreams)), queue_(queue), job_(std::move(job)), after_(after) {
     if (watch_ != nullptr) return;
     throw HttpError{503, fmt::format("{} event streams are open: try again later, or use ?wait_s=",
-                                     kMostStreams)};
+                                     kMaxStreams)};
   }
 
   /// Writes what there is, or waits a moment for it; false when the client has gone.
@@ -88,13 +85,13 @@ std::int64_t last_event_id(const Request& request) {
 
 void send_page(const Call& call, const Request& request, Response& response,
                const std::string& job) {
-  constexpr std::int64_t kLongestWaitS = 60;
+  constexpr std::int64_t kMaxWaitS = 60;
   const std::int64_t after = number_of(request, "after", 0, kLastNumber, 0);
   const auto limit = static_cast<int>(number_of(request, "limit", 1, kPage, kPage));
-  const std::chrono::seconds patience(number_of(request, "wait_s", 0, kLongestWaitS, 0));
+  const std::chrono::seconds timeout(number_of(request, "wait_s", 0, kMaxWaitS, 0));
   json list = json::array();
   std::int64_t next = after;
-  for (const jobs::EventRow& event : call.queue.events(job, after, limit, patience)) {
+  for (const jobs::EventRow& event : call.queue.events(job, after, limit, timeout)) {
     list.push_back(event_json(event));
     next = event.seq;
   }

@@ -1,4 +1,4 @@
-// What happens to jobs, as it happens.
+// Events of jobs, as a stream.
 #pragma once
 
 #include "server/call.h"

@@ -9,8 +9,8 @@
 
 namespace throng::server {
 
-/// The whole of an answer is sent, whatever range is asked for: the library would cut any, also
-/// what says that something is wrong.
+/// The whole of an answer is sent, whatever range is asked for: the library would cut any, also a
+/// file that reports an error.
 void forget_ranges(const httplib::Request& request);
 
 /// Puts the one range that the client may have into the request, where the library looks for it: it

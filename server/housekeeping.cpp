@@ -20,7 +20,7 @@ using jobs::JobRow;
 namespace {
 
 constexpr auto kSweepInterval = 60s;
-constexpr auto kMostMemoryOfRemoved = std::chrono::hours(24 * 30);
+constexpr auto kMaxMemoryOfRemoved = std::chrono::hours(24 * 30);
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Housekeeping::Housekeeping(const ServiceFolders& folders, jobs::Store& store, Qu
       disk_(
           options_.free_bytes ? options_.free_bytes
                               : [data = folders.data()] { return free_bytes_of(data); },
-          options_.least_free_bytes, [this](const std::string& reason) { state_.pause(reason); }) {
+          options_.min_free_bytes, [this](const std::string& reason) { state_.pause(reason); }) {
   tidy_data_folder(folders_.data(), store_);
   sweeper_ = std::jthread([this](const std::stop_token& stop) { sweep(stop); });
 }
@@ -61,18 +61,18 @@ bool Housekeeping::remove(const std::string& id) {
 }
 
 void Housekeeping::remove_expired() {
-  constexpr int kMostAtOnce = 1000;
+  constexpr int kMaxAtOnce = 1000;
   const std::int64_t now_ms = store_.now_ms();
   const Retention& retention = options_.retention;
-  if (retention.longest_ms > 0 || retention.most_bytes > 0) {
+  if (retention.max_wait_ms > 0 || retention.max_bytes > 0) {
     for (const std::string& id :
-         expired(store_.ended(kMostAtOnce), store_.total_bytes(), now_ms, retention)) {
+         expired(store_.ended(kMaxAtOnce), store_.total_bytes(), now_ms, retention)) {
       spdlog::info("job {}: has been kept for long enough", id);
       remove(id);
     }
   }
   store_.forget_events(
-      now_ms - std::chrono::duration_cast<std::chrono::milliseconds>(kMostMemoryOfRemoved).count());
+      now_ms - std::chrono::duration_cast<std::chrono::milliseconds>(kMaxMemoryOfRemoved).count());
 }
 
 void Housekeeping::sweep(const std::stop_token& stop) {

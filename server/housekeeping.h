@@ -1,4 +1,4 @@
-// What the service removes, and when it rests: retention, the disk, the trash.
+// Housekeeping: retention, free disk space (the queue is paused when it runs out), trash.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace throng::server {
 
 struct HousekeepingOptions {
   Retention retention = {};
-  std::int64_t least_free_bytes = 512LL << 20;  ///< below this the queue rests
-  DiskWatch::FreeBytes free_bytes = {};         ///< default: of the data folder's disk
+  std::int64_t min_free_bytes = 512LL << 20;  ///< below this the queue rests
+  DiskWatch::FreeBytes free_bytes = {};       ///< default: of the data folder's disk
 };
 
 /// Safe to use from many threads.
@@ -38,7 +38,7 @@ class Housekeeping {
   /// Removes what has been kept for long enough. Done by itself every minute.
   void remove_expired();
 
-  /// Why there is no room on the disk; "" when there is.
+  /// The reason why the disk has no free space; "" when it has.
   std::string look_at_disk() { return disk_.look(); }
 
  private:

@@ -1,4 +1,4 @@
-// What a handler throws to answer with a problem document.
+// Exception of a handler that becomes a problem document.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What of cpp-httplib headers have to know.
+// Forward declarations of cpp-httplib.
 #pragma once
 
 namespace httplib {

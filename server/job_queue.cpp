@@ -47,8 +47,8 @@ jobs::Added JobQueue::submit(const Submission& submission) {
                                         .owner = submission.owner,
                                         .key = submission.key,
                                         .hash = sha256_hex(text_of(sent)),
-                                        .most_active = submission.most_active,
-                                        .most_bytes = submission.most_bytes});
+                                        .max_active = submission.max_active,
+                                        .max_bytes = submission.max_bytes});
   if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
   if (!added.is_new) return added;
   spdlog::info("job {} queued", added.row.id);
@@ -92,9 +92,9 @@ std::vector<jobs::EventRow> JobQueue::events(const std::string& job, std::int64_
                                              std::chrono::milliseconds timeout) const {
   const auto end = std::chrono::steady_clock::now() + timeout;
   while (true) {
-    const std::uint64_t rung = state_.bell().rung();
+    const std::uint64_t count = state_.event_counter().count();
     std::vector<jobs::EventRow> rows = store_.events(job, after, limit);
-    if (!rows.empty() || !state_.bell().wait(rung, end)) return rows;
+    if (!rows.empty() || !state_.event_counter().wait(count, end)) return rows;
   }
 }
 

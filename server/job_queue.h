@@ -30,10 +30,10 @@ struct Submission {
   std::string_view job_json;
   int priority = 0;
   std::vector<std::string> labels = {};
-  std::string key = {};         ///< the same key again is the same submission; "" for none
-  std::string owner = {};       ///< the id of the caller's key
-  int most_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
-  std::int64_t most_bytes = 0;  ///< that the owner's jobs may take already; 0: any
+  std::string key = {};        ///< the same key again is the same submission; "" for none
+  std::string owner = {};      ///< the id of the caller's key
+  int max_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
+  std::int64_t max_bytes = 0;  ///< that the owner's jobs may take already; 0: any
 };
 
 /// Safe to use from many threads. Errors are InputError and EnvironmentError.
@@ -57,8 +57,8 @@ class JobQueue {
 
   /// A job or calibration with its newest progress.
   std::optional<jobs::JobRow> get(const std::string& id) const;
-  /// What `write` makes of a job, as it was made the last time if nothing has happened to any job
-  /// since: many clients ask for the same. Nothing when there is none.
+  /// Text that `write` makes of a job; cached until something happens to any job, since many
+  /// clients request the same. Nothing when there is none.
   std::shared_ptr<const std::string> text_of_job(
       const std::string& id, const std::function<std::string(const jobs::JobRow&)>& write) const;
   std::vector<jobs::JobRow> list(const jobs::JobFilter& filter) const;
@@ -66,7 +66,7 @@ class JobQueue {
   /// Why the queue rests; "" when it does not.
   std::string paused() const { return state_.paused(); }
 
-  /// Whatever the job's state; nothing when there is none.
+  /// In any state of the job; nothing when there is none.
   std::optional<jobs::JobRow> change(const std::string& id, const jobs::JobChange& change);
   /// Ends an active job and returns when nobody works on it any more; what it has published stays.
   /// Nothing when there is none. Throws ConflictError when it has ended.

@@ -46,7 +46,7 @@ void JobRunner::work(const std::stop_token& stop) {
       if (!state_.wait_while_paused(stop)) return;
       if (!work_on_next(stop)) state_.wait_for_queued(stop);
     } catch (const std::exception& error) {
-      // The store cannot be reached (disk full, say): nothing is lost, try again.
+      // The store cannot be reached (for example disk full): nothing is lost, try again.
       spdlog::error("queue: {}", error.what());
       state_.wait(stop, kPauseAfterError);
     }
@@ -99,7 +99,7 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
   } catch (const std::exception& failure) {
     if (const std::string reason = look_at_disk_(); !reason.empty()) {
       spdlog::warn("job {} stopped: {}", row.id, failure.what());
-      return;  // still "running": it is resumed when there is room
+      return;  // still "running": it is resumed when there is free space
     }
     error = text_of(error_json("environment", folders_.without_paths(failure.what()), {}));
   }

@@ -18,7 +18,7 @@ namespace throng::server {
 
 class JobRunner {
  public:
-  /// Looks at the disk: why there is no room on it, "" when there is.
+  /// Checks the disk: the reason why it has no free space, "" when it has.
   using LookAtDisk = std::function<std::string()>;
 
   /// Goes on with what it finds in the store: a job that was running is resumed. All must outlive

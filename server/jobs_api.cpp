@@ -21,10 +21,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kHighestPriority = 100;
-constexpr std::size_t kMostLabels = 20;
-constexpr std::size_t kLongestLabel = 60;
-constexpr std::size_t kLongestKey = 200;
+constexpr int kMaxPriority = 100;
+constexpr std::size_t kMaxLabels = 20;
+constexpr std::size_t kMaxLabelLength = 60;
+constexpr std::size_t kMaxKeyLength = 200;
 
 /// A job that the caller may change: their own, or any for an administrator. Throws HttpError.
 jobs::JobRow find_own(const Call& call, const Request& request) {
@@ -44,30 +44,31 @@ std::vector<std::string> all_of(const Request& request, const char* name) {
 
 void check_labels(const std::vector<std::string>& labels, const std::string& pointer) {
   const auto is_wrong = [](const std::string& label) {
-    return label.empty() || label.size() > kLongestLabel ||
+    return label.empty() || label.size() > kMaxLabelLength ||
            std::any_of(label.begin(), label.end(),
                        [](unsigned char c) { return c < ' ' || c == 127; });
   };
   const auto wrong = std::find_if(labels.begin(), labels.end(), is_wrong);
-  if (wrong == labels.end() && labels.size() <= kMostLabels) return;
+  if (wrong == labels.end() && labels.size() <= kMaxLabels) return;
   const std::string found =
       wrong == labels.end() ? fmt::format("{} labels", labels.size()) : '"' + *wrong + '"';
   throw HttpError{400,
                   "labels are wrong",
                   {{"", pointer, found,
-                    fmt::format("at most {} labels of 1 to {} printable characters", kMostLabels,
-                                kLongestLabel)}}};
+                    fmt::format("at most {} labels of 1 to {} printable characters", kMaxLabels,
+                                kMaxLabelLength)}}};
 }
 
 std::string key_of(const Request& request) {
   std::string key = request.get_header_value("Idempotency-Key");
-  if (key.size() > kLongestKey) {
-    throw HttpError{400, fmt::format("an Idempotency-Key has at most {} characters", kLongestKey)};
+  if (key.size() > kMaxKeyLength) {
+    throw HttpError{400,
+                    fmt::format("an Idempotency-Key has at most {} characters", kMaxKeyLength)};
   }
   return key;
 }
 
-/// What comes as multipart/form-data: a job, and a bundle of scenarios of its own.
+/// A multipart/form-data upload: a job, and a bundle with its scenarios.
 struct Form {
   std::string job;
   const std::string* bundle = nullptr;
@@ -93,12 +94,12 @@ std::optional<Form> form_of(const Request& request) {
 void queue(const Call& call, Submission submission, Response& response,
            const std::string* bundle = nullptr) {
   submission.owner = call.caller.key_id;
-  submission.most_active = call.caller.most_active;
-  submission.most_bytes = call.caller.most_bytes;
+  submission.max_active = call.caller.max_active;
+  submission.max_bytes = call.caller.max_bytes;
   const jobs::Added added = bundle == nullptr ? call.queue.submit(submission)
                                               : call.queue.submit_with_bundle(submission, *bundle);
   if (!added.is_equal) {
-    throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and what was sent "
+    throw HttpError{422, fmt::format("this Idempotency-Key belongs to job {}, and the request "
                                      "with it then was something else",
                                      added.row.id)};
   }
@@ -108,7 +109,7 @@ void queue(const Call& call, Submission submission, Response& response,
              job_json(added.row, call.housekeeping.retention()));
 }
 
-/// What a job would be, without queueing it.
+/// Dry run: resolves a job without queueing it.
 void answer_dry_run(const jobs::ResolvedJob& resolved, Response& response) {
   const jobs::JobSpec& job = resolved.spec();
   const auto cameras = static_cast<std::int64_t>(job.drones.size());
@@ -151,7 +152,7 @@ void submit_job(const Call& call, const Request& request, Response& response) {
   }
   Submission submission{job};
   submission.priority =
-      static_cast<int>(number_of(request, "priority", -kHighestPriority, kHighestPriority, 0));
+      static_cast<int>(number_of(request, "priority", -kMaxPriority, kMaxPriority, 0));
   submission.labels = all_of(request, "label");
   check_labels(submission.labels, "?label");
   submission.key = key_of(request);
@@ -204,7 +205,7 @@ void change_job(const Call& call, const Request& request, Response& response) {
   jobs::JobChange wanted{row.priority, row.labels, row.keep};
   for (const auto& [name, value] : change.items()) {
     if (name == "priority") {
-      if (!value.is_number_integer() || value < -kHighestPriority || value > kHighestPriority) {
+      if (!value.is_number_integer() || value < -kMaxPriority || value > kMaxPriority) {
         throw wrong("/priority", value.dump(), "an integer from -100 to 100");
       }
       wanted.priority = value;
@@ -219,7 +220,8 @@ void change_job(const Call& call, const Request& request, Response& response) {
       if (!value.is_boolean()) throw wrong("/keep", value.dump(), "true or false");
       wanted.keep = value;
     } else {
-      throw wrong("/" + name, "an unknown field", "priority, labels or keep");
+      throw wrong("/" + name, fmt::format("unknown field \"{}\"", name),
+                  "one of: priority, labels, keep");
     }
   }
   const auto changed = call.queue.change(row.id, wanted);

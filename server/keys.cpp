@@ -28,8 +28,8 @@ CREATE TABLE IF NOT EXISTS key (
   name TEXT NOT NULL,
   hash TEXT NOT NULL,
   scope TEXT NOT NULL,
-  most_active INTEGER NOT NULL DEFAULT 0,
-  most_bytes INTEGER NOT NULL DEFAULT 0,
+  max_active INTEGER NOT NULL DEFAULT 0,
+  max_bytes INTEGER NOT NULL DEFAULT 0,
   created_ms INTEGER NOT NULL,
   revoked_ms INTEGER NOT NULL DEFAULT 0
 ) WITHOUT ROWID
@@ -71,9 +71,9 @@ void set_up(SQLite::Database& database) {
   const bool is_old = database
                           .execAndGet(
                               "SELECT count(*) FROM pragma_table_info('key') "
-                              "WHERE name = 'most_bytes'")
+                              "WHERE name = 'max_bytes'")
                           .getInt() == 0;
-  if (is_old) database.exec("ALTER TABLE key ADD COLUMN most_bytes INTEGER NOT NULL DEFAULT 0");
+  if (is_old) database.exec("ALTER TABLE key ADD COLUMN max_bytes INTEGER NOT NULL DEFAULT 0");
 }
 
 }  // namespace
@@ -105,21 +105,21 @@ Keys::Keys(const fs::path& data) {
 
 Keys::~Keys() = default;
 
-std::string Keys::create(const std::string& name, Scope scope, int most_active,
-                         std::int64_t most_bytes) {
+std::string Keys::create(const std::string& name, Scope scope, int max_active,
+                         std::int64_t max_bytes) {
   const std::string id = random_text(kIdLength);
   std::string token = fmt::format("{}{}_{}", kPrefix, id, random_text(kSecretLength));
   file_->with([&](SQLite::Database& database) {
     SQLite::Statement insert(database,
-                             "INSERT INTO key (id, name, hash, scope, most_active, created_ms, "
-                             "most_bytes) VALUES (?, ?, ?, ?, ?, ?, ?)");
+                             "INSERT INTO key (id, name, hash, scope, max_active, created_ms, "
+                             "max_bytes) VALUES (?, ?, ?, ?, ?, ?, ?)");
     insert.bind(1, id);
     insert.bind(2, name);
     insert.bind(3, sha256_hex(token));
     insert.bind(4, std::string(name_of(scope)));
-    insert.bind(5, most_active);
+    insert.bind(5, max_active);
     insert.bind(6, now_ms());
-    insert.bind(7, most_bytes);
+    insert.bind(7, max_bytes);
     insert.exec();
   });
   return token;
@@ -127,10 +127,9 @@ std::string Keys::create(const std::string& name, Scope scope, int most_active,
 
 std::vector<KeyRow> Keys::list() const {
   return file_->with([](SQLite::Database& database) {
-    SQLite::Statement query(
-        database,
-        "SELECT id, name, scope, most_active, most_bytes, created_ms, revoked_ms "
-        "FROM key ORDER BY created_ms, id");
+    SQLite::Statement query(database,
+                            "SELECT id, name, scope, max_active, max_bytes, created_ms, revoked_ms "
+                            "FROM key ORDER BY created_ms, id");
     std::vector<KeyRow> rows;
     while (query.executeStep()) {
       rows.push_back({query.getColumn(0).getString(), query.getColumn(1).getString(),
@@ -168,7 +167,7 @@ std::optional<Caller> Keys::caller_of(std::string_view token) const {
   return file_->with([&](SQLite::Database& database) -> std::optional<Caller> {
     SQLite::Statement query(
         database,
-        "SELECT id, hash, scope, most_active, most_bytes FROM key WHERE id = ? AND revoked_ms = 0");
+        "SELECT id, hash, scope, max_active, max_bytes FROM key WHERE id = ? AND revoked_ms = 0");
     query.bind(1, std::string(token.substr(kPrefix.size(), kIdLength)));
     if (!query.executeStep() || !equals_in_constant_time(query.getColumn(1).getString(), hash)) {
       return std::nullopt;

@@ -12,7 +12,7 @@
 
 namespace throng::server {
 
-/// What a caller may do; each holds those before it.
+/// Permissions of a caller; each includes those before it.
 enum class Scope : std::uint8_t {
   anybody,  ///< nothing but ask whether the service lives
   read,     ///< look at everything
@@ -24,20 +24,20 @@ std::string_view name_of(Scope scope);
 /// read, submit or admin; nothing for any other word.
 std::optional<Scope> scope_named(std::string_view name);
 
-/// Who makes a request.
+/// Sender of a request.
 struct Caller {
   std::string key_id;  ///< "" where no keys are needed
   Scope scope = Scope::anybody;
-  int most_active = 0;          ///< jobs that may wait or run at once; 0: any number
-  std::int64_t most_bytes = 0;  ///< disk that their jobs may take; 0: any
+  int max_active = 0;          ///< jobs that may wait or run at once; 0: any number
+  std::int64_t max_bytes = 0;  ///< disk that their jobs may take; 0: any
 };
 
 struct KeyRow {
   std::string id;
   std::string name;
   Scope scope = Scope::read;
-  int most_active = 0;
-  std::int64_t most_bytes = 0;
+  int max_active = 0;
+  std::int64_t max_bytes = 0;
   std::int64_t created_ms = 0;  ///< Unix time
   std::int64_t revoked_ms = 0;  ///< 0: it is good
 };
@@ -52,15 +52,15 @@ class Keys {
   Keys& operator=(const Keys&) = delete;
 
   /// Makes a key and returns what the caller has to send: it can never be asked for again.
-  std::string create(const std::string& name, Scope scope, int most_active = 0,
-                     std::int64_t most_bytes = 0);
+  std::string create(const std::string& name, Scope scope, int max_active = 0,
+                     std::int64_t max_bytes = 0);
   std::vector<KeyRow> list() const;
   /// False when there is no good key of this id.
   bool revoke(const std::string& id);
 
   /// Whether a key has ever been made: from then on every caller needs one.
   bool are_needed() const;
-  /// Who sends this; nothing when it is no good key. Where no keys are needed everybody is an
+  /// Owner of the key; nothing when the key is invalid. If no keys are required, everybody is an
   /// administrator.
   std::optional<Caller> caller_of(std::string_view token) const;
 

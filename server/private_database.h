@@ -27,7 +27,7 @@ class PrivateDatabase {
     set_up(database_);
   }
 
-  /// What `action` makes of the database. SQLite's errors become EnvironmentError.
+  /// Result of `action` on the database. SQLite's errors become EnvironmentError.
   template <typename Action>
   auto with(const Action& action) {
     const std::lock_guard lock(mutex_);

@@ -44,7 +44,7 @@ void QueueState::note(const JobRow& row, const std::string& type, const std::str
 
 void QueueState::notify_event() {
   ++revision_;
-  bell_.ring();
+  event_counter_.notify();
 }
 
 std::optional<JobRow> QueueState::begin(const std::function<std::optional<JobRow>()>& start,
@@ -119,13 +119,13 @@ void QueueState::pause(const std::string& reason) {
     const std::lock_guard lock(mutex_);
     paused_ = reason;
     if (active_) row = active_->row;
-    // What has been published stays; the rest is done again when there is room.
+    // Published output stays; the rest is done again when there is disk space.
     if (active_ && !reason.empty()) active_->stop.request_stop();
   }
   if (reason.empty()) {
     spdlog::info("queue: goes on");
   } else {
-    spdlog::warn("queue: rests, {}", reason);
+    spdlog::warn("queue: paused, {}", reason);
   }
   if (row && !reason.empty()) note(*row, "paused", text_of({{"reason", reason}}));
   changed_.notify_all();

@@ -1,5 +1,5 @@
-// What the parts of the service share of the queue: the job that is being worked on, whether the
-// queue rests, and the signals that something has happened.
+// State of the queue shared by the parts of the service: the running job, whether the queue is
+// paused, and the signals that something has happened.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 #include <string>
 
 #include "jobs/queue/store.h"
-#include "server/bell.h"
+#include "server/event_counter.h"
 
 namespace throng::server {
 
@@ -35,7 +35,7 @@ class QueueState {
   /// Changes with every event and with progress.
   std::uint64_t revision() const { return revision_; }
   /// Rings with every event.
-  Bell& bell() const { return bell_; }
+  EventCounter& event_counter() const { return event_counter_; }
 
   // --- the job that is being worked on
 
@@ -82,7 +82,7 @@ class QueueState {
   bool queued_ = true;                   ///< there may be something to do; guarded by mutex_
   std::string paused_;                   ///< guarded by mutex_
   std::optional<Active> active_;         ///< guarded by mutex_
-  mutable Bell bell_;
+  mutable EventCounter event_counter_;
   std::atomic<std::uint64_t> revision_ = 0;
 };
 

@@ -45,7 +45,7 @@ ReportMaker::ReportMaker(Reporter reporter)
       worker_([this](const std::stop_token& stop) { work(stop); }) {}
 
 std::optional<fs::path> ReportMaker::report_of(const fs::path& job,
-                                               std::chrono::milliseconds patience) {
+                                               std::chrono::milliseconds timeout) {
   const fs::path file = report_file(job);
   std::unique_lock lock(mutex_);
   const auto is_waited_for = [&] {
@@ -56,7 +56,7 @@ std::optional<fs::path> ReportMaker::report_of(const fs::path& job,
     waiting_.push_back(job);
     changed_.notify_all();
   }
-  changed_.wait_for(lock, patience, [&] { return !is_waited_for(); });
+  changed_.wait_for(lock, timeout, [&] { return !is_waited_for(); });
   if (const auto failure = failures_.extract(job)) throw EnvironmentError(failure.mapped());
   return !is_waited_for() && fs::exists(file) ? std::optional(file) : std::nullopt;
 }

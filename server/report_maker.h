@@ -34,7 +34,7 @@ class ReportMaker {
   /// `patience`: then it is waited for or being made, ask again. Throws EnvironmentError when
   /// making it has failed; asked again, it is tried again.
   std::optional<std::filesystem::path> report_of(const std::filesystem::path& job,
-                                                 std::chrono::milliseconds patience);
+                                                 std::chrono::milliseconds timeout);
 
   /// Removes the report of a job whose results change.
   static void forget(const std::filesystem::path& job);
@@ -47,7 +47,7 @@ class ReportMaker {
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<std::filesystem::path> waiting_;              ///< the first is being made
-  std::map<std::filesystem::path, std::string> failures_;  ///< not yet told to anybody
+  std::map<std::filesystem::path, std::string> failures_;  ///< not yet reported
   std::jthread worker_;
 };
 

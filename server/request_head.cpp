@@ -249,7 +249,7 @@ void read_persistence(const std::vector<HeaderField>& fields, RequestHead& head)
   head.keeps_connection = !is_close && (is_keep_alive || !head.is_http_1_0);
 }
 
-// What concerns the connection only, and names under which the library keeps facts of its own.
+// Hop-by-hop fields, and names that the library reserves for itself.
 bool is_for_library(const HeaderField& field) {
   constexpr std::array kDropped = {
       "Connection",        "Keep-Alive",  "Proxy-Connection", "TE",         "Trailer",

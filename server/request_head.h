@@ -26,7 +26,7 @@ struct RequestHead {
   std::string target;  ///< "/path?query", percent-encoded as sent
   std::string path;    ///< decoded, without the query
   bool is_http_1_0 = false;
-  /// End-to-end fields. What concerns the framing and the connection is in the members below.
+  /// End-to-end fields. Framing and connection fields are in the members below.
   std::vector<HeaderField> fields;
   std::size_t content_length = 0;
   bool keeps_connection = true;   ///< the client may send another request afterwards
@@ -50,11 +50,10 @@ struct HeadError {
 /// unknown expectation; 501 for unknown methods and transfer codings; 505 for other versions.
 std::variant<RequestHead, HeadError> parse_request_head(std::string_view bytes);
 
-/// What is already wrong with the first bytes of a head whose end has not arrived; status 0 when
-/// nothing is.
+/// Error in the first bytes of a head whose end has not arrived; status 0 when there is none.
 HeadError check_head_start(std::string_view bytes);
 
-/// The head in the form in which cpp-httplib 0.11 reads exactly what the members say.
+/// The head in the form in which cpp-httplib 0.11 reads exactly the members' values.
 std::string library_text_of(const RequestHead& head);
 
 }  // namespace throng::server

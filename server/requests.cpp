@@ -20,18 +20,18 @@ void write_json(httplib::Response& response, int status, const json& value) {
   response.set_content(text_of(value), "application/json");
 }
 
-std::int64_t number_of(const Request& request, const char* name, std::int64_t least,
-                       std::int64_t most, std::int64_t usual) {
+std::int64_t number_of(const Request& request, const char* name, std::int64_t min_value,
+                       std::int64_t max_value, std::int64_t usual) {
   if (!request.has_param(name)) return usual;
   const std::string text = request.get_param_value(name);
   std::int64_t number = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || number < least ||
-      number > most) {
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size() || number < min_value ||
+      number > max_value) {
     throw HttpError{400,
                     fmt::format("{} is wrong", name),
                     {{"", fmt::format("?{}", name), text,
-                      fmt::format("an integer from {} to {}", least, most)}}};
+                      fmt::format("an integer from {} to {}", min_value, max_value)}}};
   }
   return number;
 }
@@ -48,8 +48,8 @@ bool is_asked(const Request& request, const char* name) {
 
 int limit_of(const Request& request) {
   constexpr int kUsual = 50;
-  constexpr int kMost = 500;
-  return static_cast<int>(number_of(request, "limit", 1, kMost, kUsual));
+  constexpr int kMaxPageSize = 500;
+  return static_cast<int>(number_of(request, "limit", 1, kMaxPageSize, kUsual));
 }
 
 void require_json(const Request& request) {

@@ -1,4 +1,4 @@
-// What the handlers of all routes share: errors that become problem documents, answers, and
+// Shared by the handlers of all routes: errors that become problem documents, answers, and
 // parameters of lists.
 #pragma once
 
@@ -16,8 +16,8 @@ void write_json(httplib::Response& response, int status, const nlohmann::json& v
 
 /// A parameter of the query that is a whole number in [least, most]; `usual` where it is not given.
 /// Throws HttpError 400.
-std::int64_t number_of(const httplib::Request& request, const char* name, std::int64_t least,
-                       std::int64_t most, std::int64_t usual);
+std::int64_t number_of(const httplib::Request& request, const char* name, std::int64_t min_value,
+                       std::int64_t max_value, std::int64_t usual);
 /// A flag of the query: given without a value, or true. Throws HttpError 400.
 bool is_asked(const httplib::Request& request, const char* name);
 /// ?limit= of a list. Throws HttpError.

@@ -73,7 +73,7 @@ bool fits(std::string_view path, std::string_view requested) {
     path.remove_prefix(brace + parameter.name.size());
     const std::string_view value =
         parameter.is_rest ? requested : requested.substr(0, requested.find('/'));
-    // What follows a parameter within its segment, such as ".csv", is not its own.
+    // A suffix of a parameter within its segment, such as ".csv", does not belong to it.
     const std::string_view suffix = path.substr(0, std::min(path.find('/'), path.size()));
     const std::string_view own =
         value.ends_with(suffix) ? value.substr(0, value.size() - suffix.size()) : value;

@@ -18,7 +18,7 @@ enum class Method { get, post, patch, remove };
 /// "GET", "DELETE"
 std::string_view name_of(Method method);
 
-/// One operation of the API. A parameter's name says what it may be: {id} small letters and
+/// One operation of the API. A parameter's name determines its syntax: {id} small letters and
 /// digits, {n} digits, {name} letters, digits and ". _ -", {path} the rest of the path.
 struct Route {
   Method method;

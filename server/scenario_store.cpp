@@ -21,11 +21,11 @@ namespace {
 
 constexpr const char* kNoteName = "upload.json";
 constexpr const char* kFilesName = "files";
-constexpr std::size_t kLongestName = 40;
+constexpr std::size_t kMaxNameLength = 40;
 constexpr std::size_t kBundleDigits = 16;
 
 bool is_upload_name(std::string_view name) {
-  return !name.empty() && name.size() <= kLongestName &&
+  return !name.empty() && name.size() <= kMaxNameLength &&
          std::all_of(name.begin(), name.end(), [](char c) {
            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
          });
@@ -57,7 +57,7 @@ ScenarioUpload read_note(const fs::path& folder) {
           note.value("summaries", std::vector<json>{})};
 }
 
-/// Where the bundle's own files begin: below a single folder that holds everything.
+/// Root of the bundle's files: below a single folder that holds everything.
 fs::path root_of(const fs::path& unpacked) {
   std::vector<fs::directory_entry> entries;
   for (const fs::directory_entry& entry : fs::directory_iterator(unpacked)) {
@@ -112,7 +112,7 @@ void ScenarioStore::find_uploads() {
   }
 }
 
-/// An upload of an earlier version, whose note does not say what its scenarios are.
+/// An upload of an earlier version, whose record lacks the scenarios' summaries.
 void ScenarioStore::describe(ScenarioUpload& upload) const {
   const fs::path folder = uploads_ / upload.name;
   try {
@@ -148,7 +148,7 @@ ScenarioStore::Staged ScenarioStore::stage(const std::string& name, std::string_
   if (!is_upload_name(name)) {
     throw InputError(
         Problem{"", "?name", '"' + name + '"',
-                fmt::format("1 to {} small letters, digits and underscores", kLongestName)});
+                fmt::format("1 to {} small letters, digits and underscores", kMaxNameLength)});
   }
   Staged staged{{name, owner, unix_ms_now(), 0, 0, {}, {}},
                 {},
@@ -177,10 +177,10 @@ ScenarioUpload ScenarioStore::publish(Staged& staged) {
   }
   std::int64_t bytes = upload.bytes;
   for (const auto& [name, other] : known_) bytes += other.bytes;
-  if (known_.size() >= limits_.most_uploads || bytes > limits_.most_bytes) {
+  if (known_.size() >= limits_.max_uploads || bytes > limits_.max_bytes) {
     throw UploadsFull(
-        fmt::format("uploads may be {} of {} bytes together, and there is no room for this one",
-                    limits_.most_uploads, limits_.most_bytes));
+        fmt::format("uploads may be {} of {} bytes together, and there is no space for this one",
+                    limits_.max_uploads, limits_.max_bytes));
   }
   staged.folder->commit();
   fs::create_directory_symlink(fs::path("../uploads") / upload.name / kFilesName,

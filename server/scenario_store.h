@@ -1,10 +1,9 @@
 // Scenarios that users have sent, beside those that come with throng: all are found in one folder
 // of links, which the server and its workers read.
 //
-//   DATA/uploads/NAME/upload.json    whose it is, and how large
-//   DATA/uploads/NAME/files/         as it was sent
-//   DATA/scenarios/NAME              a link to the latter, or to a shipped one; made anew at the
-//   start
+// DATA/uploads/NAME/upload.json    whose it is, and how large DATA/uploads/NAME/files/         as
+// it was sent DATA/scenarios/NAME              a link to the latter, or to a shipped one; recreated
+// at the start
 #pragma once
 
 #include <cstdint>
@@ -24,10 +23,10 @@
 
 namespace throng::server {
 
-/// What all uploads together may take.
+/// Max size of all uploads together.
 struct UploadLimits {
-  std::size_t most_uploads = 500;
-  std::int64_t most_bytes = 8LL << 30U;  ///< unpacked
+  std::size_t max_uploads = 500;
+  std::int64_t max_bytes = 8LL << 30U;  ///< unpacked
   UnpackLimits each = {};
 };
 
@@ -39,7 +38,7 @@ struct ScenarioUpload {
   std::int64_t bytes = 0;  ///< unpacked
   std::size_t files = 0;
   std::vector<std::string> ids;  ///< of its scenarios, with its name: "NAME/plaza"
-  /// What the check knew of each (jobs/spec/scenario_summary.h), in the order of the ids.
+  /// Summaries from the check (jobs/spec/scenario_summary.h), in the order of the ids.
   std::vector<nlohmann::json> summaries;
 };
 
@@ -49,7 +48,7 @@ class NameTaken : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// There is no room for it. Answered with 507.
+/// There is no space for it. Answered with 507.
 class UploadsFull : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -69,7 +68,7 @@ class ScenarioStore {
   ScenarioStore(const std::filesystem::path& data, const std::filesystem::path& shipped,
                 const ConfinedChecks& confined, UploadLimits limits);
 
-  /// Where all scenarios are found, in a service with this data folder.
+  /// Search path of all scenarios, in a service with this data folder.
   static std::filesystem::path folder_in(const std::filesystem::path& data);
   const std::filesystem::path& folder() const { return links_; }
 

@@ -40,7 +40,7 @@ json findings_json(const std::vector<jobs::ScenarioFinding>& findings) {
   return list;
 }
 
-/// Those that were uploaded are known from their check: this process does not load them.
+/// Uploaded scenarios are known from their check: this process does not load them.
 json summary_of(const Call& call, const std::string& id,
                 const std::optional<ScenarioUpload>& upload) {
   if (!upload) {

@@ -12,7 +12,7 @@ void upload_scenarios(const Call& call, const httplib::Request& request,
 void list_scenarios(const Call& call, const httplib::Request& request, httplib::Response& response);
 /// One scenario by its id; its floor plan with ?format=svg.
 void send_scenario(const Call& call, const httplib::Request& request, httplib::Response& response);
-/// The floor plan of a job's place, with the ways that its drones mean to fly.
+/// The floor plan of a job's scenario, with the planned paths of its drones.
 void send_job_plan(const Call& call, const httplib::Request& request, httplib::Response& response);
 /// DELETE an upload by its name.
 void remove_scenarios(const Call& call, const httplib::Request& request,

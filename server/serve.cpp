@@ -50,8 +50,8 @@ class SignalWatch {
   std::jthread thread_;
 };
 
-// A line per message; as JSON for whoever gathers logs of many services. What is logged are ids and
-// what happened, never keys, bodies or headers.
+// A line per message; as JSON for log collectors. Ids and events are logged, never keys, bodies or
+// headers.
 void set_up_log(bool as_json) {
   const auto logger = spdlog::stderr_logger_mt("throng");
   if (as_json) {
@@ -85,7 +85,7 @@ int serve(const ServeOptions& options) {
   // Workers look for scenarios there.
   ::setenv("THRONG_SCENARIOS", ScenarioStore::folder_in(options.data).c_str(), 1);
   jobs::LocalProcesses executor({.workers = options.workers,
-                                 .longest_task_s = options.longest_task_s,
+                                 .max_task_s = options.max_task_s,
                                  .worker_memory_mib = options.worker_memory_mib});
   const auto checks =
       std::make_shared<jobs::ForkServer>(std::vector<std::string>{"/proc/self/exe", "confined"});
@@ -98,9 +98,9 @@ int serve(const ServeOptions& options) {
        .confined = jobs::confined_task_by(checks),
        .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
        .reporter = reporter_in_child({"/proc/self/exe", "report"}),
-       .uploads = {.most_bytes = options.uploads_gib << kGibShift},
+       .uploads = {.max_bytes = options.uploads_gib << kGibShift},
        .housekeeping = {.retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
-                        .least_free_bytes = options.least_free_mib << kMibShift}},
+                        .min_free_bytes = options.min_free_mib << kMibShift}},
       executor);
   WebhookSender hooks(service.queue(), options.data);
   Api api(service, keys, hooks, {options.host, options.port});

@@ -15,12 +15,12 @@ struct ServeOptions {
   std::filesystem::path port_file;  ///< gets the port's number once it is served; "" for none
   bool insecure = false;       ///< listen on addresses that other machines can reach without a key
   int workers = 0;             ///< processes at once; 0: one per core
-  double longest_task_s = 0;   ///< a worker that takes longer has hung; 0: any time
+  double max_task_s = 0;       ///< a worker that takes longer has hung; 0: any time
   int worker_memory_mib = 0;   ///< address space of each; 0: any
   std::int64_t keep_days = 0;  ///< after a job's end; 0: for good
   std::int64_t keep_gib = 0;   ///< that all jobs may take together; 0: any
-  std::int64_t uploads_gib = 8;       ///< that all uploaded scenarios may take together
-  std::int64_t least_free_mib = 512;  ///< below this the queue rests
+  std::int64_t uploads_gib = 8;     ///< that all uploaded scenarios may take together
+  std::int64_t min_free_mib = 512;  ///< below this the queue rests
   bool log_json = false;
 };
 

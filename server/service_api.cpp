@@ -25,7 +25,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Memory of this process that is in RAM; 0 where the kernel does not say.
+/// Memory of this process that is in RAM; 0 where the kernel does not report it.
 std::int64_t resident_bytes() {
   std::ifstream file("/proc/self/statm");
   std::int64_t total = 0;
@@ -51,7 +51,7 @@ void send_health(const Call&, const Request&, Response& response) {
 void send_readiness(const Call& call, const Request&, Response& response) {
   static_cast<void>(call.queue.count());  // throws when the store cannot be read
   if (const std::string reason = call.queue.paused(); !reason.empty()) {
-    throw HttpError{503, fmt::format("the queue rests: {}", reason)};
+    throw HttpError{503, fmt::format("the queue is paused: {}", reason)};
   }
   write_json(response, 200, {{"status", "ready"}, {"free_bytes", free_bytes(call)}});
 }
@@ -68,7 +68,7 @@ void send_figures(const Call& call, const Request&, Response& response) {
   add("throng_events_total", "counter", "Events of jobs since the store was made.",
       call.queue.last_event());
   add("throng_event_streams", "gauge", "Clients that watch events.", call.queue.watchers());
-  add("throng_queue_paused", "gauge", "1 while the queue rests because the disk is full.",
+  add("throng_queue_paused", "gauge", "1 while the queue is paused because the disk is full.",
       call.queue.paused().empty() ? 0 : 1);
   add("throng_disk_free_bytes", "gauge", "Free bytes where the data folder lies.",
       free_bytes(call));
@@ -110,7 +110,7 @@ void list_policies(const Call& call, const Request&, Response& response) {
 void list_people(const Call& call, const Request&, Response& response) {
   json people = call.confined.people();
   if (people.is_null()) {
-    throw HttpError{404, "no people have been baked on this machine: throng people build"};
+    throw HttpError{404, "there is no character library on this machine: run throng people build"};
   }
   people["schema"] = schema_at("/properties/appearance");
   write_json(response, 200, people);

@@ -15,11 +15,11 @@ void send_version(const Call& call, const httplib::Request& request, httplib::Re
 void send_schema(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_openapi(const Call& call, const httplib::Request& request, httplib::Response& response);
 
-// Each list comes with the part of the job's schema that says how a job names one.
+// Each list comes with the part of the job's schema for selecting one.
 void list_airframes(const Call& call, const httplib::Request& request, httplib::Response& response);
 void list_formats(const Call& call, const httplib::Request& request, httplib::Response& response);
 void list_policies(const Call& call, const httplib::Request& request, httplib::Response& response);
-/// The baked people that frames are drawn with.
+/// The character library that frames are drawn with.
 void list_people(const Call& call, const httplib::Request& request, httplib::Response& response);
 
 }  // namespace throng::server

@@ -11,7 +11,7 @@ class QuotaError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What is asked for cannot happen in the state that the job is in. Answered with 409.
+/// The request is invalid in the job's state. Answered with 409.
 class ConflictError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

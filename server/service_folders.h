@@ -1,4 +1,4 @@
-// Where a service keeps what.
+// Folders of a service.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +17,15 @@ class ServiceFolders {
   ServiceFolders(std::filesystem::path data, std::filesystem::path shipped);
 
   const std::filesystem::path& data() const { return data_; }
-  /// Where all scenarios are found: shipped ones and uploads.
+  /// Search path of all scenarios: shipped ones and uploads.
   const std::filesystem::path& scenarios() const { return scenarios_; }
   const std::filesystem::path& shipped() const { return shipped_; }
-  /// Where everything that belongs to a job lies (jobs/queue/folder.h).
+  /// Folder of a job (jobs/queue/folder.h).
   std::filesystem::path job_folder(const std::string& id) const { return data_ / "jobs" / id; }
-  /// Where a job's dataset lies once it has succeeded.
+  /// Folder of a job's dataset once it has succeeded.
   std::filesystem::path dataset_of(const std::string& id) const;
   std::filesystem::path calibrations() const { return data_ / "calibrations"; }
-  /// Where a calibration's results lie once it has succeeded.
+  /// Folder of a calibration's results once it has succeeded.
   std::filesystem::path calibration_folder(const std::string& id) const {
     return calibrations() / id;
   }

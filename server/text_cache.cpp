@@ -9,9 +9,9 @@ TextCache::Text TextCache::find(std::uint64_t revision, const std::string& name)
 }
 
 void TextCache::put(std::uint64_t revision, const std::string& name, Text text) {
-  constexpr std::size_t kMostTexts = 1000;
+  constexpr std::size_t kMaxTexts = 1000;
   const std::lock_guard lock(mutex_);
-  if (revision_ != revision || texts_.size() >= kMostTexts) {
+  if (revision_ != revision || texts_.size() >= kMaxTexts) {
     texts_.clear();
     revision_ = revision;
   }

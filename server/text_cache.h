@@ -1,4 +1,4 @@
-// What was made of something the last time, for the many clients that ask for the same.
+// Cache of texts, for many clients that request the same.
 #pragma once
 
 #include <cstdint>

@@ -120,7 +120,7 @@ std::optional<Delivery> WebhookSender::ping(const std::string& id) {
   const auto webhook = webhooks_.get(id);
   if (!webhook) return std::nullopt;
   Delivery delivery = post(*webhook, 0, "ping", 1, R"({"type": "ping"})");
-  // What a ping meets says nothing of the events that wait.
+  // The result of a ping does not affect the waiting events.
   webhooks_.settle(*webhook, delivery);
   return delivery;
 }
@@ -140,9 +140,9 @@ void WebhookSender::serve(const std::string& id, const std::stop_token& stop) {
         continue;
       }
       if (deliver_next(*webhook, stop)) continue;
-      constexpr int kMostDoublings = 20;
-      rest(std::min(options_.longest_rest,
-                    options_.first_rest * (1 << std::min(webhook->failures - 1, kMostDoublings))),
+      constexpr int kMaxDoublings = 20;
+      rest(std::min(options_.max_pause,
+                    options_.first_rest * (1 << std::min(webhook->failures - 1, kMaxDoublings))),
            stop);
     } catch (const std::exception& error) {
       spdlog::error("webhook {}: {}", id, error.what());
@@ -172,7 +172,7 @@ bool WebhookSender::deliver_next(Webhook& webhook, const std::stop_token& stop) 
     }
     ++webhook.failures;
     if (webhook.failing_since_ms == 0) webhook.failing_since_ms = delivery.at_ms;
-    if (delivery.at_ms - webhook.failing_since_ms >= options_.patience.count()) {
+    if (delivery.at_ms - webhook.failing_since_ms >= options_.timeout.count()) {
       webhook.enabled = false;
       spdlog::warn("webhook {}: out of use, it has failed for too long", webhook.id);
     }

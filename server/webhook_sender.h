@@ -27,8 +27,8 @@ namespace throng::server {
 
 struct WebhookSenderOptions {
   std::chrono::milliseconds first_rest{1000};  ///< after a first failure; doubles with each
-  std::chrono::milliseconds longest_rest{600'000};
-  std::chrono::milliseconds patience{86'400'000};  ///< with a webhook that fails
+  std::chrono::milliseconds max_pause{600'000};
+  std::chrono::milliseconds timeout{86'400'000};  ///< with a webhook that fails
 };
 
 class WebhookSender {

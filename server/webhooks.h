@@ -1,6 +1,5 @@
-// Who is told of what happens to jobs: their addresses, what they are told of, and the log of what
-// was delivered to them. In a file of their own in the data folder, which only its owner may read:
-// the secrets are needed to sign with.
+// Webhooks: their addresses, events and delivery log. In a separate file of the data folder, which
+// only its owner may read: it holds the signing secrets.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +44,7 @@ class Webhooks {
   Webhooks(const Webhooks&) = delete;
   Webhooks& operator=(const Webhooks&) = delete;
 
-  /// Told of events after `after`. An empty secret is made up.
+  /// Receives events after `after`. An empty secret is generated.
   Webhook create(const std::string& url, const std::vector<std::string>& events, std::string secret,
                  std::int64_t after);
   std::vector<Webhook> list() const;
@@ -57,7 +56,7 @@ class Webhooks {
   /// there is none.
   bool enable(const std::string& id, bool enabled, std::int64_t after);
 
-  /// Logs an attempt and remembers how things stand.
+  /// Logs an attempt and stores the webhook's state.
   void settle(const Webhook& webhook, const std::optional<Delivery>& delivery);
 
   /// The newest first.

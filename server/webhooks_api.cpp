@@ -19,10 +19,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kMostWebhooks = 32;  // each has a thread of its own
-constexpr std::size_t kLongestUrl = 2000;
-constexpr std::size_t kMostEvents = 32;
-constexpr std::size_t kLongestSecret = 200;
+constexpr std::size_t kMaxWebhooks = 32;  // each has a thread of its own
+constexpr std::size_t kMaxUrlLength = 2000;
+constexpr std::size_t kMaxEvents = 32;
+constexpr std::size_t kMaxSecretLength = 200;
 
 json webhook_json(const Webhook& webhook) {
   return {{"id", webhook.id},
@@ -63,7 +63,7 @@ HttpError wrong(const std::string& pointer, const std::string& found, const std:
 /// A host, perhaps a port and a path, no user or blank: what can be called.
 bool is_url(const std::string& url) {
   for (const std::string_view scheme : {"http://", "https://"}) {
-    if (!url.starts_with(scheme) || url.size() > kLongestUrl) continue;
+    if (!url.starts_with(scheme) || url.size() > kMaxUrlLength) continue;
     const std::string rest = url.substr(scheme.size());
     return !rest.empty() && rest[0] != '/' && rest[0] != ':' &&
            std::none_of(rest.begin(), rest.end(), [](unsigned char c) {
@@ -83,7 +83,7 @@ std::vector<std::string> events_of(const json& body) {
   if (!body.contains("events")) return {"succeeded", "partial", "failed", "cancelled"};
   const json& list = body["events"];
   const bool is_list =
-      list.is_array() && !list.empty() && list.size() <= kMostEvents &&
+      list.is_array() && !list.empty() && list.size() <= kMaxEvents &&
       std::all_of(list.begin(), list.end(), [](const json& event) { return event.is_string(); });
   if (!is_list) {
     throw wrong("/events", list.dump(), "a list of types of events, or [\"*\"] for all");
@@ -96,7 +96,8 @@ json body_of(const Request& request, std::initializer_list<std::string_view> kno
   json body = json_body_of(request);
   for (const auto& [name, value] : body.items()) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw wrong("/" + name, "an unknown field", fmt::format("{}", *known.begin()));
+      throw wrong("/" + name, fmt::format("unknown field \"{}\"", name),
+                  fmt::format("one of: {}", fmt::join(known, ", ")));
     }
   }
   return body;
@@ -111,13 +112,13 @@ void create_webhook(const Call& call, const Request& request, Response& response
     throw wrong("/url", '"' + url + '"', "an address such as https://example.org/hook");
   }
   const std::string secret = text_at(body, "secret", "");
-  if (secret.size() > kLongestSecret) {
+  if (secret.size() > kMaxSecretLength) {
     throw wrong("/secret", fmt::format("{} characters", secret.size()),
-                fmt::format("at most {}", kLongestSecret));
+                fmt::format("at most {}", kMaxSecretLength));
   }
   Webhooks& webhooks = call.hooks.webhooks();
-  if (webhooks.list().size() >= kMostWebhooks) {
-    throw HttpError{409, fmt::format("there may be {} webhooks: remove one", kMostWebhooks)};
+  if (webhooks.list().size() >= kMaxWebhooks) {
+    throw HttpError{409, fmt::format("there may be {} webhooks: remove one", kMaxWebhooks)};
   }
   const Webhook webhook = webhooks.create(url, events_of(body), secret, call.queue.last_event());
   call.hooks.refresh();

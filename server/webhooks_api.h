@@ -1,4 +1,4 @@
-// Webhooks over HTTP: who is told of events, and what came of it. Administrators only: the server
+// Webhooks over HTTP: receivers of events, and the delivery log. Administrators only: the server
 // calls whatever address they name.
 #pragma once
 

@@ -18,35 +18,35 @@ constexpr double kFlySpeedMps = 4;
 constexpr double kLeadSpeedMps = 1.6;  // people run at 2 m/s
 constexpr double kDecideEveryS = 0.5;
 constexpr double kReachM = 6;          // of the beacon
-constexpr double kWorthTelling = 0.3;  // people per second of way, at least
+constexpr double kWorthTelling = 0.3;  // min people per second of travel
 constexpr double kCollectS = 2;        // at least, with the beacon on
-constexpr double kLongestCollectS = 6;
-constexpr double kLongestReleaseS = 20;  // beyond the door, for those who are there
-constexpr double kForTheLastS = 3;       // for those who are not
-constexpr double kBehindM = 9;           // a follower farther away got lost
-constexpr int kMostRescues = 3;
+constexpr double kMaxCollectS = 6;
+constexpr double kMaxReleaseS = 20;  // beyond the door, for those who are there
+constexpr double kForTheLastS = 3;   // for those who are not
+constexpr double kBehindM = 9;       // a follower farther away got lost
+constexpr int kMaxRescues = 3;
 constexpr double kIdleS = 40;         // what standing about costs whom nobody fetches
 constexpr double kWorthSeconds = 15;  // people times seconds that a trip must save
 constexpr double kStandsMps = 0.3;
 constexpr double kAtTheDoorM = 5;
-constexpr double kInVainM = 3;  // who did not come with the drone is left alone for a while
-constexpr double kInVainS = 40;
-constexpr int kLargestBatch = 50;
+constexpr double kAbandonedM = 3;  // who did not come with the drone is left alone for a while
+constexpr double kAbandonedS = 40;
+constexpr int kMaxBatch = 50;
 constexpr double kLineUpM = 9;      // a batch is long: nearer, its tail would come along the wall
 constexpr double kHalfWorthS = 20;  // a trip that takes so long is worth half
 
 class BalancePolicy : public Policy {
  public:
   explicit BalancePolicy(const PolicyContext& context)
-      : place_(*context.place),
+      : scenario_(*context.scenario),
         drone_(context.drone),
         lead_mps_(context.mission.guidance.lead_speed_mps.value_or(kLeadSpeedMps)),
-        batch_(context.mission.guidance.batch.value_or(kLargestBatch)),
-        choice_(exits_to_lead_to(place_, context.mission.guidance.exits)),
+        batch_(context.mission.guidance.batch.value_or(kMaxBatch)),
+        choice_(exits_to_lead_to(scenario_, context.mission.guidance.exits)),
         glide_(context.start, context.yaw_rad),
-        queues_(place_) {
-    for (const world::Exit& exit : place_.exits) {
-      routes_.push_back(route_through(exit, place_.buildings, kLineUpM));
+        queues_(scenario_) {
+    for (const world::Exit& exit : scenario_.exits) {
+      routes_.push_back(route_through(exit, scenario_.buildings, kLineUpM));
     }
   }
 
@@ -55,7 +55,7 @@ class BalancePolicy : public Policy {
     count_followers(view);
     const bool on_a_trip =
         stage_ == Stage::fly || stage_ == Stage::collect || stage_ == Stage::lead;
-    if (on_a_trip && !queues_.is_open(to_)) turn_from_shut_door(view);
+    if (on_a_trip && !queues_.is_open(to_)) turn_from_closed_door(view);
     switch (stage_) {
       case Stage::wait:
         if (view.time_s >= decide_s_) decide(view);
@@ -105,7 +105,7 @@ class BalancePolicy : public Policy {
     double people = 0;
     double seconds = 0;
   };
-  struct InVain {
+  struct Abandoned {
     Vector2d place;
     double until_s;
   };
@@ -133,24 +133,25 @@ class BalancePolicy : public Policy {
     }
   }
 
-  bool in_vain(const Vector2d& place, double time_s) const {
-    return std::any_of(in_vain_.begin(), in_vain_.end(), [&](const InVain& one) {
-      return time_s < one.until_s && (place - one.place).norm() < kInVainM;
+  bool abandoned(const Vector2d& place, double time_s) const {
+    return std::any_of(abandoned_.begin(), abandoned_.end(), [&](const Abandoned& one) {
+      return time_s < one.until_s && (place - one.place).norm() < kAbandonedM;
     });
   }
 
-  // Not those whom another drone leads; whom this one has left behind waits for it. Who has noticed
-  // nothing can be led where drones can tell them, and who is at the door is as good as out.
+  // Excludes people led by another drone; people whom this drone has left behind wait for it.
+  // People who have not noticed the alarm can be led if drones can inform them, and people at the
+  // door count as out.
   bool can_be_led(const PersonSeen& person) const {
     if (person.guide >= 0) return person.guide == drone_;
-    if (person.exit < 0) return place_.guides_alert;
-    const world::Exit& exit = place_.exits[static_cast<std::size_t>(person.exit)];
+    if (person.exit < 0) return scenario_.guides_alert;
+    const world::Exit& exit = scenario_.exits[static_cast<std::size_t>(person.exit)];
     return !queues_.is_open(person.exit) || (person.position - exit.middle()).norm() > kAtTheDoorM;
   }
 
   bool is_idle(const PersonSeen& person) const {
     if (person.exit < 0) return true;
-    const world::Exit& exit = place_.exits[static_cast<std::size_t>(person.exit)];
+    const world::Exit& exit = scenario_.exits[static_cast<std::size_t>(person.exit)];
     return person.velocity.norm() < kStandsMps &&
            (!queues_.is_open(person.exit) ||
             (person.position - exit.middle()).norm() > 2 * kAtTheDoorM);
@@ -160,11 +161,11 @@ class BalancePolicy : public Policy {
     decide_s_ = view.time_s + kDecideEveryS;
     const bool alarmed = std::any_of(view.people.begin(), view.people.end(),
                                      [](const auto& p) { return p.exit >= 0; });
-    if (alarmed && place_.guides_alert && go_alerting(view)) return;
+    if (alarmed && scenario_.guides_alert && go_alerting(view)) return;
     Trip best;
     if (alarmed) {
       for (const PersonSeen& person : view.people) {
-        if (!can_be_led(person) || in_vain(person.position, view.time_s)) continue;
+        if (!can_be_led(person) || abandoned(person.position, view.time_s)) continue;
         consider(view, person.position, best);
       }
     }
@@ -187,11 +188,11 @@ class BalancePolicy : public Policy {
         }));
   }
 
-  // To where most people can be told soon; false when there is nobody worth the way.
+  // Flies to where most people can be informed soon; false when nobody is worth the trip.
   bool go_alerting(const WorldView& view) {
     double best = kWorthTelling;
     for (const PersonSeen& person : view.people) {
-      if (has_noticed(person) || is_anothers(view, person.position)) continue;
+      if (has_noticed(person) || is_led_by_other(view, person.position)) continue;
       const double fly_s = (person.position - glide_.place()).norm() / kFlySpeedMps;
       const double worth = unaware_near(view, person.position) / (1 + fly_s);
       if (worth <= best) continue;
@@ -240,14 +241,15 @@ class BalancePolicy : public Policy {
     glide_.go(pick_, kFlySpeedMps);
   }
 
-  // Whom a beacon at `pick` would reach: per exit how many want it, and how many stand about.
+  // People whom a beacon at `pick` would reach: the number per intended exit, and the number
+  // standing.
   struct Reached {
     std::vector<double> want;
     double idle = 0;
     double all = 0;
   };
   Reached reached(const WorldView& view, const Vector2d& pick) const {
-    Reached result{std::vector<double>(place_.exits.size())};
+    Reached result{std::vector<double>(scenario_.exits.size())};
     for (const PersonSeen& person : view.people) {
       if (!can_be_led(person)) continue;
       if ((person.position - pick).norm() > kReachM) continue;
@@ -261,8 +263,8 @@ class BalancePolicy : public Policy {
     return result;
   }
 
-  // Whether another drone is busy at a place, or on its way there.
-  bool is_anothers(const WorldView& view, const Vector2d& place) const {
+  // Whether another drone is busy at a position, or heading there.
+  bool is_led_by_other(const WorldView& view, const Vector2d& place) const {
     for (std::size_t d = 0; d < view.drones.size(); ++d) {
       const LeadPlan& plan = view.drones[d].plan;
       if (static_cast<int>(d) == drone_ || !plan.place) continue;
@@ -272,7 +274,7 @@ class BalancePolicy : public Policy {
   }
 
   void consider(const WorldView& view, const Vector2d& pick, Trip& best) const {
-    if (is_anothers(view, pick)) return;
+    if (is_led_by_other(view, pick)) return;
     const Reached here = reached(view, pick);
     if (here.all > batch_) return;
     const double fly_s = (pick - glide_.place()).norm() / kFlySpeedMps + 1;
@@ -282,7 +284,7 @@ class BalancePolicy : public Policy {
           (routes_[static_cast<std::size_t>(to)].mouth() - pick).norm() / lead_mps_;
       const double arrive_s = fly_s + kCollectS + lead_s;
       Trip trip{pick, -1, to, here.all, 0};
-      double most = 0;
+      double max_value = 0;
       for (std::size_t e = 0; e < here.want.size(); ++e) {
         const int from = static_cast<int>(e);
         if (here.want[e] == 0) continue;
@@ -291,8 +293,8 @@ class BalancePolicy : public Policy {
           continue;
         }
         trip.seconds += queues_.saving_s(from, to, arrive_s, here.want[e]);
-        if (here.want[e] > most) {
-          most = here.want[e];
+        if (here.want[e] > max_value) {
+          max_value = here.want[e];
           trip.from = from;
         }
       }
@@ -308,21 +310,21 @@ class BalancePolicy : public Policy {
     if (near_ > 0 && collected_s >= kCollectS) {
       enter(Stage::lead, view.time_s);
       set_out_with_followers();
-    } else if (collected_s >= kLongestCollectS) {
-      in_vain_.push_back({glide_.place(), view.time_s + kInVainS});
+    } else if (collected_s >= kMaxCollectS) {
+      abandoned_.push_back({glide_.place(), view.time_s + kAbandonedS});
       enter(Stage::wait, view.time_s);
     }
   }
 
   // A disaster has reached the door: with those who follow to the one at which they are out
   // soonest; without any, or without such a door, it gives up.
-  void turn_from_shut_door(const WorldView& view) {
+  void turn_from_closed_door(const WorldView& view) {
     int best = -1;
     double best_s = std::numeric_limits<double>::infinity();
     for (const int exit : choice_) {
       if (!queues_.is_open(exit)) continue;
-      const Vector2d way = routes_[static_cast<std::size_t>(exit)].mouth() - glide_.place();
-      const double out_s = std::max(queues_.wait_s(exit), way.norm() / lead_mps_);
+      const Vector2d offset = routes_[static_cast<std::size_t>(exit)].mouth() - glide_.place();
+      const double out_s = std::max(queues_.wait_s(exit), offset.norm() / lead_mps_);
       if (out_s >= best_s) continue;
       best_s = out_s;
       best = exit;
@@ -365,8 +367,8 @@ class BalancePolicy : public Policy {
     }
     // Beyond the door: those who are here run on, those who got lost must be fetched.
     const double waited_s = view.time_s - arrived_s_;
-    if (waited_s < (near_ > 0 ? kLongestReleaseS : kForTheLastS)) return;
-    if (near_ == followers_ || rescues_ >= kMostRescues) {
+    if (waited_s < (near_ > 0 ? kMaxReleaseS : kForTheLastS)) return;
+    if (near_ == followers_ || rescues_ >= kMaxRescues) {
       enter(Stage::wait, view.time_s);
       return;
     }
@@ -377,7 +379,7 @@ class BalancePolicy : public Policy {
     start_leg(0);
   }
 
-  const world::Scenario& place_;
+  const world::Scenario& scenario_;
   int drone_;
   double lead_mps_;
   int batch_;
@@ -385,7 +387,7 @@ class BalancePolicy : public Policy {
   Glide glide_;
   QueueModel queues_;
   std::vector<LeadRoute> routes_;
-  std::vector<InVain> in_vain_;
+  std::vector<Abandoned> abandoned_;
 
   Stage stage_ = Stage::wait;
   double since_s_ = 0;   // when the stage began

@@ -1,6 +1,7 @@
 // "balance": takes people from where they would wait longest and leads them to the exit at which
 // they get out soonest, in batches that leave both queues equally long. Several drones share the
-// work by telling each other their plans; who stands about or has not noticed comes last.
+// work by announcing their plans to each other; people who are standing or have not noticed come
+// last.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What flying costs, and what the battery still holds.
+// Power of flight, and state of charge of the battery.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +9,8 @@
 
 namespace throng::sim {
 
-/// Electric power (W) that a craft takes. Each rotor does the work of thrust times the air's speed
-/// through its disc, which momentum theory gives (Glauert 1926; Leishman 2006, Principles of
+/// Electric power (W) that a vehicle takes. Each rotor does the work of thrust times the air's
+/// speed through its disc, which momentum theory gives (Glauert 1926; Leishman 2006, Principles of
 /// Helicopter Aerodynamics, eq. 2.126): v_i = v_h² / sqrt(V_across² + (V_along + v_i)²). The
 /// airframe's efficiency stands for what blades, motors and controllers lose.
 double electric_power_w(const Airframe& airframe, double thrust_n,
@@ -18,7 +18,7 @@ double electric_power_w(const Airframe& airframe, double thrust_n,
 
 /// The same for a hover in still air.
 double hover_power_w(const Airframe& airframe);
-/// How long the craft can hover with a full battery; 0: its battery is not known.
+/// How long the vehicle can hover with a full battery; 0: its battery is not known.
 double hover_endurance_s(const Airframe& airframe);
 
 /// Counts the energy used. A battery without a charge never runs out.

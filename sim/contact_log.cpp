@@ -19,12 +19,12 @@ const char* word_of(Obstacle obstacle) {
 
 void ContactLog::note(const Touch& touch) {
   const auto is_same = [&](const Contact& contact) {
-    return contact.impact.craft == touch.craft && contact.impact.obstacle == touch.obstacle &&
+    return contact.impact.vehicle == touch.vehicle && contact.impact.obstacle == touch.obstacle &&
            contact.impact.index == touch.index;
   };
   auto found = std::find_if(contacts_.begin(), contacts_.end(), is_same);
   if (found == contacts_.end()) {
-    contacts_.push_back({{touch.craft, touch.obstacle, touch.index, touch.speed_mps}});
+    contacts_.push_back({{touch.vehicle, touch.obstacle, touch.index, touch.speed_mps}});
     found = contacts_.end() - 1;
   }
   found->apart_s = 0;

@@ -1,4 +1,4 @@
-// Which touches are one and the same collision, and how hard each was.
+// Groups contacts into collisions, with the impulse of each.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,15 +13,15 @@ namespace throng::sim {
 
 enum class Obstacle : std::uint8_t { ground, building, drone, person };
 
-/// As traces say it: "ground", "building", "drone", "person".
+/// As in traces: "ground", "building", "drone", "person".
 const char* word_of(Obstacle obstacle);
 
-/// A craft hit something. One per approach: staying in touch, or touching the same thing again
+/// A vehicle hit something. One per approach: staying in touch, or touching the same object again
 /// within half a second, is the same one.
 struct Impact {
-  std::size_t craft = 0;
+  std::size_t vehicle = 0;
   Obstacle obstacle = Obstacle::ground;
-  int index = -1;         ///< of the building, craft or person; -1: the ground
+  int index = -1;         ///< of the building, vehicle or person; -1: the ground
   double speed_mps = 0;   ///< of one relative to the other just before
   double impulse_ns = 0;  ///< given in the first 50 ms
   Eigen::Vector3d push_ns =
@@ -32,7 +32,7 @@ struct Impact {
 
 /// The contact of one pair of bodies during one step.
 struct Touch {
-  std::size_t craft = 0;
+  std::size_t vehicle = 0;
   Obstacle obstacle = Obstacle::ground;
   int index = -1;
   double speed_mps = 0;

@@ -18,9 +18,9 @@ constexpr double kIntegralGain = 0.6;  // 1/s²
 constexpr double kYawGain = 12;        // 1/s²
 constexpr double kYawRateGain = 6;     // 1/s
 // Vertical acceleration stays within these shares of gravity, so that some thrust is always left
-// to turn the craft with.
-constexpr double kMostDrop = 0.6;
-constexpr double kMostClimb = 0.6;
+// to turn the vehicle with.
+constexpr double kMaxDrop = 0.6;
+constexpr double kMaxClimb = 0.6;
 constexpr double kUsableThrust = 0.95;
 
 Eigen::Vector2d shortened(const Eigen::Vector2d& v, double longest) {
@@ -28,7 +28,7 @@ Eigen::Vector2d shortened(const Eigen::Vector2d& v, double longest) {
   return length > longest ? Eigen::Vector2d(v * (longest / length)) : v;
 }
 
-// The attitude with z along `force` and x straight above or below the heading, so that a craft
+// The attitude with z along `force` and x straight above or below the heading, so that a vehicle
 // that leans does not seem to turn.
 Matrix3d attitude_along(const Vector3d& force, double yaw_rad) {
   const double cos_yaw = std::cos(yaw_rad);
@@ -57,15 +57,15 @@ Vector3d Controller::wanted_force(const FlightState& state, const Setpoint& setp
   const Vector3d wanted = setpoint.acceleration + kVelocityGain * velocity_error + integral_;
 
   Vector3d acceleration = wanted;
-  const double most_climb =
-      std::min(kMostClimb * kGravity, kUsableThrust * airframe_.max_thrust_n() *
-                                              std::cos(limits_.tilt_rad) / airframe_.mass_kg -
-                                          kGravity);
-  acceleration.z() = std::clamp(wanted.z(), -kMostDrop * kGravity, most_climb);
-  // The tilt is that of level flight: dropping while braking does not lean the craft further.
-  const double most_sideways =
+  const double max_climb =
+      std::min(kMaxClimb * kGravity, kUsableThrust * airframe_.max_thrust_n() *
+                                             std::cos(limits_.tilt_rad) / airframe_.mass_kg -
+                                         kGravity);
+  acceleration.z() = std::clamp(wanted.z(), -kMaxDrop * kGravity, max_climb);
+  // The tilt is that of level flight: dropping while braking does not lean the vehicle further.
+  const double max_sideways =
       std::min(kGravity, kGravity + acceleration.z()) * std::tan(limits_.tilt_rad);
-  acceleration.head<2>() = shortened(wanted.head<2>(), most_sideways);
+  acceleration.head<2>() = shortened(wanted.head<2>(), max_sideways);
 
   // An integral that grows while nothing can be done about the error only overshoots later.
   tilt_saturated_ = acceleration.head<2>() != wanted.head<2>();

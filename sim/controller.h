@@ -1,4 +1,4 @@
-// The autopilot: from where the craft should be to how fast its rotors should turn.
+// The autopilot: from where the vehicle should be to how fast its rotors should turn.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ struct Setpoint {
   double yaw_rad = 0;
 };
 
-/// How fast a craft makes good an error of position, and how far it may lean.
+/// How fast a vehicle makes good an error of position, and how far it may lean.
 struct FlightLimits {
   double horizontal_mps = 5;
   double vertical_mps = 2;

@@ -17,8 +17,8 @@ CrowdRecorder::CrowdRecorder(const world::Scenario& scenario, const std::vector<
       escaped_(roles.size(), false),
       down_(roles.size(), false) {}
 
-// Who heads for an exit intends it, also on the way on from there to safety. Who follows a drone
-// goes where it leads and intends none; who was led takes the exit at hand.
+// A person heading for an exit intends it, also on the path from there to safety. A follower of a
+// drone intends no exit; after the release it takes the exit at hand.
 void CrowdRecorder::update_intent(std::size_t agent, const crowd::GoalId& goal,
                                   const Eigen::Vector2d& place) {
   const auto among = [&](const std::vector<world::GoalRef>& list) {

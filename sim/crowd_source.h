@@ -1,4 +1,4 @@
-// Where a run's people come from: the crowd engine, or a recording that is replayed.
+// Source of a run's people: the crowd engine, or a recording that is replayed.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@ class CrowdSource {
   CrowdSource& operator=(const CrowdSource&) = delete;
 
   virtual double dt_s() const = 0;
-  /// What does not change: everybody is a person, there are no exits and no drones.
+  /// Constant data of the trace: everybody is a person, there are no exits and no drones.
   virtual world::TraceHeader header(std::uint64_t seed) const = 0;
   /// Everybody as they are now; nobody heads for an exit. The time is the caller's to fill in.
   virtual world::CrowdStep now() const = 0;
@@ -32,13 +32,13 @@ class CrowdSource {
   virtual std::span<const crowd::GoalId> goals() const = 0;
   virtual std::span<const crowd::Fall> falls() const = 0;  ///< who fell in the last step
   virtual std::vector<Problem> warnings() const = 0;
-  /// Whether the scenario's exits say anything of where these people go.
+  /// Whether these people use the scenario's exits.
   virtual bool has_intents() const = 0;
 
   virtual void step() = 0;
-  /// See crowd::Simulation. Recorded people neither leave their ways nor see what moves.
+  /// See crowd::Simulation. Recorded people neither leave their paths nor react to moving objects.
   virtual void set_present(std::size_t agent, bool present) = 0;
-  virtual void move_goal(int set, int goal, const Eigen::Vector2f& centre) = 0;
+  virtual void move_goal(int set, int goal, const Eigen::Vector2f& center) = 0;
   virtual void strike(std::size_t agent, const Eigen::Vector2f& impulse_ns) = 0;
 };
 
@@ -46,8 +46,9 @@ class CrowdSource {
 std::unique_ptr<CrowdSource> simulated(crowd::Simulation crowd);
 
 /// A recording (world::Trace without intents), played once at dt_s = replay_step_s(recording).
-/// Between recorded frames people move straight; who is not in both frames around a time is not
-/// there. After the last frame nobody is. Who never gets anywhere faces anywhere, by the seed.
+/// Between recorded frames people move straight; a person who is missing in one of the two frames
+/// around a time is absent. After the last frame nobody is present. A person who never moves gets a
+/// random heading, by the seed.
 std::unique_ptr<CrowdSource> replayed(std::shared_ptr<const world::Trace> recording,
                                       std::uint64_t seed);
 

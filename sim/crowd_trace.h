@@ -1,4 +1,4 @@
-// The crowd engine's state as a trace says it.
+// The crowd engine's state in the form of a trace.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,7 @@
 
 namespace throng::sim {
 
-/// What a trace says of a crowd that does not change: everybody is a person, there are no exits
-/// and no drones.
+/// Constant data in the trace of a crowd: everybody is a person, there are no exits and no drones.
 world::TraceHeader crowd_header(const crowd::Simulation& crowd, std::uint64_t seed);
 
 /// The crowd as it is now; nobody heads for an exit.

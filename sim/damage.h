@@ -1,4 +1,4 @@
-// What a collision breaks on a quadcopter.
+// Damage to a quadcopter by a collision.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +11,13 @@
 
 namespace throng::sim {
 
-/// One point at which a craft is pushed, both in its body frame.
+/// One point at which a vehicle is pushed, both in its body frame.
 struct Contact {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< m, from the middle
-  Eigen::Vector3d push_ns = Eigen::Vector3d::Zero();  ///< on the craft
+  Eigen::Vector3d push_ns = Eigen::Vector3d::Zero();  ///< on the vehicle
 };
 
-/// The rotor whose propeller a contact goes through: the nearest one, unless the craft is pushed
+/// The rotor whose propeller a contact goes through: the nearest one, unless the vehicle is pushed
 /// from below, where its landing gear is.
 std::optional<std::size_t> propeller_hit(const Contact& contact);
 
@@ -30,7 +30,7 @@ struct Damage {
   bool any_propeller() const;
 };
 
-/// What an impact breaks: its speed against a wall is compared with the airframe's limits. Of the
+/// Damage by an impact: its speed against a wall is compared with the airframe's limits. Of the
 /// propellers those break through which at least a fifth of the impulse came.
 Damage damage_of(const Impact& impact, const Airframe& airframe);
 

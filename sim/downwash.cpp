@@ -19,7 +19,7 @@ double hover_induced_mps(const Airframe& airframe) {
 Jet::Jet(const Airframe& airframe)
     : start_mps_(2 * hover_induced_mps(airframe)),
       diameter_m_(2 * std::sqrt(2.0) * airframe.propeller_radius_m),
-      // With this half width the bell of speeds carries the craft's weight as momentum.
+      // With this half width the bell of speeds carries the vehicle's weight as momentum.
       narrowest_m_(diameter_m_ * std::sqrt(0.5 * std::log(2.0))) {}
 
 double Jet::speed_mps(double below_m, double aside_m) const {

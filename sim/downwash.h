@@ -1,4 +1,4 @@
-// The air that a craft blows down to stay up.
+// The air that a vehicle blows down to stay up.
 #pragma once
 
 #include "sim/spec/airframe.h"
@@ -7,23 +7,24 @@ namespace throng::sim {
 
 inline constexpr double kAirDensity = 1.225;  ///< kg/m³, ISA at sea level
 
-/// Speed of the air that the rotors of a hovering craft draw through their discs (momentum theory):
-/// v_h = sqrt(weight / (2 rho A)), A being all discs together.
+/// Speed of the air that the rotors of a hovering vehicle draw through their discs (momentum
+/// theory): v_h = sqrt(weight / (2 rho A)), A being all discs together.
 double hover_induced_mps(const Airframe& airframe);
 
-/// The air below a hovering craft. The four wakes count as one round jet of the craft's momentum:
-/// 2 v_h at first, then falling with distance z as that of a free jet, 6.2 D / z with D the
-/// diameter of the contracted wake, and spreading so that half of the middle's speed is found
+/// The air below a hovering vehicle. The four wakes count as one round jet of the vehicle's
+/// momentum: 2 v_h at first, then falling with distance z as that of a free jet, 6.2 D / z with D
+/// the diameter of the contracted wake, and spreading so that half of the middle's speed is found
 /// 0.094 z aside (Rajaratnam 1976, Turbulent Jets, ch. 2). The wind is not seen to bend it.
 class Jet {
  public:
   explicit Jet(const Airframe& airframe);
 
-  /// Downward speed (m/s) at a point so far below the rotors and so far aside of the craft's
+  /// Downward speed (m/s) at a point so far below the rotors and so far aside of the vehicle's
   /// middle; 0 above them.
   double speed_mps(double below_m, double aside_m) const;
 
-  /// Whether anything of it could be felt there; cheap, and never wrong where it says no.
+  /// Whether anything of it could be felt there; cheap, and conservative: false only if nothing can
+  /// be felt.
   bool may_reach(double below_m, double aside_m) const {
     return below_m > 0 && aside_m < kEdge * (kHalfWidth * below_m + narrowest_m_);
   }

@@ -21,14 +21,14 @@ double DownwashExposure::reach_m(const Jet& jet, double height_m) {
   return reach;
 }
 
-void DownwashExposure::update(double time_s, double dt_s, std::size_t craft, const Jet& jet,
+void DownwashExposure::update(double time_s, double dt_s, std::size_t vehicle, const Jet& jet,
                               const Eigen::Vector3d& position, std::span<const NearPerson> people) {
   for (const NearPerson& person : people) {
     const double aside_m = (person.position - position.head<2>()).norm();
     const double speed_mps = jet.speed_mps(position.z() - kHeadM, aside_m);
     if (speed_mps < kFastAirMps) continue;
     const auto [entry, is_new] =
-        exposures_.try_emplace({craft, person.agent}, Exposure{time_s, time_s, 0, 0});
+        exposures_.try_emplace({vehicle, person.agent}, Exposure{time_s, time_s, 0, 0});
     Exposure& exposure = entry->second;
     exposure.last_s = time_s;
     exposure.seconds += dt_s;
@@ -38,7 +38,7 @@ void DownwashExposure::update(double time_s, double dt_s, std::size_t craft, con
 
 void DownwashExposure::flush(double time_s, bool all) {
   for (auto entry = exposures_.begin(); entry != exposures_.end();) {
-    const auto& [who, exposure] = *entry;
+    const auto& [pair, exposure] = *entry;
     if (!all && time_s - exposure.last_s < kSameExposureS) {
       ++entry;
       continue;
@@ -46,8 +46,8 @@ void DownwashExposure::flush(double time_s, bool all) {
     world::TraceEvent event;
     event.time_s = exposure.from_s;
     event.type = "downwash";
-    event.agent = who.second;
-    event.drone = static_cast<std::int32_t>(who.first);
+    event.agent = pair.second;
+    event.drone = static_cast<std::int32_t>(pair.first);
     event.value = exposure.seconds;
     event.extra = exposure.fastest_mps;
     log_(event);

@@ -12,7 +12,7 @@
 
 namespace throng::sim {
 
-/// Who stands in air faster than 5 m/s at the height of the head, and for how long.
+/// People exposed to air faster than 5 m/s at the height of the head, and the duration.
 class DownwashExposure {
  public:
   using Log = std::function<void(const world::TraceEvent&)>;
@@ -23,7 +23,7 @@ class DownwashExposure {
   static double reach_m(const Jet& jet, double height_m);
 
   /// Counts `dt_s` for everybody that is near one drone.
-  void update(double time_s, double dt_s, std::size_t craft, const Jet& jet,
+  void update(double time_s, double dt_s, std::size_t vehicle, const Jet& jet,
               const Eigen::Vector3d& position, std::span<const NearPerson> people);
 
   /// Writes the exposures that have ended, or all.

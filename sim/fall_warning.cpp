@@ -18,14 +18,14 @@ GroundImpact ground_impact(const FlightState& state) {
   return {in_s, state.position.head<2>() + in_s * state.velocity.head<2>()};
 }
 
-void FallWarning::update(double time_s, const FallingCraft& craft, const PeopleInMotion& people,
+void FallWarning::update(double time_s, const FallingCraft& vehicle, const PeopleInMotion& people,
                          const std::function<void(const world::TraceEvent&)>& log) {
-  if (done_ || craft.can_hold) return;
+  if (done_ || vehicle.can_hold) return;
   done_ = true;
-  const double height_m = craft.state.position.z();
+  const double height_m = vehicle.state.position.z();
   if (height_m <= kPersonHeightM) return;
   std::vector<NearPerson> near;
-  people.collect({craft.state.position.head<2>(), height_m}, near);
+  people.collect({vehicle.state.position.head<2>(), height_m}, near);
   world::TraceEvent event;
   event.time_s = time_s;
   event.type = "falling";
@@ -33,9 +33,9 @@ void FallWarning::update(double time_s, const FallingCraft& craft, const PeopleI
   event.value = height_m;
   event.extra = static_cast<double>(near.size());
   log(event);
-  const GroundImpact impact = ground_impact(craft.state);
+  const GroundImpact impact = ground_impact(vehicle.state);
   near.clear();
-  people.collect({impact.place, craft.radius_m + kHazardM}, near);
+  people.collect({impact.place, vehicle.radius_m + kHazardM}, near);
   event.type = "fall_hazard";
   for (const NearPerson& person : near) {
     event.agent = person.agent;

@@ -34,7 +34,7 @@ class FallWarning {
  public:
   explicit FallWarning(std::size_t drone) : drone_(drone) {}
 
-  void update(double time_s, const FallingCraft& craft, const PeopleInMotion& people,
+  void update(double time_s, const FallingCraft& vehicle, const PeopleInMotion& people,
               const std::function<void(const world::TraceEvent&)>& log);
 
  private:

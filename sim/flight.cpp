@@ -13,19 +13,19 @@ constexpr double kControlHz = 240;
 constexpr double kSampleHz = 60;
 // Slower contact is a landing.
 constexpr double kCollisionMps = 0.3;
-// Rotors stopped and slower than this, a craft lies where it has come down.
+// Rotors stopped and slower than this, a vehicle lies where it has come down.
 constexpr double kRestMps = 0.1;
 
-int whole_ticks(double interval_s, double longest_tick_s) {
+int whole_ticks(double interval_s, double max_tick_s) {
   constexpr double kRounding = 1e-9;
-  return std::max(1, static_cast<int>(std::ceil(interval_s / longest_tick_s - kRounding)));
+  return std::max(1, static_cast<int>(std::ceil(interval_s / max_tick_s - kRounding)));
 }
 
 int nearest_ticks(double hz, double tick_s) {
   return std::max(1, static_cast<int>(std::lround(1 / (hz * tick_s))));
 }
 
-// The air that one hovering craft blows down on another's rotors.
+// The air that one hovering vehicle blows down on another's rotors.
 void add_downwash(const Jet& jet, const FlightState& from, const FlightState& to,
                   const Airframe& frame, PerRotor& downwash_mps) {
   const double seat_m = frame.arm_m / std::sqrt(2.0);
@@ -94,15 +94,15 @@ void Flight::finish() {
   exposure_.flush(time_s_, true);
 }
 
-// Whoever no drone comes near costs no more than a look at where they are, and nothing while all
+// People far from all drones cost no more than a lookup of their positions, and nothing while all
 // drones are high up.
 void Flight::meet_people() {
   near_.clear();
   for (std::size_t i = 0; i < crafts_.size(); ++i) {
-    const CraftInAir& craft = crafts_[i];
-    const double reach_m = std::max(NearMisses::reach_m(craft),
-                                    DownwashExposure::reach_m(jets_[i], craft.position.z()));
-    if (reach_m > 0) people_.collect({craft.position.head<2>(), reach_m}, near_);
+    const VehicleInAir& vehicle = crafts_[i];
+    const double reach_m = std::max(NearMisses::reach_m(vehicle),
+                                    DownwashExposure::reach_m(jets_[i], vehicle.position.z()));
+    if (reach_m > 0) people_.collect({vehicle.position.head<2>(), reach_m}, near_);
   }
   const auto by_agent = [](const NearPerson& a, const NearPerson& b) { return a.agent < b.agent; };
   const auto is_same = [](const NearPerson& a, const NearPerson& b) { return a.agent == b.agent; };
@@ -111,11 +111,11 @@ void Flight::meet_people() {
 
   std::vector<NearPerson> touchable;
   for (const NearPerson& person : near_) {
-    const auto can_touch = [&](const CraftInAir& craft) {
-      const double way_m = (craft.velocity.norm() + person.velocity.norm() + 1) * interval_s_;
-      const Eigen::Vector2d aside = craft.position.head<2>() - person.position;
-      return craft.position.z() < kPersonHeightM + craft.radius_m + way_m &&
-             aside.norm() < craft.radius_m + kPersonRadiusM + way_m;
+    const auto can_touch = [&](const VehicleInAir& vehicle) {
+      const double path_m = (vehicle.velocity.norm() + person.velocity.norm() + 1) * interval_s_;
+      const Eigen::Vector2d aside = vehicle.position.head<2>() - person.position;
+      return vehicle.position.z() < kPersonHeightM + vehicle.radius_m + path_m &&
+             aside.norm() < vehicle.radius_m + kPersonRadiusM + path_m;
     };
     if (std::any_of(crafts_.begin(), crafts_.end(), can_touch)) touchable.push_back(person);
   }
@@ -133,7 +133,7 @@ void Flight::control() {
   }
 }
 
-// Lets the wind blow, and each craft on those below it.
+// Lets the wind blow, and each vehicle on those below it.
 void Flight::blow() {
   for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = world_.state(i);
   for (std::size_t i = 0; i < pilots_.size(); ++i) {
@@ -172,13 +172,13 @@ void Flight::record_samples() {
 void Flight::record_impacts(std::span<const Impact> impacts) {
   for (const Impact& impact : impacts) {
     if (impact.speed_mps < kCollisionMps) continue;
-    near_misses_.collided(impact.craft, impact.obstacle, impact.index);
+    near_misses_.collided(impact.vehicle, impact.obstacle, impact.index);
     const bool is_person = impact.obstacle == Obstacle::person;
     world::TraceEvent event;
     event.time_s = std::max(0.0, time_s_ - impact.ago_s);
     event.type = "collision";
     event.agent = is_person ? impact.index : -1;
-    event.drone = static_cast<std::int32_t>(impact.craft);
+    event.drone = static_cast<std::int32_t>(impact.vehicle);
     event.value = impact.speed_mps;
     event.partner = word_of(impact.obstacle);
     event.other = is_person ? -1 : impact.index;
@@ -193,18 +193,18 @@ void Flight::record_impacts(std::span<const Impact> impacts) {
 
 // Breaks what does not withstand the impact.
 void Flight::damage(const Impact& impact) {
-  const Airframe& airframe = world_.airframe(impact.craft);
+  const Airframe& airframe = world_.airframe(impact.vehicle);
   const Damage damage = damage_of(impact, airframe);
   if (!damage.structure && !damage.any_propeller()) return;
   const double speed_mps = wall_speed_mps(impact.impulse_ns, airframe);
   for (std::size_t rotor = 0; rotor < damage.propeller.size(); ++rotor) {
     if (!damage.structure && !damage.propeller[rotor]) continue;
-    world_.break_rotor(impact.craft, rotor);
+    world_.break_rotor(impact.vehicle, rotor);
     if (damage.structure) continue;
-    report(impact.craft, "propeller_broken", speed_mps, static_cast<double>(rotor));
+    report(impact.vehicle, "propeller_broken", speed_mps, static_cast<double>(rotor));
   }
-  if (damage.structure) report(impact.craft, "structure_broken", speed_mps);
-  pilots_[impact.craft].damaged(damage, world_.state(impact.craft));
+  if (damage.structure) report(impact.vehicle, "structure_broken", speed_mps);
+  pilots_[impact.vehicle].damaged(damage, world_.state(impact.vehicle));
 }
 
 // Only whoever is near a fall is looked at, once, when it begins.

@@ -19,7 +19,7 @@
 
 namespace throng::sim {
 
-/// Where a flight's record goes.
+/// Output of a flight's record.
 struct FlightLog {
   std::function<void(std::size_t drone, const world::DroneSample&)> sample;
   std::function<void(const world::TraceEvent&)> event;
@@ -81,7 +81,7 @@ class Flight {
   std::vector<FallWarning> falls_;
   std::vector<FlightState> states_;   ///< when the pilots last decided
   std::vector<Eigen::Vector3d> air_;  ///< wind at each drone, m/s
-  std::vector<CraftInAir> crafts_;    ///< as of the last samples
+  std::vector<VehicleInAir> crafts_;  ///< as of the last samples
   PeopleInMotion people_;
   std::vector<NearPerson>
       near_;  ///< who matters to some drone in this interval, as of last samples

@@ -19,7 +19,7 @@ constexpr double kFriction = 0.5;
 btVector3 to_bullet(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-// What a body is, for whoever meets it.
+// Labels a body with its kind, for contact handling.
 void label(btCollisionObject& body, Obstacle obstacle, int index) {
   body.setUserIndex(static_cast<int>(obstacle));
   body.setUserIndex2(index);
@@ -28,9 +28,9 @@ Obstacle obstacle_of(const btCollisionObject& body) {
   return static_cast<Obstacle>(body.getUserIndex());
 }
 
-// One craft: its rotors, and its body in Bullet. Stays where it is, since Bullet points to it.
-struct Craft {
-  Craft(const Airframe& airframe, double dt_s, const Vector3d& position, double yaw_rad)
+// One vehicle: its rotors, and its body in Bullet. Stays where it is, since Bullet points to it.
+struct Vehicle {
+  Vehicle(const Airframe& airframe, double dt_s, const Vector3d& position, double yaw_rad)
       : quadcopter(airframe, dt_s),
         commands(quadcopter.rotor_speeds()),
         shape(half_extents(airframe)),
@@ -76,7 +76,7 @@ struct Craft {
   bool has_moved = false;
 };
 
-// Somebody's body. Kinematic: Bullet moves it as told and lets crafts bounce off it.
+// Somebody's body. Kinematic: Bullet moves it as commanded and lets vehicles bounce off it.
 struct PersonBody {
   explicit PersonBody(btCollisionShape& shape) : body(0, nullptr, &shape) {
     body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -116,7 +116,7 @@ struct FlightWorld::Bodies {
 
   ~Bodies() {
     for (const auto& person : people) world.removeRigidBody(&person->body);
-    for (const auto& craft : crafts) world.removeRigidBody(&craft->body);
+    for (const auto& vehicle : vehicles) world.removeRigidBody(&vehicle->body);
     for (const auto& body : fixed) world.removeRigidBody(body.get());
   }
 
@@ -159,7 +159,7 @@ struct FlightWorld::Bodies {
       person.person = list[i];
       person.place();
       label(person.body, Obstacle::person, list[i].agent);
-      // Else Bullet would take the way here for motion.
+      // Else Bullet would take this displacement for motion.
       if (moved_in) person.body.setInterpolationWorldTransform(person.body.getWorldTransform());
       if (is_new) world.addRigidBody(&person.body);
     }
@@ -181,13 +181,13 @@ struct FlightWorld::Bodies {
     contacts.advance(dt_s);
   }
 
-  // The contact of two bodies as the first or the second of them, if that is a craft, meets it.
+  // The contact of two bodies as the first or the second of them, if that is a vehicle, meets it.
   void note_contact(const btPersistentManifold& manifold, bool first) {
-    const btCollisionObject& craft = first ? *manifold.getBody0() : *manifold.getBody1();
+    const btCollisionObject& vehicle = first ? *manifold.getBody0() : *manifold.getBody1();
     const btCollisionObject& other = first ? *manifold.getBody1() : *manifold.getBody0();
-    if (obstacle_of(craft) != Obstacle::drone) return;
+    if (obstacle_of(vehicle) != Obstacle::drone) return;
     Touch touch;
-    touch.craft = static_cast<std::size_t>(craft.getUserIndex2());
+    touch.vehicle = static_cast<std::size_t>(vehicle.getUserIndex2());
     touch.obstacle = obstacle_of(other);
     touch.index = other.getUserIndex2();
     for (int i = 0; i < manifold.getNumContacts(); ++i) {
@@ -197,7 +197,7 @@ struct FlightWorld::Bodies {
       const btVector3 push = (first ? -1.0 : 1.0) * impulse_ns * point.m_normalWorldOnB;
       touch.impulse_ns += impulse_ns;
       touch.push_ns += to_eigen(push);
-      const btTransform& pose = craft.getWorldTransform();
+      const btTransform& pose = vehicle.getWorldTransform();
       const btVector3 at = first ? point.m_positionWorldOnA : point.m_positionWorldOnB;
       const Contact contact{to_eigen(pose.invXform(at)),
                             to_eigen(pose.getBasis().transpose() * -push)};
@@ -205,7 +205,7 @@ struct FlightWorld::Bodies {
     }
     // Bodies that are near but do not push yet do not touch.
     if (touch.impulse_ns <= 0) return;
-    touch.speed_mps = (velocity_before(craft) - velocity_before(other)).norm();
+    touch.speed_mps = (velocity_before(vehicle) - velocity_before(other)).norm();
     contacts.note(touch);
   }
 
@@ -213,7 +213,7 @@ struct FlightWorld::Bodies {
     const auto index = static_cast<std::size_t>(body.getUserIndex2());
     switch (obstacle_of(body)) {
       case Obstacle::drone:
-        return crafts[index]->velocity_before;
+        return vehicles[index]->velocity_before;
       case Obstacle::person:
         return to_eigen(btRigidBody::upcast(&body)->getLinearVelocity());
       case Obstacle::ground:
@@ -230,7 +230,7 @@ struct FlightWorld::Bodies {
   btSequentialImpulseConstraintSolver solver;
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> fixed;
-  std::vector<std::unique_ptr<Craft>> crafts;
+  std::vector<std::unique_ptr<Vehicle>> vehicles;
   btCapsuleShapeZ person_shape{kPersonRadiusM, kPersonHeightM - 2 * kPersonRadiusM};
   std::vector<std::unique_ptr<PersonBody>> people;
   ContactLog contacts;
@@ -246,40 +246,40 @@ FlightWorld::FlightWorld(FlightWorld&&) noexcept = default;
 FlightWorld& FlightWorld::operator=(FlightWorld&&) noexcept = default;
 
 std::size_t FlightWorld::add(const Airframe& airframe, const Vector3d& position, double yaw_rad) {
-  auto craft = std::make_unique<Craft>(airframe, bodies_->dt_s, position, yaw_rad);
-  label(craft->body, Obstacle::drone, static_cast<int>(bodies_->crafts.size()));
-  bodies_->world.addRigidBody(&craft->body);
-  bodies_->crafts.push_back(std::move(craft));
-  return bodies_->crafts.size() - 1;
+  auto vehicle = std::make_unique<Vehicle>(airframe, bodies_->dt_s, position, yaw_rad);
+  label(vehicle->body, Obstacle::drone, static_cast<int>(bodies_->vehicles.size()));
+  bodies_->world.addRigidBody(&vehicle->body);
+  bodies_->vehicles.push_back(std::move(vehicle));
+  return bodies_->vehicles.size() - 1;
 }
 
-void FlightWorld::command(std::size_t craft, const PerRotor& rotor_speeds) {
-  bodies_->crafts[craft]->commands = rotor_speeds;
+void FlightWorld::command(std::size_t vehicle, const PerRotor& rotor_speeds) {
+  bodies_->vehicles[vehicle]->commands = rotor_speeds;
 }
 
-void FlightWorld::set_air_velocity(std::size_t craft, const Vector3d& velocity) {
-  bodies_->crafts[craft]->air_velocity = velocity;
+void FlightWorld::set_air_velocity(std::size_t vehicle, const Vector3d& velocity) {
+  bodies_->vehicles[vehicle]->air_velocity = velocity;
 }
 
-void FlightWorld::set_downwash(std::size_t craft, const PerRotor& downwash_mps) {
-  bodies_->crafts[craft]->downwash_mps = downwash_mps;
+void FlightWorld::set_downwash(std::size_t vehicle, const PerRotor& downwash_mps) {
+  bodies_->vehicles[vehicle]->downwash_mps = downwash_mps;
 }
 
-void FlightWorld::break_rotor(std::size_t craft, std::size_t rotor) {
-  bodies_->crafts[craft]->quadcopter.break_rotor(rotor);
+void FlightWorld::break_rotor(std::size_t vehicle, std::size_t rotor) {
+  bodies_->vehicles[vehicle]->quadcopter.break_rotor(rotor);
 }
 
 void FlightWorld::set_people(std::span<const NearPerson> people) { bodies_->set_people(people); }
 
 void FlightWorld::step() {
-  for (const auto& craft : bodies_->crafts) {
-    const FlightState state = craft->state();
-    const Wrench wrench =
-        craft->quadcopter.step(state, craft->commands, craft->air_velocity, craft->downwash_mps);
-    craft->body.applyCentralForce(to_bullet(wrench.force));
-    craft->body.applyTorque(to_bullet(wrench.torque));
-    craft->velocity_before = state.velocity;
-    craft->has_moved = true;
+  for (const auto& vehicle : bodies_->vehicles) {
+    const FlightState state = vehicle->state();
+    const Wrench wrench = vehicle->quadcopter.step(state, vehicle->commands, vehicle->air_velocity,
+                                                   vehicle->downwash_mps);
+    vehicle->body.applyCentralForce(to_bullet(wrench.force));
+    vehicle->body.applyTorque(to_bullet(wrench.torque));
+    vehicle->velocity_before = state.velocity;
+    vehicle->has_moved = true;
   }
   bodies_->move_people();
   bodies_->world.stepSimulation(bodies_->dt_s, 0);
@@ -287,24 +287,26 @@ void FlightWorld::step() {
 }
 
 double FlightWorld::dt_s() const { return bodies_->dt_s; }
-std::size_t FlightWorld::size() const { return bodies_->crafts.size(); }
-FlightState FlightWorld::state(std::size_t craft) const { return bodies_->crafts[craft]->state(); }
+std::size_t FlightWorld::size() const { return bodies_->vehicles.size(); }
+FlightState FlightWorld::state(std::size_t vehicle) const {
+  return bodies_->vehicles[vehicle]->state();
+}
 
-Eigen::Quaterniond FlightWorld::orientation(std::size_t craft) const {
-  const btQuaternion q = bodies_->crafts[craft]->body.getOrientation();
+Eigen::Quaterniond FlightWorld::orientation(std::size_t vehicle) const {
+  const btQuaternion q = bodies_->vehicles[vehicle]->body.getOrientation();
   return Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized();
 }
 
-Vector3d FlightWorld::specific_force(std::size_t craft) const {
-  return bodies_->crafts[craft]->specific_force(bodies_->dt_s);
+Vector3d FlightWorld::specific_force(std::size_t vehicle) const {
+  return bodies_->vehicles[vehicle]->specific_force(bodies_->dt_s);
 }
 
-double FlightWorld::thrust_n(std::size_t craft) const {
-  return bodies_->crafts[craft]->quadcopter.thrust_n();
+double FlightWorld::thrust_n(std::size_t vehicle) const {
+  return bodies_->vehicles[vehicle]->quadcopter.thrust_n();
 }
 
-const Airframe& FlightWorld::airframe(std::size_t craft) const {
-  return bodies_->crafts[craft]->quadcopter.airframe();
+const Airframe& FlightWorld::airframe(std::size_t vehicle) const {
+  return bodies_->vehicles[vehicle]->quadcopter.airframe();
 }
 
 std::span<const Impact> FlightWorld::impacts() const { return bodies_->contacts.impacts(); }

@@ -56,7 +56,7 @@ class FollowDensityPolicy : public Policy {
     return sum;
   }
 
-  // A step of the mean shift, towards the peak.
+  // A step of the mean shift, toward the peak.
   static Vector2d mean_near(const WorldView& view, const Vector2d& place) {
     Vector2d sum = Vector2d::Zero();
     for (const PersonSeen& person : view.people) sum += weight(person, place) * person.position;

@@ -15,7 +15,7 @@ namespace {
 
 // Numbers of the sensors' stream that no drone's sensors have.
 constexpr std::uint64_t kFirstGimbal = std::uint64_t{1} << 32;
-constexpr double kLongestStepS = 1e-3;
+constexpr double kMaxStepS = 1e-3;
 
 Vector3d normal3(Random& random) {
   Vector3d v;
@@ -36,7 +36,7 @@ class SecondOrder {
   SecondOrder(const GimbalSpec& spec, const Vector3d& start) : spec_(spec), angle_(start) {}
 
   const Vector3d& advance(const Vector3d& from, const Vector3d& to, double dt_s) {
-    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestStepS)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kMaxStepS)));
     const double step_s = dt_s / steps;
     const double w = spec_.natural_rad_s;
     for (int i = 1; i <= steps; ++i) {
@@ -83,7 +83,7 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const GimbalC
     }
     const Vector3d angle = response.advance(target, next, dt_s);
     target = next;
-    // What the motors cannot hold dies away as fast as they answer.
+    // The part that the motors cannot hold decays with their time constant.
     const double kept = std::exp(-dt_s * spec.natural_rad_s);
     jitter = kept * jitter + std::sqrt(1 - kept * kept) * normal3(random);
     const Vector3d held = angle + spec.jitter_rad * jitter;

@@ -9,15 +9,15 @@
 
 namespace throng::sim {
 
-/// Where a camera looks, in radians: heading counter-clockwise from +x, angle above the horizon,
-/// turn clockwise about the view's direction.
+/// Viewing direction of a camera, in radians: heading counter-clockwise from +x, angle above the
+/// horizon, turn clockwise about the view's direction.
 struct ViewAngles {
   double yaw = 0;
   double pitch = 0;
   double roll = 0;
 };
 
-/// What a gimbal is told: angles from the drone's heading and the horizon.
+/// Command of a gimbal: angles from the drone's heading and the horizon.
 struct GimbalCommand {
   double yaw_rad = 0;
   double pitch_rad = 0;
@@ -33,10 +33,10 @@ class GimbalLog {
   GimbalLog(const std::vector<world::DroneSample>& truth, const GimbalCommand& command,
             const GimbalSpec& spec, std::uint64_t seed, std::uint64_t camera);
 
-  /// Where the camera really looks.
+  /// True viewing direction of the camera.
   ViewAngles view_at(double time_s) const;
-  /// Where the gimbal says that it looks: without its bias, which it does not know, and with the
-  /// noise of its encoders.
+  /// Viewing direction reported by the gimbal: without its bias, which it does not know, and with
+  /// the noise of its encoders.
   ViewAngles reading_at(double time_s) const;
 
  private:

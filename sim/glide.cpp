@@ -9,7 +9,7 @@ using Eigen::Vector2d;
 
 namespace {
 constexpr double kGlideMps2 = 2;
-constexpr double kFarthestAheadM = 3;  // how far the set-point may run ahead of the drone
+constexpr double kMaxAheadM = 3;  // how far the set-point may run ahead of the drone
 constexpr double kThereM = 0.3;
 }  // namespace
 
@@ -31,18 +31,18 @@ void Glide::stop() {
 bool Glide::arrived() const { return (goal_ - place()).norm() < kThereM; }
 
 const Setpoint& Glide::advance(const FlightState& state, double dt_s) {
-  const Vector2d way = goal_ - place();
-  const double distance_m = way.norm();
-  const bool too_far_ahead = (place() - state.position.head<2>()).norm() > kFarthestAheadM;
+  const Vector2d offset = goal_ - place();
+  const double distance_m = offset.norm();
+  const bool too_far_ahead = (place() - state.position.head<2>()).norm() > kMaxAheadM;
   Vector2d wanted = Vector2d::Zero();
   if (distance_m > 0 && !too_far_ahead) {
     const double can_brake_mps = std::sqrt(2 * kGlideMps2 * distance_m);
     // No faster than what reaches the place in this very step.
-    wanted = way / distance_m * std::min({speed_mps_, can_brake_mps, distance_m / dt_s});
+    wanted = offset / distance_m * std::min({speed_mps_, can_brake_mps, distance_m / dt_s});
   }
   Vector2d change = wanted - velocity_;
-  const double most = kGlideMps2 * dt_s;
-  if (change.norm() > most) change *= most / change.norm();
+  const double max_value = kGlideMps2 * dt_s;
+  if (change.norm() > max_value) change *= max_value / change.norm();
   velocity_ += change;
   setpoint_.position.head<2>() += velocity_ * dt_s;
   setpoint_.velocity.head<2>() = velocity_;

@@ -20,8 +20,8 @@ struct Field {
 constexpr std::array kFields{
     Field{kFieldWaypoints, "waypoints", "at least one point",
           [](const DroneMission& m) { return !m.waypoints.empty(); }},
-    Field{kFieldCentre, "centre", "a point [x, y]",
-          [](const DroneMission& m) { return m.guidance.centre.has_value(); }},
+    Field{kFieldCenter, "centre", "a point [x, y]",
+          [](const DroneMission& m) { return m.guidance.center.has_value(); }},
     Field{kFieldRadius, "radius_m", "a radius",
           [](const DroneMission& m) { return m.guidance.radius_m.has_value(); }},
     Field{kFieldArea, "area", "an area",
@@ -36,7 +36,7 @@ constexpr std::array kFields{
           [](const DroneMission& m) { return m.guidance.lead_speed_mps.has_value(); }},
     Field{kFieldBatch, "batch", "a number of people",
           [](const DroneMission& m) { return m.guidance.batch.has_value(); }},
-    Field{kFieldPerception, "perception", "what it sees",
+    Field{kFieldPerception, "perception", "its observations",
           [](const DroneMission& m) { return m.guidance.perception.has_value(); }},
     Field{kFieldBeacon, "beacon", "true or false",
           [](const DroneMission& m) { return m.guidance.beacon.has_value(); }},
@@ -55,7 +55,7 @@ void check_exits(const DroneMission& mission, const world::Scenario& scenario,
       problems.push_back(
           {"", where, fmt::format("\"{}\"", id), fmt::format("one of: {}", fmt::join(ids, ", "))});
     } else if (!known->open) {
-      problems.push_back({"", where, fmt::format("\"{}\", which is shut", id), "an open exit"});
+      problems.push_back({"", where, fmt::format("\"{}\", which is closed", id), "an open exit"});
     }
   }
 }

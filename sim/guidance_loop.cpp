@@ -11,7 +11,7 @@ std::vector<std::optional<world::GoalRef>> goals_of(const std::vector<PlannedDro
   return goals;
 }
 
-// A craft that is so far below where it should be has come down, whatever its pilot thinks.
+// A vehicle that is so far below where it should be has come down, whatever its pilot thinks.
 bool is_down(const Flight& flight, std::size_t drone) {
   constexpr double kDownM = 5;
   const double should_be_m = flight.pilot(drone).setpoint().position.z();
@@ -29,7 +29,7 @@ GuidanceLoop::GuidanceLoop(const world::Scenario& scenario,
                            const std::vector<world::AgentRole>& roles,
                            const std::vector<PlannedDrone>& drones, std::uint64_t seed,
                            double step_s)
-    : drones_(drones), goals_(goals_of(drones)), lookout_(scenario, roles, goals_, step_s) {
+    : drones_(drones), goals_(goals_of(drones)), observer_(scenario, roles, goals_, step_s) {
   for (std::size_t i = 0; i < drones.size(); ++i) {
     const auto& perception = drones[i].mission.guidance.perception;
     cameras_.emplace_back();
@@ -49,8 +49,8 @@ DroneSeen GuidanceLoop::seen(const Flight& flight, std::size_t drone) {
 void GuidanceLoop::look(const CrowdSource& crowd, const CrowdRecorder& recorder, Flight& flight,
                         double time_s) {
   if (drones_.empty()) return;
-  lookout_.look(crowd, recorder, time_s);
-  WorldView& view = lookout_.view();
+  observer_.look(crowd, recorder, time_s);
+  WorldView& view = observer_.view();
   view.drones.clear();
   for (std::size_t i = 0; i < drones_.size(); ++i) view.drones.push_back(seen(flight, i));
   for (std::size_t i = 0; i < drones_.size(); ++i) {
@@ -62,8 +62,8 @@ void GuidanceLoop::look(const CrowdSource& crowd, const CrowdRecorder& recorder,
 void GuidanceLoop::report(const Flight& flight, RunObserver& observer) const {
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     const Setpoint& setpoint = flight.pilot(i).setpoint();
-    observer.pilot(i,
-                   {lookout_.view().time_s, setpoint.position, setpoint.yaw_rad, leads(flight, i)});
+    observer.pilot(
+        i, {observer_.view().time_s, setpoint.position, setpoint.yaw_rad, leads(flight, i)});
   }
 }
 

@@ -22,7 +22,7 @@ class GuidanceLoop {
   /// that those before it have just made.
   void look(const CrowdSource& crowd, const CrowdRecorder& recorder, Flight& flight, double time_s);
 
-  /// Tells where the drones are sent.
+  /// Reports the drones' destinations.
   void report(const Flight& flight, RunObserver& observer) const;
 
   /// Puts the goals that drones move below them; those of drones that lead nobody are out of sight.
@@ -33,7 +33,7 @@ class GuidanceLoop {
 
   const std::vector<PlannedDrone>& drones_;
   std::vector<std::optional<world::GoalRef>> goals_;  // per drone
-  Lookout lookout_;
+  CrowdObserver observer_;
   std::vector<std::optional<CameraPerception>> cameras_;  // per drone; none: sees the truth
 };
 

@@ -1,4 +1,4 @@
-// What a user should hear of a run whose drones could not do what they were asked to.
+// Warnings about a run whose drones could not carry out their missions.
 #pragma once
 
 #include <set>
@@ -11,7 +11,8 @@
 
 namespace throng::sim {
 
-/// Collects the first event of each kind that says that a drone cannot hold or has hit something.
+/// Collects the first event of each kind that reports that a drone cannot hold its position or has
+/// hit something.
 class HoldWarnings {
  public:
   void note(const world::TraceEvent& event);

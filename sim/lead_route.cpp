@@ -14,7 +14,7 @@ LeadRoute route_through(const world::Exit& exit, const std::vector<world::Buildi
   constexpr double kDeepestM = 30;
   constexpr double kStepM = 0.5;
   const Vector2d middle = exit.middle();
-  // The walls beside the way out end where no building is about as near as the jambs are.
+  // The walls beside the exit path end where no building is about as near as the jambs are.
   double walls_end_m = 0;
   for (double depth_m = 0; depth_m <= kDeepestM; depth_m += kStepM) {
     const Vector2d point = middle + depth_m * exit.outward;
@@ -29,12 +29,12 @@ LeadRoute route_through(const world::Exit& exit, const std::vector<world::Buildi
       {middle - before_m * exit.outward, middle, middle + (walls_end_m + kBeyondM) * exit.outward}};
 }
 
-std::vector<int> exits_to_lead_to(const world::Scenario& place,
+std::vector<int> exits_to_lead_to(const world::Scenario& scenario,
                                   const std::vector<std::string>& ids) {
   std::vector<int> exits;
-  for (std::size_t e = 0; e < place.exits.size(); ++e) {
-    const bool named = ids.empty() || std::count(ids.begin(), ids.end(), place.exits[e].id) > 0;
-    if (named && place.exits[e].open) exits.push_back(static_cast<int>(e));
+  for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
+    const bool named = ids.empty() || std::count(ids.begin(), ids.end(), scenario.exits[e].id) > 0;
+    if (named && scenario.exits[e].open) exits.push_back(static_cast<int>(e));
   }
   return exits;
 }

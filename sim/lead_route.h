@@ -1,4 +1,4 @@
-// The way on which a drone leads people out by an exit.
+// The path along which a drone leads people out by an exit.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace throng::sim {
 
-/// Before the door, so that those behind line up; in it; and beyond it, clear of the walls. Metres.
+/// Before the door, so that those behind line up; in it; and beyond it, clear of the walls. Meters.
 struct LeadRoute {
   std::array<Eigen::Vector2d, 3> points;
   const Eigen::Vector2d& mouth() const { return points[1]; }
@@ -21,7 +21,7 @@ LeadRoute route_through(const world::Exit& exit, const std::vector<world::Buildi
 
 /// The exits that a drone may lead to: those of these ids, or all, as far as they are open at
 /// first.
-std::vector<int> exits_to_lead_to(const world::Scenario& place,
+std::vector<int> exits_to_lead_to(const world::Scenario& scenario,
                                   const std::vector<std::string>& ids);
 
 }  // namespace throng::sim

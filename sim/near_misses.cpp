@@ -51,8 +51,8 @@ Interval spans_overlap(double d, double v, double half_m) {
   return {std::min(one, two), std::max(one, two)};
 }
 
-CraftInAir body_of(const NearPerson& person) {
-  CraftInAir body;
+VehicleInAir body_of(const NearPerson& person) {
+  VehicleInAir body;
   body.position = {person.position.x(), person.position.y(), 0.5 * kPersonHeightM};
   body.velocity = {person.velocity.x(), person.velocity.y(), 0};
   body.radius_m = kPersonRadiusM;
@@ -62,7 +62,7 @@ CraftInAir body_of(const NearPerson& person) {
 
 }  // namespace
 
-Approach approach_of(const CraftInAir& a, const CraftInAir& b) {
+Approach approach_of(const VehicleInAir& a, const VehicleInAir& b) {
   const Vector3d d = b.position - a.position;
   const Vector3d v = b.velocity - a.velocity;
   const double radii_m = a.radius_m + b.radius_m;
@@ -74,16 +74,16 @@ Approach approach_of(const CraftInAir& a, const CraftInAir& b) {
   return {gap_of(d.head<2>().norm() - radii_m, std::abs(d.z()) - half_m), meets ? from : kNever};
 }
 
-Approach approach_of(const CraftInAir& craft, const world::Building& building) {
+Approach approach_of(const VehicleInAir& vehicle, const world::Building& building) {
   const auto gap_at = [&](const Vector3d& p) {
-    return gap_of(world::distance_to(building.footprint, p.head<2>()) - craft.radius_m,
-                  p.z() - 0.5 * craft.height_m - building.height_m);
+    return gap_of(world::distance_to(building.footprint, p.head<2>()) - vehicle.radius_m,
+                  p.z() - 0.5 * vehicle.height_m - building.height_m);
   };
-  Approach approach{gap_at(craft.position), kNever};
-  if (approach.gap_m > craft.velocity.norm() * kSoonS) return approach;
+  Approach approach{gap_at(vehicle.position), kNever};
+  if (approach.gap_m > vehicle.velocity.norm() * kSoonS) return approach;
   constexpr double kLookS = 0.1;
   for (double t = 0; t <= kSoonS; t += kLookS) {
-    if (gap_at(craft.position + t * craft.velocity) > 0) continue;
+    if (gap_at(vehicle.position + t * vehicle.velocity) > 0) continue;
     approach.contact_in_s = t;
     break;
   }
@@ -102,37 +102,38 @@ NearMisses::NearMisses(std::vector<world::Building> buildings, Log log)
   }
 }
 
-double NearMisses::reach_m(const CraftInAir& craft) {
+double NearMisses::reach_m(const VehicleInAir& vehicle) {
   constexpr double kRunMps = 3;
-  const double speed_mps = craft.velocity.norm() + kRunMps;
-  const double above_m = craft.position.z() - kPersonHeightM;
-  if (above_m > kClearM + std::max(0.0, -craft.velocity.z()) * kSoonS) return 0;
-  return craft.radius_m + kPersonRadiusM + kClearM + speed_mps * kSoonS;
+  const double speed_mps = vehicle.velocity.norm() + kRunMps;
+  const double above_m = vehicle.position.z() - kPersonHeightM;
+  if (above_m > kClearM + std::max(0.0, -vehicle.velocity.z()) * kSoonS) return 0;
+  return vehicle.radius_m + kPersonRadiusM + kClearM + speed_mps * kSoonS;
 }
 
-void NearMisses::update(double time_s, std::span<const CraftInAir> crafts,
+void NearMisses::update(double time_s, std::span<const VehicleInAir> vehicles,
                         std::span<const NearPerson> people) {
   for (auto& [key, entry] : cases_) entry.seen = false;
-  for (std::size_t i = 0; i < crafts.size(); ++i) {
-    const CraftInAir& craft = crafts[i];
-    for (std::size_t j = i + 1; j < crafts.size(); ++j) {
-      if (!craft.moves && !crafts[j].moves) continue;
-      look(time_s, {i, Obstacle::drone, static_cast<int>(j)}, approach_of(craft, crafts[j]));
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    const VehicleInAir& vehicle = vehicles[i];
+    for (std::size_t j = i + 1; j < vehicles.size(); ++j) {
+      if (!vehicle.moves && !vehicles[j].moves) continue;
+      look(time_s, {i, Obstacle::drone, static_cast<int>(j)}, approach_of(vehicle, vehicles[j]));
     }
-    if (!craft.moves) continue;
-    if (reach_m(craft) > 0) {
+    if (!vehicle.moves) continue;
+    if (reach_m(vehicle) > 0) {
       for (const NearPerson& person : people) {
-        look(time_s, {i, Obstacle::person, person.agent}, approach_of(craft, body_of(person)));
+        look(time_s, {i, Obstacle::person, person.agent}, approach_of(vehicle, body_of(person)));
       }
     }
-    const double reach = craft.radius_m + kClearM + craft.velocity.norm() * kSoonS;
-    const Vector2d place = craft.position.head<2>();
+    const double reach = vehicle.radius_m + kClearM + vehicle.velocity.norm() * kSoonS;
+    const Vector2d place = vehicle.position.head<2>();
     for (std::size_t j = 0; j < buildings_.size(); ++j) {
       if (((place - bounds_[j].max).array() > reach).any() ||
           ((bounds_[j].min - place).array() > reach).any()) {
         continue;
       }
-      look(time_s, {i, Obstacle::building, static_cast<int>(j)}, approach_of(craft, buildings_[j]));
+      look(time_s, {i, Obstacle::building, static_cast<int>(j)},
+           approach_of(vehicle, buildings_[j]));
     }
   }
   for (auto entry = cases_.begin(); entry != cases_.end();) {
@@ -162,11 +163,12 @@ void NearMisses::look(double time_s, const Key& key, const Approach& approach) {
   }
 }
 
-void NearMisses::collided(std::size_t craft, Obstacle obstacle, int index) {
+void NearMisses::collided(std::size_t vehicle, Obstacle obstacle, int index) {
   // Two drones have one case, which is the first one's.
-  const bool swapped = obstacle == Obstacle::drone && static_cast<std::size_t>(index) < craft;
-  const Key key = swapped ? Key{static_cast<std::size_t>(index), obstacle, static_cast<int>(craft)}
-                          : Key{craft, obstacle, index};
+  const bool swapped = obstacle == Obstacle::drone && static_cast<std::size_t>(index) < vehicle;
+  const Key key = swapped
+                      ? Key{static_cast<std::size_t>(index), obstacle, static_cast<int>(vehicle)}
+                      : Key{vehicle, obstacle, index};
   if (const auto found = cases_.find(key); found != cases_.end()) found->second.hit = true;
 }
 
@@ -177,13 +179,13 @@ void NearMisses::finish() {
 
 void NearMisses::write(const Key& key, const Case& entry) {
   if (entry.hit) return;
-  const auto [craft, obstacle, index] = key;
+  const auto [vehicle, obstacle, index] = key;
   const bool is_person = obstacle == Obstacle::person;
   world::TraceEvent event;
   event.time_s = entry.gap_time_s;
   event.type = "near_miss";
   event.agent = is_person ? index : -1;
-  event.drone = static_cast<std::int32_t>(craft);
+  event.drone = static_cast<std::int32_t>(vehicle);
   event.value = std::max(0.0, entry.gap_m);
   event.partner = word_of(obstacle);
   event.other = is_person ? -1 : index;

@@ -15,7 +15,7 @@
 namespace throng::sim {
 
 /// A drone as others meet it: an upright cylinder that moves on.
-struct CraftInAir {
+struct VehicleInAir {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, its middle
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< m/s
   double radius_m = 0;
@@ -29,8 +29,8 @@ struct Approach {
   double gap_m = 0;
   double contact_in_s = 0;
 };
-Approach approach_of(const CraftInAir& a, const CraftInAir& b);
-Approach approach_of(const CraftInAir& craft, const world::Building& building);
+Approach approach_of(const VehicleInAir& a, const VehicleInAir& b);
+Approach approach_of(const VehicleInAir& vehicle, const world::Building& building);
 
 /// A near miss is an approach to less than 1 m, or a course that leads to contact within 1.5 s,
 /// that does not end in a collision. It is one until 2 m are between both and nothing threatens.
@@ -41,15 +41,15 @@ class NearMisses {
   NearMisses(std::vector<world::Building> buildings, Log log);
 
   /// How far away somebody on foot may be and matter, for a drone of this speed.
-  static double reach_m(const CraftInAir& craft);
+  static double reach_m(const VehicleInAir& vehicle);
 
   /// Looks at everybody as they are now: each drone with each other, with buildings and with the
   /// people that are near.
-  void update(double time_s, std::span<const CraftInAir> crafts,
+  void update(double time_s, std::span<const VehicleInAir> vehicles,
               std::span<const NearPerson> people);
 
   /// The approach ended in a collision.
-  void collided(std::size_t craft, Obstacle obstacle, int index);
+  void collided(std::size_t vehicle, Obstacle obstacle, int index);
 
   /// Writes what is still going on.
   void finish();

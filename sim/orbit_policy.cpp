@@ -11,20 +11,20 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kMostPullMps2 = kGravity / 3;  // towards the centre
+constexpr double kMaxPullMps2 = kGravity / 3;  // toward the center
 
 class OrbitPolicy : public Policy {
  public:
   explicit OrbitPolicy(const PolicyContext& context)
-      : centre_(*context.mission.guidance.centre),
+      : center_(*context.mission.guidance.center),
         radius_m_(*context.mission.guidance.radius_m),
-        speed_mps_(std::min(context.mission.speed_mps, std::sqrt(radius_m_ * kMostPullMps2))),
+        speed_mps_(std::min(context.mission.speed_mps, std::sqrt(radius_m_ * kMaxPullMps2))),
         camera_yaw_rad_(context.mission.camera.yaw_rad),
         approach_(context.start, context.yaw_rad),
         height_m_(context.start.z()) {
-    const Vector2d from = context.start.head<2>() - centre_;
+    const Vector2d from = context.start.head<2>() - center_;
     angle_rad_ = from.norm() > 0 ? std::atan2(from.y(), from.x()) : 0;
-    approach_.go(centre_ + radius_m_ * outward(), speed_mps_);
+    approach_.go(center_ + radius_m_ * outward(), speed_mps_);
   }
 
   // To the nearest point of the circle first; round it, counter-clockwise, from then on.
@@ -36,7 +36,7 @@ class OrbitPolicy : public Policy {
     pace_mps_ = std::min(speed_mps_, pace_mps_ + kSpeedUpMps2 * dt_s);
     angle_rad_ += pace_mps_ / radius_m_ * dt_s;
     Setpoint setpoint;
-    setpoint.position << centre_ + radius_m_ * outward(), height_m_;
+    setpoint.position << center_ + radius_m_ * outward(), height_m_;
     setpoint.velocity.head<2>() = pace_mps_ * Vector2d(-outward().y(), outward().x());
     setpoint.acceleration.head<2>() = -pace_mps_ * pace_mps_ / radius_m_ * outward();
     setpoint.yaw_rad = angle_rad_ + EIGEN_PI - camera_yaw_rad_;
@@ -48,7 +48,7 @@ class OrbitPolicy : public Policy {
 
   Vector2d outward() const { return {std::cos(angle_rad_), std::sin(angle_rad_)}; }
 
-  Vector2d centre_;
+  Vector2d center_;
   double radius_m_;
   double speed_mps_;
   double camera_yaw_rad_;

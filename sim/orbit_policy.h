@@ -1,4 +1,4 @@
-// "orbit": circle a point at the height of the start, the camera towards it.
+// "orbit": circle a point at the height of the start, the camera toward it.
 #pragma once
 
 #include <memory>

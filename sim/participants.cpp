@@ -26,7 +26,7 @@ std::vector<AgentRole> choose_roles(const std::string& scenario,
     }
   }
 
-  using Ticket = std::pair<std::uint32_t, std::size_t>;  // what was drawn, and for which agent
+  using Ticket = std::pair<std::uint32_t, std::size_t>;  // what was sampled, and for which agent
   std::vector<Ticket> tickets;
   for (std::size_t i = 0; i < agents; ++i) {
     if (roles[i] == AgentRole::person) {

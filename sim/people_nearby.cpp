@@ -17,14 +17,14 @@ void PeopleInMotion::finish() {
 }
 
 void PeopleInMotion::collect(const Area& area, std::vector<NearPerson>& list) const {
-  const Eigen::Vector2f centre = area.centre.cast<float>();
+  const Eigen::Vector2f center = area.center.cast<float>();
   const auto reach2 = static_cast<float>(area.radius_m * area.radius_m);
   for (std::size_t i = 0; i < start_.size(); ++i) {
-    if ((start_[i] - centre).squaredNorm() > reach2) continue;
+    if ((start_[i] - center).squaredNorm() > reach2) continue;
     if (was_present_[i] == 0 || end_.present[i] == 0) continue;
     const Eigen::Vector2d from = start_[i].cast<double>();
-    const Eigen::Vector2d way = end_.position[i].cast<double>() - from;
-    list.push_back({static_cast<int>(i), from, way / interval_s_});
+    const Eigen::Vector2d offset = end_.position[i].cast<double>() - from;
+    list.push_back({static_cast<int>(i), from, offset / interval_s_});
   }
 }
 

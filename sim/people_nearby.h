@@ -19,12 +19,12 @@ struct PeopleView {
 
 /// A circle on the ground.
 struct Area {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
   double radius_m = 0;
 };
 
-/// Where everybody was when an interval began and is when it ends. Looks at the crowd only where it
-/// is asked to.
+/// Positions of all people at the beginning and the end of an interval. Reads the crowd only in the
+/// requested areas.
 class PeopleInMotion {
  public:
   /// Begins the next interval, which ends with everybody as in `end`, which must stay valid until

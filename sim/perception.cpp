@@ -26,8 +26,10 @@ bool within_door(const world::Exit& exit, const Vector2d& place) {
 
 }  // namespace
 
-Lookout::Lookout(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
-                 const std::vector<std::optional<world::GoalRef>>& guide_goals, double step_s)
+CrowdObserver::CrowdObserver(const world::Scenario& scenario,
+                             const std::vector<world::AgentRole>& roles,
+                             const std::vector<std::optional<world::GoalRef>>& guide_goals,
+                             double step_s)
     : scenario_(scenario),
       roles_(roles),
       guide_goals_(guide_goals),
@@ -38,13 +40,13 @@ Lookout::Lookout(const world::Scenario& scenario, const std::vector<world::Agent
   view_.exit_flow_per_s.resize(scenario.exits.size());
 }
 
-int Lookout::guide_of(const crowd::GoalId& goal) const {
+int CrowdObserver::guide_of(const crowd::GoalId& goal) const {
   const world::GoalRef ref{goal.set, goal.goal};
   const auto found = std::find(guide_goals_.begin(), guide_goals_.end(), ref);
   return found == guide_goals_.end() ? -1 : static_cast<int>(found - guide_goals_.begin());
 }
 
-void Lookout::count_flows(std::size_t agent, const Vector2d& place, std::vector<int>& out) {
+void CrowdObserver::count_flows(std::size_t agent, const Vector2d& place, std::vector<int>& out) {
   for (std::size_t e = 0; e < scenario_.exits.size(); ++e) {
     const world::Exit& exit = scenario_.exits[e];
     const int side = beyond(exit, place) > 0 ? 1 : -1;
@@ -56,7 +58,7 @@ void Lookout::count_flows(std::size_t agent, const Vector2d& place, std::vector<
   }
 }
 
-void Lookout::look(const CrowdSource& crowd, const CrowdRecorder& recorder, double time_s) {
+void CrowdObserver::look(const CrowdSource& crowd, const CrowdRecorder& recorder, double time_s) {
   view_.time_s = time_s;
   view_.people.clear();
   std::vector<int> out(scenario_.exits.size());
@@ -84,7 +86,7 @@ CameraPerception::CameraPerception(const world::Scenario& scenario, const Percep
                                    std::uint64_t seed, std::size_t drone)
     : scenario_(scenario), spec_(spec), seed_(seed), drone_(drone) {}
 
-// Who moves is taken to go to the exit most nearly ahead, who stands to the nearest.
+// Moving people are assumed to go to the exit most nearly ahead, standing people to the nearest.
 void CameraPerception::guess(const WorldView& seen, PersonSeen& person) const {
   constexpr double kBeaconReachM = 6;
   constexpr double kStandsMps = 0.3;
@@ -98,10 +100,11 @@ void CameraPerception::guess(const WorldView& seen, PersonSeen& person) const {
   const double speed = person.velocity.norm();
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t e = 0; e < scenario_.exits.size(); ++e) {
-    const Vector2d way = scenario_.exits[e].middle() - person.position;
-    const double ahead =
-        speed < kStandsMps ? 1 : way.dot(person.velocity) / std::max(1e-9, way.norm() * speed);
-    const double cost = way.norm() * (2 - ahead);
+    const Vector2d offset = scenario_.exits[e].middle() - person.position;
+    const double ahead = speed < kStandsMps
+                             ? 1
+                             : offset.dot(person.velocity) / std::max(1e-9, offset.norm() * speed);
+    const double cost = offset.norm() * (2 - ahead);
     if (cost < best) {
       best = cost;
       person.exit = static_cast<int>(e);

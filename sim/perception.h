@@ -1,4 +1,4 @@
-// What drones see: the truth of a run, and what a camera that counts people would make of it.
+// Perception of drones: the truth of a run, and the estimate of a camera that counts people.
 #pragma once
 
 #include <deque>
@@ -12,13 +12,13 @@
 
 namespace throng::sim {
 
-/// The true view. Who has got away, is not there, lies hurt or is a danger is not in it, nor is who
-/// has gone through a door, unless a drone still leads them.
-class Lookout {
+/// The true view. It excludes people who have escaped, are absent, injured or a hazard, and those
+/// who have passed a door, unless a drone still leads them.
+class CrowdObserver {
  public:
   /// `guide_goals`: per drone, the goal that it moves, if any. All must outlive the lookout.
-  Lookout(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
-          const std::vector<std::optional<world::GoalRef>>& guide_goals, double step_s);
+  CrowdObserver(const world::Scenario& scenario, const std::vector<world::AgentRole>& roles,
+                const std::vector<std::optional<world::GoalRef>>& guide_goals, double step_s);
 
   /// Looks at the crowd as it is now. The drones in the view are the caller's to fill in.
   void look(const CrowdSource& crowd, const CrowdRecorder& recorder, double time_s);
@@ -41,9 +41,9 @@ class Lookout {
   WorldView view_;
 };
 
-/// What a drone's camera would report, from what is true: only people in its field of view (a cone
-/// about the vertical), some missed and some counted twice, as of a while ago. Where they go is
-/// guessed from how they move, and that they follow from their nearness to the beacon.
+/// Report of a drone's camera, derived from the truth: only people in its field of view (a cone
+/// about the vertical), some missed and some counted twice, as of a while ago. Their destinations
+/// are estimated from their motion, and whether they follow from their distance to the beacon.
 class CameraPerception {
  public:
   CameraPerception(const world::Scenario& scenario, const PerceptionSpec& spec, std::uint64_t seed,

@@ -7,9 +7,9 @@ namespace throng::sim {
 
 namespace {
 
-// Shorter saturation is how a craft speeds up and brakes; longer means that it cannot hold.
+// Shorter saturation is how a vehicle speeds up and brakes; longer means that it cannot hold.
 constexpr double kTooLongSaturatedS = 3;
-// So far from its set-point, and getting farther for so long, a craft is being blown away.
+// So far from its set-point, and getting farther for so long, a vehicle is being blown away.
 constexpr double kLostM = 5;
 constexpr double kTooLongAwayS = 3;
 constexpr double kFoundM = 2;
@@ -25,7 +25,7 @@ constexpr double kRestingS = 0.5;
 Pilot::Pilot(const PlannedDrone& drone, const FlightLimits& limits)
     : airframe_(drone.airframe),
       policy_(drone.policy->make(
-          {drone.mission, drone.start, drone.yaw_rad, limits, drone.place, drone.index})),
+          {drone.mission, drone.start, drone.yaw_rad, limits, drone.scenario, drone.index})),
       guides_(guides(*drone.policy)),
       beacon_asked_(drone.mission.guidance.beacon.value_or(false)),
       controller_(drone.airframe, limits),
@@ -73,8 +73,8 @@ void Pilot::watch_battery(const FlightState& state, const Report& report) {
   }
 }
 
-// Straight down, slowly where the ground is near. What it stands on may be a roof: it has landed
-// when it does not sink any more.
+// Straight down, slowly where the ground is near. It may land on a roof: it has landed when it no
+// longer sinks.
 void Pilot::descend(const FlightState& state, double dt_s, const Report& report) {
   constexpr double kSlowDownPerS = 0.4;
   const double sink_mps = std::clamp(kSlowDownPerS * state.position.z(), kTouchdownMps, kSinkMps);

@@ -1,4 +1,4 @@
-// One drone's control: the policy that says where to be, the autopilot that flies there, the
+// One drone's control: the policy that gives the set-point, the autopilot that flies there, the
 // battery and the damage that set an end to it, and the detection that the drone cannot hold.
 #pragma once
 
@@ -36,11 +36,11 @@ class Pilot {
              double dt_s);
 
   const Battery& battery() const { return battery_; }
-  /// Whether people may follow the drone, as far as its policy and its mission say.
+  /// Whether people may follow the drone, according to its policy and its mission.
   bool beacon() const { return guides_ ? policy_->beacon() : beacon_asked_; }
   Policy& policy() { return *policy_; }
   const Policy& policy() const { return *policy_; }
-  /// What it last flew for.
+  /// Set-point of the last update.
   const Setpoint& setpoint() const { return setpoint_; }
   /// Whether it can lead anybody: not when it must land.
   bool is_on_mission() const { return phase_ == Phase::flying; }
@@ -62,7 +62,7 @@ class Pilot {
   Airframe airframe_;
   std::unique_ptr<Policy> policy_;
   bool guides_;        ///< the policy decides about the beacon
-  bool beacon_asked_;  ///< else: as the mission says
+  bool beacon_asked_;  ///< else: from the mission
   Controller controller_;
   Battery battery_;
   Phase phase_ = Phase::flying;

@@ -9,7 +9,7 @@
 
 namespace throng::sim {
 
-/// The first line of every log: seconds, metres, degrees counter-clockwise from +x, and 1 while
+/// The first line of every log: seconds, meters, degrees counter-clockwise from +x, and 1 while
 /// people can follow the drone.
 inline constexpr std::string_view kPilotLogHeader = "time_s,x_m,y_m,z_m,yaw_deg,beacon";
 

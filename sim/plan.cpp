@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Room to leave around a craft for its deviations from the path.
+// Margin around a vehicle for its deviations from the path.
 constexpr double kClearanceM = kFlightClearanceM;
 // A path is checked at points this far apart, less than the clearance.
 constexpr double kProbeM = 0.25;
@@ -117,7 +117,7 @@ class MissionCheck {
     }
   }
 
-  // Whether a craft can be at `point`. Says nothing about one that is not known.
+  // Whether a vehicle can be at `point`. Reports no error for an unknown airframe.
   bool point_is_free(const std::string& where, const Vector3d& point, const Airframe& frame) {
     if (!point.allFinite()) {
       if (mission_.start || known_ != nullptr) add(where, "not a number", "[x, y, z]");
@@ -184,7 +184,7 @@ class MissionCheck {
     }
   }
 
-  // Where no building stands nothing needs probing, however long the leg.
+  // Without buildings nothing needs probing, at any length of the leg.
   bool check_leg(const std::string& where, const Vector3d& from, const Vector3d& to,
                  const Airframe& frame) {
     if (scenario_.buildings.empty()) return true;
@@ -218,7 +218,7 @@ std::vector<PlannedDrone> plan_drones(const world::Scenario& scenario,
   std::vector<PlannedDrone> drones;
   for (std::size_t i = 0; i < missions.size(); ++i) {
     drones.push_back(MissionCheck(scenario, missions[i], i, problems).plan(airframes));
-    drones[i].place = &scenario;
+    drones[i].scenario = &scenario;
     drones[i].index = static_cast<int>(i);
     for (std::size_t j = 0; j < i; ++j) {
       if (missions[j].id == missions[i].id) {

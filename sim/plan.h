@@ -21,8 +21,8 @@ struct PlannedDrone {
   Eigen::Vector3d start;
   double yaw_rad;
   std::optional<world::GoalRef> moves_goal;
-  const world::Scenario* place = nullptr;  ///< where it flies; outlives the drone
-  int index = 0;                           ///< among the run's drones
+  const world::Scenario* scenario = nullptr;  ///< where it flies; outlives the drone
+  int index = 0;                              ///< among the run's drones
 };
 
 /// Checks every mission, and that no two drones come too near to each other within `duration_s` as

@@ -3,8 +3,8 @@
 namespace throng::sim {
 
 PlannedMotion::PlannedMotion(const PlannedDrone& drone)
-    : policy_(drone.policy->make(
-          {drone.mission, drone.start, drone.yaw_rad, FlightLimits{}, drone.place, drone.index})) {
+    : policy_(drone.policy->make({drone.mission, drone.start, drone.yaw_rad, FlightLimits{},
+                                  drone.scenario, drone.index})) {
   state_.position = drone.start;
 }
 

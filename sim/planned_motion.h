@@ -19,7 +19,7 @@ class PlannedMotion {
  public:
   explicit PlannedMotion(const PlannedDrone& drone);
 
-  /// Where the drone should be `dt_s` later, m.
+  /// Set-point of the drone `dt_s` later, m.
   const Eigen::Vector3d& advance(double dt_s);
 
  private:

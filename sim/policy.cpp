@@ -20,7 +20,7 @@ namespace {
 constexpr std::array kPolicies{
     PolicyEntry{"hover", 0, kFieldBeacon, false, &make_hover_policy},
     PolicyEntry{"waypoints", kFieldWaypoints, kFieldBeacon, false, &make_waypoints_policy},
-    PolicyEntry{"orbit", kFieldCentre | kFieldRadius, kFieldBeacon, true, &make_orbit_policy},
+    PolicyEntry{"orbit", kFieldCenter | kFieldRadius, kFieldBeacon, true, &make_orbit_policy},
     PolicyEntry{"survey", 0, kFieldArea | kFieldOverlap | kFieldBeacon, true, &make_survey_policy},
     PolicyEntry{"follow_density", 0, kFieldPerception | kFieldBeacon, true,
                 &make_follow_density_policy},

@@ -14,14 +14,14 @@
 
 namespace throng::sim {
 
-/// What a policy knows when it is made. All that it refers to outlives the policy.
+/// Context of a policy's construction. All that it refers to outlives the policy.
 struct PolicyContext {
   const DroneMission& mission;
   Eigen::Vector3d start;
   double yaw_rad;
   FlightLimits limits;
-  const world::Scenario* place = nullptr;  ///< null only for policies that need none
-  int drone = 0;                           ///< index among the run's drones
+  const world::Scenario* scenario = nullptr;  ///< null only for policies that need none
+  int drone = 0;                              ///< index among the run's drones
 };
 
 class Policy {
@@ -33,19 +33,19 @@ class Policy {
 
   /// Shows it the world, once per step of the crowd.
   virtual void see(const WorldView&) {}
-  /// Where the drone should be `dt_s` after the last call, seeing where it is.
+  /// Set-point of the drone `dt_s` after the last call, given its position.
   virtual Setpoint next(const FlightState& state, double dt_s) = 0;
   /// Policies that guide: whether people may follow the drone now. Off, the goal that it moves is
   /// out of sight.
   virtual bool beacon() const { return false; }
-  /// What the other drones should know.
+  /// Information for the other drones.
   virtual LeadPlan plan() const { return {}; }
 };
 
 /// Parameters of GuidanceSpec (and the waypoints), as bits of a mask.
 using GuidanceFields = unsigned;
 inline constexpr GuidanceFields kFieldWaypoints = 1U << 0U;
-inline constexpr GuidanceFields kFieldCentre = 1U << 1U;
+inline constexpr GuidanceFields kFieldCenter = 1U << 1U;
 inline constexpr GuidanceFields kFieldRadius = 1U << 2U;
 inline constexpr GuidanceFields kFieldArea = 1U << 3U;
 inline constexpr GuidanceFields kFieldOverlap = 1U << 4U;
@@ -65,7 +65,7 @@ struct PolicyEntry {
 };
 
 /// Whether the policy itself decides when people may follow. The beacon of any other is off for the
-/// whole run, or on where the mission says so: a camera drone must not lead people astray.
+/// whole run, or on where the mission requires it: a camera drone must not lead people astray.
 constexpr bool guides(const PolicyEntry& policy) {
   return ((policy.needs | policy.takes) & kFieldBeacon) == 0;
 }

@@ -1,5 +1,5 @@
-// People who stand in or walk through the things that stand about. The crowd does not know of
-// props, so a scenario that puts one in people's way is wrong, and a picture of it would be too.
+// People who stand in or walk through props. The crowd does not know of props, so a scenario with a
+// prop in people's path is wrong, and so would be its images.
 #pragma once
 
 #include <Eigen/Core>

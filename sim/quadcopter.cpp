@@ -19,8 +19,8 @@ double ground_effect(double radius_m, double height_m) {
   return 1 / (1 - ratio * ratio);
 }
 
-// What is left of a rotor's thrust when air comes down on it; it falls linearly with the advance
-// ratio, which is speed / (turns per second * diameter).
+// Share of a rotor's thrust that remains in axial inflow; it falls linearly with the advance ratio,
+// which is speed / (turns per second * diameter).
 double thrust_left(double downwash_mps, double speed_rad_s, double radius_m) {
   constexpr double kNoThrustAdvance = 0.65;
   const double no_thrust_mps = kNoThrustAdvance * speed_rad_s * radius_m / EIGEN_PI;

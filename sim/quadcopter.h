@@ -9,7 +9,7 @@
 
 namespace throng::sim {
 
-/// Where a craft is and how it moves.
+/// Position, attitude and velocity of a vehicle.
 struct FlightState {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      ///< m, world
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< m/s, world
@@ -45,7 +45,7 @@ class Quadcopter {
   Quadcopter(Airframe airframe, double dt_s);
 
   /// Moves the motors on by one step and gives what acts on the body then. `commands` are rotor
-  /// speeds in rad/s; `air_velocity` is the wind at the craft in m/s, `downwash_mps` the air that
+  /// speeds in rad/s; `air_velocity` is the wind at the vehicle in m/s, `downwash_mps` the air that
   /// others blow down on each rotor.
   Wrench step(const FlightState& state, const PerRotor& commands,
               const Eigen::Vector3d& air_velocity, const PerRotor& downwash_mps = {});

@@ -8,7 +8,7 @@ namespace throng::sim {
 
 namespace {
 
-constexpr double kNeverS = 600;               // to wait for a shut door
+constexpr double kNeverS = 600;               // to wait for a closed door
 constexpr double kPriorPerMeterSecond = 1.1;  // discs of 0.4 m through clean doors
 constexpr double kPressM = 4;                 // from the door: who is nearer presses on it
 constexpr int kPressPeople = 4;
@@ -17,16 +17,16 @@ constexpr double kSurePrior = 100;  // looks: at first everybody is taken to cho
 constexpr double kMemory = 0.99;    // per look
 constexpr double kOnTheWayM = 6;    // farther from the door it was a choice
 constexpr double kLearning = 0.02;  // per look, of the rate
-constexpr double kSlowestPart = 0.5;
-constexpr double kFastestPart = 1.5;
+constexpr double kMinSpeedPart = 0.5;
+constexpr double kMaxSpeedPart = 1.5;
 
 }  // namespace
 
-QueueModel::QueueModel(const world::Scenario& place)
-    : place_(place),
-      people_(place.exits.size()),
-      habits_(place.exits.size(), std::vector<double>(place.exits.size())) {
-  for (const world::Exit& exit : place.exits) {
+QueueModel::QueueModel(const world::Scenario& scenario)
+    : scenario_(scenario),
+      people_(scenario.exits.size()),
+      habits_(scenario.exits.size(), std::vector<double>(scenario.exits.size())) {
+  for (const world::Exit& exit : scenario.exits) {
     capacity_per_s_.push_back(kPriorPerMeterSecond * exit.width_m());
   }
 }
@@ -44,7 +44,7 @@ void QueueModel::update(const WorldView& view, int self) {
     }
     const std::size_t e = index(ends_up_at(person));
     people_[e] += 1;
-    if ((person.position - place_.exits[e].middle()).norm() < kPressM) ++pressing[e];
+    if ((person.position - scenario_.exits[e].middle()).norm() < kPressM) ++pressing[e];
   }
   for (std::size_t d = 0; d < view.drones.size(); ++d) {
     const LeadPlan& plan = view.drones[d].plan;
@@ -57,14 +57,14 @@ void QueueModel::update(const WorldView& view, int self) {
   }
   for (std::size_t e = 0; e < people_.size(); ++e) {
     if (pressing[e] < kPressPeople) continue;
-    const double prior = kPriorPerMeterSecond * place_.exits[e].width_m();
-    const double learnt =
+    const double prior = kPriorPerMeterSecond * scenario_.exits[e].width_m();
+    const double learned =
         capacity_per_s_[e] + kLearning * (view.exit_flow_per_s[e] - capacity_per_s_[e]);
-    capacity_per_s_[e] = std::clamp(learnt, kSlowestPart * prior, kFastestPart * prior);
+    capacity_per_s_[e] = std::clamp(learned, kMinSpeedPart * prior, kMaxSpeedPart * prior);
   }
 }
 
-// Whom the news reaches later will choose as those before chose from there.
+// People who are informed later choose like earlier people at the same place.
 void QueueModel::learn_habits(const WorldView& view) {
   for (std::vector<double>& chosen : habits_) {
     for (double& looks : chosen) looks *= kMemory;
@@ -72,7 +72,7 @@ void QueueModel::learn_habits(const WorldView& view) {
   for (const PersonSeen& person : view.people) {
     if (person.guide >= 0 || person.exit < 0) continue;
     const std::size_t e = index(ends_up_at(person));
-    if ((person.position - place_.exits[e].middle()).norm() < kOnTheWayM) continue;
+    if ((person.position - scenario_.exits[e].middle()).norm() < kOnTheWayM) continue;
     habits_[nearest_exit(person.position)][e] += 1;
   }
 }
@@ -91,19 +91,20 @@ std::size_t QueueModel::nearest_exit(const Eigen::Vector2d& place) const {
     return (a.middle() - place).squaredNorm() < (b.middle() - place).squaredNorm();
   };
   return static_cast<std::size_t>(
-      std::min_element(place_.exits.begin(), place_.exits.end(), nearer) - place_.exits.begin());
+      std::min_element(scenario_.exits.begin(), scenario_.exits.end(), nearer) -
+      scenario_.exits.begin());
 }
 
 int QueueModel::ends_up_at(const PersonSeen& person) const {
   if (is_open(person.exit)) return person.exit;
-  return static_cast<int>(nearest_exit(place_.exits[index(person.exit)].middle()));
+  return static_cast<int>(nearest_exit(scenario_.exits[index(person.exit)].middle()));
 }
 
 double QueueModel::wait_s(int exit) const {
   return is_open(exit) ? people_[index(exit)] / capacity_per_s_[index(exit)] : kNeverS;
 }
 
-// Who leaves a queue shortens it for those behind, who joins one lengthens it for whoever comes
+// Leaving a queue shortens it for the people behind, joining one lengthens it for those who come
 // after: m people led save m (wait_from - wait_to) - m²/2 (1/C_from + 1/C_to).
 double QueueModel::saving_s(int from, int to, double arrive_s, double people) const {
   const double difference_s = wait_s(from) - std::max(wait_s(to), arrive_s);

@@ -12,11 +12,11 @@ using Eigen::Vector2f;
 
 namespace {
 
-constexpr double kFewestStepsPerS = 5;
-constexpr double kMostStepsPerS = 60;
+constexpr double kMinStepsPerS = 5;
+constexpr double kMaxStepsPerS = 60;
 
-// Heads sway by some centimetres with every step, about twice a second: over this time before and
-// after, the way walked says where somebody faces, and over less than kTurnsM it says nothing.
+// Heads sway by some centimeters with every step, about twice a second: over this time before and
+// after, the walked path determines the heading, and over less than kTurnsM it does not.
 constexpr double kFacingWindowS = 0.5;
 constexpr float kTurnsM = 0.15F;
 
@@ -33,7 +33,7 @@ void face(const world::Trace& recording, std::size_t agent, float yaw, std::vect
   }
 }
 
-/// Which way everybody faces in every frame: along the way around it, else as before.
+/// Heading of each person in every frame: along the local path, else as before.
 std::vector<float> facings(const world::Trace& recording, std::uint64_t seed) {
   std::vector<float> yaws(recording.position.size(), 0);
   const auto reach =
@@ -52,10 +52,10 @@ std::vector<float> facings(const world::Trace& recording, std::uint64_t seed) {
       while (to + 1 < recording.steps() && to < step + reach && recording.present(to + 1, agent)) {
         ++to;
       }
-      const Vector2f way = recording.position[recording.at(to, agent)] -
-                           recording.position[recording.at(from, agent)];
-      if (way.norm() >= kTurnsM) {
-        yaw = std::atan2(way.y(), way.x());
+      const Vector2f offset = recording.position[recording.at(to, agent)] -
+                              recording.position[recording.at(from, agent)];
+      if (offset.norm() >= kTurnsM) {
+        yaw = std::atan2(offset.y(), offset.x());
         faced_from = std::min(faced_from, step);
       }
       yaws[recording.at(step, agent)] = yaw;
@@ -64,7 +64,7 @@ std::vector<float> facings(const world::Trace& recording, std::uint64_t seed) {
       face(recording, agent, any_facing_rad(seed, agent), yaws);
       continue;
     }
-    // Who stands at first faces where they will go.
+    // A person who stands at first faces the later direction of motion.
     for (std::size_t step = 0; step < faced_from; ++step) {
       yaws[recording.at(step, agent)] = yaws[recording.at(faced_from, agent)];
     }
@@ -135,12 +135,12 @@ class ReplayedCrowd : public CrowdSource {
     take(agent, moment());
   }
 
-  void move_goal(int /*set*/, int /*goal*/, const Vector2f& /*centre*/) override {}
+  void move_goal(int /*set*/, int /*goal*/, const Vector2f& /*center*/) override {}
   void strike(std::size_t /*agent*/, const Vector2f& /*impulse_ns*/) override {}
 
  private:
-  // Everybody at the time of the step, from the frames before and after it. Who is gone stays where
-  // they were: a trace has a place for everybody.
+  // Everybody at the time of the step, from the frames before and after it. People who have left
+  // keep their last position: a trace has an entry for everybody.
   void take_frame() {
     const Moment at = moment();
     for (std::size_t i = 0; i < positions_.size(); ++i) take(i, at);
@@ -193,8 +193,8 @@ class ReplayedCrowd : public CrowdSource {
 
 double replay_step_s(double recorded_dt_s) {
   const double rate = 1 / recorded_dt_s;
-  if (rate > kMostStepsPerS) return recorded_dt_s * std::ceil(rate / kMostStepsPerS);
-  if (rate < kFewestStepsPerS) return recorded_dt_s / std::ceil(kFewestStepsPerS / rate);
+  if (rate > kMaxStepsPerS) return recorded_dt_s * std::ceil(rate / kMaxStepsPerS);
+  if (rate < kMinStepsPerS) return recorded_dt_s / std::ceil(kMinStepsPerS / rate);
   return recorded_dt_s;
 }
 

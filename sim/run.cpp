@@ -26,29 +26,29 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kLongestPhysicsStepS = 1.0 / 240;
-constexpr double kLongestRunS = 86'400;
+constexpr double kMaxPhysicsStepS = 1.0 / 240;
+constexpr double kMaxRunS = 86'400;
 
 void check_times(const RunSpec& spec, std::vector<Problem>& problems) {
-  if (!(spec.duration_s > 0 && spec.duration_s <= kLongestRunS)) {
+  if (!(spec.duration_s > 0 && spec.duration_s <= kMaxRunS)) {
     problems.push_back({"", "/capture/to_s", fmt::format("{:g}", spec.duration_s),
-                        fmt::format("more than 0 and at most {:g} s", kLongestRunS)});
+                        fmt::format("more than 0 and at most {:g} s", kMaxRunS)});
   }
-  if (!(spec.physics_dt_s > 0 && spec.physics_dt_s <= kLongestPhysicsStepS + 1e-12)) {
+  if (!(spec.physics_dt_s > 0 && spec.physics_dt_s <= kMaxPhysicsStepS + 1e-12)) {
     problems.push_back({"", "/physics_dt_s", fmt::format("{:g}", spec.physics_dt_s),
                         "more than 0 and at most 1/240 s"});
   }
 }
 
 void check_exits(const world::Scenario& scenario, std::vector<Problem>& problems) {
-  constexpr std::size_t kMostExits = std::numeric_limits<std::int8_t>::max();
-  if (scenario.exits.size() > kMostExits) {
+  constexpr std::size_t kMaxExits = std::numeric_limits<std::int8_t>::max();
+  if (scenario.exits.size() > kMaxExits) {
     problems.push_back({scenario.id, "/exits", fmt::format("{} exits", scenario.exits.size()),
-                        fmt::format("at most {}", kMostExits)});
+                        fmt::format("at most {}", kMaxExits)});
   }
 }
 
-// A first move of every goal, to learn whether the behaviour file has it.
+// A first move of every goal, to learn whether the behavior file has it.
 void check_goals(const std::vector<PlannedDrone>& drones, CrowdSource& crowd,
                  std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < drones.size(); ++i) {
@@ -87,7 +87,7 @@ std::vector<world::GoalRef> goals_moved_by(const std::vector<PlannedDrone>& dron
   return goals;
 }
 
-// Who is a person and there; fills and returns `there`.
+// People who are present; fills and returns `there`.
 std::span<const std::uint8_t> people_there(const CrowdSource& crowd,
                                            const std::vector<world::AgentRole>& roles,
                                            std::vector<std::uint8_t>& there) {
@@ -113,8 +113,8 @@ void report_falls(const CrowdSource& crowd, double time_s, RunObserver& observer
 }
 
 // Doors that have been reached by a disaster since the step before.
-void report_shut_doors(const world::Scenario& scenario, double before_s, double time_s,
-                       RunObserver& observer) {
+void report_closed_doors(const world::Scenario& scenario, double before_s, double time_s,
+                         RunObserver& observer) {
   for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
     const world::Exit& exit = scenario.exits[e];
     if (!exit.is_open(before_s) || exit.is_open(time_s)) continue;
@@ -230,7 +230,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
     props.look(crowd.positions(), there, time_s);
     recorder.record(crowd, time_s, observer);
     report_falls(crowd, time_s, observer);
-    report_shut_doors(scenario, static_cast<double>(step - 1) * dt_s, time_s, observer);
+    report_closed_doors(scenario, static_cast<double>(step - 1) * dt_s, time_s, observer);
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
   }
   flight.finish();

@@ -27,7 +27,7 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
 /// Called with simulated seconds done and the total.
 using RunProgress = std::function<void(double done_s, double total_s)>;
 
-/// Who is told of a run as it goes. All of it is called from the thread that simulates.
+/// Observer of a run. All methods are called from the simulating thread.
 class RunObserver {
  public:
   RunObserver() = default;
@@ -39,7 +39,7 @@ class RunObserver {
   virtual void step(const world::CrowdStep&) {}
   virtual void drone(std::size_t /*drone*/, const world::DroneSample&) {}
   virtual void event(const world::TraceEvent&) {}
-  /// Where the drone should be and whether it leads, once per step of the crowd.
+  /// Set-point of the drone and whether it leads, once per step of the crowd.
   virtual void pilot(std::size_t /*drone*/, const PilotSample&) {}
   /// Whether the rest of the run is of no interest.
   virtual bool done() const { return false; }

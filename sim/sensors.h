@@ -1,5 +1,5 @@
-// What a drone's sensors say of its flight: the trace's truth with the errors that such sensors
-// have. Made from a trace alone, so equal traces give equal readings, whenever they are asked for.
+// Readings of a drone's sensors: the trace's truth with the errors of such sensors. Made from a
+// trace alone, so equal traces give equal readings, whenever they are asked for.
 #pragma once
 
 #include <Eigen/Core>

@@ -46,12 +46,12 @@ Box reach_of(const PlannedDrone& drone) {
   return box;
 }
 
-CraftInAir inflated(const PlannedDrone& drone, const Vector3d& position) {
-  CraftInAir craft;
-  craft.position = position;
-  craft.radius_m = drone.airframe.radius_m() + 0.5 * kFlightClearanceM;
-  craft.height_m = drone.airframe.height_m + kFlightClearanceM;
-  return craft;
+VehicleInAir inflated(const PlannedDrone& drone, const Vector3d& position) {
+  VehicleInAir vehicle;
+  vehicle.position = position;
+  vehicle.radius_m = drone.airframe.radius_m() + 0.5 * kFlightClearanceM;
+  vehicle.height_m = drone.airframe.height_m + kFlightClearanceM;
+  return vehicle;
 }
 
 struct Meeting {
@@ -62,8 +62,8 @@ struct Meeting {
 // When and where the second of two drones first comes too near to the first.
 std::optional<Meeting> first_meeting(const PlannedDrone& one, const PlannedDrone& two,
                                      double duration_s) {
-  CraftInAir a = inflated(one, one.start);
-  CraftInAir b = inflated(two, two.start);
+  VehicleInAir a = inflated(one, one.start);
+  VehicleInAir b = inflated(two, two.start);
   if (approach_of(a, b).gap_m < 0) return Meeting{0, two.start};
   if (goes_by_people(*one.policy) || goes_by_people(*two.policy)) return std::nullopt;
   if (!reach_of(one).overlaps(reach_of(two), 2 + a.radius_m + b.radius_m)) return std::nullopt;

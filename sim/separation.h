@@ -8,8 +8,8 @@
 
 namespace throng::sim {
 
-/// Room (m) to leave around a drone for its deviations from the path, towards buildings as towards
-/// the surface of another drone.
+/// Margin (m) around a drone for its deviations from the path, toward buildings as toward the
+/// surface of another drone.
 inline constexpr double kFlightClearanceM = 0.5;
 
 /// Adds a problem for every drone whose start, or whose path at some time up to `duration_s`, is

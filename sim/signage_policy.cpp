@@ -25,11 +25,11 @@ constexpr double kHideS = 1;        // and off, so that who has come walks on by
 class SignagePolicy : public Policy {
  public:
   explicit SignagePolicy(const PolicyContext& context)
-      : place_(*context.place),
+      : scenario_(*context.scenario),
         drone_(context.drone),
-        choice_(exits_to_lead_to(place_, context.mission.guidance.exits)),
+        choice_(exits_to_lead_to(scenario_, context.mission.guidance.exits)),
         glide_(context.start, context.yaw_rad),
-        queues_(place_) {}
+        queues_(scenario_) {}
 
   void see(const WorldView& view) override {
     queues_.update(view, drone_);
@@ -77,24 +77,25 @@ class SignagePolicy : public Policy {
     }
     if (best < 0) return;
     to_ = best;
-    const world::Exit& exit = place_.exits[static_cast<std::size_t>(to_)];
+    const world::Exit& exit = scenario_.exits[static_cast<std::size_t>(to_)];
     const Vector2d inner = exit.middle() - 2 * exit.outward;
-    const Vector2d way = longest_queue() - inner;
-    const Vector2d aside = way.norm() > 0 ? Vector2d(way.normalized()) : Vector2d(-exit.outward);
-    glide_.go(inner + std::min(kBeforeDoorM, way.norm()) * aside, kSignSpeedMps);
+    const Vector2d offset = max_queue() - inner;
+    const Vector2d aside =
+        offset.norm() > 0 ? Vector2d(offset.normalized()) : Vector2d(-exit.outward);
+    glide_.go(inner + std::min(kBeforeDoorM, offset.norm()) * aside, kSignSpeedMps);
   }
 
-  Vector2d longest_queue() const {
+  Vector2d max_queue() const {
     std::size_t longest = 0;
-    for (std::size_t e = 1; e < place_.exits.size(); ++e) {
+    for (std::size_t e = 1; e < scenario_.exits.size(); ++e) {
       if (queues_.wait_s(static_cast<int>(e)) > queues_.wait_s(static_cast<int>(longest))) {
         longest = e;
       }
     }
-    return place_.exits[longest].middle();
+    return scenario_.exits[longest].middle();
   }
 
-  const world::Scenario& place_;
+  const world::Scenario& scenario_;
   int drone_;
   std::vector<int> choice_;
   Glide glide_;

@@ -26,8 +26,8 @@ class SimulatedCrowd : public CrowdSource {
 
   void step() override { crowd_.step(); }
   void set_present(std::size_t agent, bool present) override { crowd_.set_present(agent, present); }
-  void move_goal(int set, int goal, const Eigen::Vector2f& centre) override {
-    crowd_.move_goal(set, goal, centre);
+  void move_goal(int set, int goal, const Eigen::Vector2f& center) override {
+    crowd_.move_goal(set, goal, center);
   }
   void strike(std::size_t agent, const Eigen::Vector2f& impulse_ns) override {
     crowd_.strike(agent, impulse_ns);

@@ -40,7 +40,7 @@ class SurveyPolicy : public Policy {
       : speed_mps_(context.mission.speed_mps), glide_(context.start, context.yaw_rad) {
     const GuidanceSpec& guidance = context.mission.guidance;
     const double seen_m = 2 * context.start.z() * std::tan(0.5 * context.mission.camera.hfov_rad);
-    path_ = lanes_over(guidance.area.value_or(context.place->inside),
+    path_ = lanes_over(guidance.area.value_or(context.scenario->inside),
                        seen_m * (1 - guidance.overlap.value_or(kUsualOverlap)));
     glide_.go(path_[0], speed_mps_);
   }

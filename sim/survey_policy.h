@@ -1,4 +1,4 @@
-// "survey": fly to and fro over an area in lanes, so near each other that neighbouring pictures
+// "survey": fly to and fro over an area in lanes, so near each other that neighboring images
 // overlap, and begin again when all of it has been seen.
 #pragma once
 

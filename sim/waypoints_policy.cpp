@@ -11,9 +11,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kAcceleration = 2;  // m/s², along the path
-constexpr double kLongestLeadM = 3;  // how far the set-point may run ahead of the drone
-constexpr double kCreepMps = 0.05;   // keeps the set-point moving where the profile says zero
-constexpr double kShortestLegM = 1e-6;
+constexpr double kMaxLeadM = 3;      // how far the set-point may run ahead of the drone
+constexpr double kCreepMps = 0.05;   // keeps the set-point moving where the profile is zero
+constexpr double kMinLegM = 1e-6;
 
 struct Leg {
   Vector3d from;
@@ -28,7 +28,7 @@ std::vector<Leg> legs_through(const PolicyContext& context) {
   Vector3d from = context.start;
   for (const Vector3d& to : context.mission.waypoints) {
     const double length_m = (to - from).norm();
-    if (length_m < kShortestLegM) continue;
+    if (length_m < kMinLegM) continue;
     const Vector3d direction = (to - from) / length_m;
     const double climb = std::abs(direction.z());
     const double speed_mps =
@@ -65,13 +65,13 @@ class WaypointsPolicy : public Policy {
  private:
   void advance(const FlightState& state, double dt_s) {
     const Leg& leg = legs_[leg_];
-    const bool too_far_ahead = (setpoint_.position - state.position).norm() > kLongestLeadM;
+    const bool too_far_ahead = (setpoint_.position - state.position).norm() > kMaxLeadM;
     const double can_brake_mps = std::sqrt(leg.end_speed_mps * leg.end_speed_mps +
                                            2 * kAcceleration * (leg.length_m - along_m_));
     const double wanted_mps =
         too_far_ahead ? 0.0 : std::max(kCreepMps, std::min(leg.speed_mps, can_brake_mps));
-    const double most = kAcceleration * dt_s;
-    const double change_mps = std::clamp(wanted_mps - speed_mps_, -most, most);
+    const double max_value = kAcceleration * dt_s;
+    const double change_mps = std::clamp(wanted_mps - speed_mps_, -max_value, max_value);
     speed_mps_ += change_mps;
     along_m_ += speed_mps_ * dt_s;
     if (along_m_ < leg.length_m) {

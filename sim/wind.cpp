@@ -10,8 +10,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kGridHz = 60;
-constexpr double kFeetPerMetre = 1 / 0.3048;
-constexpr double kLeastAirspeedMps = 0.5;  // in air that stands still its eddies still pass
+constexpr double kFeetPerMeter = 1 / 0.3048;
+constexpr double kMinAirspeedMps = 0.5;  // in air that stands still its eddies still pass
 
 // The low-altitude model of MIL-F-8785C (1980), 3.7.3.4 figures 7 and 8, holds from 10 to 1000 ft.
 struct DrydenScales {
@@ -20,13 +20,13 @@ struct DrydenScales {
 };
 
 DrydenScales dryden_scales(double wind_at_20_ft_mps, double height_m) {
-  const double height_ft = std::clamp(height_m * kFeetPerMetre, 10.0, 1000.0);
+  const double height_ft = std::clamp(height_m * kFeetPerMeter, 10.0, 1000.0);
   const double shape = 0.177 + 0.000823 * height_ft;
   const double vertical_mps = 0.1 * wind_at_20_ft_mps;
   const double horizontal_mps = vertical_mps / std::pow(shape, 0.4);
-  const double horizontal_m = height_ft / std::pow(shape, 1.2) / kFeetPerMetre;
+  const double horizontal_m = height_ft / std::pow(shape, 1.2) / kFeetPerMeter;
   return {{horizontal_mps, horizontal_mps, vertical_mps},
-          {horizontal_m, horizontal_m, height_ft / kFeetPerMetre}};
+          {horizontal_m, horizontal_m, height_ft / kFeetPerMeter}};
 }
 
 // Moves a process of variance 1 on by one step and keeps it at variance 1.
@@ -41,10 +41,10 @@ Vector3d turned(const Vector3d& v, double yaw_rad) {
 
 }  // namespace
 
-Gusts::Gusts(const WindSpec& spec, std::uint64_t seed, std::uint64_t craft)
+Gusts::Gusts(const WindSpec& spec, std::uint64_t seed, std::uint64_t vehicle)
     : spec_(spec),
-      wind_at_20_ft_mps_(spec.mean_at(20 / kFeetPerMetre).norm()),
-      random_(seed, Stream::wind, craft) {
+      wind_at_20_ft_mps_(spec.mean_at(20 / kFeetPerMeter).norm()),
+      random_(seed, Stream::wind, vehicle) {
   // Turbulence has no beginning: the filters start in their stationary state. Of the second lag,
   // given the first, the mean is half the first and the variance a quarter.
   for (int axis = 0; axis < 3; ++axis) {
@@ -85,7 +85,7 @@ Vector3d Gusts::ou_point() {
 // T = length / airspeed. With a first lag of variance 1, the latter has variance 2.
 Vector3d Gusts::dryden_point(double height_m, double airspeed_mps) {
   const DrydenScales scales = dryden_scales(wind_at_20_ft_mps_, height_m);
-  const double speed_mps = std::max(airspeed_mps, kLeastAirspeedMps);
+  const double speed_mps = std::max(airspeed_mps, kMinAirspeedMps);
   Vector3d gust;
   for (int axis = 0; axis < 3; ++axis) {
     const double kept = std::exp(-speed_mps / (kGridHz * scales.length_m[axis]));

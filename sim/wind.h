@@ -1,4 +1,4 @@
-// The gusts that each craft meets on its own, on top of the mean wind (sim/spec/wind_spec.h).
+// The gusts that each vehicle meets on its own, on top of the mean wind (sim/spec/wind_spec.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +9,15 @@
 
 namespace throng::sim {
 
-/// The gusts that one craft meets. Made on a grid of 60 per second and linear in between, so that
+/// The gusts that one vehicle meets. Made on a grid of 60 per second and linear in between, so that
 /// they do not depend on how often they are asked for.
 class Gusts {
  public:
-  /// `craft` numbers the crafts of a run; each has gusts of its own.
-  Gusts(const WindSpec& spec, std::uint64_t seed, std::uint64_t craft);
+  /// `craft` numbers the vehicles of a run; each has gusts of its own.
+  Gusts(const WindSpec& spec, std::uint64_t seed, std::uint64_t vehicle);
 
-  /// Gust velocity in the world. Times must not decrease. The air's speed relative to the craft and
-  /// its height are those that the next grid points are made with.
+  /// Gust velocity in the world. Times must not decrease. The air's speed relative to the vehicle
+  /// and its height are those that the next grid points are made with.
   Eigen::Vector3d at(double time_s, double height_m, double airspeed_mps);
 
  private:

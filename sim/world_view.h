@@ -1,4 +1,4 @@
-// What a guide knows of the world at one moment: the truth, or what its camera makes of it
+// A guide's knowledge of the world at one moment: the truth, or its camera's estimate
 // (sim/perception.h).
 #pragma once
 
@@ -16,7 +16,7 @@ struct PersonSeen {
   int guide = -1;            ///< the drone of the run that the person follows; -1: none
 };
 
-/// What a drone tells the others that it is about to do.
+/// Plan that a drone announces to the others.
 struct LeadPlan {
   int from = -1;       ///< takes people from the queue of this exit; -1: from none
   int to = -1;         ///< and leads them to this one; -1: leads nobody
@@ -32,7 +32,7 @@ struct DroneSeen {
   LeadPlan plan;
 };
 
-/// Whom and what a drone sees. Drones know each other's places and plans from their radio.
+/// People and drones that a drone sees. Drones know each other's positions and plans by radio.
 struct WorldView {
   double time_s = 0;
   std::vector<PersonSeen> people;

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kSwingM = 4;  // to either side of the way
+constexpr double kSwingM = 4;  // to either side of the path
 constexpr int kSwings = 3;
 constexpr double kPatienceS = 20;  // how long it waits for followers to run on
 constexpr std::size_t kWorthATripPeople = 4;
@@ -21,10 +21,10 @@ constexpr std::size_t kWorthATripPeople = 4;
 class ZigzagPolicy : public Policy {
  public:
   explicit ZigzagPolicy(const PolicyContext& context)
-      : place_(*context.place),
+      : scenario_(*context.scenario),
         drone_(context.drone),
         speed_mps_(context.mission.speed_mps),
-        choice_(exits_to_lead_to(place_, context.mission.guidance.exits)),
+        choice_(exits_to_lead_to(scenario_, context.mission.guidance.exits)),
         glide_(context.start, context.yaw_rad) {}
 
   void see(const WorldView& view) override {
@@ -39,7 +39,7 @@ class ZigzagPolicy : public Policy {
     if (path_.empty()) {
       plan_trip(view);
     } else if (glide_.arrived()) {
-      go_on();
+      next_leg();
     }
   }
 
@@ -56,10 +56,10 @@ class ZigzagPolicy : public Policy {
 
  private:
   bool is_open(int exit) const {
-    return place_.exits[static_cast<std::size_t>(exit)].is_open(time_s_);
+    return scenario_.exits[static_cast<std::size_t>(exit)].is_open(time_s_);
   }
 
-  void go_on() {
+  void next_leg() {
     if (point_ + 1 < path_.size()) {
       glide_.go(path_[++point_], speed_mps_);
       arrived_s_ = -1;
@@ -69,29 +69,30 @@ class ZigzagPolicy : public Policy {
     if (followers_ == 0 || time_s_ - arrived_s_ > kPatienceS) path_.clear();
   }
 
-  // Those before the exit that most people want, and the way from there to the next exit in turn.
+  // People before the exit with the most demand, and the direction from there to the next exit in
+  // turn.
   void plan_trip(const WorldView& view) {
-    std::vector<std::size_t> heading(place_.exits.size());
+    std::vector<std::size_t> heading(scenario_.exits.size());
     for (const PersonSeen& person : view.people) {
       if (person.exit >= 0) ++heading[static_cast<std::size_t>(person.exit)];
     }
-    const auto most = std::max_element(heading.begin(), heading.end());
-    if (most == heading.end() || *most < kWorthATripPeople) return;
-    from_ = static_cast<int>(most - heading.begin());
+    const auto max_value = std::max_element(heading.begin(), heading.end());
+    if (max_value == heading.end() || *max_value < kWorthATripPeople) return;
+    from_ = static_cast<int>(max_value - heading.begin());
     to_ = next_in_turn();
     if (to_ < 0) return;
     Vector2d middle = Vector2d::Zero();
     for (const PersonSeen& person : view.people) {
-      if (person.exit == from_) middle += person.position / static_cast<double>(*most);
+      if (person.exit == from_) middle += person.position / static_cast<double>(*max_value);
     }
     const LeadRoute route =
-        route_through(place_.exits[static_cast<std::size_t>(to_)], place_.buildings);
-    const Vector2d way = route.points[0] - middle;
-    const Vector2d aside = Vector2d(-way.y(), way.x()).normalized();
+        route_through(scenario_.exits[static_cast<std::size_t>(to_)], scenario_.buildings);
+    const Vector2d offset = route.points[0] - middle;
+    const Vector2d aside = Vector2d(-offset.y(), offset.x()).normalized();
     path_ = {middle};
     for (int i = 1; i <= kSwings; ++i) {
       const double side = i % 2 == 1 ? kSwingM : -kSwingM;
-      path_.emplace_back(middle + way * i / (kSwings + 1.0) + side * aside);
+      path_.emplace_back(middle + offset * i / (kSwings + 1.0) + side * aside);
     }
     path_.insert(path_.end(), route.points.begin(), route.points.end());
     point_ = 0;
@@ -108,7 +109,7 @@ class ZigzagPolicy : public Policy {
     return -1;
   }
 
-  const world::Scenario& place_;
+  const world::Scenario& scenario_;
   int drone_;
   double speed_mps_;
   std::vector<int> choice_;

@@ -15,7 +15,7 @@ namespace throng::skinning {
 namespace {
 
 constexpr std::uint64_t kOrders = std::uint64_t{1} << 40;  // apart from the agents' own indices
-constexpr std::uint64_t kColours = std::uint64_t{1} << 41;
+constexpr std::uint64_t kColors = std::uint64_t{1} << 41;
 constexpr std::uint64_t kCasts = std::uint64_t{1} << 43;
 
 void shuffle(std::vector<std::uint32_t>& order, std::size_t begin, std::size_t end,
@@ -74,12 +74,12 @@ std::vector<std::uint32_t> take_part(const Population& population, bool umbrella
   throw InputError(
       {"", "/appearance",
        fmt::format("nobody from {:g} to {:g} years", styling.youngest_years, styling.oldest_years),
-       fmt::format("ages that some of the people have, who are from {:.0f} to {:.0f}",
+       fmt::format("a range that includes some characters, whose ages are from {:.0f} to {:.0f}",
                    youngest->age_years, oldest->age_years)});
 }
 
 // Everybody without an umbrella once, and so many with one, again and again from the front, as make
-// up their share. Who has none to leave at home comes with it.
+// up their share. If all characters have umbrellas, all come with them.
 std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
                            const Styling& styling) {
   const std::vector<std::uint32_t> dry = take_part(population, true, seed, styling);
@@ -102,39 +102,38 @@ std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
   return cast;
 }
 
-// Which of its colours a character shows in a block: the next one each time, from a start of its
-// own, and the kinds of things drift against each other, so that equal outfits are far apart.
-std::size_t colour_number(std::uint64_t seed, std::uint32_t character, std::size_t tint,
-                          std::uint32_t block, std::size_t colours) {
-  Random random(seed, Stream::appearance, kColours + kTintCount * character + tint);
-  const std::uint64_t start = random.below(static_cast<std::uint32_t>(colours));
-  return (start + block + tint * (block / colours)) % colours;
+// Selects the color of a character in a block: the next one each time, from a start of its own, and
+// the kinds of things drift against each other, so that equal outfits are far apart.
+std::size_t color_number(std::uint64_t seed, std::uint32_t character, std::size_t tint,
+                         std::uint32_t block, std::size_t colors) {
+  Random random(seed, Stream::appearance, kColors + kTintCount * character + tint);
+  const std::uint64_t start = random.below(static_cast<std::uint32_t>(colors));
+  return (start + block + tint * (block / colors)) % colors;
 }
 
-// The same colour in slightly different cloth.
-Rgb varied(const Rgb& colour, Random& random) {
+// The same color in slightly different cloth.
+Rgb varied(const Rgb& color, Random& random) {
   const double light = random.uniform(0.86, 1.1);
   Rgb result{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double value = colour[channel] * light * random.uniform(0.95, 1.05);
+    const double value = color[channel] * light * random.uniform(0.95, 1.05);
     result[channel] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
   }
   return result;
 }
 
-Rgb dyed(const Rgb& colour, const Styling& styling) {
-  // Grey of the same luma (ITU-R BT.601).
-  const double grey = 0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2];
+Rgb dyed(const Rgb& color, const Styling& styling) {
+  // Gray of the same luma (ITU-R BT.601).
+  const double gray = 0.299 * color[0] + 0.587 * color[1] + 0.114 * color[2];
   Rgb result{};
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double value =
-        styling.brightness * (grey + styling.saturation * (colour[channel] - grey));
+    const double value = styling.brightness * (gray + styling.saturation * (color[channel] - gray));
     result[channel] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
   }
   return result;
 }
 
-// A character as the agent shows it, in its colours of this block.
+// A character as the agent shows it, in its colors of this block.
 Appearance shown(const Population& population, std::uint32_t number, std::uint64_t run_seed,
                  std::uint32_t agent, std::uint32_t block, const Styling& styling) {
   Appearance appearance;
@@ -145,11 +144,11 @@ Appearance shown(const Population& population, std::uint32_t number, std::uint64
   appearance.amplitude = static_cast<float>(random.uniform(0.92, 1.08));
   const Character& character = population.characters[number];
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {
-    const std::vector<Rgb>& colours = character.tints[tint];
+    const std::vector<Rgb>& colors = character.tints[tint];
     appearance.tint[tint] = {255, 255, 255};
-    if (colours.empty()) continue;
-    const std::size_t colour = colour_number(run_seed, number, tint, block, colours.size());
-    appearance.tint[tint] = varied(colours[colour], random);
+    if (colors.empty()) continue;
+    const std::size_t color = color_number(run_seed, number, tint, block, colors.size());
+    appearance.tint[tint] = varied(colors[color], random);
     if (tint != static_cast<std::size_t>(Tint::hair)) {
       appearance.tint[tint] = dyed(appearance.tint[tint], styling);
     }

@@ -1,4 +1,4 @@
-// Who of the population an agent looks like, in which colours.
+// Assignment of characters and colors to agents.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace throng::skinning {
 
-/// What sets an agent apart from the others; a pure function of (run seed, agent id).
+/// Individual traits of an agent; a pure function of (run seed, agent id).
 struct Appearance {
   std::uint32_t character = 0;  ///< index into Population::characters
   float phase_offset = 0;       ///< strides, in [0, 1)
@@ -21,7 +21,7 @@ struct Appearance {
 };
 
 /// Agents near each other in id get different characters: with n that take part, equal ones are
-/// more than n / 2 - 1 ids apart, and when a character comes again it wears other colours. Those
+/// more than n / 2 - 1 ids apart, and when a character comes again it wears other colors. Those
 /// under umbrellas, who are few, may come several times among n. Throws InputError when nobody is
 /// of the ages.
 Appearance appearance_of(const Population& population, std::uint64_t run_seed, std::uint32_t agent,

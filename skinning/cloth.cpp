@@ -142,11 +142,11 @@ Image plain_cloth(const fs::path& folder, const Mask& covered) {
   for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
     double shade = 1;
     if (occlusion && occlusion->rgba.size() == image.rgba.size()) {
-      // Where a shirt hangs over a waistband the map is black; other shirts leave that bare.
+      // The map is black where a shirt hangs over a waistband; other shirts leave that bare.
       shade *= std::max(0.72, std::pow(occlusion->rgba[at] / 255.0, 0.6));
     }
     if (relief) {
-      // As if lit from the upper left of the picture.
+      // As if lit from the upper left of the image.
       const double across = relief->rgba[at] / 127.5 - 1;
       const double along = relief->rgba[at + 1] / 127.5 - 1;
       shade *= std::clamp(1 + 0.45 * along - 0.35 * across, 0.55, 1.3);

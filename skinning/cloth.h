@@ -1,4 +1,4 @@
-// Paints textures for clothes that are coloured per instance: light and shade only.
+// Paints textures for clothes that are colored per instance: light and shade only.
 #pragma once
 
 #include <filesystem>
@@ -10,11 +10,11 @@
 
 namespace throng::skinning {
 
-/// sRGB value that the median of a tinted piece's texture has: bright enough for white shirts,
-/// dark enough to leave room for highlights.
+/// sRGB value that the median of a tinted piece's texture has: bright enough for white shirts, dark
+/// enough for highlights.
 inline constexpr std::uint8_t kMedianShade = 205;
 
-/// Some faces of a proxy, all on one picture.
+/// Some faces of a proxy, all on one image.
 struct ClothFaces {
   const Proxy* proxy;
   std::span<const Quad> quads;
@@ -23,16 +23,16 @@ struct ClothFaces {
 /// The texels that the faces use.
 Mask covered_by(const ClothFaces& faces, const Image& image);
 
-/// The picture of a garment in its folder's textures/: the package's own, not its normal or
+/// The image of a garment in its folder's textures/: the package's own, not its normal or
 /// occlusion map. Throws InputError when there is none.
 std::filesystem::path diffuse_picture(const std::filesystem::path& folder);
 
-/// Light and shade of the picture under `covered`, without colour and with its median at
+/// Light and shade of the image under `covered`, without color and with its median at
 /// kMedianShade; `contrast` is an exponent on brightness.
 void reduce_to_shade(Image& image, const Mask& covered, double contrast);
 
 /// Folds as the garment's occlusion and normal maps show them, without any print; light and shade
-/// of its picture where the package has no such maps.
+/// of its image where the package has no such maps.
 Image plain_cloth(const std::filesystem::path& folder, const Mask& covered);
 
 /// Adds the cloth's pattern, laid out on the unmorphed body in the A-pose.

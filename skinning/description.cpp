@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
-#include "skinning/rig_names.h"
+#include "base/suggest.h"
 
 namespace throng::skinning {
 
@@ -35,29 +36,31 @@ class DescriptionReader {
                         R"(an object such as {"name": "guide", "model": "guide.glb", )"
                         R"("height_m": 1.75, "licence": "CC0-1.0"})"});
     }
-    CharacterDescription who;
-    who.file = file_;
+    CharacterDescription description;
+    description.file = file_;
     known(document, "",
           {"name", "model", "height_m", "licence", "author", "wears", "sex", "age_years", "bones",
            "clips"});
-    who.name = text(document, "", "name", true);
-    check_name(who.name);
-    who.model = path(text(document, "", "model", true));
-    who.height_m = number(document, "", "height_m", {0.5, 2.5},
-                          "in metres, from the soles to the top of the head; the model may have "
-                          "any unit, it is scaled to this height")
-                       .value_or(who.height_m);
-    who.licence = text(document, "", "licence", true);
-    who.author = text(document, "", "author", false);
-    who.wears = text(document, "", "wears", false);
-    read_sex(document, who);
+    description.name = text(document, "", "name", true);
+    check_name(description.name);
+    description.model = path(text(document, "", "model", true));
+    description.height_m =
+        number(document, "", "height_m", {0.5, 2.5},
+               "in meters, from the soles to the top of the head; the model may have "
+               "any unit, it is scaled to this height")
+            .value_or(description.height_m);
+    description.license = text(document, "", "licence", true);
+    description.author = text(document, "", "author", false);
+    description.wears = text(document, "", "wears", false);
+    read_sex(document, description);
     if (document.contains("age_years")) {
-      who.age_years = number(document, "", "age_years", {1, 110}, "years").value_or(who.age_years);
+      description.age_years =
+          number(document, "", "age_years", {1, 110}, "years").value_or(description.age_years);
     }
-    read_bones(document, who);
-    read_clips(document, who);
+    read_bones(document, description);
+    read_clips(document, description);
     if (!problems_.empty()) throw InputError(problems_);
-    return who;
+    return description;
   }
 
  private:
@@ -65,15 +68,15 @@ class DescriptionReader {
     problems_.push_back({file_.string(), where, found, expected});
   }
 
-  fs::path path(const std::string& said) const {
-    return said.empty() ? fs::path() : file_.parent_path() / said;
+  fs::path path(const std::string& given) const {
+    return given.empty() ? fs::path() : file_.parent_path() / given;
   }
 
   void known(const json& object, const std::string& where, const std::vector<std::string>& keys) {
     for (const auto& [key, value] : object.items()) {
       if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-      wrong(where + "/" + key, "an unknown field",
-            fmt::format("one of {} (\"{}\"?)", fmt::join(keys, ", "), most_similar(key, keys)));
+      problems_.push_back(unknown_name(file_.string(), where + "/" + key, "field", key,
+                                       std::vector<std::string_view>(keys.begin(), keys.end())));
     }
   }
 
@@ -104,23 +107,23 @@ class DescriptionReader {
   }
 
   void check_name(const std::string& name) {
-    constexpr std::size_t kLongest = 40;
+    constexpr std::size_t kMaxNameLength = 40;
     const bool sound = std::all_of(name.begin(), name.end(), [](unsigned char c) {
       return std::isalnum(c) != 0 || c == '_' || c == '-';
     });
-    if (!sound || name.size() > kLongest) {
+    if (!sound || name.size() > kMaxNameLength) {
       wrong("/name", "\"" + name + "\"", "at most 40 letters, digits, - and _");
     }
   }
 
-  void read_sex(const json& document, CharacterDescription& who) {
+  void read_sex(const json& document, CharacterDescription& description) {
     if (!document.contains("sex")) return;
     const json& sex = document["sex"];
     if (sex != "male" && sex != "female") wrong("/sex", sex.dump(), "\"male\" or \"female\"");
-    who.male = sex == "male";
+    description.male = sex == "male";
   }
 
-  void read_bones(const json& document, CharacterDescription& who) {
+  void read_bones(const json& document, CharacterDescription& description) {
     if (!document.contains("bones")) return;
     if (!document["bones"].is_object()) {
       wrong("/bones", document["bones"].dump(), R"(an object such as {"left_thigh": "Leg1.L"})");
@@ -128,14 +131,14 @@ class DescriptionReader {
     }
     for (const auto& [ours, theirs] : document["bones"].items()) {
       if (theirs.is_string()) {
-        who.bones[ours] = theirs.get<std::string>();
+        description.bones[ours] = theirs.get<std::string>();
       } else {
         wrong("/bones/" + ours, theirs.dump(), "the name of a bone of the model");
       }
     }
   }
 
-  void read_clips(const json& document, CharacterDescription& who) {
+  void read_clips(const json& document, CharacterDescription& description) {
     if (!document.contains("clips")) return;
     const json& clips = document["clips"];
     if (!clips.is_object()) {
@@ -144,9 +147,9 @@ class DescriptionReader {
       return;
     }
     known(clips, "/clips", {"idle", "walk", "run"});
-    who.idle = read_clip(clips, "idle", {});
-    who.walk = read_clip(clips, "walk", Range{0.2, 3});
-    who.run = read_clip(clips, "run", Range{1, 12});
+    description.idle = read_clip(clips, "idle", {});
+    description.walk = read_clip(clips, "walk", Range{0.2, 3});
+    description.run = read_clip(clips, "run", Range{1, 12});
   }
 
   std::optional<ClipDescription> read_clip(const json& clips, const char* key,
@@ -164,7 +167,7 @@ class DescriptionReader {
     read.file = path(text(clip, where, "file", false));
     if (speed_mps) {
       read.speed_mps =
-          number(clip, where, "speed_mps", *speed_mps, "metres per second at the described height")
+          number(clip, where, "speed_mps", *speed_mps, "meters per second at the described height")
               .value_or(1);
     }
     return read;

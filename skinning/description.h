@@ -1,4 +1,4 @@
-// What a user says of a character of their own: a small JSON file beside the model.
+// Description of an imported character: a small JSON file beside the model.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct CharacterDescription {
   std::string name;            ///< also of the baked file: letters, digits, - and _
   std::filesystem::path model;
   double height_m = 1.75;  ///< from the soles to the top, 0.5 to 2.5
-  std::string licence;     ///< SPDX expression
+  std::string license;     ///< SPDX expression
   std::string author;
   std::string wears;
   bool male = true;

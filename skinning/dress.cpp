@@ -46,8 +46,8 @@ float hem_of(const Outfit& outfit, const Joints& a_pose, float height_m) {
 
 // Skin under clothes, per body vertex.
 struct CoveredSkin {
-  std::vector<bool> hidden;  // not drawn
-  std::vector<bool> tucked;  // drawn a little further in, or it might come through
+  std::vector<bool> hidden;  // not rendered
+  std::vector<bool> tucked;  // rendered a little further in, or it might come through
 };
 
 // A garment covers the skin of its own half only: worn over something else's trousers, a shirt must
@@ -151,8 +151,8 @@ class Rim {
   std::array<float, kSectors> height_m_{};
 };
 
-// Where a short top leaves a low waistband, skin shows that both would have covered with what they
-// were made to be worn with.
+// Between a short top and a low waistband skin is visible that both would have covered with the
+// garments they were designed for.
 void bare_waist(const MakeHuman& makehuman, const DressedPerson& dressed,
                 std::span<const Surface> tops, std::span<const Surface> bottoms,
                 CoveredSkin& covered) {
@@ -206,7 +206,7 @@ void cut_below(std::vector<Surface>& surfaces, float height_m) {
   }
 }
 
-// A waistband must not show through a shirt worn over it: what the shirt covers is drawn further
+// A waistband must not show through a shirt worn over it: what the shirt covers is rendered further
 // in, and what it covers well not at all. Hems are uneven, so that depends on the direction.
 void tuck_under(std::vector<Surface>& bottoms, const Rim& hem, const DressedPerson& dressed) {
   constexpr float kOverlap_m = 0.03F;

@@ -23,10 +23,10 @@ struct Manner {
   bool left_handed = false;
 };
 
-/// The manner of one person; names tell people apart.
+/// The manner of one person; names distinguish people.
 Manner manner_of(const Character& character);
 
-/// What of a character its motion depends on.
+/// Properties of a character that its motion depends on.
 struct Walker {
   Joints joints;
   float stature_m = 0;
@@ -49,7 +49,7 @@ inline constexpr Bone on(Side side, Bone left) {
   return side == Side::left ? left : static_cast<Bone>(static_cast<int>(left) + 4);
 }
 
-/// Where a foot is.
+/// Position of a foot.
 struct Foot {
   Eigen::Vector3f ankle = Eigen::Vector3f::Zero();
   double pitch_rad = 0;  ///< toes up against the heel
@@ -67,7 +67,7 @@ struct Figure {
 };
 
 /// A foot that stands flat with its toe joint at `toe_x_m`, or rolls there: over the heel's edge
-/// with its toes up, over the toe joint with its heel up. What it rolls over stays in its place.
+/// with its toes up, over the toe joint with its heel up. The pivot stays in place.
 Foot standing_foot(const Walker& walker, Side side, double toe_x_m, double pitch_rad);
 
 /// How high the sole's lowest point is above the ground.
@@ -75,7 +75,7 @@ double clearance_m(const Walker& walker, Side side, const Foot& foot);
 
 Limb leg_of(const Walker& walker, Side side);
 
-/// Where a leg starts in a figure, in model space.
+/// Hip joint of a leg in a figure, in model space.
 Eigen::Vector3f hip_of(const Walker& walker, const Pose& pose, Side side);
 
 /// From a to b: turned along the shortest arcs, feet in straight lines.

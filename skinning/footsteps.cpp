@@ -10,7 +10,7 @@ namespace {
 
 Side other(Side side) { return side == Side::left ? Side::right : Side::left; }
 
-// What somebody would do if steps could have any length.
+// Preferred steps if steps could have any length.
 struct WishedStep {
   double length_m;
   std::string_view clip;
@@ -18,19 +18,21 @@ struct WishedStep {
 
 class Planner {
  public:
-  Planner(const Way& way, const Stretch& stretch, const ClipSet& clips, const Pedestrian& who)
-      : way_(way),
+  Planner(const Trajectory& trajectory, const Stretch& stretch, const ClipSet& clips,
+          const Pedestrian& pedestrian)
+      : trajectory_(trajectory),
         stretch_(stretch),
         clips_(clips),
-        who_(who),
-        begin_m_(way.distance_m(static_cast<double>(stretch.first))),
-        end_m_(way.distance_m(static_cast<double>(stretch.last))) {}
+        pedestrian_(pedestrian),
+        begin_m_(trajectory.distance_m(static_cast<double>(stretch.first))),
+        end_m_(trajectory.distance_m(static_cast<double>(stretch.last))) {}
 
   Walk plan(bool from_rest, bool to_rest) {
     Walk walk{{}, from_rest, to_rest};
-    side_ = who_.phase_offset < 0.5 ? Side::left : Side::right;
-    // Who is already walking is somewhere within a step.
-    const double done = from_rest ? 0 : 2 * who_.phase_offset - std::floor(2 * who_.phase_offset);
+    side_ = pedestrian_.phase_offset < 0.5 ? Side::left : Side::right;
+    // A person who is already walking is somewhere within a step.
+    const double done =
+        from_rest ? 0 : 2 * pedestrian_.phase_offset - std::floor(2 * pedestrian_.phase_offset);
     if (to_rest) {
       walk_to_rest(done, walk);
     } else {
@@ -41,12 +43,14 @@ class Planner {
 
  private:
   WishedStep wish_at(double at_m) {
-    const double stature = who_.stature_m;
+    const double stature = pedestrian_.stature_m;
     const double ahead_m = at_m + 0.35 * stature;
-    const double speed = way_.speed_mps(at_m, ahead_m, stretch_.first, stretch_.last);
-    const auto step = static_cast<std::size_t>(way_.step_at(at_m, stretch_.first, stretch_.last));
-    const Moment& moment = way_.moments()[step];
-    // Whoever runs goes on running until clearly slower than when they began.
+    const double speed = trajectory_.speed_mps(at_m, ahead_m, stretch_.first, stretch_.last);
+    const auto step =
+        static_cast<std::size_t>(trajectory_.step_at(at_m, stretch_.first, stretch_.last));
+    const Moment& moment = trajectory_.moments()[step];
+    // A running person keeps running until clearly slower than at the start of the run
+    // (hysteresis).
     double change = running_speed_mps(stature) * (runs_ ? 0.94 : 1.04);
     if (moment.panicked) change *= 0.8;
     runs_ = speed > change;
@@ -56,10 +60,11 @@ class Planner {
     } else if (moment.gaze == Gaze::ahead) {
       clip = "walk_look_up";
     }
-    return {0.5 * who_.stride * stride_length_m(speed, stature, who_.age_years), clip};
+    return {0.5 * pedestrian_.stride * stride_length_m(speed, stature, pedestrian_.age_years),
+            clip};
   }
 
-  // Steps up to the end of the way and beyond.
+  // Steps up to the end of the path and beyond.
   void walk_on(double done, Walk& walk) {
     double walked_m = 0;
     while (begin_m_ + walked_m < end_m_) {
@@ -84,9 +89,9 @@ class Planner {
 
   // People start and stop walking, with steps of no more than this.
   void rest_at(WishedStep& step) const {
-    constexpr double kLongest = 0.43;  // statures
+    constexpr double kMaxStepStatures = 0.43;  // statures
     step.clip = "walk";
-    step.length_m = std::min(step.length_m, kLongest * who_.stature_m);
+    step.length_m = std::min(step.length_m, kMaxStepStatures * pedestrian_.stature_m);
   }
 
   static double total_m(const std::vector<WishedStep>& wishes, double done) {
@@ -97,13 +102,13 @@ class Planner {
 
   // As many steps as have to be stretched or shortened least.
   std::size_t count_that_fits(const std::vector<WishedStep>& wishes, double done) const {
-    const double way_m = end_m_ - begin_m_;
+    const double span_m = end_m_ - begin_m_;
     double sum = wishes.empty() ? 0 : -done * wishes.front().length_m;
     double best = 1e9;
     std::size_t best_count = 0;
     for (std::size_t count = 1; count <= wishes.size(); ++count) {
       sum += wishes[count - 1].length_m;
-      const double misfit = std::abs(std::log(std::max(way_m, 1e-6) / std::max(sum, 1e-6)));
+      const double misfit = std::abs(std::log(std::max(span_m, 1e-6) / std::max(sum, 1e-6)));
       if (misfit >= best) continue;
       best = misfit;
       best_count = count;
@@ -111,7 +116,7 @@ class Planner {
     return best_count;
   }
 
-  // Steps that end where the way does: each makes up for what the ones before were too long or too
+  // Steps that end where the path does: each makes up for what the ones before were too long or too
   // short.
   void walk_to_rest(double done, Walk& walk) {
     std::vector<WishedStep> wishes = wish(done);
@@ -119,8 +124,8 @@ class Planner {
     if (wishes.empty()) return;
     if (walk.from_rest) rest_at(wishes.front());
     rest_at(wishes.back());
-    const double way_m = end_m_ - begin_m_;
-    const double stretch = way_m / std::max(total_m(wishes, done), 1e-6);
+    const double span_m = end_m_ - begin_m_;
+    const double stretch = span_m / std::max(total_m(wishes, done), 1e-6);
     double wished_m = 0;
     double chosen_m = 0;
     for (std::size_t i = 0; i < wishes.size(); ++i) {
@@ -130,7 +135,7 @@ class Planner {
       chosen_m += add(wishes[i].clip, (wished_m - chosen_m) / (1 - skipped), skipped, chosen_m,
                       at_rest, walk);
     }
-    const double scale = chosen_m > 0 ? way_m / chosen_m : 1;
+    const double scale = chosen_m > 0 ? span_m / chosen_m : 1;
     for (Footstep& step : walk.steps) {
       step.begin_m = begin_m_ + scale * step.begin_m;
       step.length_m *= scale;
@@ -142,14 +147,14 @@ class Planner {
              Walk& walk) {
     const Clip* before = walk.steps.empty() || at_rest ? nullptr : walk.steps.back().clip;
     const Clip& clip = clip_of(name, length_m, before, at_rest);
-    const double step_m = 0.5 * static_cast<double>(clip.stride) * who_.stature_m;
+    const double step_m = 0.5 * static_cast<double>(clip.stride) * pedestrian_.stature_m;
     walk.steps.push_back({&clip, side_, at_m - skipped * step_m, step_m});
     side_ = other(side_);
     return (1 - skipped) * step_m;
   }
 
   const Clip& clip_of(std::string_view name, double length_m, const Clip* before, bool at_rest) {
-    const double stride = 2 * length_m / who_.stature_m;
+    const double stride = 2 * length_m / pedestrian_.stature_m;
     // First and last steps have clips of their own, for fewer lengths.
     const Clip* rest = at_rest ? clips_.find("start_left", stride) : nullptr;
     const Clip& clip = clips_.nearest(name, rest != nullptr ? rest->stride : stride);
@@ -161,10 +166,10 @@ class Planner {
     return kept < kHold * apart ? *before : clip;
   }
 
-  const Way& way_;
+  const Trajectory& trajectory_;
   const Stretch& stretch_;
   const ClipSet& clips_;
-  const Pedestrian& who_;
+  const Pedestrian& pedestrian_;
   double begin_m_;
   double end_m_;
   bool runs_ = false;
@@ -173,9 +178,9 @@ class Planner {
 
 }  // namespace
 
-Walk plan_walk(const Way& way, const Stretch& stretch, bool from_rest, bool to_rest,
-               const ClipSet& clips, const Pedestrian& who) {
-  return Planner(way, stretch, clips, who).plan(from_rest, to_rest);
+Walk plan_walk(const Trajectory& trajectory, const Stretch& stretch, bool from_rest, bool to_rest,
+               const ClipSet& clips, const Pedestrian& pedestrian) {
+  return Planner(trajectory, stretch, clips, pedestrian).plan(from_rest, to_rest);
 }
 
 }  // namespace throng::skinning

@@ -6,11 +6,11 @@
 
 #include "skinning/figure.h"
 #include "skinning/motion.h"
-#include "skinning/way.h"
+#include "skinning/trajectory.h"
 
 namespace throng::skinning {
 
-/// Who walks.
+/// The walking person.
 struct Pedestrian {
   double stature_m = 1.75;
   double age_years = 35;
@@ -22,20 +22,20 @@ struct Pedestrian {
 struct Footstep {
   const Clip* clip = nullptr;
   Side side = Side::left;  ///< that stands at the beginning
-  double begin_m = 0;      ///< on the way
+  double begin_m = 0;      ///< on the path
   double length_m = 0;     ///< half a stride
 };
 
 struct Walk {
-  std::vector<Footstep> steps;  ///< empty when the way is too short for any
+  std::vector<Footstep> steps;  ///< empty when the path is too short for any
   bool from_rest = false;       ///< starts standing; else in the middle of a step
   bool to_rest = false;         ///< ends standing; else in the middle of a step
 };
 
 /// Plans the walk along a moving stretch. Strides are the natural ones for the speed at each step;
 /// between two rests they are all a little longer or shorter so that the last one ends where the
-/// way does. What is left (a share of the difference between two clips) is spread over the walk.
-Walk plan_walk(const Way& way, const Stretch& stretch, bool from_rest, bool to_rest,
-               const ClipSet& clips, const Pedestrian& who);
+/// path does. The remainder (a share of the difference between two clips) is spread over the walk.
+Walk plan_walk(const Trajectory& trajectory, const Stretch& stretch, bool from_rest, bool to_rest,
+               const ClipSet& clips, const Pedestrian& pedestrian);
 
 }  // namespace throng::skinning

@@ -56,7 +56,7 @@ Arm arm_swing(const Gait& gait, const Manner& manner, double own) {
             22};
   }
   const double reach = swing * std::clamp(30 * gait.stride - 7, 4.0, 24.0);
-  // Who walks as fast as others jog bends the elbows.
+  // People who walk at jogging speed bend the elbows.
   const double elbow = 16 + manner.elbow_deg + 30 * smooth(0.9, 1.1, gait.stride);
   return {1 + reach * forward, elbow + 0.5 * reach * forward, manner.arms_out_deg, 4};
 }
@@ -169,7 +169,7 @@ Foot Stride::stance_foot(Side side, double own) const {
   return standing_foot(*walker_, side, standing_x - passed_m, pitch_rad(side, own));
 }
 
-// Where the measured joint angles swing the foot.
+// Foot position during swing from the measured joint angles.
 Foot Stride::swung_foot(Side side, double own, const Pose& pose) const {
   if (own_ != nullptr) {
     Eigen::Vector3f leg = own_->gait.leg(side, own);
@@ -231,12 +231,12 @@ double Stride::hip_height_m(double phase, Side side, double own, double knee_rad
 // Walkers are highest in the middle of a stance, on an almost straight leg, and sink between two
 // stances just as far as both legs need to reach the ground.
 void Stride::settle_walking_height() {
-  constexpr double kHighest = 0.30;
+  constexpr double kMaxAngleRad = 0.30;
   const double knee = std::clamp(12 * bend_, 7.0, 14.0) * kDegree;
-  const double high = hip_height_m(kHighest, Side::left, kHighest, knee);
-  const double step = 2 * kHighest;
-  const double most_m = 0.022 * walker_->stature_m;
-  for (double half_m = 0.003; half_m <= most_m; half_m += 0.001) {
+  const double high = hip_height_m(kMaxAngleRad, Side::left, kMaxAngleRad, knee);
+  const double step = 2 * kMaxAngleRad;
+  const double max_m = 0.022 * walker_->stature_m;
+  for (double half_m = 0.003; half_m <= max_m; half_m += 0.001) {
     height_m_ = {high - half_m, half_m * wave(step), half_m * wave(step - 0.25)};
     if (excess_height_m() <= 0) break;
   }

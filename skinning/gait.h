@@ -7,7 +7,7 @@
 
 namespace throng::skinning {
 
-/// One way of getting on.
+/// A gait.
 struct Gait {
   bool runs = false;
   double stride = 0.8;    ///< length of a stride (two steps), in statures

@@ -13,7 +13,7 @@ namespace throng::skinning {
 namespace {
 
 using enum Slot;
-using enum Licence;
+using enum License;
 
 constexpr Wearers kAll{};
 constexpr Wearers kAdults{true, true, false};
@@ -22,7 +22,7 @@ constexpr Wearers kWomen{false, true, false};
 constexpr Wearers kGirlsToo{false, true, true};
 constexpr Wearers kBoysToo{true, false, true};
 
-// The CC0 part follows the owners' release of September 2020 (NOTICE.txt says where it stands); the
+// The CC0 part follows the owners' release of September 2020 (its address is in NOTICE.txt); the
 // rest carries its author's CC BY in the package itself.
 constexpr std::array kGarments = {
     GarmentInfo{"male_casualsuit02", "long-sleeved shirt", top, cc0, kAll, true},
@@ -83,8 +83,8 @@ bool is_face(std::string_view name) {
 
 }  // namespace
 
-std::string_view spdx_name(Licence licence) {
-  switch (licence) {
+std::string_view spdx_name(License license) {
+  switch (license) {
     case cc_by_3:
       return "CC-BY-3.0";
     case cc_by_4:
@@ -105,13 +105,13 @@ const GarmentInfo& garment(std::string_view name, Slot slot) {
   return *found;
 }
 
-Licence licence_of(std::string_view name) {
+License license_of(std::string_view name) {
   if (is_face(name)) return cc0;
   const auto* const found =
       std::find_if(kGarments.begin(), kGarments.end(),
                    [&](const GarmentInfo& info) { return info.name == name; });
   check(found != kGarments.end(), "only garments of the list are worn");
-  return found->licence;
+  return found->license;
 }
 
 }  // namespace throng::skinning

@@ -1,4 +1,4 @@
-// What the package holds that people may wear, and under which terms.
+// Garments of the package, and their licenses.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 namespace throng::skinning {
 
 /// The owners' terms. CC0 needs nothing; the others need the author's name in the NOTICE.
-enum class Licence : std::uint8_t { cc0, cc_by_3, cc_by_4 };
+enum class License : std::uint8_t { cc0, cc_by_3, cc_by_4 };
 
-std::string_view spdx_name(Licence licence);
+std::string_view spdx_name(License license);
 
 /// How much of a person a garment dresses. Most suits of the package are a top and a bottom that
 /// are worn apart, with one entry for each.
 enum class Slot : std::uint8_t { top, bottom, whole, dress, shoes, hat, hair };
 
-/// Whom a garment suits.
+/// Wearers that a garment suits.
 struct Wearers {
   bool men = true;
   bool women = true;
@@ -28,11 +28,11 @@ struct GarmentInfo {
   std::string_view name;   ///< folder in the package, or of our own making (see kSkirt)
   std::string_view label;  ///< for people
   Slot slot;
-  Licence licence;
+  License license;
   Wearers wearers;
   /// Tops that end at the waist need bottoms that reach up to it.
   bool high = false;
-  /// Of 1 drawn, how many are kept.
+  /// Acceptance rate of a sample.
   double share = 1;
 };
 
@@ -47,6 +47,6 @@ std::span<const GarmentInfo> all_garments();
 const GarmentInfo& garment(std::string_view name, Slot slot);
 
 /// The terms of a proxy (clothes, hair, eyes or eyebrows). Throws when it is not in the list.
-Licence licence_of(std::string_view name);
+License license_of(std::string_view name);
 
 }  // namespace throng::skinning

@@ -11,7 +11,7 @@
 
 namespace throng::skinning {
 
-/// What one file holds. The parts' textures count into `pictures`.
+/// Contents of one file. The parts' textures count into `pictures`.
 struct CharacterAsset {
   std::string name;
   Joints joints;                      ///< rest pose, model space
@@ -22,7 +22,7 @@ struct CharacterAsset {
 std::string encode_glb(const CharacterAsset& asset);
 
 /// Throws InputError naming the file when assimp cannot read it or when it is not such a character
-/// (no levels, unknown bones, vertices without weights, pictures that are not PNG).
+/// (no levels, unknown bones, vertices without weights, images that are not PNG).
 CharacterAsset read_glb(const std::filesystem::path& path);
 
 }  // namespace throng::skinning

@@ -38,7 +38,8 @@ class Reader {
  private:
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
     throw InputError(
-        {path_, "", found, expected + " (run `throng people build` to bake the people again)"});
+        {path_, "", found,
+         expected + " (run `throng people build` to build the character library again)"});
   }
 
   // Rest joints from the node tree, which holds translations only.
@@ -76,22 +77,22 @@ class Reader {
         picture_of(material, pictures, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
     part.shades = picture_of(material, pictures, {aiTextureType_EMISSIVE});
     if (part.tint == Tint::portrait && (part.texture < 0 || part.shades < 0)) {
-      fail("a portrait with one picture", "a base colour texture and an emissive one");
+      fail("a portrait with one image", "a base color texture and an emissive one");
     }
   }
 
-  // The number of the first picture that there is; -1 for none.
+  // The number of the first image that there is; -1 for none.
   std::int32_t picture_of(const aiMaterial& material, std::size_t pictures,
                           std::initializer_list<aiTextureType> types) const {
     for (const aiTextureType type : types) {
       aiString picture;
       if (material.GetTexture(type, 0, &picture) != aiReturn_SUCCESS) continue;
-      const std::string reference = picture.C_Str();  // "*3" is embedded picture 3
+      const std::string reference = picture.C_Str();  // "*3" is embedded image 3
       const bool embedded = reference.size() > 1 && reference.front() == '*' &&
                             reference.find_first_not_of("0123456789", 1) == std::string::npos;
       const std::int32_t number = embedded ? std::stoi(reference.substr(1)) : -1;
       if (!embedded || static_cast<std::size_t>(number) >= pictures) {
-        fail("texture \"" + reference + "\"", "an embedded picture");
+        fail("texture \"" + reference + "\"", "an embedded image");
       }
       return number;
     }
@@ -164,8 +165,9 @@ CharacterAsset read_glb(const std::filesystem::path& path) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw InputError({path.string(), "", importer.GetErrorString(),
-                      "a character as GLB (run `throng people build` to bake the people)"});
+    throw InputError(
+        {path.string(), "", importer.GetErrorString(),
+         "a character as GLB (run `throng people build` to build the character library)"});
   }
   CharacterAsset asset = Reader(path.string(), *scene).read();
   asset.name = path.stem().string();

@@ -151,7 +151,7 @@ class Writer {
     column("NORMAL", kFloat, "VEC3", [](const Vertex& vertex) { return gltf_axes(vertex.normal); });
     column("TEXCOORD_0", kFloat, "VEC2", [](const Vertex& vertex) { return vertex.uv; });
     column("JOINTS_0", kByte, "VEC4", [](const Vertex& vertex) { return vertex.bones; });
-    // As floats: assimp 5.2 does not read normalised bytes.
+    // As floats: assimp 5.2 does not read normalized bytes.
     column("WEIGHTS_0", kFloat, "VEC4", [](const Vertex& vertex) {
       std::array<float, 4> weights{};
       for (std::size_t i = 0; i < 4; ++i) weights[i] = static_cast<float>(vertex.weights[i]) / 255;

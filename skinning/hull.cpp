@@ -102,12 +102,12 @@ Hull::Hull(const DressedPerson& person, const std::map<std::string, Image>& text
       fine_(carving_.surface()) {}
 
 BoneWeights Hull::weights_at(const Eigen::Vector3f& point) const {
-  constexpr std::size_t kNearest = 4;
+  constexpr std::size_t kNearestCount = 4;
   struct Near {
     float squared_m2 = std::numeric_limits<float>::max();
     const BoneWeights* weights = nullptr;
   };
-  std::array<Near, kNearest> nearest;
+  std::array<Near, kNearestCount> nearest;
   for (const PosedSurface& posed : posed_) {
     if (posed.surface->painted) continue;
     for (const std::uint32_t index : posed.surface->indices) {
@@ -139,7 +139,8 @@ BoneWeights Hull::weights_at(const Eigen::Vector3f& point) const {
 // inside, so that silhouettes keep their area.
 void Hull::fit(ClosedSurface& coarse) const {
   constexpr int kRounds = 6;
-  constexpr int kParts = 4;  // points per edge of a triangle, as many as tell inside from outside
+  constexpr int kParts =
+      4;  // points per edge of a triangle, enough to separate inside from outside
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<Eigen::Vector3f> normals = normals_of(coarse.points, coarse.indices);
     std::vector<float> outside(coarse.points.size(), 0);

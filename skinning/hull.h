@@ -1,10 +1,10 @@
 // Lower levels of detail: everything that a person wears as one closed surface, simplified to any
-// number of triangles and coloured by pictures of that person.
+// number of triangles and colored by images of that person.
 //
 // Simplifying the garments themselves breaks down below some thousand triangles (seams and open
 // borders cannot collapse), and hulls pushed out from the skin make leggings of skirts. One closed
 // surface around the outside has neither trouble, and all its triangles go into the outline: where
-// one colour ends and another begins is in the pictures.
+// one color ends and another begins is in the images.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +22,18 @@ namespace throng::skinning {
 
 class Hull {
  public:
-  /// `textures` holds those of the person's surfaces; the pictures will have `picture_size` pixels
+  /// `textures` holds those of the person's surfaces; the images will have `picture_size` pixels
   /// a side.
   Hull(const DressedPerson& person, const std::map<std::string, Image>& textures, int picture_size);
 
   const Portrait& portrait() const { return portrait_; }
 
   /// With about this many triangles, and never more; `picture` is the number of the first of the
-  /// portrait's two pictures.
+  /// portrait's two images.
   Mesh level(std::size_t triangles, int picture) const;
 
  private:
-  /// What moves a point of the surface: the mean of what moves the nearest points worn.
+  /// Skinning weights of a surface point: the mean of those of the nearest worn points.
   BoneWeights weights_at(const Eigen::Vector3f& point) const;
   void fit(ClosedSurface& coarse) const;
 

@@ -1,4 +1,4 @@
-// Small RGBA pictures: PNG in and out, resizing, and filling what is not covered.
+// Small RGBA images: PNG in and out, resizing, and filling what is not covered.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace throng::skinning {
 
-/// 8-bit sRGB colour with alpha, rows from the top.
+/// 8-bit sRGB color with alpha, rows from the top.
 struct Image {
   int width = 0;
   int height = 0;
@@ -26,7 +26,7 @@ struct Image {
   }
 };
 
-/// Which pixels count; row-major, one entry per pixel.
+/// Mask of the pixels in use; row-major, one entry per pixel.
 using Mask = std::vector<std::uint8_t>;
 
 /// Throws InputError naming `what` when the bytes are not a PNG.
@@ -40,10 +40,10 @@ Image read_png(const std::filesystem::path& path);
 Image decode_picture(std::string_view bytes, const std::string& what);
 Image read_picture(const std::filesystem::path& path);
 
-/// Square copy by averaging the area under each new pixel; colours are weighted by alpha.
+/// Square copy by averaging the area under each new pixel; colors are weighted by alpha.
 Image resized(const Image& image, int size);
 
-/// Gives every pixel outside `covered` the colour of a nearest covered one, so that filtering near
+/// Gives every pixel outside `covered` the color of a nearest covered one, so that filtering near
 /// a border does not pick up what lies behind it. Only the first `channels` are filled: alpha is
 /// left alone unless asked. Does nothing when no pixel is covered.
 void fill_from_nearest(Image& image, Mask covered, int channels = 3);

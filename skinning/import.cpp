@@ -53,7 +53,7 @@ Base base_of(const ImportOptions& options) {
 std::vector<CharacterDescription> read_descriptions(const std::vector<fs::path>& files,
                                                     const PopulationIndex& base) {
   std::set<std::string> names;
-  for (const Character& who : base.characters) names.insert(who.name);
+  for (const Character& entry : base.characters) names.insert(entry.name);
   std::vector<CharacterDescription> described;
   for (const fs::path& file : files) {
     described.push_back(read_description(file));
@@ -67,24 +67,24 @@ std::vector<CharacterDescription> read_descriptions(const std::vector<fs::path>&
 
 std::string notice_of(const std::vector<CharacterDescription>& described) {
   std::string text = "Characters that were imported into these people:\n";
-  for (const CharacterDescription& who : described) {
-    text += fmt::format("  - {}: {}, {}, from {}\n", who.name, who.licence,
-                        who.author.empty() ? "author not named" : who.author,
-                        who.model.filename().string());
+  for (const CharacterDescription& entry : described) {
+    text += fmt::format("  - {}: {}, {}, from {}\n", entry.name, entry.license,
+                        entry.author.empty() ? "author not named" : entry.author,
+                        entry.model.filename().string());
   }
   return text;
 }
 
-std::string joined_licence(std::string licence,
+std::string joined_license(std::string license,
                            const std::vector<CharacterDescription>& described) {
-  std::set<std::string> named = {licence};
-  for (const CharacterDescription& who : described) {
-    if (!named.insert(who.licence).second) continue;
-    if (!licence.empty()) licence += " AND ";
-    const bool compound = who.licence.find(' ') != std::string::npos;
-    licence += compound ? "(" + who.licence + ")" : who.licence;
+  std::set<std::string> named = {license};
+  for (const CharacterDescription& entry : described) {
+    if (!named.insert(entry.license).second) continue;
+    if (!license.empty()) license += " AND ";
+    const bool compound = entry.license.find(' ') != std::string::npos;
+    license += compound ? "(" + entry.license + ")" : entry.license;
   }
-  return licence;
+  return license;
 }
 
 void copy_over(const fs::path& from, const fs::path& to) {
@@ -111,8 +111,8 @@ void import_characters(const std::vector<fs::path>& descriptions, const fs::path
   StagedFile palettes(staging.path() / kPalettesFile);
   std::string content = base.index.content_hash;
   if (!options.with.empty()) {
-    for (const Character& who : base.index.characters) {
-      copy_over(options.with / (who.name + ".glb"), staging.path() / (who.name + ".glb"));
+    for (const Character& entry : base.index.characters) {
+      copy_over(options.with / (entry.name + ".glb"), staging.path() / (entry.name + ".glb"));
     }
     palettes.write(read_file(options.with / kPalettesFile));
   }
@@ -128,7 +128,7 @@ void import_characters(const std::vector<fs::path>& descriptions, const fs::path
   }
   palettes.commit();
   base.index.content_hash = sha256_hex(content);
-  base.index.licence = joined_licence(base.index.licence, described);
+  base.index.license = joined_license(base.index.license, described);
   if (!base.notice.empty()) base.notice += "\n";
   write_file_atomically(staging.path() / kNoticeFile, base.notice + notice_of(described));
   write_file_atomically(staging.path() / kIndexFile, encode_index(base.index));

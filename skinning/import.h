@@ -10,8 +10,8 @@
 namespace throng::skinning {
 
 struct ImportOptions {
-  std::filesystem::path with;  ///< folder of baked people to put them among; empty for none
-  int texture_size = 256;      ///< of the pictures, when there are no others; 32 to 2048
+  std::filesystem::path with;  ///< folder of character library to put them among; empty for none
+  int texture_size = 256;      ///< of the images, when there are no others; 32 to 2048
 };
 
 /// Writes a folder that load_population reads: the people of `options.with`, then the characters.

@@ -35,15 +35,15 @@ struct Extent {
 
 class Import {
  public:
-  Import(const CharacterDescription& who, int texture_size)
-      : who_(&who),
+  Import(const CharacterDescription& description, int texture_size)
+      : description_(&description),
         texture_size_(texture_size),
-        model_(read_rigged_model(who.model, ModelUse::character)),
-        rig_(fit_rig(model_, map_bones(model_, who.bones, who.file.string()))) {}
+        model_(read_rigged_model(description.model, ModelUse::character)),
+        rig_(fit_rig(model_, map_bones(model_, description.bones, description.file.string()))) {}
 
   BakedPerson bake() {
     CharacterAsset asset;
-    asset.name = who_->name;
+    asset.name = description_->name;
     Mesh mesh = neutral_mesh();
     scale(mesh, asset);
     asset.levels = simplified_levels(mesh);
@@ -51,11 +51,11 @@ class Import {
 
     BakedPerson baked;
     Character& character = baked.character;
-    character.name = who_->name;
-    character.stature_m = static_cast<float>(who_->height_m);
-    character.age_years = static_cast<float>(who_->age_years);
-    character.male = who_->male;
-    character.wears = who_->wears;
+    character.name = description_->name;
+    character.stature_m = static_cast<float>(description_->height_m);
+    character.age_years = static_cast<float>(description_->age_years);
+    character.male = description_->male;
+    character.wears = description_->wears;
     Walker walker = walker_of(asset.joints, character.stature_m, asset.levels.front());
     check_soles(walker);
     walker.manner = manner_of(character);
@@ -101,8 +101,8 @@ class Import {
     return mesh;
   }
 
-  // Pictures are not repeated when they are drawn: each triangle's part of an endless pattern is
-  // moved into the picture.
+  // Textures are not repeated when they are rendered: each triangle's part of an endless pattern is
+  // moved into the image.
   void add_part(const ModelPart& part, const Palette& to_neutral, Mesh& mesh) {
     std::map<std::array<std::int64_t, 3>, std::uint32_t> known;
     for (std::size_t at = 0; at + 2 < part.indices.size(); at += 3) {
@@ -110,8 +110,8 @@ class Import {
       for (std::size_t corner = 0; corner < 3; ++corner) {
         middle += part.uvs[part.indices[at + corner]] / 3;
       }
-      constexpr float kFarthest = 1e6F;
-      middle = middle.array().floor().max(-kFarthest).min(kFarthest);
+      constexpr float kMaxCoordinate = 1e6F;
+      middle = middle.array().floor().max(-kMaxCoordinate).min(kMaxCoordinate);
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const std::uint32_t index = part.indices[at + corner];
         const auto [entry, is_new] = known.try_emplace(
@@ -141,13 +141,13 @@ class Import {
     return vertex;
   }
 
-  // To metres, on the ground below the hips.
+  // To meters, on the ground below the hips.
   void scale(Mesh& mesh, CharacterAsset& asset) {
     Joints joints = pose_joints(rig_.rest, rig_.neutral);
     Extent body;
     for (const std::uint32_t index : mesh.indices) body.add(mesh.vertices[index].position[2]);
     check_extent(body, joints);
-    scale_ = static_cast<float>(who_->height_m) / body.height();
+    scale_ = static_cast<float>(description_->height_m) / body.height();
     const Eigen::Vector3f origin(joints[0].x(), joints[0].y(), body.low);
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
       asset.joints[bone] = scale_ * (joints[bone] - origin);
@@ -165,10 +165,10 @@ class Import {
         std::min(joints[index_of(Bone::left_foot)].z(), joints[index_of(Bone::right_foot)].z());
     const float bones = joints[index_of(Bone::head)].z() - ankle;
     const float ratio = body.height() / bones;
-    constexpr float kLeast = 0.95F;
-    constexpr float kMost = 3;
+    constexpr float kMinRatio = 0.95F;
+    constexpr float kMaxRatio = 3;
     const bool around = body.low < ankle + 0.1F * bones && body.high > ankle + 0.8F * bones;
-    if (std::isfinite(ratio) && ratio > kLeast && ratio < kMost && around) return;
+    if (std::isfinite(ratio) && ratio > kMinRatio && ratio < kMaxRatio && around) return;
     fail(fmt::format("a mesh from {:.4g} to {:.4g} on a skeleton from {:.4g} (ankles) to {:.4g} "
                      "(head), in the file's unit",
                      body.low, body.high, ankle, joints[index_of(Bone::head)].z()),
@@ -232,15 +232,16 @@ class Import {
   Sampled sample(const ClipDescription& clip, const char* key, const Walker& walker) const {
     if (clip.file.empty()) return sample_of(model_, rig_, scale_, clip, key);
     const RiggedModel other = read_rigged_model(clip.file, ModelUse::motion);
-    // Names that the user says are of the model; where they are there too, they mean the same.
-    std::map<std::string, std::string> said;
-    for (const auto& [ours, theirs] : who_->bones) {
+    // Bone names that the user gives are those of the model; the same names in the clip mean the
+    // same bones.
+    std::map<std::string, std::string> overrides;
+    for (const auto& [ours, theirs] : description_->bones) {
       const bool there =
           std::any_of(other.nodes.begin(), other.nodes.end(),
                       [&, &name = theirs](const ModelNode& node) { return node.name == name; });
-      if (there) said[ours] = theirs;
+      if (there) overrides[ours] = theirs;
     }
-    const Rig rig = fit_rig(other, map_bones(other, said, who_->file.string()));
+    const Rig rig = fit_rig(other, map_bones(other, overrides, description_->file.string()));
     const auto leg = [](const Joints& joints) {
       return (joints[index_of(Bone::left_shin)] - joints[index_of(Bone::left_thigh)]).norm() +
              (joints[index_of(Bone::left_foot)] - joints[index_of(Bone::left_shin)]).norm();
@@ -255,15 +256,16 @@ class Import {
     const std::string where = fmt::format("/clips/{}/name", key);
     if (animation == nullptr) {
       throw InputError(
-          {who_->file.string(), where, clip.name.empty() ? "nothing" : "\"" + clip.name + "\"",
+          {description_->file.string(), where,
+           clip.name.empty() ? "nothing" : "\"" + clip.name + "\"",
            names.empty()
                ? fmt::format("a clip, but {} has none: export it with its animations", model.file)
                : fmt::format("one of the clips of {}: {}", model.file, fmt::join(names, ", "))});
     }
-    constexpr double kShortest_s = 0.1;
-    if (animation->duration_s < kShortest_s) {
+    constexpr double kMinDuration_s = 0.1;
+    if (animation->duration_s < kMinDuration_s) {
       throw InputError(
-          {who_->file.string(), where,
+          {description_->file.string(), where,
            fmt::format("\"{}\", which lasts {:.3g} s", animation->name, animation->duration_s),
            "a clip of at least 0.1 s"});
     }
@@ -278,30 +280,31 @@ class Import {
     try {
       const OwnGait gait(walker, sampled.poses, sampled.duration_s, middle);
       const double ratio = gait.foot_speed_mps() / clip->speed_mps;
-      constexpr double kMostWrong = 2.2;
-      if (!(ratio > 1 / kMostWrong && ratio < kMostWrong)) {
-        throw InputError({who_->file.string(), where + "/speed_mps",
-                          fmt::format("{:g}, but the standing foot moves at {:.2f} m/s for {:g} m",
-                                      clip->speed_mps, gait.foot_speed_mps(), who_->height_m),
-                          "the speed at which the clip's feet do not slide"});
+      constexpr double kMaxMismatch = 2.2;
+      if (!(ratio > 1 / kMaxMismatch && ratio < kMaxMismatch)) {
+        throw InputError(
+            {description_->file.string(), where + "/speed_mps",
+             fmt::format("{:g}, but the standing foot moves at {:.2f} m/s for {:g} m",
+                         clip->speed_mps, gait.foot_speed_mps(), description_->height_m),
+             "the speed at which the clip's feet do not slide"});
       }
       return OwnMotion::Cycle{
           gait, clip->speed_mps * gait.duration_s() / static_cast<double>(walker.stature_m)};
     } catch (const std::invalid_argument& error) {
-      throw InputError({who_->file.string(), where, error.what(),
+      throw InputError({description_->file.string(), where, error.what(),
                         "a clip of whole strides, of walking or running ahead or on the spot"});
     }
   }
 
   OwnMotion own_motion(const Walker& walker) const {
     OwnMotion own;
-    own.walk = cycle(who_->walk, "walk", middle({false, 0.8}), walker);
-    own.run = cycle(who_->run, "run", middle({true, 1.2}), walker);
-    if (who_->idle) own.idle = sample(*who_->idle, "idle", walker).poses;
+    own.walk = cycle(description_->walk, "walk", middle({false, 0.8}), walker);
+    own.run = cycle(description_->run, "run", middle({true, 1.2}), walker);
+    if (description_->idle) own.idle = sample(*description_->idle, "idle", walker).poses;
     return own;
   }
 
-  const CharacterDescription* who_;
+  const CharacterDescription* description_;
   int texture_size_;
   RiggedModel model_;
   Rig rig_;
@@ -310,8 +313,8 @@ class Import {
 
 }  // namespace
 
-BakedPerson import_character(const CharacterDescription& who, int texture_size) {
-  return Import(who, texture_size).bake();
+BakedPerson import_character(const CharacterDescription& description, int texture_size) {
+  return Import(description, texture_size).bake();
 }
 
 }  // namespace throng::skinning

@@ -7,8 +7,8 @@
 namespace throng::skinning {
 
 /// Scaled to its height, its rig mapped to ours, with all standard clips (its own where it has
-/// them), levels of detail, and pictures of this size. Throws InputError that says what in which
+/// them), levels of detail, and images of this size. Throws InputError naming the error and its
 /// file must change.
-BakedPerson import_character(const CharacterDescription& who, int texture_size);
+BakedPerson import_character(const CharacterDescription& description, int texture_size);
 
 }  // namespace throng::skinning

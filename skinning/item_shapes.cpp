@@ -19,7 +19,7 @@ using Eigen::Vector3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// Places on the picture: cloth with seams and a pocket on the left half, plain cloth on the upper
+// Places on the image: cloth with seams and a pocket on the left half, plain cloth on the upper
 // right, dark straps and sticks on the lower right quarter.
 constexpr float kHalf = 0.5F;
 const Vector2f kPlain(0.75F, 0.25F);
@@ -62,7 +62,7 @@ class Shape {
 };
 
 // A box with rounded edges, its axes along the model's: a superellipsoid.
-void add_box(Shape& shape, const Vector3f& centre, const Vector3f& half, Bone bone, int rings,
+void add_box(Shape& shape, const Vector3f& center, const Vector3f& half, Bone bone, int rings,
              int columns) {
   constexpr float kSquareness = 0.32F;  // exponent: 1 is an ellipsoid, 0 a box
   const auto power = [](float value) {
@@ -81,7 +81,7 @@ void add_box(Shape& shape, const Vector3f& centre, const Vector3f& half, Bone bo
       const Vector3f normal(std::cos(up) * std::cos(turn) / half.x(),
                             std::cos(up) * std::sin(turn) / half.y(), std::sin(up) / half.z());
       const Vector2f uv(kHalf * (0.06F + 0.44F * (1 + unit.y())), 0.5F - 0.44F * unit.z());
-      place.push_back(shape.add(centre + half.cwiseProduct(unit), normal, uv, weights));
+      place.push_back(shape.add(center + half.cwiseProduct(unit), normal, uv, weights));
     }
   }
   const auto at = [&](int ring, int column) {
@@ -130,7 +130,7 @@ void add_strap(Shape& shape, const std::vector<StrapPoint>& path, float width_m,
 constexpr int kItemShapes = 5;
 int shape_of_level(int level) { return level < 3 ? level : level < 6 ? 3 : 4; }
 
-// What an item is built around.
+// Frame of reference of an item.
 struct Site {
   const DressedPerson* person;
   float scale;  // 1 for a person of 1.7 m
@@ -169,12 +169,12 @@ void add_backpack(Shape& shape, const Site& site) {
     const auto hit = trunk.outermost(origin, -Vector3f::UnitX());
     if (hit) back = std::min(back, hit->position.x());
   }
-  const Vector3f centre(back - 0.8F * half.x(), 0, middle);
+  const Vector3f center(back - 0.8F * half.x(), 0, middle);
   const int columns = site.of_shape({12, 8, 8, 4, 4});
   const int rings = site.of_shape({8, 6, 4, 4, 3});
-  add_box(shape, centre, half, Bone::chest, rings, columns);
+  add_box(shape, center, half, Bone::chest, rings, columns);
   if (site.shape == 0) {  // a pocket
-    add_box(shape, centre - Vector3f(0.8F * half.x(), 0, 0.35F * half.z()),
+    add_box(shape, center - Vector3f(0.8F * half.x(), 0, 0.35F * half.z()),
             Vector3f(0.5F * half.x(), 0.72F * half.y(), 0.45F * half.z()), Bone::chest, 6, 8);
   }
   if (site.shape > kStrapsUpTo) return;
@@ -236,9 +236,9 @@ void add_handbag(Shape& shape, const Site& site) {
   const Vector3f palm = wrist + 0.085F * s * (wrist - elbow).normalized();
   const Vector3f half(0.15F * s, 0.055F * s, 0.105F * s);
   const float handle = 0.13F * s;
-  const Vector3f centre = palm - Vector3f(0, 0.015F * s, handle + half.z());
+  const Vector3f center = palm - Vector3f(0, 0.015F * s, handle + half.z());
   const int columns = site.of_shape({12, 8, 4, 4, 4});
-  add_box(shape, centre, half, Bone::right_hand, site.of_shape({6, 6, 4, 4, 3}), columns);
+  add_box(shape, center, half, Bone::right_hand, site.of_shape({6, 6, 4, 4, 3}), columns);
   if (site.shape > 2) return;
   const int steps = site.finer(10);
   const BoneWeights weights = all_on(Bone::right_hand);
@@ -246,7 +246,7 @@ void add_handbag(Shape& shape, const Site& site) {
   for (int i = 0; i <= steps; ++i) {
     const float turn = kPi * static_cast<float>(i) / static_cast<float>(steps);
     const Vector3f out(std::cos(turn), 0, std::sin(turn));
-    path.push_back({centre + Vector3f(0.6F * half.x() * out.x(), 0,
+    path.push_back({center + Vector3f(0.6F * half.x() * out.x(), 0,
                                       0.9F * half.z() + (handle + 0.1F * half.z()) * out.z()),
                     out, weights});
   }
@@ -337,7 +337,7 @@ double shade_at(double u, double v, int x, int y) {
   const auto near = [](double value, double line, double width) {
     return std::abs(value - line) < width;
   };
-  // A zip around the top, the border of a pocket, and darkening towards the edges.
+  // A zip around the top, the border of a pocket, and darkening toward the edges.
   double shade = 1 - 0.25 * std::pow(std::abs(2 * across - 1), 6.0) - 0.2 * v * v;
   if (near(v, 0.22, 0.012) && across > 0.1 && across < 0.9) shade *= 0.55;
   const bool beside = across > 0.18 && across < 0.82;

@@ -1,4 +1,4 @@
-// The shapes of carried things, made of boxes, straps and domes around the dressed person.
+// The shapes of carried items, made of boxes, straps and domes around the dressed person.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 
 namespace throng::skinning {
 
-/// Key of the picture that all carried things share, and the picture: light and shade of cloth with
+/// Key of the texture that all carried items share, and the image: light and shade of cloth with
 /// seams, to be tinted.
 inline constexpr std::string_view kItemTexture = "items";
 Image item_picture(int size);
 
-/// What the person carries, standing neutrally, as part of one level of detail: 0 is the finest, 3
-/// and above the coarsest. Nothing for Carry::nothing. Its `fitted` positions are the neutral ones.
+/// The carried item in the neutral pose, as part of one level of detail: 0 is the finest, 3 and
+/// above the coarsest. Nothing for Carry::nothing. Its `fitted` positions are the neutral ones.
 std::optional<Surface> make_item(Carry carry, const DressedPerson& person, int level);
 
 }  // namespace throng::skinning

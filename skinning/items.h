@@ -1,4 +1,4 @@
-// Things that people carry: where they hang, where a hand holds them, and their shapes.
+// Carried items: their attachment, their grip and their shapes.
 //
 // They are made by us, out of boxes and ribbons, around the dressed person in the neutral stance.
 // A backpack hangs on the chest, a bag on the hips with its strap across the trunk, a handbag on
@@ -27,8 +27,8 @@ struct Grip {
   Bone bone;              ///< the point moves with this bone
 };
 
-/// Where the thing is held; nothing when it needs no hand or hangs on the hand itself (a handbag,
-/// which wants a hand that stays upright and an arm that swings little).
+/// Grip of the item; nothing when it needs no hand or hangs on the hand itself (a handbag, which
+/// wants a hand that stays upright and an arm that swings little).
 std::optional<Grip> grip_of(Carry carry, const Joints& neutral);
 
 }  // namespace throng::skinning

@@ -48,7 +48,7 @@ struct Face {
 };
 
 Face face_of(const Mesh& mesh) {
-  constexpr std::size_t kMostEyeCorners = 1200;  // triangle corners of both eyeballs
+  constexpr std::size_t kMaxEyeCorners = 1200;  // triangle corners of both eyeballs
   Face face;
   for (const Part& part : mesh.parts) {
     if (part.tint != Tint::none || part.alpha_tested) continue;
@@ -62,7 +62,7 @@ Face face_of(const Mesh& mesh) {
         is_all_head = false;
       }
     }
-    const bool are_eyes = is_all_head && points.size() <= kMostEyeCorners && !face.skin.empty();
+    const bool are_eyes = is_all_head && points.size() <= kMaxEyeCorners && !face.skin.empty();
     std::vector<Eigen::Vector3f>& kind = are_eyes ? face.eyes : face.skin;
     kind.insert(kind.end(), points.begin(), points.end());
   }

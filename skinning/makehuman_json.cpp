@@ -56,7 +56,7 @@ std::vector<Eigen::Vector3f> read_positions(const json& mesh) {
   const auto values = mesh.at("vertices").get<std::vector<float>>();
   std::vector<Eigen::Vector3f> positions(values.size() / 3);
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    positions[i] = kMetresPerUnit * our_axes(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    positions[i] = kMetersPerUnit * our_axes(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
   }
   return positions;
 }

@@ -14,8 +14,8 @@
 
 namespace throng::skinning {
 
-/// MakeHuman's unit is the decimetre.
-inline constexpr float kMetresPerUnit = 0.1F;
+/// MakeHuman's unit is the decimeter.
+inline constexpr float kMetersPerUnit = 0.1F;
 
 /// MakeHuman has x to the left, y up and z forward; we have x forward, y left and z up.
 inline Eigen::Vector3f our_axes(float x, float y, float z) { return {z, x, y}; }
@@ -36,7 +36,7 @@ auto as_known(const std::filesystem::path& path, const Read& read) {
   }
 }
 
-/// Vertices in metres and our axes; texture coordinates with rows from the top.
+/// Vertices in meters and our axes; texture coordinates with rows from the top.
 std::vector<Eigen::Vector3f> read_positions(const nlohmann::json& mesh);
 std::vector<Eigen::Vector2f> read_uvs(const nlohmann::json& mesh);
 
@@ -45,7 +45,7 @@ std::vector<Eigen::Vector2f> read_uvs(const nlohmann::json& mesh);
 std::vector<Quad> read_quads(const nlohmann::json& mesh, const std::filesystem::path& path,
                              int material, std::size_t vertices, std::size_t uvs);
 
-/// Which bones move which vertices, by MakeHuman's names.
+/// Skinning weights, by MakeHuman's bone names.
 struct NamedInfluences {
   std::vector<std::string> bone_names;
   std::vector<std::uint32_t> bone;  ///< [vertex][slot], into bone_names

@@ -127,13 +127,13 @@ class Simplifier {
   // The chart that most of the corners lie in.
   std::uint32_t chart_for(const std::array<std::uint32_t, 3>& corners) const {
     std::uint32_t best = chart_[copies_[corners[0]].front()];
-    int most = 0;
+    int max_value = 0;
     for (const std::uint32_t point : corners) {
       for (const std::uint32_t vertex : copies_[point]) {
         int count = 0;
         for (const std::uint32_t other : corners) count += find_in(chart_[vertex], other) ? 1 : 0;
-        if (count <= most) continue;
-        most = count;
+        if (count <= max_value) continue;
+        max_value = count;
         best = chart_[vertex];
       }
     }
@@ -151,11 +151,11 @@ class Simplifier {
   std::uint32_t vertex_in(std::uint32_t chart, std::uint32_t point) const {
     if (const std::uint32_t* vertex = find_in(chart, point)) return *vertex;
     std::uint32_t nearest = chart;
-    float least = std::numeric_limits<float>::max();
+    float min_value = std::numeric_limits<float>::max();
     for (const std::uint32_t vertex : members_.at(chart)) {
       const float distance = (point_of(mesh_->vertices[vertex]) - points_[point]).squaredNorm();
-      if (distance >= least) continue;
-      least = distance;
+      if (distance >= min_value) continue;
+      min_value = distance;
       nearest = vertex;
     }
     return nearest;
@@ -179,12 +179,12 @@ Eigen::AlignedBox3f bounds_of(const Mesh& mesh) {
 
 /// Whether something that stood out, a leg perhaps, has been simplified away.
 bool has_lost_limbs(const Mesh& simple, const Mesh& mesh) {
-  constexpr float kMost = 0.05F;  // of the largest extent
+  constexpr float kMaxShrink = 0.05F;  // of the largest extent
   const Eigen::AlignedBox3f now = bounds_of(simple);
   const Eigen::AlignedBox3f then = bounds_of(mesh);
-  const float most = kMost * then.sizes().maxCoeff();
-  return (now.min() - then.min()).cwiseAbs().maxCoeff() > most ||
-         (now.max() - then.max()).cwiseAbs().maxCoeff() > most;
+  const float max_value = kMaxShrink * then.sizes().maxCoeff();
+  return (now.min() - then.min()).cwiseAbs().maxCoeff() > max_value ||
+         (now.max() - then.max()).cwiseAbs().maxCoeff() > max_value;
 }
 
 }  // namespace

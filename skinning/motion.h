@@ -19,7 +19,7 @@ inline constexpr double kStandingSpeed = 0.15;
 /// about 0.5; 2.05 m/s for 1.75 m.
 double running_speed_mps(double stature_m);
 
-/// Length of one stride (two steps) in metres at a speed: Winiarski 2019 for walking, Fukuchi 2017
+/// Length of one stride (two steps) in meters at a speed: Winiarski 2019 for walking, Fukuchi 2017
 /// for running, blended where people of that stature change (1.8 to 2.3 m/s for adults). Shorter
 /// from an age of sixty on, by up to 15 %, and below 0.3 m/s, where people shuffle.
 double stride_length_m(double speed_mps, double stature_m, double age_years = 35);
@@ -31,7 +31,7 @@ struct PoseBlend {
   float blend = 0;
 };
 
-/// The frame of a clip at a position in frames; cyclic clips go on for ever both ways.
+/// The frame of a clip at a position in frames; cyclic clips repeat in both directions.
 PoseBlend frame_of(const Clip& clip, double frame);
 
 /// Somebody who moves on steadily: `phase` in strides (any value), `speed_mps` >= 0, `time_s`

@@ -20,10 +20,10 @@ std::set<std::string> worn_by(const std::vector<PersonSpec>& people) {
   return worn;
 }
 
-std::string list_of(const std::set<std::string>& worn, const Wardrobe& wardrobe, Licence licence) {
+std::string list_of(const std::set<std::string>& worn, const Wardrobe& wardrobe, License license) {
   std::string text;
   for (const std::string& name : worn) {
-    if (licence_of(name) != licence) continue;
+    if (license_of(name) != license) continue;
     const std::string& author = wardrobe.author_of(name);
     text += fmt::format("  - {}: {}\n", name, author.empty() ? "the MakeHuman team" : author);
   }
@@ -32,9 +32,9 @@ std::string list_of(const std::set<std::string>& worn, const Wardrobe& wardrobe,
 
 }  // namespace
 
-std::string licence_expression(const std::vector<PersonSpec>& people) {
-  std::set<std::string_view> names = {spdx_name(Licence::cc0)};
-  for (const std::string& name : worn_by(people)) names.insert(spdx_name(licence_of(name)));
+std::string license_expression(const std::vector<PersonSpec>& people) {
+  std::set<std::string_view> names = {spdx_name(License::cc0)};
+  for (const std::string& name : worn_by(people)) names.insert(spdx_name(license_of(name)));
   std::string text;
   for (auto name = names.rbegin(); name != names.rend(); ++name) {
     if (!text.empty()) text += " AND ";
@@ -58,18 +58,18 @@ std::string notice_text(const std::vector<PersonSpec>& people, const Wardrobe& w
       "Base mesh hm08, morph targets and rig: Manuel Bastioni, the MakeHuman team.\n\n"
       "Worn, CC0 1.0:\n";
   const std::set<std::string> worn = worn_by(people);
-  text += list_of(worn, wardrobe, Licence::cc0);
+  text += list_of(worn, wardrobe, License::cc0);
   text += "\nSkins, CC0 1.0 (the MakeHuman team):\n";
   std::set<std::string> skins;
   for (const PersonSpec& person : people) skins.insert(person.skin);
   for (const std::string& name : skins) text += fmt::format("  - {}\n", name);
-  const auto add_attribution = [&](Licence licence, const char* terms) {
-    const std::string list = list_of(worn, wardrobe, licence);
+  const auto add_attribution = [&](License license, const char* terms) {
+    const std::string list = list_of(worn, wardrobe, license);
     if (!list.empty()) text += fmt::format("\nWorn, {}:\n{}", terms, list);
   };
-  add_attribution(Licence::cc_by_3,
+  add_attribution(License::cc_by_3,
                   "CC BY 3.0 (https://creativecommons.org/licenses/by/3.0/), attribution required");
-  add_attribution(Licence::cc_by_4,
+  add_attribution(License::cc_by_4,
                   "CC BY 4.0 (https://creativecommons.org/licenses/by/4.0/), attribution required");
   text +=
       "\nBags, backpacks and umbrellas are throng's own.\n"

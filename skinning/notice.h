@@ -1,4 +1,4 @@
-// Who made what the people are made of, and under which terms.
+// Attribution and licenses of the assets that characters are built from.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace throng::skinning {
 
 /// SPDX expression of the terms of everything that is used, e.g. "CC0-1.0 AND CC-BY-3.0".
-std::string licence_expression(const std::vector<PersonSpec>& people);
+std::string license_expression(const std::vector<PersonSpec>& people);
 
 /// Text of NOTICE.txt for a population.
 std::string notice_text(const std::vector<PersonSpec>& people, const Wardrobe& wardrobe);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "skinning/colours.h"
+#include "skinning/colors.h"
 #include "skinning/garments.h"
 #include "skinning/items.h"
 
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kChildUntil = 16;  // years
 
-// Few colours per person and kind leave room for differences between people.
-constexpr std::size_t kColours = 12;
+// Few colors per person and kind leave room for differences between people.
+constexpr std::size_t kColors = 12;
 
 template <typename T>
 T pick(Random& random, const std::vector<T>& choices) {
@@ -30,7 +30,7 @@ class Stylist {
     pick_shoes();
     pick_hair();
     pick_carried();
-    pick_colours();
+    pick_colors();
     return std::move(outfit_);
   }
 
@@ -42,7 +42,7 @@ class Stylist {
   bool chance(double share) { return random_.uniform() < share; }
 
   bool suits(const GarmentInfo& info) const {
-    if (!with_attribution_ && info.licence != Licence::cc0) return false;
+    if (!with_attribution_ && info.license != License::cc0) return false;
     if (child() && !info.wearers.children) return false;
     if (wearer_.age_years > 40 && info.name == "female_casualsuit02" && info.slot == Slot::bottom) {
       return false;
@@ -81,8 +81,8 @@ class Stylist {
   void wear_whole(const GarmentInfo* suit) {
     outfit_.top = outfit_.bottom = suit->name;
     outfit_.one_piece = true;
-    // Dark cloth with a white shirt and a tie cannot be told apart by brightness alone: the suit
-    // keeps its colours, and its tints are faint.
+    // Dark cloth with a white shirt and a tie cannot be separated by brightness alone: the suit
+    // keeps its colors, and its tints are faint.
     outfit_.top_cloth = suit->name == "male_elegantsuit01" ? Cloth::own : Cloth::plain;
     outfit_.bottom_cloth = outfit_.top_cloth;
   }
@@ -138,7 +138,7 @@ class Stylist {
     }
   }
 
-  // Without hair the skin's picture shows; only these show no stubble of a colour of its own.
+  // Without hair the skin's image shows; only these show no stubble of a color of its own.
   bool may_be_bald() const { return wearer_.curly || wearer_.age_years > 58; }
 
   void pick_hair() {
@@ -163,7 +163,7 @@ class Stylist {
     const GarmentInfo* hat = draw_from(Slot::hat);
     if (hat == nullptr) return;
     outfit_.hat = hat->name;
-    // What stands far off the head would come through the hat.
+    // Hair that stands far off the head would come through the hat.
     if (hair == "afro01" || hair == "short01") hair = "short04";
   }
 
@@ -190,35 +190,34 @@ class Stylist {
     }
   }
 
-  void set_colours(Tint tint, std::vector<Rgb> colours) {
-    outfit_.tints[static_cast<std::size_t>(tint)] = std::move(colours);
+  void set_colors(Tint tint, std::vector<Rgb> colors) {
+    outfit_.tints[static_cast<std::size_t>(tint)] = std::move(colors);
   }
 
-  void pick_colours() {
+  void pick_colors() {
     const bool overall = outfit_.top == "male_worksuit01";
     const bool suit = outfit_.top_cloth == Cloth::own;
     const Dye top = suit                ? Dye::suit
                     : overall           ? Dye::workwear
                     : outfit_.one_piece ? Dye::dress
                                         : Dye::shirt;
-    set_colours(Tint::top, draw_colours(top, kColours, random_));
+    set_colors(Tint::top, draw_colors(top, kColors, random_));
     const bool skirt = outfit_.bottom == kSkirt || outfit_.bottom == "female_elegantsuit01";
     const Dye bottom = skirt                                  ? Dye::skirt
                        : outfit_.bottom_cloth == Cloth::print ? Dye::denim
                                                               : Dye::trousers;
-    set_colours(Tint::bottom, draw_colours(bottom, kColours, random_));
+    set_colors(Tint::bottom, draw_colors(bottom, kColors, random_));
     const bool trainers = garment(outfit_.shoes, Slot::shoes).label == "trainers";
-    set_colours(Tint::shoes,
-                draw_colours(trainers ? Dye::trainers : Dye::leather, kColours, random_));
+    set_colors(Tint::shoes, draw_colors(trainers ? Dye::trainers : Dye::leather, kColors, random_));
     const Dye item = outfit_.carries == Carry::umbrella ? Dye::umbrella : Dye::bag;
     if (outfit_.carries != Carry::nothing) {
-      set_colours(Tint::item, draw_colours(item, kColours, random_));
+      set_colors(Tint::item, draw_colors(item, kColors, random_));
     }
     HairRange range = wearer_.dark_hair ? HairRange::dark : HairRange::any;
-    if (wearer_.age_years > 48) range = HairRange::greying;
-    if (wearer_.age_years > 62) range = HairRange::grey;
-    constexpr std::size_t kHairColours = 5;
-    set_colours(Tint::hair, draw_hair(range, kHairColours, random_));
+    if (wearer_.age_years > 48) range = HairRange::graying;
+    if (wearer_.age_years > 62) range = HairRange::gray;
+    constexpr std::size_t kHairColors = 5;
+    set_colors(Tint::hair, draw_hair(range, kHairColors, random_));
   }
 
   const Wearer& wearer_;

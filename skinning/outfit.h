@@ -1,4 +1,4 @@
-// What a person wears and carries, and the colours that it comes in.
+// Clothes and carried items of a person, and their colors.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace throng::skinning {
 
-/// What a garment is made of: how its texture is painted before it is tinted.
+/// Fabric of a garment: how its texture is painted before it is tinted.
 enum class Cloth : std::uint8_t {
   plain,    ///< folds only
   stripes,  ///< narrow horizontal stripes
   band,     ///< one broad band across the breast
   checks,
-  print,  ///< light and shade of the package's own picture: denim, buttons, seams
-  own,    ///< that picture with its own colours
+  print,  ///< light and shade of the package's own image: denim, buttons, seams
+  own,    ///< that image with its own colors
 };
 
 /// How far down a bottom reaches: trousers end at the foot or become shorts, skirts end at the knee
@@ -35,13 +35,13 @@ struct Outfit {
   Cloth bottom_cloth = Cloth::plain;
   Hem hem = Hem::foot;
   double hair_cut = 0;     ///< long hair ends between the waist (0) and the shoulders (1)
-  bool one_piece = false;  ///< the bottom is of the top's cloth and colour
+  bool one_piece = false;  ///< the bottom is of the top's cloth and color
   Carry carries = Carry::nothing;
-  /// Colours that suit this person, by Tint.
+  /// Colors that suit this person, by Tint.
   std::array<std::vector<Rgb>, kTintCount> tints;
 };
 
-/// Who is to be dressed.
+/// The character to dress.
 struct Wearer {
   bool male = true;
   double age_years = 30;
@@ -49,7 +49,7 @@ struct Wearer {
   bool dark_hair = false;  ///< never fair
 };
 
-/// Draws an outfit. `with_attribution` allows garments under CC BY besides those under CC0.
+/// Samples an outfit. `with_attribution` allows garments under CC BY besides those under CC0.
 Outfit sample_outfit(const Wearer& wearer, bool with_attribution, Random& random);
 
 /// In words, e.g. "t-shirt, shorts, trainers, hat".

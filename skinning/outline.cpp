@@ -55,7 +55,7 @@ Mask Outline::grown(const Mask& mask, std::uint8_t value) const {
   return result;
 }
 
-// Bilinear between the pixels' centres.
+// Bilinear between the pixels' centers.
 float Outline::distance_m(const Eigen::Vector3f& point) const {
   const Eigen::Vector2f at = (to_picture_ * point - low_).array() - 0.5F;
   const auto x = static_cast<int>(std::floor(at.x()));
@@ -86,9 +86,9 @@ void Outline::draw(const PosedSurface& posed, Mask& covered) const {
 // From every pixel whose mask is not `of` to the nearest where it is: the 3-4 chamfer distance
 // (Borgefors 1986) in thirds of pixels.
 std::vector<int> Outline::chamfer(const Mask& mask, std::uint8_t of) const {
-  constexpr int kMost = 1 << 20;
+  constexpr int kInfinite = 1 << 20;
   std::vector<int> distance(mask.size());
-  for (std::size_t i = 0; i < mask.size(); ++i) distance[i] = mask[i] == of ? 0 : kMost;
+  for (std::size_t i = 0; i < mask.size(); ++i) distance[i] = mask[i] == of ? 0 : kInfinite;
   const auto relax = [&](int x, int y, int dx, int dy, int cost) {
     const int from_x = x + dx;
     const int from_y = y + dy;

@@ -10,7 +10,7 @@
 
 namespace throng::skinning {
 
-/// Seen by a camera at infinity, to a few millimetres.
+/// Seen by a camera at infinity, to a few millimeters.
 class Outline {
  public:
   /// The camera is at this yaw and elevation from the person.

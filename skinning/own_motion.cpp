@@ -14,14 +14,14 @@ namespace {
 
 std::size_t index_of_side(Side side) { return static_cast<std::size_t>(side); }
 
-// Two neighbours of a row that begins again where it ends.
-struct Neighbours {
+// Two neighbors of a row that begins again where it ends.
+struct Neighbors {
   std::size_t before;
   std::size_t after;
   double share;
 };
 
-Neighbours around(double share, std::size_t count) {
+Neighbors around(double share, std::size_t count) {
   const double at = (share - std::floor(share)) * static_cast<double>(count);
   const std::size_t before = static_cast<std::size_t>(at) % count;
   return {before, (before + 1) % count, at - std::floor(at)};
@@ -37,13 +37,13 @@ std::vector<Pose> on_the_spot(std::vector<Pose> poses) {
   const auto count = static_cast<float>(poses.size());
   if (poses.size() < 2) return poses;
   // The last pose is one interval before the end.
-  const Eigen::Vector3f way = (poses.back().shift - poses.front().shift) * (count / (count - 1));
-  const float on = way.head<2>().norm();
+  const Eigen::Vector3f travel = (poses.back().shift - poses.front().shift) * (count / (count - 1));
+  const float on = travel.head<2>().norm();
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    // Swaying is no way.
-    constexpr float kLeast_m = 0.3F;
-    if (on > kLeast_m) poses[i].shift -= way * (static_cast<float>(i) / count);
+    // Swaying is not travel.
+    constexpr float kMinTravel_m = 0.3F;
+    if (on > kMinTravel_m) poses[i].shift -= travel * (static_cast<float>(i) / count);
     mean += poses[i].shift / count;
   }
   for (Pose& pose : poses) pose.shift.head<2>() -= mean.head<2>();
@@ -73,8 +73,8 @@ OwnGait::OwnGait(const Walker& walker, const std::vector<Pose>& poses, double du
   find_stride(walker, joints, middle);
 }
 
-// Where the left toe passes from before the place where it is in standing to behind it, the foot
-// being low, it stands: in the air it moves forwards.
+// The left foot is in stance when its toe passes from in front of its standing position to behind
+// it while the foot is low: in swing it moves forward.
 void OwnGait::find_stride(const Walker& walker, const std::vector<Joints>& joints, double middle) {
   const std::size_t count = joints.size();
   const std::size_t toe = index_of(Bone::left_toe);
@@ -87,10 +87,10 @@ void OwnGait::find_stride(const Walker& walker, const std::vector<Joints>& joint
     passes.push_back((static_cast<double>(i) + share) / static_cast<double>(count));
     if (passes.size() > 1) continue;
     const auto around_it = std::max<std::size_t>(count / 16, 1);
-    const double way = x(i + count - around_it) - x(i + 1 + around_it);
+    const double travel = x(i + count - around_it) - x(i + 1 + around_it);
     const double seconds =
         duration_s_ * static_cast<double>(2 * around_it + 1) / static_cast<double>(count);
-    foot_speed_mps_ = way / seconds;
+    foot_speed_mps_ = travel / seconds;
   }
   if (passes.empty()) {
     throw std::invalid_argument("a clip in which the left foot never passes below the body");
@@ -109,7 +109,7 @@ struct OwnGait::Place {
 OwnGait::Place OwnGait::place(double phase) const {
   // Of several strides the first, again and again.
   const double own = phase - std::floor(phase);
-  const Neighbours at = around(zero_ + own / strides_, moments_.size());
+  const Neighbors at = around(zero_ + own / strides_, moments_.size());
   return {&moments_[at.before], &moments_[at.after], at.share};
 }
 
@@ -133,7 +133,7 @@ double OwnGait::pitch_rad(Side side, double own_phase) const {
 Figure stand_as(const Walker& walker, const std::vector<Pose>& poses, double share) {
   constexpr double kBlend = 0.15;
   Figure figure = ready(walker);
-  const Neighbours at = around(share, poses.size());
+  const Neighbors at = around(share, poses.size());
   Pose own = mix(poses[at.before], poses[at.after], at.share);
   // Feet and hips stay where they are: what they carry moves.
   own.shift = figure.pose.shift;

@@ -1,5 +1,5 @@
-// Motion that a character brings along, in place of the gait tables: its own way of walking,
-// running and standing. Strides of other lengths than the clip's swing the feet further or less.
+// Motion that a character brings along, in place of the gait tables: its own gait, running and
+// standing. Strides of other lengths than the clip's swing the feet further or less.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ class OwnGait {
   double mean_height_m_ = 0;
 };
 
-/// What a character brings along; strides in statures.
+/// A character's own clips; strides in statures.
 struct OwnMotion {
   struct Cycle {
     OwnGait gait;

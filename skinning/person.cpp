@@ -14,7 +14,7 @@ namespace throng::skinning {
 namespace {
 
 constexpr double kAdultFrom = 18;  // years
-constexpr double kOldest = 85;     // years
+constexpr double kMaxAge = 85;     // years
 
 enum class Ancestry : std::uint8_t { african, asian, caucasian };
 
@@ -24,7 +24,7 @@ struct AgeRange {
   double to_years;
 };
 constexpr std::array kAges = {AgeRange{0.12, 6, kAdultFrom}, AgeRange{0.42, kAdultFrom, 40},
-                              AgeRange{0.32, 40, 65}, AgeRange{0.14, 65, kOldest}};
+                              AgeRange{0.32, 40, 65}, AgeRange{0.14, 65, kMaxAge}};
 
 // Shares in [0, 1) for age, sex and ancestry that spread evenly over the people (a Kronecker
 // sequence), from a start that depends on the seed.
@@ -47,12 +47,12 @@ double age_at(double share) {
     }
     share -= range.share;
   }
-  return kOldest;
+  return kMaxAge;
 }
 
 double sample_height(bool male, double age_years, Random& random) {
-  constexpr double kWidest = 2.8;  // standard deviations
-  const double deviation = std::clamp(random.normal(0, 1), -kWidest, kWidest);
+  constexpr double kMaxDeviation = 2.8;  // standard deviations
+  const double deviation = std::clamp(random.normal(0, 1), -kMaxDeviation, kMaxDeviation);
   if (age_years < kAdultFrom) {
     constexpr double kChildSpread = 0.045;  // of the median
     return child_height_m(male, age_years) * (1 + kChildSpread * deviation);
@@ -76,7 +76,7 @@ void sample_shape(PersonSpec& person, Random& random) {
   shape.breast_firmness = std::clamp(0.75 - 0.005 * person.age_years, 0.3, 0.7);
 }
 
-// Who has which skin: the ancestry that dominates picks the texture, the rest mixes into the form.
+// Choice of the skin: the dominant ancestry selects the texture, the others blend into the shape.
 Ancestry sample_ancestry(PersonSpec& person, double share_of_all, Random& random) {
   Ancestry main = Ancestry::african;
   if (share_of_all < 0.48) {

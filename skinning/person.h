@@ -28,8 +28,8 @@ struct PersonSpec {
 /// 65 to 85, evenly within each range. Adult heights are normal, 1.76 +- 0.07 m for men and 1.63
 /// +- 0.065 m for women; children follow the WHO's growth reference, and from 40 on people shrink
 /// (see person.cpp). Weight and muscle are normal on MakeHuman's scales, with one adult of ten
-/// drawn from the heavy end. Ancestry: 48 % mostly Caucasian, 26 % Asian, 26 % African; a quarter
-/// at most is mixed in. Age, sex and ancestry are drawn from a sequence that spreads evenly, so
+/// sampled from the heavy end. Ancestry: 48 % mostly Caucasian, 26 % Asian, 26 % African; a quarter
+/// at most is mixed in. Age, sex and ancestry are sampled from a sequence that spreads evenly, so
 /// that small populations hold everybody too.
 PersonSpec sample_person(std::uint64_t seed, int index, bool with_attribution = false);
 
@@ -40,11 +40,11 @@ struct AdultHeights {
 };
 AdultHeights adult_heights(bool male);
 
-/// Median height of children in metres, for ages from 6 to 18 (de Onis et al. 2007, the WHO growth
+/// Median height of children in meters, for ages from 6 to 18 (de Onis et al. 2007, the WHO growth
 /// reference for school-aged children).
 double child_height_m(bool male, double age_years);
 
-/// How much shorter an adult has become, in metres: 3 cm by 70 for men and 5 cm for women (Sorkin
+/// How much shorter an adult has become, in meters: 3 cm by 70 for men and 5 cm for women (Sorkin
 /// et al. 1999), growing with the square of the years after 40.
 double height_lost_m(bool male, double age_years);
 

@@ -13,7 +13,7 @@ namespace throng::skinning {
 
 namespace {
 
-// Within this share of a stride one way of getting on becomes another.
+// Share of a stride over which one gait blends into another.
 constexpr double kChangeStrides = 0.15;
 
 double half(Side side) { return side == Side::left ? 0.0 : 0.5; }
@@ -21,9 +21,9 @@ double half(Side side) { return side == Side::left ? 0.0 : 0.5; }
 // Lays the pieces of walking, in order.
 class WalkLayer {
  public:
-  WalkLayer(const Way& way, const Stretch& stretch, const ClipSet& clips, const Walk& walk,
-            std::vector<Piece>& pieces)
-      : way_(way), stretch_(stretch), clips_(clips), walk_(walk), pieces_(pieces) {}
+  WalkLayer(const Trajectory& trajectory, const Stretch& stretch, const ClipSet& clips,
+            const Walk& walk, std::vector<Piece>& pieces)
+      : trajectory_(trajectory), stretch_(stretch), clips_(clips), walk_(walk), pieces_(pieces) {}
 
   void lay() {
     for (std::size_t i = 0; i < walk_.steps.size(); ++i) {
@@ -37,7 +37,7 @@ class WalkLayer {
       if (stops) {
         stop(step);
       } else {
-        go_on(step, switch_phase(*step.clip) + 0.5);
+        continue_walk(step, switch_phase(*step.clip) + 0.5);
       }
     }
   }
@@ -49,7 +49,7 @@ class WalkLayer {
            static_cast<double>(clip.frames);
   }
 
-  // Where on the way a phase of a step's clip is, the step's own middle being its beginning.
+  // Position along the path of a phase of a step's clip; the middle of the step is its beginning.
   static double place_m(const Footstep& step, double phase) {
     return step.begin_m + 2 * step.length_m * (phase - static_cast<double>(step.clip->middle));
   }
@@ -60,12 +60,12 @@ class WalkLayer {
                          pieces_.back().to_frame == frame_ && clip.cyclic && laid_;
     if (goes_on) {
       Piece& last = pieces_.back();
-      // Only strides of one length: the frames stay in step with the way.
+      // Only strides of one length: the frames stay in step with the path.
       last.to_frame = to_frame;
       last.to = to_m;
     } else {
-      pieces_.push_back({way_.step_at(at_m_, stretch_.first, stretch_.last), at_m_, to_m, frame_,
-                         to_frame, &clip, true});
+      pieces_.push_back({trajectory_.step_at(at_m_, stretch_.first, stretch_.last), at_m_, to_m,
+                         frame_, to_frame, &clip, true});
     }
     laid_ = true;
     clip_ = &clip;
@@ -74,7 +74,7 @@ class WalkLayer {
   }
 
   void blend(std::uint32_t from, std::uint32_t to, double to_m) {
-    pieces_.push_back({way_.step_at(at_m_, stretch_.first, stretch_.last), at_m_, to_m,
+    pieces_.push_back({trajectory_.step_at(at_m_, stretch_.first, stretch_.last), at_m_, to_m,
                        static_cast<double>(from), static_cast<double>(to), nullptr, true});
     at_m_ = to_m;
   }
@@ -84,7 +84,7 @@ class WalkLayer {
     const auto frames = static_cast<double>(clip.frames);
     if (!walk_.from_rest) {
       // In the middle of a step.
-      at_m_ = way_.distance_m(static_cast<double>(stretch_.first));
+      at_m_ = trajectory_.distance_m(static_cast<double>(stretch_.first));
       const double done = (at_m_ - step.begin_m) / (2 * step.length_m);
       clip_ = &clip;
       frame_ = (clip.middle + half(step.side) + done) * frames;
@@ -130,7 +130,7 @@ class WalkLayer {
   }
 
   // On in the step's clip, to a phase of it.
-  void go_on(const Footstep& step, double phase) {
+  void continue_walk(const Footstep& step, double phase) {
     const double frame = (phase + half(step.side)) * step.clip->frames;
     // Positions grow for ever within a piece: whole strides make no difference.
     const double frames = step.clip->frames;
@@ -142,7 +142,7 @@ class WalkLayer {
     const Clip& clip = *step.clip;
     const Side side = step.side == Side::left ? Side::right : Side::left;  // that stands at the end
     const double phase = std::round((clip.middle + 0.5 - kStopStrides) * clip.frames) / clip.frames;
-    if (place_m(step, phase) > at_m_) go_on(step, phase);
+    if (place_m(step, phase) > at_m_) continue_walk(step, phase);
     const double end_m = step.begin_m + step.length_m;
     const Clip* stop = clips_.find(side == Side::left ? "stop_left" : "stop_right", clip.stride);
     if (stop != nullptr && stop->stride == clip.stride) {
@@ -154,7 +154,7 @@ class WalkLayer {
     }
   }
 
-  const Way& way_;
+  const Trajectory& trajectory_;
   const Stretch& stretch_;
   const ClipSet& clips_;
   const Walk& walk_;
@@ -172,31 +172,31 @@ MotionPlan::MotionPlan(const Population& population, const Appearance& appearanc
   check(appearance.character < population.characters.size(), "the population has the character");
   const Character& character = population.characters[appearance.character];
   const ClipSet clips(population);
-  const Pedestrian who{character.stature_m, character.age_years,
-                       static_cast<double>(appearance.amplitude) / appearance.cadence,
-                       appearance.phase_offset};
-  Way way(moments, dt_s);
+  const Pedestrian pedestrian{character.stature_m, character.age_years,
+                              static_cast<double>(appearance.amplitude) / appearance.cadence,
+                              appearance.phase_offset};
+  Trajectory trajectory(moments, dt_s);
   Random random(key, Stream::motion);
-  RestLayer rest(way, clips, appearance.phase_offset, random, pieces_);
-  const std::vector<Stretch>& stretches = way.stretches();
+  RestLayer rest(trajectory, clips, appearance.phase_offset, random, pieces_);
+  const std::vector<Stretch>& stretches = trajectory.stretches();
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Stretch& stretch = stretches[i];
     const bool first = i == 0;
     const bool last = i + 1 == stretches.size();
-    if (stretch.doing == Doing::lying) {
+    if (stretch.activity == Activity::lying) {
       rest.lie(stretch, first, last);
-    } else if (stretch.doing == Doing::standing) {
+    } else if (stretch.activity == Activity::standing) {
       rest.stand(stretch, first, last);
     } else {
-      const Walk walk = plan_walk(way, stretch, !first, !last, clips, who);
+      const Walk walk = plan_walk(trajectory, stretch, !first, !last, clips, pedestrian);
       if (walk.steps.empty()) {
         rest.stand(stretch, first, last);
       } else {
-        WalkLayer(way, stretch, clips, walk, pieces_).lay();
+        WalkLayer(trajectory, stretch, clips, walk, pieces_).lay();
       }
     }
   }
-  distance_m_ = std::move(way).take_distances();
+  distance_m_ = std::move(trajectory).take_distances();
 }
 
 PoseBlend MotionPlan::at(double step) const {

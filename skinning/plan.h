@@ -1,8 +1,9 @@
-// What an agent's body does during its stay: a row of pieces of clips, each joined to the next in a
-// frame that both share or by a blend from a frame of one to a frame of the other.
+// Motion plan of an agent's body during its stay: a sequence of pieces of clips, each joined to the
+// next in a frame that both share or by a blend from a frame of one to a frame of the other.
 //
-// Pieces of walking are driven by the way walked, so that a foot that stands stays in its place at
-// any speed; all others by time. Nothing ever jumps, and a moment's pose needs no earlier moment.
+// Pieces of walking are driven by the distance walked, so that a foot that stands stays in its
+// place at any speed; all others by time. Nothing ever jumps, and a moment's pose needs no earlier
+// moment.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,14 @@
 
 #include "skinning/appearance.h"
 #include "skinning/motion.h"
-#include "skinning/way.h"
+#include "skinning/trajectory.h"
 
 namespace throng::skinning {
 
 /// A piece of motion: from one position in a clip to another, or from a frame to a frame.
 struct Piece {
   double begin = 0;  ///< step of the crowd at which it begins
-  double from = 0;   ///< driver's value at its beginning: metres walked or steps
+  double from = 0;   ///< driver's value at its beginning: meters walked or steps
   double to = 0;     ///< and at its end
   double frame = 0;  ///< of the clip, or a palette
   double to_frame = 0;
@@ -28,7 +29,7 @@ struct Piece {
 
 class MotionPlan {
  public:
-  /// The plan of an agent that looks so; `key` tells runs and agents apart. The population must
+  /// The plan of an agent with this appearance; `key` identifies run and agent. The population must
   /// outlive it.
   MotionPlan(const Population& population, const Appearance& appearance, std::uint64_t key,
              std::span<const Moment> moments, double dt_s);

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Pictures that several characters share (shoes, eyes) become one layer.
+// Images that several characters share (shoes, eyes) become one layer.
 class TextureLayers {
  public:
   explicit TextureLayers(Population& population) : population_(&population) {}

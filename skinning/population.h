@@ -1,4 +1,4 @@
-// The people: what the renderer needs to draw them. A population is baked once at set-up
+// The character library: the renderer's data of people. A population is baked once at set-up
 // (`throng people build`) and loaded from its folder; nothing here touches GL.
 #pragma once
 
@@ -38,7 +38,7 @@ enum class Bone : std::uint8_t {
   right_toe,
 };
 
-/// Model space: metres, Z up, facing +X, origin on the ground below the pelvis.
+/// Model space: meters, Z up, facing +X, origin on the ground below the pelvis.
 struct Vertex {
   std::array<float, 3> position;
   std::array<float, 3> normal;
@@ -48,15 +48,15 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 40);
 
-/// What a part of a character is coloured with, per instance. The albedo of a tinted part is its
-/// texture times the instance's tint, both in linear light; such textures hold light and shade
-/// only. Tint::none is not tinted. Hats are coloured like shoes. A portrait has all colours but the
-/// item's at once: its texture holds what is not tinted, black elsewhere, and its shades hold how
-/// bright the rest is: top, bottom, hair and shoes in red, green, blue (as sRGB) and alpha
-/// (linear). Its albedo is the first plus the sum of the latter times the instance's tints.
+/// Per-instance color of a part of a character. The albedo of a tinted part is its texture times
+/// the instance's tint, both in linear light; such textures hold light and shade only. Tint::none
+/// is not tinted. Hats are colored like shoes. A portrait has all colors but the item's at once:
+/// its texture holds what is not tinted, black elsewhere, and its shades hold how bright the rest
+/// is: top, bottom, hair and shoes in red, green, blue (as sRGB) and alpha (linear). Its albedo is
+/// the first plus the sum of the latter times the instance's tints.
 enum class Tint : std::uint8_t { none, top, bottom, hair, shoes, item, portrait };
 inline constexpr std::size_t kTintCount =
-    6;  ///< colours of an instance; a portrait has none of its own
+    6;  ///< colors of an instance; a portrait has none of its own
 
 using Rgb = std::array<std::uint8_t, 3>;  ///< sRGB
 
@@ -67,7 +67,7 @@ struct Part {
   std::int32_t texture = -1;  ///< layer of Population::textures
   Tint tint = Tint::none;
   bool alpha_tested =
-      false;                 ///< discard where texture alpha < 0.5; drawn without back-face culling
+      false;  ///< discard where texture alpha < 0.5; rendered without back-face culling
   std::int32_t shades = -1;  ///< a portrait's second layer
 };
 
@@ -78,8 +78,8 @@ struct Mesh {
   std::vector<Part> parts;
 };
 
-/// What somebody carries; see items.h for where it hangs and where a hand holds it.
-/// Umbrellas are up; who has one takes part when it rains (Styling::umbrellas).
+/// Carried item; see items.h for its attachment. Umbrellas are open; characters with one take part
+/// when it rains (Styling::umbrellas).
 enum class Carry : std::uint8_t { nothing, backpack, shoulder_bag, handbag, umbrella };
 inline constexpr std::size_t kCarryCount = 5;
 
@@ -91,13 +91,13 @@ struct Character {
   Carry carries = Carry::nothing;
   std::string wears;         ///< in words, e.g. "t-shirt, jeans, trainers"
   std::vector<Mesh> levels;  ///< from most to least detailed; at least one
-  /// Where each bone starts in the rest pose, in model space.
+  /// Joint position of each bone in the rest pose, in model space.
   std::array<Eigen::Vector3f, kBoneCount> joints{};
-  /// Colours that suit this character, by Tint: what appearance_of picks from.
+  /// Colors that suit this character, by Tint: what appearance_of picks from.
   std::array<std::vector<Rgb>, kTintCount> tints;
 };
 
-/// Whether a part is a thing of its own rather than the person's: an open umbrella, which hides its
+/// Whether a part is a separate object rather than the person's: an open umbrella, which hides its
 /// owner as a stranger's would.
 bool is_apart(const Character& character, const Part& part);
 
@@ -139,8 +139,8 @@ struct Population {
 /// InputError when a file is missing or malformed, naming it and what would fix it.
 Population load_population(const std::filesystem::path& folder);
 
-/// Where the baked people are: $THRONG_PEOPLE if set, else the installed folder, else the build
-/// tree's.
+/// Folder of the character library: $THRONG_PEOPLE if set, else the installed folder, else the
+/// build tree's.
 std::filesystem::path population_folder();
 
 /// The skinning equation that the vertex shader runs too: sum of weights * (palette * position),

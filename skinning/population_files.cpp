@@ -21,15 +21,15 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kRemedy = " (run `throng people build` to bake the people)";
+constexpr const char* kRemedy = " (run `throng people build` to build the character library)";
 
-std::string hex_of(const Rgb& colour) {
-  return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+std::string hex_of(const Rgb& color) {
+  return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
 }
 
-Rgb colour_of(const std::string& hex) {
+Rgb color_of(const std::string& hex) {
   if (hex.size() != 7 || hex.front() != '#') throw std::out_of_range("colour");
-  Rgb colour{};
+  Rgb color{};
   const auto digit = [&](std::size_t at) -> int {
     const char c = hex[at];
     if (c >= '0' && c <= '9') return c - '0';
@@ -37,15 +37,15 @@ Rgb colour_of(const std::string& hex) {
     throw std::out_of_range("colour");
   };
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    colour[channel] =
+    color[channel] =
         static_cast<std::uint8_t>(16 * digit(1 + 2 * channel) + digit(2 + 2 * channel));
   }
-  return colour;
+  return color;
 }
 
 Carry carry_named(const std::string& name) {
   const auto found = std::find(kCarryNames.begin(), kCarryNames.end(), name);
-  if (found == kCarryNames.end()) throw std::out_of_range("thing to carry");
+  if (found == kCarryNames.end()) throw std::out_of_range("carried item");
   return static_cast<Carry>(found - kCarryNames.begin());
 }
 
@@ -60,8 +60,8 @@ Character parse_character(const json& entry) {
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {
     const std::string name(kTintNames[tint]);
     if (!entry.at("tints").contains(name)) continue;
-    for (const json& colour : entry.at("tints").at(name)) {
-      character.tints[tint].push_back(colour_of(colour.get<std::string>()));
+    for (const json& color : entry.at("tints").at(name)) {
+      character.tints[tint].push_back(color_of(color.get<std::string>()));
     }
   }
   return character;
@@ -70,8 +70,8 @@ Character parse_character(const json& entry) {
 json json_of(const Character& character) {
   json tints = json::object();
   for (std::size_t tint = 0; tint < kTintCount; ++tint) {
-    for (const Rgb& colour : character.tints[tint]) {
-      tints[std::string(kTintNames[tint])].push_back(hex_of(colour));
+    for (const Rgb& color : character.tints[tint]) {
+      tints[std::string(kTintNames[tint])].push_back(hex_of(color));
     }
   }
   return {{"name", character.name},
@@ -86,7 +86,7 @@ json json_of(const Character& character) {
 PopulationIndex parse_index(const json& document) {
   PopulationIndex index;
   index.content_hash = document.at("content_hash").get<std::string>();
-  index.licence = document.at("licence").get<std::string>();
+  index.license = document.at("licence").get<std::string>();
   index.texture_size = document.at("texture_size").get<int>();
   for (const json& entry : document.at("characters")) {
     index.characters.push_back(parse_character(entry));
@@ -125,7 +125,7 @@ Character read_character(const fs::path& path) {
 
 std::string encode_index(const PopulationIndex& index) {
   json document = {{"format", kPopulationFormat}, {"content_hash", index.content_hash},
-                   {"licence", index.licence},    {"texture_size", index.texture_size},
+                   {"licence", index.license},    {"texture_size", index.texture_size},
                    {"characters", json::array()}, {"clips", json::array()}};
   for (const Character& character : index.characters) {
     document["characters"].push_back(json_of(character));
@@ -144,12 +144,13 @@ std::string encode_index(const PopulationIndex& index) {
 PopulationIndex read_index(const fs::path& folder) {
   const fs::path path = folder / kIndexFile;
   if (!fs::is_regular_file(path)) {
-    throw InputError({path.string(), "", "no such file", std::string("baked people") + kRemedy});
+    throw InputError(
+        {path.string(), "", "no such file", std::string("a character library") + kRemedy});
   }
   const json document = parse_json_or_discard(read_file(path));
   if (!document.is_object() || !document.contains("format")) {
     throw InputError(
-        {path.string(), "", "no index of people", std::string("baked people") + kRemedy});
+        {path.string(), "", "no index of people", std::string("a character library") + kRemedy});
   }
   if (document["format"] != kPopulationFormat) {
     throw InputError({path.string(), "/format", document["format"].dump(),
@@ -183,8 +184,8 @@ void check_replaceable(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
   if (fs::is_directory(folder, error) && fs::exists(folder / kIndexFile, error)) return;
-  throw InputError({folder.string(), "", "something else than baked people",
-                    "a folder that is new, empty or holds baked people"});
+  throw InputError({folder.string(), "", "something else than a character library",
+                    "a folder that is new, empty or holds a character library"});
 }
 
 std::vector<Palette> read_palettes(const fs::path& folder, const std::vector<Joints>& characters,

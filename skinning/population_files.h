@@ -18,7 +18,7 @@ inline constexpr const char* kPalettesFile = "palettes.bin";
 /// population.json.
 struct PopulationIndex {
   std::string content_hash;  ///< of everything that the people were made from
-  std::string licence;       ///< SPDX expression
+  std::string license;       ///< SPDX expression
   int texture_size = 0;
   std::vector<Character> characters;  ///< without their levels, which are in <name>.glb
   std::vector<Clip> clips;
@@ -38,8 +38,8 @@ Character read_character(const std::filesystem::path& path);
 /// Throws InputError unless it is from 32 to 2048 pixels.
 void check_texture_size(int pixels);
 
-/// Throws InputError unless the folder is new, empty or holds baked people: only people make room
-/// for people.
+/// Throws InputError unless the folder is new, empty or holds character library: only a character
+/// library is replaced for people.
 void check_replaceable(const std::filesystem::path& folder);
 
 /// The palettes of all characters, whose joints these are, one character after the other; see

@@ -16,7 +16,7 @@ constexpr double kElevation = 20 * std::numbers::pi / 180;  // radians
 constexpr float kMarginPx = 2;                              // pixels
 constexpr float kUnseen = -1e9F;                            // depth where nobody is seen
 
-// Right and up in the camera's picture, and towards the camera.
+// Right and up in the camera's image, and toward the camera.
 Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
   const auto c = static_cast<float>(std::cos(kElevation));
   const auto s = static_cast<float>(std::sin(kElevation));
@@ -81,14 +81,14 @@ Eigen::Vector2f Portrait::uv_of(const Eigen::Vector3f& point, bool front) const 
           margin + down * (1 - 2 * margin)};
 }
 
-Image Portrait::colours() const {
-  Image colours = picture_;
-  for (std::size_t at = 0; at < colours.rgba.size(); at += 4) {
-    std::uint8_t* pixel = &colours.rgba[at];
+Image Portrait::colors() const {
+  Image colors = picture_;
+  for (std::size_t at = 0; at < colors.rgba.size(); at += 4) {
+    std::uint8_t* pixel = &colors.rgba[at];
     if (static_cast<Tint>(pixel[3]) != Tint::none) std::fill_n(pixel, 3, std::uint8_t{0});
     pixel[3] = 255;
   }
-  return colours;
+  return colors;
 }
 
 Image Portrait::shades() const {

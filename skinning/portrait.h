@@ -1,4 +1,4 @@
-// Pictures of a dressed person that the lower levels of detail are coloured with.
+// Images of a dressed person that the lower levels of detail are colored with.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,14 +12,14 @@
 
 namespace throng::skinning {
 
-/// A person seen from the front (left half of the pictures) and from behind (right half), slightly
+/// A person seen from the front (left half of the images) and from behind (right half), slightly
 /// from above so that crowns and shoulders show.
 class Portrait {
  public:
   Portrait(std::span<const PosedSurface> surfaces, int size);
 
-  /// The parts that are not tinted in their colours, the others black; see Tint::portrait.
-  Image colours() const;
+  /// The parts that are not tinted in their colors, the others black; see Tint::portrait.
+  Image colors() const;
   /// How bright the tinted parts are; see Tint::portrait.
   Image shades() const;
 

@@ -1,4 +1,4 @@
-// Which pixels a triangle covers.
+// Rasterization of a triangle.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace throng::skinning {
 
-/// Calls visit(x, y, barycentric) for every pixel of a width x height picture whose centre lies in
+/// Calls visit(x, y, barycentric) for every pixel of a width x height image whose center lies in
 /// the triangle (either winding), row by row. Corners are in pixels; pixel i covers [i, i + 1).
 template <typename Visit>
 void for_each_pixel(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c,
@@ -18,8 +18,8 @@ void for_each_pixel(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Ei
   if (!(std::abs(area) > 1e-12F)) return;
   const Eigen::Vector2f low = a.cwiseMin(b).cwiseMin(c);
   const Eigen::Vector2f high = a.cwiseMax(b).cwiseMax(c);
-  const auto limit = [](float value, int most) {
-    return static_cast<int>(std::clamp(value, 0.0F, static_cast<float>(most)));
+  const auto limit = [](float value, int max_value) {
+    return static_cast<int>(std::clamp(value, 0.0F, static_cast<float>(max_value)));
   };
   const int left = limit(std::floor(low.x()), width);
   const int right = limit(std::ceil(high.x()), width);

@@ -19,7 +19,7 @@ struct LimbTurn {
   Eigen::Matrix3f lower;
 };
 
-/// Turns the limb so that its end comes to `target` (from its root) with the middle joint towards
+/// Turns the limb so that its end comes to `target` (from its root) with the middle joint toward
 /// `bends_to`. A target out of reach is approached as far as the limb goes.
 LimbTurn reach(const Limb& limb, const Eigen::Vector3f& target, const Eigen::Vector3f& bends_to);
 

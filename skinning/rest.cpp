@@ -26,7 +26,7 @@ struct Turning {
   int times = 1;
 };
 
-// Which turns, how often, come nearest to an angle.
+// Combination of turns that comes nearest to an angle.
 Turning turning_of(const ClipSet& clips, double angle_rad) {
   Turning best;
   double best_error = 1e9;
@@ -44,9 +44,9 @@ Turning turning_of(const ClipSet& clips, double angle_rad) {
 
 }  // namespace
 
-RestLayer::RestLayer(const Way& way, const ClipSet& clips, double phase_offset, Random random,
-                     std::vector<Piece>& pieces)
-    : way_(way),
+RestLayer::RestLayer(const Trajectory& trajectory, const ClipSet& clips, double phase_offset,
+                     Random random, std::vector<Piece>& pieces)
+    : trajectory_(trajectory),
       clips_(clips),
       phase_offset_(phase_offset),
       random_(random),
@@ -71,13 +71,13 @@ void RestLayer::stand(const Stretch& stretch, bool first, bool last) {
     }
   }
   std::size_t at = static_cast<std::size_t>(std::ceil(begin));
-  const std::span<const Moment> moments = way_.moments();
+  const std::span<const Moment> moments = trajectory_.moments();
   while (at < stretch.last) {
     std::size_t end = at;
     double angle = 0;
     while (end < stretch.last) {
       const double step = turned(moments[end], moments[end + 1]);
-      if (std::abs(step) < kSlowTurnRadps * way_.dt_s() || step * angle < 0) break;
+      if (std::abs(step) < kSlowTurnRadps * trajectory_.dt_s() || step * angle < 0) break;
       angle += step;
       ++end;
     }
@@ -93,7 +93,7 @@ void RestLayer::stand(const Stretch& stretch, bool first, bool last) {
 
 // Feet step as fast as the body turns.
 void RestLayer::turn(std::size_t begin, std::size_t end) {
-  const std::span<const Moment> moments = way_.moments();
+  const std::span<const Moment> moments = trajectory_.moments();
   double whole = 0;
   for (std::size_t step = begin; step < end; ++step) {
     whole += turned(moments[step], moments[step + 1]);
@@ -118,16 +118,17 @@ void RestLayer::turn(std::size_t begin, std::size_t end) {
 
 double RestLayer::gaze_begins(double from, double to) const {
   for (auto step = static_cast<std::size_t>(from); static_cast<double>(step) < to; ++step) {
-    if (way_.moments()[step].gaze != Gaze::none) return std::max(static_cast<double>(step), from);
+    if (trajectory_.moments()[step].gaze != Gaze::none)
+      return std::max(static_cast<double>(step), from);
   }
   return to;
 }
 
 double RestLayer::gaze_ends(double from, double to) const {
   const auto first = static_cast<std::size_t>(from);
-  const Gaze gaze = way_.moments()[first].gaze;
+  const Gaze gaze = trajectory_.moments()[first].gaze;
   for (std::size_t step = first; static_cast<double>(step) < to; ++step) {
-    if (way_.moments()[step].gaze != gaze) return static_cast<double>(step);
+    if (trajectory_.moments()[step].gaze != gaze) return static_cast<double>(step);
   }
   return to;
 }
@@ -139,7 +140,7 @@ void RestLayer::idle(double begin, double end) {
 
 double RestLayer::idle_once(double begin, double end) {
   constexpr double kShortLook_s = 2.4;
-  const Gaze gaze = way_.moments()[static_cast<std::size_t>(begin)].gaze;
+  const Gaze gaze = trajectory_.moments()[static_cast<std::size_t>(begin)].gaze;
   if (gaze != Gaze::none && end - begin >= steps(kShortLook_s)) {
     const char* name = gaze == Gaze::left    ? "look_up_left"
                        : gaze == Gaze::right ? "look_up_right"
@@ -151,9 +152,9 @@ double RestLayer::idle_once(double begin, double end) {
       return until;
     }
   }
-  // Whoever has nothing to look at sees it when it comes.
+  // A person who is looking at nothing notices it when it comes.
   const double until = gaze == Gaze::none ? gaze_begins(begin, end) : end;
-  const double left_s = (until - begin) * way_.dt_s();
+  const double left_s = (until - begin) * trajectory_.dt_s();
   const Clip& stand = clips_.nearest("idle");
   const Clip* around = clips_.find("look_around");
   const Clip* phone = clips_.find("phone");
@@ -202,8 +203,8 @@ void RestLayer::lie(const Stretch& stretch, bool first, bool last) {
   const auto begin = static_cast<double>(stretch.first);
   const auto end = static_cast<double>(stretch.last);
   const double before = std::max(begin - steps(1.0), 0.0);
-  const double speed = (way_.distance_m(begin) - way_.distance_m(before)) /
-                       std::max((begin - before) * way_.dt_s(), 1e-6);
+  const double speed = (trajectory_.distance_m(begin) - trajectory_.distance_m(before)) /
+                       std::max((begin - before) * trajectory_.dt_s(), 1e-6);
   const bool forwards = random_.uniform() < (speed > kFastFallMps ? 0.9 : 0.5);
   const Clip* clip = clips_.find(forwards ? "fall_forwards" : "fall_backwards");
   if (clip == nullptr) {

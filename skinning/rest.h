@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "skinning/motion.h"
-#include "skinning/way.h"
+#include "skinning/trajectory.h"
 
 namespace throng::skinning {
 
@@ -14,7 +14,7 @@ struct Piece;
 class RestLayer {
  public:
   /// `phase_offset` in [0, 1): where in their swaying people are who stand from the first step on.
-  RestLayer(const Way& way, const ClipSet& clips, double phase_offset, Random random,
+  RestLayer(const Trajectory& trajectory, const ClipSet& clips, double phase_offset, Random random,
             std::vector<Piece>& pieces);
 
   /// Standing, looking around, at a phone or at the sky, turning when the body turns.
@@ -23,7 +23,7 @@ class RestLayer {
   void lie(const Stretch& stretch, bool first, bool last);
 
  private:
-  double steps(double seconds) const { return seconds / way_.dt_s(); }
+  double steps(double seconds) const { return seconds / trajectory_.dt_s(); }
   void add(const Clip& clip, double begin, double end, double frame, double to_frame);
   void idle(double begin, double end);
   double idle_once(double begin, double end);
@@ -32,7 +32,7 @@ class RestLayer {
   double gaze_begins(double from, double to) const;
   double gaze_ends(double from, double to) const;
 
-  const Way& way_;
+  const Trajectory& trajectory_;
   const ClipSet& clips_;
   double phase_offset_;
   Random random_;

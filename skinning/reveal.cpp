@@ -31,7 +31,7 @@ struct Triangle {
   Eigen::Vector3f to_c;
 };
 
-// How far from the skin a garment lies, in metres: it may dip below it.
+// How far from the skin a garment lies, in meters: it may dip below it.
 constexpr float kBelow = 0.01F;
 constexpr float kAbove = 0.035F;
 

@@ -1,4 +1,4 @@
-// Which skin lies under a garment.
+// Skin covered by a garment.
 #pragma once
 
 #include <vector>

@@ -89,8 +89,8 @@ class Fitter {
   void check_leg(Side side) const {
     const Bone thigh = on(side, Bone::left_thigh);
     const Eigen::Vector3f leg = rig_.to_ours * (raw(on(side, Bone::left_foot)) - raw(thigh));
-    constexpr float kMostSplayed = 0.75F;  // cosine
-    if (-leg.z() < kMostSplayed * leg.norm()) {
+    constexpr float kMaxSplayed = 0.75F;  // cosine
+    if (-leg.z() < kMaxSplayed * leg.norm()) {
       fail(fmt::format("a pose at rest in which the bone \"{}\" does not point down",
                        model_->nodes[static_cast<std::size_t>(rig_.nodes[index_of(thigh)])].name),
            "a standing pose at rest (T or A), upright, the left bones on the person's left");

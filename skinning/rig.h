@@ -1,5 +1,5 @@
-// Somebody else's rig as ours: which way it faces, where our joints are in it, how it comes to
-// stand, and what its animations do to our bones.
+// A foreign rig mapped to ours: its facing direction, the positions of our joints in it, how it
+// comes to stand, and what its animations do to our bones.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,8 +21,9 @@ struct Rig {
   Pose neutral;  ///< from there to standing
 };
 
-/// Which way is up and ahead follows from where head, hips and feet are and which are left. Throws
-/// InputError when the pose at rest is not one of somebody who stands upright with toes ahead.
+/// The up and forward directions follow from the positions of head, hips and feet and their sides.
+/// Throws InputError when the pose at rest is not one of somebody who stands upright with toes
+/// ahead.
 Rig fit_rig(const RiggedModel& model, const BoneNodes& nodes);
 
 /// `count` poses of an animation, evenly spaced from its beginning to just before its end, against

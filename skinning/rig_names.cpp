@@ -12,7 +12,7 @@ namespace throng::skinning {
 
 namespace {
 
-// What a name says: a part of the body and its side.
+// Meaning of a bone name: a part of the body and its side.
 struct Meaning {
   std::string part;  // lower case, words joined: "upleg"
   char side = 'm';   // 'l', 'r' or 'm' for the middle
@@ -143,8 +143,8 @@ bool names_a(const std::vector<std::optional<Meaning>>& meanings,
 }
 
 std::string listed_names(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 40;
-  const std::size_t shown = std::min(names.size(), kMost);
+  constexpr std::size_t kMaxShown = 40;
+  const std::size_t shown = std::min(names.size(), kMaxShown);
   const std::string text = fmt::format(
       "{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
   return shown < names.size() ? fmt::format("{} and {} more", text, names.size() - shown) : text;
@@ -152,7 +152,7 @@ std::string listed_names(const std::vector<std::string>& names) {
 
 class Mapper {
  public:
-  Mapper(const RiggedModel& model, const std::map<std::string, std::string>& said,
+  Mapper(const RiggedModel& model, const std::map<std::string, std::string>& overrides,
          std::string where)
       : model_(&model), where_(std::move(where)), depth_(model.nodes.size(), 0) {
     nodes_.fill(-1);
@@ -160,7 +160,7 @@ class Mapper {
     for (std::size_t i = 1; i < depth_.size(); ++i) {
       depth_[i] = depth_[static_cast<std::size_t>(model.nodes[i].parent)] + 1;
     }
-    take_what_is_said(said);
+    apply_overrides(overrides);
     guess();
     place_spine();
     complain();
@@ -187,8 +187,8 @@ class Mapper {
     taken_[static_cast<std::size_t>(node)] = true;
   }
 
-  void take_what_is_said(const std::map<std::string, std::string>& said) {
-    for (const auto& [ours, theirs] : said) {
+  void apply_overrides(const std::map<std::string, std::string>& overrides) {
+    for (const auto& [ours, theirs] : overrides) {
       const std::string where = "/bones/" + ours;
       const auto bone = std::find(kBoneNames.begin(), kBoneNames.end(), ours);
       if (bone == kBoneNames.end()) {
@@ -364,9 +364,9 @@ bool is_needed(Bone bone) {
   }
 }
 
-BoneNodes map_bones(const RiggedModel& model, const std::map<std::string, std::string>& said,
+BoneNodes map_bones(const RiggedModel& model, const std::map<std::string, std::string>& overrides,
                     const std::string& where) {
-  return Mapper(model, said, where).nodes();
+  return Mapper(model, overrides, where).nodes();
 }
 
 std::string most_similar(const std::string& name, const std::vector<std::string>& names) {

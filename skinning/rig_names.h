@@ -1,5 +1,5 @@
-// Which of our bones a bone of somebody else's rig is, by its name: Mixamo, VRM, Blender's Rigify,
-// MakeHuman, 3ds Max Biped, Unreal, Daz, motion capture files and what resembles them.
+// Maps the bones of a foreign rig to ours by their names: Mixamo, VRM, Blender's Rigify, MakeHuman,
+// 3ds Max Biped, Unreal, Daz, motion capture files and what resembles them.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@ using BoneNodes = std::array<int, kBoneCount>;
 /// Bones that a rig must have. The others are placed between these.
 bool is_needed(Bone bone);
 
-/// Maps a rig by its names, after what the user says ("left_thigh" to "Leg1.L"). Throws InputError
+/// Maps a rig by its names, after the user's names ("left_thigh" to "Leg1.L"). Throws InputError
 /// with one problem for each needed bone that no name fits, naming the bones that were not
-/// recognised and the most similar of them, and for each of the user's names that there is not.
+/// recognized and the most similar of them, and for each of the user's names that there is not.
 /// `where` is the file that the user's names stand in.
-BoneNodes map_bones(const RiggedModel& model, const std::map<std::string, std::string>& said,
+BoneNodes map_bones(const RiggedModel& model, const std::map<std::string, std::string>& overrides,
                     const std::string& where);
 
 /// The most similar of the names; empty when there are none.

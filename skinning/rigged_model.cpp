@@ -112,14 +112,14 @@ class ModelReader {
     for (unsigned i = 0; i < scene_->mNumMaterials; ++i) {
       model_.materials.push_back(material_of(*scene_->mMaterials[i]));
     }
-    if (model_.materials.empty()) model_.materials.push_back({coloured({200, 200, 200}), false});
+    if (model_.materials.empty()) model_.materials.push_back({colored({200, 200, 200}), false});
   }
 
   ModelMaterial material_of(const aiMaterial& source) const {
     ModelMaterial material;
-    aiColor4D colour(0.8F, 0.8F, 0.8F, 1);
-    if (source.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS) {
-      source.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+    aiColor4D color(0.8F, 0.8F, 0.8F, 1);
+    if (source.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS) {
+      source.Get(AI_MATKEY_COLOR_DIFFUSE, color);
     }
     aiString name;
     if (source.GetTexture(aiTextureType_BASE_COLOR, 0, &name) == aiReturn_SUCCESS ||
@@ -127,7 +127,7 @@ class ModelReader {
       material.picture = picture_of(name.C_Str());
     } else {
       material.picture =
-          coloured({srgb_of_linear(colour.r), srgb_of_linear(colour.g), srgb_of_linear(colour.b)});
+          colored({srgb_of_linear(color.r), srgb_of_linear(color.g), srgb_of_linear(color.b)});
     }
     int two_sided = 0;
     source.Get(AI_MATKEY_TWOSIDED, two_sided);
@@ -145,10 +145,10 @@ class ModelReader {
     return material;
   }
 
-  static Image coloured(const std::array<std::uint8_t, 3>& colour) {
+  static Image colored(const std::array<std::uint8_t, 3>& color) {
     Image image(4, 4);
     for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
-      std::copy(colour.begin(), colour.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(at));
+      std::copy(color.begin(), color.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(at));
       image.rgba[at + 3] = 255;
     }
     return image;
@@ -159,7 +159,7 @@ class ModelReader {
     if (embedded == nullptr) return read_picture(file_of(std::move(name)));
     if (embedded->mHeight == 0) {
       return decode_picture({reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
-                            fmt::format("{}, picture {}", path_.string(), name));
+                            fmt::format("{}, image {}", path_.string(), name));
     }
     Image image(static_cast<int>(embedded->mWidth), static_cast<int>(embedded->mHeight));
     for (std::size_t i = 0; 4 * i < image.rgba.size(); ++i) {
@@ -172,17 +172,17 @@ class ModelReader {
     return image;
   }
 
-  // Where files say that their pictures are is often where they were on another machine.
+  // Texture paths in files are often those of another machine.
   fs::path file_of(std::string name) const {
     std::replace(name.begin(), name.end(), '\\', '/');
-    const fs::path said(name);
+    const fs::path stated(name);
     const fs::path folder = path_.parent_path();
     for (const fs::path& place :
-         {folder / said, folder / said.filename(), folder / "textures" / said.filename()}) {
+         {folder / stated, folder / stated.filename(), folder / "textures" / stated.filename()}) {
       if (fs::is_regular_file(place)) return place;
     }
-    fail(fmt::format("the picture \"{}\", which is not there", name),
-         fmt::format("{} beside the model", said.filename().string()));
+    fail(fmt::format("the missing image \"{}\"", name),
+         fmt::format("{} beside the model", stated.filename().string()));
   }
 
   void add_meshes(const aiNode& node) {
@@ -214,7 +214,7 @@ class ModelReader {
       }
     }
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      // What hangs on no bone follows the node that it is attached to.
+      // Meshes without a bone follow the node that they are attached to.
       const bool loose = sums[i] < 1e-4F;
       if (loose) part.weights[i] = {{node, 1}};
       const Eigen::Matrix4f matrix =

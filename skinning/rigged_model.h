@@ -1,5 +1,5 @@
 // Characters that others made, as assimp reads them (glTF, FBX, DAE, ...): nodes, skinned meshes
-// in the rest pose, pictures and animations, in the file's own axes and unit.
+// in the rest pose, images and animations, in the file's own axes and unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,7 +37,7 @@ struct ModelPart {
 };
 
 struct ModelMaterial {
-  Image picture;  ///< base colour
+  Image picture;  ///< base color
   bool alpha_tested = false;
 };
 
@@ -67,7 +67,7 @@ struct RiggedModel {
   std::vector<ModelMaterial> materials;
   std::vector<ModelAnimation> animations;
 
-  /// Where the nodes are at rest, or at a time of an animation: to the file's axes.
+  /// Node transforms at rest, or at a time of an animation, in the file's axes.
   std::vector<Eigen::Matrix4f> rest() const;
   std::vector<Eigen::Matrix4f> at(const ModelAnimation& animation, double time_s) const;
 };
@@ -76,7 +76,7 @@ enum class ModelUse : std::uint8_t { character, motion };
 
 /// Reads a model; for ModelUse::motion its nodes and animations only. Throws InputError naming the
 /// file when it is missing, when assimp cannot read it, or when a character has no mesh, no bones
-/// or pictures that are missing or neither PNG nor JPEG.
+/// or images that are missing or neither PNG nor JPEG.
 RiggedModel read_rigged_model(const std::filesystem::path& path, ModelUse use);
 
 }  // namespace throng::skinning

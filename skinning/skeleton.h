@@ -21,7 +21,7 @@ extern const std::array<std::string_view, kBoneCount> kBoneNames;
 inline constexpr std::array<std::string_view, kTintCount + 1> kTintNames = {
     "none", "top", "bottom", "hair", "shoes", "item", "portrait"};
 
-/// Where each bone starts, in model space (metres, Z up, facing +X).
+/// Joint position of each bone, in model space (meters, Z up, facing +X).
 using Joints = std::array<Eigen::Vector3f, kBoneCount>;
 
 /// A pose: how each bone is turned against the rest pose, all in model axes (not relative to the
@@ -34,7 +34,7 @@ struct Pose {
   Eigen::Matrix3f& of(Bone bone) { return rotation[index_of(bone)]; }
 };
 
-/// Where the joints go when the pose is applied.
+/// Joint positions after the pose is applied.
 Joints pose_joints(const Joints& rest, const Pose& pose);
 
 /// The pose as matrices from rest to posed model space.

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Heights on the unmorphed body, in metres from its middle.
+// Heights on the unmorphed body, in meters from its middle.
 constexpr float kWaist = 0.184F;
 constexpr float kKnee = -0.37F;
-constexpr float kLowest = -0.728F;
+constexpr float kHem = -0.728F;
 
 float smooth(float low, float high, float x) {
   const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
@@ -48,7 +48,7 @@ std::array<Eigen::Vector2f, 4> unrolled(const Quad& quad, const MakeHuman& makeh
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const Eigen::Vector3f& point = makehuman.base_positions()[quad.vertex[corner]];
     const double turn = std::atan2(point.y(), point.x()) / (2 * kPi) + 0.5;
-    uv[corner] = {static_cast<float>(turn), (kWaist - point.z()) / (kWaist - kLowest)};
+    uv[corner] = {static_cast<float>(turn), (kWaist - point.z()) / (kWaist - kHem)};
     if (corner > 0 && uv[corner].x() - uv[0].x() > 0.5F) uv[corner].x() = 0;
     if (corner > 0 && uv[0].x() - uv[corner].x() > 0.5F) uv[corner].x() = 1;
   }

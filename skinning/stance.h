@@ -14,7 +14,7 @@ struct Stance {
   Joints a_pose;                      ///< joints in the A-pose
   Joints joints;                      ///< joints standing neutrally
   Palette to_neutral;
-  float lowest = 0;   ///< sole, standing, in metres
+  float lowest = 0;   ///< sole, standing, in meters
   float highest = 0;  ///< crown
 };
 

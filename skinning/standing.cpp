@@ -51,7 +51,7 @@ Figure standing(const Walker& walker, Trunk trunk, double breath, double sway_m)
   return figure;
 }
 
-// A foot on its way from where another figure has it.
+// A foot moving from its position in another figure.
 Foot blended(const Foot& from, const Foot& to, double share) {
   Foot foot = to;
   foot.ankle = from.ankle + static_cast<float>(share) * (to.ankle - from.ankle);

@@ -1,5 +1,5 @@
-// What people do on the spot: stand, look around, look at a phone or up into the sky, turn, start
-// and stop walking, fall and lie.
+// Motions in place: stand, look around, look at a phone or up into the sky, turn, start and stop
+// walking, fall and lie.
 #pragma once
 
 #include "skinning/gait.h"

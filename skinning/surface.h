@@ -26,7 +26,7 @@ struct Surface {
   std::string texture;  ///< key of a texture
   Tint tint = Tint::none;
   bool alpha_tested = false;
-  bool painted = false;  ///< lies on the skin: colours it but gives it no shape of its own
+  bool painted = false;  ///< lies on the skin: colors it but gives it no shape of its own
 };
 
 /// Splits quads into triangles and shared vertices into one per texture coordinate. `positions`
@@ -63,7 +63,7 @@ void simplify(Surface& surface, std::size_t triangles, bool keep_borders = false
 /// The surfaces as one mesh. `texture_of` gives a texture's number by its key.
 Mesh assemble(std::span<const Surface> surfaces, const std::map<std::string, int>& texture_of);
 
-/// Adds a copy of a vertex that faces the other way; returns its number.
+/// Adds a copy of a vertex that faces the opposite direction; returns its number.
 std::uint32_t add_turned(Surface& surface, std::uint32_t vertex);
 
 /// Appends the parts of another mesh.

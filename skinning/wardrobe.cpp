@@ -60,8 +60,8 @@ void append(std::vector<Quad>& all, const std::vector<Quad>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// Which skin the garment hides, and which it only covers. The package's own list goes right up to
-// the borders, where simplified cloth leaves gaps: one row of skin more stays.
+// Skin that the garment hides, and skin that it only covers. The package's own list goes right up
+// to the borders, where simplified cloth leaves gaps: one row of skin more stays.
 void settle_skin(const MakeHuman& makehuman, const std::string& kind, Proxy& proxy) {
   proxy.tucks.assign(proxy.hides.size(), false);
   if (kind != "clothes" && kind != "hair") return;
@@ -156,7 +156,7 @@ const std::string& Wardrobe::author_of(const std::string& proxy) const {
 const Proxy& Wardrobe::load(const std::string& kind, const std::string& name) {
   const auto found = proxies_.find(name);
   if (found != proxies_.end()) return found->second;
-  static_cast<void>(licence_of(name));  // only what is listed with its terms gets in
+  static_cast<void>(license_of(name));  // only what is listed with its terms gets in
   Proxy proxy = name == kSkirt ? make_skirt(*makehuman_) : makehuman_->load_proxy(kind, name);
   settle_skin(*makehuman_, kind, proxy);
   if (kind != "clothes") {
@@ -238,20 +238,20 @@ void Wardrobe::add_head(const Key& key, Worn& worn) {
 
 void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::path& folder) {
   const ClothFaces faces{garment.proxy, garment.quads};
-  // What is cut and painted alike is one texture, whatever it is coloured with.
+  // Garments of the same cut and fabric share one texture, whatever their tint.
   std::uint64_t corners = 0;
   for (const Quad& quad : garment.quads) corners = 31 * corners + quad.uv[0];
   garment.texture =
       fmt::format("{}~{}~{:x}", garment.proxy->name, static_cast<int>(cloth), corners);
   if (!textures_.contains(garment.texture)) {
     const bool skirt = garment.proxy->name == kSkirt;
-    constexpr int kSkirtTexels = 512;  // as the package's pictures
+    constexpr int kSkirtTexels = 512;  // as the package's images
     Image image = skirt ? skirt_cloth(kSkirtTexels) : read_png(diffuse_picture(folder));
     Mask covered = covered_by(faces, image);
     if (skirt) {
     } else if (cloth == Cloth::print) {
-      // Painted hair darkens so much towards its tips, and trainers are so black and white, that
-      // they would look two-coloured.
+      // Painted hair darkens so much toward its tips, and trainers are so black and white, that
+      // they would look two-colored.
       const bool is_soft = garment.tint == Tint::hair || garment.tint == Tint::shoes;
       reduce_to_shade(image, covered, is_soft ? 0.5 : 0.9);
     } else if (cloth != Cloth::own) {

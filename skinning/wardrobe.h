@@ -1,4 +1,4 @@
-// Clothes, shoes, hair and eyes cut into pieces that are coloured as one, with their textures.
+// Clothes, shoes, hair and eyes cut into pieces that are colored as one, with their textures.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace throng::skinning {
 
-/// Some faces of a proxy with one colouring.
+/// Some faces of a proxy with one coloring.
 struct Garment {
   const Proxy* proxy = nullptr;
   std::vector<Quad> quads;
@@ -25,7 +25,7 @@ struct Garment {
   std::string texture;  ///< key of Wardrobe::textures
 };
 
-/// One thing that somebody wears: its pieces, and the skin that it hides.
+/// A worn garment: its pieces, and the skin that it hides.
 struct Worn {
   const Proxy* proxy = nullptr;
   std::vector<Garment> pieces;
@@ -38,7 +38,7 @@ class Wardrobe {
   /// are light and shade, with the median at kMedianShade.
   Wardrobe(const MakeHuman& makehuman, const std::vector<PersonSpec>& people, int texture_size);
 
-  /// What the outfit has in a place; no pieces and no proxy where it has nothing.
+  /// The outfit's garment in a slot; no pieces and no proxy if the slot is empty.
   const Worn& top(const Outfit& outfit) const;
   const Worn& bottom(const Outfit& outfit) const;
   const Worn& shoes(const Outfit& outfit) const;
@@ -54,7 +54,7 @@ class Wardrobe {
   const std::map<std::string, Image>& textures() const { return textures_; }
 
  private:
-  /// Which part of a suit, in which cloth, coloured how.
+  /// Part of a suit, its fabric and its color.
   struct Key {
     std::string name;
     Slot slot = Slot::top;
@@ -83,7 +83,7 @@ class Wardrobe {
   std::map<std::string, Image> textures_;
 };
 
-/// The picture of a skin, e.g. "old_asian_male". Throws InputError when the package has none.
+/// The image of a skin, e.g. "old_asian_male". Throws InputError when the package has none.
 std::filesystem::path skin_picture(const std::filesystem::path& package, const std::string& skin);
 
 /// The package's folders that hold what these people are made of besides their bodies.

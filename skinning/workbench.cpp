@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kHashFile = "content_hash";
 constexpr const char* kMotionExtension = ".motion";
 
-// Where a finished folder shares a file's bytes with the bench, nothing is written twice.
+// Files that a finished folder shares with the workbench are not written twice.
 void link_or_copy(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::create_hard_link(from, to, error);

@@ -1,4 +1,4 @@
-// Where people lie while a population is being baked: whoever is finished survives a kill.
+// Work folder of a library while it is built: finished characters survive a kill.
 #pragma once
 
 #include <filesystem>

@@ -53,7 +53,7 @@ void add_escape_rows(const RunMetrics& example, std::vector<MetricRow>& rows) {
             &RunMetrics::lower_bound);
   ratio_row("T90 / reference time",
             "reference: each sets out when they noticed, at the speed that they desired; doors "
-            "pass 1.3 people per metre and second",
+            "pass 1.3 people per meter and second",
             &RunMetrics::reference);
   rows.push_back({"noticed after, median", "s",
                   "from the later of alarm and arrival until a person knew of the alarm",
@@ -85,7 +85,7 @@ void add_exit_rows(std::vector<MetricRow>& rows) {
                     for (const metrics::ExitTotals& exit : run.exits) sum_s += exit.congested_s;
                     return sum_s;
                   }});
-  rows.push_back({"detour, median", "1", "way walked / shortest way to the door that was used",
+  rows.push_back({"detour, median", "1", "distance walked / shortest path to the door used",
                   [](const RunMetrics& run) -> Value {
                     std::vector<double> detours;
                     for (const metrics::Journey& journey : run.journeys) {

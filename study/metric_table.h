@@ -1,4 +1,4 @@
-// The figures of runs as a table that says what each is.
+// The figures of runs as a table with a description of each.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What one run of a study came to, kept as a small JSON file.
+// Result of one run of a study, stored as a small JSON file.
 #pragma once
 
 #include <memory>

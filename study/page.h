@@ -17,7 +17,7 @@ struct Page {
 /// scripts, all but the charts is there.
 std::string html_of(const Page& page, const nlohmann::json& figures);
 
-/// Where a chart will be. `data` are attributes that say which: name="value", separated by blanks.
+/// Placeholder of a chart. `data` are attributes that select it: name="value", separated by blanks.
 std::string chart_frame(const std::string& title, const std::string& data);
 
 /// Text with what HTML would take for markup made harmless.

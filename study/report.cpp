@@ -50,7 +50,7 @@ MeanAtHorizon mean_at(double at_s, const std::vector<Outcome>& runs,
   return result;
 }
 
-SummaryRow summarise_one(const Case& one, const std::vector<Outcome>& runs,
+SummaryRow summarize_one(const Case& one, const std::vector<Outcome>& runs,
                          const std::vector<Outcome>& baseline, std::uint64_t seed) {
   SummaryRow row;
   row.runs = static_cast<int>(runs.size());
@@ -341,12 +341,12 @@ std::string html_of_study(const Study& study, const Outcomes& outcomes,
 
 }  // namespace
 
-std::vector<SummaryRow> summarise(const Study& study, const Outcomes& outcomes) {
+std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes) {
   std::vector<SummaryRow> rows;
   for (std::size_t c = 0; c < study.cases.size(); ++c) {
     for (std::size_t p = 0; p < study.policies.size(); ++p) {
       rows.push_back(
-          summarise_one(study.cases[c], outcomes[c][p], outcomes[c][study.baseline], study.seed));
+          summarize_one(study.cases[c], outcomes[c][p], outcomes[c][study.baseline], study.seed));
       rows.back().one_case = c;
       rows.back().policy = p;
     }
@@ -357,7 +357,7 @@ std::vector<SummaryRow> summarise(const Study& study, const Outcomes& outcomes) 
 
 void write_report(const Study& study, const Outcomes& outcomes,
                   const std::filesystem::path& folder) {
-  const std::vector<SummaryRow> rows = summarise(study, outcomes);
+  const std::vector<SummaryRow> rows = summarize(study, outcomes);
   write_file_atomically(folder / "report.html", html_of_study(study, outcomes, rows));
   write_file_atomically(folder / "summary.csv", csv_of(study, rows));
   write_file_atomically(folder / "summary.json", json_of(study, rows).dump(2) + "\n");

@@ -51,7 +51,7 @@ struct SummaryRow {
 
 inline constexpr int kSummaryPercents[] = {25, 50, 75, 90, 95, 99};
 
-std::vector<SummaryRow> summarise(const Study& study, const Outcomes& outcomes);
+std::vector<SummaryRow> summarize(const Study& study, const Outcomes& outcomes);
 
 /// Writes summary.csv, summary.json, summary.md and report.html, which has the tables and the
 /// escape curves of each case as charts, into the folder. Equal outcomes give equal bytes.

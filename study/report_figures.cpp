@@ -20,10 +20,10 @@ using nlohmann::json;
 namespace {
 
 constexpr double kMapCellM = 1.0;
-constexpr std::size_t kMostDots = 4000;
+constexpr std::size_t kMaxDots = 4000;
 constexpr double kDensestShown = 6;  // 1/m^2
 constexpr double kBinWidth = 0.25;   // 1/m^2
-constexpr std::size_t kLeastInBin = 20;
+constexpr std::size_t kMinInBin = 20;
 
 std::size_t steps_per_second(const world::Trace& trace) {
   return static_cast<std::size_t>(std::max<long>(1, std::lround(1 / trace.header.dt_s)));
@@ -61,7 +61,7 @@ json escape_figures(const std::vector<MeasuredRun>& runs) {
           {"high", std::move(high)}};
 }
 
-json place_figures(const world::Scenario& scenario) {
+json scenario_figures(const world::Scenario& scenario) {
   json buildings = json::array();
   for (const world::Building& building : scenario.buildings) {
     json corners = json::array();
@@ -96,7 +96,7 @@ json state_figures(const MeasuredRun& run) {
   return exits;
 }
 
-// Values on a grid of metres over Scenario::inside.
+// Values on a grid of meters over Scenario::inside.
 struct FieldMap {
   Vector2d origin;
   int columns = 0;
@@ -109,7 +109,7 @@ struct FieldMap {
     rows = static_cast<int>(std::ceil(size.y()));
     values.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
   }
-  Vector2d centre(std::size_t index) const {
+  Vector2d center(std::size_t index) const {
     const std::size_t column = index % static_cast<std::size_t>(columns);
     const std::size_t row = index / static_cast<std::size_t>(columns);
     return origin +
@@ -147,7 +147,7 @@ std::vector<metrics::NearPerson> people_at(const world::Trace& trace, std::size_
   return people;
 }
 
-// What the maps and the fundamental diagram show, from one sample a second.
+// Data of the maps and the fundamental diagram, from one sample per second.
 struct GroundFigures {
   FieldMap density;
   FieldMap pressure;
@@ -172,8 +172,9 @@ GroundFigures ground_figures(const MeasuredRun& run, const world::Scenario& scen
                                              people[i].velocity.norm());
     }
     for (std::size_t i = 0; i < figures.pressure.values.size(); ++i) {
-      double& most = figures.pressure.values[i];
-      most = std::max(most, metrics::pressure_at(figures.pressure.centre(i), grid, people));
+      double& max_value = figures.pressure.values[i];
+      max_value =
+          std::max(max_value, metrics::pressure_at(figures.pressure.center(i), grid, people));
     }
   }
   for (double& value : figures.density.values) {
@@ -184,7 +185,7 @@ GroundFigures ground_figures(const MeasuredRun& run, const world::Scenario& scen
 
 json fundamental_figures(const std::vector<Vector2d>& density_and_speed) {
   json samples = json::array();
-  const std::size_t stride = density_and_speed.size() / kMostDots + 1;
+  const std::size_t stride = density_and_speed.size() / kMaxDots + 1;
   for (std::size_t i = 0; i < density_and_speed.size(); i += stride) {
     if (density_and_speed[i].x() <= kDensestShown) samples.push_back(point(density_and_speed[i]));
   }
@@ -196,7 +197,7 @@ json fundamental_figures(const std::vector<Vector2d>& density_and_speed) {
   json bins = json::array();
   for (std::size_t bin = 0; bin < speeds.size(); ++bin) {
     const std::vector<double>& values = speeds[bin];
-    if (values.size() < kLeastInBin) continue;
+    if (values.size() < kMinInBin) continue;
     bins.push_back({(static_cast<double>(bin) + 0.5) * kBinWidth, rounded(median(values)),
                     values.size(), rounded(quantile(values, 0.25)),
                     rounded(quantile(values, 0.75))});
@@ -204,10 +205,10 @@ json fundamental_figures(const std::vector<Vector2d>& density_and_speed) {
   return {{"samples", std::move(samples)}, {"bins", std::move(bins)}};
 }
 
-json way_figures(const MeasuredRun& run, const world::Scenario& scenario) {
+json path_figures(const MeasuredRun& run, const world::Scenario& scenario) {
   const world::Trace& trace = run.trace;
   const std::size_t stride = steps_per_second(trace);
-  json ways = json::array();
+  json paths = json::array();
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
     if (trace.header.role[agent] != world::AgentRole::person) continue;
     json points = json::array();
@@ -217,9 +218,9 @@ json way_figures(const MeasuredRun& run, const world::Scenario& scenario) {
       if (!scenario.inside.contains(place)) break;
       points.push_back(point(place));
     }
-    if (points.size() > 1) ways.push_back({{"agent", agent}, {"points", std::move(points)}});
+    if (points.size() > 1) paths.push_back({{"agent", agent}, {"points", std::move(points)}});
   }
-  return ways;
+  return paths;
 }
 
 }  // namespace
@@ -234,10 +235,10 @@ json report_figures(const world::Scenario& scenario, const std::vector<MeasuredR
                     {"density", ground.density.figures("/m²")},
                     {"pressure", ground.pressure.figures("/s²")},
                     {"fundamental", fundamental_figures(ground.density_and_speed)},
-                    {"ways", way_figures(run, scenario)}});
+                    {"paths", path_figures(run, scenario)}});
   }
   return {{"escape", escape_figures(runs)},
-          {"place", place_figures(scenario)},
+          {"place", scenario_figures(scenario)},
           {"runs", std::move(list)}};
 }
 

@@ -1,4 +1,4 @@
-// What the charts of a report of runs show, as web/report.js reads it.
+// Data of the charts in a report of runs, as read by web/report.js.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,9 +8,9 @@
 
 namespace throng::study {
 
-/// Metres, seconds, per cent. `escape`: the curves at 0, 1, 2, ... s with median and quartiles;
+/// Meters, seconds, per cent. `escape`: the curves at 0, 1, 2, ... s with median and quartiles;
 /// `place`: the floor plan; `runs`: of each the exits' states over time, density and pressure on
-/// cells of 1 m (rows from the lowest y, from the lowest x), the fundamental diagram and the ways,
+/// cells of 1 m (rows from the lowest y, from the lowest x), the fundamental diagram and the paths,
 /// from samples once a second.
 nlohmann::json report_figures(const world::Scenario& scenario,
                               const std::vector<MeasuredRun>& runs);

@@ -50,7 +50,7 @@ std::string exits_table(const MeasuredRun& run) {
       "<th>clogs</th><th>clogging index</th><th>longest queue</th><th>longest gap (s)</th>"
       "<th>max density (1/m²)</th><th>max pressure (1/s²)</th></tr>\n";
   for (const metrics::ExitTotals& exit : run.metrics.exits) {
-    // Where nobody wanted to go out, no flow is none, not 0.
+    // Without demand the flow is undefined, not 0.
     const auto flow_cell = [&](double per) {
       const auto& flow = exit.demand_flow_per_s;
       return flow ? fmt::format("{:.2f}", *flow / per) : std::string();
@@ -62,7 +62,7 @@ std::string exits_table(const MeasuredRun& run) {
         escaped_markup(exit.exit_id), exit.width_m, exit.crossings.out, exit.crossings.in,
         flow_cell(1), flow_cell(exit.width_m), exit.demand_s, exit.congested_s, exit.clogged_s,
         exit.clogs.size(), exit.mean_clogging_index, exit.max_queue,
-        exit.gaps.longest_s ? fmt::format("{:.1f}", *exit.gaps.longest_s) : "",
+        exit.gaps.max_duration_s ? fmt::format("{:.1f}", *exit.gaps.max_duration_s) : "",
         exit.max_voronoi_density_per_m2, exit.max_pressure_per_s2);
   }
   return html + "</table>\n";
@@ -78,7 +78,7 @@ std::string shown_when_chosen(std::size_t runs) {
   return style + "@media print{section{display:block}}.printing section{display:block}";
 }
 
-/// Exits, maps, diagram and ways of one run.
+/// Exits, maps, diagram and paths of one run.
 std::string run_section(std::size_t index, const MeasuredRun& run) {
   const auto chart = [&](const std::string& title, const std::string& name) {
     return chart_frame(title, fmt::format("data-chart=\"{}\" data-run=\"{}\"", name, index));
@@ -94,7 +94,7 @@ std::string run_section(std::size_t index, const MeasuredRun& run) {
   return "<h3>Exits, " + escaped_markup(run.name) + "</h3>\n" + exits + "<h3>Ground, " +
          escaped_markup(run.name) + "</h3>\n" + map("Mean density over the run", "density") +
          map("Greatest crowd pressure (sampled each second)", "pressure") +
-         chart("Fundamental diagram", "fundamental") + chart("Ways of the people", "ways");
+         chart("Fundamental diagram", "fundamental") + chart("Paths of the people", "paths");
 }
 
 std::string all_runs(const std::vector<MeasuredRun>& runs) {
@@ -103,7 +103,7 @@ std::string all_runs(const std::vector<MeasuredRun>& runs) {
   for (const MeasuredRun& run : runs) figures.push_back(&run.metrics);
   return fmt::format("<h2>{}</h2>\n{}", runs.size() == 1 ? "Run" : "All runs", runs_table(runs)) +
          chart_frame("People who have escaped", "data-chart=\"escape\"") +
-         "<h3>What the figures are</h3>\n" + metric_table(figures);
+         "<h3>Definitions of the figures</h3>\n" + metric_table(figures);
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ MeasuredRun measured(std::string name, world::Trace trace, const world::Scenario
 
 /// Escape curves and tables of all runs, with median and quartiles; of the run that the reader
 /// chooses the exits' states over time, maps of density and pressure, the fundamental diagram and
-/// everybody's way. Charts are drawn by the page's own script, the rest needs none. Equal runs give
-/// equal bytes. At least one run.
+/// everybody's path. Charts are drawn by the page's own script, the rest needs none. Equal runs
+/// give equal bytes. At least one run.
 std::string html_report(const world::Scenario& scenario, const std::vector<MeasuredRun>& runs);
 
 }  // namespace throng::study

@@ -13,7 +13,7 @@ namespace throng::study {
 namespace {
 
 constexpr int kResamples = 10'000;
-constexpr int kMostExact = 60;
+constexpr int kMaxExact = 60;
 
 // Mean ranks of |difference|, doubled so that they are whole numbers.
 std::vector<int> doubled_ranks(const std::vector<double>& differences) {
@@ -111,7 +111,7 @@ SignedRank wilcoxon_signed_rank(const std::vector<double>& differences) {
   SignedRank result{static_cast<int>(nonzero.size()), 0.5 * plus, 1};
   if (nonzero.empty()) return result;
   const int total = std::accumulate(ranks.begin(), ranks.end(), 0);
-  result.p_value = result.n <= kMostExact
+  result.p_value = result.n <= kMaxExact
                        ? std::min(1.0, 2 * share_up_to(ranks, std::min(plus, total - plus)))
                        : normal_p(ranks, result.w_plus);
   return result;

@@ -1,4 +1,4 @@
-// Statistics of paired samples: what a study's table says. NaN marks what a sample does not have.
+// Statistics of paired samples: the figures of a study's table. NaN marks missing values.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ struct Interval {
   double high = 0;
 };
 
-/// Percentile bootstrap interval (Efron 1979) of the mean, with 10 000 resamples drawn by the seed.
+/// Percentile bootstrap interval (Efron 1979) of the mean, with 10 000 resamples sampled by the
+/// seed.
 Interval bootstrap_mean(const std::vector<double>& values, double confidence, std::uint64_t seed);
 
 /// Wilcoxon's signed-rank test (1945) of whether paired differences are symmetric about 0:

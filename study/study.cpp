@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostRuns = 1000;
-constexpr double kLongestRunS = 7200;  // of a job
+constexpr int kMaxRuns = 1000;
+constexpr double kMaxRunS = 7200;  // of a job
 
 // The part of a document that a job takes over as it is.
 json part(const json& object, const char* key) {
@@ -50,17 +50,17 @@ class StudyReader {
     if (root_["seed"].exists()) {
       study_.seed = static_cast<std::uint64_t>(root_["seed"].integer(0, 1'000'000'000));
     }
-    if (root_["runs"].exists()) study_.runs = root_["runs"].integer(1, kMostRuns);
+    if (root_["runs"].exists()) study_.runs = root_["runs"].integer(1, kMaxRuns);
     read_policies();
     read_cases();
-    stop_if_wrong();
+    throw_if_errors();
     make_jobs();
-    stop_if_wrong();
+    throw_if_errors();
     return std::move(study_);
   }
 
  private:
-  void stop_if_wrong() {
+  void throw_if_errors() {
     if (!problems_.empty()) throw InputError(std::move(problems_));
   }
 
@@ -94,7 +94,7 @@ class StudyReader {
       one.id = item["id"].identifier();
       check_unique(item["id"], one.id, ids);
       one.title = item["title"].exists() ? item["title"].text() : one.id;
-      if (item["duration_s"].exists()) one.duration_s = item["duration_s"].number(1, kLongestRunS);
+      if (item["duration_s"].exists()) one.duration_s = item["duration_s"].number(1, kMaxRunS);
       one.scenario = read_scenario(item["scenario"]);
       one.alarm = metrics::alarm_of(one.scenario);
       if (item["alarm_s"].exists()) one.alarm.at_s = item["alarm_s"].number(0, one.duration_s);
@@ -139,7 +139,7 @@ class StudyReader {
     const auto given = root_["horizons_s"].tuple(2, "two times, the shorter one first");
     if (given.size() != 2) return;
     for (std::size_t i = 0; i < given.size(); ++i) {
-      one.horizons_s[i] = given[i].number(1, kLongestRunS);
+      one.horizons_s[i] = given[i].number(1, kMaxRunS);
       if (one.horizons_s[i] > watched_s) {
         given[i].reject(fmt::format("at most the {} s from the alarm to the end of case \"{}\"",
                                     watched_s, one.id));
@@ -149,8 +149,8 @@ class StudyReader {
   }
 
   void read_reference(const JsonValue& item, Case& one) {
-    constexpr double kFastestMps = 20;
-    constexpr double kMostPerSecond = 1000;
+    constexpr double kMaxSpeedMps = 20;
+    constexpr double kMaxPerSecond = 1000;
     constexpr double kPerMeterSecond = 1.3;  // people; as in docs/metrics.md
     for (const world::Exit& exit : one.scenario.exits) {
       one.reference.capacity_per_s.push_back(kPerMeterSecond * exit.width_m());
@@ -164,14 +164,14 @@ class StudyReader {
     if (!value.exists()) return;
     value.fields({}, {"speed_mps", "capacity_per_s"});
     if (value["speed_mps"].exists()) {
-      one.reference.speed_mps = value["speed_mps"].number(0.1, kFastestMps);
+      one.reference.speed_mps = value["speed_mps"].number(0.1, kMaxSpeedMps);
     }
     if (!value["capacity_per_s"].exists()) return;
     const auto rates = value["capacity_per_s"].tuple(
         one.scenario.exits.size(),
         fmt::format("one number for each of the {} exits", one.scenario.exits.size()));
     for (std::size_t e = 0; e < rates.size(); ++e) {
-      one.reference.capacity_per_s[e] = rates[e].number(0, kMostPerSecond);
+      one.reference.capacity_per_s[e] = rates[e].number(0, kMaxPerSecond);
     }
   }
 

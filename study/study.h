@@ -26,7 +26,7 @@ struct Case {
   std::array<double, 2> horizons_s{};
 };
 
-/// One way to guide people; or none.
+/// One guidance method; or none.
 struct PolicyRow {
   std::string id;
   std::string title;

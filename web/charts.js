@@ -17,17 +17,17 @@ echarts.use([
   LinesChart, ScatterChart, SVGRenderer, ToolboxComponent, TooltipComponent, VisualMapContinuousComponent,
 ]);
 
-// Colours that people with any kind of colour vision can tell apart (Okabe and Ito 2008).
-export const colours = {
-  black: '#000000', blue: '#0072B2', green: '#009E73', grey: '#8a8a8a', orange: '#E69F00', pale: '#e4e4e4',
+// Colors that people with any kind of color vision can tell apart (Okabe and Ito 2008).
+export const colors = {
+  black: '#000000', blue: '#0072B2', green: '#009E73', gray: '#8a8a8a', orange: '#E69F00', pale: '#e4e4e4',
   pink: '#CC79A7', sky: '#56B4E9', vermilion: '#D55E00',
 };
 
 // A browser draws as many marks as SVG, which stays sharp in print; more are pixels.
 const MOST_SVG_MARKS = 5000;
 
-// What A4 holds between usual margins, in px: while a page is being laid out for paper, elements
-// still tell the width that they have on the screen.
+// Width of A4 between usual margins, in px: during the layout for print, elements still report
+// their width on the screen.
 const PAPER_WIDTH = 690;
 
 export const axis = (name, more) => ({

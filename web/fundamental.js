@@ -1,5 +1,5 @@
 // Speed over density: everybody's samples, their medians and Weidmann's curve.
-import { axis, colours, number } from './charts.js';
+import { axis, colors, number } from './charts.js';
 
 // 1993, Schriftenreihe des IVT 90: m/s for people per m².
 const weidmann = (density) => 1.34 * (1 - Math.exp(-1.913 * (1 / density - 1 / 5.4)));
@@ -25,14 +25,14 @@ export function fundamental({ runs }, element) {
       dataZoom: ['xAxisIndex', 'yAxisIndex'].map((which) =>
         ({ type: 'inside', [which]: 0, zoomOnMouseWheel: 'ctrl', filterMode: 'none' })),
       series: [
-        { name: people, type: 'scatter', data: samples, symbolSize: 3, progressive: 0, itemStyle: { color: colours.blue, opacity: 0.3 } },
+        { name: people, type: 'scatter', data: samples, symbolSize: 3, progressive: 0, itemStyle: { color: colors.blue, opacity: 0.3 } },
         {
-          name: 'median', type: 'line', data: bins, symbolSize: 7, lineStyle: { color: colours.black, width: 1.5 },
-          itemStyle: { color: colours.black }, z: 4,
+          name: 'median', type: 'line', data: bins, symbolSize: 7, lineStyle: { color: colors.black, width: 1.5 },
+          itemStyle: { color: colors.black }, z: 4,
         },
         {
-          name: 'Weidmann 1993', type: 'line', data: curve, showSymbol: false, lineStyle: { color: colours.vermilion, width: 2 },
-          itemStyle: { color: colours.vermilion }, z: 3,
+          name: 'Weidmann 1993', type: 'line', data: curve, showSymbol: false, lineStyle: { color: colors.vermilion, width: 2 },
+          itemStyle: { color: colors.vermilion }, z: 3,
         },
       ],
     },

@@ -1,5 +1,5 @@
-// What happens where, over the floor plan: maps of values, and people's ways.
-import { axis, colours, escaped, number } from './charts.js';
+// Charts over the floor plan: maps of values, and people's paths.
+import { axis, colors, escaped, number } from './charts.js';
 
 const margin = { left: 62, right: 110, top: 36, bottom: 48 };
 const MOST_HEIGHT = 760; // px, so that a whole map is seen at once
@@ -21,7 +21,7 @@ function plan({ buildings, exits }) {
     data: exits.filter((exit) => exit.open === open).map((exit) => ({ name: exit.id, coords: [exit.from, exit.to] })),
     tooltip: { formatter: ({ data }) => `${escaped(data.name)}, ${open ? 'open' : 'closed'}` },
   });
-  return [outlines, doors('open exits', true, colours.green), doors('closed exits', false, colours.black)];
+  return [outlines, doors('open exits', true, colors.green), doors('closed exits', false, colors.black)];
 }
 
 const legend = ({ buildings, exits }, names) => ({
@@ -32,7 +32,7 @@ const legend = ({ buildings, exits }, names) => ({
     ...(exits.some((exit) => !exit.open) ? ['closed exits'] : [])],
 });
 
-// A metre is as long in y as in x; Ctrl and the wheel zoom both.
+// A meter is as long in y as in x; Ctrl and the wheel zoom both.
 function ground(place, series, more) {
   const [width, height] = [0, 1].map((i) => place.max[i] - place.min[i]);
   return {
@@ -88,16 +88,16 @@ export function map({ place, runs }, element) {
   });
 }
 
-export function ways({ place, runs }, element) {
-  const walked = runs[Number(element.dataset.run)].ways;
+export function paths({ place, runs }, element) {
+  const walked = runs[Number(element.dataset.run)].paths;
   const series = {
-    name: 'ways', type: 'lines', coordinateSystem: 'cartesian2d', polyline: true, clip: true, z: 2,
-    lineStyle: { color: colours.blue, width: 0.7, opacity: 0.35 }, itemStyle: { color: colours.blue },
-    emphasis: { lineStyle: { color: colours.vermilion, width: 2.5, opacity: 1 } },
+    name: 'paths', type: 'lines', coordinateSystem: 'cartesian2d', polyline: true, clip: true, z: 2,
+    lineStyle: { color: colors.blue, width: 0.7, opacity: 0.35 }, itemStyle: { color: colors.blue },
+    emphasis: { lineStyle: { color: colors.vermilion, width: 2.5, opacity: 1 } },
     data: walked.map(({ agent, points }) => ({ name: `person ${agent}`, coords: points })),
     tooltip: { formatter: ({ data }) => data.name },
   };
   return ground(place, [series], {
-    legend: legend(place, ['ways']),
+    legend: legend(place, ['paths']),
   });
 }

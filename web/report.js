@@ -3,10 +3,10 @@
 import { draw } from './charts.js';
 import { escapeOfPolicies, escapeOfRuns } from './escape.js';
 import { fundamental } from './fundamental.js';
-import { map, ways } from './ground.js';
+import { map, paths } from './ground.js';
 import { timeline } from './timeline.js';
 
-const makers = { escape: escapeOfRuns, policies: escapeOfPolicies, timeline, map, ways, fundamental };
+const makers = { escape: escapeOfRuns, policies: escapeOfPolicies, timeline, map, paths, fundamental };
 const figures = JSON.parse(document.getElementById('figures').textContent);
 const drawn = new Map();
 

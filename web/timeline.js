@@ -1,8 +1,8 @@
 // The state of each exit over time.
-import { axis, colours, escaped, number, timeZoom } from './charts.js';
+import { axis, colors, escaped, number, timeZoom } from './charts.js';
 
 const states = ['idle', 'flowing', 'congested', 'clogged', 'closed'];
-const shades = [colours.pale, colours.green, colours.orange, colours.vermilion, colours.black];
+const shades = [colors.pale, colors.green, colors.orange, colors.vermilion, colors.black];
 
 export function timeline({ runs }, element) {
   const { exits, duration_s: end } = runs[Number(element.dataset.run)];
@@ -12,7 +12,7 @@ export function timeline({ runs }, element) {
     const stop = api.coord([until, row]);
     const thickness = api.size([0, 1])[1] * 0.7;
     const { x, y, width, height } = params.coordSys;
-    // What zooming moves out of sight is cut off.
+    // Content outside the zoomed range is clipped.
     const left = Math.max(start[0], x);
     const right = Math.min(stop[0], x + width);
     if (right <= left) return null;

@@ -12,9 +12,9 @@ namespace throng::world {
 namespace {
 
 constexpr double kDisasterFarthestM = 100'000;
-constexpr double kLargestReachM = 1000;
-constexpr double kLatestS = 1e6;
-constexpr int kMostAgentIds = 1'000'000'000;
+constexpr double kMaxReachM = 1000;
+constexpr double kMaxTimeS = 1e6;
+constexpr int kMaxAgentIds = 1'000'000'000;
 
 DisasterKind read_disaster_kind(const JsonValue& value) {
   const std::string word = value.text();
@@ -30,7 +30,7 @@ DisasterKind read_disaster_kind(const JsonValue& value) {
 
 double Disaster::reach_m(double time_s) const {
   if (time_s < start_s) return 0;
-  return std::min(radius_m + growth_mps * (time_s - start_s), std::max(radius_m, most_m));
+  return std::min(radius_m + growth_mps * (time_s - start_s), std::max(radius_m, max_radius_m));
 }
 
 Disaster read_disaster(const JsonValue& item, int agent) {
@@ -38,11 +38,11 @@ Disaster read_disaster(const JsonValue& item, int agent) {
   disaster.kind = read_disaster_kind(item["kind"]);
   disaster.agent = agent;
   disaster.position = item["position"].vector2(kDisasterFarthestM);
-  if (item["start_s"].exists()) disaster.start_s = item["start_s"].number(0, kLatestS);
-  if (item["radius_m"].exists()) disaster.radius_m = item["radius_m"].number(0.1, kLargestReachM);
+  if (item["start_s"].exists()) disaster.start_s = item["start_s"].number(0, kMaxTimeS);
+  if (item["radius_m"].exists()) disaster.radius_m = item["radius_m"].number(0.1, kMaxReachM);
   if (item["growth_mps"].exists()) disaster.growth_mps = item["growth_mps"].number(0, 100);
-  disaster.most_m =
-      item["most_m"].exists() ? item["most_m"].number(0.1, kLargestReachM) : kLargestReachM;
+  disaster.max_radius_m =
+      item["most_m"].exists() ? item["most_m"].number(0.1, kMaxReachM) : kMaxReachM;
   return disaster;
 }
 
@@ -50,7 +50,7 @@ std::vector<Disaster> read_disasters(const JsonValue& list) {
   std::vector<Disaster> disasters;
   for (const JsonValue& item : list.items()) {
     item.fields({"kind", "agent", "position"}, {"start_s", "radius_m", "growth_mps", "most_m"});
-    const int agent = item["agent"].integer(0, kMostAgentIds);
+    const int agent = item["agent"].integer(0, kMaxAgentIds);
     const bool taken = std::any_of(disasters.begin(), disasters.end(),
                                    [&](const Disaster& other) { return other.agent == agent; });
     if (taken) item["agent"].reject("an agent that stands for no other disaster");

@@ -1,5 +1,5 @@
-// What goes wrong in a place: when, where, how it grows. The crowd's files say who notices it and
-// what it blocks; this says what can be seen of it.
+// Disasters of a scenario: time, position, growth. The crowd's files define who notices them and
+// what they block; this defines their appearance.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,12 +20,12 @@ inline constexpr std::array<std::string_view, 5> kDisasterKinds = {"explosion", 
 
 struct Disaster {
   DisasterKind kind = DisasterKind::explosion;
-  int agent = 0;  ///< that stands for it in the crowd; neither drawn nor counted
+  int agent = 0;  ///< that stands for it in the crowd; neither rendered nor counted
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< m; where an attacker starts
   double start_s = 0;
-  double radius_m = 2;    ///< when it starts
-  double growth_mps = 0;  ///< of the radius
-  double most_m = 2;      ///< up to which it grows
+  double radius_m = 2;      ///< when it starts
+  double growth_mps = 0;    ///< of the radius
+  double max_radius_m = 2;  ///< up to which it grows
 
   /// How far it reaches from its place; 0 before it starts (m).
   double reach_m(double time_s) const;

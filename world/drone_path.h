@@ -1,4 +1,4 @@
-// Where drones fly.
+// Flight paths of drones.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace throng::world {
 
-/// A drone's way through the air, from its start on.
+/// A drone's flight path, from its start on.
 struct DronePath {
   std::string id;
   std::vector<Eigen::Vector3d> places;  ///< m, at least one
@@ -18,7 +18,7 @@ struct DronePath {
   void add(const Eigen::Vector3d& place);
 };
 
-/// Where the drones of a run flew.
+/// Flight paths of a run's drones.
 std::vector<DronePath> flown_paths(const Trace& trace);
 
 }  // namespace throng::world

@@ -14,7 +14,7 @@ namespace throng::world {
 
 namespace {
 
-constexpr double kFarthestM = 100'000;
+constexpr double kMaxCoordinateM = 100'000;
 
 template <std::size_t N>
 std::string read_word(const JsonValue& value, const std::array<std::string_view, N>& words) {
@@ -39,7 +39,7 @@ std::vector<GroundArea> read_ground_areas(const JsonValue& list) {
     item.fields({"corners", "material"}, {"kerb"});
     GroundArea area;
     for (const JsonValue& corner : item["corners"].items(3)) {
-      area.corners.push_back(corner.vector2(kFarthestM));
+      area.corners.push_back(corner.vector2(kMaxCoordinateM));
     }
     if (area.corners.size() >= 3) {
       if (!is_simple(area.corners)) {
@@ -58,19 +58,19 @@ std::vector<GroundArea> read_ground_areas(const JsonValue& list) {
 
 std::vector<Marking> read_markings(const JsonValue& list) {
   constexpr std::array<std::string_view, 3> kKinds = {"line", "dashes", "crossing"};
-  constexpr double kShortestM = 0.05;
+  constexpr double kMinLengthM = 0.05;
   std::vector<Marking> markings;
   for (const JsonValue& item : list.items()) {
     item.fields({"kind", "from", "to"}, {"width_m"});
     Marking marking;
     marking.kind = read_word(item["kind"], kKinds);
-    marking.from = item["from"].vector2(kFarthestM);
-    marking.to = item["to"].vector2(kFarthestM);
+    marking.from = item["from"].vector2(kMaxCoordinateM);
+    marking.to = item["to"].vector2(kMaxCoordinateM);
     marking.width_m = marking.kind == "crossing" ? 4 : 0.12;
-    if (item["width_m"].exists()) marking.width_m = item["width_m"].number(kShortestM, 20);
+    if (item["width_m"].exists()) marking.width_m = item["width_m"].number(kMinLengthM, 20);
     if (item["to"].exists() && item["from"].exists() &&
-        (marking.to - marking.from).norm() < kShortestM) {
-      item["to"].reject(fmt::format("an end at least {} m from \"from\"", kShortestM));
+        (marking.to - marking.from).norm() < kMinLengthM) {
+      item["to"].reject(fmt::format("an end at least {} m from \"from\"", kMinLengthM));
     }
     markings.push_back(std::move(marking));
   }

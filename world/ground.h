@@ -1,5 +1,4 @@
-// What the ground is made of where it is not the scenario's main material, and what is painted on
-// it.
+// Ground areas of other materials than the scenario's main one, and painted markings.
 #pragma once
 
 #include <Eigen/Core>

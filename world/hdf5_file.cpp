@@ -10,8 +10,8 @@ namespace throng::world::hdf5 {
 
 namespace {
 
-constexpr hsize_t kMostTexts = 1'000'000;
-constexpr std::size_t kLongestText = 1'000'000;
+constexpr hsize_t kMaxTexts = 1'000'000;
+constexpr std::size_t kMaxTextLength = 1'000'000;
 
 void require(herr_t status, const std::string& what) {
   if (status < 0) throw Failure(what);
@@ -134,7 +134,7 @@ std::string read_text_attribute(const Handle& object, const std::string& name) {
   const Handle space(H5Aget_space(attribute.id()), H5Sclose, name);
   const std::size_t width = H5Tget_size(type.id());
   if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0 ||
-      H5Sget_simple_extent_npoints(space.id()) != 1 || width == 0 || width > kLongestText) {
+      H5Sget_simple_extent_npoints(space.id()) != 1 || width == 0 || width > kMaxTextLength) {
     throw Failure(name);
   }
   std::string text(width, '\0');
@@ -179,8 +179,8 @@ bool RowDataset::is_whole_chunk(hsize_t count) const {
   return as_in_file_ && has_values && count == rows_per_chunk_ && shape_[0] % rows_per_chunk_ == 0;
 }
 
-// What the dataset's filters would make of a chunk: all first bytes of its values, all second ones
-// and so on, as one zlib stream.
+// Output of the dataset's filters for a chunk: all first bytes of its values, all second ones and
+// so on, as one zlib stream.
 void RowDataset::append_chunk(const void* data) {
   std::vector<hsize_t> start(shape_.size(), 0);
   start[0] = shape_[0];
@@ -263,7 +263,7 @@ std::vector<std::string> read_texts(const Handle& parent, const std::string& nam
   const hsize_t count = shape_of(parent, name, 1)[0];
   const std::size_t width = H5Tget_size(type.id());
   if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0 || width == 0 ||
-      width > kLongestText || count > kMostTexts) {
+      width > kMaxTextLength || count > kMaxTexts) {
     throw Failure(name);
   }
   std::vector<std::string> texts;

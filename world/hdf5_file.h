@@ -11,7 +11,7 @@
 
 namespace throng::world::hdf5 {
 
-/// An HDF5 call failed; says which part of the file. Users of this header turn it into the error
+/// An HDF5 call failed; names the part of the file. Users of this header turn it into the error
 /// that fits: a file being read is the user's, a file being written is the machine's.
 class Failure : public std::runtime_error {
  public:
@@ -106,7 +106,7 @@ class RowDataset {
   /// `row` is the shape of one row, e.g. {agents, 2}.
   RowDataset(const Handle& parent, std::string name, hid_t file_type, hid_t memory_type,
              const std::vector<hsize_t>& row, hsize_t rows_per_chunk, const std::string& unit);
-  /// Appends as many rows as `count` says; `data` holds them one after the other.
+  /// Appends `count` rows; `data` holds them one after the other.
   void append(const void* data, hsize_t count);
 
  private:

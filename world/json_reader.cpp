@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/suggest.h"
+
 namespace throng::world {
 
 using nlohmann::json;
@@ -26,24 +28,14 @@ std::string escaped(std::string_view key) {
   return text;
 }
 
-std::string joined(std::initializer_list<std::string_view> first,
-                   std::initializer_list<std::string_view> second) {
-  std::string text;
-  for (const auto& list : {first, second}) {
-    for (const std::string_view word : list)
-      text += fmt::format("{}{}", text.empty() ? "" : ", ", word);
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string describe(const json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return fmt::format("an array of {}", value.size());
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxShownBytes = 60;
   std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  if (text.size() > kMaxShownBytes) text = text.substr(0, kMaxShownBytes) + "...";
   return text;
 }
 
@@ -69,15 +61,15 @@ void JsonValue::fields(std::initializer_list<std::string_view> required,
   if (value_ == nullptr) return;
   if (!value_->is_object()) return reject("an object");
   for (const std::string_view key : required) {
-    if (!value_->contains(key)) reject(fmt::format("no field \"{}\"", key), "that field");
+    if (!value_->contains(key))
+      reject(fmt::format("missing required field \"{}\"", key), fmt::format("\"{}\"", key));
   }
-  const auto known = [](const auto& list, const std::string& key) {
-    return std::find(list.begin(), list.end(), key) != list.end();
-  };
+  std::vector<std::string_view> known(required);
+  known.insert(known.end(), optional.begin(), optional.end());
   for (const auto& [key, child] : value_->items()) {
-    if (known(required, key) || known(optional, key)) continue;
-    JsonValue(&child, pointer_ + "/" + escaped(key), source_, problems_)
-        .reject("an unknown field", fmt::format("one of: {}", joined(required, optional)));
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    problems_->push_back(
+        unknown_name(*source_, pointer_ + "/" + escaped(key), "field", key, known));
   }
 }
 

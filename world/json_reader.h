@@ -14,7 +14,7 @@
 
 namespace throng::world {
 
-/// What stands somewhere, short enough for a message: "an array of 3", "-1", "\"red\"".
+/// A JSON value, short enough for a message: "an array of 3", "-1", "\"red\"".
 std::string describe(const nlohmann::json& value);
 
 /// A value of a document and its place. Reading something of the wrong kind records a problem and
@@ -26,7 +26,7 @@ class JsonValue {
   JsonValue(const nlohmann::json& document, const std::string& source,
             std::vector<Problem>& problems);
 
-  /// Says which fields the object here must and may have; anything else is a problem.
+  /// Declares the required and optional fields of the object here; anything else is a problem.
   void fields(std::initializer_list<std::string_view> required,
               std::initializer_list<std::string_view> optional = {}) const;
 

@@ -18,7 +18,7 @@ bool segments_touch(const Vector2d& a, const Vector2d& b, const Vector2d& c, con
   const double from_a = cross(d - c, a - c);
   const double from_b = cross(d - c, b - c);
   if (from_c * from_d < 0 && from_a * from_b < 0) return true;
-  // What is left are segments that meet at an end of one of them.
+  // The remaining cases are segments that meet at an end of one of them.
   return std::min({distance_to_segment(a, b, c), distance_to_segment(a, b, d),
                    distance_to_segment(c, d, a), distance_to_segment(c, d, b)}) == 0;
 }
@@ -66,7 +66,7 @@ bool is_simple(std::span<const Vector2d> corners) {
     const Vector2d& a = corners[i];
     const Vector2d& b = corners[(i + 1) % n];
     const Vector2d& next = corners[(i + 2) % n];
-    // Neighbours share a corner; they may not fold back over each other.
+    // Neighbors share a corner; they may not fold back over each other.
     if (a == b || (cross(b - a, next - b) == 0 && (b - a).dot(next - b) < 0)) return false;
     for (std::size_t j = i + 2; j < n; ++j) {
       if ((j + 1) % n == i) continue;

@@ -11,7 +11,7 @@ namespace throng::world {
 /// Positive for corners counter-clockwise seen from above (m²).
 double signed_area(std::span<const Eigen::Vector2d> corners);
 
-/// Whether no two edges touch except neighbours at their common corner, and no edge is empty.
+/// Whether no two edges touch except neighbors at their common corner, and no edge is empty.
 bool is_simple(std::span<const Eigen::Vector2d> corners);
 
 /// Distance of `point` from the segment between `a` and `b`, which may be one place (m).

@@ -20,10 +20,10 @@ namespace throng::world {
 
 namespace {
 
-constexpr double kFarthestM = 100'000;
-constexpr double kSmallestScale = 0.2;
-constexpr double kLargestScale = 5;
-constexpr int kMostScattered = 2000;
+constexpr double kMaxCoordinateM = 100'000;
+constexpr double kMinScale = 0.2;
+constexpr double kMaxScale = 5;
+constexpr int kMaxScattered = 2000;
 constexpr std::uint64_t kThinning = std::uint64_t{1} << 42;  // apart from other uses of the stream
 
 std::array<Eigen::Vector2d, 4> corners_of(const Prop& prop) {
@@ -88,7 +88,7 @@ std::optional<Refusal> refusal_of(const Prop& prop, const Scenario& scenario) {
   for (const Exit& exit : scenario.exits) {
     if (exit.width_m() <= 0 || !blocks(exit, corners)) continue;
     return Refusal{
-        fmt::format("a place in the way of exit \"{}\"", exit.id),
+        fmt::format("a position that blocks exit \"{}\"", exit.id),
         fmt::format("a place at least {} m in front of or behind every exit", kClearOfExitsM)};
   }
   return std::nullopt;
@@ -115,9 +115,9 @@ Prop read_prop(const JsonValue& item, std::uint64_t index) {
   item.fields({"kind", "position"}, {"yaw_deg", "scale", "look"});
   Prop prop;
   prop.kind = read_kind(item["kind"]).value_or(PropKind::tree);
-  prop.position = item["position"].vector2(kFarthestM);
+  prop.position = item["position"].vector2(kMaxCoordinateM);
   if (item["yaw_deg"].exists()) prop.yaw_rad = item["yaw_deg"].number(-360, 360) * kDegree;
-  if (item["scale"].exists()) prop.scale = item["scale"].number(kSmallestScale, kLargestScale);
+  if (item["scale"].exists()) prop.scale = item["scale"].number(kMinScale, kMaxScale);
   prop.look = item["look"].exists()
                   ? static_cast<std::uint32_t>(item["look"].integer(0, 1'000'000'000))
                   : look_of(0, index);
@@ -126,7 +126,7 @@ Prop read_prop(const JsonValue& item, std::uint64_t index) {
 
 std::vector<Eigen::Vector2d> read_area(const JsonValue& value) {
   std::vector<Eigen::Vector2d> area;
-  for (const JsonValue& corner : value.items(3)) area.push_back(corner.vector2(kFarthestM));
+  for (const JsonValue& corner : value.items(3)) area.push_back(corner.vector2(kMaxCoordinateM));
   if (area.size() >= 3 && !is_simple(area)) {
     value.reject("edges that touch each other", "a polygon whose edges do not cross");
     area.clear();
@@ -143,7 +143,7 @@ void scatter_over(const JsonValue& item, const Scenario& scenario, std::vector<P
     if (const auto known = read_kind(kind)) kinds.push_back(*known);
   }
   const std::vector<Eigen::Vector2d> area = read_area(item["area"]);
-  const int count = item["count"].integer(1, kMostScattered);
+  const int count = item["count"].integer(1, kMaxScattered);
   const int seed = item["seed"].integer(0, 1'000'000'000);
   const double apart_m = item["apart_m"].exists() ? item["apart_m"].number(0, 1000) : 3;
   if (kinds.empty() || area.size() < 3) return;

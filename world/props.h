@@ -1,4 +1,4 @@
-// Things that stand about in a place: placed one by one, or scattered by a seed.
+// Props of a scenario: placed one by one, or scattered by a seed.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,7 +43,7 @@ struct Prop {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< middle of its foot, m
   double yaw_rad = 0;
   double scale = 1;
-  std::uint32_t look = 0;  ///< which of a kind's colours and shapes it has
+  std::uint32_t look = 0;  ///< which of a kind's colors and shapes it has
 };
 
 /// Distance from a point to the ground that a prop covers: 0 inside (m).

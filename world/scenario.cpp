@@ -9,12 +9,15 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
+#include <span>
+#include <string_view>
 
 #include "base/confine.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "base/resources.h"
+#include "base/suggest.h"
 #include "world/json_reader.h"
 #include "world/polygon.h"
 
@@ -24,11 +27,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kFarthestM = 100'000;
-constexpr double kHighestM = 1'000;
+constexpr double kMaxCoordinateM = 100'000;
+constexpr double kMaxHeightM = 1'000;
 constexpr double kNarrowestExitM = 0.1;
-constexpr double kLatestShuttingS = 1e6;
-constexpr int kLargestId = 1'000'000'000;
+constexpr double kMaxClosingS = 1e6;
+constexpr int kMaxId = 1'000'000'000;
 
 class UniqueNames {
  public:
@@ -45,11 +48,11 @@ class UniqueNames {
 GoalRef read_goal(const JsonValue& value) {
   const auto parts = value.tuple(2, "[goal set, goal]");
   if (parts.empty()) return {};
-  return {parts[0].integer(0, kLargestId), parts[1].integer(0, kLargestId)};
+  return {parts[0].integer(0, kMaxId), parts[1].integer(0, kMaxId)};
 }
 
 Rectangle read_rectangle(const JsonValue& value) {
-  Rectangle area{value["min"].vector2(kFarthestM), value["max"].vector2(kFarthestM)};
+  Rectangle area{value["min"].vector2(kMaxCoordinateM), value["max"].vector2(kMaxCoordinateM)};
   if (value["min"].exists() && value["max"].exists() &&
       !(area.min.array() < area.max.array()).all()) {
     value["max"].reject("a corner right of and above \"min\"");
@@ -65,7 +68,7 @@ Eigen::Vector2d read_outward(const JsonValue& value, const Exit& exit, const Rec
     const Eigen::Vector2d from_middle = exit.middle() - 0.5 * (inside.min + inside.max);
     return normal.dot(from_middle) >= 0 ? normal : -normal;
   }
-  const Eigen::Vector2d given = value.vector2(kFarthestM);
+  const Eigen::Vector2d given = value.vector2(kMaxCoordinateM);
   constexpr double kCosineOfADegree = 0.99985;
   if (std::abs(given.normalized().dot(normal)) < kCosineOfADegree) {
     value.reject("a direction at right angles to the segment from \"from\" to \"to\"");
@@ -81,8 +84,8 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
     item.fields({"id", "from", "to"}, {"goals", "outward", "open", "shuts_s"});
     Exit exit;
     exit.id = ids.read(item["id"]);
-    exit.from = item["from"].vector2(kFarthestM);
-    exit.to = item["to"].vector2(kFarthestM);
+    exit.from = item["from"].vector2(kMaxCoordinateM);
+    exit.to = item["to"].vector2(kMaxCoordinateM);
     if (item["from"].exists() && item["to"].exists() && exit.width_m() < kNarrowestExitM) {
       item["to"].reject(fmt::format("an end at least {} m from \"from\"", kNarrowestExitM));
     } else {
@@ -90,7 +93,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
     }
     if (item["open"].exists()) exit.open = item["open"].boolean();
     if (item["shuts_s"].exists()) {
-      exit.shuts_s = item["shuts_s"].number(0, kLatestShuttingS);
+      exit.closes_at_s = item["shuts_s"].number(0, kMaxClosingS);
       if (!exit.open) item["shuts_s"].reject("a time, though the door is never open", "none");
     }
     // A place for recorded people has no goals to name.
@@ -122,11 +125,11 @@ std::vector<Building> read_buildings(const JsonValue& list) {
     item.fields({"id", "footprint", "height_m"}, {"facade"});
     Building building;
     building.id = ids.read(item["id"]);
-    building.height_m = item["height_m"].number(0.1, kHighestM);
+    building.height_m = item["height_m"].number(0.1, kMaxHeightM);
     if (item["facade"].exists()) building.facade = read_facade(item["facade"]);
     const auto corners = item["footprint"].items(3);
     for (const JsonValue& corner : corners) {
-      building.footprint.push_back(corner.vector2(kFarthestM));
+      building.footprint.push_back(corner.vector2(kMaxCoordinateM));
     }
     if (!corners.empty()) {
       if (!is_simple(building.footprint)) {
@@ -149,7 +152,7 @@ std::vector<DroneStart> read_drones(const JsonValue& list, const std::vector<Bui
     item.fields({"id", "start"}, {"yaw_deg", "moves_goal"});
     DroneStart drone;
     drone.id = ids.read(item["id"]);
-    drone.position = item["start"].vector3(kFarthestM);
+    drone.position = item["start"].vector3(kMaxCoordinateM);
     if (item["start"].exists() && drone.position.z() <= 0) {
       item["start"].reject("a point above the ground (z > 0)");
     }
@@ -186,8 +189,8 @@ fs::path read_companion(const JsonValue& value, const fs::path& scenario_file) {
 }
 
 std::vector<PlacedMesh> read_meshes(const JsonValue& list, const fs::path& scenario_file) {
-  constexpr double kSmallestScale = 1e-4;
-  constexpr double kLargestScale = 1e4;
+  constexpr double kMinScale = 1e-4;
+  constexpr double kMaxScale = 1e4;
   std::vector<PlacedMesh> meshes;
   for (const JsonValue& item : list.items()) {
     item.fields({"file", "position"}, {"yaw_deg", "scale"});
@@ -198,11 +201,11 @@ std::vector<PlacedMesh> read_meshes(const JsonValue& list, const fs::path& scena
     } else {
       mesh.file = read_companion(item["file"], scenario_file);
     }
-    mesh.position = item["position"].vector3(kFarthestM);
+    mesh.position = item["position"].vector3(kMaxCoordinateM);
     if (item["yaw_deg"].exists()) {
       mesh.yaw_rad = item["yaw_deg"].number(-360, 360) * std::numbers::pi / 180;
     }
-    if (item["scale"].exists()) mesh.scale = item["scale"].number(kSmallestScale, kLargestScale);
+    if (item["scale"].exists()) mesh.scale = item["scale"].number(kMinScale, kMaxScale);
     meshes.push_back(std::move(mesh));
   }
   return meshes;
@@ -211,7 +214,7 @@ std::vector<PlacedMesh> read_meshes(const JsonValue& list, const fs::path& scena
 std::vector<int> read_disaster_agents(const JsonValue& list) {
   std::vector<int> agents;
   for (const JsonValue& item : list.items()) {
-    const int agent = item.integer(0, kLargestId);
+    const int agent = item.integer(0, kMaxId);
     if (std::find(agents.begin(), agents.end(), agent) != agents.end()) {
       item.reject("every agent once");
     }
@@ -313,6 +316,10 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
   // A server's folder holds links to shipped scenarios and to uploads.
   fs::recursive_directory_iterator entries(folder, fs::directory_options::follow_directory_symlink,
                                            error);
+  if (error == std::errc::no_such_file_or_directory) {
+    throw InputError({folder.string(), "", "no such folder",
+                      "the folder of scenarios (environment variable THRONG_SCENARIOS)"});
+  }
   if (error) {
     throw EnvironmentError(
         fmt::format("cannot read the scenarios in {}: {}", folder.string(), error.message()));
@@ -334,13 +341,17 @@ std::vector<std::string> list_scenarios(const fs::path& folder) {
 Scenario find_scenario(const fs::path& folder, const std::string& id) {
   const fs::path file = folder / (id + ".json");
   if (!is_scenario_id(id) || !fs::is_regular_file(file)) {
-    constexpr std::size_t kMostNamed = 50;
-    std::vector<std::string> known = list_scenarios(folder);
-    const bool some = known.size() > kMostNamed;
-    if (some) known.resize(kMostNamed);
-    throw InputError(
-        Problem{"", "", fmt::format("scenario \"{}\"", id),
-                fmt::format("one of: {}{}", fmt::join(known, ", "), some ? " and others" : "")});
+    constexpr std::size_t kMaxNamed = 50;
+    const std::vector<std::string> ids = list_scenarios(folder);
+    const std::vector<std::string_view> known(ids.begin(), ids.end());
+    Problem problem = unknown_name("", "", "scenario", id, known);
+    if (!closest(id, known)) {
+      problem.expected =
+          fmt::format("one of: {}{} (folder {}; the environment variable THRONG_SCENARIOS sets it)",
+                      fmt::join(std::span(known).first(std::min(known.size(), kMaxNamed)), ", "),
+                      known.size() > kMaxNamed ? " and others" : "", folder.string());
+    }
+    throw InputError(std::move(problem));
   }
   return load_scenario(file, id);
 }

@@ -1,5 +1,5 @@
 // A scenario: a place, its exits, who moves there and where the drones start. The JSON file beside
-// the Menge scene and behaviour files that it names.
+// the Menge scene and behavior files that it names.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace throng::world {
 
-/// A goal of the behaviour file: `<GoalSet id=set><Goal id=goal>`.
+/// A goal of the behavior file: `<GoalSet id=set><Goal id=goal>`.
 struct GoalRef {
   int set = 0;
   int goal = 0;
@@ -32,20 +32,19 @@ struct Exit {
   bool open = true;                                    ///< otherwise nobody can ever get out here
   std::vector<GoalRef> goals;  ///< an agent heading for one of these intends this exit
   /// From when on nobody can: a disaster has reached it (s).
-  double shuts_s = std::numeric_limits<double>::infinity();
+  double closes_at_s = std::numeric_limits<double>::infinity();
 
   /// Whether people can get out here at a time of the run (s), which is that of a step.
   bool is_open(double time_s) const {
     constexpr double kRoundingS = 1e-6;
-    return open && time_s < shuts_s - kRoundingS;
+    return open && time_s < closes_at_s - kRoundingS;
   }
   double width_m() const { return (to - from).norm(); }
   Eigen::Vector2d middle() const { return 0.5 * (from + to); }
 };
 
-/// What a building's walls look like. by_id: plaster or brick, by the building's number. The
-/// numbers are those of shaders/wall.frag.glsl, which has others for what render/ adds
-/// (render::WallLook).
+/// Appearance of a building's walls. by_id: plaster or brick, by the building's number. The numbers
+/// are those of shaders/wall.frag.glsl, which has others for what render/ adds (render::WallLook).
 enum class Facade : std::uint8_t { by_id = 0, plaster = 1, brick = 2, glass = 3, hedge = 8 };
 
 /// An extruded polygon. Corners counter-clockwise seen from above, not repeated at the end.
@@ -61,7 +60,7 @@ struct PlacedMesh {
   std::filesystem::path file;                          ///< absolute
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
   double yaw_rad = 0;
-  double scale = 1;  ///< metres per unit of the file
+  double scale = 1;  ///< meters per unit of the file
 };
 
 struct DroneStart {
@@ -84,19 +83,19 @@ struct Scenario {
   std::string name;
   std::string description;
   std::filesystem::path scene_file;     ///< Menge scene XML, absolute
-  std::filesystem::path behavior_file;  ///< Menge behaviour XML, absolute
+  std::filesystem::path behavior_file;  ///< Menge behavior XML, absolute
   std::string crowd_model;              ///< pedestrian model that it was made for; empty: any
-  Rectangle ground;                     ///< what is drawn as ground
+  Rectangle ground;                     ///< what is rendered as ground
   std::string ground_material;          ///< "pavers", "asphalt", "grass", "concrete"
   Rectangle inside;                     ///< who leaves this rectangle has escaped
   std::vector<Exit> exits;
   std::vector<Building> buildings;
   std::vector<DroneStart> drones;
-  /// Agents that are not people (the paper's disaster is an agent); neither drawn nor counted.
+  /// Agents that are not people (the paper's disaster is an agent); neither rendered nor counted.
   /// Those of `disasters` are among them.
   std::vector<int> disaster_agents;
   std::vector<Disaster> disasters;
-  /// Whether the behaviour file lets people who have noticed nothing follow a drone.
+  /// Whether the behavior file lets people who have noticed nothing follow a drone.
   bool guides_alert = false;
   std::vector<Prop> props;       ///< placed ones in the file's order, then scattered ones
   std::size_t placed_props = 0;  ///< how many of them are placed
@@ -106,9 +105,9 @@ struct Scenario {
 };
 
 /// Reads and checks a scenario file. `id` becomes Scenario::id. One that `extends` another file of
-/// its folder says only what differs: fields of objects replace those of the same name, anything
-/// else replaces the whole (RFC 7396). Throws InputError (file, JSON
-/// pointer, found, expected) for bad content and EnvironmentError when the file cannot be read.
+/// its folder contains only the differences: fields of objects replace those of the same name,
+/// anything else replaces the whole (RFC 7396). Throws InputError (file, JSON pointer, found,
+/// expected) for bad content and EnvironmentError when the file cannot be read.
 Scenario load_scenario(const std::filesystem::path& file, std::string id);
 
 /// Leaves this share (0 to 1) of the scattered props where they are, chosen by the seed, and takes

@@ -18,9 +18,9 @@ inline constexpr double kTimeSlackS = 1e-6;
 
 enum class AgentRole : std::uint8_t {
   person = 0,
-  disaster = 1,  ///< an agent that stands for a danger; neither drawn nor counted
-  absent = 2,    ///< in the scenario but not in this run; neither drawn nor counted
-  attacker = 3,  ///< a danger that is a person: drawn and labelled as one, but not counted
+  disaster = 1,  ///< an agent that represents a hazard; neither rendered nor counted
+  absent = 2,    ///< in the scenario but not in this run; neither rendered nor counted
+  attacker = 3,  ///< a hazard that is a person: rendered and labeled as one, but not counted
 };
 
 /// Bits of Trace::flags, what an agent is at a step: takes part, i.e. has arrived and not left yet;
@@ -30,11 +30,11 @@ inline constexpr std::uint8_t kPanicked = 2;
 inline constexpr std::uint8_t kFallen = 4;
 inline constexpr std::uint8_t kFollowing = 8;
 
-/// Whether somebody in a behaviour's state of this name cannot stand: its name contains one of the
+/// Whether somebody in a behavior's state of this name cannot stand: its name contains one of the
 /// words in docs/trace.md, in upper or lower case.
 bool is_down(std::string_view state_name);
 
-/// What does not change during a run.
+/// Constant data of a run.
 struct TraceHeader {
   std::string scenario_id;
   std::string generator;  ///< "throng 0.1.0"

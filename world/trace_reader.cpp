@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Far above any real run, far below what would exhaust the memory by a damaged number alone.
-constexpr hsize_t kMostElements = 4'000'000'000;
+constexpr hsize_t kMaxElements = 4'000'000'000;
 
 [[noreturn]] void reject(const std::string& source, const std::string& where,
                          const std::string& found, const std::string& expected) {
@@ -120,7 +120,7 @@ class Reader {
     mark_lying(trace);
   }
 
-  /// Files written before kFallen covered the states whose names say that people lie.
+  /// Files written before kFallen covered the states whose names imply that people lie.
   static void mark_lying(Trace& trace) {
     std::vector<bool> is_lying;
     for (const std::string& name : trace.header.state_names) is_lying.push_back(is_down(name));
@@ -211,7 +211,7 @@ class Reader {
                          const std::vector<hsize_t>& shape) {
     hsize_t count = 1;
     for (const hsize_t size : shape) {
-      if (size > 0 && count > kMostElements / size) throw hdf5::Failure(name);
+      if (size > 0 && count > kMaxElements / size) throw hdf5::Failure(name);
       count *= size;
     }
     std::vector<T> values(count);

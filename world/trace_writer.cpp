@@ -18,14 +18,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr hsize_t kMostRowsPerChunk = 64;
+constexpr hsize_t kMaxRowsPerChunk = 64;
 constexpr hsize_t kChunkBytes = 1 << 20;
 constexpr hsize_t kDroneRowsPerChunk = 1024;
 constexpr hsize_t kEventRowsPerChunk = 1024;
 
 hsize_t rows_per_chunk(std::size_t agents) {
   const hsize_t bytes_per_row = std::max<hsize_t>(agents, 1) * 2 * sizeof(float);
-  return std::clamp<hsize_t>(kChunkBytes / bytes_per_row, 1, kMostRowsPerChunk);
+  return std::clamp<hsize_t>(kChunkBytes / bytes_per_row, 1, kMaxRowsPerChunk);
 }
 
 // A dataset with rows that wait to be written together: whole chunks, so that none is compressed
@@ -110,7 +110,7 @@ Vector rounded(const Vector& values, double steps) {
   return values.unaryExpr([steps](double value) { return rounded(value, steps); });
 }
 constexpr double kCoarse = 1 << 14;  // rates, forces, winds
-constexpr double kFine = 1 << 20;    // metres, joules
+constexpr double kFine = 1 << 20;    // meters, joules
 constexpr double kFinest = 1 << 30;  // quaternions
 
 struct DroneColumns {

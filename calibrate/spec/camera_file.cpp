@@ -61,18 +61,19 @@ CameraFile camera_from_json(const json& value, const std::string& source) {
                              fmt::format("{}, which this program knows, or no version", kVersion)});
   }
   CameraFile camera;
-  constexpr double kLargestSide = 20000;
-  constexpr double kMost = 1e7;
-  constexpr double kLeastFocal = 1e-3;
-  camera.size.width = static_cast<int>(number_at(value, "width", 1, kLargestSide, source));
-  camera.size.height = static_cast<int>(number_at(value, "height", 1, kLargestSide, source));
+  constexpr double kMaxSide = 20000;
+  constexpr double kMaxParameter = 1e7;
+  constexpr double kMinFocal = 1e-3;
+  camera.size.width = static_cast<int>(number_at(value, "width", 1, kMaxSide, source));
+  camera.size.height = static_cast<int>(number_at(value, "height", 1, kMaxSide, source));
   const json lens = value.value("lens", json());
   camera.lens = lens_named(lens.is_string() ? lens.get<std::string>() : lens.dump(), source);
   for (std::size_t i = 0; i < kParameters; ++i) {
     const std::string name = parameter_name(camera.lens, i);
     if (name.empty() || (i == kSkew && !value.contains(name))) continue;
     const bool focal = i == kFx || i == kFy;
-    camera.parameters[i] = number_at(value, name, focal ? kLeastFocal : -kMost, kMost, source);
+    camera.parameters[i] =
+        number_at(value, name, focal ? kMinFocal : -kMaxParameter, kMaxParameter, source);
   }
   return camera;
 }

@@ -11,7 +11,7 @@ namespace throng::calibrate {
 
 namespace {
 
-constexpr int kLargestSide = 100000;
+constexpr int kMaxSide = 100000;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ ImageSize image_size_of(const std::string& text, const std::string& source) {
   const auto read = [](std::string_view word, int& value) {
     const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
     return result.ec == std::errc() && result.ptr == word.data() + word.size() && value > 0 &&
-           value <= kLargestSide;
+           value <= kMaxSide;
   };
   if (by == std::string::npos || !read(std::string_view(text).substr(0, by), size.width) ||
       !read(std::string_view(text).substr(by + 1), size.height)) {

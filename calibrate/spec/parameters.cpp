@@ -71,7 +71,7 @@ std::string parameter_name(Lens lens, std::size_t index) {
 camera::Intrinsics intrinsics_of(Lens lens, const Parameters& p, int width, int height) {
   camera::Intrinsics k{width, height, p[kFx], p[kFy], p[kCx], p[kCy]};
   k.skew_px = p[kSkew];
-  // What leans is drawn as what is distorted is.
+  // Tilted and distorted lenses are rendered in the same manner.
   if (lens == Lens::pinhole && k.skew_px == 0) return k;
   camera::Distortion::Coefficients coefficients{};
   std::copy(p.begin() + kCoefficients, p.end(), coefficients.begin());

@@ -1,5 +1,5 @@
-// What a calibration estimates of a lens: which parameters there are, which of them are free, and
-// what is known of them beforehand.
+// Lens parameters that a calibration estimates: their names, which of them are free, and their
+// priors.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ struct Tie {
   double ratio = 1;
 };
 
-/// What a user says of parameters, by their names.
+/// A user's settings for parameters, by name.
 struct Wishes {
   bool skew = false;  ///< estimate it; else it is 0
   /// Kept at a value; nothing: at its first guess (the image's middle, no distortion).
@@ -78,7 +78,7 @@ struct Rules {
 };
 
 /// Throws InputError naming `source` for parameters that the lens has not, for ties in a circle or
-/// to what is tied itself, and for a parameter that is said to be more than one of fixed, tied and
+/// to what is tied itself, and for a parameter that is given as more than one of fixed, tied and
 /// known.
 Rules rules_of(Lens lens, const Wishes& wishes, const std::string& source);
 

@@ -8,7 +8,7 @@ namespace throng::calibrate {
 /// The JSON schema of what a client sends (calibrate/spec/request.schema.json).
 std::string_view request_schema();
 
-/// What carry_out_in() writes beside the request.
+/// Files that carry_out_in() writes beside the request.
 inline constexpr const char* kCameraName = "camera.json";
 inline constexpr const char* kOpenCvName = "opencv.yaml";
 inline constexpr const char* kRosName = "ros.yaml";

@@ -66,7 +66,7 @@ json people_catalog() {
                     {"wears", character.wears}});
   }
   return {{"content_hash", index.content_hash},
-          {"licence", index.licence},
+          {"licence", index.license},
           {"people", std::move(list)}};
 }
 

@@ -143,8 +143,8 @@ class Batch {
     }
     if (since(worker.heard) > options_.lease_s) {
       worker.timeout = fmt::format("no sign of life for {} s", options_.lease_s);
-    } else if (options_.longest_task_s > 0 && since(worker.begun) > options_.longest_task_s) {
-      worker.timeout = fmt::format("the task took longer than {} s", options_.longest_task_s);
+    } else if (options_.max_task_s > 0 && since(worker.begun) > options_.max_task_s) {
+      worker.timeout = fmt::format("the task took longer than {} s", options_.max_task_s);
     }
     if (!worker.timeout.empty()) worker.process.signal_group(SIGKILL);
   }

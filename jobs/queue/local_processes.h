@@ -22,7 +22,7 @@ struct LocalProcessesOptions {
   /// A worker that has said nothing for so long is taken for dead and killed.
   double lease_s = 60;
   /// The longest that a task may take; 0: any time.
-  double longest_task_s = 0;
+  double max_task_s = 0;
   /// Address space that a worker may use; 0: any.
   int worker_memory_mib = 0;
   /// How long a worker may take to end after SIGTERM, before SIGKILL.

@@ -140,7 +140,7 @@ Added Store::add(const NewJob& job) {
         return;
       }
     }
-    if (job.most_active > 0 || job.most_bytes > 0) {
+    if (job.max_active > 0 || job.max_bytes > 0) {
       added.over_quota = over_quota(connections_->writer, job);
       if (!added.over_quota.empty()) return;
     }

@@ -60,8 +60,8 @@ struct NewJob {
   std::string key = {};
   /// Of what was sent, to tell a repetition from a key that is used twice.
   std::string hash = {};
-  int most_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
-  std::int64_t most_bytes = 0;  ///< that the owner's jobs may take before this one; 0: any
+  int max_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
+  std::int64_t max_bytes = 0;  ///< that the owner's jobs may take before this one; 0: any
 };
 
 struct Added {

@@ -71,14 +71,14 @@ std::string over_quota(SQLite::Database& database, const NewJob& job) {
   query.executeStep();
   const std::int64_t active = query.getColumn(0);
   const std::int64_t bytes = query.getColumn(1);
-  if (job.most_active > 0 && active >= job.most_active) {
+  if (job.max_active > 0 && active >= job.max_active) {
     return fmt::format("{} of your jobs wait or run, which is as many as this key may have",
-                       job.most_active);
+                       job.max_active);
   }
-  if (job.most_bytes > 0 && bytes >= job.most_bytes) {
+  if (job.max_bytes > 0 && bytes >= job.max_bytes) {
     return fmt::format(
         "your jobs take {} bytes of disk, which is as many as this key may have ({}): remove some",
-        bytes, job.most_bytes);
+        bytes, job.max_bytes);
   }
   return "";
 }

@@ -51,7 +51,7 @@ std::filesystem::path read_guidance(const json& value, const std::string& source
     if (key == "waypoints") {
       for (const json& point : field) mission.waypoints.push_back(point_of(point));
     }
-    if (key == "centre") guidance.centre = place_of(field);
+    if (key == "centre") guidance.center = place_of(field);
     if (key == "radius_m") guidance.radius_m = field.get<double>();
     if (key == "area") guidance.area = {place_of(field["min"]), place_of(field["max"])};
     if (key == "overlap") guidance.overlap = field.get<double>();
@@ -86,7 +86,7 @@ json guidance_json(const sim::DroneMission& mission) {
   for (const Eigen::Vector3d& point : mission.waypoints) {
     value["waypoints"].push_back({point.x(), point.y(), point.z()});
   }
-  if (guidance.centre) value["centre"] = json_of(*guidance.centre);
+  if (guidance.center) value["centre"] = json_of(*guidance.center);
   if (guidance.radius_m) value["radius_m"] = *guidance.radius_m;
   if (guidance.area) {
     value["area"] = {{"min", json_of(guidance.area->min)}, {"max", json_of(guidance.area->max)}};

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <set>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -14,6 +13,7 @@
 #include <valijson/validator.hpp>
 
 #include "base/json_text.h"
+#include "base/suggest.h"
 #include "jobs/spec/spec.h"
 #include "world/json_reader.h"
 
@@ -98,14 +98,12 @@ std::string expectation(const json& schema) {
 
 void add_field_problems(const json& object, const json& schema, const json::json_pointer& place,
                         const std::string& source, std::vector<Problem>& problems) {
-  std::vector<std::string> known;
-  for (const auto& field : schema["properties"].items()) known.push_back(field.key());
+  std::vector<std::string_view> known;
+  for (const auto& field : schema["properties"].items()) known.emplace_back(field.key());
   for (const auto& field : object.items()) {
     if (schema["properties"].contains(field.key())) continue;
-    const std::string meant = nearest_name(field.key(), known);
-    problems.push_back({source, (place / field.key()).to_string(), "an unknown field",
-                        meant.empty() ? fmt::format("one of: {}", fmt::join(known, ", "))
-                                      : fmt::format("\"{}\", perhaps", meant)});
+    problems.push_back(
+        unknown_name(source, (place / field.key()).to_string(), "field", field.key(), known));
   }
   for (const json& field : schema.value("required", json::array())) {
     const auto& name = field.get_ref<const std::string&>();
@@ -116,33 +114,6 @@ void add_field_problems(const json& object, const json& schema, const json::json
 }
 
 }  // namespace
-
-std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
-  constexpr std::size_t kFarthest = 2;
-  constexpr std::size_t kLongest = 40;
-  if (word.size() > kLongest) return "";
-  std::string nearest;
-  std::size_t best = kFarthest + 1;
-  for (const std::string& name : names) {
-    // Levenshtein's distance, row by row.
-    std::vector<std::size_t> row(name.size() + 1);
-    std::iota(row.begin(), row.end(), 0U);
-    for (std::size_t i = 0; i < word.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i + 1;
-      for (std::size_t j = 0; j < name.size(); ++j) {
-        const std::size_t replaced = diagonal + (word[i] == name[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-      }
-    }
-    if (row.back() < best && row.back() < name.size()) {
-      best = row.back();
-      nearest = name;
-    }
-  }
-  return nearest;
-}
 
 std::vector<Problem> schema_problems(const json& job, const std::string& source) {
   static const CompiledSchema compiled;

@@ -13,7 +13,4 @@ namespace throng::jobs {
 /// stands there and what should. Empty when it is valid. `source` names the text in the problems.
 std::vector<Problem> schema_problems(const nlohmann::json& job, const std::string& source);
 
-/// The name among `names` that a misspelt `word` most likely means; "" if none is near.
-std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
-
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// What a user says of a trajectory file (metrics/trajectory_file.h reads it).
+// A user's description of a trajectory file (metrics/trajectory_file.h reads it).
 #pragma once
 
 #include <cstdint>
@@ -7,17 +7,17 @@
 
 namespace throng::metrics {
 
-/// What such files do not say of people.
+/// Properties of people that such files lack.
 struct WalkerDefaults {
   double radius_m = 0.2;
   double desired_speed_mps = 1.34;  ///< Weidmann 1993
 };
 
-/// What kind of file it is. any: by suffix and first bytes, as read_trajectory() says.
+/// File format. any: by suffix and first bytes, as read_trajectory() says.
 enum class TrajectoryKind : std::uint8_t { any, text, sqlite, scb, csv };
 
 /// Names in the first line of a table, or, where all are whole numbers, the columns of one without
-/// names, from 1. Either `frame` or `time` says when; the other is empty.
+/// names, from 1. Either `frame` or `time` is given; the other is empty.
 struct TrajectoryColumns {
   std::string person = "id";
   std::string frame = "frame";
@@ -26,7 +26,7 @@ struct TrajectoryColumns {
   std::string y = "y";
 };
 
-/// What the user says of a file, instead of what it says itself or has no place for.
+/// The user's values for a file; they override or complete those in the file.
 struct TrajectoryFormat {
   TrajectoryKind kind = TrajectoryKind::any;
   std::optional<double> frames_per_s;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/suggest.h"
+
 namespace throng::places {
 
 using nlohmann::json;
@@ -51,7 +53,7 @@ PlaceSpec read_place_spec(const json& value, const std::string& where,
                                                        "people"};
   for (const auto& [key, field] : value.items()) {
     if (std::find(kFields.begin(), kFields.end(), key) != kFields.end()) continue;
-    problems.push_back({"", where + "/" + key, "an unknown field", "no such field"});
+    problems.push_back(unknown_name("", where + "/" + key, "field", key, kFields));
   }
   const json kind = value.value("kind", json());
   const auto* const known = std::find(kPlaceKinds.begin(), kPlaceKinds.end(),

@@ -1,4 +1,4 @@
-"""What requests carry: bundles of scenarios, JSON, paths."""
+"""Contents of requests: bundles of scenarios, JSON, paths."""
 
 from __future__ import annotations
 

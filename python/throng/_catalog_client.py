@@ -141,7 +141,7 @@ class CatalogClient:
     def ping_webhook(self, webhook_id: str) -> Any:
         return self._send("POST", f"/v1/webhooks/{part(webhook_id)}/ping")
 
-    # What there is, and the service itself.
+    # Catalogs, and the service itself.
 
     def people(self) -> Any:
         return self._get("/v1/people")

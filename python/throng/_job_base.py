@@ -1,4 +1,4 @@
-"""What the generated parts of a job have in common, and distributions (docs/job.md, Randomisation)."""
+"""Base of the generated parts of a job, and distributions (docs/job.md, Randomization)."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The COCO file of a dataset: what belongs to the whole at once, annotations image by image.
 
-throng writes one record per line. Where a file is like that, only the places of the images' lines are found when it is
-opened and each image's annotations are parsed when they are asked for. Any other COCO file is parsed as a whole.
+throng writes one record per line. Of such a file only the positions of the images' lines are found when it is opened;
+each image's annotations are parsed on request. Any other COCO file is parsed as a whole.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A reader of PNG pictures for label values: grey and RGB of 8 or 16 bits, not interlaced.
+"""A reader of PNG pictures for label values: gray and RGB of 8 or 16 bits, not interlaced.
 
 Pillow reduces RGB of 16 bits, as flow has it, to 8. Label files of throng use the filter "up" only, which NumPy undoes
 for the whole picture at once; other filters are undone row by row.

@@ -222,7 +222,7 @@ class Annotations(Sequence[Mapping[str, Any]]):
 
     @property
     def states(self) -> list[str | None]:
-        """What they do: waiting, walking, running, following, panicking or lying."""
+        """Activities: waiting, walking, running, following, panicking or lying."""
         return [record.get("state") for record in self.records]
 
     @property

@@ -1,4 +1,4 @@
-"""What the service answers, as TypedDicts.
+"""Answers of the service as TypedDicts.
 
 Made by python/generate_types.py from server/openapi.json; do not edit.
 """
@@ -104,7 +104,7 @@ class Progress(TypedDict):
     frames_total: NotRequired[int]
     runs: NotRequired[list[ProgressRun]]
     shards: NotRequired[list[ProgressShard]]
-    """Those that somebody works on."""
+    """Running ones."""
     frames_per_s: NotRequired[float]
     """0 before the first."""
     remaining_s: NotRequired[float | None]
@@ -137,7 +137,7 @@ class EventList(TypedDict):
 
     events: list[Event]
     next: int
-    """What to give as `after` next."""
+    """The value of `after` for the next request."""
 
 
 class LogListLog(TypedDict):
@@ -262,7 +262,7 @@ class Upload(TypedDict):
     ids: NotRequired[list[str]]
     """Of its scenarios."""
     findings: NotRequired[list[UploadFinding]]
-    """What is odd about them and stops nobody (throng scenario check)."""
+    """Findings that do not prevent the upload (throng scenario check)."""
 
 
 JobField = Any

@@ -123,7 +123,7 @@ class Lens:
         return j
 
     def distort(self, xy: FloatArray) -> FloatArray:
-        """Where the lens shows directions; NaN beyond its range."""
+        """Projection of directions by the lens; NaN beyond its range."""
         if self.is_pinhole:
             return xy
         with np.errstate(all="ignore"):
@@ -203,7 +203,7 @@ class Camera:
 
     @property
     def center(self) -> FloatArray:
-        """Where the camera is, in the world."""
+        """Position of the camera in the world."""
         result: FloatArray = -self.R.T @ self.t
         return result
 

@@ -143,7 +143,7 @@ class Client(CatalogClient):
     def events(
         self, job_id: str | None = None, *, after: int = 0, follow: bool = False, wait_s: int = 0
     ) -> Iterator[Event]:
-        """What has happened to a job, or to all jobs. follow=True: also what happens next, until the job has ended."""
+        """Past events of a job, or of all jobs. follow=True: also future ones, until the job has ended."""
         if follow and job_id is not None:
             for kind, event in _events.follow(self._http, job_id, after, None):
                 if kind != "progress":

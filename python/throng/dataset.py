@@ -70,7 +70,7 @@ class Dataset(Sequence[Frame]):
         view._frames = list(frames)
         return view
 
-    # What the dataset says of itself.
+    # Metadata of the dataset.
 
     @property
     def name(self) -> str:
@@ -78,7 +78,7 @@ class Dataset(Sequence[Frame]):
 
     @property
     def info(self) -> Mapping[str, Any]:
-        """dataset.json: conventions, job, splits, statistics, licence. Of the first dataset where several were
+        """dataset.json: conventions, job, splits, statistics, license. Of the first dataset where several were
         merged."""
         return self._sources[0].description
 
@@ -139,7 +139,7 @@ class Dataset(Sequence[Frame]):
         return self._csv(f"exits/{run}.csv")
 
     def sensors(self, run: str, camera_id: str) -> Table:
-        """What a drone's sensors read, and the truth, about 60 rows a second."""
+        """Readings of a drone's sensors, and the truth, about 60 rows per second."""
         return self._csv(f"sensors/{run}/{camera_id}.csv")
 
     def _csv(self, name: str) -> Table:

@@ -63,7 +63,7 @@ class ServiceError(ThrongError):
 
 
 class InvalidRequestError(ServiceError, ValueError):
-    """What was sent is wrong (400, 413, 415, 422); errors names each mistake."""
+    """The request is invalid (400, 413, 415, 422); errors names each mistake."""
 
 
 class AccessError(ServiceError):

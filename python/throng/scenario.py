@@ -300,7 +300,7 @@ class Scenario:
         return out / f"{self.name}.json"
 
     def check(self, *, program: PathLike | None = None) -> str:
-        """What `throng scenario check` says of it; ProgramError where it finds errors."""
+        """Output of `throng scenario check`; ProgramError where it finds errors."""
         with tempfile.TemporaryDirectory() as folder:
             return _program.call(["scenario", "check", self.write(folder, program=program)], program=program)
 

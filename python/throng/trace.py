@@ -185,7 +185,7 @@ class Trace:
         return {name: self._read(f"{group}/{name}") for name in names}
 
     def events(self) -> Table:
-        """What happened, by time: escapes, shut exits, collisions, ... (docs/trace.md)."""
+        """Events by time: escapes, closed exits, collisions, ... (docs/trace.md)."""
         columns: dict[str, NDArray[Any]] = {}
         for name in ("time_s", "type", "agent", "drone", "value", "partner", "other", "extra"):
             values = self._read(f"events/{name}")

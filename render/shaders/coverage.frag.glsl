@@ -1,4 +1,4 @@
-// A person's silhouette, drawn on its own.
+// A person's silhouette, rendered on its own.
 in vec2 uv;
 flat in uint layer;
 

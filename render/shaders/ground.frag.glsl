@@ -5,7 +5,7 @@ in float openness;
 in vec4 local;  // x: how bright the ground is here, compared with the material's mean
 flat in uint id;
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
 
 #ifdef WET
@@ -53,6 +53,6 @@ void main() {
 #ifdef WET
   radiance = wet(radiance, openness);
 #endif
-  colour = vec4(film(through_air(radiance, world)), 1.0);
+  color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

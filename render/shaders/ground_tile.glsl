@@ -1,5 +1,5 @@
-// Irregularity for the grounds, repeated with the tile that their textures hold. `salt` tells
-// patterns of one material apart.
+// Irregularity for the grounds, repeated with the tile that their textures hold. `salt`
+// distinguishes patterns of one material apart.
 const float kTileM = 14.4;  // also in render/ground_texture.h
 
 ivec2 wrapped(ivec2 cell, ivec2 count) {
@@ -11,9 +11,9 @@ float pick(ivec2 cell, ivec2 count, int salt) {
   return hash(wrapped(cell, count) + ivec2(salt * 131, salt * 57));
 }
 
-// Smooth noise in [0, 1], `per_metre` features per metre.
-float grain(vec2 p, float per_metre, int salt) {
-  ivec2 count = ivec2(int(per_metre * kTileM + 0.5));
+// Smooth noise in [0, 1], `per_metre` features per meter.
+float grain(vec2 p, float per_meter, int salt) {
+  ivec2 count = ivec2(int(per_meter * kTileM + 0.5));
   vec2 at = p * vec2(count) / kTileM;
   ivec2 cell = ivec2(floor(at));
   vec2 f = fract(at);
@@ -24,15 +24,15 @@ float grain(vec2 p, float per_metre, int salt) {
 }
 
 // Noise without a size of its own: four octaves, mean 0, about [-0.5, 0.5].
-float clouds(vec2 p, float per_metre, int salt) {
-  return 0.53 * grain(p, per_metre, salt) + 0.27 * grain(p, 2.0 * per_metre, salt + 1) +
-         0.13 * grain(p, 4.0 * per_metre, salt + 2) + 0.07 * grain(p, 8.0 * per_metre, salt + 3) - 0.5;
+float clouds(vec2 p, float per_meter, int salt) {
+  return 0.53 * grain(p, per_meter, salt) + 0.27 * grain(p, 2.0 * per_meter, salt + 1) +
+         0.13 * grain(p, 4.0 * per_meter, salt + 2) + 0.07 * grain(p, 8.0 * per_meter, salt + 3) - 0.5;
 }
 
 // How far inside a round spot of at most `radius` m a point is, 0 to 1: one spot in a `share` of
-// squares, `per_metre` of which fit into a metre.
-float spot(vec2 p, float per_metre, float share, float radius, int salt) {
-  ivec2 count = ivec2(int(per_metre * kTileM + 0.5));
+// squares, `per_metre` of which fit into a meter.
+float spot(vec2 p, float per_meter, float share, float radius, int salt) {
+  ivec2 count = ivec2(int(per_meter * kTileM + 0.5));
   vec2 at = p * vec2(count) / kTileM;
   ivec2 cell = ivec2(floor(at));
   float r = radius * (0.5 + 0.5 * pick(cell, count, salt + 3));
@@ -42,8 +42,8 @@ float spot(vec2 p, float per_metre, float share, float radius, int salt) {
   return pick(cell, count, salt + 2) < share ? clamp(1.0 - away / r, 0.0, 1.0) : 0.0;
 }
 
-// Thin winding lines, where `where` says that there are any.
-float cracks(vec2 p, float per_metre, float where, int salt) {
-  float level = grain(p, per_metre, salt) + 0.35 * grain(p, 5.0 * per_metre, salt + 1) - 0.67;
+// Thin winding lines, where `where` selects them.
+float cracks(vec2 p, float per_meter, float where, int salt) {
+  float level = grain(p, per_meter, salt) + 0.35 * grain(p, 5.0 * per_meter, salt + 1) - 0.67;
   return smoothstep(0.016, 0.004, abs(level)) * step(where, grain(p, 0.21, salt + 2));
 }

@@ -1,23 +1,23 @@
 // Sun, sky, shadows and the film that they fall on; filled by render/lighting.cpp.
 layout(std140, binding = 1) uniform Light {
-  vec4 sun_direction;  // towards the sun
+  vec4 sun_direction;  // toward the sun
   vec4 sun;            // radiance of a white surface that faces it
   vec4 sky;            // the same under open sky, no sun
   vec4 bounce;         // light that comes back from the ground
-  vec4 haze;           // colour of far air; w: its thickness, in powers of two per metre
+  vec4 haze;           // color of far air; w: its thickness, in powers of two per meter
   vec4 shadow_area;    // corner of the shadow map on the ground, then 1 / size (1/m)
-  // Shadow of height 1 m on the ground is at -xy; z: 1 / tallest thing (1/m); w: half the width, m,
-  // of the sun's disc on the ground across that direction, seen through a hole 1 m high.
+  // Shadow of height 1 m on the ground is at -xy; z: 1 / tallest object (1/m); w: half the width,
+  // m, of the sun's disc on the ground across that direction, seen through a hole 1 m high.
   vec4 shadow_slope;
-  vec4 zenith;         // colour of the sky above
+  vec4 zenith;         // color of the sky above
   vec4 lamps;          // radiance of a white surface in one unit of lamp light
   vec4 lamp_area;      // corner of the lamp map on the ground, then 1 / size (1/m)
-  vec4 eye;            // the camera's centre; w: time, s
+  vec4 eye;            // the camera's center; w: time, s
 } light;
 
 layout(binding = 1) uniform sampler2DShadow shadow_map;
 
-// Where a point's line to the sun meets the ground, in the shadow map.
+// Position in the shadow map of a point projected to the ground along the sun's rays.
 vec2 shadow_uv(vec3 world) {
   vec2 on_ground = world.xy - light.shadow_slope.xy * world.z;
   return (on_ground - light.shadow_area.xy) * light.shadow_area.zw;
@@ -49,7 +49,7 @@ float sunlit(vec3 world, float bias_m) {
   return sum * 0.125;
 }
 #elif defined(FINE_SHADOWS)
-// The same heights, without comparison; above the ground as a share of the tallest thing.
+// The same heights, without comparison; above the ground as a share of the tallest object.
 layout(binding = 4) uniform sampler2D shadow_heights;
 
 const float kWidestPenumbra = 1.0;  // m
@@ -106,11 +106,11 @@ float sunlit(vec3 world, float bias_m) { return sunlit_small(world, bias_m); }
 #ifdef LAMPS
 layout(binding = 2) uniform sampler2D lamp_map;
 
-// What the lamps give to a surface, in units of lamp light. The map holds, 1 m above the ground, the
-// sum of the light's directions times its strengths, and of its strengths. Lamps shine downwards.
+// Lamp light on a surface, in units of lamp light. The map holds, 1 m above the ground, the sum of
+// the light's directions times its strengths, and of its strengths. Lamps shine downwards.
 float lamp_light(vec3 world, vec3 normal) {
   vec4 seen = texture(lamp_map, (world.xy - light.lamp_area.xy) * light.lamp_area.zw);
-  // What comes back from the ground and the walls reaches every side.
+  // Light reflected by the ground and the walls reaches every side.
   float facing = max(dot(seen.xyz, normal), 0.0) + 0.25 * max(seen.w - length(seen.xyz), 0.0) +
                  0.16 * seen.w;
   return facing * clamp(2.6 - 0.5 * world.z, 0.0, 1.0);

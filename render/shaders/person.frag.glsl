@@ -12,7 +12,7 @@ flat in uvec4 shaded;
 
 layout(binding = 0) uniform sampler2DArray textures;
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
 
 vec3 linear_from_srgb(vec3 c) {
@@ -49,7 +49,7 @@ void main() {
       albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(shaded[i]).rgb);
     }
   }
-  colour = vec4(film(seen(albedo)), 1.0);
+  color = vec4(film(seen(albedo)), 1.0);
   instance = surface.z;
   leave_silhouette();
 }

@@ -1,10 +1,10 @@
 // A person: blends two palettes, skins, turns and places the body. With SHADOW it is flattened into
-// the shadow map instead of being seen by the camera; with CORNERS it is lit and coloured corner by
+// the shadow map instead of being seen by the camera; with CORNERS it is lit and colored corner by
 // corner, with LIT_CORNERS only lit so; with SURFACE it carries what person_surface.frag.glsl writes.
 layout(location = 0) in vec3 position_in;
 layout(location = 1) in uvec4 skin;     // bones, weights, part, normal: see render/people_meshes.h
 layout(location = 2) in vec2 uv_in;
-layout(location = 3) in uvec2 colours;  // the texture around this corner, sRGB; of a portrait, linear
+layout(location = 3) in uvec2 colors;  // the texture around this corner, sRGB; of a portrait, linear
 layout(location = 4) in vec3 foot;      // per instance from here: position, m
 layout(location = 5) in uvec4 pose;     // palettes a and b, blend (a float's bits), id
 layout(location = 6) in uvec4 tints;    // top, bottom, hair, shoes: sRGB, red lowest; item: high bytes
@@ -13,7 +13,7 @@ layout(location = 7) in uvec4 placing;  // shift in pixels; cosine and sine of t
 layout(binding = 3) uniform usamplerBuffer posed_bones;  // [character][palette][bone]; device_palettes.h
 
 const int kBones = 21;
-const float kFarthestShift = 8.0;  // m; also in render/device_palettes.h
+const float kMaxShift = 8.0;  // m; also in render/device_palettes.h
 const float kAboveGround = 0.002;  // m; also in render/person_geometry.cpp
 
 uint first_byte(uint word) { return word & 0xFFu; }
@@ -21,7 +21,7 @@ uint first_byte(uint word) { return word & 0xFFu; }
 // The rows of a bone's matrix.
 mat3x4 rows_of(uvec4 bone) {
   vec4 q = vec4(unpackSnorm2x16(bone.x), unpackSnorm2x16(bone.y));
-  vec3 shift = kFarthestShift * vec3(unpackSnorm2x16(bone.z), unpackSnorm2x16(bone.w).x);
+  vec3 shift = kMaxShift * vec3(unpackSnorm2x16(bone.z), unpackSnorm2x16(bone.w).x);
   vec3 d = q.xyz * (2.0 / dot(q, q));
   vec3 squares = d * q.xyz;
   vec3 products = d.xxy * q.yzz;  // xy, xz, yz
@@ -84,7 +84,7 @@ uint part() { return skin.z; }
 
 uint tint_slot() { return part() >> 24 & 0x7Fu; }
 
-// Whether it is a thing of its own: an umbrella.
+// Whether it is a separate object: an umbrella.
 bool is_apart() { return part() >> 31 != 0u; }
 
 uint instance_id() { return is_apart() ? pose.w | 0x40000000u : pose.w; }  // kIdUmbrella
@@ -96,14 +96,14 @@ uint tint_of(uint slot) {
 }
 
 #ifdef SILHOUETTES
-flat out ivec2 to_tile;  // from the picture, pixels
+flat out ivec2 to_tile;  // from the image, pixels
 
-// What is apart leaves no silhouette: it leads out of every atlas.
+// Separate parts have no silhouette: they map outside every atlas.
 ivec2 way_to_tile() { return is_apart() ? ivec2(1 << 24) : shift(); }
 #endif
 
 #if defined(CORNERS) || defined(LIT_CORNERS)
-// What a corner receives of sun, sky and lamps.
+// Light of sun, sky and lamps at a vertex.
 vec3 light_at(vec3 world, vec3 n) {
   vec3 ambient = mix(light.bounce.rgb, light.sky.rgb, 0.5 + 0.5 * n.z);
 #ifdef LAMPS
@@ -135,8 +135,8 @@ void main() {
   mat3x4 rows = blended_rows();
   vec3 world = placed(vec4(position_in, 1.0) * rows);
   vec3 n = turned(normalize(vec4(normal_in(), 0.0) * rows));
-  vec3 base = unpackUnorm4x8(colours.x).rgb;
-  vec4 shades = unpackUnorm4x8(colours.y);
+  vec3 base = unpackUnorm4x8(colors.x).rgb;
+  vec4 shades = unpackUnorm4x8(colors.y);
   vec3 albedo = linear_from_srgb(base) * linear_from_srgb(unpackUnorm4x8(tint_of(tint_slot())).rgb);
   for (int i = 0; i < 4; ++i) {
     albedo += shades[i] * linear_from_srgb(unpackUnorm4x8(tints[i]).rgb);

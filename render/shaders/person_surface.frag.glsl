@@ -1,4 +1,4 @@
-// What a pixel shows of a person beyond its colour: normal, motion to the next frame, body part.
+// Surface properties of a person beyond color: normal, motion to the next frame, body part.
 in vec3 normal;
 in vec3 next;
 in vec2 uv;
@@ -15,7 +15,7 @@ void main() {
 #ifdef ALPHA_TEST
   if (texture(textures, vec3(uv, float(surface.x))).a < 0.5) discard;
 #endif
-  vec3 n = normalize(gl_FrontFacing ? normal : -normal);  // hair is drawn from both sides
+  vec3 n = normalize(gl_FrontFacing ? normal : -normal);  // hair is rendered from both sides
   normal_out = vec4((n * 127.0 + 128.0) / 255.0, 1.0);
   bool known = is_next != 0u && next.z >= 0.1;  // kNear of view.glsl
   flow = known ? next.xy / next.z - gl_FragCoord.xy : vec2(uintBitsToFloat(0x7FC00000u));

@@ -1,4 +1,4 @@
-// Ground and buildings of draft pictures: lit corner by corner, without detail or shadows.
+// Ground and buildings of draft images: lit corner by corner, without detail or shadows.
 // ground_albedo comes from a ground_*.glsl, or stands for walls and roofs.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

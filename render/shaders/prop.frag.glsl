@@ -1,5 +1,5 @@
-// Things that stand about; the finishes are those of render/prop_shapes.h. With LEAVES: cards with
-// leaves on them and holes between.
+// Props; the finishes are those of render/prop_shapes.h. With LEAVES: cards with leaves on them and
+// holes between.
 in vec3 world;
 in vec3 normal;
 in vec2 card;
@@ -7,7 +7,7 @@ flat in vec4 paint;
 flat in uint id;
 flat in int card_number;
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
 
 const float kGlossy = 2.0;
@@ -66,6 +66,6 @@ void main() {
 #ifdef LAMPS
   if (finish == kLamp) radiance += light.lamps.rgb * 2.5e-3;
 #endif
-  colour = vec4(film(through_air(radiance, world)), 1.0);
+  color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

@@ -1,4 +1,4 @@
-// Things that stand about, in world coordinates.
+// Props, in world coordinates.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
 layout(location = 2) in vec2 card_in;

@@ -14,7 +14,7 @@ void main() {
   // Equally many in every volume of the view, from 1.5 to 11 m.
   float z = 1.5 + 9.5 * pow(hash(cell + ivec2(0, 2027)), 0.5);
   vec2 plane = (at - view.focal.zw) / view.focal.xy;
-  vec3 drop = view.centre.xyz + z * (view.right.xyz * plane.x + view.down.xyz * plane.y +
+  vec3 drop = view.center.xyz + z * (view.right.xyz * plane.x + view.down.xyz * plane.y +
                                      view.forward.xyz);
   vec3 head = seen(drop);
   vec3 tail = seen(drop + kLength * kSlant);

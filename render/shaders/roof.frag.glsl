@@ -6,7 +6,7 @@ flat in vec3 normal;
 flat in uint id;
 flat in float facade_kind;  // of the walls below; 8: a hedge, whose top this is
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
 
 void main() {
@@ -29,6 +29,6 @@ void main() {
 #endif
   float sun = light.sun_direction.z * sunlit(world, 0.1);
   vec3 radiance = albedo * (light.sun.rgb * sun + light.sky.rgb);
-  colour = vec4(film(through_air(radiance, world)), 1.0);
+  color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

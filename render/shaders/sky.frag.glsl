@@ -1,7 +1,7 @@
 // The sky: from the haze of the horizon to the zenith, with a glow about the sun or clouds.
 in vec3 ray;
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 void main() {
   vec3 d = normalize(ray);
@@ -21,5 +21,5 @@ void main() {
   float near = max(dot(d, light.sun_direction.xyz), 0.0);
   radiance += light.sun.rgb * (0.25 * pow(near, 12.0) + 3.0 * smoothstep(0.99985, 0.99995, near));
 #endif
-  colour = vec4(film(radiance), 1.0);
+  color = vec4(film(radiance), 1.0);
 }

@@ -4,7 +4,7 @@ in vec2 on_disc;
 flat in vec4 puff;
 flat in vec2 shift;
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 
 void main() {
   float inside = 1.0 - dot(on_disc, on_disc);
@@ -22,5 +22,5 @@ void main() {
 #endif
   bool shines = puff.a > 1.5;
   vec3 radiance = shines ? puff.rgb : puff.rgb * received;
-  colour = vec4(film(through_air(radiance, world)), (shines ? puff.a - 2.0 : puff.a) * thick);
+  color = vec4(film(through_air(radiance, world)), (shines ? puff.a - 2.0 : puff.a) * thick);
 }

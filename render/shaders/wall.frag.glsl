@@ -6,7 +6,7 @@ flat in vec3 normal;
 flat in uint id;
 flat in float facade_kind;  // number of the world::Facade, or of a WallLook
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 color;
 layout(location = 1) out uint instance;
 
 struct Surface {
@@ -19,14 +19,14 @@ struct Surface {
 const float kWindow = 3.0e-4;  // light of a window, in units of lamp light
 #endif
 
-vec3 render_colour(float pick) {
+vec3 render_color(float pick) {
   const vec3 kPlaster[5] = vec3[](vec3(0.56, 0.50, 0.40), vec3(0.60, 0.57, 0.51),
                                   vec3(0.52, 0.40, 0.29), vec3(0.45, 0.45, 0.43),
                                   vec3(0.58, 0.47, 0.36));
   return kPlaster[int(pick * 4.999)];
 }
 
-vec3 brick_colour(vec2 p, vec2 width) {
+vec3 brick_color(vec2 p, vec2 width) {
   const vec2 kBrick = vec2(0.25, 0.08);
   float row = floor(p.y / kBrick.y);
   vec2 brick = vec2(p.x / kBrick.x + 0.5 * mod(row, 2.0), p.y / kBrick.y);
@@ -111,8 +111,8 @@ void add_sign(inout Surface s, ivec2 key, int bay_number, vec2 p, vec2 bay, vec2
   s.albedo = mix(s.albedo, paint.r > 0.3 ? vec3(0.05) : vec3(0.55, 0.53, 0.46), board * letters);
 }
 
-// What a pane mirrors: the sky above, the street and the houses across it below; the more of it the
-// flatter one looks (Fresnel's law in Schlick's form, 1994, for two panes of glass).
+// Reflection of a pane: the sky above, the street and the houses across it below; stronger at
+// grazing angles (Fresnel's law in Schlick's form, 1994, for two panes of glass).
 vec3 mirrored_in_glass() {
   vec3 to_eye = normalize(light.eye.xyz - world);
   vec3 d = reflect(-to_eye, normal);
@@ -138,7 +138,7 @@ void add_door(inout Surface s, ivec2 key, vec2 p, vec2 width) {
 }
 
 // The doorway of an exit (render/place_details.h): a stone frame, a lit sign above, and either a dark
-// passage between opened leaves or shut ones, each about 1 m wide.
+// passage between opened leaves or closed ones, each about 1 m wide.
 Surface exit_door(vec2 p, vec2 size, bool open) {
   vec2 width = fwidth(p);
   float inside = band(p.x, 0.14, size.x - 0.14, width.x) * band(p.y, -1.0, size.y - 0.34, width.y);
@@ -154,11 +154,11 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
   s.albedo = vec3(0.46, 0.44, 0.40);
-  // Light falls a little way in along the floor.
+  // Light reaches a short distance in along the floor.
   vec3 passage = mix(vec3(0.10, 0.095, 0.085), vec3(0.018), clamp(p.y / 1.3, 0.0, 1.0));
-  vec3 shut = mix(vec3(0.10, 0.11, 0.12) * (1.0 - 0.6 * edge), vec3(0.03), pane);
+  vec3 closed = mix(vec3(0.10, 0.11, 0.12) * (1.0 - 0.6 * edge), vec3(0.03), pane);
   float jamb = 1.0 - band(p.x, 0.22, size.x - 0.22, width.x);
-  s.albedo = mix(s.albedo, open ? mix(passage, vec3(0.10, 0.11, 0.12), jamb) : shut, inside);
+  s.albedo = mix(s.albedo, open ? mix(passage, vec3(0.10, 0.11, 0.12), jamb) : closed, inside);
   s.shine += open ? vec3(0.0) : vec3(0.8 * pane * inside);
   s.albedo = mix(s.albedo, open ? vec3(0.03, 0.30, 0.12) : vec3(0.10), sign_board);
 #ifdef LAMPS
@@ -168,7 +168,7 @@ Surface exit_door(vec2 p, vec2 size, bool open) {
   return s;
 }
 
-// What stands on a roof: grey metal with slots, lighter on top.
+// Roof installations: gray metal with slots, lighter on top.
 Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
   vec2 width = fwidth(p);
   float tone = 0.8 + 0.4 * hash(key + ivec2(int(size.x * 53.0), int(size.y * 31.0)));
@@ -182,7 +182,7 @@ Surface roof_plant(vec2 p, vec2 size, ivec2 key) {
   return s;
 }
 
-// A wall too low for a storey: brick or plaster under a coping.
+// A wall too low for a story: brick or plaster under a coping.
 Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
   vec2 width = fwidth(p);
   float stain = noise(p * vec2(0.7, 0.9)) - 0.5;
@@ -192,13 +192,13 @@ Surface low_wall(vec2 p, vec2 size, ivec2 key, bool brick) {
   Surface s;
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
-  s.albedo = brick ? brick_colour(p, width) : render_colour(hash(key + 31)) * (1.0 - 0.25 * post);
+  s.albedo = brick ? brick_color(p, width) : render_color(hash(key + 31)) * (1.0 - 0.25 * post);
   s.albedo *= (1.0 + 0.2 * stain) * (1.0 - 0.4 * splash);
   s.albedo = mix(s.albedo, vec3(0.48, 0.46, 0.42), coping);
   return s;
 }
 
-// A clipped hedge: tufts of leaves, darker towards the ground.
+// A clipped hedge: tufts of leaves, darker toward the ground.
 Surface hedge(vec2 p, vec2 size) {
   float fade = clamp(1.5 - 6.0 * max(fwidth(p.x), fwidth(p.y)), 0.0, 1.0);
   float tufts = noise(p * 3.1) + 0.7 * (noise(p * 9.7) - 0.5) * fade;
@@ -210,7 +210,7 @@ Surface hedge(vec2 p, vec2 size) {
 }
 
 Surface facade(vec2 p, vec2 size, uint building) {
-  const float kLowestStorey = 2.6;  // kLowestStoreyM of render/lamps.cpp
+  const float kLowestStory = 2.6;  // kMinStoryM of render/lamps.cpp
   vec2 width = fwidth(p);
   ivec2 key = ivec2(int(building), 3);
   int kind = int(facade_kind + 0.5);
@@ -218,7 +218,7 @@ Surface facade(vec2 p, vec2 size, uint building) {
   if (kind == 4 || kind == 5) return exit_door(p, size, kind == 4);
   if (kind == 6) return roof_plant(p, size, key);
   bool brick = kind == 0 ? hash(key) < 0.4 : kind == 2;
-  if (size.y < kLowestStorey && kind != 3) return low_wall(p, size, key, brick);
+  if (size.y < kLowestStory && kind != 3) return low_wall(p, size, key, brick);
   if (kind == 3) return glass_facade(p, size, key);
   float floors = max(1.0, round(size.y / 3.3));
   float bays = max(1.0, round(size.x / 2.8));
@@ -236,7 +236,7 @@ Surface facade(vec2 p, vec2 size, uint building) {
   Surface s;
   s.shine = vec3(0.0);
   s.glow = vec3(0.0);
-  s.albedo = brick && !ground_floor ? brick_colour(p, width) : render_colour(hash(key + 31));
+  s.albedo = brick && !ground_floor ? brick_color(p, width) : render_color(hash(key + 31));
   s.albedo *= (1.0 + 0.2 * stain + 0.1 * rough) * (1.0 - 0.45 * streak) * (1.0 - 0.4 * splash);
   vec2 half_size = ground_floor ? vec2(0.36 * bay.x, 0.37 * bay.y) : vec2(0.6, 0.25 * bay.y);
   float sill_height = ground_floor ? 0.35 : 0.29 * bay.y;
@@ -277,6 +277,6 @@ void main() {
   glow = s.glow * light.lamps.rgb * kWindow;
 #endif
   vec3 radiance = s.albedo * received + s.shine * mirrored_in_glass() + glow;
-  colour = vec4(film(through_air(radiance, world)), 1.0);
+  color = vec4(film(through_air(radiance, world)), 1.0);
   instance = id;
 }

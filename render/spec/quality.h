@@ -1,4 +1,4 @@
-// What a picture's quality means, in one table. The job's word picks a row.
+// Rendering quality levels, in one table. The job's keyword selects a row.
 #pragma once
 
 #include <array>
@@ -11,24 +11,24 @@ enum class Quality : std::uint8_t { draft, standard, high };
 
 struct QualitySettings {
   std::string_view word;  ///< in job files
-  bool textured;          ///< else ground and walls are coloured corner by corner
+  bool textured;          ///< else ground and walls are colored corner by corner
   int ground_texels;      ///< along each side of a tile of the ground's textures
   /// People at so many of the finest levels of detail are textured and lit pixel by pixel. Of the
   /// others, whose triangles are pixels, the nearest are textured: as many as leave room for all in
-  /// view, if who is textured takes two of so many places. The rest are coloured corner by corner.
+  /// view, if who is textured takes two of so many places. The rest are colored corner by corner.
   int textured_levels;
   int people_places;
   int shadow_texels;  ///< along each side of the shadow map; 0: no shadows
   bool fine_shadows;  ///< edges on ground and walls as soft as the sun's disc makes them
-  /// Along the outlines of people and things: on the CPU by what the ids say, on a GPU with
-  /// kSamples a pixel.
+  /// Along the outlines of people and props: on the CPU from the ids, on a GPU with kSamples a
+  /// pixel.
   bool smooth_edges;
-  int supersampling;      ///< samples of colour along each side of a pixel
+  int supersampling;      ///< samples of color along each side of a pixel
   double detail;          ///< people's levels of detail are chosen as if they were so much larger
-  double proxy_below_px;  ///< smaller people are drawn at their last level
+  double proxy_below_px;  ///< smaller people are rendered at their last level
 };
 
-/// Samples of colour per pixel on a GPU.
+/// Samples of color per pixel on a GPU.
 inline constexpr int kSamples = 4;
 
 inline constexpr std::array<QualitySettings, 3> kQualities = {{

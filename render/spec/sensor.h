@@ -6,7 +6,7 @@ namespace throng::render {
 
 struct Sensor {
   double ev = 0;  ///< exposure compensation: light is doubled by each 1
-  /// Colour temperature (K) that the camera takes for white; daylight is 6500. Lower makes pictures
+  /// Color temperature (K) that the camera takes for white; daylight is 6500. Lower makes images
   /// bluer, higher yellower.
   double white_balance_k = 6500;
   double vignette = 0;  ///< share of the natural fall of light, cos^4 of the angle from the axis

@@ -17,7 +17,7 @@ namespace throng::sim {
 namespace {
 
 // Less than this leaves nothing to steer with: 35 degrees of tilt alone take 1.22.
-constexpr double kLeastThrustToWeight = 1.4;
+constexpr double kMinThrustToWeight = 1.4;
 
 Airframe read_fields(const std::string& name, const world::JsonValue& value) {
   value.fields({"mass_kg", "arm_m", "height_m", "propeller_radius_m", "inertia_kg_m2",
@@ -58,11 +58,11 @@ Airframe read_fields(const std::string& name, const world::JsonValue& value) {
         fmt::format("at most {:.3g}, where the discs of rotors side by side touch",
                     frame.arm_m / std::sqrt(2.0)));
   }
-  if (frame.max_thrust_n() < kLeastThrustToWeight * frame.weight_n()) {
+  if (frame.max_thrust_n() < kMinThrustToWeight * frame.weight_n()) {
     value.reject(fmt::format("rotors that lift {:.3g} N at most, for a weight of {:.3g} N",
                              frame.max_thrust_n(), frame.weight_n()),
                  fmt::format("thrust of at least {} times the weight, to hover and steer",
-                             kLeastThrustToWeight));
+                             kMinThrustToWeight));
   }
   return frame;
 }

@@ -1,4 +1,4 @@
-// What a quadcopter is made of: mass, geometry, rotors. SI units throughout.
+// Parameters of a quadcopter: mass, geometry, rotors. SI units throughout.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ inline constexpr double kGravity = 9.81;  ///< m/s²
 struct Airframe {
   std::string name;
   double mass_kg = 0;
-  double arm_m = 0;     ///< centre to rotor axis
+  double arm_m = 0;     ///< center to rotor axis
   double height_m = 0;  ///< of the body, for collisions
   double propeller_radius_m = 0;
   Eigen::Vector3d inertia = Eigen::Vector3d::Zero();  ///< kg m², about x (ahead), y (left), z (up)
@@ -40,14 +40,14 @@ struct Airframe {
 
   double weight_n() const { return mass_kg * kGravity; }
   double max_thrust_n() const { return 4 * thrust_n_s2 * max_rotor_rad_s * max_rotor_rad_s; }
-  /// Radius of the vertical cylinder that holds the craft.
+  /// Radius of the vertical cylinder that holds the vehicle.
   double radius_m() const { return arm_m + propeller_radius_m; }
   /// Speed through still air that a tilt of 30 degrees sustains (the controller may use 35).
   double top_speed_mps() const;
 };
 
 /// Reads airframes: an object with one entry per name; fields as in airframes.json. Throws
-/// InputError, also for a craft whose rotors cannot lift it with a reserve for steering.
+/// InputError, also for a vehicle whose rotors cannot lift it with a reserve for steering.
 std::vector<Airframe> parse_airframes(std::string_view json, const std::string& source);
 
 /// One airframe: an object with the fields of airframes.json, of which "source" may be left out.

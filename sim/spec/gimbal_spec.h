@@ -11,7 +11,7 @@ struct GimbalSpec {
   double damping = 0.7;
   double jitter_rad = 0.015 * EIGEN_PI / 180;  ///< standard deviation of what shakes on
   double bias_rad = 0.1 * EIGEN_PI / 180;      ///< constant error of mounting is up to so much
-  double reading_rad = 0.02 * EIGEN_PI / 180;  ///< noise of what it says of itself
+  double reading_rad = 0.02 * EIGEN_PI / 180;  ///< noise of its encoders
 };
 
 }  // namespace throng::sim

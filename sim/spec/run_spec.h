@@ -1,4 +1,4 @@
-// What a run is asked to do: crowd, drones, wind. Values only; sim/run.h simulates them.
+// Specification of a run: crowd, drones, wind. Values only; sim/run.h simulates them.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 
 namespace throng::sim {
 
-/// Where a drone of the policy "pilot_log" should be at a time.
+/// Set-point of a drone of the policy "pilot_log" at a time.
 struct PilotSample {
   double time_s = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m
@@ -24,21 +24,21 @@ struct PilotSample {
   bool beacon = true;  ///< whether people can follow it
 };
 
-/// What a policy knows of people (sim/perception.h).
+/// A policy's knowledge of people (sim/perception.h).
 enum class PerceptionKind { truth, camera };
 struct PerceptionSpec {
   PerceptionKind kind = PerceptionKind::truth;
   double fov_rad = 90 * EIGEN_PI / 180;  ///< of the camera that counts, which looks straight down
-  double delay_s = 1;                    ///< from the picture to the estimate
+  double delay_s = 1;                    ///< from the image to the estimate
   double count_noise = 0.1;              ///< share of the people missed, and of those seen twice
 };
 
 /// Parameters that only some policies have; which ones is in the table of policy.cpp.
 struct GuidanceSpec {
-  std::optional<Eigen::Vector2d> centre;  ///< orbit: what it circles, m
+  std::optional<Eigen::Vector2d> center;  ///< orbit: what it circles, m
   std::optional<double> radius_m;         ///< orbit
   std::optional<world::Rectangle> area;   ///< survey
-  std::optional<double> overlap;          ///< survey: share that neighbouring lanes have in common
+  std::optional<double> overlap;          ///< survey: share that neighboring lanes have in common
   std::optional<double> lead_speed_mps;   ///< with people behind
   std::optional<int> batch;               ///< most people that are led at once
   std::vector<std::string> exits;      ///< ids of exits to lead to; none given: all that are open
@@ -55,7 +55,7 @@ struct CameraGeometry {
   double yaw_rad = 0;                       ///< from the drone's heading
 };
 
-/// What one drone is asked to do.
+/// Mission of one drone.
 struct DroneMission {
   std::string id;                            ///< as in the job; unique
   std::string airframe = "f450";             ///< a name in sim/spec/airframes.json
@@ -72,7 +72,7 @@ struct DroneMission {
 
 /// How the crowd engine computes.
 struct CrowdSpec {
-  std::string model;  ///< a name in crowd::models(); empty: as model_for() says
+  std::string model;  ///< a name in crowd::models(); empty: model_for()
   crowd::Compat compat = crowd::Compat::none;
   bool hard_separation = false;
   double compliance = 1;  ///< probability that somebody near a guide follows it

@@ -23,7 +23,7 @@ TEST(Random, DependsOnSeedStreamAndIndexOnly) {
   const auto draw = [](std::uint64_t seed, Stream stream, std::uint64_t index) {
     return Random(seed, stream, index).bits();
   };
-  // Whatever was drawn in between, the same key gives the same value.
+  // The same key gives the same value, independent of other samples.
   const std::uint32_t first = draw(7, Stream::motion, 3);
   Random(7, Stream::wind, 9).uniform();
   EXPECT_EQ(draw(7, Stream::motion, 3), first);

@@ -28,7 +28,7 @@ class Unpacking : public ::testing::Test {
   }
   ~Unpacking() override { fs::remove_all(outer); }
 
-  /// What is refused, and where; "" when nothing is.
+  /// Location and value that are refused; "" when nothing is.
   std::string refusal_of(const std::string& bytes, const UnpackLimits& limits = {}) {
     fs::remove_all(folder);
     fs::create_directories(folder);
@@ -88,8 +88,8 @@ TEST_F(Unpacking, NamesThatLeadElsewhereAreRefused) {
   EXPECT_EQ(refusal_of({{"com/console/nullable.txt", "x"}}), "");
   EXPECT_FALSE(fs::exists(outer / "x"));
   UnpackLimits limits;
-  limits.longest_path = 10;
-  limits.deepest = 2;
+  limits.max_path_bytes = 10;
+  limits.max_depth = 2;
   EXPECT_THAT(refusal_of({{"12345678901", "x"}}, limits), HasSubstr("at most 10"));
   EXPECT_THAT(refusal_of({{"a/b/c", "x"}}, limits), HasSubstr("at most 2"));
 }
@@ -122,13 +122,13 @@ TEST_F(Unpacking, NamesThatDifferInTheirCaseOnlyAreRefused) {
 
 TEST_F(Unpacking, BombsAreRefusedEarly) {
   UnpackLimits limits;
-  limits.most_entries = 3;
+  limits.max_entries = 3;
   EXPECT_THAT(refusal_of({{"1"}, {"2"}, {"3"}, {"4"}}, limits), HasSubstr("at most 3"));
   limits = {};
-  limits.most_file_bytes = 1000;
+  limits.max_file_bytes = 1000;
   EXPECT_THAT(refusal_of({{"a", std::string(1001, 'x')}}, limits), HasSubstr("at most 1000 bytes"));
   limits = {};
-  limits.most_bytes = 1500;
+  limits.max_bytes = 1500;
   const std::string kilobyte(1000, 'x');
   EXPECT_THAT(refusal_of({{"a", kilobyte}, {"b", kilobyte}}, limits), HasSubstr("together"));
   const std::string zeros(20 << 20, '\0');
@@ -153,7 +153,7 @@ TEST_F(Unpacking, DamagedAndForeignFilesAreRefused) {
     const std::string whole = packed(packing, {{"a", text}, {"b", text}});
     EXPECT_NE(refusal_of(whole.substr(0, whole.size() / 3)), "");
   }
-  // An entry that says it is encrypted: bit 0 of the flags, in both of its headers.
+  // An entry marked as encrypted: bit 0 of the flags, in both of its headers.
   std::string zip = packed(Packing::zip_stored, {{"a", "hello"}});
   constexpr std::size_t kLocalFlags = 6;
   constexpr std::size_t kCentralFlags = 8;
@@ -161,7 +161,7 @@ TEST_F(Unpacking, DamagedAndForeignFilesAreRefused) {
   const std::size_t central = zip.find("PK\x01\x02");
   zip[central + kCentralFlags] = static_cast<char>(zip[central + kCentralFlags] | 1);
   EXPECT_THAT(refusal_of(zip), HasSubstr("encrypted"));
-  // Compressed by a method whose reader takes what memory it is told to: LZMA is 14.
+  // Compressed by a method whose reader allocates what the file requests: LZMA is 14.
   zip = packed(Packing::zip_stored, {{"a", "hello"}});
   constexpr std::size_t kLocalMethod = 8;
   constexpr std::size_t kCentralMethod = 10;

@@ -1,4 +1,4 @@
-// Boards found in pictures: real ones, and drawn ones whose corners are known.
+// Boards found in images: real ones, and rendered ones whose corners are known.
 #include "calibrate/board.h"
 
 #include <fmt/format.h>
@@ -21,14 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-GreyImage grey_of(const cv::Mat& image) {
+GrayImage gray_of(const cv::Mat& image) {
   return {image.cols, image.rows, {image.datastart, image.dataend}};
 }
 
-/// A flat picture seen askew: 900 x 700 pixels with noise of the lens's blur.
+/// A flat image seen askew: 900 x 700 pixels with noise of the lens's blur.
 struct Askew {
   cv::Mat homography;
-  GreyImage image;
+  GrayImage image;
 };
 
 Askew askew(const cv::Mat& flat, double shift = 0) {
@@ -46,11 +46,11 @@ Askew askew(const cv::Mat& flat, double shift = 0) {
   cv::warpPerspective(flat, large, result.homography, cv::Size(900, 700), cv::INTER_AREA,
                       cv::BORDER_CONSTANT, cv::Scalar(255));
   cv::GaussianBlur(large, large, cv::Size(5, 5), 0.8);
-  result.image = grey_of(large.clone());
+  result.image = gray_of(large.clone());
   return result;
 }
 
-/// Where a point of the flat picture (pixels from its corner) is seen.
+/// Projection of a point of the flat image (pixels from its corner).
 Eigen::Vector2d seen(const Askew& askew, double x, double y) {
   // The middle of a pixel is half a pixel from its corner, on both sides.
   std::vector<cv::Point2d> to;
@@ -134,7 +134,7 @@ TEST(Board, PicturesOfAnotherSizeThanMostAreLeftOut) {
 }
 
 TEST(Board, AnEmptyPictureHasNone) {
-  const GreyImage empty{640, 480, std::vector<std::uint8_t>(640 * 480, 128)};
+  const GrayImage empty{640, 480, std::vector<std::uint8_t>(640 * 480, 128)};
   for (const auto kind : {Board::Kind::chessboard, Board::Kind::charuco, Board::Kind::circles}) {
     Board board;
     board.kind = kind;

@@ -78,7 +78,7 @@ inline SyntheticViews synthetic_views(const SyntheticCamera& camera, int views, 
   return result;
 }
 
-/// Moves this share of the points by `offset_px` in a drawn direction.
+/// Moves this share of the points by `offset_px` in a random direction.
 inline void add_outliers(Correspondences& all, double share, double offset_px, std::uint64_t seed) {
   Random random(seed, Stream::bootstrap, 1'000'000);
   for (View& view : all.views) {

@@ -11,8 +11,8 @@
 #include "boards.h"
 #include "calibrate/control_points.h"
 #include "calibrate/intrinsics.h"
-#include "calibrate/picture.h"
 #include "calibrate/request.h"
+#include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "calibrate/spec/camera_file.h"
 
@@ -164,7 +164,7 @@ TEST_F(Files, ResultsSayHowSureTheyAre) {
   for (const json& view : value.at("views")) outliers += view.at("outliers").size();
   EXPECT_EQ(outliers, found.rejected);
   EXPECT_EQ(camera_from_json(value, "x").parameters, found.parameters);
-  // What the text says is what OpenCV reads.
+  // OpenCV reads the values of the text.
   const cv::FileStorage yaml(opencv_yaml(found), cv::FileStorage::READ | cv::FileStorage::MEMORY);
   cv::Mat matrix;
   cv::Mat poses;
@@ -175,7 +175,7 @@ TEST_F(Files, ResultsSayHowSureTheyAre) {
   EXPECT_EQ(poses.at<double>(3, 5), found.views[3].pose.translation.z());
   EXPECT_THAT(ros_yaml(found, "d1"), HasSubstr("camera_name: d1"));
   EXPECT_THAT(summary(found), HasSubstr("12 views"));
-  const std::string picture = residual_picture(found);
+  const std::string picture = residual_plot(found);
   EXPECT_THAT(picture, HasSubstr("<svg"));
   EXPECT_THAT(picture, HasSubstr("fill=\"red\""));
 }

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "boards.h"
-#include "calibrate/initialise.h"
+#include "calibrate/initialize.h"
 
 namespace throng::calibrate {
 namespace {
@@ -50,7 +50,7 @@ TEST(Intrinsics, FindSkew) {
 }
 
 // 200 repetitions: errors are within three of the standard deviations that go with them, the whole
-// error is as large as the whole covariance says, and the residuals are the noise.
+// error is as large as the covariance predicts, and the residuals are the noise.
 TEST(Intrinsics, ErrorsAreWhatTheCovarianceSays) {
   constexpr int kRepetitions = 200;
   constexpr double kSigma = 0.2;
@@ -144,11 +144,11 @@ TEST(Intrinsics, TheBicFindsTheLensThatWasThere) {
 TEST(Intrinsics, WarnOfFlatBoards) {
   const SyntheticViews views = synthetic_views({}, 12, 0.2, 4, 0.03);
   const Calibration found = calibrate_intrinsics(views.all, {});
-  EXPECT_THAT(found.warnings, Contains(HasSubstr("cannot be told apart")));
+  EXPECT_THAT(found.warnings, Contains(HasSubstr("cannot be separated")));
 }
 
 TEST(Intrinsics, SayWhichParametersTheDataLeaveOpen) {
-  // Boards exactly frontal: nothing tells focal length from distance.
+  // Boards exactly frontal: focal length and distance are not separable.
   SyntheticCamera camera;
   Correspondences all;
   all.size = camera.size;
@@ -163,7 +163,7 @@ TEST(Intrinsics, SayWhichParametersTheDataLeaveOpen) {
   camera.parameters = {1200, 1200, 959.5, 539.5};
   try {
     const Calibration found = calibrate_intrinsics(all, options);
-    EXPECT_THAT(found.warnings, Contains(HasSubstr("cannot be told apart")));
+    EXPECT_THAT(found.warnings, Contains(HasSubstr("cannot be separated")));
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("views"));
   }
@@ -257,7 +257,7 @@ TEST(Intrinsics, LeaveOutAViewThatIsWrong) {
 
 TEST(Intrinsics, EndWhenTheyAreCancelled) {
   IntrinsicsOptions options;
-  options.fit.go_on = [] { return false; };
+  options.fit.should_continue = [] { return false; };
   EXPECT_THROW(calibrate_intrinsics(synthetic_views({}, 5, 0.2, 4).all, options), Cancelled);
 }
 

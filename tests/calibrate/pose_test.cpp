@@ -37,15 +37,15 @@ Eigen::Vector3d ground_point(const CameraFile& file, const camera::Pose& pose, R
         {random.uniform(0, file.size.width - 1), random.uniform(0, file.size.height - 1)});
     const Eigen::Vector3d ray = pose.R.transpose() * direction->homogeneous();
     const double z = random.uniform(-0.5, 2.5);
-    const double times = (z - pose.centre().z()) / ray.z();
-    if (times > 0 && times * ray.norm() < 60) return pose.centre() + times * ray;
+    const double times = (z - pose.center().z()) / ray.z();
+    if (times > 0 && times * ray.norm() < 60) return pose.center() + times * ray;
   }
 }
 
-/// Where the calibration has the camera of an image.
-Eigen::Vector3d centre_of(const Calibration& calibration, const std::string& image) {
+/// Position of an image's camera in the calibration.
+Eigen::Vector3d center_of(const Calibration& calibration, const std::string& image) {
   for (const ViewResult& view : calibration.views) {
-    if (view.name == image) return view.pose.pose().centre();
+    if (view.name == image) return view.pose.pose().center();
   }
   return Eigen::Vector3d::Constant(1e9);
 }
@@ -108,12 +108,12 @@ TEST(Pose, IsExactFromExactPoints) {
   }
   const Calibration found = calibrate_pose(camera, control, exact.pixels, {});
   ASSERT_EQ(found.views.size(), 1U);
-  EXPECT_LT((found.views[0].pose.pose().centre() - exact.poses[0].centre()).norm(), 1e-6);
+  EXPECT_LT((found.views[0].pose.pose().center() - exact.poses[0].center()).norm(), 1e-6);
   EXPECT_LT(found.rms_px, 1e-5);
 }
 
 // drone.md: 20 points of 2 cm at 25 m: 4.6 to 6.3 cm and 0.085 to 0.12 degrees.
-TEST(Pose, TwentyControlPointsFixItWithinSevenCentimetres) {
+TEST(Pose, TwentyControlPointsFixItWithinSevenCentimeters) {
   constexpr int kRepetitions = 40;
   double squares = 0;
   double angles = 0;
@@ -123,7 +123,7 @@ TEST(Pose, TwentyControlPointsFixItWithinSevenCentimetres) {
         survey(1, 20, 20, 0.5, 100 + static_cast<std::uint64_t>(i), Eigen::Vector3d::Zero(), pitch);
     const Calibration found = calibrate_pose(drone_camera(), all.control, all.pixels, {});
     const camera::Pose pose = found.views[0].pose.pose();
-    squares += (pose.centre() - all.poses[0].centre()).squaredNorm() / kRepetitions;
+    squares += (pose.center() - all.poses[0].center()).squaredNorm() / kRepetitions;
     const double angle = angle_between(pose, all.poses[0]);
     angles += angle * angle / kRepetitions;
     EXPECT_TRUE(found.views[0].pose_sd.allFinite());
@@ -139,7 +139,7 @@ TEST(Pose, WorksInTheCoordinatesOfAMap) {
   const Calibration near = calibrate_pose(drone_camera(), here.control, here.pixels, {});
   const Calibration far = calibrate_pose(drone_camera(), there.control, there.pixels, {});
   EXPECT_LT(
-      (far.views[0].pose.pose().centre() - origin - near.views[0].pose.pose().centre()).norm(),
+      (far.views[0].pose.pose().center() - origin - near.views[0].pose.pose().center()).norm(),
       1e-5);
 }
 
@@ -149,7 +149,7 @@ TEST(Pose, WrongPointsDoNoHarm) {
   all.pixels[11].pixel += Eigen::Vector2d(-80, 55);
   const Calibration found = calibrate_pose(drone_camera(), all.control, all.pixels, {});
   EXPECT_EQ(found.rejected, 2U);
-  EXPECT_LT((found.views[0].pose.pose().centre() - all.poses[0].centre()).norm(), 0.2);
+  EXPECT_LT((found.views[0].pose.pose().center() - all.poses[0].center()).norm(), 0.2);
 }
 
 TEST(Pose, WarnsOfFewPointsAndOfPointsInALine) {
@@ -189,7 +189,7 @@ TEST(Bundle, FindsPosesPointsAndTheLensTogether) {
   EXPECT_NEAR(found.parameters[kFx], 1200, 3 * found.sd[kFx]);
   EXPECT_LT(found.sd[kFx], 3);
   for (std::size_t i = 0; i < all.poses.size(); ++i) {
-    EXPECT_LT((centre_of(found, "frame" + std::to_string(i)) - all.poses[i].centre()).norm(), 0.15);
+    EXPECT_LT((center_of(found, "frame" + std::to_string(i)) - all.poses[i].center()).norm(), 0.15);
   }
 }
 
@@ -212,7 +212,7 @@ TEST(Bundle, PlacesImagesThatSeeNoControlPoints) {
   options.fix_lens = true;
   const Calibration found = adjust_bundle(drone_camera(), all.control, all.pixels, options);
   EXPECT_EQ(found.views.size(), 6U);
-  EXPECT_LT((centre_of(found, "frame5") - all.poses[5].centre()).norm(), 0.15);
+  EXPECT_LT((center_of(found, "frame5") - all.poses[5].center()).norm(), 0.15);
 }
 
 }  // namespace

@@ -91,14 +91,15 @@ TEST_F(RealData, ThePublishedFileIsReproduced) {
   expect_equal(found, reference("left_published_yml"));
   EXPECT_EQ(found.parameters[kFx], found.parameters[kFy]);
   EXPECT_EQ(found.sd[kFx], found.sd[kFy]);
-  // What OpenCV publishes was found with another machine's corners, to the fourth digit the same.
+  // OpenCV's published result was found with another machine's corners; it agrees to the fourth
+  // digit.
   EXPECT_NEAR(found.parameters[kFx], 535.91573396163199, 0.05);
   EXPECT_NEAR(found.parameters[kCx], 342.28315473308373, 0.05);
   EXPECT_NEAR(found.parameters[kCy], 235.57082909788173, 0.05);
   EXPECT_NEAR(found.rms_px, 0.39259098975581364, 1e-4);
 }
 
-// Corners that a too wide search window has pulled off are told from those that are right.
+// Corners that a too wide search window has pulled off are detected.
 TEST_F(RealData, CollapsedCornersAreFound) {
   IntrinsicsOptions options;
   options.fit.outlier_px = 0.5;

@@ -1,4 +1,4 @@
-// What the schema of a request says, and what the reader takes, are the same.
+// The schema of a request and the reader accept the same input.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

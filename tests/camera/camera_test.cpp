@@ -23,9 +23,9 @@ Camera camera_looking(double yaw_rad, double pitch_rad) {
           pose_looking({10, -4, 25}, yaw_rad, pitch_rad)};
 }
 
-// Where a point a step away from a point on the optical axis is seen, relative to the centre.
+// Projection of a point one step away from the optical axis, relative to the center.
 Vector2d seen_towards(const Camera& camera, const Vector3d& step) {
-  const Vector3d on_axis = camera.pose.centre() + 20 * camera.pose.R.row(2).transpose();
+  const Vector3d on_axis = camera.pose.center() + 20 * camera.pose.R.row(2).transpose();
   return camera.project(on_axis + step).pixel - camera.project(on_axis).pixel;
 }
 
@@ -33,10 +33,10 @@ TEST(Intrinsics, FieldOfViewSpansThePixelsFromEdgeToEdge) {
   const double hfov_rad = 1.2;
   const Intrinsics k = intrinsics_from_hfov(kWidth, kHeight, hfov_rad);
   EXPECT_DOUBLE_EQ(k.fx_px, k.fy_px);
-  // The outer edges of the first and last pixel lie half a pixel beyond their centres.
+  // The outer edges of the first and last pixel lie half a pixel beyond their centers.
   EXPECT_NEAR(std::atan((kWidth - 0.5 - k.cx_px) / k.fx_px), hfov_rad / 2, 1e-12);
   EXPECT_NEAR(std::atan((k.cx_px + 0.5) / k.fx_px), hfov_rad / 2, 1e-12);
-  // The optical axis meets the image midway between the middle pixels: OpenCV's pixel centres.
+  // The optical axis meets the image midway between the middle pixels: OpenCV's pixel centers.
   EXPECT_DOUBLE_EQ(k.cx_px, (kWidth - 1) / 2.0);
   EXPECT_DOUBLE_EQ(k.cy_px, (kHeight - 1) / 2.0);
 }
@@ -56,18 +56,18 @@ class EveryDirection : public ::testing::TestWithParam<std::tuple<double, double
   double pitch() const { return std::get<1>(GetParam()); }
 };
 
-TEST_P(EveryDirection, PoseIsARotationAboutTheCentre) {
+TEST_P(EveryDirection, PoseIsARotationAboutTheCenter) {
   const Pose pose = pose_looking({1, 2, 3}, yaw(), pitch());
   EXPECT_TRUE((pose.R * pose.R.transpose()).isIdentity(1e-12));
   EXPECT_NEAR(pose.R.determinant(), 1, 1e-12);
-  EXPECT_TRUE(pose.centre().isApprox(Vector3d(1, 2, 3), 1e-12));
+  EXPECT_TRUE(pose.center().isApprox(Vector3d(1, 2, 3), 1e-12));
 }
 
 TEST_P(EveryDirection, LooksAlongHeadingAndPitch) {
   const Camera camera = camera_looking(yaw(), pitch());
   const Vector3d forward(std::cos(yaw()) * std::cos(pitch()), std::sin(yaw()) * std::cos(pitch()),
                          std::sin(pitch()));
-  const auto seen = camera.project(camera.pose.centre() + 7 * forward);
+  const auto seen = camera.project(camera.pose.center() + 7 * forward);
   EXPECT_NEAR(seen.depth_m, 7, 1e-9);
   EXPECT_NEAR(seen.pixel.x(), (kWidth - 1) / 2.0, 1e-6);
   EXPECT_NEAR(seen.pixel.y(), (kHeight - 1) / 2.0, 1e-6);
@@ -117,7 +117,7 @@ TEST(Pose, WorldAxesAreWhereAPilotExpectsThem) {
 
 TEST(Camera, PointsBehindHaveNegativeDepth) {
   const Camera camera = camera_looking(0, 0);
-  EXPECT_LT(camera.project(camera.pose.centre() - Vector3d(5, 0, 0)).depth_m, 0);
+  EXPECT_LT(camera.project(camera.pose.center() - Vector3d(5, 0, 0)).depth_m, 0);
 }
 
 }  // namespace

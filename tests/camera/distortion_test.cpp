@@ -35,7 +35,7 @@ TEST_P(EveryLens, UndistortUndoesDistort) {
       const auto shown = lens.distort(pinhole);
       ASSERT_TRUE(shown);
       const auto back = lens.undistort(*shown);
-      // Tangential terms may fold the picture a little before the radial ones do.
+      // Tangential terms may fold the image a little before the radial ones do.
       if (!(lens.derivatives(pinhole).determinant() > 0.05)) continue;
       ASSERT_TRUE(back) << pinhole.transpose();
       EXPECT_LT((*back - pinhole).norm(), 1e-9) << pinhole.transpose();

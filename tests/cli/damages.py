@@ -1621,7 +1621,7 @@ def formats_table_column(d):
 
 
 def run(throng, dataset, folder, name):
-    """What validate says of the damaged copy: (exit code, lines)."""
+    """Result of validating the damaged copy: (exit code, lines)."""
     d = Dataset(dataset, pathlib.Path(folder) / "damaged")
     try:
         KINDS[name](d)

@@ -28,7 +28,7 @@ def points_table():
         for row in range(6):
             for column in range(8):
                 x, y = 0.1 * (column - 3.5), 0.1 * (row - 2.5)
-                # About x by tilt, then about y by turn, two metres away.
+                # About x by tilt, then about y by turn, two meters away.
                 x1, y1, z1 = x, a * y, b * y
                 x2, y2, z2 = c * x1 + d * z1, y1, -d * x1 + c * z1 + 1.6
                 lines.append(f"v{view},{row * 8 + column},{x},{y},0,{800 * x2 / z2 + 321},{800 * y2 / z2 + 238}")

@@ -74,7 +74,7 @@ class Client(unittest.TestCase):
         self.assertIn("run000_trace.log", self.throng("logs", id_))
         self.throng("logs", id_, "run000_trace.log")
         self.assertEqual(self.throng("watch", id_), "")
-        # A download that broke off goes on, and one of something else begins anew.
+        # A download that broke off goes on, and one of another file starts again.
         whole = archive.read_bytes()
         again = self.base / "again.tar"
         self.throng("fetch", id_, "-o", again)

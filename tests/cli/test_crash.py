@@ -1,9 +1,9 @@
-"""What a crash does to a job: the server, its workers, or both are killed at random moments and at every change of a
+"""Effect of crashes on a job: the server, its workers, or both are killed at random moments and at every change of a
 job's state, the disk is full, the database is locked, what was half-written is damaged. In every case the job has to
 end with the bytes of an undisturbed one.
 
 usage: test_crash.py THRONG [unittest's arguments]
-$THRONG_CRASHES says how many random moments there are of each kind (default: 4); `bench/crash.sh` takes 50.
+$THRONG_CRASHES is the number of random moments of each kind (default: 4); `bench/crash.sh` takes 50.
 """
 import contextlib
 import hashlib
@@ -145,7 +145,7 @@ class Server:
 class Crash(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """What an undisturbed job gives, and how long it takes."""
+        """Result and duration of an undisturbed job."""
         cls.undisturbed = tempfile.TemporaryDirectory()
         server = Server(pathlib.Path(cls.undisturbed.name))
         server.start()
@@ -289,7 +289,7 @@ class Crash(unittest.TestCase):
         manifest = self.server.request("GET", f"/v1/jobs/{job}/manifest")
         self.assertEqual([run["run"] for run in manifest["runs"]], ["run000"])
         self.assertEqual(manifest["failed_runs"], [{"run": "run001", "task": "run001/shard0001"}])
-        # What there is of it is whole.
+        # Everything present is complete.
         checked = subprocess.run([THRONG, "validate", str(self.server.data / "jobs" / job / "dataset")],
                                  capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
@@ -347,7 +347,7 @@ class Crash(unittest.TestCase):
             self.skipTest("no right to mount a small disk")
         self.addCleanup(lambda: subprocess.run(["umount", "-l", str(disk)]))
         self.server.data = disk / "data"
-        self.server.options = ("--least-free", "8")
+        self.server.options = ("--min-free", "8")
         self.server.start(faults="slow:*:0.2")
         job = self.server.request("POST", "/v1/jobs", JOB)["id"]
         wait_until(lambda: self.server.state(job) == "running")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a dry run costs the service: its process neither simulates nor loads a crowd.
+"""CPU and memory cost of a dry run in the service: its process neither simulates nor loads a crowd.
 
     tests/cli/test_dry_run_cost.py THRONG
 

@@ -1,6 +1,6 @@
 """Exports read with tools that nobody here wrote: Python's own library, NumPy and Pillow, and h5py, SciPy, OpenCV,
 torchvision and rosbag where Debian's packages of them are installed (python3-h5py, python3-scipy, python3-opencv,
-python3-torchvision, python3-rosbag). What is missing is skipped, and says so."""
+python3-torchvision, python3-rosbag). Missing packages are skipped, with a message."""
 import configparser
 import csv
 import importlib.util

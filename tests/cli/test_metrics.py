@@ -1,5 +1,5 @@
-"""What `throng metrics` says of a run, against an implementation of the same definitions (docs/metrics.md) written
-anew with NumPy, and the trajectories that it writes, read with Python's own library. Skipped without h5py."""
+"""The figures of `throng metrics`, against an independent implementation of the same definitions (docs/metrics.md)
+with NumPy, and the trajectories that it writes, read with Python's own library. Skipped without h5py."""
 import csv
 import gzip
 import importlib.util
@@ -144,7 +144,7 @@ class Metrics(unittest.TestCase):
         self.assertGreater(compared, 3)
 
     def test_queue_and_wait(self):
-        """Who can be reached from the zone over links of 1.2 m, by relaxing until nothing gets shorter."""
+        """People who can be reached from the zone over links of 1.2 m, by relaxing until nothing gets shorter."""
         speed = numpy.hypot(self.velocity[..., 0], self.velocity[..., 1])
         slow = (self.place[..., 0] < 0) & (speed < 0.5 * self.desired)
         crossed = self.crossed()
@@ -289,7 +289,7 @@ class Metrics(unittest.TestCase):
         command = [THRONG, "metrics", "--trajectory", str(file), "--scenario", str(self.base / "place.json")]
         done = subprocess.run(command, capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("centimetres.txt: found nobody in the place at any time", done.stderr)
+        self.assertIn("centimetres.txt: found nobody inside the scenario at any time", done.stderr)
         self.assertIn("--unit-m 0.01", done.stderr)
         done = subprocess.run([*command, "--unit-m", "0.01"], capture_output=True, text=True, timeout=60)
         self.assertEqual(json.loads(done.stdout)["people"], 1)
@@ -331,7 +331,7 @@ class RecordedBottleneck(unittest.TestCase):
         self.assertIsNone(self.figures["alarm_s"])
 
     def test_predicted_waits_are_those_that_come(self):
-        """What was said of the last one in the queue, and when so many had in fact passed."""
+        """The predicted wait of the last one in the queue, against the time when as many had passed."""
         passed = numpy.array([int(row["crossed_out"]) for row in self.rows])
         time = numpy.array([float(row["time_s"]) for row in self.rows])
         predicted, actual = [], []

@@ -22,7 +22,7 @@ def people(*arguments):
     return subprocess.run([THRONG, "people", *map(str, arguments)], capture_output=True, text=True, timeout=300)
 
 
-# Where the bones of somebody of 1.8 m start (x to their left, y up, z ahead), and what each hangs on.
+# Joint positions of a person of 1.8 m (x to their left, y up, z forward), and the parent of each.
 LIMBS = {"UpLeg": ("Hips", 0.1, 0.93), "Leg": ("UpLeg", 0.1, 0.5), "Foot": ("Leg", 0.1, 0.09),
          "Arm": ("Spine", 0.2, 1.45), "ForeArm": ("Arm", 0.23, 1.17), "Hand": ("ForeArm", 0.24, 0.92)}
 BONES = {"Hips": (None, 0, 0.95), "Spine": ("Hips", 0, 1.1), "Head": ("Spine", 0, 1.6)}

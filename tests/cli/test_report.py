@@ -59,7 +59,7 @@ class Report(unittest.TestCase):
         parser.feed(self.text)
         self.assertEqual(parser.open, [])
         self.assertEqual(self.text.count("<div data-chart="), 1 + 2 * CHARTS_OF_A_RUN)
-        # What could fetch: the page's own markup, which its policy confines besides.
+        # Elements that could fetch: the page's own markup, which its policy also confines.
         markup = self.text[:self.text.index("<script")]
         self.assertNotRegex(markup, r"https?:|<(link|img|iframe)\b|url\(|@import")
         self.assertIn("default-src 'none'", markup)

@@ -183,7 +183,7 @@ class Attacks:
                         + coding + b"\r\nAuthorization: Bearer " + key + b"\r\nContent-Length: %d\r\n\r\n" % len(bomb))
                 answers = exchange(self.front, head + bomb)
                 self.assertEqual(statuses(answers), [415], head)
-        # A part of a form may say what it wants: nobody looks (RFC 7578, 4.8).
+        # A part of a form may contain any headers: they are ignored (RFC 7578, 4.8).
         part = (b"--B\r\nContent-Disposition: form-data; name=\"job\"\r\nContent-Encoding: gzip\r\n\r\n" + bomb + b"\r\n--B--\r\n")
         head = (b"POST /v1/jobs HTTP/1.1\r\n" + HOST + b"Content-Type: multipart/form-data; boundary=B\r\nConnection: close\r\n"
                 b"Authorization: Bearer " + self.throng.key.encode() + b"\r\nContent-Length: %d\r\n\r\n" % len(part))
@@ -376,7 +376,7 @@ class ThroughNginx(Attacks, unittest.TestCase):
         self.assertEqual(code, b"200")
 
     def test_other_connections_of_the_upstream_are_shared(self):
-        """What the attacks need to be attacks: two users' requests on one connection to throng."""
+        """Precondition of the attacks: two users' requests on one connection to throng."""
         for _ in range(20):
             self.ask("/v1/version")
         ends = subprocess.run(["ss", "-tn", "state", "established", f"( dport = :{self.throng.port} )"],

@@ -126,7 +126,7 @@ class SmallDataset : public testing::Test {
   static std::vector<float> depth_of(const render::Frame& picture) {
     std::vector<float> depth_m(picture.id.size(), 9.0F);
     const camera::Camera& camera = picture.camera;
-    const Eigen::Vector3d centre = camera.pose.centre();
+    const Eigen::Vector3d centre = camera.pose.center();
     for (std::size_t i = 0; i < depth_m.size(); ++i) {
       if (picture.id[i] != render::kIdGround) continue;
       const auto column = static_cast<double>(static_cast<int>(i) % picture.width());

@@ -31,19 +31,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fs::path inner = outer.write("beside", "x").parent_path() / "inner";
   fs::create_directory(inner);
   throng::UnpackLimits limits;
-  limits.most_entries = 50;
-  limits.most_file_bytes = 100'000;
-  limits.most_bytes = 200'000;
+  limits.max_entries = 50;
+  limits.max_file_bytes = 100'000;
+  limits.max_bytes = 200'000;
   try {
     const throng::Unpacked unpacked =
         throng::unpack_archive({reinterpret_cast<const char*>(data), size}, inner, limits);
-    if (unpacked.bytes > limits.most_bytes || unpacked.files == 0) std::abort();
+    if (unpacked.bytes > limits.max_bytes || unpacked.files == 0) std::abort();
   } catch (const throng::InputError&) {
   } catch (const throng::EnvironmentError&) {
   }
   // A block more may have been written when a limit was found to be broken.
   constexpr std::uintmax_t kBlock = 64 << 10;
-  if (bytes_below(inner) > static_cast<std::uintmax_t>(limits.most_bytes) + kBlock) std::abort();
+  if (bytes_below(inner) > static_cast<std::uintmax_t>(limits.max_bytes) + kBlock) std::abort();
   fs::remove_all(inner);
   if (std::distance(fs::directory_iterator(inner.parent_path()), {}) != 1) std::abort();
   return 0;

@@ -106,10 +106,10 @@ TEST(ShippedAlarms, AreThoseOfTheirFiles) {
   }
 }
 
-// Without states that say it: who begins to head for an exit after the alarm, or for another one.
+// Without such states: people who begin to head for an exit after the alarm, or for another one.
 TEST(Noticing, IsANewIntentWhereStatesDoNotTell) {
-  world::Scenario place = place_with_door(2);
-  add_alarm(place, 5);
+  world::Scenario scenario = place_with_door(2);
+  add_alarm(scenario, 5);
   CrowdOfTest crowd;
   crowd.duration_s = 20;
   crowd.intent = -1;
@@ -122,15 +122,15 @@ TEST(Noticing, IsANewIntentWhereStatesDoNotTell) {
     if (time_s < 11.95) trace.flags[trace.at(step, 3)] = 0;  // arrives and heads for it at once
     trace.exit_intent[trace.at(step, 3)] = 0;
   }
-  const auto people = person_records(trace, place, alarm_of(place));
+  const auto people = person_records(trace, scenario, alarm_of(scenario));
   EXPECT_FALSE(people[0].noticed_s);
   EXPECT_NEAR(people[1].noticed_s.value(), 8, 1e-6);
   EXPECT_NEAR(people[2].noticed_s.value(), 10, 1e-6);
   EXPECT_NEAR(people[3].noticed_s.value(), 12, 1e-6);
   EXPECT_NEAR(people[3].start_s, 12, 1e-6);
   EXPECT_FALSE(people[4].noticed_s);
-  place.disasters.clear();
-  for (const PersonRecord& person : person_records(trace, place, alarm_of(place))) {
+  scenario.disasters.clear();
+  for (const PersonRecord& person : person_records(trace, scenario, alarm_of(scenario))) {
     EXPECT_FALSE(person.noticed_s) << "there is nothing to notice";
     EXPECT_EQ(person.start_s, person.arrived_s);
   }

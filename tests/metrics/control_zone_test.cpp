@@ -47,15 +47,15 @@ TEST(ControlZone, AHalfDiscCutByAWallHasAQuarterLeft) {
 
 TEST(ControlZone, KnowsWhichShareOfAWayIsInIt) {
   const ControlZone zone(door(2), {});
-  EXPECT_NEAR(zone.share_of_way({-4, 0}, {0, 0}), 0.75, 1e-12);
-  EXPECT_NEAR(zone.share_of_way({1, 0}, {-1, 0}), 0.5, 1e-12);
-  EXPECT_NEAR(zone.share_of_way({-1, -4}, {-1, 4}), std::sqrt(8.0) / 4, 1e-12);
-  EXPECT_EQ(zone.share_of_way({-2, 0}, {-1, 0}), 1);
-  EXPECT_EQ(zone.share_of_way({-1, 0}, {-1, 0}), 1);
-  EXPECT_EQ(zone.share_of_way({1, 0}, {1, 0}), 0);
-  EXPECT_EQ(zone.share_of_way({1, -4}, {1, 4}), 0) << "outside of the door";
-  EXPECT_EQ(zone.share_of_way({-4, 4}, {-4, -4}), 0) << "past the disc";
-  EXPECT_EQ(zone.share_of_way({-9, 0}, {-5, 0}), 0) << "not there yet";
+  EXPECT_NEAR(zone.share_of_path({-4, 0}, {0, 0}), 0.75, 1e-12);
+  EXPECT_NEAR(zone.share_of_path({1, 0}, {-1, 0}), 0.5, 1e-12);
+  EXPECT_NEAR(zone.share_of_path({-1, -4}, {-1, 4}), std::sqrt(8.0) / 4, 1e-12);
+  EXPECT_EQ(zone.share_of_path({-2, 0}, {-1, 0}), 1);
+  EXPECT_EQ(zone.share_of_path({-1, 0}, {-1, 0}), 1);
+  EXPECT_EQ(zone.share_of_path({1, 0}, {1, 0}), 0);
+  EXPECT_EQ(zone.share_of_path({1, -4}, {1, 4}), 0) << "outside of the door";
+  EXPECT_EQ(zone.share_of_path({-4, 4}, {-4, -4}), 0) << "past the disc";
+  EXPECT_EQ(zone.share_of_path({-9, 0}, {-5, 0}), 0) << "not there yet";
 }
 
 TEST(ControlZone, HasNoAreaInsideABuilding) {

@@ -15,8 +15,8 @@ namespace {
 // Alarm at 5 s. One leaves before, one at 9 s; one arrives at 8 s and leaves at 14 s, one at 12 s
 // and stays; one was there all the time and stays. The run ends at 20 s.
 TEST(EscapeTimes, RunFromTheLaterOfAlarmAndArrival) {
-  world::Scenario place = place_with_door(2);
-  add_alarm(place, 5);
+  world::Scenario scenario = place_with_door(2);
+  add_alarm(scenario, 5);
   CrowdOfTest crowd;
   crowd.duration_s = 20;
   const auto leaves_at = [](double time_s) -> Walk {
@@ -32,7 +32,7 @@ TEST(EscapeTimes, RunFromTheLaterOfAlarmAndArrival) {
     if (step < 120) trace.flags[trace.at(step, 3)] = 0;
     trace.flags[trace.at(step, 5)] = 0;  // never comes
   }
-  const RunMetrics run = run_metrics(trace, place, {});
+  const RunMetrics run = run_metrics(trace, scenario, {});
   EXPECT_EQ(run.people, 5);
   EXPECT_EQ(run.escapes.left_before_alarm, 1);
   EXPECT_EQ(run.escapes.evacuees(), 4);

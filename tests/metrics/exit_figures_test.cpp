@@ -105,7 +105,7 @@ TEST(ExitVoronoi, ALatticeHasItsDensity) {
   EXPECT_NEAR(sample.density_per_m2, 4, 0.5) << "counting whole people is rougher";
 }
 
-TEST(ExitFlow, SpecificFlowIsPerMetre) {
+TEST(ExitFlow, SpecificFlowIsPerMeter) {
   std::vector<Walk> walks;
   for (int i = 0; i < 40; ++i) walks.push_back(walking({-0.55 - 0.5 * i, 0}, {1, 0}));
   const ExitSeries series = series_of(walks, 15);
@@ -120,7 +120,7 @@ TEST(ExitFlow, SpecificFlowIsPerMetre) {
 }
 
 // 49 people before the door; one leaves at 10.2 s, the next at 20.2 s.
-std::vector<Walk> two_who_get_through() {
+std::vector<Walk> two_passers() {
   std::vector<Walk> walks;
   for (int row = 0; row < 7; ++row) {
     for (int column = -3; column <= 3; ++column) {
@@ -133,7 +133,7 @@ std::vector<Walk> two_who_get_through() {
 }
 
 TEST(ExitClogs, TheWholeGapIsClogged) {
-  const ExitSeries series = series_of(two_who_get_through(), 30);
+  const ExitSeries series = series_of(two_passers(), 30);
   ASSERT_EQ(series.clogs.size(), 3U);
   EXPECT_NEAR(series.clogs[0].from_s, 0, 1e-9);
   EXPECT_NEAR(series.clogs[0].until_s, 10.4, 0.101);
@@ -142,7 +142,7 @@ TEST(ExitClogs, TheWholeGapIsClogged) {
   EXPECT_TRUE(series.clogs[1].ended);
   EXPECT_FALSE(series.clogs[2].ended);
   EXPECT_NEAR(series.clogs[2].until_s, 30, 1e-9);
-  EXPECT_GT(series.clogs[0].max_normalised_density, 0.35);
+  EXPECT_GT(series.clogs[0].max_normalized_density, 0.35);
   EXPECT_EQ(series.clogs[0].members.size(), 44U) << "the last row stands 3.02 m away";
   for (const ExitSample& sample : series.samples) {
     EXPECT_EQ(sample.state_offline, ExitState::clogged);
@@ -185,7 +185,7 @@ TEST(ExitClogs, AFreeDoorHasNone) {
 TEST(ExitTotals, AClosedDoorIsClosedAllTheTime) {
   world::Scenario scenario = place_with_door(2);
   scenario.exits[0].open = false;
-  const world::Trace trace = trace_of(two_who_get_through());
+  const world::Trace trace = trace_of(two_passers());
   const auto exits = exit_series(trace, scenario);
   for (const ExitSample& sample : exits[0].samples) EXPECT_EQ(sample.state, ExitState::closed);
   EXPECT_TRUE(exits[0].clogs.empty());
@@ -198,8 +198,8 @@ TEST(ExitTotals, AClosedDoorIsClosedAllTheTime) {
 
 TEST(ExitTotals, ADoorThatADisasterReachesIsClosedFromThenOn) {
   world::Scenario scenario = place_with_door(2);
-  scenario.exits[0].shuts_s = 20;
-  const world::Trace trace = trace_of(two_who_get_through());
+  scenario.exits[0].closes_at_s = 20;
+  const world::Trace trace = trace_of(two_passers());
   const auto exits = exit_series(trace, scenario);
   const auto& samples = exits[0].samples;
   for (std::size_t step = 0; step < samples.size(); ++step) {
@@ -244,7 +244,7 @@ TEST(ExitBalance, OneOfTwoEqualDoorsIsHalf) {
 }
 
 TEST(ExitTotals, JsonNamesWhatThereIs) {
-  const world::Trace trace = trace_of(two_who_get_through());
+  const world::Trace trace = trace_of(two_passers());
   const world::Scenario scenario = place_with_door(2);
   const auto totals = exit_totals(exit_series(trace, scenario), 0.1);
   const nlohmann::json json = to_json(totals.at(0));

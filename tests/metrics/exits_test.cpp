@@ -132,7 +132,7 @@ TEST(ExitSeries, MeasuresTheZone) {
   EXPECT_NEAR(series.zone_area_m2, area, 1e-6);
   EXPECT_EQ(sample.in_zone, 9);
   EXPECT_NEAR(sample.density_per_m2, 9 / area, 1e-6);
-  EXPECT_NEAR(sample.normalised_density, 9 / area * 2 * std::sqrt(3.0) * 0.04, 1e-6);
+  EXPECT_NEAR(sample.normalized_density, 9 / area * 2 * std::sqrt(3.0) * 0.04, 1e-6);
   EXPECT_NEAR(sample.approach_speed_mps, 0.4, 1e-4);
 }
 
@@ -160,7 +160,7 @@ TEST(ExitSeries, NobodyIsIdleForEver) {
     EXPECT_EQ(sample.state, ExitState::idle);
     EXPECT_EQ(sample.in_zone, 0);
     EXPECT_EQ(sample.clogging_index, 0);
-    EXPECT_TRUE(std::isfinite(sample.normalised_density));
+    EXPECT_TRUE(std::isfinite(sample.normalized_density));
   }
 }
 
@@ -192,18 +192,18 @@ TEST(ExitSeries, ACrowdThatStopsFlowsCongestsClogsAndRecovers) {
   EXPECT_EQ(samples.back().net_out(), 63);
 
   // Standing: no flow, no speed, so only the density limits the index.
-  EXPECT_NEAR(at(16).clogging_index, at(16).normalised_density / 0.6, 1e-6);
+  EXPECT_NEAR(at(16).clogging_index, at(16).normalized_density / 0.6, 1e-6);
   EXPECT_GT(at(16).clogging_index, 0.5);
   for (const ExitSample& sample : samples) {
     const double flow_lack = std::max(0.0, 1 - sample.flow_per_s / (1.3 * 2));
     const double speed_lack = std::max(0.0, 1 - sample.approach_speed_mps / (0.6 * 1.3));
     const double expected =
-        std::min(1.0, sample.normalised_density / 0.6) * (0.5 * flow_lack + 0.5 * speed_lack);
+        std::min(1.0, sample.normalized_density / 0.6) * (0.5 * flow_lack + 0.5 * speed_lack);
     EXPECT_NEAR(sample.clogging_index, sample.state == ExitState::idle ? 0 : expected, 1e-6);
   }
 }
 
-// Who finds the door blocked did not wait before they came.
+// A person who finds the door blocked did not wait before arriving.
 TEST(ExitSeries, TheGapStartsWithTheDemand) {
   std::vector<Walk> walks;
   for (const Vector2d& place : block(7, 7, 0.42)) {

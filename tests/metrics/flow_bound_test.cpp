@@ -74,7 +74,8 @@ TEST(EarliestOut, AtOneDoorIsTheQueueOfArrivals) {
   EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{3, 3, 4, 4, 5, 5, 22, 23}));
 }
 
-// Who can take either door must leave the near one to those who cannot: only rerouting finds that.
+// People who can take either door must leave the near one to those who cannot: only rerouting finds
+// that.
 TEST(EarliestOut, PeopleMakeRoomForThoseWhoHaveNoChoice) {
   const double never = std::numeric_limits<double>::infinity();
   Departures departures;
@@ -93,12 +94,12 @@ TEST(EarliestOut, NobodyGetsOutByADoorThatIsShut) {
   Departures departures;
   departures.capacity_per_s = {2, 1};
   departures.on_s = {0, 0};
-  departures.shuts_s = {3, never};
+  departures.closes_at_s = {3, never};
   for (int i = 0; i < 8; ++i) departures.access_s.push_back({0, i < 2 ? 0 : never});
   EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{0, 0, 0, 1, 1, 1, 2, 2}));
-  departures.shuts_s = {2, never};
+  departures.closes_at_s = {2, never};
   EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{0, 0, 0, 1, 1, 1, never, never}));
-  departures.shuts_s = {-5, never};
+  departures.closes_at_s = {-5, never};
   EXPECT_EQ(earliest_out_s(departures),
             (std::vector<double>{0, 1, never, never, never, never, never, never}));
 }

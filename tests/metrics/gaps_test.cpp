@@ -62,7 +62,7 @@ TEST(Gaps, QuantilesAndBursts) {
   const GapFigures figures = gap_figures(crossings, 2);
   EXPECT_EQ(figures.gaps_s, (std::vector<double>{0.5, 0.5, 2.5, 0.5, 5}));
   EXPECT_DOUBLE_EQ(*figures.median_s, 0.5);
-  EXPECT_DOUBLE_EQ(*figures.longest_s, 5);
+  EXPECT_DOUBLE_EQ(*figures.max_duration_s, 5);
   EXPECT_DOUBLE_EQ(*figures.p90_s, 4);
   EXPECT_DOUBLE_EQ(*figures.long_share, 0.4);
   EXPECT_EQ(figures.bursts[0], (std::vector<int>{3, 2, 1}));
@@ -79,7 +79,7 @@ TEST(Gaps, NobodyAndOneHaveNoGaps) {
   EXPECT_TRUE(to_json(figures).at("median_s").is_null());
 }
 
-// Independent gaps drawn from the law, as a door's are: within three standard errors of the
+// Independent gaps sampled from the law, as a door's are: within three standard errors of the
 // exponent.
 TEST(Gaps, ARandomSampleGivesTheExponentWithinItsError) {
   int within_one = 0;

@@ -24,7 +24,7 @@ RunMetrics figures_of(const world::Trace& trace, world::Scenario scenario = plac
 }
 
 // Person i starts `i` m before (8, 0), stands until `notice_s` and then walks out at 1 m/s.
-world::Trace two_who_notice(double notice_s, double duration_s = 60) {
+world::Trace two_observers(double notice_s, double duration_s = 60) {
   CrowdOfTest crowd;
   crowd.duration_s = duration_s;
   world::Trace trace =
@@ -37,7 +37,7 @@ world::Trace two_who_notice(double notice_s, double duration_s = 60) {
 }
 
 TEST(NotificationFigures, CountFromTheFirstIntent) {
-  const RunMetrics metrics = figures_of(two_who_notice(5.05));
+  const RunMetrics metrics = figures_of(two_observers(5.05));
   EXPECT_EQ(metrics.notification->never, 0);
   ASSERT_TRUE(metrics.notification->first_s);
   EXPECT_NEAR(*metrics.notification->first_s, 5.1, 1e-6);
@@ -49,7 +49,7 @@ TEST(NotificationFigures, CountFromTheFirstIntent) {
 }
 
 TEST(NotificationFigures, WhoNeverNoticesIsCounted) {
-  const RunMetrics metrics = figures_of(two_who_notice(100));
+  const RunMetrics metrics = figures_of(two_observers(100));
   EXPECT_EQ(metrics.notification->never, 2);
   EXPECT_FALSE(metrics.notification->first_s);
   EXPECT_TRUE(to_json(metrics).at("notification").at("mean_s").is_null());
@@ -77,17 +77,17 @@ TEST(NotificationFigures, PercentilesCountWhoWasNotWatchedToTheEnd) {
 }
 
 TEST(Horizons, AreKnownWhenEverybodyIsOut) {
-  const RunMetrics metrics = figures_of(two_who_notice(0));
+  const RunMetrics metrics = figures_of(two_observers(0));
   ASSERT_EQ(metrics.horizons.size(), 2U);
   EXPECT_EQ(metrics.horizons[0].not_escaped, 0);
   EXPECT_NEAR(*metrics.horizons[0].restricted_mean_s, 13, 0.11);
-  const RunMetrics short_run = figures_of(two_who_notice(0, 13));
+  const RunMetrics short_run = figures_of(two_observers(0, 13));
   EXPECT_FALSE(short_run.horizons[0].not_escaped);
   EXPECT_NEAR(short_run.mean_escape_time_s, 12.5, 0.11);
 }
 
 TEST(Journeys, StraightToTheDoorHasNoDetour) {
-  const RunMetrics metrics = figures_of(two_who_notice(3));
+  const RunMetrics metrics = figures_of(two_observers(3));
   ASSERT_EQ(metrics.journeys.size(), 2U);
   EXPECT_NEAR(metrics.journeys[1].walked_m, 4, 0.11);
   EXPECT_NEAR(*metrics.journeys[1].to_used_m, 4, 0.02);
@@ -131,7 +131,7 @@ TEST(WalkingDistance, IsStraightWhereTheGroundIsFree) {
 
 TEST(WalkingDistance, ThroughTwoCornersOfABuildingIsNoWay) {
   const WalkingDistance distance({{-20, -20}, {1, 20}}, {box({-6, -1}, {-4, 1})}, door(2));
-  // The straight way to (0, 1) runs along the building's upper edge; that to (0, 0) through its
+  // The straight path to (0, 1) runs along the building's upper edge; that to (0, 0) through its
   // middle.
   EXPECT_NEAR(*distance.from({-10, 1}), 10, 0.2);
   EXPECT_GT(*distance.from({-10, 0}), 10.1);
@@ -166,7 +166,7 @@ TEST(ExposureFigures, ALatticeIsAsDenseAsItIs) {
   EXPECT_NEAR(exposure.max_density_per_m2, 4, 1e-6);
 }
 
-// Alternate walkers at +1 and -1 m/s on a fine lattice: 16 people per square metre, variance 1.
+// Alternate walkers at +1 and -1 m/s on a fine lattice: 16 people per square meter, variance 1.
 TEST(ExposureFigures, TheGreatestPressureIsDensityTimesVariance) {
   std::vector<Walk> walks;
   for (int row = -10; row < 10; ++row) {
@@ -254,7 +254,7 @@ TEST(ExposureFigures, CrushIsAQuestionOfPeoplePerSquareMeter) {
     const Exposure above_six = lattice_exposure(1 / std::sqrt(6.5), radius_m, 0);
     EXPECT_GE(above_six.above_person_s.back(), inner - 1e-6) << radius_m;
   }
-  // The discs' own figure says how close they are packed: 4 per m² of 1.8 possible ones.
+  // The discs' own figure is their packing density: 4 per m² of 1.8 possible ones.
   EXPECT_GT(lattice_exposure(0.5, 0.4F, 0).disc_packing_person_s[0], inner - 1e-6);
   EXPECT_EQ(lattice_exposure(0.5, 0.1F, 0).disc_packing_person_s[0], 0);
 }
@@ -298,7 +298,7 @@ TEST(ExposureFigures, CountsEveryStep) {
 }
 
 TEST(GuidanceFigures, FollowersAreInAStateOfThatName) {
-  world::Trace trace = two_who_notice(0);
+  world::Trace trace = two_observers(0);
   trace.header.state_names = {"Walk", "FollowDrone"};
   for (std::size_t step = 10; step < 40; ++step) trace.state[trace.at(step, 1)] = 1;
   const GuidanceFigures guidance = figures_of(trace).guidance;
@@ -309,16 +309,16 @@ TEST(GuidanceFigures, FollowersAreInAStateOfThatName) {
 
 TEST(GuidanceFigures, TheEffectIsAgainstTheSameRunWithoutGuides) {
   const world::Scenario scenario = place_with_door(2);
-  world::Trace led = two_who_notice(0);
+  world::Trace led = two_observers(0);
   led.header.state_names = {"Walk", "FollowDrone"};
   led.state[led.at(3, 1)] = 1;  // one of the two
-  const LeadEffect effect = lead_effect(led, two_who_notice(5), scenario);
+  const LeadEffect effect = lead_effect(led, two_observers(5), scenario);
   EXPECT_NEAR(effect.all_s, 10, 0.21);
   EXPECT_NEAR(effect.led_s, 5, 0.11);
   EXPECT_EQ(effect.censored, 0);
-  EXPECT_NEAR(lead_effect(two_who_notice(5), led, scenario).all_s, -10, 0.21);
+  EXPECT_NEAR(lead_effect(two_observers(5), led, scenario).all_s, -10, 0.21);
   // Both are out at 12 and 14 s; without guides nobody is when that run ends, at 10 s.
-  const LeadEffect censored = lead_effect(two_who_notice(0), two_who_notice(5, 13), scenario);
+  const LeadEffect censored = lead_effect(two_observers(0), two_observers(5, 13), scenario);
   EXPECT_EQ(censored.censored, 2);
   EXPECT_NEAR(censored.all_s, 1, 0.11) << "one was out a second before the end of the shorter run";
   nlohmann::json json = to_json(GuidanceFigures{});
@@ -329,17 +329,17 @@ TEST(GuidanceFigures, TheEffectIsAgainstTheSameRunWithoutGuides) {
 
 TEST(GuidanceFigures, AnythingButThePairIsRefused) {
   const world::Scenario scenario = place_with_door(2);
-  EXPECT_THROW(lead_effect(two_who_notice(0), trace_of({standing({0, 0})}), scenario), InputError);
-  world::Trace other = two_who_notice(5);
+  EXPECT_THROW(lead_effect(two_observers(0), trace_of({standing({0, 0})}), scenario), InputError);
+  world::Trace other = two_observers(5);
   other.header.seed = 7;
-  EXPECT_THROW(lead_effect(two_who_notice(0), other, scenario), InputError);
+  EXPECT_THROW(lead_effect(two_observers(0), other, scenario), InputError);
   other.header.seed = 0;
   other.header.scenario_id = "elsewhere";
-  EXPECT_THROW(lead_effect(two_who_notice(0), other, scenario), InputError);
+  EXPECT_THROW(lead_effect(two_observers(0), other, scenario), InputError);
 }
 
 TEST(ReferenceTime, IsThatOfEachPersonsNoticeSpeedAndWay) {
-  const RunMetrics metrics = figures_of(two_who_notice(2));
+  const RunMetrics metrics = figures_of(two_observers(2));
   ASSERT_TRUE(metrics.reference);
   // 2 and 4 m to the door, in the second that ends 3.08 s after the notice at 2 s, and 10 m on at
   // 1.3 m/s.
@@ -354,7 +354,7 @@ TEST(ReferenceTime, IsThatOfEachPersonsNoticeSpeedAndWay) {
 }
 
 TEST(ReferenceTime, GoesAroundBuildings) {
-  const world::Trace trace = two_who_notice(0);
+  const world::Trace trace = two_observers(0);
   world::Scenario walled = place_with_door(2);
   walled.buildings.push_back(box({-1.5, -6}, {-1, 6}));
   const double straight_s = figures_of(trace).reference->escape_s.back();

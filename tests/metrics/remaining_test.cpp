@@ -12,10 +12,10 @@ using Eigen::Vector2d;
 
 Remaining remaining_in(const world::Trace& trace, const world::Scenario& scenario) {
   return remaining_of(trace, scenario, person_records(trace, scenario, alarm_of(scenario)),
-                      ways_to_exits(scenario));
+                      walking_distances(scenario));
 }
 
-/// Sets what the last step says of somebody.
+/// Sets a person's state at the last step.
 void mark_end(world::Trace& trace, std::size_t agent, std::uint8_t flags, std::int8_t intent) {
   const std::size_t at = trace.at(trace.steps() - 1, agent);
   trace.flags[at] |= flags;
@@ -49,9 +49,9 @@ TEST(Remaining, EveryReasonOnce) {
 
 TEST(Remaining, NobodyLeavesByAShutDoorOrThroughWalls) {
   const world::Trace trace = trace_of({standing({-5, 0})}, two_minutes());
-  world::Scenario shut = place_with_door(2);
-  shut.exits[0].shuts_s = 30;
-  EXPECT_EQ(remaining_in(trace, shut).blocked, 1);
+  world::Scenario closed = place_with_door(2);
+  closed.exits[0].closes_at_s = 30;
+  EXPECT_EQ(remaining_in(trace, closed).blocked, 1);
   world::Scenario walled = place_with_door(2);
   walled.buildings = {box({-8, -3}, {-2, -2}), box({-8, 2}, {-2, 3}), box({-8, -3}, {-7, 3}),
                       box({-3, -3}, {-2, 3})};

@@ -132,13 +132,13 @@ void expect_bounded(const world::Trace& trace, const world::Scenario& scenario) 
 
 // People who go where they like at what speed they like: through the door one behind the other with
 // no distance, beside the door, faster than they desire, arriving late, leaving before the alarm,
-// gone in the middle of the place, and with the door shut before their eyes.
+// gone in the middle of the place, and with the door closed before their eyes.
 TEST(LowerBound, IsBeatenByNobody) {
   Random random(17, Stream::wind);
   for (int trial = 0; trial < 40; ++trial) {
     world::Scenario scenario = place_with_door(random.uniform(0.8, 3));
     add_alarm(scenario, trial % 3 == 0 ? 0 : random.uniform(1, 6));
-    if (trial % 4 == 0) scenario.exits[0].shuts_s = random.uniform(2, 8);
+    if (trial % 4 == 0) scenario.exits[0].closes_at_s = random.uniform(2, 8);
     if (trial % 5 == 0) scenario.exits[0].open = false;
     if (trial % 7 == 0) scenario.buildings.push_back(box({-4, -3}, {-3, 3}));
     std::vector<Walk> walks;
@@ -172,7 +172,7 @@ TEST(LowerBound, IsBeatenByNobody) {
   }
 }
 
-// 200 people who stand at a door of 2 m: no more pass in t seconds than its capacity says.
+// 200 people who stand at a door of 2 m: no more pass in t seconds than its capacity allows.
 TEST(LowerBound, IsLimitedByTheDoor) {
   world::Scenario scenario = place_with_door(2);
   add_alarm(scenario, 0);

@@ -36,7 +36,7 @@ TEST(Voronoi, InALatticeEverybodyHasOneMesh) {
   EXPECT_NEAR(cell.density_per_m2(), 2.5, 1e-9);
 }
 
-// Two lanes in a corridor that is 2 m wide, people 1 m apart: half of the corridor's metre each.
+// Two lanes in a corridor that is 2 m wide, people 1 m apart: half of the corridor's meter each.
 TEST(Voronoi, TwoLanesInACorridorShareIt) {
   std::vector<Vector2d> people;
   for (int i = 0; i < 11; ++i) {

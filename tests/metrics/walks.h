@@ -12,7 +12,7 @@
 
 namespace throng::metrics {
 
-/// Where a person is at a time (m).
+/// Position of a person at a time (m).
 using Walk = std::function<Eigen::Vector2d(double time_s)>;
 
 inline Walk standing(const Eigen::Vector2d& place) {
@@ -63,7 +63,7 @@ inline world::Trace trace_of(const std::vector<Walk>& walks, const CrowdOfTest& 
   return trace;
 }
 
-/// A door on the line x = 0, `width_m` wide about the origin, that leads towards +x.
+/// A door on the line x = 0, `width_m` wide about the origin, that leads toward +x.
 inline world::Exit door(double width_m) {
   world::Exit exit;
   exit.id = "door";

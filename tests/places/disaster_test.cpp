@@ -110,7 +110,7 @@ class Fleeing {
       ++by_east;
       // Who is in the doorway when it is reached still gets out.
       constexpr double kGraceS = 1.5;
-      EXPECT_LT(before_s, east_.shuts_s + kGraceS) << "agent " << i;
+      EXPECT_LT(before_s, east_.closes_at_s + kGraceS) << "agent " << i;
     }
   }
 
@@ -153,7 +153,7 @@ TEST_P(AnyDisaster, NobodyFleesIntoWhatItBlocksOrThroughADoorThatItCovers) {
   const Made made = make_of(blueprint_);
   const bool blocks = std::string(GetParam()) != "attacker";
   ASSERT_EQ(blocked_discs(made.people).size(), blocks ? 6U : 0U);
-  ASSERT_EQ(std::isfinite(made.scenario.exits[0].shuts_s), blocks);
+  ASSERT_EQ(std::isfinite(made.scenario.exits[0].closes_at_s), blocks);
   crowd::Simulation crowd = crowd_of(blueprint_);
   const std::vector<bool> flees = states_named(crowd, {"Flee", "Follow"});
   Fleeing fleeing(made);
@@ -295,7 +295,7 @@ TEST(TwoDisasters, ALaterOneChangesNothingBeforeItStarts) {
   blueprint["disasters"] = {fire, collapse};
   const Made made = make_of(blueprint);
   EXPECT_TRUE(made.scenario.exits[0].open);
-  EXPECT_DOUBLE_EQ(made.scenario.exits[0].shuts_s, 16);
+  EXPECT_DOUBLE_EQ(made.scenario.exits[0].closes_at_s, 16);
   EXPECT_EQ(made.scenario.exits[0].goals.size(), 2U) << "people flee by it at first";
   json never = blueprint;
   never["disasters"][1]["start_s"] = 10'000;
@@ -349,10 +349,10 @@ TEST(ADisaster, ShutsADoorWhenItsDiscReachesIt) {
   blueprint["disasters"] = {gas};
   const Made made = make_of(blueprint);
   // The door is 8 m away: the first disc of more than that has 10 m, which the gas has 16 s later.
-  EXPECT_DOUBLE_EQ(made.scenario.exits[0].shuts_s, kStartS + 16);
-  EXPECT_TRUE(std::isinf(made.scenario.exits[1].shuts_s));
+  EXPECT_DOUBLE_EQ(made.scenario.exits[0].closes_at_s, kStartS + 16);
+  EXPECT_TRUE(std::isinf(made.scenario.exits[1].closes_at_s));
   blueprint["disasters"][0]["blocked_m"] = 9;
-  EXPECT_DOUBLE_EQ(make_of(blueprint).scenario.exits[0].shuts_s, kStartS);
+  EXPECT_DOUBLE_EQ(make_of(blueprint).scenario.exits[0].closes_at_s, kStartS);
   blueprint["disasters"][0]["start_s"] = 0;
   EXPECT_FALSE(make_of(blueprint).scenario.exits[0].open);
 }

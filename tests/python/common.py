@@ -1,4 +1,4 @@
-"""What the tests of the Python package share: the package's path, the throng program and small datasets made by it.
+"""Shared by the tests of the Python package: the package's path, the throng program and small datasets made by it.
 
 usage of each test: test_X.py THRONG [DATA]    DATA is a folder that keeps the datasets between tests.
 """

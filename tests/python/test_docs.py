@@ -51,7 +51,7 @@ class Examples(unittest.TestCase):
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(io.StringIO()):
                 exec(compile("\n" * (line - 1) + match[2], "docs/python.md", "exec"), namespace)  # noqa: S102
-            # What a comment behind a print says is what it prints.
+            # The comment behind a print is its output.
             for said in re.findall(r"^ *print\(.*\) +# (.*)$", match[2], re.M):
                 self.assertIn(said, printed.getvalue(), f"line {line}")
             ran += 1

@@ -44,7 +44,7 @@ class Package(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
 
     def build(self, source, kind):
-        # What pip and build do, without looking for packages elsewhere.
+        # As pip and build, without looking for packages elsewhere.
         done = call(f"import sys, setuptools.build_meta as b; print(b.build_{kind}(sys.argv[1]))", source, self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.folder / done.stdout.splitlines()[-1]

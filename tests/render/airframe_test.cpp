@@ -1,4 +1,4 @@
-// Other drones in the picture: where they are drawn, what their ground truth says, how they move.
+// Other drones in the image: their rendered position, ground truth and motion.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,7 +68,7 @@ TEST_F(Airframes, AreOneConnectedShape) {
   const camera::Camera camera =
       camera_at(kHigh + Eigen::Vector3d(4.8, 0.4, -4.8), 0, -45, 320, 320, 60);
   const Frame frame = lens_.draw(two_drones(), camera);
-  // From every pixel of it one gets to the middle of the picture through others.
+  // From every pixel of it one gets to the middle of the image through others.
   std::vector<char> reached(frame.id.size(), 0);
   std::vector<int> waiting;
   const auto visit = [&](int x, int y) {

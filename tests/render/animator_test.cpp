@@ -129,7 +129,7 @@ TEST_F(AnimatorTest, WhoComesBackHasAPlanForEachStay) {
 
 class AnimatorWithClipsTest : public AnimatorTest {
  protected:
-  /// As baked people have them, each of one frame.
+  /// As character library have them, each of one frame.
   void add_clip(const char* name, std::uint32_t frames) {
     people_.clips.push_back({name, 0, people_.palettes_per_character, frames, 0, 0, false});
     people_.palettes_per_character += frames;

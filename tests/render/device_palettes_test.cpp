@@ -22,8 +22,7 @@ skinning::BoneMatrix decoded(const DeviceBone& bone) {
   const Eigen::Quaternionf turn(value(1, true), value(0, false), value(0, true), value(1, false));
   skinning::BoneMatrix matrix;
   matrix.leftCols<3>() = turn.normalized().toRotationMatrix();
-  matrix.col(3) =
-      kFarthestShiftM * Eigen::Vector3f(value(2, false), value(2, true), value(3, false));
+  matrix.col(3) = kMaxShiftM * Eigen::Vector3f(value(2, false), value(2, true), value(3, false));
   return matrix;
 }
 
@@ -46,7 +45,7 @@ skinning::Population people_with(const std::vector<skinning::Palette>& palettes)
   return people;
 }
 
-TEST(DevicePalettes, AMillimetreIsNotLostTwoMetresAway) {
+TEST(DevicePalettes, AMillimeterIsNotLostTwoMetersAway) {
   Random random(7, Stream::motion);
   std::vector<skinning::Palette> palettes(200);
   for (skinning::Palette& palette : palettes) {

@@ -71,7 +71,7 @@ TEST(Weathers, FogTakesContrastWithDistanceAsBeersLawSays) {
   EXPECT_LT(far_fog, 0.4 * contrast(Weather::clear, 5000, 36));
 }
 
-TEST(Weathers, RainWetsTheGroundAndStreaksTheColourOnly) {
+TEST(Weathers, RainWetsTheGroundAndStreaksTheColorOnly) {
   const camera::Camera camera = camera_at({0, 0, 12}, 0, -50);
   Stage dry(open_ground(), weather(Weather::overcast));
   Stage wet(open_ground(), weather(Weather::rain));

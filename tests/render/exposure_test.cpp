@@ -1,4 +1,4 @@
-// Motion blur and rolling shutter, against where things are while rows are exposed.
+// Motion blur and rolling shutter, against positions at the time at which rows are exposed.
 #include "render/exposure.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace throng::render {
 namespace {
 
-/// Somebody who walks across the picture at 2 m/s, from 6 m above, and a camera that may fly.
+/// Somebody who walks across the image at 2 m/s, from 6 m above, and a camera that may fly.
 class Street {
  public:
   Street() : stage_(open_ground()), lens_(stage_.renderer(), stage_.people()) {}
@@ -72,7 +72,7 @@ TEST(Exposure, LightIsTheMeanOverTheExposure) {
   EXPECT_EQ(blurred.frame.depth_m, still.depth_m);
   EXPECT_EQ(blurred.frame.people[0].amodal_area_px, still.people[0].amodal_area_px);
   EXPECT_NE(blurred.frame.rgb, still.rgb);
-  // Where the person is all the time, and where they never are, nothing changes much; edges do.
+  // Pixels that the person always or never covers hardly change; edges do.
   const Frame early = street.still(walk, -0.02);
   const Frame late = street.still(walk, 0.02);
   double inside = 0;
@@ -119,7 +119,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   ASSERT_EQ(frame.id.size(), 320U * 240);
   ASSERT_EQ(frame.rgb.size(), frame.id.size() * 3);
   const Mask mask = mask_of(frame, id_of_agent(3));
-  // Row by row, the person's left edge is where a picture of that row's time has it.
+  // Row by row, the person's left edge is where an image of that row's time has it.
   double worst = 0;
   int rows = 0;
   for (int y = 0; y < 240; y += 7) {
@@ -138,7 +138,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   }
   EXPECT_GT(rows, 5);
   EXPECT_LE(worst, 2) << "half a strip's motion and a pixel";
-  // Ground truth is that of the rolled picture.
+  // Ground truth is that of the rolled image.
   const PersonInView& person = person_of(frame, 3);
   EXPECT_NEAR(person.amodal_box.min().x(), mask.box.min().x(), 1.5);
   EXPECT_NEAR(person.amodal_box.max().x(), mask.box.max().x(), 1.5);
@@ -148,7 +148,7 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   ASSERT_TRUE(person.head_px);
   const Eigen::Vector2i head = person.head_px->array().floor().cast<int>();
   EXPECT_EQ(frame.id[index_of(frame, head.x(), head.y())], id_of_agent(3));
-  // The picture leans: another one than all rows at once.
+  // The image leans: another one than all rows at once.
   EXPECT_NE(frame.id, street.still(flight, 0).id);
 }
 

@@ -1,4 +1,4 @@
-// What the renderer says of each person, against the pixels.
+// The renderer's ground truth of each person, against the pixels.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -118,7 +118,7 @@ TEST(GroundTruth, SomebodyHiddenWhollyIsStillReported) {
   EXPECT_GT(person_of(frame, 1).amodal_area_px, 100U);
 }
 
-/// Everybody drawn together, and each alone: the exact figures.
+/// Everybody rendered together, and each alone: the exact figures.
 TEST(GroundTruth, AmodalAreaIsTheVisibleAreaWithNobodyElseAround) {
   Stage stage(open_ground());
   const camera::Camera camera = camera_at({-14, 0, 9}, 0, -33);

@@ -67,7 +67,7 @@ class LensDomain : public testing::Test {
   Stage stage_;
 };
 
-TEST_F(LensDomain, WhatTheModelDoesNotReachIsBlackAndUnlabelled) {
+TEST_F(LensDomain, WhatTheModelDoesNotReachIsBlackAndUnlabeled) {
   for (const NamedLens& each : cut_lenses()) {
     SCOPED_TRACE(each.name);
     const Camera camera = with(camera_at({-5, 0, 6}, 5, -50), each.focal_px, each.distortion);
@@ -121,7 +121,7 @@ TEST_F(LensDomain, PointsBeyondTheModelDoNotProject) {
         continue;
       }
       ++seen;
-      // What is seen at the pixel is the point: the model has not turned back before.
+      // The pixel shows the point: the model is monotonic up to there.
       EXPECT_LT((camera.unproject(place.pixel, place.depth_m) - point).norm(),
                 1e-4 * place.depth_m + 1e-6)
           << point.transpose();
@@ -131,7 +131,7 @@ TEST_F(LensDomain, PointsBeyondTheModelDoNotProject) {
   }
 }
 
-TEST_F(LensDomain, KeypointsAreLabelledWhereTheModelReaches) {
+TEST_F(LensDomain, KeypointsAreLabeledWhereTheModelReaches) {
   for (const NamedLens& each : cut_lenses()) {
     SCOPED_TRACE(each.name);
     const Camera camera = with(camera_at({-5, 0, 6}, 5, -50), each.focal_px, each.distortion);
@@ -153,9 +153,9 @@ TEST_F(LensDomain, KeypointsAreLabelledWhereTheModelReaches) {
   }
 }
 
-/// Where the ray through a pixel meets the ground or the block, as its z in the camera's frame.
+/// Intersection of a pixel's ray with the ground or the block, as its z in the camera's frame.
 double true_depth(const Camera& camera, const Vector2d& pixel, std::uint32_t id) {
-  const Vector3d from = camera.pose.centre();
+  const Vector3d from = camera.pose.center();
   const Vector3d direction = camera.unproject(pixel, 1) - from;
   if (id == kIdGround) return -from.z() / direction.z();
   const Eigen::AlignedBox3d box(Vector3d(4, -3, 0), Vector3d(5, 0, 3));

@@ -1,4 +1,4 @@
-// Motion in pictures through distorting lenses.
+// Motion in images through distorting lenses.
 #include <gtest/gtest.h>
 
 #include "base/random.h"
@@ -43,7 +43,7 @@ TEST_P(LensFlow, OfStillThingsIsWhereTheModelSeesThemNext) {
           next.camera.project(frame.camera.unproject(Vector2d(x, y), frame.depth_m[i]));
       if (!seen.visible) continue;
       const Vector2d off = seen.pixel - Vector2d(x + frame.flow[2 * i], y + frame.flow[2 * i + 1]);
-      // Depth is that of the nearest pixel of the wide picture, up to 0.7 pixels away.
+      // Depth is that of the nearest pixel of the wide image, up to 0.7 pixels away.
       EXPECT_LT(off.norm(), 0.8) << x << ' ' << y;
       error += off.norm();
       ++measured;

@@ -1,4 +1,4 @@
-// Pictures through distorting lenses, against the camera's model and against pinhole pictures.
+// Images through distorting lenses, against the camera's model and against pinhole images.
 #include "render/lens.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST(Lens, WithoutDistortionThePictureIsThePinholes) {
   const Frame plain = set.draw(pinhole, crowd);
   const Frame mapped = set.draw(through(pinhole, Distortion(Model::brown_conrady, {})), crowd);
   EXPECT_EQ(mapped.id, plain.id);
-  // A wider picture has coarser shadows.
+  // A wider image has coarser shadows.
   double difference = 0;
   for (std::size_t i = 0; i < plain.rgb.size(); ++i) {
     difference += std::abs(plain.rgb[i] - mapped.rgb[i]);
@@ -79,7 +79,7 @@ TEST(Lens, WithoutDistortionThePictureIsThePinholes) {
   }
 }
 
-// A point of the world, found through the map that the picture is looked up by.
+// A point of the world, found through the map that the image is looked up by.
 TEST(Lens, MapAgreesWithTheModelToATwentiethPixel) {
   for (const Distortion& distortion : {barrel(), pincushion(), fisheye()}) {
     const Camera camera = through(camera_at({0, 0, 10}, 30, -40), distortion);
@@ -104,11 +104,12 @@ TEST(Lens, MapAgreesWithTheModelToATwentiethPixel) {
   }
 }
 
-/// Where, right of `from`, the ray through (x, row) no longer meets `block(4, 5, -3, 0, 6)`.
+/// First x, right of `from`, at which the ray through (x, row) no longer meets `block(4, 5, -3, 0,
+/// 6)`.
 double edge_in_row(const Camera& camera, int row) {
   const Eigen::AlignedBox3d box(Vector3d(4, -3, 0), Vector3d(5, 0, 6));
   const auto hits = [&](double x) {
-    const Vector3d from = camera.pose.centre();
+    const Vector3d from = camera.pose.center();
     const Vector3d direction = camera.unproject({x, row}, 1) - from;
     double enter = 0;
     double leave = 1e9;
@@ -138,11 +139,11 @@ double edge_in_row(const Camera& camera, int row) {
   return right;
 }
 
-/// How far pictures of that block have its left edge from where rays cast through the model meet
+/// How far images of that block have its left edge from where rays cast through the model meet
 /// it.
 struct EdgeErrors {
   double ids = 0;
-  double colours = 0;
+  double colors = 0;
   int rows = 0;
 };
 
@@ -163,13 +164,13 @@ void add_errors(const Frame& frame, EdgeErrors& errors) {
       covered += static_cast<double>(brightness(frame, x, y) - right) / (left - right);
     }
     errors.ids += first - 0.5 - edge;
-    errors.colours += near - 4 - 0.5 + covered - edge;
+    errors.colors += near - 4 - 0.5 + covered - edge;
     ++errors.rows;
   }
 }
 
 TEST(Lens, EdgesAreWhereTheModelShowsThem) {
-  // In a draft walls and ground are of one colour each, or nearly so.
+  // In a draft walls and ground are of one color each, or nearly so.
   Set set(open_ground({block(4, 5, -3, 0, 6)}), {.quality = Quality::draft});
   for (const Distortion& distortion : {barrel(), pincushion(), fisheye()}) {
     EdgeErrors errors;
@@ -180,7 +181,7 @@ TEST(Lens, EdgesAreWhereTheModelShowsThem) {
     }
     ASSERT_GT(errors.rows, 1000);
     EXPECT_NEAR(errors.ids / errors.rows, 0, 0.05);
-    EXPECT_NEAR(errors.colours / errors.rows, 0, 0.1);
+    EXPECT_NEAR(errors.colors / errors.rows, 0, 0.1);
   }
 }
 
@@ -266,7 +267,7 @@ TEST(Lens, StripsOfRowsMakeUpTheImage) {
     ASSERT_EQ(ids.size(), whole.id.size());
     std::size_t differing = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) differing += ids[i] != whole.id[i] ? 1 : 0;
-    // The strips' wide pictures have other pixels than the whole's.
+    // The strips' wide images have other pixels than the whole's.
     EXPECT_LE(differing, camera.intrinsics.distortion ? ids.size() / 100 : 3);
     for (const PersonInView& person : whole.people) {
       const auto area = static_cast<double>(person.amodal_area_px);

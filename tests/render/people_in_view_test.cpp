@@ -1,4 +1,4 @@
-// Who of a scene is in view, and who of them is worth textures.
+// People of a scene in view, and those who need textures.
 #include "render/people_in_view.h"
 
 #include <gtest/gtest.h>
@@ -54,16 +54,16 @@ TEST_F(Textures, AreForAllOfASmallCrowd) {
 TEST_F(Textures, AreForTheNearestOfALargerOne) {
   const std::vector<Seen> found = seen(160, 200);
   EXPECT_EQ(with(found, Shading::lit_by_corners), 40U);
-  float farthest_textured = 0;
+  float max_textured = 0;
   float nearest_plain = 1e9F;
   for (const Seen& person : found) {
     if (person.draw.shading == Shading::lit_by_corners) {
-      farthest_textured = std::max(farthest_textured, person.draw.depth_m);
+      max_textured = std::max(max_textured, person.draw.depth_m);
     } else {
       nearest_plain = std::min(nearest_plain, person.draw.depth_m);
     }
   }
-  EXPECT_LE(farthest_textured, nearest_plain);
+  EXPECT_LE(max_textured, nearest_plain);
 }
 
 TEST_F(Textures, AreForNobodyInACrush) {

@@ -1,4 +1,4 @@
-// Colour, id and depth against what the camera's geometry says they must be.
+// Color, id and depth against the camera's geometry.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace throng::render {
 namespace {
 
-/// Where a ray from the camera through a box-coordinate point first meets an axis-aligned box or
+/// First intersection of the camera ray through a box-coordinate point with an axis-aligned box or
 /// the ground: id and camera depth.
 struct Hit {
   std::uint32_t id = kIdNothing;
@@ -28,7 +28,7 @@ struct Solid {
 };
 
 Hit cast(const camera::Camera& camera, const Solid& solid, double u, double v) {
-  const Eigen::Vector3d from = camera.pose.centre();
+  const Eigen::Vector3d from = camera.pose.center();
   // Depth along this ray grows by one per unit.
   const Eigen::Vector3d ray = camera.unproject({u - 0.5, v - 0.5}, 1.0) - from;
   Hit hit;
@@ -252,7 +252,7 @@ TEST(Picture, TwoRenderersGiveTheSameBytes) {
             two.draw(camera, {two.standing(3, 1, 1)}).rgb);
 }
 
-TEST(Picture, TintColoursClothesAndNotSkin) {
+TEST(Picture, TintColorsClothesAndNotSkin) {
   Stage stage(open_ground());
   PersonInstance red = stage.standing(0, 0, 0);
   PersonInstance blue = stage.standing(0, 0, 0);
@@ -272,8 +272,8 @@ TEST(Picture, TintColoursClothesAndNotSkin) {
   EXPECT_EQ(pixel_at(in_red, 1.56), pixel_at(in_blue, 1.56)) << "chin";
 }
 
-// Every colour at once, as the lower levels of detail have them: where a portrait says that all of
-// a texel is of one tint, it looks like a part of that tint.
+// Every color at once, as the lower levels of detail have them: where a portrait defines that all
+// of a texel is of one tint, it looks like a part of that tint.
 TEST(Picture, PortraitsAreTintedTexelByTexel) {
   using skinning::Tint;
   const skinning::Population people = synthetic_people(1);
@@ -311,11 +311,11 @@ TEST(Picture, PortraitsAreTintedTexelByTexel) {
   const world::Scenario ground = open_ground();
   const Frame parts = Renderer(ground, people, {}, {"software"}).draw(scene, camera);
   const Frame whole = Renderer(ground, portraits, {}, {"software"}).draw(scene, camera);
-  int most = 0;
+  int max_value = 0;
   for (std::size_t i = 0; i < parts.rgb.size(); ++i) {
-    most = std::max(most, std::abs(parts.rgb[i] - whole.rgb[i]));
+    max_value = std::max(max_value, std::abs(parts.rgb[i] - whole.rgb[i]));
   }
-  EXPECT_LE(most, 2);
+  EXPECT_LE(max_value, 2);
 }
 
 TEST(Picture, EveryGroundMaterialDrawsAndUnknownOnesAreNamed) {

@@ -66,9 +66,9 @@ TEST(ExitDoors, ShowAnOpeningAndHideNothingElse) {
   };
   const Frame bare = frame_of(wall_with({}));
   const Frame open = frame_of(wall_with({exit_in({8, 1}, {8, 3})}));
-  const Frame shut = frame_of(wall_with({exit_in({8, 1}, {8, 3}, false)}));
+  const Frame closed = frame_of(wall_with({exit_in({8, 1}, {8, 3}, false)}));
   EXPECT_EQ(bare.id, open.id);
-  EXPECT_NE(open.rgb, shut.rgb);
+  EXPECT_NE(open.rgb, closed.rgb);
   const auto middle = [&](const Frame& frame, double y) {
     const Eigen::Vector2d pixel = camera.project({8, y, 1.6}).pixel;
     return brightness(frame, static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));

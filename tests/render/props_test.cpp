@@ -83,7 +83,7 @@ TEST_P(PropOutline, IdsCoverWhatTheProjectedMeshCovers) {
     wrong += is_prop != (expected.count(i) == 1) ? 1 : 0;
   }
   EXPECT_GT(drawn, 100U);
-  // Where an edge passes within 1/256 pixel of a pixel's middle either answer is right.
+  // If an edge passes within 1/256 pixel of a pixel's center, either answer is right.
   EXPECT_LE(wrong, drawn / 100);
 }
 
@@ -111,7 +111,7 @@ TEST_P(PropOutline, DepthIsThatOfCastRays) {
   const camera::Camera camera = camera_at({0, 0, 6}, 0, -25, 320, 240);
   const Frame frame = stage.draw(camera);
   const PropMesh mesh = prop_shape(prop, kIdProp);
-  const Eigen::Vector3d eye = camera.pose.centre();
+  const Eigen::Vector3d eye = camera.pose.center();
   int compared = 0;
   int wrong = 0;
   for (int y = 0; y < frame.height(); ++y) {
@@ -134,7 +134,7 @@ TEST_P(PropOutline, DepthIsThatOfCastRays) {
     }
   }
   EXPECT_GT(compared, 20'000);
-  // Rays that pass an edge within the rasteriser's rounding may meet either side of it.
+  // Rays that pass an edge within the rasterizer's rounding may meet either side of it.
   EXPECT_LT(wrong, 60);
 }
 
@@ -250,18 +250,18 @@ TEST(GroundLayers, LieOnTheGroundAndShowTheirMaterials) {
   Stage stage(scenario);
   const camera::Camera camera = camera_at({10, 0, 20}, 0, -90, 640, 480);
   const Frame frame = stage.draw(camera);
-  const auto colour = [&](double x, double y) {
+  const auto color = [&](double x, double y) {
     const Eigen::Vector2d pixel = camera.project({x, y, 0}).pixel;
     const std::size_t i = 3 * index_of(frame, static_cast<int>(std::lround(pixel.x())),
                                        static_cast<int>(std::lround(pixel.y())));
     return Eigen::Vector3i(frame.rgb[i], frame.rgb[i + 1], frame.rgb[i + 2]);
   };
-  const Eigen::Vector3i asphalt = colour(10, 9);
-  EXPECT_GT(colour(10, -2.5).y(), colour(10, -2.5).z() + 20) << "grass is green";
+  const Eigen::Vector3i asphalt = color(10, 9);
+  EXPECT_GT(color(10, -2.5).y(), color(10, -2.5).z() + 20) << "grass is green";
   EXPECT_NEAR(asphalt.y(), asphalt.z(), 8);
   int bars = 0;
   for (int i = 0; i < 10; ++i) {
-    bars += colour(5.25 + i, 5).sum() > colour(5.75 + i, 5).sum() + 60 ? 1 : 0;
+    bars += color(5.25 + i, 5).sum() > color(5.75 + i, 5).sum() + 60 ? 1 : 0;
   }
   EXPECT_GE(bars, 7) << "paint, worn here and there, and gaps";
   for (const std::uint32_t id : frame.id) ASSERT_EQ(id, kIdGround);

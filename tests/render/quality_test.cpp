@@ -1,4 +1,4 @@
-// What may differ between the qualities of a picture, and what may not.
+// Permitted differences between rendering qualities.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ TEST(Quality, SamplesAndEdgesLeaveIdsAndDepthAlone) {
   EXPECT_LT(different, standard.id.size() / 500);
 }
 
-TEST(Quality, DraftsShowTheSamePeopleInTheSamePlacesAndTheirColours) {
+TEST(Quality, DraftsShowTheSamePeopleInTheSamePlacesAndTheirColors) {
   const Frame standard = drawn(Quality::standard);
   const Frame draft = drawn(Quality::draft);
   for (const std::uint32_t agent : {1U, 2U}) {
@@ -85,13 +85,13 @@ double penumbra_m(double height_m, Quality quality) {
   lighting.sun_elevation_rad = 45 * kDegree;
   Stage stage(open_ground({block(0, 6, -8, 8, height_m)}), lighting, {.quality = quality});
   Stage bare(open_ground(), lighting, {.quality = quality});
-  // The shadow's edge is in the middle of the picture, its direction is up.
+  // The shadow's edge is in the middle of the image, its direction is up.
   const camera::Camera camera = camera_at({-height_m, 0, 9}, 0, -90, 200, 400, 8);
   const Frame frame = stage.draw(camera);
   const Frame lit = bare.draw(camera);
-  const double metre_px = camera.intrinsics.fy_px / 9;
+  const double meter_px = camera.intrinsics.fy_px / 9;
   // Farther away from the edge walls take light from the ground.
-  const int around = static_cast<int>(0.35 * metre_px);
+  const int around = static_cast<int>(0.35 * meter_px);
   std::vector<double> share;
   for (int y = 200 - around; y < 200 + around; ++y) {
     double sum = 0;
@@ -107,12 +107,12 @@ double penumbra_m(double height_m, Quality quality) {
   const double high = *dark + 0.8 * (*bright - *dark);
   const auto between =
       std::count_if(share.begin(), share.end(), [&](double s) { return s > low && s < high; });
-  return static_cast<double>(between) / metre_px;
+  return static_cast<double>(between) / meter_px;
 }
 
 TEST(Quality, HighSoftensShadowsWithTheHeightOfWhatCastsThem) {
-  // The sun's disc is 0.53 degrees wide: 9.3 mm for each metre of a ray, which is 1.41 m for each
-  // metre of height at 45 degrees, and 1.41 times as much along the ground. Between a fifth
+  // The sun's disc is 0.53 degrees wide: 9.3 mm for each meter of a ray, which is 1.41 m for each
+  // meter of height at 45 degrees, and 1.41 times as much along the ground. Between a fifth
   // and four fifths of a disc's area lies 0.49 of its width.
   const double expected = 0.0093 * 1.41 * 1.41 * 0.49;
   EXPECT_NEAR(penumbra_m(12, Quality::high), 12 * expected, 0.03);
@@ -154,7 +154,7 @@ TEST(Quality, SmoothEdgesAreNearTheShareOfAPixelThatALineCovers) {
     };
     const double before = error();
     smooth_edges(frame);
-    // Steps of a pixel or two say little about the line between them.
+    // Steps of a pixel or two do not determine the line between them.
     const double flatness = std::max(std::abs(slope), 1 / std::abs(slope));
     EXPECT_LT(error(), (flatness > 4   ? 0.45
                         : flatness > 2 ? 0.6

@@ -1,4 +1,4 @@
-// What a collapse leaves, and walls too low to be houses.
+// Rubble of a collapse, and walls too low to be houses.
 #include "render/rubble.h"
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 namespace throng::render {
 namespace {
 
-Frame grey(int width, int height, std::uint8_t value) {
+Frame gray(int width, int height, std::uint8_t value) {
   Frame frame;
   frame.camera.intrinsics = camera::intrinsics_from_hfov(width, height, 1.4);
   frame.rgb.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, value);
@@ -36,15 +36,15 @@ Light light_of(const Frame& frame, std::size_t channel) {
 }
 
 TEST(Sensor, OffChangesNothing) {
-  Frame frame = grey(32, 32, 93);
+  Frame frame = gray(32, 32, 93);
   apply_sensor({}, 1, frame);
-  EXPECT_EQ(frame.rgb, grey(32, 32, 93).rgb);
+  EXPECT_EQ(frame.rgb, gray(32, 32, 93).rgb);
 }
 
 TEST(Sensor, ExposureDoublesLight) {
   Sensor sensor;
   sensor.ev = 1;
-  Frame frame = grey(4, 4, 100);
+  Frame frame = gray(4, 4, 100);
   apply_sensor(sensor, 1, frame);
   EXPECT_NEAR(linear_of_srgb(frame.rgb[0]), 2 * linear_of_srgb(100), 0.004);
   sensor.ev = -1;
@@ -71,7 +71,7 @@ TEST(Sensor, WhiteBalanceTintsPictures) {
 TEST(Sensor, CornersFallOffByTheFourthPowerOfTheCosine) {
   Sensor sensor;
   sensor.vignette = 1;
-  Frame frame = grey(401, 301, 200);
+  Frame frame = gray(401, 301, 200);
   apply_sensor(sensor, 1, frame);
   const double middle = linear_of_srgb(frame.rgb[(150 * 401 + 200) * 3]);
   const double edge = linear_of_srgb(frame.rgb[150 * 401 * 3]);
@@ -86,7 +86,7 @@ TEST(Sensor, NoiseIsThatOfPhotonsAndReading) {
     sensor.iso = iso;
     const double white_e = sensor.full_well_e * 100 / iso;
     for (const std::uint8_t value : {90, 160, 200}) {
-      Frame frame = grey(256, 256, value);
+      Frame frame = gray(256, 256, value);
       apply_sensor(sensor, 5, frame);
       const double light = linear_of_srgb(value);
       // Rounding to bytes adds its own: that of a uniform distribution over a step.
@@ -103,7 +103,7 @@ TEST(Sensor, NoiseIsThatOfPhotonsAndReading) {
 TEST(Sensor, NoiseDependsOnItsSeedOnly) {
   Sensor sensor;
   sensor.iso = 800;
-  Frame a = grey(64, 64, 120);
+  Frame a = gray(64, 64, 120);
   Frame b = a;
   Frame other = a;
   apply_sensor(sensor, 7, a);
@@ -111,7 +111,7 @@ TEST(Sensor, NoiseDependsOnItsSeedOnly) {
   apply_sensor(sensor, 8, other);
   EXPECT_EQ(a.rgb, b.rgb);
   EXPECT_NE(a.rgb, other.rgb);
-  // Neighbours, rows and channels have nothing to do with each other.
+  // Neighbors, rows and channels have nothing to do with each other.
   double mean = 0;
   for (const std::uint8_t byte : a.rgb) mean += byte;
   mean /= static_cast<double>(a.rgb.size());

@@ -1,4 +1,4 @@
-// Spheres, drawn as a user's mesh, against what geometry says of them: through pinholes and lenses.
+// Spheres, rendered as a user's mesh, against analytic geometry: through pinholes and lenses.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -59,7 +59,7 @@ class Spheres : public testing::Test {
     double depth_m;
   };
   static Meeting meeting(const camera::Camera& camera, int x, int y) {
-    const Vector3d eye = camera.pose.centre();
+    const Vector3d eye = camera.pose.center();
     const Vector3d ray = camera.unproject({x, y}, 1.0) - eye;
     const Vector3d to = kMiddle - eye;
     const double along = to.dot(ray) / ray.squaredNorm();
@@ -113,7 +113,7 @@ TEST_F(Spheres, CoverWhatALensMakesOfTheirOutline) {
         const bool is_sphere = frame.id[index_of(frame, x, y)] == kIdProp;
         expected += inside_px > 0 ? 1 : 0;
         drawn += is_sphere ? 1 : 0;
-        // Ids are those of the nearest pixel of a wider picture.
+        // Ids are those of the nearest pixel of a wider image.
         if (std::abs(inside_px) < 1) continue;
         ASSERT_EQ(is_sphere, inside_px > 0) << x << ' ' << y << ' ' << inside_px;
       }

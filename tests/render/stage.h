@@ -31,10 +31,10 @@ inline world::Scenario open_ground(std::vector<world::Building> buildings = {}) 
   return scenario;
 }
 
-inline camera::Camera camera_at(const Eigen::Vector3d& centre, double yaw_deg, double pitch_deg,
+inline camera::Camera camera_at(const Eigen::Vector3d& center, double yaw_deg, double pitch_deg,
                                 int width = 320, int height = 240, double hfov_deg = 60) {
   return {camera::intrinsics_from_hfov(width, height, hfov_deg * kDegree),
-          camera::pose_looking(centre, yaw_deg * kDegree, pitch_deg * kDegree)};
+          camera::pose_looking(center, yaw_deg * kDegree, pitch_deg * kDegree)};
 }
 
 inline std::size_t index_of(const Frame& frame, int x, int y) {
@@ -68,13 +68,13 @@ inline const PersonInView& person_of(const Frame& frame, std::uint32_t agent) {
   throw std::out_of_range("agent is not in view");
 }
 
-/// Sum of the colour channels of a pixel.
+/// Sum of the color channels of a pixel.
 inline int brightness(const Frame& frame, int x, int y) {
   const std::size_t i = index_of(frame, x, y) * 3;
   return frame.rgb[i] + frame.rgb[i + 1] + frame.rgb[i + 2];
 }
 
-/// A renderer of `scenario` on the CPU, with the population it draws.
+/// A renderer of `scenario` on the CPU, with the population it renders.
 class Stage {
  public:
   explicit Stage(world::Scenario scenario, Environment lighting = {},

@@ -1,4 +1,4 @@
-// What the renderer says of surfaces beyond their colour: normals, motion, body parts.
+// Surface ground truth beyond color: normals, motion, body parts.
 #include <gtest/gtest.h>
 
 #include <algorithm>

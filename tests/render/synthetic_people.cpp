@@ -128,7 +128,7 @@ skinning::Texture strands() {
   return texture;
 }
 
-/// Where the boxes hang together.
+/// Joints of the boxes.
 std::array<Eigen::Vector3f, skinning::kBoneCount> joints() {
   std::array<Eigen::Vector3f, skinning::kBoneCount> joints;
   joints.fill({0.0F, 0.0F, 0.95F});

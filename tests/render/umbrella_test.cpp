@@ -1,5 +1,5 @@
 // An umbrella hides its owner as a stranger's would: it has an id of its own, and nothing that is
-// said of the person holds it.
+// of the person holds it.
 #include <gtest/gtest.h>
 
 #include "stage.h"

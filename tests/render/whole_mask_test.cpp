@@ -1,4 +1,4 @@
-// Masks of whole people, against the picture of each of them alone.
+// Masks of whole people, against the image of each of them alone.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What users send is checked outside of the service: its answers, and what the service itself does
+// User input is checked outside of the service: its answers, and files that the service itself does
 // not touch.
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// What the bare port does with clients that mean no good.
+// The bare port against malicious clients.
 #include <gmock/gmock.h>
 
 #include "base/error.h"

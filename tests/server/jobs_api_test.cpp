@@ -1,4 +1,4 @@
-// What can be done with jobs over HTTP, and the stream of what happens to them.
+// Operations on jobs over HTTP, and the stream of their events.
 #include <gmock/gmock.h>
 
 #include "jobs/queue/publication.h"
@@ -149,7 +149,7 @@ TEST_F(JobsApi, EventsArePagedAndWaitedFor) {
   EXPECT_EQ(page["events"].size(), 2U);
   const json rest = get_json(fmt::format("{}?after={}", path, page["next"].dump()));
   EXPECT_EQ(rest["events"].size() + 2, all["events"].size());
-  // Whoever waits is told at once of what happens then.
+  // Waiting clients are notified at once.
   json waited;
   const std::string query = fmt::format("/v1/events?wait_s=30&after={}", all["next"].dump());
   std::jthread waiter([&] { waited = get_json(query); });

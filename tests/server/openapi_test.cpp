@@ -24,7 +24,7 @@ class OpenApi : public ApiTest {
     return document_["paths"][path][method];
   }
 
-  /// Whether the answer is one that the operation may give, and its body what that says.
+  /// Whether the answer is one that the operation may give, and its body matches the schema.
   void expect_described(const std::string& method, const std::string& path,
                         const httplib::Result& answer) {
     SCOPED_TRACE(fmt::format("{} {}: {} {}", method, path, answer->status, answer->body));

@@ -1,4 +1,4 @@
-// What of a request's head is taken, and how each malformed or ambiguous one is refused.
+// Parsing of a request's head, and how each malformed or ambiguous one is refused.
 #include "server/request_head.h"
 
 #include <fmt/core.h>

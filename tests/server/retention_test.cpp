@@ -21,7 +21,7 @@ TEST(Retention, ByDefaultEverythingIsKept) {
 }
 
 TEST(Retention, AJobExpiresSoLongAfterItsEnd) {
-  const Retention retention{.longest_ms = 1000};
+  const Retention retention{.max_wait_ms = 1000};
   EXPECT_EQ(expiry_ms(ended("a", 500), retention), 1500);
   EXPECT_FALSE(expiry_ms(ended("a", 0), retention)) << "it has not ended";
   jobs::JobRow kept = ended("a", 500);
@@ -31,7 +31,7 @@ TEST(Retention, AJobExpiresSoLongAfterItsEnd) {
 }
 
 TEST(Retention, TheOldestMakeRoomForTheOthers) {
-  const Retention retention{.most_bytes = 1000};
+  const Retention retention{.max_bytes = 1000};
   const std::vector<jobs::JobRow> rows = {ended("a", 1, 300), ended("b", 2, 300), ended("c", 3, 1)};
   EXPECT_EQ(expired(rows, 1000, 9, retention), Ids{});
   EXPECT_EQ(expired(rows, 1001, 9, retention), Ids{"a"});

@@ -70,10 +70,10 @@ TEST_F(Uploads, AreUsedLikeThoseThatComeWithThrong) {
   const httplib::Result job = client().Post("/v1/jobs", kMine, "application/json");
   ASSERT_EQ(job->status, 201);
   const std::string id = json::parse(job->body)["id"];
-  const httplib::Result ways = get("/v1/jobs/" + id + "/plan");
-  ASSERT_EQ(ways->status, 200) << ways->body;
-  EXPECT_EQ(ways->get_header_value("Content-Type"), "image/svg+xml");
-  EXPECT_THAT(ways->body, HasSubstr(">d1, "));
+  const httplib::Result plan_of_job = get("/v1/jobs/" + id + "/plan");
+  ASSERT_EQ(plan_of_job->status, 200) << plan_of_job->body;
+  EXPECT_EQ(plan_of_job->get_header_value("Content-Type"), "image/svg+xml");
+  EXPECT_THAT(plan_of_job->body, HasSubstr(">d1, "));
   expect_problem(get("/v1/jobs/nowhere/plan"), 404);
 }
 
@@ -119,7 +119,7 @@ TEST_F(Uploads, WhatIsWrongIsSaidWithFileElementAndRemedy) {
   testing::Yard walled;
   walled.scenario["exits"][0]["goals"] = json::array({json::array({7, 0})});
   const httplib::Result answer = upload(packed(Packing::zip, yard_files(walled)));
-  // It can be used; whether that is wise is for its owner to say.
+  // It can be used, at the owner's risk.
   ASSERT_EQ(answer->status, 201) << answer->body;
   const json findings = json::parse(answer->body)["findings"];
   ASSERT_FALSE(findings.empty());
@@ -228,7 +228,7 @@ TEST_F(Uploads, AreRemovedByTheirOwnerAndNotInUse) {
 
 TEST_F(Uploads, HaveABoundTogether) {
   UploadLimits limits;
-  limits.most_uploads = 1;
+  limits.max_uploads = 1;
   ScenarioStore store(data.path() / "small", scenarios.path(), service.confined(), limits);
   ScenarioStore::Staged first = store.stage("one", yard_bundle(), "");
   store.publish(first);

@@ -116,7 +116,7 @@ TEST_F(ServiceTest, RunningAndQueuedJobsGoOnAfterARestart) {
   EXPECT_EQ(service.queue().get(running)->state, JobState::succeeded);
   EXPECT_EQ(service.queue().get(running)->attempt, 2);
   EXPECT_EQ(service.queue().get(queued)->attempt, 1);
-  // What had been published was not done again: 6 tasks per job in all.
+  // Published tasks were not repeated: 6 tasks per job in all.
   EXPECT_EQ(done_before + second.done().size(), 12U);
 }
 
@@ -207,8 +207,8 @@ TEST_F(ServiceTest, AFullDiskLetsTheQueueRest) {
   std::atomic<std::int64_t> free = 1000;
   ServiceOptions limited = options();
   limited.housekeeping.free_bytes = [&] { return free.load(); };
-  limited.housekeeping.least_free_bytes = 100;
-  // Fails as a worker does that cannot write, once there is no room.
+  limited.housekeeping.min_free_bytes = 100;
+  // Fails like a worker that cannot write, once there is no free space.
   executor.before = [&](const Task& task) {
     if (task.kind == Task::Kind::render) free = 50;
     return free < 100 ? TaskResult{Outcome::environment_error, 3, "no space left", {}}
@@ -236,7 +236,7 @@ TEST_F(ServiceTest, WhatHasBeenKeptForLongEnoughIsRemoved) {
   std::atomic<std::int64_t> now_ms = 1'700'000'000'000;
   ServiceOptions keeping = options();
   keeping.clock = [&] { return now_ms.load(); };
-  keeping.housekeeping.retention.longest_ms = 1000;
+  keeping.housekeeping.retention.max_wait_ms = 1000;
   Service service(keeping, executor);
   const std::string old = service.queue().submit({kJob}).row.id;
   const std::string kept = service.queue().submit({kJob}).row.id;

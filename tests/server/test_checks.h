@@ -1,5 +1,5 @@
 // Checks of what users send, for tests: by the program's own confined children, or, where the
-// program is not part of the build, as far as jobs/spec can tell.
+// program is not part of the build, as far as jobs/spec knows.
 #pragma once
 
 #include <gtest/gtest.h>

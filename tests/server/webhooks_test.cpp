@@ -112,7 +112,7 @@ TEST_F(WebhooksTest, ChosenEventsOnly) {
 
 TEST_F(WebhooksTest, WhatIsNotTakenIsSentAgain) {
   WebhookSender quick(service.queue(), data.path(),
-                      {.first_rest = 5ms, .longest_rest = 20ms, .patience = 60s});
+                      {.first_rest = 5ms, .max_pause = 20ms, .timeout = 60s});
   const Webhook hook =
       quick.webhooks().create(receiver.url(), {"*"}, "", service.queue().last_event());
   receiver.answer_with({500, 302, 404});
@@ -154,7 +154,7 @@ TEST_F(WebhooksTest, AnyStatusOf200To299TakesAnEvent) {
 
 TEST_F(WebhooksTest, AnAddressThatFailsForTooLongIsLeftAloneUntilItIsEnabled) {
   WebhookSender quick(service.queue(), data.path(),
-                      {.first_rest = 1ms, .longest_rest = 2ms, .patience = 30ms});
+                      {.first_rest = 1ms, .max_pause = 2ms, .timeout = 30ms});
   // Nobody listens there.
   const Webhook hook =
       quick.webhooks().create("http://127.0.0.1:1/hook", {"*"}, "", service.queue().last_event());

@@ -41,7 +41,7 @@ TEST_P(MeetsSomebody, OneCollisionWithItsSpeedAndImpulse) {
       record.samples[0].begin(), record.samples[0].end(),
       [&](const world::DroneSample& sample) { return sample.time_s > event.time_s - 0.02; });
   EXPECT_NEAR(event.value, before->velocity.norm(), 0.01 * event.value);
-  // Less than m v where an arm is hit and the craft turns away.
+  // Less than m v where an arm is hit and the vehicle turns away.
   EXPECT_GT(event.extra, 0.95 * kF450Kg * event.value);
   EXPECT_LT(event.extra, 1.6 * kF450Kg * event.value);
   EXPECT_TRUE(record.of_type("near_miss").empty());
@@ -128,7 +128,7 @@ TEST(Downwash, EveryPassageCountsItsSeconds) {
 }
 
 TEST(Downwash, ShakesACraftBelowThatHoldsAllTheSame) {
-  // Without the jet, the lower craft stays within a millimetre.
+  // Without the jet, the lower vehicle stays within a millimeter.
   const PlannedDrone above = planned_drone({0.15, 0, 12}, {}, 1);
   const PlannedDrone below = planned_drone({0, 0, 10}, {}, 1);
   const FlightRecord record = fly_with({above, below}, 15);

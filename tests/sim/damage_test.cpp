@@ -1,4 +1,4 @@
-// What collisions break, and what follows: a drone that falls and a warning of the people below.
+// Damage by collisions and its consequences: a falling drone and a warning of the people below.
 #include "sim/damage.h"
 
 #include <gtest/gtest.h>

@@ -44,9 +44,10 @@ Record fly(const std::vector<world::Building>& buildings, const std::vector<Plan
 }
 
 double closest(const std::vector<world::DroneSample>& samples, const Vector3d& point) {
-  double least = INFINITY;
-  for (const auto& sample : samples) least = std::min(least, (sample.position - point).norm());
-  return least;
+  double min_value = INFINITY;
+  for (const auto& sample : samples)
+    min_value = std::min(min_value, (sample.position - point).norm());
+  return min_value;
 }
 
 TEST(Flight, PassesEveryWaypointAndHoversAtTheLast) {
@@ -161,7 +162,7 @@ TEST(Flight, OneDroneDoesNotDisturbAnotherFarAway) {
 }
 
 TEST(FlightWorld, ACraftThatCannotHoldLeansAsFarAsItMay) {
-  // A storm that no F450 withstands: it is blown away, upright, and says that it leans too far.
+  // A storm that no F450 withstands: it is blown away, upright, and reports that it leans too far.
   FlightWorld world({}, 1.0 / 480);
   const Airframe frame = airframe_named("f450");
   world.add(frame, {0, 0, 50}, 0);

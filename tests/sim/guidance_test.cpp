@@ -106,14 +106,14 @@ TEST(Guidance, PartialComplianceLosesSome) {
 
 TEST(Guidance, ARunCanBeFlownAgainFromItsPilotLog) {
   const throng::testing::TemporaryFolder folder;
-  const world::Scenario place = square("huang2016/nearest_exit_navigated");
+  const world::Scenario scenario = square("huang2016/nearest_exit_navigated");
   RunSpec spec = guided_run("balance", 20);
   spec.people = 100;
-  simulate(place, spec, folder.path() / "first.h5", {}, {}, folder.path() / "logs");
+  simulate(scenario, spec, folder.path() / "first.h5", {}, {}, folder.path() / "logs");
   const fs::path log = folder.path() / "logs" / "d1.csv";
   spec.drones[0].policy = "pilot_log";
   spec.drones[0].guidance.setpoints = parse_pilot_log(read_file(log), log.string());
-  simulate(place, spec, folder.path() / "again.h5");
+  simulate(scenario, spec, folder.path() / "again.h5");
   const world::Trace first = world::read_trace(folder.path() / "first.h5");
   const world::Trace again = world::read_trace(folder.path() / "again.h5");
   for (double time_s = 0; time_s <= 20; time_s += 1) {
@@ -137,10 +137,10 @@ TEST(Guidance, ADroneThatHasComeDownLeadsNobody) {
   for (PlannedDrone& drone : drones) drone.mission.guidance.beacon = true;
   drones[1].airframe.mass_kg *= 4;  // more than its rotors lift, as after a crash
   const std::vector<world::AgentRole> roles;
-  const world::Scenario place = square("nearest_exit");
-  Flight flight(place.buildings, drones, 0.1, 1.0 / 480,
+  const world::Scenario scenario = square("nearest_exit");
+  Flight flight(scenario.buildings, drones, 0.1, 1.0 / 480,
                 {[](std::size_t, const world::DroneSample&) {}, [](const world::TraceEvent&) {}});
-  GuidanceLoop guidance(place, roles, drones, 1, 0.1);
+  GuidanceLoop guidance(scenario, roles, drones, 1, 0.1);
   Beacons beacons;
   guidance.report(flight, beacons);
   EXPECT_EQ(beacons.lit, (std::vector<bool>{true, true}));

@@ -1,4 +1,4 @@
-// What a counting camera makes of the truth.
+// The estimate of a counting camera against the truth.
 #include "sim/perception.h"
 
 #include <fmt/core.h>
@@ -24,18 +24,18 @@ WorldView truth_at(double time_s, std::vector<PersonSeen> people) {
 }
 
 TEST(Perception, ACameraSeesItsConeOnly) {
-  const world::Scenario place = testing::yard();
+  const world::Scenario scenario = testing::yard();
   const PerceptionSpec spec{PerceptionKind::camera, EIGEN_PI / 2, 0, 0};
-  CameraPerception camera(place, spec, 1, kOwnDrone);
+  CameraPerception camera(scenario, spec, 1, kOwnDrone);
   const WorldView seen = camera.estimate(truth_at(0, {{{9, 0}, {0, 0}, 0}, {{11, 0}, {0, 0}, 0}}));
   ASSERT_EQ(seen.people.size(), 1U) << "10 m up, 45 degrees to each side";
   EXPECT_LT((seen.people[0].position - Vector2d(9, 0)).norm(), 1.5);
 }
 
 TEST(Perception, EstimatesAreLate) {
-  const world::Scenario place = testing::yard();
+  const world::Scenario scenario = testing::yard();
   const PerceptionSpec spec{PerceptionKind::camera, EIGEN_PI / 2, 1, 0};
-  CameraPerception camera(place, spec, 1, kOwnDrone);
+  CameraPerception camera(scenario, spec, 1, kOwnDrone);
   std::size_t first_seen = 0;
   for (std::size_t step = 0; step < 30 && first_seen == 0; ++step) {
     std::vector<PersonSeen> people;
@@ -48,11 +48,11 @@ TEST(Perception, EstimatesAreLate) {
 }
 
 TEST(Perception, CountsAreNoisyButRightOnAverageAndRepeatable) {
-  const world::Scenario place = testing::yard();
+  const world::Scenario scenario = testing::yard();
   const PerceptionSpec spec{PerceptionKind::camera, EIGEN_PI / 2, 0, 0.1};
   const auto people = testing::people_about({0, 0}, 50, 0);
   const auto counts = [&](std::uint64_t seed) {
-    CameraPerception camera(place, spec, seed, kOwnDrone);
+    CameraPerception camera(scenario, spec, seed, kOwnDrone);
     std::vector<std::size_t> result;
     for (int i = 0; i < 400; ++i) {
       result.push_back(camera.estimate(truth_at(0.1 * i, people)).people.size());
@@ -70,9 +70,9 @@ TEST(Perception, CountsAreNoisyButRightOnAverageAndRepeatable) {
 }
 
 TEST(Perception, GuessesTheExitFromTheMotion) {
-  const world::Scenario place = testing::yard();
+  const world::Scenario scenario = testing::yard();
   const PerceptionSpec spec{PerceptionKind::camera, EIGEN_PI / 2, 0, 0};
-  CameraPerception camera(place, spec, 1, kOwnDrone);
+  CameraPerception camera(scenario, spec, 1, kOwnDrone);
   const WorldView seen = camera.estimate(
       truth_at(0, {{{3, 2}, {-1.5, 0}, 1}, {{-3, -2}, {1.5, 0}, 0}, {{5, 5}, {0, 0}, 0}}));
   ASSERT_EQ(seen.people.size(), 3U);
@@ -96,20 +96,20 @@ TEST(TheTruth, IsOfThoseWhoStandAndNotOfThoseWhoLieHurt) {
       <State name="Stand" final="1"><GoalSelector type="identity"/><VelComponent type="zero"/></State>
       <State name="Casualty" final="1"><GoalSelector type="identity"/><VelComponent type="zero"/>
       </State></BFSM>)");
-  world::Scenario place = testing::yard();
-  place.scene_file = folder.path() / "scene.xml";
-  place.behavior_file = folder.path() / "behavior.xml";
-  const auto crowd = simulated(load_crowd(place, 1, {}));
+  world::Scenario scenario = testing::yard();
+  scenario.scene_file = folder.path() / "scene.xml";
+  scenario.behavior_file = folder.path() / "behavior.xml";
+  const auto crowd = simulated(load_crowd(scenario, 1, {}));
   const std::vector<world::AgentRole> roles(2, world::AgentRole::person);
   const std::vector<world::GoalRef> moving;
   const std::vector<std::optional<world::GoalRef>> guides;
-  CrowdRecorder recorder(place, roles, moving);
-  Lookout lookout(place, roles, guides, crowd->dt_s());
+  CrowdRecorder recorder(scenario, roles, moving);
+  CrowdObserver observer(scenario, roles, guides, crowd->dt_s());
   RunObserver nobody;
   recorder.record(*crowd, 0, nobody);
-  lookout.look(*crowd, recorder, 0);
-  ASSERT_EQ(lookout.view().people.size(), 1U);
-  EXPECT_NEAR(lookout.view().people[0].position.x(), 1, 1e-6);
+  observer.look(*crowd, recorder, 0);
+  ASSERT_EQ(observer.view().people.size(), 1U);
+  EXPECT_NEAR(observer.view().people[0].position.x(), 1, 1e-6);
   EXPECT_EQ(crowd->now().flags,
             (std::vector<std::uint8_t>{world::kPresent, world::kPresent | world::kFallen}))
       << "the trace says who lies";

@@ -58,17 +58,17 @@ TEST(PlannedPaths, EndWithTheRun) {
 
 TEST(PlannedPaths, GoRoundAnOrbit) {
   DroneMission mission = scout_with("orbit");
-  mission.guidance.centre = Eigen::Vector2d(0, 0);
+  mission.guidance.center = Eigen::Vector2d(0, 0);
   mission.guidance.radius_m = 10;
   mission.speed_mps = 4;
   const auto path = planned_paths(meadow(), run_of(mission, 40)).front();
-  double most_x = 0;
+  double max_x = 0;
   for (const Eigen::Vector3d& place : path.places) {
     EXPECT_NEAR(place.head<2>().norm(), 10, 0.5);
     EXPECT_NEAR(place.z(), 12, 0.1);
-    most_x = std::max(most_x, place.x());
+    max_x = std::max(max_x, place.x());
   }
-  EXPECT_GT(most_x, 9.5) << "to the other side";
+  EXPECT_GT(max_x, 9.5) << "to the other side";
 }
 
 TEST(PlannedPaths, AreUnknownForWhoGoesByPeople) {

@@ -1,4 +1,4 @@
-// What each policy does with what it sees, flown without physics.
+// Decisions of each policy for given observations, flown without physics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,20 +17,20 @@ using testing::people_about;
 using testing::yard;
 
 TEST(Policies, OrbitKeepsItsDistanceAndLooksInwards) {
-  const world::Scenario place = yard();
+  const world::Scenario scenario = yard();
   DroneMission mission = mission_of("orbit");
-  mission.guidance.centre = Vector2d(5, -3);
+  mission.guidance.center = Vector2d(5, -3);
   mission.guidance.radius_m = 8;
-  IdealFlight flight(place, mission, {0, 0, 15});
+  IdealFlight flight(scenario, mission, {0, 0, 15});
   double turned_rad = 0;
   double last_rad = 0;
   for (int i = 0; i < 600; ++i) {
     const Vector3d at = flight.step({});
     if (flight.time_s() < 10) continue;
-    const Vector2d from_centre = at.head<2>() - Vector2d(5, -3);
-    EXPECT_NEAR(from_centre.norm(), 8, 0.05);
+    const Vector2d from_center = at.head<2>() - Vector2d(5, -3);
+    EXPECT_NEAR(from_center.norm(), 8, 0.05);
     EXPECT_DOUBLE_EQ(at.z(), 15);
-    const double angle_rad = std::atan2(from_centre.y(), from_centre.x());
+    const double angle_rad = std::atan2(from_center.y(), from_center.x());
     const double yaw_rad = flight.setpoint().yaw_rad;
     EXPECT_NEAR(std::remainder(yaw_rad - angle_rad - EIGEN_PI, 2 * EIGEN_PI), 0, 1e-6);
     if (last_rad != 0) turned_rad += std::remainder(angle_rad - last_rad, 2 * EIGEN_PI);
@@ -40,13 +40,13 @@ TEST(Policies, OrbitKeepsItsDistanceAndLooksInwards) {
 }
 
 TEST(Policies, SurveySeesEveryPlaceOfItsArea) {
-  const world::Scenario place = yard();
+  const world::Scenario scenario = yard();
   DroneMission mission = mission_of("survey");
   mission.guidance.area = world::Rectangle{{-15, -10}, {15, 12}};
   mission.guidance.overlap = 0.2;
   mission.camera.hfov_rad = 60 * EIGEN_PI / 180;
   mission.speed_mps = 5;
-  IdealFlight flight(place, mission, {0, 0, 10});
+  IdealFlight flight(scenario, mission, {0, 0, 10});
   const double half_view_m = 10 * std::tan(0.5 * mission.camera.hfov_rad);
   std::vector<Vector2d> places;
   for (double x = -15; x <= 15; x += 2.5) {
@@ -60,28 +60,28 @@ TEST(Policies, SurveySeesEveryPlaceOfItsArea) {
 }
 
 TEST(Policies, FollowDensityLooksAtTheCrowd) {
-  const world::Scenario place = yard();
+  const world::Scenario scenario = yard();
   DroneMission mission = mission_of("follow_density");
   mission.camera.pitch_rad = -45 * EIGEN_PI / 180;
   mission.camera.yaw_rad = EIGEN_PI / 2;
   mission.speed_mps = 5;
-  IdealFlight flight(place, mission, {0, 0, 12});
+  IdealFlight flight(scenario, mission, {0, 0, 12});
   WorldView view;
   view.people = people_about({10, 5}, 60, 1);
   const auto few = people_about({-10, -5}, 10, 1);
   view.people.insert(view.people.end(), few.begin(), few.end());
   Vector3d at;
   for (int i = 0; i < 200; ++i) at = flight.step(view);
-  // The camera looks to the left (+y) at 45 degrees: it meets the ground 12 m that way.
+  // The camera looks to the left (+y) at 45 degrees: it meets the ground 12 m to the left.
   EXPECT_LT((at.head<2>() + Vector2d(0, 12) - Vector2d(10, 5)).norm(), 2.5);
 }
 
 TEST(Policies, APilotLogIsRepeated) {
-  const world::Scenario place = yard();
+  const world::Scenario scenario = yard();
   DroneMission mission = mission_of("pilot_log");
   mission.guidance.setpoints = {
       {1, {0, 0, 10}, 0, false}, {3, {4, 0, 10}, 0, true}, {5, {4, 8, 12}, 1, false}};
-  IdealFlight flight(place, mission, {0, 0, 10});
+  IdealFlight flight(scenario, mission, {0, 0, 10});
   while (flight.time_s() < 1.99) flight.step({});
   EXPECT_LT((flight.setpoint().position - Vector3d(2, 0, 10)).norm(), 0.05);
   EXPECT_LT((flight.setpoint().velocity - Vector3d(2, 0, 0)).norm(), 1e-6);
@@ -96,8 +96,8 @@ TEST(Policies, APilotLogIsRepeated) {
 }
 
 TEST(Policies, SignageStandsBeforeTheExitWithRoom) {
-  const world::Scenario place = yard();
-  IdealFlight flight(place, mission_of("signage"), {0, 0, 12});
+  const world::Scenario scenario = yard();
+  IdealFlight flight(scenario, mission_of("signage"), {0, 0, 12});
   WorldView view;
   view.people = people_about({-12, 0}, 60, 0);
   int shown = 0;
@@ -106,22 +106,22 @@ TEST(Policies, SignageStandsBeforeTheExitWithRoom) {
     at = flight.step(view);
     if (flight.policy().beacon()) ++shown;
   }
-  EXPECT_LT((at.head<2>() - place.exits[1].middle()).norm(), 10);
+  EXPECT_LT((at.head<2>() - scenario.exits[1].middle()).norm(), 10);
   EXPECT_GT(shown, 100) << "calls people";
   EXPECT_LT(shown, 290) << "and lets them go";
 }
 
-/// Whoever is near a lit beacon follows it from then on at 2 m/s; others stay.
+/// People near an active beacon follow it from then on at 2 m/s; others stay.
 void follow(WorldView& view, const Vector3d& drone, bool beacon) {
   for (PersonSeen& person : view.people) {
-    const Vector2d way = drone.head<2>() - person.position;
-    if (beacon && way.norm() < 6) {
+    const Vector2d offset = drone.head<2>() - person.position;
+    if (beacon && offset.norm() < 6) {
       person.guide = 0;
       person.exit = -1;
     }
     if (person.guide != 0) continue;
-    const double step_m = std::min(0.2, std::max(0.0, way.norm() - 1));
-    if (way.norm() > 0) person.position += step_m * way.normalized();
+    const double step_m = std::min(0.2, std::max(0.0, offset.norm() - 1));
+    if (offset.norm() > 0) person.position += step_m * offset.normalized();
   }
   std::erase_if(view.people, [](const PersonSeen& person) {
     return std::abs(person.position.x()) > 20 && std::abs(person.position.y()) < 3;
@@ -129,10 +129,10 @@ void follow(WorldView& view, const Vector3d& drone, bool beacon) {
 }
 
 int people_led_out(const std::string& policy, double speed_mps, WorldView view, double duration_s) {
-  const world::Scenario place = yard();
+  const world::Scenario scenario = yard();
   DroneMission mission = mission_of(policy);
   mission.speed_mps = speed_mps;
-  IdealFlight flight(place, mission, {0, 0, 12});
+  IdealFlight flight(scenario, mission, {0, 0, 12});
   const auto before = static_cast<int>(view.people.size());
   while (flight.time_s() < duration_s) {
     const Vector3d at = flight.step(view);
@@ -164,12 +164,12 @@ class GuidesBesideAFire : public ::testing::TestWithParam<const char*> {};
 TEST_P(GuidesBesideAFire, LeadNobodyToADoorFromWhenItShuts) {
   // Everybody runs to the left door. The right one is the best of the others until it shuts.
   constexpr double kShutsS = 20;
-  world::Scenario place = yard();
-  place.exits.push_back({"top", {11, 20}, {13, 20}, {0, 1}, true, {{3, 2}}});
-  place.exits[1].shuts_s = kShutsS;
+  world::Scenario scenario = yard();
+  scenario.exits.push_back({"top", {11, 20}, {13, 20}, {0, 1}, true, {{3, 2}}});
+  scenario.exits[1].closes_at_s = kShutsS;
   DroneMission mission = mission_of(GetParam());
   mission.speed_mps = 1.8;
-  IdealFlight flight(place, mission, {0, 0, 12});
+  IdealFlight flight(scenario, mission, {0, 0, 12});
   WorldView view;
   view.people = people_about({-13, 0}, 100, 0);
   bool led_there = false;
@@ -200,9 +200,9 @@ INSTANTIATE_TEST_SUITE_P(All, GuidesBesideAFire, ::testing::Values("balance", "s
                          [](const auto& each) { return std::string(each.param); });
 
 TEST(Policies, BalanceTurnsWithThoseWhoFollowIt) {
-  world::Scenario place = yard();
-  place.exits.push_back({"top", {-1, 20}, {1, 20}, {0, 1}, true, {{3, 2}}});
-  IdealFlight flight(place, mission_of("balance"), {0, 0, 12});
+  world::Scenario scenario = yard();
+  scenario.exits.push_back({"top", {-1, 20}, {1, 20}, {0, 1}, true, {{3, 2}}});
+  IdealFlight flight(scenario, mission_of("balance"), {0, 0, 12});
   WorldView view;
   view.people = people_about({-13, 0}, 100, 0);
   const auto step = [&] { follow(view, flight.step(view), flight.policy().beacon()); };
@@ -210,7 +210,7 @@ TEST(Policies, BalanceTurnsWithThoseWhoFollowIt) {
   while (flight.time_s() < 60 && !leads()) step();
   ASSERT_TRUE(leads());
   const int first = flight.policy().plan().to;
-  place.exits[static_cast<std::size_t>(first)].shuts_s = flight.time_s() + 2;
+  scenario.exits[static_cast<std::size_t>(first)].closes_at_s = flight.time_s() + 2;
   for (int i = 0; i < 25; ++i) step();
   EXPECT_TRUE(leads()) << "they are not left alone";
   EXPECT_NE(flight.policy().plan().to, first);
@@ -223,13 +223,13 @@ TEST(Policies, BalanceLeavesShortQueuesAlone) {
 }
 
 TEST(Policies, BalanceFetchesWhoHasNotNoticedOnlyWhereTheyListen) {
-  world::Scenario place = yard();
+  world::Scenario scenario = yard();
   WorldView view;
   view.people = people_about({5, 10}, 30, -1);
   view.people.push_back({{-19, 0}, {1, 0}, 0});  // somebody runs: there is an alarm
   for (const bool alert : {true, false}) {
-    place.guides_alert = alert;
-    IdealFlight flight(place, mission_of("balance"), {0, 0, 12});
+    scenario.guides_alert = alert;
+    IdealFlight flight(scenario, mission_of("balance"), {0, 0, 12});
     bool lit = false;
     for (int i = 0; i < 100; ++i) {
       flight.step(view);

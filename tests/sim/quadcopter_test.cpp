@@ -22,7 +22,7 @@ FlightState high_up() {
 
 PerRotor even(double speed) { return {speed, speed, speed, speed}; }
 
-// What acts once the motors have reached `speeds`.
+// Forces once the motors have reached `speeds`.
 Wrench settled(const Airframe& frame, const FlightState& state, const PerRotor& speeds,
                const Vector3d& wind = Vector3d::Zero()) {
   Quadcopter quad(frame, 1000);

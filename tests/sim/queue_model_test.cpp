@@ -1,4 +1,4 @@
-// What the model of queues makes of where people run.
+// The queue model against people's choice of exits.
 #include "sim/queue_model.h"
 
 #include <gtest/gtest.h>
@@ -14,23 +14,23 @@ using testing::yard;
 
 /// The yard with a third door, next to the left one.
 world::Scenario yard_with_third_door(bool open) {
-  world::Scenario place = yard();
-  place.exits.push_back({"third", {-20, 9}, {-20, 11}, {-1, 0}, open, {{3, 2}}});
-  return place;
+  world::Scenario scenario = yard();
+  scenario.exits.push_back({"third", {-20, 9}, {-20, 11}, {-1, 0}, open, {{3, 2}}});
+  return scenario;
 }
 
-WorldView view_of(const world::Scenario& place, std::vector<PersonSeen> people) {
+WorldView view_of(const world::Scenario& scenario, std::vector<PersonSeen> people) {
   WorldView view;
   view.people = std::move(people);
-  view.exit_flow_per_s.resize(place.exits.size());
+  view.exit_flow_per_s.resize(scenario.exits.size());
   return view;
 }
 
 TEST(QueueModel, WhoRunsToAShutDoorJoinsTheQueueOfTheNearestOpenOne) {
-  const world::Scenario place = yard_with_third_door(false);
+  const world::Scenario scenario = yard_with_third_door(false);
   const std::vector<PersonSeen> people = people_about({-5, 5}, 40, 2);
-  QueueModel queues(place);
-  queues.update(view_of(place, people), 0);
+  QueueModel queues(scenario);
+  queues.update(view_of(scenario, people), 0);
   EXPECT_EQ(queues.ends_up_at(people.front()), 0);
   EXPECT_NEAR(queues.wait_s(0), 40 / queues.capacity_per_s(0), 1e-9);
   EXPECT_EQ(queues.wait_s(1), 0);
@@ -38,10 +38,10 @@ TEST(QueueModel, WhoRunsToAShutDoorJoinsTheQueueOfTheNearestOpenOne) {
 }
 
 TEST(QueueModel, ADoorThatADisasterReachesIsShutFromThenOn) {
-  world::Scenario place = yard_with_third_door(true);
-  place.exits[2].shuts_s = 10;
-  QueueModel queues(place);
-  WorldView view = view_of(place, people_about({-5, 5}, 40, 2));
+  world::Scenario scenario = yard_with_third_door(true);
+  scenario.exits[2].closes_at_s = 10;
+  QueueModel queues(scenario);
+  WorldView view = view_of(scenario, people_about({-5, 5}, 40, 2));
   view.time_s = 9.9;
   queues.update(view, 0);
   EXPECT_EQ(queues.ends_up_at(view.people.front()), 2);
@@ -54,22 +54,22 @@ TEST(QueueModel, ADoorThatADisasterReachesIsShutFromThenOn) {
 }
 
 TEST(QueueModel, WhoHasNotNoticedIsExpectedAtTheNearestOpenExit) {
-  const world::Scenario place = yard_with_third_door(false);
-  QueueModel queues(place);
-  queues.update(view_of(place, people_about({-15, 10}, 30, -1)), 0);
+  const world::Scenario scenario = yard_with_third_door(false);
+  QueueModel queues(scenario);
+  queues.update(view_of(scenario, people_about({-15, 10}, 30, -1)), 0);
   EXPECT_GT(queues.wait_s(0), 20 / queues.capacity_per_s(0));
   EXPECT_EQ(queues.wait_s(1), 0);
 }
 
 TEST(QueueModel, LearnsWherePeopleRunFromWhereTheyAre) {
-  // Half of the people beside the left door run to the right one, as if told so; those who have not
-  // noticed will do alike.
-  const world::Scenario place = yard();
+  // Half of the people beside the left door run to the right one, as if informed so; those who have
+  // not noticed will do alike.
+  const world::Scenario scenario = yard();
   std::vector<PersonSeen> people = people_about({-8, 0}, 20, 0);
   for (std::size_t i = 0; i < people.size(); i += 2) people[i].exit = 1;
   for (const PersonSeen& person : people_about({-8, 10}, 50, -1)) people.push_back(person);
-  const WorldView view = view_of(place, people);
-  QueueModel queues(place);
+  const WorldView view = view_of(scenario, people);
+  QueueModel queues(scenario);
   queues.update(view, 0);
   const double at_first_s = queues.wait_s(1);
   for (int i = 0; i < 200; ++i) queues.update(view, 0);

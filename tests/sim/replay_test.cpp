@@ -1,5 +1,4 @@
-// Recorded people as a crowd: where they are when, which way they face, and what a run makes of
-// them.
+// Recorded people as a crowd: their positions and headings over time, and their use in them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,10 +82,10 @@ class Steps : public RunObserver {
 };
 
 TEST(Replay, ARunHasThePeopleOfTheRecordingAndItsOwnDrones) {
-  world::Scenario place;  // without a crowd of its own: nothing of it is read
-  place.inside = {{-10, -10}, {10, 10}};
-  place.exits = {{"east", {10, -1}, {10, 1}, {1, 0}, true, {{0, 0}}}};
-  place.disaster_agents = {99};
+  world::Scenario scenario;  // without a crowd of its own: nothing of it is read
+  scenario.inside = {{-10, -10}, {10, 10}};
+  scenario.exits = {{"east", {10, -1}, {10, 1}, {1, 0}, true, {{0, 0}}}};
+  scenario.disaster_agents = {99};
   RunSpec spec;
   spec.duration_s = 2;
   spec.recorded = recording_of(0.0625, 33, {{0, 32, {9, 0}, {1, 0}}, {8, 16, {0, 0}, {0, 1}}});
@@ -95,7 +94,7 @@ TEST(Replay, ARunHasThePeopleOfTheRecordingAndItsOwnDrones) {
   mission.start = Eigen::Vector3d(0, 0, 10);
   spec.drones = {mission};
   Steps seen;
-  EXPECT_TRUE(simulate(place, spec, seen).empty());
+  EXPECT_TRUE(simulate(scenario, spec, seen).empty());
   ASSERT_EQ(seen.steps_.size(), 33U);
   EXPECT_EQ(seen.header_.dt_s, 0.0625);
   EXPECT_TRUE(seen.header_.exit_ids.empty());

@@ -87,7 +87,7 @@ TEST(Run, SameSpecGivesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(hashes.size(), 1U);
 }
 
-/// The events of a run of a shipped scenario, and what its header says.
+/// The events of a run of a shipped scenario, and its header.
 struct Told : public RunObserver {
   void begin(const world::TraceHeader& told) override { header = told; }
   void step(const world::CrowdStep& step) override { steps.push_back(step); }
@@ -127,20 +127,20 @@ TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
 
 TEST(Run, TellsWhenADisasterReachesADoor) {
   world::Scenario square = city_square();
-  square.exits[1].shuts_s = 1.25;
+  square.exits[1].closes_at_s = 1.25;
   square.exits[2].open = false;
-  square.exits[3].shuts_s = 2;
+  square.exits[3].closes_at_s = 2;
   Told told;
   watch(square, 3, told);
-  std::vector<std::pair<double, double>> shut;
+  std::vector<std::pair<double, double>> closed;
   for (const world::TraceEvent& event : told.events) {
-    if (event.type == "exit_shut") shut.emplace_back(event.time_s, event.value);
+    if (event.type == "exit_shut") closed.emplace_back(event.time_s, event.value);
   }
-  ASSERT_EQ(shut.size(), 2U);
-  EXPECT_NEAR(shut[0].first, 1.3, 0.06) << "the first step from then on";
-  EXPECT_EQ(shut[0].second, 1);
-  EXPECT_NEAR(shut[1].first, 2, 1e-9);
-  EXPECT_EQ(shut[1].second, 3);
+  ASSERT_EQ(closed.size(), 2U);
+  EXPECT_NEAR(closed[0].first, 1.3, 0.06) << "the first step from then on";
+  EXPECT_EQ(closed[0].second, 1);
+  EXPECT_NEAR(closed[1].first, 2, 1e-9);
+  EXPECT_EQ(closed[1].second, 3);
 }
 
 TEST(Run, AnotherSeedGivesAnotherRun) {
@@ -230,14 +230,14 @@ TEST_F(Evacuation, WhoRunsToAnExitIntendsItAndStillDoesOnTheWayToSafety) {
 }
 
 TEST_F(Evacuation, NobodyTeleports) {
-  constexpr double kFastestMps = 2.5;
+  constexpr double kMaxSpeedMps = 2.5;
   for (std::size_t step = 1; step < trace().steps(); ++step) {
     for (std::size_t i = 0; i < trace().agents(); ++i) {
       if (trace().header.role[i] != AgentRole::person) continue;
       const float moved_m =
           (trace().position[trace().at(step, i)] - trace().position[trace().at(step - 1, i)])
               .norm();
-      ASSERT_LT(moved_m, kFastestMps * trace().header.dt_s) << "agent " << i << " step " << step;
+      ASSERT_LT(moved_m, kMaxSpeedMps * trace().header.dt_s) << "agent " << i << " step " << step;
     }
   }
 }
@@ -333,7 +333,7 @@ TEST(Run, NobodyWalksThroughTheThingsThatStandInTheSquare) {
   }
 }
 
-/// Whether the square with nothing but a bench is refused, and else what is said against it.
+/// Whether the square with nothing but a bench is refused, and the message.
 std::pair<bool, std::vector<Problem>> verdict_on_bench(const Eigen::Vector2d& position,
                                                        std::size_t placed) {
   world::Scenario scenario = city_square();
@@ -392,7 +392,7 @@ TEST(Run, WhoWalksThroughAThingIsAWarning) {
   FAIL() << "everybody stays where somebody was";
 }
 
-/// A drone that ploughs through the people of the square.
+/// A drone that plows through the people of the square.
 RunSpec low_flight(bool physical) {
   RunSpec spec = short_run();
   spec.duration_s = 8;

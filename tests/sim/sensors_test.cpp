@@ -1,4 +1,4 @@
-// The sensors' errors have the sizes and the durations that they are said to have.
+// The sensors' errors have the documented sizes and durations.
 #include "sim/sensors.h"
 
 #include <gtest/gtest.h>
@@ -95,7 +95,7 @@ TEST(Sensors, WhiteNoiseHasItsDensity) {
   }
 }
 
-// Standard deviation of neighbouring means over `n` readings, by Allan (1966): of white noise it
+// Standard deviation of neighboring means over `n` readings, by Allan (1966): of white noise it
 // falls with the root of the time, of a wandering bias it rises.
 double allan_deviation(const SensorLog& log, std::size_t n) {
   std::vector<double> means;

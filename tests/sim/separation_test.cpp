@@ -90,7 +90,7 @@ TEST(Separation, FastDronesDoNotSlipThroughEachOther) {
 TEST(Separation, AnOrbitThatGoesThroughAHoveringDrone) {
   DroneMission orbit = mission("o", {10, 0, 20});
   orbit.policy = "orbit";
-  orbit.guidance.centre = Eigen::Vector2d(0, 0);
+  orbit.guidance.center = Eigen::Vector2d(0, 0);
   orbit.guidance.radius_m = 10;
   EXPECT_EQ(problems_of({mission("a", {0, 10, 20}), orbit}).size(), 1U);
   EXPECT_TRUE(problems_of({mission("a", {0, 10, 22}), orbit}).empty());
@@ -110,13 +110,13 @@ TEST(Separation, GuidesAtOneHeightMayMeet) {
 }
 
 TEST(Separation, SetPointsDoNotLeadThroughABuilding) {
-  world::Scenario place;
-  place.buildings = {{"tower", {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, 60}};
+  world::Scenario scenario;
+  scenario.buildings = {{"tower", {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, 60}};
   DroneMission log = mission("a", {-10, 0, 20});
   log.policy = "pilot_log";
   log.guidance.setpoints = {{0, {-10, 0, 20}, 0, false}, {9, {10, 0, 20}, 0, false}};
   std::vector<Problem> problems;
-  plan_drones(place, {log}, 60, problems);
+  plan_drones(scenario, {log}, 60, problems);
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/drones/0/guidance/setpoints/1");
   EXPECT_THAT(problems[0].expected, HasSubstr("tower"));

@@ -28,8 +28,8 @@ struct Rates {
 struct Flown {
   std::vector<double> time_s;
   std::vector<Vector3d> position;
-  double most_tilt_rad = 0;
-  double most_speed_mps = 0;
+  double max_tilt_rad = 0;
+  double max_speed_mps = 0;
 
   double position_along(std::size_t i, const Vector3d& axis) const {
     return (position[i] - kStart).dot(axis);
@@ -41,9 +41,10 @@ struct Flown {
     return INFINITY;
   }
   double furthest(const Vector3d& axis) const {
-    double most = 0;
-    for (std::size_t i = 0; i < time_s.size(); ++i) most = std::max(most, position_along(i, axis));
-    return most;
+    double max_value = 0;
+    for (std::size_t i = 0; i < time_s.size(); ++i)
+      max_value = std::max(max_value, position_along(i, axis));
+    return max_value;
   }
   double settled_within(double tolerance_m, const Vector3d& target) const {
     double last_outside_s = 0;
@@ -53,9 +54,9 @@ struct Flown {
     return last_outside_s;
   }
   double furthest_from(const Vector3d& point) const {
-    double most = 0;
-    for (const Vector3d& p : position) most = std::max(most, (p - point).norm());
-    return most;
+    double max_value = 0;
+    for (const Vector3d& p : position) max_value = std::max(max_value, (p - point).norm());
+    return max_value;
   }
 };
 
@@ -79,9 +80,9 @@ Flown fly(const Airframe& frame, const Vector3d& target, double duration_s,
     world.step();
     flown.time_s.push_back((step + 1) / rates.physics_hz);
     flown.position.push_back(world.state(0).position);
-    flown.most_tilt_rad =
-        std::max(flown.most_tilt_rad, std::acos(std::min(1.0, world.state(0).rotation(2, 2))));
-    flown.most_speed_mps = std::max(flown.most_speed_mps, world.state(0).velocity.norm());
+    flown.max_tilt_rad =
+        std::max(flown.max_tilt_rad, std::acos(std::min(1.0, world.state(0).rotation(2, 2))));
+    flown.max_speed_mps = std::max(flown.max_speed_mps, world.state(0).velocity.norm());
   }
   return flown;
 }
@@ -107,30 +108,30 @@ TEST(F450, HoversOnTheSpot) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(flown.position.size())), 1e-3);
 }
 
-TEST(F450, StepsOneMetreAhead) {
+TEST(F450, StepsOneMeterAhead) {
   const Flown flown = fly(airframe_named("f450"), kStart + Vector3d::UnitX(), 10);
   const StepFigures figures = figures_of(flown, 1, Vector3d::UnitX());
   EXPECT_GT(figures.rise_s, 0.6);
   EXPECT_LT(figures.rise_s, 1.2);
   EXPECT_LT(figures.overshoot, 0.10);
   EXPECT_LT(figures.settle_s, 3);
-  EXPECT_LT(flown.most_tilt_rad, 20 * kDegree);
+  EXPECT_LT(flown.max_tilt_rad, 20 * kDegree);
 }
 
-TEST(F450, StepsFiveMetresAhead) {
+TEST(F450, StepsFiveMetersAhead) {
   const Flown flown = fly(airframe_named("f450"), kStart + 5 * Vector3d::UnitX(), 12);
   const StepFigures figures = figures_of(flown, 5, Vector3d::UnitX());
   EXPECT_LT(figures.t90_s, 2.3);
   EXPECT_LT(figures.overshoot, 0.05);
-  EXPECT_LT(flown.most_tilt_rad, 37 * kDegree);
+  EXPECT_LT(flown.max_tilt_rad, 37 * kDegree);
 }
 
-TEST(F450, StepsTwentyMetresAhead) {
+TEST(F450, StepsTwentyMetersAhead) {
   const Flown flown = fly(airframe_named("f450"), kStart + 20 * Vector3d::UnitX(), 15);
   const StepFigures figures = figures_of(flown, 20, Vector3d::UnitX());
   EXPECT_LT(figures.t90_s, 5.5);
   EXPECT_LT(figures.overshoot, 0.05);
-  EXPECT_LE(flown.most_speed_mps, 5.0);
+  EXPECT_LE(flown.max_speed_mps, 5.0);
 }
 
 class HeightStep : public ::testing::TestWithParam<double> {};
@@ -145,7 +146,7 @@ TEST_P(HeightStep, OvershootsLittleAndSettles) {
   EXPECT_LT(figures.settle_s, 3.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Metres, HeightStep, ::testing::Values(1.0, 3.0, -1.0, -3.0));
+INSTANTIATE_TEST_SUITE_P(Meters, HeightStep, ::testing::Values(1.0, 3.0, -1.0, -3.0));
 
 TEST(F450, StaysOnItsLine) {
   const Flown flown = fly(airframe_named("f450"), kStart + 5 * Vector3d::UnitX(), 10);
@@ -159,10 +160,10 @@ TEST(F450, StaysOnItsLine) {
 
 TEST(F450, HoldsAgainstAGustThatStays) {
   const std::vector<std::pair<double, double>> peaks{{4, 0.35}, {8, 0.8}, {10, 1.1}};
-  for (const auto& [wind_mps, most_m] : peaks) {
+  for (const auto& [wind_mps, max_m] : peaks) {
     const Flown flown = fly(airframe_named("f450"), kStart, 15, wind_mps * Vector3d::UnitX());
-    EXPECT_LT(flown.furthest_from(kStart), most_m) << wind_mps;
-    EXPECT_GT(flown.furthest_from(kStart), 0.2 * most_m) << wind_mps;
+    EXPECT_LT(flown.furthest_from(kStart), max_m) << wind_mps;
+    EXPECT_GT(flown.furthest_from(kStart), 0.2 * max_m) << wind_mps;
     EXPECT_LT((flown.position.back() - kStart).norm(), 0.1) << wind_mps;
   }
 }
@@ -174,8 +175,8 @@ TEST(F450, FliesTheSameAtEveryPhysicsRate) {
   for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
     EXPECT_NEAR(slow.furthest(axis), fast.furthest(axis), 0.03 * fast.furthest(axis));
   }
-  EXPECT_NEAR(slow.most_tilt_rad, fast.most_tilt_rad, 0.03 * fast.most_tilt_rad);
-  EXPECT_NEAR(slow.most_speed_mps, fast.most_speed_mps, 0.03 * fast.most_speed_mps);
+  EXPECT_NEAR(slow.max_tilt_rad, fast.max_tilt_rad, 0.03 * fast.max_tilt_rad);
+  EXPECT_NEAR(slow.max_speed_mps, fast.max_speed_mps, 0.03 * fast.max_speed_mps);
 }
 
 TEST(F450, PeaksInWindDoNotDependOnThePhysicsRate) {
@@ -244,12 +245,12 @@ TEST(OtherAirframes, HoldInAStepOfWind) {
   EXPECT_LT(fly(airframe_named("x500"), kStart, 10, wind).furthest_from(kStart), 1.1);
 }
 
-TEST(HeavyDrag, HoldsInEightButNotInTwelveMetresPerSecond) {
+TEST(HeavyDrag, HoldsInEightButNotInTwelveMetersPerSecond) {
   Airframe frame = airframe_named("f450");
   frame.body_drag = 0.12;
   const Flown holds = fly(frame, kStart, 15, {8, 0, 0});
   EXPECT_LT(holds.furthest_from(kStart), 1.8);
-  EXPECT_NEAR(holds.most_tilt_rad, 32 * kDegree, 3 * kDegree);
+  EXPECT_NEAR(holds.max_tilt_rad, 32 * kDegree, 3 * kDegree);
   EXPECT_GT(fly(frame, kStart, 15, {10.5, 0, 0}).furthest_from(kStart), 5);
 }
 
@@ -260,7 +261,7 @@ TEST_P(EveryAirframe, HoversAndFliesToATarget) {
   const Vector3d target = kStart + Vector3d(3, -2, 1);
   const Flown flown = fly(frame, target, 10);
   EXPECT_LT((flown.position.back() - target).norm(), 0.05);
-  EXPECT_LT(flown.most_tilt_rad, 38 * kDegree);
+  EXPECT_LT(flown.max_tilt_rad, 38 * kDegree);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryAirframe,

@@ -49,7 +49,7 @@ double correlation(const std::vector<Vector3d>& values, int axis, int lag) {
   return lagged / own;
 }
 
-TEST(Wind, BlowsAsAskedAtTenMetres) {
+TEST(Wind, BlowsAsAskedAtTenMeters) {
   for (const WindProfile profile :
        {WindProfile::uniform, WindProfile::log_law, WindProfile::power_law}) {
     WindSpec wind = breeze(6);
@@ -124,13 +124,13 @@ TEST(Gusts, DependOnSeedAndCraftButNotOnHowOftenTheyAreAskedFor) {
   Gusts often(wind, 5, 0);
   Gusts seldom(wind, 5, 0);
   Gusts other_seed(wind, 6, 0);
-  Gusts other_craft(wind, 5, 1);
+  Gusts other_vehicle(wind, 5, 1);
   Vector3d last = Vector3d::Zero();
   for (int i = 0; i <= 4000; ++i) last = often.at(i / 400.0, 20, 8);
   for (int i = 0; i < 7; ++i) seldom.at(i * 1.5, 20, 8);
   EXPECT_TRUE(last.isApprox(seldom.at(10, 20, 8), 1e-12));
   EXPECT_FALSE(last.isApprox(other_seed.at(10, 20, 8), 1e-3));
-  EXPECT_FALSE(last.isApprox(other_craft.at(10, 20, 8), 1e-3));
+  EXPECT_FALSE(last.isApprox(other_vehicle.at(10, 20, 8), 1e-3));
 }
 
 TEST(Gusts, NoneInStillAirAndWhereNoneAreWanted) {

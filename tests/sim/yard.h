@@ -12,26 +12,26 @@ namespace throng::sim::testing {
 
 /// 40 m x 40 m; the left door is 2 m wide, the right one 3 m.
 inline world::Scenario yard() {
-  world::Scenario place;
-  place.inside = {{-20, -20}, {20, 20}};
-  place.exits = {{"left", {-20, -1}, {-20, 1}, {-1, 0}, true, {{3, 0}}},
-                 {"right", {20, -1.5}, {20, 1.5}, {1, 0}, true, {{3, 1}}}};
-  return place;
+  world::Scenario scenario;
+  scenario.inside = {{-20, -20}, {20, 20}};
+  scenario.exits = {{"left", {-20, -1}, {-20, 1}, {-1, 0}, true, {{3, 0}}},
+                    {"right", {20, -1.5}, {20, 1.5}, {1, 0}, true, {{3, 1}}}};
+  return scenario;
 }
 
 class IdealFlight {
  public:
-  IdealFlight(const world::Scenario& place, DroneMission mission, const Eigen::Vector3d& start)
-      : place_(place), mission_(std::move(mission)) {
+  IdealFlight(const world::Scenario& scenario, DroneMission mission, const Eigen::Vector3d& start)
+      : scenario_(scenario), mission_(std::move(mission)) {
     state_.position = start;
-    policy_ = find_policy(mission_.policy)->make({mission_, start, 0, {}, &place_, 0});
+    policy_ = find_policy(mission_.policy)->make({mission_, start, 0, {}, &scenario_, 0});
   }
 
   /// One step of the crowd, 0.1 s; the policy is asked ten times. Returns where the drone is.
   const Eigen::Vector3d& step(const WorldView& seen) {
     WorldView view = seen;
     view.time_s = time_s_;
-    view.exit_flow_per_s.resize(place_.exits.size());
+    view.exit_flow_per_s.resize(scenario_.exits.size());
     view.drones = {{state_.position, state_.velocity, policy_->beacon(), policy_->plan()}};
     policy_->see(view);
     for (int i = 0; i < 10; ++i) {
@@ -48,7 +48,7 @@ class IdealFlight {
   double time_s() const { return time_s_; }
 
  private:
-  const world::Scenario& place_;
+  const world::Scenario& scenario_;
   DroneMission mission_;
   std::unique_ptr<Policy> policy_;
   FlightState state_;

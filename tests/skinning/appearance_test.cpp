@@ -1,4 +1,4 @@
-// That a crowd drawn from few bodies shows no twins side by side.
+// A crowd sampled from few characters shows no twins side by side.
 #include "skinning/appearance.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kAgents = 2000;
 
-// The people of a baked population as far as their colours go.
+// The people of a baked population as far as their colors go.
 Population people_of(int count) {
   Population population;
   for (int i = 0; i < count; ++i) {
@@ -71,7 +71,7 @@ TEST(Twins, EverybodyIsUsedEquallyOften) {
   }
 }
 
-// Crowds start in rectangular grids row by row, so that neighbours are one row apart in id.
+// Crowds start in rectangular grids row by row, so that neighbors are one row apart in id.
 TEST(Twins, NoneStandSideBySideInAGrid) {
   const Population population = people_of(96);
   int pairs = 0;
@@ -94,12 +94,12 @@ TEST(Twins, NoneStandSideBySideInAGrid) {
   }
   RecordProperty("same_body_per_million", static_cast<int>(1e6 * same_body / pairs));
   RecordProperty("twins_per_million", static_cast<int>(1e6 * twins / pairs));
-  // By chance one neighbour of 96 would have the same body.
+  // By chance one neighbor of 96 would have the same body.
   EXPECT_LT(same_body, pairs / 96);
   EXPECT_LT(twins, pairs / 5000);
 }
 
-TEST(Twins, ABodyRarelyWearsTheSameColoursAgain) {
+TEST(Twins, ABodyRarelyWearsTheSameColorsAgain) {
   const Population population = people_of(96);
   const std::vector<Appearance> crowd = crowd_of(population, 11);
   std::map<std::uint32_t, std::vector<const Appearance*>> by_body;

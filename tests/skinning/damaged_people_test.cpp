@@ -1,4 +1,4 @@
-// Files of baked people that are damaged or missing.
+// Files of character library that are damaged or missing.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -26,12 +26,12 @@ TEST(Image, BytesThatAreNoPngAreAnError) {
   EXPECT_THROW(decode_png(png.substr(0, png.size() / 2), "cut.png"), InputError);
 }
 
-TEST(Image, ShrinkingKeepsAPlainColour) {
+TEST(Image, ShrinkingKeepsAPlainColor) {
   const Image small = resized(plain(512, {180, 90, 30}), 64);
   EXPECT_EQ(small.rgba, plain(64, {180, 90, 30}).rgba);
 }
 
-TEST(Image, ShrinkingWeighsColoursByTheirAlpha) {
+TEST(Image, ShrinkingWeighsColorsByTheirAlpha) {
   Image image = plain(2, {200, 0, 0});
   for (const std::size_t pixel : {1, 2, 3}) {
     image.rgba[4 * pixel] = 0;
@@ -42,7 +42,7 @@ TEST(Image, ShrinkingWeighsColoursByTheirAlpha) {
   EXPECT_EQ(small.rgba[3], 64);
 }
 
-TEST(Image, UncoveredPixelsTakeTheNearestColour) {
+TEST(Image, UncoveredPixelsTakeTheNearestColor) {
   Image image(9, 1);
   Mask covered(9, 0);
   covered[0] = covered[8] = 1;

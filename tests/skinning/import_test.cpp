@@ -53,7 +53,7 @@ class ImportTest : public testing::Test {
     return load_population(folder / "out");
   }
 
-  /// What an import complains of.
+  /// Errors of an import.
   std::string complaint(const fs::path& description, const ImportOptions& options = {}) {
     try {
       import_characters({description}, folder / "out", options);
@@ -89,14 +89,14 @@ Bounds bounds_of(const Mesh& mesh) {
 
 void expect_sound(const Population& people, double height_m) {
   ASSERT_EQ(people.characters.size(), 1U);
-  const Character& who = people.characters.front();
-  EXPECT_NEAR(who.stature_m, height_m, 1e-4);
-  const Bounds bounds = bounds_of(who.levels.front());
+  const Character& character = people.characters.front();
+  EXPECT_NEAR(character.stature_m, height_m, 1e-4);
+  const Bounds bounds = bounds_of(character.levels.front());
   EXPECT_NEAR(bounds.low.z(), 0, 1e-4);
   EXPECT_NEAR(bounds.high.z(), height_m, 1e-3);
   EXPECT_NEAR(bounds.low.y(), -bounds.high.y(), 0.01);
   EXPECT_GT(bounds.high.x(), -bounds.low.x()) << "feet point forwards";
-  for (const Mesh& mesh : who.levels) {
+  for (const Mesh& mesh : character.levels) {
     for (const Vertex& vertex : mesh.vertices) {
       ASSERT_EQ(vertex.weights[0] + vertex.weights[1] + vertex.weights[2] + vertex.weights[3], 255);
       const auto bone = static_cast<Bone>(vertex.bones[0]);
@@ -224,7 +224,8 @@ TEST_F(ImportTest, FeetDoNotSkateInTheOwnWalkAtAnySpeed) {
   }
   ASSERT_EQ(static_cast<Bone>(ball.bones[0]), Bone::left_toe);
   for (double speed_mps = 0.4; speed_mps < 4; speed_mps += 0.3) {
-    const std::vector<Moment> moments = straight_way(std::vector<double>(70, speed_mps), 0.1);
+    const std::vector<Moment> moments =
+        straight_trajectory(std::vector<double>(70, speed_mps), 0.1);
     Appearance appearance;
     appearance.phase_offset = 0.6F;
     const MotionPlan plan(people, appearance, 1, moments, 0.1);
@@ -249,7 +250,7 @@ TEST_F(ImportTest, ClipsMayComeFromAnotherFile) {
   fs::rename(folder / "out", folder / "other");
   write_model();
   const Population own = import(describe(kStroll));
-  // The same motion, whichever way it came.
+  // The same motion from either source.
   float apart_m = 0;
   for (std::size_t i = 0; i < own.palettes.size(); ++i) {
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
@@ -269,12 +270,12 @@ TEST_F(ImportTest, ManyTrianglesAreSimplifiedToLevels) {
   const std::vector<Mesh>& levels = people.characters.front().levels;
   ASSERT_EQ(levels.size(), kDetailLevels.size());
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const std::size_t most = kDetailLevels[i].triangles;
+    const std::size_t max_value = kDetailLevels[i].triangles;
     // The figure's 22 boxes cannot be few triangles without losing one: then nothing is taken away.
     const bool kept = i > 0 && levels[i].indices.size() == levels[i - 1].indices.size();
-    EXPECT_TRUE(!kept || most < 100) << "level " << i;
-    EXPECT_TRUE(kept || levels[i].indices.size() / 3 <= most + most / 4) << "level " << i;
-    EXPECT_GE(levels[i].indices.size() / 3, most / 4);
+    EXPECT_TRUE(!kept || max_value < 100) << "level " << i;
+    EXPECT_TRUE(kept || levels[i].indices.size() / 3 <= max_value + max_value / 4) << "level " << i;
+    EXPECT_GE(levels[i].indices.size() / 3, max_value / 4);
     const Bounds bounds = bounds_of(levels[i]);
     EXPECT_NEAR(bounds.high.z(), 1.62, 0.02);
     EXPECT_NEAR(bounds.low.z(), 0, 0.02);
@@ -319,15 +320,15 @@ TEST_F(ImportTest, IsPutAmongOthersAndGivesTheSameTwice) {
   EXPECT_THROW(import_characters({second}, folder / "first", options), InputError);
 }
 
-// What is wrong, and how to mend it.
+// The error, and how to fix it.
 
 TEST_F(ImportTest, AModelWithoutBonesIsRefused) {
   rig.bones = false;
   write_model();
-  const std::string said = complaint(describe());
-  EXPECT_THAT(said, HasSubstr("model.glb"));
-  EXPECT_THAT(said, HasSubstr("without bones"));
-  EXPECT_THAT(said, HasSubstr("armature"));
+  const std::string overrides = complaint(describe());
+  EXPECT_THAT(overrides, HasSubstr("model.glb"));
+  EXPECT_THAT(overrides, HasSubstr("without bones"));
+  EXPECT_THAT(overrides, HasSubstr("armature"));
 }
 
 TEST_F(ImportTest, UnknownBonesAreListedWithTheNeededOnes) {
@@ -337,30 +338,30 @@ TEST_F(ImportTest, UnknownBonesAreListedWithTheNeededOnes) {
                                            : mixamo_name(bone);
   };
   write_model();
-  const std::string said = complaint(describe());
-  EXPECT_THAT(said, HasSubstr("guide.json"));
-  EXPECT_THAT(said, HasSubstr("/bones/left_thigh"));
-  EXPECT_THAT(said, HasSubstr("/bones/right_upper_arm"));
-  EXPECT_THAT(said, HasSubstr("not recognised: Oberarm.R, linker_tigh"));
-  EXPECT_THAT(said, HasSubstr(R"("left_thigh": "linker_tigh")"));
+  const std::string overrides = complaint(describe());
+  EXPECT_THAT(overrides, HasSubstr("guide.json"));
+  EXPECT_THAT(overrides, HasSubstr("/bones/left_thigh"));
+  EXPECT_THAT(overrides, HasSubstr("/bones/right_upper_arm"));
+  EXPECT_THAT(overrides, HasSubstr("not recognised: Oberarm.R, linker_tigh"));
+  EXPECT_THAT(overrides, HasSubstr(R"("left_thigh": "linker_tigh")"));
 }
 
 TEST_F(ImportTest, WrongNamesInTheDescriptionAreRefused) {
   write_model();
-  const std::string said = complaint(
+  const std::string overrides = complaint(
       describe(R"(, "bones": {"left_leg": "mixamorig:LeftUpLeg", "head": "mixamorig:Haed"})"));
-  EXPECT_THAT(said, HasSubstr("/bones/left_leg"));
-  EXPECT_THAT(said, HasSubstr("left_clavicle"));
-  EXPECT_THAT(said, HasSubstr("/bones/head"));
-  EXPECT_THAT(said, HasSubstr("\"mixamorig:Head\""));
+  EXPECT_THAT(overrides, HasSubstr("/bones/left_leg"));
+  EXPECT_THAT(overrides, HasSubstr("left_clavicle"));
+  EXPECT_THAT(overrides, HasSubstr("/bones/head"));
+  EXPECT_THAT(overrides, HasSubstr("\"mixamorig:Head\""));
 }
 
 TEST_F(ImportTest, AbsurdHeightsAreRefused) {
   write_model();
   for (const char* height : {"0.03", "300", "-1.7", "\"tall\"", "null"}) {
-    const std::string said = complaint(describe("", height));
-    EXPECT_THAT(said, HasSubstr("/height_m")) << height;
-    EXPECT_THAT(said, HasSubstr("0.5 to 2.5")) << height;
+    const std::string overrides = complaint(describe("", height));
+    EXPECT_THAT(overrides, HasSubstr("/height_m")) << height;
+    EXPECT_THAT(overrides, HasSubstr("0.5 to 2.5")) << height;
   }
 }
 
@@ -368,9 +369,9 @@ TEST_F(ImportTest, AMeshOfAnotherSizeThanItsSkeletonIsRefused) {
   for (const float scale : {0.01F, 100.0F}) {
     rig.mesh_scale = scale;
     write_model();
-    const std::string said = complaint(describe());
-    EXPECT_THAT(said, HasSubstr("on a skeleton from"));
-    EXPECT_THAT(said, HasSubstr("one unit"));
+    const std::string overrides = complaint(describe());
+    EXPECT_THAT(overrides, HasSubstr("on a skeleton from"));
+    EXPECT_THAT(overrides, HasSubstr("one unit"));
   }
 }
 
@@ -383,10 +384,10 @@ TEST_F(ImportTest, LeftAndRightMustNotBeSwapped) {
 TEST_F(ImportTest, ClipsThatAreNotThereAreRefusedWithThoseThatAre) {
   rig.walks = true;
   write_model();
-  const std::string said =
+  const std::string overrides =
       complaint(describe(R"(, "clips": {"walk": {"name": "Walk", "speed_mps": 1.1}})"));
-  EXPECT_THAT(said, HasSubstr("/clips/walk/name"));
-  EXPECT_THAT(said, HasSubstr("Stroll"));
+  EXPECT_THAT(overrides, HasSubstr("/clips/walk/name"));
+  EXPECT_THAT(overrides, HasSubstr("Stroll"));
   rig.walks = false;
   write_model();
   EXPECT_THAT(complaint(describe(kStroll)), HasSubstr("export it with its animations"));
@@ -395,10 +396,10 @@ TEST_F(ImportTest, ClipsThatAreNotThereAreRefusedWithThoseThatAre) {
 TEST_F(ImportTest, SpeedsAtWhichFeetSlideAreRefused) {
   rig.walks = true;
   write_model();
-  const std::string said =
+  const std::string overrides =
       complaint(describe(R"(, "clips": {"walk": {"name": "Stroll", "speed_mps": 3}})"));
-  EXPECT_THAT(said, HasSubstr("/clips/walk/speed_mps"));
-  EXPECT_THAT(said, HasSubstr("1.0"));  // what its feet do, in m/s
+  EXPECT_THAT(overrides, HasSubstr("/clips/walk/speed_mps"));
+  EXPECT_THAT(overrides, HasSubstr("1.0"));  // what its feet do, in m/s
   EXPECT_THAT(complaint(describe(R"(, "clips": {"walk": {"name": "Stroll", "speed_mps": 40}})")),
               HasSubstr("0.2 to 3"));
 }
@@ -421,11 +422,11 @@ TEST_F(ImportTest, EverythingThatIsWrongInADescriptionIsSaidAtOnce) {
   const fs::path file = folder / "bad.json";
   write_file_atomically(file, R"({"name": "a b", "modle": "x", "height_m": 17, "sex": "other",
       "age_years": -1, "bones": {"head": 7}, "clips": {"wlak": {}, "run": {"name": "Run"}}})");
-  const std::string said = complaint(file);
+  const std::string overrides = complaint(file);
   for (const char* where :
        {"/name", "/modle", "\"model\"?", "/model", "/height_m", "/licence", "/sex", "/age_years",
         "/bones/head", "/clips/wlak", "/clips/run/speed_mps"}) {
-    EXPECT_THAT(said, HasSubstr(where));
+    EXPECT_THAT(overrides, HasSubstr(where));
   }
 }
 

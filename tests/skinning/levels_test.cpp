@@ -1,5 +1,5 @@
 // Whether anybody would notice that people change their level of detail: what drones see of the
-// baked people on both sides of each switch.
+// character library on both sides of each switch.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ struct Picture {
   Mask covered;
 };
 
-/// Where a person is seen from: a drone far above, whose camera looks down by `pitch_rad`.
+/// Viewpoint on a person: a drone far above, whose camera looks down by `pitch_rad`.
 struct View {
   double pitch_rad;
   double yaw_rad;
@@ -123,7 +123,7 @@ class LevelsTest : public BakedPeopleTest {
     return frames;
   }
 
-  /// Overlaps of two neighbouring levels where one gives way to the other.
+  /// Overlaps of two neighboring levels where one replaces the other.
   std::vector<double> overlaps(const Character& character, std::size_t number,
                                std::size_t finer) const {
     std::vector<double> found;
@@ -146,10 +146,10 @@ TEST_F(LevelsTest, HaveTheTrianglesTheyAreMeantToHave) {
     ASSERT_EQ(character.levels.size(), kDetailLevels.size());
     for (std::size_t level = 0; level < kDetailLevels.size(); ++level) {
       const std::size_t triangles = character.levels[level].indices.size() / 3;
-      const std::size_t most = kDetailLevels[level].triangles;
-      EXPECT_LE(triangles, most) << character.name << " level " << level;
+      const std::size_t max_value = kDetailLevels[level].triangles;
+      EXPECT_LE(triangles, max_value) << character.name << " level " << level;
       if (level > 0) {
-        EXPECT_GE(triangles, most - 20) << character.name << " level " << level;
+        EXPECT_GE(triangles, max_value - 20) << character.name << " level " << level;
       }
     }
   }

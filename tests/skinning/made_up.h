@@ -1,4 +1,4 @@
-// Small things made up for the tests.
+// Small test fixtures.
 #pragma once
 
 #include <string>
@@ -49,17 +49,17 @@ inline Vertex made_up_vertex(const Eigen::Vector3f& position, Bone bone, Bone ot
   return vertex;
 }
 
-/// A picture of one colour.
-inline Image plain(int size, Rgb colour) {
+/// An image of one color.
+inline Image plain(int size, Rgb color) {
   Image image(size, size);
   for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
-    std::copy(colour.begin(), colour.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(at));
+    std::copy(color.begin(), color.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(at));
     image.rgba[at + 3] = 255;
   }
   return image;
 }
 
-/// Two levels, three parts, two pictures; every bone is used.
+/// Two levels, three parts, two images; every bone is used.
 inline CharacterAsset made_up_asset() {
   CharacterAsset asset;
   asset.name = "made_up";

@@ -80,7 +80,7 @@ const Clip& clip_of(const Population& population, std::uint32_t palette) {
   return *found;
 }
 
-TEST(Pose, BlendsNeighbouringFramesOfOneClip) {
+TEST(Pose, BlendsNeighboringFramesOfOneClip) {
   const Population population = made_up_population(1);
   for (double speed = 0; speed < 5; speed += 0.07) {
     for (double phase = -3; phase < 3; phase += 0.013) {
@@ -130,7 +130,7 @@ TEST(AppearanceOf, IsAPureFunctionOfSeedAndAgent) {
   EXPECT_EQ(a.tint, b.tint);
 }
 
-TEST(AppearanceOf, NeighboursAreDifferentPeople) {
+TEST(AppearanceOf, NeighborsAreDifferentPeople) {
   for (const std::size_t count : {3, 8, 12}) {
     const Population population = made_up_population(count);
     for (std::uint32_t agent = 0; agent < 500; ++agent) {
@@ -150,7 +150,7 @@ TEST(AppearanceOf, UsesEverybodyAboutEquallyOften) {
   for (const int count : used) EXPECT_NEAR(count, 100, 3);
 }
 
-TEST(AppearanceOf, CloneColoursDiffer) {
+TEST(AppearanceOf, CloneColorsDiffer) {
   const Population population = made_up_population(1);
   std::set<Rgb> tops;
   for (std::uint32_t agent = 0; agent < 100; ++agent) {

@@ -85,7 +85,7 @@ TEST_F(PeopleTest, ShoesAreDyedWhateverTheyAre) {
   }
 }
 
-TEST_F(PeopleTest, ColoursAreThoseOfWhatIsDrawn) {
+TEST_F(PeopleTest, ColorsAreThoseOfWhatIsDrawn) {
   const auto everything = [](const Vertex&) { return true; };
   for (const Character& character : people_->characters) {
     const Mesh& mesh = character.levels.front();
@@ -95,9 +95,9 @@ TEST_F(PeopleTest, ColoursAreThoseOfWhatIsDrawn) {
       const auto tint = static_cast<std::size_t>(part.tint);
       drawn[tint] += area_m2(mesh, part, everything);
       if (part.tint == Tint::none || character.tints[tint].empty()) continue;
-      // A suit keeps its colours.
+      // A suit keeps its colors.
       if (character.wears.starts_with("suit") && part.tint == Tint::top) continue;
-      // Light and shade only: the colour is the instance's.
+      // Light and shade only: the color is the instance's.
       const Texture& texture = people_->textures[static_cast<std::size_t>(part.texture)];
       for (std::uint32_t at = 0; at < part.index_count; ++at) {
         const auto& uv = mesh.vertices[mesh.indices[part.first_index + at]].uv;
@@ -300,7 +300,7 @@ TEST_F(PeopleTest, BlendingHalfwayLiesBetweenTheFrames) {
   }
 }
 
-// Pixels that a mesh covers, seen from the front, 100 to the metre.
+// Pixels that a mesh covers, seen from the front, 100 to the meter.
 std::vector<bool> silhouette(const Mesh& mesh, const Palette& palette, float yaw_rad) {
   constexpr int kSize = 220;
   std::vector<bool> covered(static_cast<std::size_t>(kSize) * kSize, false);
@@ -324,7 +324,8 @@ std::vector<bool> silhouette(const Mesh& mesh, const Palette& palette, float yaw
 TEST_F(PeopleTest, NobodyHasGapsFromHeadToFoot) {
   const Palette rest = rest_palette();
   for (const Character& character : people_->characters) {
-    // The last level is chosen by nobody's size, and has no room for narrow necks and ankles.
+    // The last level is chosen by nobody's size, and has too few triangles for narrow necks and
+    // ankles.
     for (std::size_t level = 0; level + 1 < character.levels.size(); ++level) {
       const std::vector<bool> covered = silhouette(character.levels[level], rest, 0);
       const int crown = 215 - static_cast<int>(100 * 0.97F * character.stature_m);
@@ -359,7 +360,7 @@ TEST_F(PeopleTest, NobodyCanBeLookedThroughAtTheWaist) {
       const Eigen::Vector2f c = place(mesh.indices[at + 2]);
       const Eigen::Vector2f ab = b - corner;
       const Eigen::Vector2f ac = c - corner;
-      if (ab.x() * ac.y() < ab.y() * ac.x()) continue;  // seen from behind, so not drawn
+      if (ab.x() * ac.y() < ab.y() * ac.x()) continue;  // seen from behind, so not rendered
       for_each_pixel(corner, b, c, kWidth, height, [&](int x, int y, const Eigen::Vector3f&) {
         covered[static_cast<std::size_t>(y) * kWidth + x] = 1;
       });
@@ -384,7 +385,7 @@ int share_of(const Vertex& vertex, Bone bone) {
 }
 
 // The ball of the foot: of what follows the toes more than the rest of the foot, the rearmost
-// vertex of the sole. The soles of some shoes rise towards their tips, which stay in the air.
+// vertex of the sole. The soles of some shoes rise toward their tips, which stay in the air.
 const Vertex* ball_of(const Mesh& mesh, Bone toe) {
   constexpr float kSole_m = 0.006F;
   std::vector<const Vertex*> forefoot;
@@ -404,11 +405,11 @@ const Vertex* ball_of(const Mesh& mesh, Bone toe) {
   return found;
 }
 
-// How far the ball of the left foot moves over the ground while it stands on it, in millimetres.
+// How far the ball of the left foot moves over the ground while it stands on it, in millimeters.
 double slide_mm(const Population& people, std::uint32_t character, double speed_mps,
                 float amplitude) {
   const Mesh& mesh = people.characters[character].levels.front();
-  const std::vector<Moment> moments = straight_way(std::vector<double>(70, speed_mps), 0.1);
+  const std::vector<Moment> moments = straight_trajectory(std::vector<double>(70, speed_mps), 0.1);
   Appearance appearance;
   appearance.character = character;
   appearance.amplitude = amplitude;

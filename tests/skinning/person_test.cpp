@@ -195,7 +195,7 @@ TEST(Outfit, IsFreeOfAttributionUnlessAsked) {
       for (const std::string& name :
            {outfit.top, outfit.bottom, outfit.shoes, outfit.hair, outfit.hat, person.eyebrows}) {
         if (name.empty()) continue;
-        const bool free = licence_of(name) == Licence::cc0;
+        const bool free = license_of(name) == License::cc0;
         if (!with_attribution) {
           EXPECT_TRUE(free) << name;
         }
@@ -222,7 +222,7 @@ TEST(Outfit, MixesWidely) {
   EXPECT_LE(hats, 40);
 }
 
-TEST(Outfit, HasColoursForWhatIsColoured) {
+TEST(Outfit, HasColorsForWhatIsColored) {
   for (const PersonSpec& person : sample_many(8)) {
     const auto& tints = person.outfit.tints;
     for (const Tint tint : {Tint::top, Tint::bottom, Tint::hair, Tint::shoes}) {
@@ -234,14 +234,14 @@ TEST(Outfit, HasColoursForWhatIsColoured) {
   }
 }
 
-// Clothes come in subdued colours: hardly anybody is dressed in saturated cyan or pink.
-TEST(Outfit, ColoursAreThoseOfClothes) {
+// Clothes come in subdued colors: hardly anybody is dressed in saturated cyan or pink.
+TEST(Outfit, ColorsAreThoseOfClothes) {
   int vivid = 0;
   int all = 0;
   for (const PersonSpec& person : sample_many(9)) {
     for (const Tint tint : {Tint::top, Tint::bottom}) {
-      for (const Rgb& colour : person.outfit.tints[static_cast<std::size_t>(tint)]) {
-        const auto [low, high] = std::minmax_element(colour.begin(), colour.end());
+      for (const Rgb& color : person.outfit.tints[static_cast<std::size_t>(tint)]) {
+        const auto [low, high] = std::minmax_element(color.begin(), color.end());
         vivid += *high > 150 && *high - *low > 110 ? 1 : 0;
         ++all;
       }

@@ -78,7 +78,8 @@ TEST(Plan, FeetDoNotSkateAtAnySpeed) {
   for (std::uint32_t character = 0; character < 2; ++character) {
     for (double speed = 0.3; speed <= 4.01; speed += 0.07) {
       for (const float amplitude : {0.88F, 1.0F, 1.13F}) {
-        const std::vector<Moment> moments = straight_way(std::vector<double>(45, speed), kDtS);
+        const std::vector<Moment> moments =
+            straight_trajectory(std::vector<double>(45, speed), kDtS);
         const MotionPlan plan = plan_for(moments, character, 0.6F, amplitude);
         const Contact contact = worst_contact(plan, character, moments);
         worst_m = std::max(worst_m, contact.slide_m);
@@ -95,7 +96,7 @@ TEST(Plan, FeetDoNotSkateWhenTheSpeedChanges) {
   for (std::uint32_t character = 0; character < 2; ++character) {
     for (double top = 0.3; top < 4; top += 0.17) {
       const std::vector<Moment> moments =
-          straight_way(there_and_back(top, 10, 30 + static_cast<int>(20 * top)), kDtS);
+          straight_trajectory(there_and_back(top, 10, 30 + static_cast<int>(20 * top)), kDtS);
       const MotionPlan plan = plan_for(moments, character, static_cast<float>(0.2 * top));
       EXPECT_LT(worst_contact(plan, character, moments).slide_m, 0.015)
           << top << " m/s, character " << character;
@@ -104,9 +105,9 @@ TEST(Plan, FeetDoNotSkateWhenTheSpeedChanges) {
 }
 
 TEST(Plan, StridesFollowThePublishedLaw) {
-  // Counts the strikes of the left heel over a long way.
+  // Counts the strikes of the left heel over a long path.
   for (const double speed : {0.5, 0.8, 1.04, 1.32, 1.62, 1.9, 2.5, 3.0, 3.5}) {
-    const std::vector<Moment> moments = straight_way(std::vector<double>(600, speed), kDtS);
+    const std::vector<Moment> moments = straight_trajectory(std::vector<double>(600, speed), kDtS);
     const MotionPlan plan = plan_for(moments);
     std::vector<double> strikes;
     bool down = true;
@@ -125,10 +126,10 @@ TEST(Plan, StridesFollowThePublishedLaw) {
 }
 
 TEST(Plan, NothingJumps) {
-  std::vector<double> way = there_and_back(1.4, 8, 40);
+  std::vector<double> trajectory = there_and_back(1.4, 8, 40);
   const std::vector<double> run = there_and_back(3.0, 12, 40);
-  way.insert(way.end(), run.begin(), run.end());
-  std::vector<Moment> moments = straight_way(way, kDtS);
+  trajectory.insert(trajectory.end(), run.begin(), run.end());
+  std::vector<Moment> moments = straight_trajectory(trajectory, kDtS);
   // A turn while standing in between.
   for (std::size_t step = 0; step < moments.size(); ++step) {
     const double t = std::clamp((static_cast<double>(step) - 75) / 12, 0.0, 1.0);
@@ -140,9 +141,9 @@ TEST(Plan, NothingJumps) {
   constexpr double kFrame = 1 / 60.0 / kDtS;
   for (const Vertex& vertex : walker.body) {
     Eigen::Vector3f before = placed(two_people(), 0, plan, moments, 0, vertex);
-    for (double step = kFrame; step < static_cast<double>(way.size()); step += kFrame) {
+    for (double step = kFrame; step < static_cast<double>(trajectory.size()); step += kFrame) {
       const Eigen::Vector3f now = placed(two_people(), 0, plan, moments, step, vertex);
-      const double speed = way[static_cast<std::size_t>(step)];
+      const double speed = trajectory[static_cast<std::size_t>(step)];
       // A swinging foot is some three times as fast as the body, hands rise quickly.
       ASSERT_LT((now - before).norm(), (5.0 + 4.5 * speed) / 60)
           << "step " << step << " bone " << int{vertex.bones[0]} << " in " << clip_at(plan, step);
@@ -152,7 +153,7 @@ TEST(Plan, NothingJumps) {
 }
 
 TEST(Plan, IsAFunctionOfTheMomentAlone) {
-  const std::vector<Moment> moments = straight_way(there_and_back(2.4, 10, 50), kDtS);
+  const std::vector<Moment> moments = straight_trajectory(there_and_back(2.4, 10, 50), kDtS);
   const MotionPlan plan = plan_for(moments);
   std::vector<double> steps;
   for (double step = -2; step < static_cast<double>(moments.size()) + 3; step += 0.37) {
@@ -174,7 +175,7 @@ TEST(Plan, IsAFunctionOfTheMomentAlone) {
 
 TEST(Plan, StandsWalksRunsAndPanics) {
   std::vector<Moment> moments =
-      straight_way(speeds({{30, 0}, {60, 1.3}, {60, 3.0}, {60, 3.0}, {40, 0}}), kDtS);
+      straight_trajectory(speeds({{30, 0}, {60, 1.3}, {60, 3.0}, {60, 3.0}, {40, 0}}), kDtS);
   for (std::size_t step = 150; step < moments.size(); ++step) moments[step].panicked = true;
   const MotionPlan plan = plan_for(moments);
   EXPECT_NE(clip_at(plan, 10), "walk");
@@ -185,7 +186,7 @@ TEST(Plan, StandsWalksRunsAndPanics) {
 }
 
 TEST(Plan, WhoStopsStandsOnBothFeet) {
-  const std::vector<Moment> moments = straight_way(there_and_back(1.3, 8, 33), kDtS);
+  const std::vector<Moment> moments = straight_trajectory(there_and_back(1.3, 8, 33), kDtS);
   const MotionPlan plan = plan_for(moments);
   for (double step = static_cast<double>(moments.size()) - 15;
        step < static_cast<double>(moments.size()); step += 1) {
@@ -198,7 +199,7 @@ TEST(Plan, WhoStopsStandsOnBothFeet) {
 }
 
 TEST(Plan, PeopleWhoTurnOnTheSpotStep) {
-  std::vector<Moment> moments = straight_way(std::vector<double>(200, 0), kDtS);
+  std::vector<Moment> moments = straight_trajectory(std::vector<double>(200, 0), kDtS);
   for (std::size_t step = 120; step < moments.size(); ++step) {
     const double t = std::clamp((static_cast<double>(step) - 120) / 10, 0.0, 1.0);
     moments[step].yaw_rad = static_cast<float>(-80 * kDegree * t);
@@ -209,7 +210,7 @@ TEST(Plan, PeopleWhoTurnOnTheSpotStep) {
 }
 
 TEST(Plan, WhoIsDownFallsLiesAndGetsUp) {
-  std::vector<Moment> moments = straight_way(speeds({{40, 1.5}, {160, 0}}), kDtS);
+  std::vector<Moment> moments = straight_trajectory(speeds({{40, 1.5}, {160, 0}}), kDtS);
   for (std::size_t step = 40; step < 120; ++step) moments[step].down = true;
   const MotionPlan plan = plan_for(moments);
   const Vertex head =
@@ -226,7 +227,7 @@ TEST(Plan, WhoIsDownFallsLiesAndGetsUp) {
 }
 
 TEST(Plan, PeopleLookUpAtWhatFlies) {
-  std::vector<Moment> moments = straight_way(speeds({{150, 0}, {100, 1.3}}), kDtS);
+  std::vector<Moment> moments = straight_trajectory(speeds({{150, 0}, {100, 1.3}}), kDtS);
   for (std::size_t step = 50; step < 100; ++step) moments[step].gaze = Gaze::left;
   for (std::size_t step = 180; step < 230; ++step) moments[step].gaze = Gaze::ahead;
   const MotionPlan plan = plan_for(moments);
@@ -236,7 +237,7 @@ TEST(Plan, PeopleLookUpAtWhatFlies) {
 }
 
 TEST(Plan, PeopleDoNotStandInStep) {
-  const std::vector<Moment> moments = straight_way(std::vector<double>(600, 0), kDtS);
+  const std::vector<Moment> moments = straight_trajectory(std::vector<double>(600, 0), kDtS);
   std::vector<std::string> seen;
   for (std::uint64_t key = 0; key < 40; ++key) {
     Appearance appearance;
@@ -260,17 +261,17 @@ TEST(Plan, JostlingIsNoWalk) {
 
 TEST(Plan, StepsAddUpToTheWay) {
   for (double top = 0.4; top < 3.5; top += 0.13) {
-    const std::vector<Moment> moments = straight_way(there_and_back(top, 7, 23), kDtS);
-    const Way way(moments, kDtS);
-    for (const Stretch& stretch : way.stretches()) {
-      if (stretch.doing != Doing::moving) continue;
+    const std::vector<Moment> moments = straight_trajectory(there_and_back(top, 7, 23), kDtS);
+    const Trajectory trajectory(moments, kDtS);
+    for (const Stretch& stretch : trajectory.stretches()) {
+      if (stretch.activity != Activity::moving) continue;
       const ClipSet clips(two_people());
-      const Walk walk = plan_walk(way, stretch, true, true, clips, {});
+      const Walk walk = plan_walk(trajectory, stretch, true, true, clips, {});
       ASSERT_FALSE(walk.steps.empty());
       const Footstep& last = walk.steps.back();
-      EXPECT_NEAR(last.begin_m + last.length_m, way.distance_m(static_cast<double>(stretch.last)),
-                  1e-4);
-      double at_m = way.distance_m(static_cast<double>(stretch.first));
+      EXPECT_NEAR(last.begin_m + last.length_m,
+                  trajectory.distance_m(static_cast<double>(stretch.last)), 1e-4);
+      double at_m = trajectory.distance_m(static_cast<double>(stretch.first));
       Side side = walk.steps.front().side;
       for (const Footstep& step : walk.steps) {
         EXPECT_NEAR(step.begin_m, at_m, 1e-4);
@@ -291,7 +292,7 @@ TEST(Plan, WorksWithFewClipsAndShortStays) {
   sparse.clips = {{"idle", 0, 0, 1}, {"walk", 1.3F, 1, 8, 0.8F, 0.25F}};
   sparse.palettes_per_character = 9;
   for (const std::size_t length : {1U, 2U, 3U, 40U}) {
-    std::vector<Moment> moments = straight_way(std::vector<double>(length - 1, 2.0), kDtS);
+    std::vector<Moment> moments = straight_trajectory(std::vector<double>(length - 1, 2.0), kDtS);
     for (const bool down : {false, true}) {
       for (Moment& moment : moments) {
         moment.down = down;

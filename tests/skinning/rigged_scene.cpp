@@ -117,9 +117,9 @@ class SceneMaker {
     auto* material = new aiMaterial;
     aiString name("cloth");
     material->AddProperty(&name, AI_MATKEY_NAME);
-    aiColor4D colour(0.6F, 0.2F, 0.1F, 1);
-    material->AddProperty(&colour, 1, AI_MATKEY_COLOR_DIFFUSE);
-    material->AddProperty(&colour, 1, AI_MATKEY_BASE_COLOR);
+    aiColor4D color(0.6F, 0.2F, 0.1F, 1);
+    material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
+    material->AddProperty(&color, 1, AI_MATKEY_BASE_COLOR);
     if (!options_->picture.empty()) {
       aiString file(options_->picture);
       material->AddProperty(&file, AI_MATKEY_TEXTURE_DIFFUSE(0));

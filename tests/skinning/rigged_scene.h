@@ -16,7 +16,7 @@ namespace throng::skinning {
 struct RiggedOptions {
   /// Name of each bone; empty leaves it out, and its vertices go to what carries it.
   std::function<std::string(Bone)> name;
-  float unit = 100;      ///< of the file in a metre
+  float unit = 100;      ///< of the file in a meter
   bool z_up = false;     ///< facing -Y, as in Blender; else Y up and facing +Z
   bool t_pose = false;   ///< arms straight out to the sides
   bool swapped = false;  ///< left and right exchanged in the names
@@ -25,7 +25,7 @@ struct RiggedOptions {
   bool walks = false;    ///< with a clip "Stroll": one stride of 1.2 m in 1 s, left arm up
   float mesh_scale = 1;  ///< of the mesh against its skeleton
   int cuts = 2;          ///< along each side of the boxes that limbs are made of
-  std::string picture;   ///< file of the colour; empty for a plain one
+  std::string picture;   ///< file of the color; empty for a plain one
 };
 
 inline constexpr double kStrollSpeedMps = 1.2;

@@ -17,7 +17,7 @@ Image plain(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   return image;
 }
 
-TEST(SkinTone, LeavesSkinColoursAlone) {
+TEST(SkinTone, LeavesSkinColorsAlone) {
   for (const Image& skin : {plain(194, 150, 130), plain(115, 82, 68), plain(60, 42, 35)}) {
     Image toned = skin;
     tone_skin(toned);

@@ -16,12 +16,12 @@ Pose pose_of(const Walker& walker, const Figure& figure) { return solve(walker, 
 double apart(const Pose& a, const Pose& b, const Joints& joints) {
   const Joints at_a = pose_joints(joints, a);
   const Joints at_b = pose_joints(joints, b);
-  double most = 0;
+  double max_value = 0;
   for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
-    most = std::max<double>(most, (at_a[bone] - at_b[bone]).norm());
-    most = std::max<double>(most, 0.2 * (a.rotation[bone] - b.rotation[bone]).norm());
+    max_value = std::max<double>(max_value, (at_a[bone] - at_b[bone]).norm());
+    max_value = std::max<double>(max_value, 0.2 * (a.rotation[bone] - b.rotation[bone]).norm());
   }
-  return most;
+  return max_value;
 }
 
 TEST(Standing, EverythingBeginsAndEndsInOneStance) {

@@ -64,8 +64,8 @@ inline Population population_of(const std::vector<Walker>& walkers) {
   return population;
 }
 
-/// A straight way along +x with this speed, in m/s, at every step.
-inline std::vector<Moment> straight_way(std::span<const double> speed_mps, double dt_s) {
+/// A straight trajectory along +x with this speed, in m/s, at every step.
+inline std::vector<Moment> straight_trajectory(std::span<const double> speed_mps, double dt_s) {
   std::vector<Moment> moments(1);
   for (const double speed : speed_mps) {
     Moment next = moments.back();
@@ -75,7 +75,7 @@ inline std::vector<Moment> straight_way(std::span<const double> speed_mps, doubl
   return moments;
 }
 
-/// Where a vertex of somebody is on the ground of a way, at a step.
+/// Ground position of a person's vertex along a trajectory, at a step.
 inline Eigen::Vector3f placed(const Population& population, std::size_t character,
                               const MotionPlan& plan, std::span<const Moment> moments, double step,
                               const Vertex& vertex) {

@@ -53,7 +53,7 @@ struct Example {
 
 TEST(Report, ComparesPairByPair) {
   const Example example;
-  const auto rows = summarise(example.study, example.outcomes);
+  const auto rows = summarize(example.study, example.outcomes);
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].all_out, 7);
   EXPECT_EQ(rows[1].all_out, 8);

@@ -88,7 +88,7 @@ TEST(RunReport, ChartsHaveTheRunsFigures) {
   EXPECT_NEAR(covered_s, run["duration_s"].get<double>(), 1e-9) << "no time without a state";
   ASSERT_FALSE(run["fundamental"]["bins"].empty());
   for (const auto& bin : run["fundamental"]["bins"]) EXPECT_NEAR(bin[1], 0.8, 1e-3);
-  EXPECT_EQ(run["ways"].size(), 12U);
+  EXPECT_EQ(run["paths"].size(), 12U);
   EXPECT_EQ(figures["place"]["exits"][0]["open"], true);
 }
 

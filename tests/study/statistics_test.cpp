@@ -64,7 +64,7 @@ TEST(Statistics, ManyDifferencesAreTestedAsNormal) {
   const double balanced = wilcoxon_signed_rank(values).p_value;
   EXPECT_GT(balanced, 0.8);
   EXPECT_LT(wilcoxon_signed_rank(signed_ranks(61, {1, 2, 3})).p_value, 1e-9);
-  // Where both are possible they agree: 60 exactly, 61 as normal.
+  // If both are possible, they agree: 60 exactly, 61 as normal.
   const std::vector<int> some{60, 59, 58, 57, 56, 55, 54, 53, 52, 51, 50};
   EXPECT_NEAR(wilcoxon_signed_rank(signed_ranks(60, some)).p_value,
               wilcoxon_signed_rank(signed_ranks(61, some)).p_value, 0.02);

@@ -118,7 +118,7 @@ TEST_F(StudyWork, GoesOnWhereItStoppedAndRedoesWhatIsDamaged) {
   ASSERT_TRUE(fs::exists(run_file("guide", "000.json")));
   EXPECT_FALSE(fs::exists(run_file("none", "001.json")));
 
-  // A result that says something else shows that it is not computed again.
+  // A result with another value shows that it is not computed again.
   json marked = json::parse(read_file(run_file("none", "000.json")));
   marked["outcome"]["followed"] = 12345;
   write_file_atomically(run_file("none", "000.json"), marked.dump());

@@ -20,7 +20,7 @@ TEST(Gimbal, LooksAlongTheHeadingAndDown) {
   CameraSpec spec;
   spec.pitch_deg = -45;
   const camera::Camera camera = camera_on(drone_heading(90 * kDegree, 0), spec);
-  EXPECT_TRUE(camera.pose.centre().isApprox(Eigen::Vector3d(3, 4, 20)));
+  EXPECT_TRUE(camera.pose.center().isApprox(Eigen::Vector3d(3, 4, 20)));
   // 20 m up and looking 45 degrees down, the middle of the image is 20 m ahead, to the north.
   const auto seen = camera.project({3, 24, 0});
   EXPECT_NEAR(seen.pixel.x(), camera.intrinsics.cx_px, 1e-6);
@@ -49,7 +49,7 @@ TEST(Gimbal, RollTurnsTheCameraClockwise) {
   const world::DroneSample drone = drone_heading(0, 0);
   const sim::ViewAngles level = ideal_view(drone, spec);
   const camera::Camera camera = camera_on(drone, spec, {level.yaw, level.pitch, 90 * kDegree});
-  EXPECT_TRUE(camera.pose.centre().isApprox(drone.position, 1e-12));
+  EXPECT_TRUE(camera.pose.center().isApprox(drone.position, 1e-12));
   EXPECT_NEAR(camera.pose.R.determinant(), 1, 1e-12);
   const auto nearer = camera.project({3 + 15, 4, 0});
   EXPECT_GT(nearer.pixel.x(), camera.intrinsics.cx_px + 50);

@@ -33,7 +33,7 @@ class LocalProcessesTest : public testing::Test {
     options.grace_s = 0.3;
     options.rest_s = 0.01;
     options.lease_s = lease_s;
-    options.longest_task_s = longest_task_s;
+    options.max_task_s = max_task_s;
     LocalProcesses processes(options);
     return processes.run(
         JobFolder(folder.path()), list,
@@ -53,7 +53,7 @@ class LocalProcessesTest : public testing::Test {
   TemporaryFolder folder;
   std::map<int, std::vector<double>> reported;
   double lease_s = 60;
-  double longest_task_s = 0;
+  double max_task_s = 0;
 };
 
 TEST_F(LocalProcessesTest, EveryTaskRunsOnce) {
@@ -157,7 +157,7 @@ TEST_F(LocalProcessesTest, AHangingWorkerIsNamedAsSuch) {
   EXPECT_EQ(results[0].outcome, Outcome::timed_out);
   EXPECT_THAT(results[0].message, HasSubstr("timed out: no sign of life for 0.2 s"));
   lease_s = 60;
-  longest_task_s = 0.2;
+  max_task_s = 0.2;
   results = run("while :; do echo '{}'; sleep 0.05; done");
   EXPECT_EQ(results[0].outcome, Outcome::timed_out);
   EXPECT_EQ(results[0].attempts, 3);

@@ -219,9 +219,9 @@ TEST_F(StoreTest, DiskIsCountedAndBoundedPerOwner) {
   store.set_bytes(theirs.id, 5000);
   EXPECT_EQ(store.get(mine.id)->bytes, 700);
   EXPECT_EQ(store.total_bytes(), 5700);
-  EXPECT_EQ(store.add({.name = "c", .owner = "me", .most_bytes = 701}).over_quota, "");
-  EXPECT_NE(store.add({.name = "d", .owner = "me", .most_bytes = 700}).over_quota, "");
-  EXPECT_NE(store.add({.name = "e", .owner = "me", .most_active = 2}).over_quota, "");
+  EXPECT_EQ(store.add({.name = "c", .owner = "me", .max_bytes = 701}).over_quota, "");
+  EXPECT_NE(store.add({.name = "d", .owner = "me", .max_bytes = 700}).over_quota, "");
+  EXPECT_NE(store.add({.name = "e", .owner = "me", .max_active = 2}).over_quota, "");
   EXPECT_EQ(store.list({}).size(), 3U);
 }
 

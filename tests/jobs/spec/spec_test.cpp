@@ -281,7 +281,7 @@ TEST_F(Spec, SaysWhatItExpected) {
   EXPECT_EQ(problems_of(R"({"scenario": "yard", "crowd": {"agents": -3}})")[0].text(),
             "test.job.json: /crowd/agents: found -3, expected an integer from 1 to 1000000");
   EXPECT_EQ(problems_of(R"({"scenario": "yard", "captur": {}})")[0].text(),
-            "test.job.json: /captur: found an unknown field, expected \"capture\", perhaps");
+            "test.job.json: /captur: unknown field \"captur\"; did you mean \"capture\"?");
 }
 
 TEST_F(Spec, UmbrellasAreUpInTheRain) {

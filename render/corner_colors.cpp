@@ -1,4 +1,4 @@
-#include "render/corner_colours.h"
+#include "render/corner_colors.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -10,23 +10,23 @@ namespace throng::render {
 
 namespace {
 
-using Colours = std::vector<Eigen::Array4f>;
+using Colors = std::vector<Eigen::Array4f>;
 
-/// How closely colours are sought.
+/// How closely colors are sought.
 struct Effort {
-  int cuts;    ///< of a triangle's sides: so many looks at the picture, squared
+  int cuts;    ///< of a triangle's sides: so many looks at the image, squared
   int rounds;  ///< The first gives each corner the mean around it.
 };
 
 /// The error's slowest part falls by a quarter in each round: the matrix of linear elements,
-/// divided by its row sums, has eigenvalues from 1/4 to 1 (Wathen 1987, table 1). Where triangles
-/// are many, they are small, and means nearly right.
+/// divided by its row sums, has eigenvalues from 1/4 to 1 (Wathen 1987, table 1). Many triangles
+/// are small triangles, whose means are nearly right.
 Effort effort_for(std::size_t triangles) {
   constexpr std::size_t kMany = 1000;
   return triangles > kMany ? Effort{1, 3} : Effort{3, 8};
 }
 
-/// A look at the picture: the shares that the triangle's corners have in it.
+/// A look at the image: the shares that the triangle's corners have in it.
 struct Look {
   Eigen::Array3f shares;
 };
@@ -69,47 +69,47 @@ Eigen::Array2f mixed(const PicturedTriangle& triangle, const Eigen::Array3f& sha
 
 }  // namespace
 
-std::vector<Rgba> corner_colours(const skinning::Texture& picture, int size,
-                                 std::span<const PicturedTriangle> triangles, std::size_t count) {
+std::vector<Rgba> corner_colors(const skinning::Texture& picture, int size,
+                                std::span<const PicturedTriangle> triangles, std::size_t count) {
   const Effort effort = effort_for(triangles.size());
   const std::vector<Look> all_looks = looks(effort.cuts);
-  Colours seen;
+  Colors seen;
   seen.reserve(triangles.size() * all_looks.size());
   std::vector<float> weights(count, 0);
   for (const PicturedTriangle& triangle : triangles) {
     for (const std::uint32_t corner : triangle.corners) {
-      check(corner < count, "a triangle's corners have colours");
+      check(corner < count, "a triangle's corners have colors");
       weights[corner] += triangle.weight / 3;
     }
     for (const Look& look : all_looks) {
       seen.push_back(texel_at(picture, size, mixed(triangle, look.shares)));
     }
   }
-  Colours colours(count, Eigen::Array4f::Zero());
+  Colors colors(count, Eigen::Array4f::Zero());
   const float share = 1 / static_cast<float>(all_looks.size());
   for (int round = 0; round < effort.rounds; ++round) {
-    Colours change(count, Eigen::Array4f::Zero());
+    Colors change(count, Eigen::Array4f::Zero());
     auto wanted = seen.begin();
     for (const PicturedTriangle& triangle : triangles) {
       const auto& [a, b, c] = triangle.corners;
       for (const Look& look : all_looks) {
         const Eigen::Array3f& s = look.shares;
         const Eigen::Array4f off =
-            *wanted++ - (s[0] * colours[a] + s[1] * colours[b] + s[2] * colours[c]);
+            *wanted++ - (s[0] * colors[a] + s[1] * colors[b] + s[2] * colors[c]);
         change[a] += (triangle.weight * share * s[0]) * off;
         change[b] += (triangle.weight * share * s[1]) * off;
         change[c] += (triangle.weight * share * s[2]) * off;
       }
     }
     for (std::size_t i = 0; i < count; ++i) {
-      if (weights[i] > 0) colours[i] += change[i] / weights[i];
+      if (weights[i] > 0) colors[i] += change[i] / weights[i];
     }
   }
   std::vector<Rgba> bytes(count);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t c = 0; c < 4; ++c) {
       bytes[i][c] = static_cast<std::uint8_t>(
-          std::lround(std::clamp(colours[i][static_cast<Eigen::Index>(c)], 0.0F, 255.0F)));
+          std::lround(std::clamp(colors[i][static_cast<Eigen::Index>(c)], 0.0F, 255.0F)));
     }
   }
   return bytes;

@@ -1,33 +1,33 @@
-// Drawing what only the picture shows.
+// Drawing what only the image shows.
 #pragma once
 
 #include <epoxy/gl.h>
 
 namespace throng::render {
 
-/// While it lives, drawing blends into the colours by its alpha, from both sides of triangles, and
+/// While it lives, drawing blends into the colors by its alpha, from both sides of triangles, and
 /// changes neither depth nor the other buffers.
-class ColourOnly {
+class ColorOnly {
  public:
-  ColourOnly() {
+  ColorOnly() {
     allow(false);
     glDisable(GL_CULL_FACE);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   }
-  ~ColourOnly() {
+  ~ColorOnly() {
     glDisable(GL_BLEND);
     allow(true);
   }
-  ColourOnly(const ColourOnly&) = delete;
-  ColourOnly& operator=(const ColourOnly&) = delete;
+  ColorOnly(const ColorOnly&) = delete;
+  ColorOnly& operator=(const ColorOnly&) = delete;
 
  private:
   static void allow(bool others) {
-    constexpr GLuint kMostAttachments = 8;
+    constexpr GLuint kMaxAttachments = 8;
     const GLboolean on = others ? GL_TRUE : GL_FALSE;
     glDepthMask(on);
-    for (GLuint i = 1; i < kMostAttachments; ++i) glColorMaski(i, on, on, on, on);
+    for (GLuint i = 1; i < kMaxAttachments; ++i) glColorMaski(i, on, on, on, on);
   }
 };
 

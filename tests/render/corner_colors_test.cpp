@@ -1,4 +1,4 @@
-#include "render/corner_colours.h"
+#include "render/corner_colors.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ skinning::Texture picture_of(Value value) {
   return picture;
 }
 
-/// The picture as `cells` x `cells` squares of two triangles each.
+/// The image as `cells` x `cells` squares of two triangles each.
 struct Grid {
   std::vector<PicturedTriangle> triangles;
   std::size_t corners;
@@ -48,53 +48,50 @@ Grid grid_of(std::uint32_t cells) {
   return grid;
 }
 
-TEST(CornerColours, ShowASlopeAsItIs) {
+TEST(CornerColors, ShowASlopeAsItIs) {
   const skinning::Texture slope = picture_of([](int x, int y) { return 20 + 2 * x + y; });
   const Grid grid = grid_of(4);
-  const std::vector<Rgba> colours =
-      corner_colours(slope, kPictureSize, grid.triangles, grid.corners);
-  ASSERT_EQ(colours.size(), 25U);
+  const std::vector<Rgba> colors = corner_colors(slope, kPictureSize, grid.triangles, grid.corners);
+  ASSERT_EQ(colors.size(), 25U);
   for (int y = 0; y <= 4; ++y) {
     for (int x = 0; x <= 4; ++x) {
       // Texels' middles are half a texel off.
       const double wanted = 20 + 2 * (16 * x - 0.5) + (16 * y - 0.5);
-      EXPECT_NEAR(colours[static_cast<std::size_t>(5 * y + x)][0], wanted, 3) << x << ' ' << y;
+      EXPECT_NEAR(colors[static_cast<std::size_t>(5 * y + x)][0], wanted, 3) << x << ' ' << y;
     }
   }
 }
 
-TEST(CornerColours, KeepTheTwoSidesOfAnEdgeApart) {
+TEST(CornerColors, KeepTheTwoSidesOfAnEdgeApart) {
   // The edge lies in the middle of a cell: corners to its left stay dark, those to its right
   // bright.
   const skinning::Texture edge = picture_of([](int x, int) { return x < 24 ? 60 : 180; });
   const Grid grid = grid_of(4);
-  const std::vector<Rgba> colours =
-      corner_colours(edge, kPictureSize, grid.triangles, grid.corners);
+  const std::vector<Rgba> colors = corner_colors(edge, kPictureSize, grid.triangles, grid.corners);
   double error = 0;
-  for (std::size_t i = 0; i < colours.size(); ++i) {
+  for (std::size_t i = 0; i < colors.size(); ++i) {
     const std::size_t column = i % 5;
-    error = std::max(error, std::abs(colours[i][0] - (column < 2 ? 60.0 : 180.0)));
+    error = std::max(error, std::abs(colors[i][0] - (column < 2 ? 60.0 : 180.0)));
   }
   EXPECT_LT(error, 40);
 }
 
-TEST(CornerColours, ASmallSpotDoesNotColourAllAround) {
-  // A corner that happens to lie on a spot of one texel has its surroundings' colour.
+TEST(CornerColors, ASmallSpotDoesNotColorAllAround) {
+  // A corner that happens to lie on a spot of one texel has its surroundings' color.
   const skinning::Texture spot =
       picture_of([](int x, int y) { return x == 32 && y == 32 ? 255 : 90; });
   const Grid grid = grid_of(2);
-  const std::vector<Rgba> colours =
-      corner_colours(spot, kPictureSize, grid.triangles, grid.corners);
-  EXPECT_NEAR(colours[4][0], 90, 12);
+  const std::vector<Rgba> colors = corner_colors(spot, kPictureSize, grid.triangles, grid.corners);
+  EXPECT_NEAR(colors[4][0], 90, 12);
 }
 
-TEST(CornerColours, CornersOfNothingAreBlack) {
+TEST(CornerColors, CornersOfNothingAreBlack) {
   const skinning::Texture white = picture_of([](int, int) { return 255; });
   const Grid grid = grid_of(1);
-  const std::vector<Rgba> colours =
-      corner_colours(white, kPictureSize, grid.triangles, grid.corners + 1);
-  EXPECT_GT(colours[0][1], 245);
-  EXPECT_EQ(colours[4], (Rgba{0, 0, 0, 0}));
+  const std::vector<Rgba> colors =
+      corner_colors(white, kPictureSize, grid.triangles, grid.corners + 1);
+  EXPECT_GT(colors[0][1], 245);
+  EXPECT_EQ(colors[4], (Rgba{0, 0, 0, 0}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "calibrate/initialise.h"
+#include "calibrate/initialize.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 namespace {
 
 /// Moves and scales points to mean 0 and mean distance sqrt 2.
-Matrix3d normalisation(const std::vector<Vector2d>& points) {
+Matrix3d normalization(const std::vector<Vector2d>& points) {
   Vector2d mean = Vector2d::Zero();
   for (const Vector2d& p : points) mean += p / static_cast<double>(points.size());
   double distance = 0;
@@ -50,7 +50,7 @@ Eigen::Matrix<double, 1, 6> constraint(const Matrix3d& h, int i, int j) {
   return v;
 }
 
-Vector2d centre_of(const ImageSize& size) {
+Vector2d center_of(const ImageSize& size) {
   return {0.5 * (size.width - 1), 0.5 * (size.height - 1)};
 }
 
@@ -64,11 +64,11 @@ ViewPose any_pose(const View& view) {
   return {Vector3d::Zero(), Vector3d(0, 0, kRadiiAway * radius) - middle};
 }
 
-/// What `rules` fixes replaces what was guessed.
-void keep_fixed(const Rules& rules, const Vector2d& centre, Parameters& p) {
+/// Values that `rules` fixes replace the initial guess.
+void keep_fixed(const Rules& rules, const Vector2d& center, Parameters& p) {
   for (std::size_t i = 0; i < kParameters; ++i) {
     if (rules.free[i] || rules.source[i] != i) continue;
-    p[i] = !std::isnan(rules.fixed[i]) ? rules.fixed[i] : i == kCx ? centre.x() : centre.y();
+    p[i] = !std::isnan(rules.fixed[i]) ? rules.fixed[i] : i == kCx ? center.x() : center.y();
   }
   apply_ties(rules, p);
 }
@@ -107,7 +107,7 @@ double misfit_of(const Correspondences& all, Lens lens, const Guess& guess) {
 
 std::optional<Guess> guess_with(const Correspondences& all, Lens lens, const Rules& rules,
                                 Parameters parameters) {
-  keep_fixed(rules, centre_of(all.size), parameters);
+  keep_fixed(rules, center_of(all.size), parameters);
   Guess guess{parameters, {}, 0};
   const camera::Intrinsics k = intrinsics_of(lens, parameters, all.size.width, all.size.height);
   std::size_t found = 0;
@@ -122,7 +122,7 @@ std::optional<Guess> guess_with(const Correspondences& all, Lens lens, const Rul
 }
 
 std::vector<Parameters> lens_candidates(const Correspondences& all, Lens lens, const Rules& rules) {
-  const Vector2d centre = centre_of(all.size);
+  const Vector2d center = center_of(all.size);
   std::vector<Matrix3d> planes;
   for (const View& view : all.views) {
     const std::optional<PlaneView> plane = plane_of(view.points);
@@ -132,13 +132,13 @@ std::vector<Parameters> lens_candidates(const Correspondences& all, Lens lens, c
   std::vector<Parameters> candidates;
   if (lens != Lens::fisheye) {
     if (const auto closed = zhang(planes, rules.free[kSkew])) candidates.push_back(*closed);
-    if (const auto centred = zhang_centred(planes, centre)) candidates.push_back(*centred);
+    if (const auto centered = zhang_centered(planes, center)) candidates.push_back(*centered);
   }
   // Fields of view from 16 to 150 degrees of a pinhole, or of a fisheye's arcs.
   constexpr std::array kFocalByWidth = {0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.5};
   for (const double share : kFocalByWidth) {
     const double focal = share * std::max(all.size.width, all.size.height);
-    candidates.push_back({focal, focal, centre.x(), centre.y()});
+    candidates.push_back({focal, focal, center.x(), center.y()});
   }
   return candidates;
 }
@@ -166,11 +166,11 @@ std::optional<PlaneView> plane_of(const std::vector<Vector3d>& points) {
 
 std::optional<Matrix3d> homography(const std::vector<Vector2d>& from,
                                    const std::vector<Vector2d>& to) {
-  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kMinPoints4 = 4;
   constexpr int kRounds = 4;
-  if (from.size() < kFewest) return std::nullopt;
-  const Matrix3d before = normalisation(from);
-  const Matrix3d after = normalisation(to);
+  if (from.size() < kMinPoints4) return std::nullopt;
+  const Matrix3d before = normalization(from);
+  const Matrix3d after = normalization(to);
   const auto count = static_cast<Eigen::Index>(from.size());
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(count);
   Matrix3d h = Matrix3d::Identity();
@@ -195,9 +195,9 @@ std::optional<Matrix3d> homography(const std::vector<Vector2d>& from,
       const Vector3d wanted = after * to[at].homogeneous();
       errors.push_back((q.head<2>() / q.z() - wanted.head<2>()).norm());
     }
-    constexpr double kLeast = 1e-12;
+    constexpr double kMinScale = 1e-12;
     constexpr double kFarByMedian = 3;
-    const double scale = kFarByMedian * std::max(median_of(errors), kLeast);
+    const double scale = kFarByMedian * std::max(median_of(errors), kMinScale);
     for (Eigen::Index i = 0; i < count; ++i) {
       const double r = errors[static_cast<std::size_t>(i)] / scale;
       weights[i] = 1 / (1 + r * r);
@@ -238,16 +238,16 @@ std::optional<Parameters> zhang(const std::vector<Matrix3d>& homographies, bool 
   return finite ? std::optional(p) : std::nullopt;
 }
 
-std::optional<Parameters> zhang_centred(const std::vector<Matrix3d>& homographies,
-                                        const Vector2d& centre) {
+std::optional<Parameters> zhang_centered(const std::vector<Matrix3d>& homographies,
+                                         const Vector2d& center) {
   if (homographies.empty()) return std::nullopt;
   const auto count = static_cast<Eigen::Index>(homographies.size());
-  Matrix3d to_centre = Matrix3d::Identity();
-  to_centre.topRightCorner<2, 1>() = -centre;
+  Matrix3d to_center = Matrix3d::Identity();
+  to_center.topRightCorner<2, 1>() = -center;
   MatrixXd a(2 * count, 2);
   Eigen::VectorXd right(2 * count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    Matrix3d h = to_centre * homographies[static_cast<std::size_t>(i)];
+    Matrix3d h = to_center * homographies[static_cast<std::size_t>(i)];
     h /= h.leftCols<2>().norm();
     a.row(2 * i) << h(0, 0) * h(0, 1), h(1, 0) * h(1, 1);
     right[2 * i] = -h(2, 0) * h(2, 1);
@@ -258,7 +258,7 @@ std::optional<Parameters> zhang_centred(const std::vector<Matrix3d>& homographie
   const Vector2d inverse_squares = a.colPivHouseholderQr().solve(right);
   if (!(inverse_squares.minCoeff() > 0)) return std::nullopt;
   return Parameters{1 / std::sqrt(inverse_squares.x()), 1 / std::sqrt(inverse_squares.y()),
-                    centre.x(), centre.y()};
+                    center.x(), center.y()};
 }
 
 std::optional<ViewPose> guess_pose(const View& view, const camera::Intrinsics& lens) {

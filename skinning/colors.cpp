@@ -1,4 +1,4 @@
-#include "skinning/colours.h"
+#include "skinning/colors.h"
 
 #include <span>
 
@@ -7,11 +7,11 @@ namespace throng::skinning {
 namespace {
 
 struct Swatch {
-  Rgb colour;
+  Rgb color;
   double weight;
 };
 
-// Streets are grey, black, white and navy, with some colour: weights are our own estimate.
+// Streets are gray, black, white and navy, with some color: weights are our own estimate.
 constexpr Swatch kShirt[] = {
     {{238, 238, 234}, 12}, {{222, 218, 208}, 5}, {{38, 39, 43}, 12},    {{62, 64, 70}, 7},
     {{148, 150, 154}, 8},  {{108, 110, 114}, 5}, {{40, 50, 84}, 8},     {{58, 78, 122}, 4},
@@ -61,9 +61,9 @@ constexpr Swatch kDarkHair[] = {{{32, 27, 25}, 5}, {{42, 33, 28}, 4}, {{56, 43, 
 constexpr Swatch kAnyHair[] = {{{46, 36, 30}, 4},    {{70, 51, 38}, 5},     {{92, 68, 48}, 5},
                                {{116, 88, 60}, 4},   {{152, 120, 82}, 2.5}, {{190, 160, 114}, 2},
                                {{120, 66, 42}, 1.2}, {{36, 31, 29}, 2}};
-constexpr Swatch kGreying[] = {
+constexpr Swatch kGraying[] = {
     {{120, 114, 108}, 4}, {{74, 66, 60}, 4}, {{158, 154, 150}, 3}, {{92, 72, 56}, 3}};
-constexpr Swatch kGrey[] = {{{190, 188, 184}, 4}, {{222, 220, 216}, 4}, {{150, 148, 146}, 3}};
+constexpr Swatch kGray[] = {{{190, 188, 184}, 4}, {{222, 220, 216}, 4}, {{150, 148, 146}, 3}};
 
 std::span<const Swatch> swatches_of(Dye dye) {
   switch (dye) {
@@ -97,10 +97,10 @@ std::span<const Swatch> swatches_of(HairRange range) {
   switch (range) {
     case HairRange::dark:
       return kDarkHair;
-    case HairRange::greying:
-      return kGreying;
-    case HairRange::grey:
-      return kGrey;
+    case HairRange::graying:
+      return kGraying;
+    case HairRange::gray:
+      return kGray;
     case HairRange::any:
       break;
   }
@@ -110,20 +110,20 @@ std::span<const Swatch> swatches_of(HairRange range) {
 std::vector<Rgb> draw(std::span<const Swatch> swatches, std::size_t count, Random& random) {
   double total = 0;
   for (const Swatch& swatch : swatches) total += swatch.weight;
-  std::vector<Rgb> colours;
-  colours.reserve(count);
-  while (colours.size() < count) {
+  std::vector<Rgb> colors;
+  colors.reserve(count);
+  while (colors.size() < count) {
     double left = random.uniform(0, total);
     std::size_t at = 0;
     while (at + 1 < swatches.size() && left >= swatches[at].weight) left -= swatches[at++].weight;
-    colours.push_back(swatches[at].colour);
+    colors.push_back(swatches[at].color);
   }
-  return colours;
+  return colors;
 }
 
 }  // namespace
 
-std::vector<Rgb> draw_colours(Dye dye, std::size_t count, Random& random) {
+std::vector<Rgb> draw_colors(Dye dye, std::size_t count, Random& random) {
   return draw(swatches_of(dye), count, random);
 }
 

@@ -16,7 +16,7 @@ struct PlaneView {
 };
 std::optional<PlaneView> plane_of(const std::vector<Eigen::Vector3d>& points);
 
-/// Maps plane to pixels (or directions): the normalised linear solution (Hartley and Zisserman
+/// Maps plane to pixels (or directions): the normalized linear solution (Hartley and Zisserman
 /// 2004, alg. 4.2), its weights refined so that few outliers do not count. Nothing when degenerate.
 std::optional<Eigen::Matrix3d> homography(const std::vector<Eigen::Vector2d>& from,
                                           const std::vector<Eigen::Vector2d>& to);
@@ -26,8 +26,8 @@ std::optional<Eigen::Matrix3d> homography(const std::vector<Eigen::Vector2d>& fr
 std::optional<Parameters> zhang(const std::vector<Eigen::Matrix3d>& homographies, bool skew);
 
 /// The same with the principal point given: two views, or one that is not frontal.
-std::optional<Parameters> zhang_centred(const std::vector<Eigen::Matrix3d>& homographies,
-                                        const Eigen::Vector2d& centre);
+std::optional<Parameters> zhang_centered(const std::vector<Eigen::Matrix3d>& homographies,
+                                         const Eigen::Vector2d& center);
 
 /// The pose of a view through this lens: from the homography of a planar view, else by SQPnP.
 std::optional<ViewPose> guess_pose(const View& view, const camera::Intrinsics& lens);

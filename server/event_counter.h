@@ -10,29 +10,29 @@
 namespace throng::server {
 
 /// Safe to use from many threads.
-class Bell {
+class EventCounter {
  public:
-  void ring() {
+  void notify() {
     {
       const std::lock_guard lock(mutex_);
-      ++rung_;
+      ++count_;
     }
     changed_.notify_all();
   }
 
   /// How often it has rung: ask before looking, and what happens in between wakes the waiting.
-  std::uint64_t rung() const { return rung_; }
+  std::uint64_t count() const { return count_; }
 
   /// Until it has rung more often than `before`; false when that takes too long.
   bool wait(std::uint64_t before, std::chrono::steady_clock::time_point end) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_until(lock, end, [&] { return rung_ != before; });
+    return changed_.wait_until(lock, end, [&] { return count_ != before; });
   }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::atomic<std::uint64_t> rung_ = 0;  ///< written under mutex_
+  std::atomic<std::uint64_t> count_ = 0;  ///< written under mutex_
 };
 
 }  // namespace throng::server

@@ -1,4 +1,4 @@
-#include "skinning/way.h"
+#include "skinning/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +9,13 @@ namespace throng::skinning {
 
 namespace {
 
-// Nobody moves faster; a longer way within a step is a jump and no walk.
-constexpr double kFastestMps = 12;
-// Who gets no further than this within this time stands.
+// Nobody moves faster; a longer displacement within a step is a jump.
+constexpr double kMaxSpeedMps = 12;
+// A person who moves less than this within this time is standing.
 constexpr double kShuffleM = 0.02;
 constexpr double kPauseS = 0.9;
-// Shorter ways are no walk.
-constexpr double kShortestM = 0.12;
+// Shorter displacements are not walks.
+constexpr double kMinLengthM = 0.12;
 
 }  // namespace
 
@@ -27,22 +27,23 @@ double at_step(std::span<const float> values, double step) {
          (at - static_cast<double>(before)) * (static_cast<double>(values[after]) - values[before]);
 }
 
-Way::Way(std::span<const Moment> moments, double dt_s) : moments_(moments), dt_s_(dt_s) {
-  check(!moments.empty() && dt_s > 0, "a way has steps");
+Trajectory::Trajectory(std::span<const Moment> moments, double dt_s)
+    : moments_(moments), dt_s_(dt_s) {
+  check(!moments.empty() && dt_s > 0, "a trajectory has steps");
   distance_m_.reserve(moments.size());
   double distance = 0;
   distance_m_.push_back(0);
   for (std::size_t step = 1; step < moments.size(); ++step) {
     const double moved = (moments[step].position - moments[step - 1].position).norm();
-    if (moved < kFastestMps * dt_s) distance += moved;
+    if (moved < kMaxSpeedMps * dt_s) distance += moved;
     distance_m_.push_back(static_cast<float>(distance));
   }
   find_stretches();
 }
 
-double Way::distance_m(double step) const { return at_step(distance_m_, step); }
+double Trajectory::distance_m(double step) const { return at_step(distance_m_, step); }
 
-double Way::step_at(double distance_m, std::size_t first, std::size_t last) const {
+double Trajectory::step_at(double distance_m, std::size_t first, std::size_t last) const {
   const auto begin = distance_m_.begin() + static_cast<std::ptrdiff_t>(first);
   const auto end = distance_m_.begin() + static_cast<std::ptrdiff_t>(last) + 1;
   const auto after = std::lower_bound(begin, end, static_cast<float>(distance_m));
@@ -53,7 +54,8 @@ double Way::step_at(double distance_m, std::size_t first, std::size_t last) cons
   return before + std::clamp((distance_m - low) / (*after - low), 0.0, 1.0);
 }
 
-double Way::speed_mps(double from_m, double to_m, std::size_t first, std::size_t last) const {
+double Trajectory::speed_mps(double from_m, double to_m, std::size_t first,
+                             std::size_t last) const {
   const double low = std::max<double>(from_m, distance_m_[first]);
   const double high = std::min<double>(to_m, distance_m_[last]);
   const double steps = step_at(high, first, last) - step_at(low, first, last);
@@ -61,45 +63,45 @@ double Way::speed_mps(double from_m, double to_m, std::size_t first, std::size_t
 }
 
 // Looks around a step, not at its speed alone: crowds jostle people who stand.
-bool Way::stands_at(std::size_t step) const {
+bool Trajectory::stands_at(std::size_t step) const {
   const auto reach = static_cast<std::size_t>(std::ceil(0.5 * kPauseS / dt_s_));
   const std::size_t before = step - std::min(step, reach);
   const std::size_t after = std::min(step + 1 + reach, last());
   return (moments_[after].position - moments_[before].position).norm() < kShuffleM;
 }
 
-void Way::find_stretches() {
-  const auto add = [&](Doing doing, std::size_t first, std::size_t last_step) {
-    if (!stretches_.empty() && stretches_.back().doing == doing) {
+void Trajectory::find_stretches() {
+  const auto add = [&](Activity activity, std::size_t first, std::size_t last_step) {
+    if (!stretches_.empty() && stretches_.back().activity == activity) {
       stretches_.back().last = last_step;
     } else {
-      stretches_.push_back({doing, first, last_step});
+      stretches_.push_back({activity, first, last_step});
     }
   };
   const auto drop_short_walk = [&] {
-    if (stretches_.empty() || stretches_.back().doing != Doing::moving) return;
+    if (stretches_.empty() || stretches_.back().activity != Activity::moving) return;
     const Stretch walk = stretches_.back();
     const bool cut_off = walk.first == 0 || walk.last == last();
-    if (cut_off || distance_m_[walk.last] - distance_m_[walk.first] >= kShortestM) return;
+    if (cut_off || distance_m_[walk.last] - distance_m_[walk.first] >= kMinLengthM) return;
     stretches_.pop_back();
-    add(Doing::standing, walk.first, walk.last);
+    add(Activity::standing, walk.first, walk.last);
   };
   std::size_t step = 0;
   while (step < last()) {
     if (moments_[step].down) {
       drop_short_walk();
-      add(Doing::lying, step, step + 1);
+      add(Activity::lying, step, step + 1);
       ++step;
       continue;
     }
     const bool stands = stands_at(step);
     if (stands) drop_short_walk();
-    add(stands ? Doing::standing : Doing::moving, step, step + 1);
+    add(stands ? Activity::standing : Activity::moving, step, step + 1);
     ++step;
   }
   drop_short_walk();
   if (stretches_.empty()) {
-    stretches_.push_back({moments_[0].down ? Doing::lying : Doing::standing, 0, 0});
+    stretches_.push_back({moments_[0].down ? Activity::lying : Activity::standing, 0, 0});
   }
 }
 

@@ -10,7 +10,7 @@
 
 namespace throng::skinning {
 
-/// Where something in the sky that draws looks is.
+/// Direction of an object in the sky that attracts attention.
 enum class Gaze : std::uint8_t { none, ahead, left, right };
 
 /// An agent at one step of the crowd.
@@ -22,31 +22,31 @@ struct Moment {
   Gaze gaze = Gaze::none;
 };
 
-enum class Doing : std::uint8_t { standing, moving, lying };
+enum class Activity : std::uint8_t { standing, moving, lying };
 
 /// Steps `first` to `last`; the next stretch begins where this one ends.
 struct Stretch {
-  Doing doing = Doing::standing;
+  Activity activity = Activity::standing;
   std::size_t first = 0;
   std::size_t last = 0;
 };
 
 /// Points in time are steps, fractions included; between steps everything is linear, as it is
-/// drawn.
-class Way {
+/// rendered.
+class Trajectory {
  public:
   /// Throws nothing; `moments` must outlive this and hold at least one.
-  Way(std::span<const Moment> moments, double dt_s);
+  Trajectory(std::span<const Moment> moments, double dt_s);
 
   std::span<const Moment> moments() const { return moments_; }
   double dt_s() const { return dt_s_; }
   std::size_t last() const { return moments_.size() - 1; }
 
-  /// Way walked since the first step.
+  /// Distance walked since the first step.
   double distance_m(double step) const;
   /// When that distance was first passed, within `first` to `last`.
   double step_at(double distance_m, std::size_t first, std::size_t last) const;
-  /// Mean speed over a piece of way.
+  /// Mean speed over a part of the path.
   double speed_mps(double from_m, double to_m, std::size_t first, std::size_t last) const;
 
   const std::vector<Stretch>& stretches() const { return stretches_; }

@@ -1,0 +1,28 @@
+// "Did you mean ...?": the known word that a misspelled one is nearest to.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace throng {
+
+/// The candidate with the smallest edit distance to `word` (letters inserted, omitted, replaced or
+/// swapped; case does not count), the first of equals. Nothing when more than a third of the
+/// letters differ.
+std::optional<std::string_view> closest(std::string_view word,
+                                        std::span<const std::string_view> candidates);
+
+/// " (did you mean x?)", or nothing.
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
+
+/// A name that is not among the known ones, with the nearest of them, else with all:
+/// `unknown field "drone"; did you mean "drones"?`. `kind` is "field", "scenario" and the like.
+Problem unknown_name(std::string source, std::string where, std::string_view kind,
+                     std::string_view name, std::span<const std::string_view> known);
+
+}  // namespace throng

@@ -1,0 +1,39 @@
+#include "base/suggest.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace throng {
+namespace {
+
+constexpr std::array<std::string_view, 3> kFields = {"drones", "seed", "capture"};
+
+TEST(UnknownName, NamesTheNearestKnownOne) {
+  const Problem problem = unknown_name("my.job.json", "/drone", "field", "drone", kFields);
+  EXPECT_EQ(problem.text(),
+            "my.job.json: /drone: unknown field \"drone\"; did you mean \"drones\"?");
+  EXPECT_EQ(problem.expected, "\"drones\"");
+}
+
+TEST(UnknownName, FindsSwappedAndUpperCaseLetters) {
+  EXPECT_EQ(unknown_name("", "", "field", "sede", kFields).text(),
+            "unknown field \"sede\"; did you mean \"seed\"?");
+  EXPECT_EQ(unknown_name("", "", "field", "SEED", kFields).text(),
+            "unknown field \"SEED\"; did you mean \"seed\"?");
+}
+
+TEST(UnknownName, ListsAllNamesIfNoneIsNear) {
+  EXPECT_EQ(unknown_name("", "/weather", "field", "weather", kFields).text(),
+            "/weather: unknown field \"weather\"; expected one of: drones, seed, capture");
+}
+
+TEST(ProblemText, IsTheStatementAloneWithoutAnExpectation) {
+  EXPECT_EQ((Problem{"http://localhost", "", "there is no job x", ""}.text()),
+            "http://localhost: there is no job x");
+  EXPECT_EQ((Problem{"f.json", "/", "missing required field \"seed\"", "\"seed\""}.text()),
+            "f.json: /: missing required field \"seed\"");
+}
+
+}  // namespace
+}  // namespace throng
