@@ -17,6 +17,7 @@ namespace {
 
 using namespace throng;
 using namespace throng::crowd::describe;
+using throng::crowd::Node;
 
 constexpr double kFreeSpeedMps = 1.34;
 

@@ -15,6 +15,7 @@ namespace {
 
 using namespace throng;
 using namespace throng::crowd::describe;
+using throng::crowd::Node;
 
 Points box(double min_x, double min_y, double max_x, double max_y) {
   return {{min_x, min_y}, {max_x, min_y}, {max_x, max_y}, {min_x, max_y}};
