@@ -15,8 +15,11 @@
 
 namespace {
 
-using namespace throng;
-using namespace throng::crowd::describe;
+namespace crowd = throng::crowd;
+namespace describe = throng::crowd::describe;
+using describe::Points;
+using describe::Sampled;
+using throng::InputError;
 using throng::crowd::Node;
 
 constexpr double kFreeSpeedMps = 1.34;
@@ -30,23 +33,25 @@ Points entrance(const Eigen::Vector2d& middle, const Eigen::Vector2d& along) {
 
 crowd::SceneDescription crossing() {
   crowd::SceneBuilder scene;
-  scene.add_profile({.name = "adult",
-                     .common = {{"r", 0.2}, {"max_speed", 2}, {"max_accel", 5}},
-                     .properties = {property("pref_speed", Sampled::normal(kFreeSpeedMps, 0.1))}});
-  const Node arrivals = typed("Arrivals", "rate", {{"per_second", 1.5}, {"end", 60}});
-  scene.add_group({"adult", "East", agents_at(entrance({-10, 0}, {0, 1})), {arrivals}});
-  scene.add_group({"adult", "North", agents_at(entrance({0, -10}, {1, 0})), {arrivals}});
+  scene.add_profile(
+      {.name = "adult",
+       .common = {{"r", 0.2}, {"max_speed", 2}, {"max_accel", 5}},
+       .properties = {describe::property("pref_speed", Sampled::normal(kFreeSpeedMps, 0.1))}});
+  const Node arrivals = describe::typed("Arrivals", "rate", {{"per_second", 1.5}, {"end", 60}});
+  scene.add_group({"adult", "East", describe::agents_at(entrance({-10, 0}, {0, 1})), {arrivals}});
+  scene.add_group({"adult", "North", describe::agents_at(entrance({0, -10}, {1, 0})), {arrivals}});
   return scene.build();
 }
 
 crowd::BehaviorDescription straight_across() {
   crowd::BehaviorBuilder behavior;
   behavior.comment("Beyond the crossing.");
-  behavior.add_goal_set(0, {box_goal(0, {10, -3}, {12, 3}), box_goal(1, {-3, 10}, {3, 12})});
-  behavior.add_state("East", {select_goal(0, 0), velocity("goal")});
-  behavior.add_state("North", {select_goal(0, 1), velocity("goal")});
-  behavior.add_final_state("Gone", {action("leave")});
-  behavior.add_transition("East,North", "Gone", goal_reached());
+  behavior.add_goal_set(
+      0, {describe::box_goal(0, {10, -3}, {12, 3}), describe::box_goal(1, {-3, 10}, {3, 12})});
+  behavior.add_state("East", {describe::select_goal(0, 0), describe::velocity("goal")});
+  behavior.add_state("North", {describe::select_goal(0, 1), describe::velocity("goal")});
+  behavior.add_final_state("Gone", {describe::action("leave")});
+  behavior.add_transition("East,North", "Gone", describe::goal_reached());
   return behavior.build();
 }
 
@@ -67,8 +72,8 @@ double speed_in_the_middle(crowd::Simulation& crowd, double until_s) {
 }
 
 void write_files(const std::filesystem::path& folder) {
-  write_file_atomically(folder / "scene.xml", crowd::to_xml(crossing()));
-  write_file_atomically(folder / "behavior.xml", crowd::to_xml(straight_across()));
+  throng::write_file_atomically(folder / "scene.xml", crowd::to_xml(crossing()));
+  throng::write_file_atomically(folder / "behavior.xml", crowd::to_xml(straight_across()));
 }
 
 void run() {

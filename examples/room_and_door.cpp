@@ -13,8 +13,11 @@
 
 namespace {
 
-using namespace throng;
-using namespace throng::crowd::describe;
+namespace crowd = throng::crowd;
+namespace describe = throng::crowd::describe;
+using describe::Points;
+using describe::Sampled;
+using throng::InputError;
 
 Points box(double min_x, double min_y, double max_x, double max_y) {
   return {{min_x, min_y}, {max_x, min_y}, {max_x, max_y}, {min_x, max_y}};
@@ -26,10 +29,15 @@ crowd::SceneDescription room(double door_m) {
   scene.add_profile(
       {.name = "adult",
        .common = {{"r", 0.2}, {"max_speed", 2.5}, {"max_accel", 5}, {"obstacleSet", 1}},
-       .properties = {property("pref_speed", Sampled::normal(1.34, 0.26).limited(0.6, 2.1))}});
+       .properties = {
+           describe::property("pref_speed", Sampled::normal(1.34, 0.26).limited(0.6, 2.1))}});
   Points places;
-  for (int i = 0; i < 60; ++i) places.emplace_back(-7.2 + 0.7 * (i / 6), -2.2 + 0.9 * (i % 6));
-  scene.add_group({.profile = "adult", .state = "Leave", .generator = agents_at(places)});
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 10; ++column) {
+      places.emplace_back(-7.2 + 0.7 * column, -2.2 + 0.9 * row);
+    }
+  }
+  scene.add_group({.profile = "adult", .state = "Leave", .generator = describe::agents_at(places)});
   const double half_m = door_m / 2;
   scene.add_obstacles({box(-8.2, -3.2, 0, -3), box(-8.2, 3, 0, 3.2), box(-8.2, -3, -8, 3),
                        box(0, -3.2, 0.2, -half_m), box(0, half_m, 0.2, 3.2)});
@@ -38,10 +46,10 @@ crowd::SceneDescription room(double door_m) {
 
 crowd::BehaviorDescription leave_by_the_door() {
   crowd::BehaviorBuilder behavior;
-  behavior.add_goal_set(0, {box_goal(0, {4, -2}, {6, 2})});
-  behavior.add_state("Leave", {select_goal("nearest", 0), velocity("auto")});
-  behavior.add_final_state("Outside", {action("leave")});
-  behavior.add_transition("Leave", "Outside", goal_reached());
+  behavior.add_goal_set(0, {describe::box_goal(0, {4, -2}, {6, 2})});
+  behavior.add_state("Leave", {describe::select_goal("nearest", 0), describe::velocity("auto")});
+  behavior.add_final_state("Outside", {describe::action("leave")});
+  behavior.add_transition("Leave", "Outside", describe::goal_reached());
   return behavior.build();
 }
 

@@ -13,8 +13,11 @@
 
 namespace {
 
-using namespace throng;
-using namespace throng::crowd::describe;
+namespace crowd = throng::crowd;
+namespace describe = throng::crowd::describe;
+using describe::Points;
+using describe::Sampled;
+using throng::InputError;
 using throng::crowd::Node;
 
 Points box(double min_x, double min_y, double max_x, double max_y) {
@@ -27,13 +30,14 @@ crowd::SceneDescription hall(bool two_doors) {
   scene.add_profile(
       {.name = "adult",
        .common = {{"r", 0.2}, {"max_speed", 2.5}, {"max_accel", 5}, {"obstacleSet", 1}},
-       .properties = {property("pref_speed", Sampled::normal(1.34, 0.26).limited(0.6, 2.1))}});
+       .properties = {
+           describe::property("pref_speed", Sampled::normal(1.34, 0.26).limited(0.6, 2.1))}});
   // At random in the hall, elsewhere for every seed.
   scene.add_group({.profile = "adult",
                    .state = "Leave",
-                   .generator = typed("Generator", "scatter",
-                                      {{"count", 100}, {"apart", 0.6}, {"clearance", 0.3}},
-                                      vertices(box(-5.5, -4.5, 5.5, 4.5)))});
+                   .generator = describe::typed(
+                       "Generator", "scatter", {{"count", 100}, {"apart", 0.6}, {"clearance", 0.3}},
+                       describe::vertices(box(-5.5, -4.5, 5.5, 4.5)))});
   std::vector<Points> walls = {box(-6.2, -5.2, 6.2, -5), box(-6.2, 5, 6.2, 5.2),
                                box(-6.2, -5, -6, -0.5), box(-6.2, 0.5, -6, 5)};
   if (two_doors) {
@@ -47,13 +51,14 @@ crowd::SceneDescription hall(bool two_doors) {
 }
 
 crowd::BehaviorDescription leave(bool two_doors) {
-  std::vector<Node> goals = {box_goal(0, {-9, -1}, {-8, 1})};
-  if (two_doors) goals.push_back(box_goal(1, {8, -1}, {9, 1}));
+  std::vector<Node> goals = {describe::box_goal(0, {-9, -1}, {-8, 1})};
+  if (two_doors) goals.push_back(describe::box_goal(1, {8, -1}, {9, 1}));
   crowd::BehaviorBuilder behavior;
   behavior.add_goal_set(0, goals);
-  behavior.add_state("Leave", {select_goal("exit_choice", 0), velocity("auto")});
-  behavior.add_final_state("Outside", {action("leave")});
-  behavior.add_transition("Leave", "Outside", goal_reached());
+  behavior.add_state("Leave",
+                     {describe::select_goal("exit_choice", 0), describe::velocity("auto")});
+  behavior.add_final_state("Outside", {describe::action("leave")});
+  behavior.add_transition("Leave", "Outside", describe::goal_reached());
   return behavior.build();
 }
 
