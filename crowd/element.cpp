@@ -129,11 +129,35 @@ std::filesystem::path Element::file_beside(std::string_view file_name) const {
   return path;
 }
 
+namespace {
+
+/// The first attribute that an element has twice, or null. XML has none; what is built in code may.
+const Attribute* find_attribute_twice(const Node& node) {
+  const std::vector<Attribute>& all = node.attributes;
+  for (auto one = all.begin(); one != all.end(); ++one) {
+    const auto is_same = [&](const Attribute& earlier) { return earlier.name == one->name; };
+    if (std::any_of(all.begin(), one, is_same)) return &*one;
+  }
+  return nullptr;
+}
+
+void require_attributes_once(const Element& element, const Node& node, Reading& reading) {
+  if (const Attribute* const again = find_attribute_twice(node)) {
+    element.fail_attribute(again->name, "it twice", "each attribute once");
+  }
+  for (const Node& child : node.children) {
+    require_attributes_once(Element(child, reading), child, reading);
+  }
+}
+
+}  // namespace
+
 Reading::Reading(const Description& description, std::string_view root_name, bool words_are_zero)
     : description_(&description), words_are_zero_(words_are_zero), warnings_(description.warnings) {
   if (description.root.name != root_name) {
     root().fail_unknown(fmt::format("the root <{}>", root_name));
   }
+  require_attributes_once(root(), description.root, *this);
 }
 
 }  // namespace throng::crowd

@@ -196,6 +196,12 @@ TEST(Errors, OfWhatWasBuiltSaySoAndWhere) {
   EXPECT_THAT(problem.where,
               HasSubstr(R"(built in code, element <Transition from="Walk" to="Gone">)"));
 
+  behavior = walk_right();
+  behavior.add_goal_set(1, {Node("Goal", {{"id", 0}, {"x", 1}, {"x", 2}})});
+  problem = problem_of(two_people().build(), behavior.build());
+  EXPECT_THAT(problem.where, HasSubstr(R"(attribute "x")"));
+  EXPECT_THAT(problem.found, HasSubstr("twice"));
+
   SceneDescription other = two_people().build();
   other.root.name = "Experimnt";
   EXPECT_THAT(problem_of(other, walk_right().build()).found, HasSubstr("did you mean Experiment?"));
