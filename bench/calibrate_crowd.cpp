@@ -73,9 +73,10 @@ constexpr std::array<std::string_view, 4> kNames = {"decline", "jam_density", "l
 using Values = std::array<double, kNames.size()>;
 
 Tested weidmann_with(const Values& v) {
-  return {"weidmann",
-          fmt::format(R"(<Weidmann decline="{}" jam_density="{}" least="{}"/>)", v[0], v[1], v[2]),
-          fmt::format(R"(<Weidmann tau="{}"/>)", v[3])};
+  return {
+      "weidmann",
+      {describe::model("Weidmann", {{"decline", v[0]}, {"jam_density", v[1]}, {"least", v[2]}})},
+      {describe::model("Weidmann", {{"tau", v[3]}})}};
 }
 
 /// Deviations in units of what is tolerable: 0.1 m/s, and 0.3 /(m s) from the middle of what is
@@ -151,13 +152,13 @@ std::size_t seeds_named(std::span<char* const> named) {
 
 /// The model with constants that the command line names.
 Tested with_constants(const std::string& model, std::span<char* const> named) {
-  std::string attributes;
+  crowd::Node constants(std::string(crowd::find_model(model).tag));
   for (const std::string_view constant : named) {
     const std::size_t at = constant.find('=');
     if (at == std::string_view::npos || constant.starts_with(kSeedsArgument)) continue;
-    attributes += fmt::format(R"( {}="{}")", constant.substr(0, at), constant.substr(at + 1));
+    constants.set({std::string(constant.substr(0, at)), constant.substr(at + 1)});
   }
-  return {model, fmt::format("<{}{}/>", crowd::find_model(model).tag, attributes), ""};
+  return {model, {constants}};
 }
 
 }  // namespace

@@ -4,67 +4,70 @@
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "crowd/description/builder.h"
 #include "crowd/model.h"
 #include "crowd/simulation.h"
 
 namespace throng::crowd {
 namespace {
 
-std::filesystem::path write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file) << text;
-  return file;
-}
-
 /// `side`² agents; they turn around before they leave the square.
 Simulation open_square(const std::string& model, int side, double density) {
   const double spacing = 1 / std::sqrt(density);
   const double half = 0.5 * spacing * (side - 1);
-  const std::string scene = fmt::format(
-      R"(<Experiment version="2.0"><SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
-  <Helbing agent_scale="2000" obstacle_scale="4000" reaction_time="0.5" body_force="1200"
-           friction="2400" force_distance="0.015"/>
-  <AgentProfile name="a">
-    <Common r="0.2" pref_speed="1.3" max_speed="2" max_accel="5" neighbor_dist="5"
-            max_neighbors="10"/>
-    <ORCA tau="3" tauObst="0.15"/>
-  </AgentProfile>
-  <AgentGroup><ProfileSelector type="const" name="a"/><StateSelector type="const" name="Walk"/>
-    <Generator type="rect_grid" anchor_x="{0}" anchor_y="{0}" offset_x="{1}" offset_y="{1}"
-               count_x="{2}" count_y="{2}" displace_dist="u" displace_min="0" displace_max="{3}"/>
-  </AgentGroup></Experiment>)",
-      -half, spacing, side, 0.2 * spacing);
-  std::string goals;
+  SceneBuilder scene;
+  scene.add(describe::model("Helbing", {{"agent_scale", 2000},
+                                        {"obstacle_scale", 4000},
+                                        {"reaction_time", 0.5},
+                                        {"body_force", 1200},
+                                        {"friction", 2400},
+                                        {"force_distance", 0.015}}));
+  scene.add_profile({.name = "a",
+                     .common = {{"r", 0.2},
+                                {"pref_speed", 1.3},
+                                {"max_speed", 2},
+                                {"max_accel", 5},
+                                {"neighbor_dist", 5},
+                                {"max_neighbors", 10}},
+                     .models = {describe::model("ORCA", {{"tau", 3}, {"tauObst", 0.15}})}});
+  scene.add_group({"a", "Walk",
+                   describe::typed("Generator", "rect_grid",
+                                   {{"anchor_x", -half},
+                                    {"anchor_y", -half},
+                                    {"offset_x", spacing},
+                                    {"offset_y", spacing},
+                                    {"count_x", side},
+                                    {"count_y", side},
+                                    {"displace_dist", "u"},
+                                    {"displace_min", 0},
+                                    {"displace_max", 0.2 * spacing}})});
+  std::vector<Node> goals;
   for (int row = 0; row < 8; ++row) {
     for (int column = 0; column < 8; ++column) {
-      goals += fmt::format(R"(<Goal id="{}" type="point" x="{}" y="{}"/>)", 8 * row + column,
-                           half * (column - 3.5) / 3.5, half * (row - 3.5) / 3.5);
+      goals.push_back(Node("Goal", {{"id", 8 * row + column},
+                                    {"type", "point"},
+                                    {"x", half * (column - 3.5) / 3.5},
+                                    {"y", half * (row - 3.5) / 3.5}}));
     }
   }
-  const std::string behavior = fmt::format(
-      R"(<BFSM><GoalSet id="0">{}</GoalSet>
-  <State name="Walk" final="0"><GoalSelector type="random" goal_set="0"/>
-    <VelComponent type="goal"/></State>
-  <State name="Turn" final="0"/>
-  <Transition from="Walk" to="Turn"><Condition type="or">
-    <Condition type="goal_reached" distance="2"/>
-    <Condition type="timer" per_agent="1" dist="u" min="3" max="9"/></Condition></Transition>
-  <Transition from="Turn" to="Walk">
-    <Condition type="timer" per_agent="1" dist="c" value="0.1"/></Transition></BFSM>)",
-      goals);
-  const auto folder =
-      std::filesystem::temp_directory_path() / fmt::format("throng_bench_crowd_{}", getpid());
-  std::filesystem::create_directories(folder);
-  Simulation crowd(write(folder / "scene.xml", scene), write(folder / "behavior.xml", behavior),
-                   {.model = model});
-  std::filesystem::remove_all(folder);
-  return crowd;
+  using describe::Sampled;
+  BehaviorBuilder behavior;
+  behavior.add_goal_set(0, std::move(goals));
+  behavior.add_state("Walk", {describe::select_goal("random", 0), describe::velocity("goal")});
+  behavior.add_state("Turn");
+  behavior.add_transition(
+      "Walk", "Turn",
+      describe::condition("or", {},
+                          {describe::goal_reached(2), describe::timer(Sampled::uniform(3, 9))}));
+  behavior.add_transition("Turn", "Walk", describe::timer(Sampled::constant(0.1)));
+  return {scene.build(), behavior.build(), {.model = model}};
 }
 
 void run(benchmark::State& state, Simulation crowd) {

@@ -107,8 +107,8 @@ Command read(std::span<char* const> words) {
   Command command;
   if (words.size() > 1) command.tested.model = words[1];
   const crowd::ModelEntry& entry = crowd::find_model(command.tested.model);
-  std::string constants;
-  std::string parameters;
+  crowd::Node constants{std::string(entry.tag)};
+  crowd::Node parameters{std::string(entry.tag)};
   for (const std::string word : words.subspan(std::min<std::size_t>(2, words.size()))) {
     const auto equals = word.find('=');
     const std::string name = word.substr(0, equals);
@@ -122,11 +122,11 @@ Command read(std::span<char* const> words) {
     } else {
       const bool is_parameter = std::any_of(entry.parameters.begin(), entry.parameters.end(),
                                             [&](const auto& p) { return p.name == name; });
-      (is_parameter ? parameters : constants) += fmt::format(" {}=\"{}\"", name, value);
+      (is_parameter ? parameters : constants).set({name, value});
     }
   }
-  if (!constants.empty()) command.tested.constants = fmt::format("<{}{}/>", entry.tag, constants);
-  if (!parameters.empty()) command.tested.profile = fmt::format("<{}{}/>", entry.tag, parameters);
+  if (!constants.attributes.empty()) command.tested.constants = {constants};
+  if (!parameters.attributes.empty()) command.tested.profile = {parameters};
   return command;
 }
 

@@ -9,16 +9,14 @@
 // counted. Printed are per model and width the 99.9 % quantiles of these counts, the rate (that of
 // 20 s) and the burst with which burst + rate * t is at least the quantile of every window t.
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "crowd/description/builder.h"
 #include "crowd/model.h"
 #include "crowd/simulation.h"
 #include "metrics/crossings.h"
@@ -26,7 +24,7 @@
 namespace {
 
 using namespace throng;
-namespace fs = std::filesystem;
+namespace describe = crowd::describe;
 
 constexpr std::size_t kLongestWindowS = 20;  // windows of 1, 2, ... s
 constexpr std::array kWidthsM = {0.8, 1.0, 1.2, 1.6, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0};
@@ -37,54 +35,50 @@ constexpr int kSeeds = 4;
 constexpr int kRows = 40;
 constexpr double kWallM = 0.3;
 
-std::string obstacle(double x0, double y0, double x1, double y1) {
-  return fmt::format(
-      R"(<Obstacle closed="1"><Vertex p_x="{0}" p_y="{1}"/><Vertex p_x="{2}" p_y="{1}"/>)"
-      R"(<Vertex p_x="{2}" p_y="{3}"/><Vertex p_x="{0}" p_y="{3}"/></Obstacle>)",
-      x0, y0, x1, y1);
+describe::Points box(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
 // The door is on x = 0, the crowd before it at x < 0.
 crowd::Simulation crowd_before_door(const std::string& model, double width_m, std::uint64_t seed) {
   const double side_m = 0.5 * width_m + 4;
   const int columns = static_cast<int>(2 * (side_m - 0.5) / kPitchM);
-  const std::string scene = fmt::format(
-      R"(<Experiment version="2.0"><SpatialQuery type="kd-tree"/><Common time_step="0.1"/>
-  <AgentProfile name="a">
-    <Common max_neighbors="10" obstacleSet="1" neighbor_dist="5" class="1" max_speed="3"
-            max_accel="5" max_angle_vel="360">
-      <Property name="pref_speed" dist="n" mean="2" stddev="0.25"/>
-      <Property name="r" dist="u" min="0.195" max="0.24"/></Common></AgentProfile>
-  <AgentGroup><ProfileSelector type="const" name="a"/><StateSelector type="const" name="Flee"/>
-    <Generator type="rect_grid" anchor_x="{0}" anchor_y="{1}" offset_x="{2}" offset_y="{2}"
-               count_x="{3}" count_y="{4}" displace_dist="u" displace_min="0" displace_max="0.02"/>
-  </AgentGroup>
-  <ObstacleSet type="explicit" class="1">{5}{6}{7}{8}</ObstacleSet></Experiment>)",
-      -1 - (kRows - 1) * kPitchM, -0.5 * (columns - 1) * kPitchM, kPitchM, kRows, columns,
-      obstacle(0, -side_m - 1, kWallM, -0.5 * width_m),
-      obstacle(0, 0.5 * width_m, kWallM, side_m + 1), obstacle(-30, -side_m - 1, 0, -side_m - 0.5),
-      obstacle(-30, side_m + 0.5, 0, side_m + 1));
+  crowd::SceneBuilder scene;
+  scene.add_profile(
+      {.name = "a",
+       .common = {{"max_neighbors", 10},
+                  {"obstacleSet", 1},
+                  {"neighbor_dist", 5},
+                  {"class", 1},
+                  {"max_speed", 3},
+                  {"max_accel", 5},
+                  {"max_angle_vel", 360}},
+       .properties = {describe::property("pref_speed", describe::Sampled::normal(2, 0.25)),
+                      describe::property("r", describe::Sampled::uniform(0.195, 0.24))}});
+  scene.add_group({"a", "Flee",
+                   describe::typed("Generator", "rect_grid",
+                                   {{"anchor_x", -1 - (kRows - 1) * kPitchM},
+                                    {"anchor_y", -0.5 * (columns - 1) * kPitchM},
+                                    {"offset_x", kPitchM},
+                                    {"offset_y", kPitchM},
+                                    {"count_x", kRows},
+                                    {"count_y", columns},
+                                    {"displace_dist", "u"},
+                                    {"displace_min", 0},
+                                    {"displace_max", 0.02}})});
+  scene.add_obstacles(
+      {box(0, -side_m - 1, kWallM, -0.5 * width_m), box(0, 0.5 * width_m, kWallM, side_m + 1),
+       box(-30, -side_m - 1, 0, -side_m - 0.5), box(-30, side_m + 0.5, 0, side_m + 1)});
   const double reach = 0.5 * width_m - 0.3;
-  const std::string behavior = fmt::format(
-      R"(<BFSM><GoalSet id="0"><Goal id="0" type="AABB" min_x="0.3" max_x="1.3" min_y="{0}" max_y="{1}"/>
-  </GoalSet><GoalSet id="1"><Goal id="0" type="AABB" min_x="8" max_x="9" min_y="{2}" max_y="{3}"/></GoalSet>
-  <State name="Flee" final="0"><GoalSelector type="nearest" goal_set="0"/>
-    <VelComponent type="auto"/></State>
-  <State name="Away" final="0"><GoalSelector type="nearest" goal_set="1"/>
-    <VelComponent type="auto"/></State>
-  <State name="Out" final="1"><Action type="leave"/></State>
-  <Transition from="Flee" to="Away"><Condition type="goal_reached" distance="0.2"/></Transition>
-  <Transition from="Away" to="Out"><Condition type="goal_reached" distance="1"/></Transition></BFSM>)",
-      -reach, reach, -side_m, side_m);
-  const fs::path folder =
-      fs::temp_directory_path() / fmt::format("throng_door_capacity_{}", getpid());
-  fs::create_directories(folder);
-  std::ofstream(folder / "scene.xml") << scene;
-  std::ofstream(folder / "behavior.xml") << behavior;
-  crowd::Simulation crowd(folder / "scene.xml", folder / "behavior.xml",
-                          {.seed = seed, .model = model});
-  fs::remove_all(folder);
-  return crowd;
+  crowd::BehaviorBuilder behavior;
+  behavior.add_goal_set(0, {describe::box_goal(0, {0.3, -reach}, {1.3, reach})});
+  behavior.add_goal_set(1, {describe::box_goal(0, {8, -side_m}, {9, side_m})});
+  behavior.add_state("Flee", {describe::select_goal("nearest", 0), describe::velocity("auto")});
+  behavior.add_state("Away", {describe::select_goal("nearest", 1), describe::velocity("auto")});
+  behavior.add_final_state("Out", {describe::action("leave")});
+  behavior.add_transition("Flee", "Away", describe::goal_reached(0.2));
+  behavior.add_transition("Away", "Out", describe::goal_reached(1));
+  return {scene.build(), behavior.build(), {.seed = seed, .model = model}};
 }
 
 // People gone out since the start, per step; as long as 20 % of the crowd is left.

@@ -2,9 +2,9 @@
 # the configuration. A module may lie in a folder of another ("jobs/spec"): its library is throng_jobs_spec.
 
 # With sanitizers most modules are compiled without optimization, which takes half the time; these would run too slowly.
-set(THRONG_OPTIMIZED_MODULES base world crowd camera calibrate places sim metrics validation skinning render)
+set(THRONG_OPTIMIZED_MODULES base crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
 # The modules that the fuzz targets (tests/fuzz) cover.
-set(THRONG_FUZZED_MODULES base world crowd imports metrics/spec metrics jobs/spec)
+set(THRONG_FUZZED_MODULES base crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
 
 # throng_room(NAME SOURCES file... ROOMS module... LIBRARIES target... PRIVATE_LIBRARIES target...)
 function(throng_room name)
@@ -13,7 +13,7 @@ function(throng_room name)
   if(ARG_SOURCES)
     set(links PUBLIC)
     add_library(throng_${target} STATIC ${ARG_SOURCES})
-    target_link_libraries(throng_${target} PRIVATE throng_flags ${ARG_PRIVATE_LIBRARIES})
+    target_link_libraries(throng_${target} PRIVATE $<BUILD_INTERFACE:throng_flags> ${ARG_PRIVATE_LIBRARIES})
   else() # only headers
     set(links INTERFACE)
     add_library(throng_${target} INTERFACE)
@@ -22,7 +22,8 @@ function(throng_room name)
   set(room_targets "${ARG_ROOMS}")
   list(TRANSFORM room_targets REPLACE "/" "_")
   list(TRANSFORM room_targets PREPEND "throng::")
-  target_include_directories(throng_${target} ${links} "${PROJECT_SOURCE_DIR}")
+  target_include_directories(throng_${target} ${links}
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:include/throng>")
   target_link_libraries(throng_${target} ${links} ${room_targets} ${ARG_LIBRARIES})
   if(THRONG_SANITIZE AND ARG_SOURCES AND name IN_LIST THRONG_OPTIMIZED_MODULES)
     target_compile_options(throng_${target} PRIVATE -O1)

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "crowd/distribution.h"
-#include "crowd/xml.h"
+#include "crowd/element.h"
 
 namespace throng::crowd {
 

@@ -43,7 +43,7 @@ std::unique_ptr<Elevation> make_flat(const Element&, const Attributes&, Elevatio
 std::unique_ptr<Elevation> make_of_mesh(const Element& element, const Attributes& attributes,
                                         ElevationContext& context) {
   return std::make_unique<OfMesh>(
-      shared_nav_mesh(element.file_beside(attributes.text("file_name")), context.parts));
+      shared_nav_mesh(element.text_file(attributes.text("file_name")), context.parts));
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ std::vector<float> rest_of(NumberFile& file) {
 
 }  // namespace
 
-Formation::Formation(const std::filesystem::path& path) {
-  NumberFile file(path);
+Formation::Formation(const TextFile& source) {
+  NumberFile file(source);
   const int border = file.count("the number of border points", 1, 3);
   const std::vector<float> numbers = rest_of(file);
   // The way may have a weight like the points.
@@ -162,7 +162,7 @@ class InFormation : public VelModifier {
 std::unique_ptr<VelModifier> make_formation(const Element& element, const Attributes& attributes,
                                             BehaviorContext& context) {
   auto group = std::make_unique<FormationGroup>(
-      Formation(element.file_beside(attributes.text("file_name"))), context.agent_count);
+      Formation(element.text_file(attributes.text("file_name"))), context.agent_count);
   auto made = std::make_unique<InFormation>(*group);
   context.processes.push_back(std::move(group));
   return made;

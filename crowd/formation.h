@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <vector>
 
 #include "crowd/behavior.h"
+#include "crowd/text_file.h"
 
 namespace throng::crowd {
 
@@ -14,7 +14,7 @@ class Formation {
  public:
   /// Reads a file of numbers: how many points the border has; x, y and weight of these and of any
   /// inside of it; and last the x and y of the way that it goes. Throws InputError.
-  explicit Formation(const std::filesystem::path& path);
+  explicit Formation(const TextFile& source);
 
   /// In m, those of the greatest weight first.
   const std::vector<Eigen::Vector2f>& places() const { return places_; }

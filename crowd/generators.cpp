@@ -169,7 +169,7 @@ std::unique_ptr<Generator> make_listed(const Element& element, const Attributes&
 std::unique_ptr<Generator> make_listed_on_mesh(const Element& element, const Attributes& attributes,
                                                GeneratorContext& context) {
   const auto mesh =
-      shared_nav_mesh(element.file_beside(attributes.text("file_name")), *context.crowd.parts);
+      shared_nav_mesh(element.text_file(attributes.text("file_name")), *context.crowd.parts);
   if (!attributes.has("group_name")) return make_listed_on(element, mesh.get(), kAnyGroup);
   const std::string& name = attributes.text("group_name");
   const auto found = std::find(mesh->groups.begin(), mesh->groups.end(), name);

@@ -44,7 +44,7 @@ std::unique_ptr<GoalSelector> make_by_way(const Element& element, const Attribut
                                           BehaviorContext& context) {
   const int set = context.goals.require_set(element, attributes, "goal_set");
   return std::make_unique<ByWay>(
-      shared_nav_mesh(element.file_beside(attributes.text("file_name")), *context.crowd.parts), set,
+      shared_nav_mesh(element.text_file(attributes.text("file_name")), *context.crowd.parts), set,
       kNearest);
 }
 

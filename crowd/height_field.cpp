@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "base/files.h"
+#include "crowd/element.h"
+#include "crowd/menge_files/read.h"
 #include "crowd/navigation.h"
 
 namespace throng::crowd {
@@ -49,7 +51,8 @@ GrayImage read_gray_png(const std::filesystem::path& path) {
 }  // namespace
 
 HeightField::HeightField(const std::filesystem::path& path) {
-  const XmlFile file(path, "HeightField");
+  const Description description = read_description(path, "HeightField");
+  Reading file(description, "HeightField");
   const Attributes attributes(
       file.root(),
       {text("file_name", "of the image"), number("cell_size", "of a pixel in m", 1e-3, 1e4),

@@ -28,7 +28,7 @@ struct ObstacleEdge {
 /// Reads one file, in the order in which things stand there.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : file_(path) {}
+  explicit Reader(const TextFile& source) : file_(source) {}
 
   NavMeshFile read() {
     read_vertices();
@@ -198,12 +198,11 @@ class Reader {
 
 }  // namespace
 
-NavMeshFile load_nav_mesh(const std::filesystem::path& path) { return Reader(path).read(); }
+NavMeshFile load_nav_mesh(const TextFile& source) { return Reader(source).read(); }
 
-std::shared_ptr<const NavMeshFile> shared_nav_mesh(const std::filesystem::path& path,
-                                                   SharedParts& parts) {
-  return parts.get<NavMeshFile>(path.lexically_normal().string(),
-                                [&] { return std::make_shared<NavMeshFile>(load_nav_mesh(path)); });
+std::shared_ptr<const NavMeshFile> shared_nav_mesh(const TextFile& source, SharedParts& parts) {
+  return parts.get<NavMeshFile>(
+      source.key(), [&] { return std::make_shared<NavMeshFile>(load_nav_mesh(source)); });
 }
 
 }  // namespace throng::crowd

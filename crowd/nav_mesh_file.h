@@ -1,7 +1,6 @@
 // Menge's files of navigation meshes (.nav).
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "crowd/nav_mesh.h"
 #include "crowd/obstacles.h"
 #include "crowd/shared_parts.h"
+#include "crowd/text_file.h"
 
 namespace throng::crowd {
 
@@ -20,10 +20,9 @@ struct NavMeshFile {
 
 /// Reads such a file: corners, portals, obstacles' edges and groups of polygons. Throws InputError
 /// (file, line, found, expected), EnvironmentError when it cannot be read.
-NavMeshFile load_nav_mesh(const std::filesystem::path& path);
+NavMeshFile load_nav_mesh(const TextFile& source);
 
 /// The same, once per file.
-std::shared_ptr<const NavMeshFile> shared_nav_mesh(const std::filesystem::path& path,
-                                                   SharedParts& parts);
+std::shared_ptr<const NavMeshFile> shared_nav_mesh(const TextFile& source, SharedParts& parts);
 
 }  // namespace throng::crowd

@@ -178,12 +178,12 @@ class AcrossMesh : public VelComponent {
 std::unique_ptr<VelComponent> make_across_mesh(const Element& element, const Attributes& attributes,
                                                BehaviorContext& context) {
   SharedParts& parts = *context.crowd.parts;
-  const std::filesystem::path path = element.file_beside(attributes.text("file_name"));
+  const TextFile file = element.text_file(attributes.text("file_name"));
   const Lengths lengths =
       context.crowd.compat == Compat::none ? Lengths::shortest : Lengths::centres;
-  auto routes = parts.get<NavMeshRoutes>(path.lexically_normal().string(), [&] {
-    return std::make_shared<NavMeshRoutes>(shared_nav_mesh(path, parts), path.filename().string(),
-                                           lengths);
+  auto routes = parts.get<NavMeshRoutes>(file.key(), [&] {
+    return std::make_shared<NavMeshRoutes>(shared_nav_mesh(file, parts),
+                                           file.path.filename().string(), lengths);
   });
   return std::make_unique<AcrossMesh>(
       std::move(routes), std::cos(attributes.real("heading_threshold") * kRadiansPerDegree));

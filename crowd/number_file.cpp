@@ -16,8 +16,9 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; 
 
 }  // namespace
 
-NumberFile::NumberFile(const std::filesystem::path& path)
-    : name_(path.filename().string()), text_(read_file(path)) {}
+NumberFile::NumberFile(const TextFile& file)
+    : name_(file.path.filename().string()),
+      text_(file.text != nullptr ? *file.text : read_file(file.path)) {}
 
 void NumberFile::skip_space() {
   for (; position_ < text_.size() && is_space(text_[position_]); ++position_) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "crowd/attributes.h"
+#include "crowd/text_file.h"
 
 namespace throng::crowd {
 
@@ -15,7 +15,7 @@ namespace throng::crowd {
 class NumberFile {
  public:
   /// Throws EnvironmentError when the file cannot be read.
-  explicit NumberFile(const std::filesystem::path& path);
+  explicit NumberFile(const TextFile& file);
 
   /// The next number; `what` names it in errors.
   double number(std::string_view what, double min = -kFarthest, double max = kFarthest);

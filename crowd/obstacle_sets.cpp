@@ -47,8 +47,7 @@ std::unique_ptr<ObstacleSet> make_explicit(const Element& element, const Attribu
 std::unique_ptr<ObstacleSet> make_of_mesh(const Element& element, const Attributes& attributes,
                                           ObstacleSetContext& context) {
   element.require_no_children();
-  const auto file =
-      shared_nav_mesh(element.file_beside(attributes.text("file_name")), context.parts);
+  const auto file = shared_nav_mesh(element.text_file(attributes.text("file_name")), context.parts);
   auto set = std::make_unique<ObstacleSet>();
   for (const std::vector<Eigen::Vector2f>& outline : file->outlines) {
     set->polygons.push_back({outline, element});

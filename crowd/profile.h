@@ -8,9 +8,9 @@
 #include "crowd/agents.h"
 #include "crowd/attributes.h"
 #include "crowd/distribution.h"
+#include "crowd/element.h"
 #include "crowd/menge_random.h"
 #include "crowd/model.h"
-#include "crowd/xml.h"
 
 namespace throng::crowd {
 

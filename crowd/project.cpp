@@ -5,8 +5,9 @@
 
 #include <algorithm>
 
+#include "crowd/element.h"
+#include "crowd/menge_files/read.h"
 #include "crowd/model.h"
-#include "crowd/xml.h"
 
 namespace throng::crowd {
 
@@ -119,7 +120,8 @@ AttributeTable project_attributes() {
 
 Project load_project(const fs::path& file) {
   require_file(file, "project");
-  const XmlFile xml(file, "Project");
+  const Description description = read_description(file, "Project");
+  Reading xml(description, "Project");
   const Element element = xml.root();
   const Attributes attributes(element, project_attributes());
   for (const Element& child : element.children()) child.warn("an element", "none in a project");

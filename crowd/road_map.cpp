@@ -10,8 +10,8 @@
 
 namespace throng::crowd {
 
-RoadMap load_road_map(const std::filesystem::path& path) {
-  NumberFile file(path);
+RoadMap load_road_map(const TextFile& source) {
+  NumberFile file(source);
   RoadMap map;
   const int places = file.count("the number of places", 1, 3);
   for (int i = 0; i < places; ++i) {
@@ -199,10 +199,9 @@ class AlongRoads : public VelComponent {
 
 std::unique_ptr<VelComponent> make_along_roads(const Element& element, const Attributes& attributes,
                                                BehaviorContext& context) {
-  const std::filesystem::path path = element.file_beside(attributes.text("file_name"));
+  const TextFile file = element.text_file(attributes.text("file_name"));
   return std::make_unique<AlongRoads>(context.crowd.parts->get<RoadMapRoutes>(
-      path.lexically_normal().string(),
-      [&] { return std::make_shared<RoadMapRoutes>(load_road_map(path)); }));
+      file.key(), [&] { return std::make_shared<RoadMapRoutes>(load_road_map(file)); }));
 }
 
 }  // namespace

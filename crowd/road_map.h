@@ -4,11 +4,11 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <array>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
 #include "crowd/steering.h"
+#include "crowd/text_file.h"
 
 namespace throng::crowd {
 
@@ -25,7 +25,7 @@ struct RoadMap {
 
 /// Reads Menge's format: places with the number of their roads, then roads. Throws InputError
 /// (file, line, found, expected), EnvironmentError when the file cannot be read.
-RoadMap load_road_map(const std::filesystem::path& path);
+RoadMap load_road_map(const TextFile& source);
 
 /// The shortest way between two places, by A* (Hart, Nilsson and Raphael 1968). One for each
 /// thread: it keeps its memory.

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "crowd/xml.h"
+#include "crowd/element.h"
 
 namespace throng::crowd {
 

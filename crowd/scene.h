@@ -7,9 +7,9 @@
 #include "crowd/attributes.h"
 #include "crowd/behavior.h"
 #include "crowd/crowd.h"
+#include "crowd/element.h"
 #include "crowd/menge_random.h"
 #include "crowd/model.h"
-#include "crowd/xml.h"
 
 namespace throng::crowd {
 

@@ -9,18 +9,19 @@
 #include "crowd/behavior.h"
 #include "crowd/bodies.h"
 #include "crowd/crowd.h"
+#include "crowd/element.h"
 #include "crowd/grid.h"
 #include "crowd/machine.h"
+#include "crowd/menge_files/read.h"
 #include "crowd/model.h"
 #include "crowd/motion.h"
 #include "crowd/scene.h"
 #include "crowd/separation.h"
-#include "crowd/xml.h"
 
 namespace throng::crowd {
 
 struct Simulation::State {
-  State(const std::filesystem::path& scene_file, const std::filesystem::path& behavior_file,
+  State(const SceneDescription& scene_description, const BehaviorDescription& behavior_description,
         const LoadOptions& options);
 
   void step();
@@ -39,14 +40,12 @@ struct Simulation::State {
   std::vector<Eigen::Vector2f> new_velocity;
 };
 
-Simulation::State::State(const std::filesystem::path& scene_file,
-                         const std::filesystem::path& behavior_file, const LoadOptions& options) {
-  XmlFile scene(scene_file, "Experiment");
-  XmlFile behavior(behavior_file, "BFSM");
-  if (options.compat != Compat::none) {
-    scene.take_words_for_zero();
-    behavior.take_words_for_zero();
-  }
+Simulation::State::State(const SceneDescription& scene_description,
+                         const BehaviorDescription& behavior_description,
+                         const LoadOptions& options) {
+  const bool words_are_zero = options.compat != Compat::none;
+  Reading scene(scene_description, "Experiment", words_are_zero);
+  Reading behavior(behavior_description, "BFSM", words_are_zero);
   const ModelEntry& entry = find_model(options.model);
   state_names = load_state_names(behavior.root());
   crowd.compat = options.compat;
@@ -98,7 +97,11 @@ void Simulation::State::sub_step() {
 
 Simulation::Simulation(const std::filesystem::path& scene_file,
                        const std::filesystem::path& behavior_file, const LoadOptions& options)
-    : state_(std::make_unique<State>(scene_file, behavior_file, options)) {}
+    : Simulation(read_scene(scene_file), read_behavior(behavior_file), options) {}
+
+Simulation::Simulation(const SceneDescription& scene, const BehaviorDescription& behavior,
+                       const LoadOptions& options)
+    : state_(std::make_unique<State>(scene, behavior, options)) {}
 
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "crowd/description/description.h"
 
 namespace throng::crowd {
 
@@ -53,12 +54,18 @@ struct GoalId {
   std::int32_t goal = -1;
 };
 
-/// A running crowd. Results depend on the files and the seed only, not on the number of threads.
+/// A running crowd. Results depend on the descriptions and the seed only, not on the number of
+/// threads.
 class Simulation {
  public:
   /// Loads a Menge scene and behaviour file. Throws InputError (file, line, element, found,
   /// expected) for anything it does not understand, EnvironmentError for unreadable files.
   Simulation(const std::filesystem::path& scene_file, const std::filesystem::path& behavior_file,
+             const LoadOptions& options);
+  /// Makes a crowd from descriptions, e.g. of SceneBuilder and BehaviorBuilder. They may go
+  /// afterwards. Throws like the constructor above; of elements that were built in code errors say
+  /// so, and which they are.
+  Simulation(const SceneDescription& scene, const BehaviorDescription& behavior,
              const LoadOptions& options);
   ~Simulation();
   Simulation(Simulation&&) noexcept;

@@ -11,8 +11,8 @@
 
 namespace throng::crowd {
 
-VectorField::VectorField(const std::filesystem::path& path) {
-  NumberFile file(path);
+VectorField::VectorField(const TextFile& source) {
+  NumberFile file(source);
   rows_ = file.count("the number of rows", 1, 2);
   columns_ = file.count("the number of columns", 1, 2);
   cell_size_m_ = file.real("the size of a cell in m", 1e-3, 1e4);
@@ -77,10 +77,10 @@ class AlongField : public VelComponent {
 
 std::unique_ptr<VelComponent> make_along_field(const Element& element, const Attributes& attributes,
                                                BehaviorContext& context) {
-  const std::filesystem::path path = element.file_beside(attributes.text("file_name"));
+  const TextFile file = element.text_file(attributes.text("file_name"));
   return std::make_unique<AlongField>(
-      context.crowd.parts->get<VectorField>(path.lexically_normal().string(),
-                                            [&] { return std::make_shared<VectorField>(path); }),
+      context.crowd.parts->get<VectorField>(file.key(),
+                                            [&] { return std::make_shared<VectorField>(file); }),
       attributes.boolean("use_nearest"));
 }
 

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <vector>
+
+#include "crowd/text_file.h"
 
 namespace throng::crowd {
 
@@ -13,7 +14,7 @@ class VectorField {
   /// Reads Menge's format: rows and columns, cell size, the corner of least x and y, then the
   /// vectors row by row. Throws InputError (file, line, found, expected), EnvironmentError when
   /// the file cannot be read.
-  explicit VectorField(const std::filesystem::path& path);
+  explicit VectorField(const TextFile& source);
 
   /// Of the cell that holds the point.
   Eigen::Vector2f nearest(const Eigen::Vector2f& point) const;

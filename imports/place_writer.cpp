@@ -4,25 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "crowd/description/builder.h"
+#include "crowd/menge_files/write.h"
 #include "imports/mesh_text.h"
 
 namespace throng::imports {
 
 namespace fs = std::filesystem;
+using crowd::decimals_text;
+using crowd::Node;
+using crowd::SceneBuilder;
 using Eigen::Vector2d;
 using nlohmann::json;
+namespace describe = crowd::describe;
 
 namespace {
 
 constexpr double kUsualSpeedMps = 1.34;  // Weidmann 1993
 constexpr double kGoalBeyondM = 2;
+constexpr int kDecimals = 3;  // millimetres are enough, and short
 constexpr double kDegrees = 180 / EIGEN_PI;
 
-// Millimetres are enough, and short.
 double rounded(double value) { return std::round(value * 1000) / 1000; }
 json point(const Vector2d& p) { return {rounded(p.x()), rounded(p.y())}; }
 
@@ -132,22 +137,9 @@ json job_json(const Place& place) {
           {"capture", {{"rate_hz", 0.5}, {"from_s", 4}, {"to_s", 30}}}};
 }
 
-using Out = std::back_insert_iterator<std::string>;
-
-void add_group(Out out, const std::vector<Vector2d>& starts, const std::string& arrivals) {
-  fmt::format_to(out,
-                 "  <AgentGroup>\n    <ProfileSelector type=\"const\" name=\"person\"/>\n"
-                 "    <StateSelector type=\"const\" name=\"Walk\"/>\n"
-                 "    <Generator type=\"explicit\">\n");
-  for (const Vector2d& start : starts) {
-    fmt::format_to(out, "      <Agent p_x=\"{:.3f}\" p_y=\"{:.3f}\"/>\n", start.x(), start.y());
-  }
-  fmt::format_to(out, "    </Generator>\n{}  </AgentGroup>\n", arrivals);
-}
-
 // As many come in as a place of this size with so many people loses, when everybody walks across it
 // once (Little's law).
-void add_arrivals(Out out, const Place& place, const Population& population) {
+void add_arrivals(const Place& place, const Population& population, SceneBuilder& scene) {
   constexpr double kInM = 2;
   constexpr double kUntilS = 600;
   const double across_s = (place.inside.max - place.inside.min).maxCoeff() / kUsualSpeedMps;
@@ -164,62 +156,55 @@ void add_arrivals(Out out, const Place& place, const Population& population) {
     const double half = std::max(0.0, 0.5 * (gate.to - gate.from).norm() - 0.6);
     for (double at = -half; at <= half; at += 0.9)
       starts.emplace_back(middle + kInM * in + at * along);
-    add_group(out, starts,
-              fmt::format("    <Arrivals type=\"rate\" per_second=\"{:.4f}\" end=\"{}\"/>\n", per_s,
-                          kUntilS));
+    Node arrivals = describe::typed("Arrivals", "rate",
+                                    {{"per_second", decimals_text(per_s, 4)}, {"end", kUntilS}});
+    scene.add_group(
+        {"person", "Walk", describe::agents_at(starts, kDecimals), {std::move(arrivals)}});
   }
 }
 
-std::string scene_xml(const Place& place, const Population& population) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<Experiment version=\"2.0\">\n"
-      "  <SpatialQuery type=\"kd-tree\" test_visibility=\"0\"/>\n  <Common time_step=\"0.1\"/>\n"
-      "  <AgentProfile name=\"person\">\n"
-      "    <Common max_angle_vel=\"360\" max_neighbors=\"10\" obstacleSet=\"1\" "
-      "neighbor_dist=\"5\" r=\"0.2\" class=\"1\" pref_speed=\"1.34\" max_speed=\"2\" "
-      "max_accel=\"5\">\n"
-      "      <Property name=\"pref_speed\" dist=\"n\" mean=\"1.34\" stddev=\"0.26\"/>\n"
-      "    </Common>\n    <ORCA tau=\"3\" tauObst=\"0.4\"/>\n  </AgentProfile>\n";
-  const Out out = std::back_inserter(text);
-  if (!population.starts.empty()) add_group(out, population.starts, "");
-  if (place.people_come) add_arrivals(out, place, population);
+crowd::SceneDescription scene_of(const Place& place, const Population& population) {
+  SceneBuilder scene;
+  scene.add_profile({.name = "person",
+                     .common = {{"max_angle_vel", 360},
+                                {"max_neighbors", 10},
+                                {"obstacleSet", 1},
+                                {"neighbor_dist", 5},
+                                {"r", 0.2},
+                                {"class", 1},
+                                {"pref_speed", kUsualSpeedMps},
+                                {"max_speed", 2},
+                                {"max_accel", 5}},
+                     .properties = {describe::property(
+                         "pref_speed", describe::Sampled::normal(kUsualSpeedMps, 0.26))},
+                     .models = {describe::model("ORCA", {{"tau", 3}, {"tauObst", 0.4}})}});
+  if (!population.starts.empty()) {
+    scene.add_group({"person", "Walk", describe::agents_at(population.starts, kDecimals)});
+  }
+  if (place.people_come) add_arrivals(place, population, scene);
   std::vector<Corners> obstacles = place.obstacles;
   for (const world::Prop& prop : place.props) obstacles.push_back(footprint_of(prop));
-  text += "  <ObstacleSet type=\"explicit\" class=\"1\">\n";
-  for (const Corners& obstacle : obstacles) {
-    text += "    <Obstacle closed=\"1\">\n";
-    for (const Vector2d& corner : obstacle) {
-      fmt::format_to(out, "      <Vertex p_x=\"{:.3f}\" p_y=\"{:.3f}\"/>\n", corner.x(),
-                     corner.y());
-    }
-    text += "    </Obstacle>\n";
-  }
-  return text + "  </ObstacleSet>\n</Experiment>\n";
+  scene.add_obstacles(obstacles, 1, kDecimals);
+  return scene.build();
 }
 
-std::string behavior_xml(const Place& place, const Population& population) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<!-- A beginning: everybody walks to one of the exits and leaves. "
-      "-->\n<BFSM>\n  <GoalSet id=\"0\">\n";
-  const Out out = std::back_inserter(text);
-  for (std::size_t i = 0; i < population.gates.size(); ++i) {
-    const Gate& gate = population.gates[i];
+crowd::BehaviorDescription behavior_of(const Place& place, const Population& population) {
+  std::vector<Node> goals;
+  for (const Gate& gate : population.gates) {
     const Vector2d goal =
         0.5 * (gate.from + gate.to) + kGoalBeyondM * outward_of(gate, place.inside);
     const double radius = std::clamp(0.4 * (gate.to - gate.from).norm(), 0.5, 1.5);
-    fmt::format_to(out,
-                   "    <Goal id=\"{}\" type=\"circle\" x=\"{:.3f}\" y=\"{:.3f}\" "
-                   "radius=\"{:.2f}\"/>\n",
-                   i, goal.x(), goal.y(), radius);
+    goals.push_back(describe::circle_goal(static_cast<int>(goals.size()), goal, radius, kDecimals));
+    goals.back().set({"radius", decimals_text(radius, 2)});
   }
-  return text +
-         "  </GoalSet>\n"
-         "  <State name=\"Walk\" final=\"0\">\n"
-         "    <GoalSelector type=\"random\" goal_set=\"0\"/>\n    <VelComponent type=\"auto\"/>\n"
-         "  </State>\n"
-         "  <State name=\"Gone\" final=\"1\"><Action type=\"leave\"/></State>\n"
-         "  <Transition from=\"Walk\" to=\"Gone\"><Condition type=\"goal_reached\"/></Transition>\n"
-         "</BFSM>\n";
+  crowd::BehaviorBuilder behavior;
+  behavior.add_goal_set(0, std::move(goals));
+  behavior.add_state("Walk", {describe::select_goal("random", 0), describe::velocity("auto")});
+  behavior.add_final_state("Gone", {describe::action("leave")});
+  behavior.add_transition("Walk", "Gone", describe::condition("goal_reached"));
+  crowd::BehaviorDescription description = behavior.build();
+  description.root.comment = "A beginning: everybody walks to one of the exits and leaves.";
+  return description;
 }
 
 }  // namespace
@@ -257,8 +242,10 @@ fs::path write_place(const Place& place, const Population& population, const fs:
   std::string skipped;
   for (const Skipped& one : place.skipped) skipped += one.text() + "\n";
   write_file_atomically(folder / (place.name + ".skipped.txt"), skipped);
-  write_file_atomically(folder / (place.name + "_scene.xml"), scene_xml(place, population));
-  write_file_atomically(folder / (place.name + "_behavior.xml"), behavior_xml(place, population));
+  write_file_atomically(folder / (place.name + "_scene.xml"),
+                        crowd::to_xml(scene_of(place, population)));
+  write_file_atomically(folder / (place.name + "_behavior.xml"),
+                        crowd::to_xml(behavior_of(place, population)));
   write_file_atomically(folder / (place.name + ".job.json"), job_json(place).dump(kIndent) + "\n");
   const fs::path file = folder / (place.name + ".json");
   write_file_atomically(file, scenario_json(place, population).dump(kIndent) + "\n");

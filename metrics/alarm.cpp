@@ -6,7 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "crowd/xml.h"
+#include "crowd/element.h"
+#include "world/scenario_crowd.h"
 #include "world/trace.h"
 
 namespace throng::metrics {
@@ -131,12 +132,13 @@ Alarm alarm_of(const world::Scenario& scenario) {
   for (const world::Disaster& disaster : scenario.disasters) {
     alarm.at_s = std::min(alarm.at_s.value_or(disaster.start_s), disaster.start_s);
   }
-  if (scenario.behavior_file.empty() || scenario.scene_file.empty()) return alarm;
+  if (!scenario.has_crowd()) return alarm;
+  const crowd::CrowdDescription crowd = world::crowd_of(scenario);
   StateGraph graph;
-  read_behavior(crowd::XmlFile(scenario.behavior_file, "BFSM").root(), graph);
+  read_behavior(crowd::Reading(crowd.behavior, "BFSM").root(), graph);
   if (!alarm.at_s && !scenario.disaster_agents.empty()) alarm.at_s = graph.first_proximity_s;
   Names initial;
-  gather_initial(crowd::XmlFile(scenario.scene_file, "Experiment").root(), false, initial);
+  gather_initial(crowd::Reading(crowd.scene, "Experiment").root(), false, initial);
   const Names unaware = graph.reached_from(std::move(initial), false);
   Names informed = graph.informed_by_events;
   for (const StateGraph::Edge& edge : graph.informing) informed.insert(edge.to);

@@ -6,8 +6,9 @@
 
 #include "base/files.h"
 #include "base/json_text.h"
+#include "crowd/menge_files/write.h"
 #include "places/blocked.h"
-#include "places/crowd_files.h"
+#include "places/crowd_scene.h"
 #include "places/people.h"
 #include "places/shorthand.h"
 #include "world/json_reader.h"
@@ -19,16 +20,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-/// Files that are removed again: the scenario reader wants the Menge files to be there.
-class Draft {
- public:
-  Draft(const fs::path& beside, const std::string& id) : folder_(beside / (id + "_draft")) {}
-  const fs::path& path() const { return folder_.path(); }
-
- private:
-  StagingFolder folder_;
-};
 
 std::string scene_name(const std::string& id) { return id + "_scene.xml"; }
 std::string behavior_name(const std::string& id) { return id + "_behavior.xml"; }
@@ -48,12 +39,11 @@ json disasters_json(const People& people) {
   return list;
 }
 
-/// The scenario file's document without what only the people say.
-json scenario_json(const json& blueprint, const std::string& id) {
+/// The scenario file's document without what only the people say, and without its crowd.
+json scenario_json(const json& blueprint) {
   json document = blueprint;
   document.erase("people");
   document.erase("disasters");
-  document["crowd"] = {{"scene", scene_name(id)}, {"behavior", behavior_name(id)}};
   const auto exits = document.find("exits");
   if (exits == document.end() || !exits->is_array()) return document;
   int number = 0;
@@ -65,20 +55,9 @@ json scenario_json(const json& blueprint, const std::string& id) {
 }
 
 /// The place without its people: what is wrong with it is the blueprint's fault.
-world::Scenario read_place(json document, const std::string& source, const fs::path& folder,
-                           const std::string& id) {
+world::Scenario read_place(json document, const std::string& source, const std::string& id) {
   document.erase("meshes");  // their files are not here, and people do not walk into them
-  const Draft draft(folder, id);
-  write_file_atomically(draft.path() / scene_name(id), "<Experiment/>");
-  write_file_atomically(draft.path() / behavior_name(id), "<BFSM/>");
-  write_file_atomically(draft.path() / (id + ".json"), document.dump());
-  try {
-    return world::load_scenario(draft.path() / (id + ".json"), id);
-  } catch (const InputError& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems) problem.source = source;
-    throw InputError(std::move(problems));
-  }
+  return world::parse_scenario(document, source, id);
 }
 
 /// What a disaster changes about the exits, and the goals that fleeing people have.
@@ -121,8 +100,7 @@ json load_blueprint(const fs::path& file) {
   return base;
 }
 
-fs::path make_scenario(const json& said, const std::string& source, const fs::path& folder,
-                       const std::string& id) {
+BuiltScenario build_scenario(const json& said, const std::string& source, const std::string& id) {
   std::vector<Problem> problems;
   json blueprint = said;
   expand_shorthand(blueprint, source, problems);
@@ -131,18 +109,25 @@ fs::path make_scenario(const json& said, const std::string& source, const fs::pa
   root.fields({"name", "ground", "inside", "exits", "people"},
               {"description", "buildings", "drones", "disasters", "meshes", "props", "scatter"});
   if (!problems.empty()) throw InputError(std::move(problems));
-  json document = scenario_json(blueprint, id);
-  const world::Scenario place = read_place(document, source, folder, id);
+  BuiltScenario built{scenario_json(blueprint), {}};
+  const world::Scenario place = read_place(built.document, source, id);
   const People people = read_people(root["people"], root["disasters"], place.exits);
   if (!problems.empty()) throw InputError(std::move(problems));
-  const CrowdFiles files = write_crowd(place, people, problems);
+  built.crowd = crowd_of_people(place, people, problems);
   for (Problem& problem : problems) problem.source = source;
   if (!problems.empty()) throw InputError(std::move(problems));
-  add_emergency(place, people, document);
-  write_file_atomically(folder / scene_name(id), files.scene);
-  write_file_atomically(folder / behavior_name(id), files.behavior);
+  add_emergency(place, people, built.document);
+  return built;
+}
+
+fs::path make_scenario(const json& blueprint, const std::string& source, const fs::path& folder,
+                       const std::string& id) {
+  BuiltScenario built = build_scenario(blueprint, source, id);
+  built.document["crowd"] = {{"scene", scene_name(id)}, {"behavior", behavior_name(id)}};
+  write_file_atomically(folder / scene_name(id), crowd::to_xml(built.crowd.scene));
+  write_file_atomically(folder / behavior_name(id), crowd::to_xml(built.crowd.behavior));
   const fs::path file = folder / (id + ".json");
-  write_file_atomically(file, document.dump(1) + "\n");
+  write_file_atomically(file, built.document.dump(1) + "\n");
   return file;
 }
 

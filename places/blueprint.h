@@ -4,8 +4,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
+
+#include "crowd/description/description.h"
 
 namespace throng::places {
 
@@ -13,9 +15,20 @@ namespace throng::places {
 /// (RFC 7396). Throws InputError and EnvironmentError.
 nlohmann::json load_blueprint(const std::filesystem::path& file);
 
+/// A scenario in memory.
+struct BuiltScenario {
+  nlohmann::json document;  ///< what is in the scenario's file, but for its "crowd"
+  crowd::CrowdDescription crowd;
+};
+
+/// Builds the scenario that a blueprint describes. `source` names the blueprint in messages. Throws
+/// InputError for what is wrong with it.
+BuiltScenario build_scenario(const nlohmann::json& blueprint, const std::string& source,
+                             const std::string& id);
+
 /// Makes the scenario ID.json, ID_scene.xml and ID_behavior.xml in the folder and returns the
-/// first. `source` names the blueprint in messages. The same blueprint gives the same bytes. Throws
-/// InputError for what is wrong with it, EnvironmentError when the folder cannot be written.
+/// first. The same blueprint gives the same bytes. Throws like build_scenario, and EnvironmentError
+/// when the folder cannot be written.
 std::filesystem::path make_scenario(const nlohmann::json& blueprint, const std::string& source,
                                     const std::filesystem::path& folder, const std::string& id);
 

@@ -61,7 +61,7 @@ std::vector<Finding> check(const world::Scenario& scenario, const std::string& s
   std::vector<Finding> all = findings.take();
   // Grids of what has the wrong size would be absurd, too.
   if (any_error(all)) return all;
-  if (scenario.scene_file.empty()) return all;  // a place for recorded people
+  if (!scenario.has_crowd()) return all;  // a place for recorded people
   try {
     const LoadedCrowd loaded = load_crowd_of(scenario);
     const Routes routes = find_routes(scenario, loaded);

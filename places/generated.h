@@ -6,9 +6,8 @@
 
 namespace throng::places {
 
-/// The scenario of a spec; its id is "generated/" + id_of(spec). Its files are made once per
-/// process, in a temporary folder that goes with the process. Throws EnvironmentError when they
-/// cannot be written. May be called by several threads.
+/// The scenario of a spec; its id is "generated/" + id_of(spec). Nothing is written: its crowd is
+/// Scenario::built_crowd.
 world::Scenario load_generated(const PlaceSpec& spec);
 
 }  // namespace throng::places

@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "crowd/behavior.h"
+#include "crowd/element.h"
 #include "crowd/model.h"
 #include "crowd/scene.h"
-#include "crowd/xml.h"
+#include "world/scenario_crowd.h"
 
 namespace throng::places {
 
@@ -120,13 +121,10 @@ void walk_from_doors(const world::Scenario& scenario, Routes& routes) {
 }  // namespace
 
 LoadedCrowd load_crowd_of(const world::Scenario& scenario) {
-  if (scenario.scene_file.empty() || scenario.behavior_file.empty()) {
-    throw InputError({scenario.id, "/crowd", "nothing: a place for recorded people",
-                      "the scene and behavior of a crowd"});
-  }
   LoadedCrowd loaded;
-  const crowd::XmlFile scene(scenario.scene_file, "Experiment");
-  const crowd::XmlFile behavior(scenario.behavior_file, "BFSM");
+  const crowd::CrowdDescription description = world::crowd_of(scenario);
+  crowd::Reading scene(description.scene, "Experiment");
+  crowd::Reading behavior(description.behavior, "BFSM");
   const crowd::ModelEntry& model =
       crowd::find_model(scenario.crowd_model.empty() ? "ttc" : scenario.crowd_model);
   const std::vector<std::string> states = crowd::load_state_names(behavior.root());

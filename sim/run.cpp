@@ -18,6 +18,7 @@
 #include "sim/prop_watch.h"
 #include "sim/separation.h"
 #include "sim/trace_recorder.h"
+#include "world/scenario_crowd.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -161,10 +162,7 @@ std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
 
 crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed,
                              const CrowdSpec& spec) {
-  if (scenario.scene_file.empty() || scenario.behavior_file.empty()) {
-    throw InputError({scenario.id, "/crowd", "nothing: a place for recorded people",
-                      "the scene and behavior of a crowd to simulate"});
-  }
+  const crowd::CrowdDescription description = world::crowd_of(scenario);
   crowd::LoadOptions options;
   options.seed = seed;
   options.model = model_for(scenario, spec);
@@ -172,7 +170,7 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
   options.hard_separation = spec.hard_separation;
   options.compliance = spec.compliance;
   options.physical = spec.physical;
-  return {scenario.scene_file, scenario.behavior_file, options};
+  return {description.scene, description.behavior, options};
 }
 
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,

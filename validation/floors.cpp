@@ -48,7 +48,7 @@ bool within(const Eigen::Vector2f& p, double min_x, double min_y, double max_x, 
 }
 
 /// The mean speed of a single file in m/s: so many people in a ring of 26 m, from 20 s to 80 s.
-double file_speed(const Tested& tested, std::size_t people, const std::string& speed) {
+double file_speed(const Tested& tested, std::size_t people, const Sampled& speed) {
   crowd::Simulation crowd = load(ring({26 / (2 * M_PI), 0.8, people, speed}), tested, kFloorSeed);
   return mean_ring_speed(crowd, 20, 80);
 }
@@ -63,9 +63,8 @@ std::vector<Polygon> room(double width, double height, const std::vector<Door>& 
   return walls;
 }
 
-std::string exit_goal(int id, double x, double y) {
-  return fmt::format(R"(<Goal id="{}" type="AABB" min_x="{}" min_y="{}" max_x="{}" max_y="{}"/>)",
-                     id, x - 0.5, y - 0.5, x + 0.5, y + 0.5);
+crowd::Node exit_goal(int id, double x, double y) {
+  return describe::box_goal(id, {x - 0.5, y - 0.5}, {x + 0.5, y + 0.5});
 }
 
 Corridor walk_corridor(const Tested& tested, double speed_mps) {
@@ -74,9 +73,9 @@ Corridor walk_corridor(const Tested& tested, double speed_mps) {
   Group group;
   group.places = {Vector2d(0, 0)};
   group.aside_m = 0;
-  group.speed = fmt::format(R"(dist="c" value="{}")", speed_mps);
+  group.speed = Sampled::constant(speed_mps);
   scene.groups = {group};
-  scene.behavior = goal_box(0, 42, -0.5, 43, 0.5) + walk_to(0) + leave_at_goal();
+  scene.behavior.goal_box(0, 42, -0.5, 43, 0.5).walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kFloorSeed);
   Corridor walk;
   until_all_left(crowd, 200, [&](const crowd::Simulation& now) {
@@ -87,16 +86,14 @@ Corridor walk_corridor(const Tested& tested, double speed_mps) {
   return walk;
 }
 
-std::vector<double> walk_alone(const Tested& tested, const std::string& speed, std::size_t people) {
+std::vector<double> walk_alone(const Tested& tested, const Sampled& speed, std::size_t people) {
   Scene scene;
   Group group;
   for (std::size_t i = 0; i < people; ++i)
     group.places.emplace_back(0, 20.0 * static_cast<double>(i));
   group.speed = speed;
   scene.groups = {group};
-  scene.behavior =
-      R"(<State name="Walk" final="0"><VelComponent type="const_dir" x="1" y="0"/></State>
-)";
+  scene.behavior.add_state("Walk", {describe::velocity("const_dir", {{"x", 1}, {"y", 0}})});
   crowd::Simulation crowd = load(scene, tested, kFloorSeed);
   constexpr double kBegin = 10;  // s; by then everybody is as fast as they will be
   constexpr double kEnd = 30;    // s
@@ -137,7 +134,7 @@ Verdict round_corner(const Tested& tested, double most_s) {
   Group group;
   group.places = lattice({-10, 0.25}, {-4, 1.75}, 20);
   scene.groups = {group};
-  scene.behavior = goal_box(0, 0.5, 11, 1.5, 12) + walk_to(0) + leave_at_goal();
+  scene.behavior.goal_box(0, 0.5, 11, 1.5, 12).walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kFloorSeed);
   long outside = 0;
   const auto end = until_all_left(crowd, 300, [&](const crowd::Simulation& now) {
@@ -175,15 +172,10 @@ Verdict assigned_exits(const Tested& tested, Effort) {
     }
   }
   scene.groups = {main, other};
-  const auto told = [](const char* state, int goal) {
-    return fmt::format(
-        R"(<State name="{}" final="0"><GoalSelector type="explicit" goal_set="0" goal="{}"/><VelComponent type="auto"/></State>
-)",
-        state, goal);
-  };
-  scene.behavior = "<GoalSet id=\"0\">" + exit_goal(0, -2, 1) + exit_goal(1, 32, 1) +
-                   "</GoalSet>\n" + told("Main", 0) + told("Other", 1) +
-                   leave_at_goal("Main,Other");
+  scene.behavior.add_goal_set(0, {exit_goal(0, -2, 1), exit_goal(1, 32, 1)});
+  scene.behavior.add_state("Main", {describe::select_goal(0, 0), describe::velocity("auto")});
+  scene.behavior.add_state("Other", {describe::select_goal(0, 1), describe::velocity("auto")});
+  scene.behavior.leave_at_goal("Main,Other");
   crowd::Simulation crowd = load(scene, tested, kFloorSeed);
   const std::vector<int> used = exits_used(crowd, {Vector2d(-2, 1), Vector2d(32, 1)}, 600);
   const int told_main = static_cast<int>(main.places.size());
@@ -201,9 +193,9 @@ Verdict single_file(const Tested& tested, Effort effort) {
   bool ordered = true;
   std::string values;
   for (const std::size_t people : numbers) {
-    const double speed = file_speed(tested, people, R"(dist="c" value="1.34")");
-    const double slower = file_speed(tested, people, R"(dist="c" value="0.8")");
-    const double faster = file_speed(tested, people, R"(dist="c" value="1.6")");
+    const double speed = file_speed(tested, people, Sampled::constant(1.34));
+    const double slower = file_speed(tested, people, Sampled::constant(0.8));
+    const double faster = file_speed(tested, people, Sampled::constant(1.6));
     constexpr double kSame = 0.02;  // m/s
     ordered = ordered && slower < speed + kSame && speed < faster + kSame;
     const double headway = 26 / static_cast<double>(people);

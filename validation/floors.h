@@ -18,7 +18,7 @@ struct Door {
 std::vector<Polygon> room(double width, double height, const std::vector<Door>& doors);
 
 /// A goal behind a door: a box of 1 m x 1 m.
-std::string exit_goal(int id, double x, double y);
+crowd::Node exit_goal(int id, double x, double y);
 
 struct Corridor {
   double time_s = 0;   ///< for 40 m
@@ -28,9 +28,9 @@ struct Corridor {
 /// One person with this free speed through a corridor of 2 m x 40 m.
 Corridor walk_corridor(const Tested& tested, double speed_mps);
 
-/// The mean speeds of so many people on a plain, far from each other, in m/s. `speed` is a
-/// distribution as the files write it.
-std::vector<double> walk_alone(const Tested& tested, const std::string& speed, std::size_t people);
+/// The mean speeds of so many people on a plain, far from each other, in m/s. `speed` is their free
+/// speed.
+std::vector<double> walk_alone(const Tested& tested, const Sampled& speed, std::size_t people);
 
 /// How many left next to each of these places within `most_s`.
 std::vector<int> exits_used(crowd::Simulation& crowd, const std::vector<Eigen::Vector2d>& exits,

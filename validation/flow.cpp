@@ -64,10 +64,10 @@ Scene ring(const Ring& spec) {
   scene.groups = {group};
   scene.walls = {regular_polygon(inner, false), regular_polygon(outer, true)};
   scene.files = {{"around.txt", around_field(outer + 1)}};
-  scene.behavior =
-      R"(<State name="Walk" final="0"><GoalSelector type="identity"/>
-<VelComponent type="vel_field" file_name="around.txt" use_nearest="0"/></State>
-)";
+  scene.behavior.add_state(
+      "Walk",
+      {describe::select_own_place(),
+       describe::velocity("vel_field", {{"file_name", "around.txt"}, {"use_nearest", false}})});
   return scene;
 }
 
@@ -107,7 +107,7 @@ Scene room_with_door(const Bottleneck& door) {
   group.aside_m = 0.1;
   scene.groups = {group};
   const double beyond = door.wall_m + 6;
-  scene.behavior = goal_box(0, beyond, -2, beyond + 2, 2) + walk_to(0) + leave_at_goal();
+  scene.behavior.goal_box(0, beyond, -2, beyond + 2, 2).walk_to(0).leave_at_goal();
   return scene;
 }
 

@@ -23,7 +23,7 @@ struct Ring {
   double radius_m = 12.5;  ///< mean
   double width_m = 3;
   std::size_t people = 100;
-  std::string speed = Group{}.speed;
+  Sampled speed = Group{}.speed;
 };
 Scene ring(const Ring& spec);
 /// The mean speed along a ring around the origin between two times.

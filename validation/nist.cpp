@@ -25,7 +25,7 @@ Verdict corridor_speed(const Tested& tested, Effort) {
 
 Verdict demographics(const Tested& tested, Effort) {
   const std::vector<double> speeds =
-      walk_alone(tested, R"(dist="n" mean="1.2" stddev="0.2" at_least="0.4" at_most="2")", 100);
+      walk_alone(tested, Sampled::normal(1.2, 0.2).limited(0.4, 2), 100);
   double mean = 0;
   for (const double speed : speeds) mean += speed / 100;
   double variance = 0;
@@ -76,14 +76,19 @@ Verdict closing_exit(const Tested& tested, Effort) {
   Group group;
   group.places = lattice({3, 1}, {9, 9}, 60);
   scene.groups = {group};
-  scene.behavior =
-      "<GoalSet id=\"0\">" + exit_goal(0, -2, 5) + exit_goal(1, 22, 5) + "</GoalSet>\n" +
-      goal_box(1, 21.5, 4.5, 22.5, 5.5) + walk_to(0) +
-      R"(<State name="Back" final="0"><GoalSelector type="nearest" goal_set="1"/><VelComponent type="auto"/>
-<Action type="add_obstacle" operand="2"/></State>
-<Transition from="Walk" to="Back"><Condition type="and"><Condition type="timer" per_agent="0" dist="c" value="10"/>
-<Condition type="AABB" min_x="0.2" min_y="-1" max_x="30" max_y="11" inside="1"/></Condition></Transition>
-)" + leave_at_goal("Walk,Back");
+  scene.behavior.add_goal_set(0, {exit_goal(0, -2, 5), exit_goal(1, 22, 5)});
+  scene.behavior.goal_box(1, 21.5, 4.5, 22.5, 5.5).walk_to(0);
+  scene.behavior.add_state("Back", {describe::select_goal("nearest", 1), describe::velocity("auto"),
+                                    describe::action("add_obstacle", {{"operand", 2}})});
+  scene.behavior.add_transition(
+      "Walk", "Back",
+      describe::condition(
+          "and", {},
+          {describe::timer(Sampled::constant(10), false),
+           describe::condition(
+               "AABB",
+               {{"min_x", 0.2}, {"min_y", -1}, {"max_x", 30}, {"max_y", 11}, {"inside", true}})}));
+  scene.behavior.leave_at_goal("Walk,Back");
   crowd::Simulation crowd = load(scene, tested, kNistSeed);
   int early = 0;
   int late = 0;
@@ -107,7 +112,7 @@ Verdict congestion(const Tested& tested, Effort effort) {
   Group group;
   group.places = lattice({0.3, 0.3}, {7.7, 4.7}, effort == Effort::full ? 100 : 60);
   scene.groups = {group};
-  scene.behavior = goal_box(0, 19, 2, 20, 3) + walk_to(0) + leave_at_goal();
+  scene.behavior.goal_box(0, 19, 2, 20, 3).walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kNistSeed);
   // The greatest mean of three seconds of people in squares of 2 m: before the door, in the
   // corridor.

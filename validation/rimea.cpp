@@ -44,7 +44,7 @@ Verdict speed_over_density(const Tested& tested, Effort effort) {
 Verdict pre_movement(const Tested& tested, Effort) {
   Scene scene;
   scene.walls = room(8, 5, {{Side::right, 2.5, 1}});
-  std::string states;
+  scene.behavior.goal_box(0, 10, 1.5, 12, 3.5);
   constexpr int kPeople = 10;
   for (int i = 0; i < kPeople; ++i) {
     const std::string name = fmt::format("Wait{}", i);
@@ -52,12 +52,11 @@ Verdict pre_movement(const Tested& tested, Effort) {
     group.places = {Vector2d(0.6 + 0.7 * i, 1 + (i % 3))};
     group.state = name;
     scene.groups.push_back(group);
-    states += fmt::format(
-        R"(<State name="{0}" final="0"/><Transition from="{0}" to="Walk"><Condition type="timer" per_agent="0" dist="c" value="{1}"/></Transition>
-)",
-        name, 10 * (i + 1));
+    scene.behavior.add_state(name);
+    scene.behavior.add_transition(name, "Walk",
+                                  describe::timer(Sampled::constant(10 * (i + 1)), false));
   }
-  scene.behavior = goal_box(0, 10, 1.5, 12, 3.5) + states + walk_to(0) + leave_at_goal();
+  scene.behavior.walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kSeed);
   const std::vector<Eigen::Vector2f> begin(crowd.positions().begin(), crowd.positions().end());
   std::array<double, kPeople> started{};
@@ -88,8 +87,7 @@ Verdict speeds_of_groups(const Tested& tested, Effort) {
   bool inside = true;
   std::array<double, kAges.size()> means{};
   for (std::size_t age = 0; age < kAges.size(); ++age) {
-    const std::string speed =
-        fmt::format(R"(dist="u" min="{}" max="{}")", kAges[age].low, kAges[age].high);
+    const Sampled speed = Sampled::uniform(kAges[age].low, kAges[age].high);
     const std::vector<double> speeds = walk_alone(tested, speed, 50);
     const auto [least, greatest] = std::minmax_element(speeds.begin(), speeds.end());
     constexpr double kTolerance = 0.03;  // m/s
@@ -104,11 +102,12 @@ Verdict speeds_of_groups(const Tested& tested, Effort) {
 /// 30 m x 20 m, exits of 1 m in the walls at both ends, at 1/4 and 3/4 of their length.
 std::optional<double> empty_hall(const Tested& tested, std::size_t people, bool right_too) {
   std::vector<Door> doors = {{Side::left, 5, 1}, {Side::left, 15, 1}};
-  std::string goals = exit_goal(0, -3, 5) + exit_goal(1, -3, 15);
+  std::vector<crowd::Node> goals = {exit_goal(0, -3, 5), exit_goal(1, -3, 15)};
   if (right_too) {
     doors.push_back({Side::right, 5, 1});
     doors.push_back({Side::right, 15, 1});
-    goals += exit_goal(2, 33, 5) + exit_goal(3, 33, 15);
+    goals.push_back(exit_goal(2, 33, 5));
+    goals.push_back(exit_goal(3, 33, 15));
   }
   Scene scene;
   scene.walls = room(30, 20, doors);
@@ -116,7 +115,8 @@ std::optional<double> empty_hall(const Tested& tested, std::size_t people, bool 
   group.places = lattice({0.5, 0.5}, {29.5, 19.5}, people);
   group.aside_m = 0.05;
   scene.groups = {group};
-  scene.behavior = "<GoalSet id=\"0\">" + goals + "</GoalSet>\n" + walk_to(0) + leave_at_goal();
+  scene.behavior.add_goal_set(0, std::move(goals));
+  scene.behavior.walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kSeed);
   return until_all_left(crowd, 3600);
 }
@@ -138,11 +138,11 @@ Verdict exit_choice(const Tested& tested, Effort effort) {
   group.places = lattice({0.5, 0.5}, {12.5, 19.5}, effort == Effort::full ? 600 : 150);
   group.aside_m = 0.05;
   scene.groups = {group};
-  scene.behavior =
-      R"(<GoalSet id="0"><Goal id="0" type="AABB" min_x="4" min_y="-4" max_x="6" max_y="-2" weight="1"/>
-<Goal id="1" type="AABB" min_x="19" min_y="-4" max_x="21" max_y="-2" weight="1"/></GoalSet>
-<State name="Walk" final="0"><GoalSelector type="exit_choice" goal_set="0"/><VelComponent type="auto"/></State>
-)" + leave_at_goal();
+  scene.behavior.add_goal_set(0, {describe::box_goal(0, {4, -4}, {6, -2}).set({"weight", 1}),
+                                  describe::box_goal(1, {19, -4}, {21, -2}).set({"weight", 1})});
+  scene.behavior.add_state("Walk",
+                           {describe::select_goal("exit_choice", 0), describe::velocity("auto")});
+  scene.behavior.leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kSeed);
   const std::vector<int> used = exits_used(crowd, {Vector2d(5, -1), Vector2d(20, -1)}, 1800);
   const double share = 100.0 * used[0] / std::max(1, used[0] + used[1]);
@@ -163,13 +163,13 @@ std::optional<double> long_way(const Tested& tested, std::size_t people, double 
   if (straight_m > 0) {
     scene.walls = {box(-52, -1, straight_m + 5, 0), box(-52, kWidth, straight_m + 5, kWidth + 1),
                    box(-53, -1, -52, kWidth + 1)};
-    scene.behavior = goal_box(0, straight_m, 0.5, straight_m + 4, kWidth - 0.5);
+    scene.behavior.goal_box(0, straight_m, 0.5, straight_m + 4, kWidth - 0.5);
   } else {
     scene.walls = {box(-52, -1, 10 + kWidth + 1, 0), box(-52, kWidth, 10, 19),
                    box(-53, -1, -52, kWidth + 1), box(10 + kWidth, 0, 11 + kWidth, 19)};
-    scene.behavior = goal_box(0, 10.5, kWidth + 10, 9.5 + kWidth, kWidth + 14);
+    scene.behavior.goal_box(0, 10.5, kWidth + 10, 9.5 + kWidth, kWidth + 14);
   }
-  scene.behavior += walk_to(0) + leave_at_goal();
+  scene.behavior.walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kSeed);
   return until_all_left(crowd, 1800);
 }

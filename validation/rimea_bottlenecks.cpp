@@ -61,7 +61,7 @@ Outcome walk(const Tested& tested, const Series& series, std::uint64_t seed) {
   group.aside_m = 0.1;
   scene.groups = {group};
   const double goal = last_x + series.length_m + series.goal_m;
-  scene.behavior = goal_box(0, goal, -0.5, goal + 3, 0.5) + walk_to(0) + leave_at_goal();
+  scene.behavior.goal_box(0, goal, -0.5, goal + 3, 0.5).walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, seed);
   std::vector<float> before(crowd.agent_count());
   std::vector<double> first_s;

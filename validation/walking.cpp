@@ -62,7 +62,7 @@ ExitRun leave_room(const Tested& tested, std::uint64_t seed) {
   group.places = lattice({-7.7, -2.2}, {-0.3, 2.2}, 100);
   group.aside_m = 0.05;
   scene.groups = {group};
-  scene.behavior = goal_box(0, 6, -2, 8, 2) + walk_to(0) + leave_at_goal();
+  scene.behavior.goal_box(0, 6, -2, 8, 2).walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, seed);
   double last_s = 0;
   std::size_t out = 0;
@@ -90,18 +90,18 @@ SquareRun cross_square(const Tested& tested, double density, std::uint64_t seed)
       lattice({-14, -14}, {14, 14}, static_cast<std::size_t>(std::lround(density * 900)));
   group.aside_m = 0.1;
   scene.groups = {group};
-  scene.behavior = R"(<GoalSet id="0">)";
+  std::vector<crowd::Node> goals;
   for (int i = 0; i < 64; ++i) {
     const int row = i / 8;
-    scene.behavior += fmt::format(R"(<Goal id="{}" type="circle" x="{}" y="{}" radius="1.5"/>)", i,
-                                  -12.25 + 3.5 * (i % 8), -12.25 + 3.5 * row);
+    goals.push_back(describe::circle_goal(i, {-12.25 + 3.5 * (i % 8), -12.25 + 3.5 * row}, 1.5));
   }
-  scene.behavior += R"(</GoalSet>
-<State name="Walk" final="0"><GoalSelector type="random" goal_set="0"/><VelComponent type="goal"/></State>
-<State name="On" final="0"><GoalSelector type="random" goal_set="0"/><VelComponent type="goal"/></State>
-<Transition from="Walk" to="On"><Condition type="goal_reached" distance="0"/></Transition>
-<Transition from="On" to="Walk"><Condition type="goal_reached" distance="0"/></Transition>
-)";
+  scene.behavior.add_goal_set(0, std::move(goals));
+  for (const char* state : {"Walk", "On"}) {
+    scene.behavior.add_state(state,
+                             {describe::select_goal("random", 0), describe::velocity("goal")});
+  }
+  scene.behavior.add_transition("Walk", "On", describe::goal_reached());
+  scene.behavior.add_transition("On", "Walk", describe::goal_reached());
   crowd::Simulation crowd = load(scene, tested, seed);
   while (crowd.time_s() < 110) crowd.step();
   const std::vector<Vector2f> before(crowd.positions().begin(), crowd.positions().end());
@@ -138,8 +138,11 @@ Scene two_rooms(std::size_t others) {
     back.state = "Back";
     scene.groups.push_back(back);
   }
-  scene.behavior = goal_box(0, 17, -4.5, 19.5, 4.5) + goal_box(1, -9.5, -4.5, -7, 4.5) +
-                   walk_to(0, "There") + walk_to(1, "Back") + leave_at_goal("There,Back");
+  scene.behavior.goal_box(0, 17, -4.5, 19.5, 4.5)
+      .goal_box(1, -9.5, -4.5, -7, 4.5)
+      .walk_to(0, "There")
+      .walk_to(1, "Back")
+      .leave_at_goal("There,Back");
   return scene;
 }
 
@@ -161,12 +164,15 @@ TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) 
                                 -1.65 + 0.55 * static_cast<double>(i % 7));
     }
     group.state = there ? "There" : "Back";
-    group.more = fmt::format(
-        R"(<Arrivals type="rate" per_second="{}" end="180" process="poisson"/>)", each * 4);
+    group.more = {describe::typed(
+        "Arrivals", "rate", {{"per_second", each * 4}, {"end", 180}, {"process", "poisson"}})};
     scene.groups.push_back(group);
   }
-  scene.behavior = goal_box(0, 20, -2, 24, 2) + goal_box(1, -24, -2, -20, 2) + walk_to(0, "There") +
-                   walk_to(1, "Back") + leave_at_goal("There,Back");
+  scene.behavior.goal_box(0, 20, -2, 24, 2)
+      .goal_box(1, -24, -2, -20, 2)
+      .walk_to(0, "There")
+      .walk_to(1, "Back")
+      .leave_at_goal("There,Back");
   crowd::Simulation crowd = load(scene, tested, seed);
   while (crowd.time_s() < 60) crowd.step();
   std::array<std::size_t, 2> out{};
@@ -187,13 +193,13 @@ double corridor_flow(const Tested& tested, bool turns, double width, std::uint64
   if (turns) {
     scene.walls = {box(-42, -1, 10 + width + 1, 0), box(-42, width, 10, 19 + width),
                    box(-43, -1, -42, width + 1), box(10 + width, 0, 11 + width, 19 + width)};
-    scene.behavior = goal_box(0, 10.3, width + 10, 9.7 + width, width + 14);
+    scene.behavior.goal_box(0, 10.3, width + 10, 9.7 + width, width + 14);
   } else {
     scene.walls = {box(-42, -1, 40, 0), box(-42, width, 40, width + 1),
                    box(-43, -1, -42, width + 1)};
-    scene.behavior = goal_box(0, 20 + width, 0.3, 24 + width, width - 0.3);
+    scene.behavior.goal_box(0, 20 + width, 0.3, 24 + width, width - 0.3);
   }
-  scene.behavior += walk_to(0) + leave_at_goal();
+  scene.behavior.walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, seed);
   std::vector<double> times;
   const std::size_t people = crowd.agent_count();
@@ -211,13 +217,15 @@ MeetingRun meet(const Tested& tested, double aside, std::uint64_t seed) {
   group.places = {{-12, 0}};
   group.aside_m = 0;
   group.state = "There";
-  group.speed = R"(dist="c" value="1.34")";
+  group.speed = Sampled::constant(1.34);
   Group other = group;
   other.places = {{12, aside}};
   other.state = "Back";
   scene.groups = {group, other};
-  scene.behavior = goal_box(0, 20, -2, 24, 2) + goal_box(1, -24, -2, -20, 2) + walk_to(0, "There") +
-                   walk_to(1, "Back");
+  scene.behavior.goal_box(0, 20, -2, 24, 2)
+      .goal_box(1, -24, -2, -20, 2)
+      .walk_to(0, "There")
+      .walk_to(1, "Back");
   crowd::Simulation crowd = load(scene, tested, seed);
   double turned_s = -1;
   double accel = 0;

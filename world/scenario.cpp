@@ -261,8 +261,11 @@ nlohmann::json read_document(const fs::path& file, const std::string& source) {
 }  // namespace
 
 Scenario load_scenario(const fs::path& file, std::string id) {
+  return parse_scenario(read_document(file, file.string()), file, std::move(id));
+}
+
+Scenario parse_scenario(const nlohmann::json& document, const fs::path& file, std::string id) {
   const std::string source = file.string();
-  const nlohmann::json document = read_document(file, source);
   std::vector<Problem> problems;
   const JsonValue root(document, source, problems);
   root.fields({"name", "ground", "inside", "exits"},

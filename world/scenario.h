@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +15,10 @@
 #include "world/disasters.h"
 #include "world/ground.h"
 #include "world/props.h"
+
+namespace throng::crowd {
+struct CrowdDescription;
+}  // namespace throng::crowd
 
 namespace throng::world {
 
@@ -82,12 +88,14 @@ struct Scenario {
   std::string id;  ///< "city_square/nearest_exit": path below the scenarios folder, no suffix
   std::string name;
   std::string description;
-  std::filesystem::path scene_file;     ///< Menge scene XML, absolute
+  std::filesystem::path scene_file;  ///< Menge scene XML, absolute; empty: none, or `built_crowd`
   std::filesystem::path behavior_file;  ///< Menge behavior XML, absolute
-  std::string crowd_model;              ///< pedestrian model that it was made for; empty: any
-  Rectangle ground;                     ///< what is rendered as ground
-  std::string ground_material;          ///< "pavers", "asphalt", "grass", "concrete"
-  Rectangle inside;                     ///< who leaves this rectangle has escaped
+  /// A crowd that is in no files; null: that of the two files (world/scenario_crowd.h).
+  std::shared_ptr<const crowd::CrowdDescription> built_crowd;
+  std::string crowd_model;      ///< pedestrian model that it was made for; empty: any
+  Rectangle ground;             ///< what is rendered as ground
+  std::string ground_material;  ///< "pavers", "asphalt", "grass", "concrete"
+  Rectangle inside;             ///< who leaves this rectangle has escaped
   std::vector<Exit> exits;
   std::vector<Building> buildings;
   std::vector<DroneStart> drones;
@@ -102,6 +110,9 @@ struct Scenario {
   std::vector<PlacedMesh> meshes;
   std::vector<GroundArea> areas;  ///< later ones lie on top of earlier ones
   std::vector<Marking> markings;
+
+  /// Whether it has a crowd to simulate; otherwise it is a place for recorded people.
+  bool has_crowd() const { return built_crowd || (!scene_file.empty() && !behavior_file.empty()); }
 };
 
 /// Reads and checks a scenario file. `id` becomes Scenario::id. One that `extends` another file of
@@ -109,6 +120,11 @@ struct Scenario {
 /// anything else replaces the whole (RFC 7396). Throws InputError (file, JSON pointer, found,
 /// expected) for bad content and EnvironmentError when the file cannot be read.
 Scenario load_scenario(const std::filesystem::path& file, std::string id);
+
+/// The same for a document in memory that extends nothing. `file` is where it would be: for
+/// messages, and for the names of files in it.
+Scenario parse_scenario(const nlohmann::json& document, const std::filesystem::path& file,
+                        std::string id);
 
 /// Leaves this share (0 to 1) of the scattered props where they are, chosen by the seed, and takes
 /// the others away. A smaller share leaves some of those that a larger one leaves.

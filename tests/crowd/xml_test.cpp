@@ -1,10 +1,11 @@
 // Files that are no proper XML, and names that are nearly right.
-#include "crowd/xml.h"
+#include "crowd/menge_files/read.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "crowd/element.h"
 #include "crowd/suggest.h"
 #include "crowd_files.h"
 
@@ -20,7 +21,8 @@ using testing::HasSubstr;
 Problem problem_of(const std::string& text) {
   const test::TemporaryFolder folder;
   try {
-    const XmlFile file(folder.write("file.xml", text), "Root");
+    const Description file = read_description(folder.write("file.xml", text), "Root");
+    Reading(file, "Root");
   } catch (const InputError& error) {
     return error.problems().front();
   }
@@ -59,26 +61,26 @@ TEST(Xml, EntitiesOfItsOwnAreRefused) {
 
 TEST(Xml, MayBeginWithAByteOrderMark) {
   const test::TemporaryFolder folder;
-  const XmlFile file(folder.write("file.xml", "\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<Root/>"),
-                     "Root");
-  EXPECT_EQ(file.root().name(), "Root");
+  const Description file = read_description(
+      folder.write("file.xml", "\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<Root/>"), "Root");
+  EXPECT_EQ(file.root.name, "Root");
 }
 
 TEST(Xml, OfOldEditorsIsReadAsLatin1) {
   const test::TemporaryFolder folder;
-  const XmlFile file(folder.write("file.xml", "<Root>\n<!-- caf\xE9 --><a n=\"\xE9\"/></Root>"),
-                     "Root");
-  EXPECT_EQ(file.root().children().front().attribute("n"), "\xC3\xA9");
-  ASSERT_EQ(file.warnings().size(), 1U);
-  EXPECT_EQ(file.warnings().front().where, "line 2");
+  const Description file = read_description(
+      folder.write("file.xml", "<Root>\n<!-- caf\xE9 --><a n=\"\xE9\"/></Root>"), "Root");
+  EXPECT_EQ(file.root.children.front().attributes.front().value, "\xC3\xA9");
+  ASSERT_EQ(file.warnings.size(), 1U);
+  EXPECT_EQ(file.warnings.front().where, "line 2");
 }
 
 TEST(Xml, BrokenUtf8IsNeverPassedOn) {
   const test::TemporaryFolder folder;
   for (const char* bytes : {"\xC0\xAF", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xE2\x82", "\x80"}) {
-    const XmlFile file(folder.write("file.xml", std::string("<Root a=\"") + bytes + "\"/>"),
-                       "Root");
-    EXPECT_FALSE(file.warnings().empty());
+    const Description file = read_description(
+        folder.write("file.xml", std::string("<Root a=\"") + bytes + "\"/>"), "Root");
+    EXPECT_FALSE(file.warnings.empty());
   }
 }
 

@@ -20,7 +20,7 @@ TEST(WeidmannSpeed, IsThePublishedCurve) {
 TEST(Ring, HoldsItsPeopleInsideAndMeasuresTheirSpeed) {
   Ring spec;
   spec.people = 40;
-  spec.speed = R"(dist="c" value="1.2")";
+  spec.speed = Sampled::constant(1.2);
   crowd::Simulation crowd = load(ring(spec), {"orca"}, 1);
   EXPECT_EQ(crowd.agent_count(), 40);
   EXPECT_NEAR(mean_ring_speed(crowd, 5, 20), 1.2, 0.02);
@@ -63,7 +63,7 @@ TEST(UntilAllLeft, GivesUpOnAJam) {
   Group group;
   group.places = {{2, 2}};
   scene.groups = {group};
-  scene.behavior = goal_box(0, 10, 1, 11, 2) + walk_to(0) + leave_at_goal();
+  scene.behavior.goal_box(0, 10, 1, 11, 2).walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, {"weidmann"}, 1);
   EXPECT_FALSE(until_all_left(crowd, 1000));
   EXPECT_LT(crowd.time_s(), 200);

@@ -1,8 +1,7 @@
-// Reading XML so that everything wrong is reported with its file, line and element.
+// Reading descriptions so that everything wrong is reported with its file, line and element.
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,26 +9,18 @@
 #include <vector>
 
 #include "base/error.h"
-
-namespace tinyxml2 {
-class XMLDocument;
-class XMLElement;
-}  // namespace tinyxml2
+#include "crowd/description/description.h"
+#include "crowd/text_file.h"
 
 namespace throng::crowd {
 
-/// Where elements come from, and what was odd about them.
-struct XmlSource {
-  std::filesystem::path path;
-  std::string name;               ///< of the file, for messages
-  std::vector<Problem> warnings;  ///< what was ignored
-  bool words_are_zero = false;    ///< "true" is 0, as for who expects a number: Menge
-};
+class Reading;
 
-/// A view of one element; valid as long as its XmlFile.
+/// An element while a simulation is made from its description: what a reader of elements asks, and
+/// where it says what is wrong. A view, valid as long as its Reading.
 class Element {
  public:
-  Element(const tinyxml2::XMLElement* node, XmlSource* source) : node_(node), source_(source) {}
+  Element(const Node& node, Reading& reading) : node_(&node), reading_(&reading) {}
 
   std::string_view name() const;
   std::vector<Element> children() const;
@@ -37,14 +28,15 @@ class Element {
   std::optional<std::string_view> attribute(std::string_view name) const;
 
   /// Whether the words true and false are both 0 in this file.
-  bool words_are_zero() const { return source_->words_are_zero; }
+  bool words_are_zero() const;
 
   /// The only child, which must be there. `expected` names it in the error.
   Element only_child(std::string_view expected) const;
   /// Throws unless the element has no child elements.
   void require_no_children() const;
 
-  /// Throw an InputError that says where this element stands.
+  /// Throw an InputError that says where this element stands: file and line, or which of the
+  /// elements it is that were built in code.
   [[noreturn]] void fail(std::string found, std::string expected) const;
   [[noreturn]] void fail_attribute(std::string_view attribute, std::string found,
                                    std::string expected) const;
@@ -55,8 +47,10 @@ class Element {
   void warn(std::string found, std::string expected) const;
   void warn_attribute(std::string_view attribute, std::string found, std::string expected) const;
 
-  /// The file that an attribute names: relative to the one that this element stands in.
+  /// The file that an attribute names, relative to the description's folder.
   std::filesystem::path file_beside(std::string_view file_name) const;
+  /// The same for a text file, which may also be one of Description::files.
+  TextFile text_file(std::string_view file_name) const;
 
  private:
   Problem problem(std::string found, std::string expected) const;
@@ -64,25 +58,29 @@ class Element {
   Problem attribute_problem(std::string_view attribute, std::string found,
                             std::string expected) const;
 
-  const tinyxml2::XMLElement* node_;
-  XmlSource* source_;
+  const Node* node_;
+  Reading* reading_;
 };
 
-/// A parsed XML file.
-class XmlFile {
+/// The making of something from a description, which stays as it is: several simulations may be
+/// made from one at the same time.
+class Reading {
  public:
-  /// Throws EnvironmentError when the file cannot be read, InputError when it is not well-formed
-  /// or its root is another element.
-  XmlFile(const std::filesystem::path& path, std::string_view root_name);
-  ~XmlFile();
+  /// `words_are_zero`: "true" and "false" are both 0, as Menge reads them where it expects a
+  /// number. Throws InputError when the root is another element.
+  Reading(const Description& description, std::string_view root_name, bool words_are_zero = false);
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
 
-  Element root() const;
-  const std::vector<Problem>& warnings() const { return source_->warnings; }
-  void take_words_for_zero() { source_->words_are_zero = true; }
+  Element root() { return {description_->root, *this}; }
+  const std::vector<Problem>& warnings() const { return warnings_; }
 
  private:
-  std::unique_ptr<XmlSource> source_;
-  std::unique_ptr<tinyxml2::XMLDocument> document_;
+  friend class Element;
+
+  const Description* description_;
+  bool words_are_zero_;
+  std::vector<Problem> warnings_;  ///< what was ignored
 };
 
 /// Text from a file in quotes, made printable and short enough for a message.

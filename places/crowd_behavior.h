@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "crowd/description/description.h"
 #include "places/people.h"
 
 namespace throng::places {
@@ -12,8 +13,8 @@ std::string state_of(Doing doing);
 /// The state of people who come in order to go to this exit.
 std::string state_towards(const world::Exit& exit);
 
-/// The behaviour file. Everyday states, and where there are disasters: noticing, time to react,
-/// flight, following a drone.
-std::string behavior_text(const world::Scenario& scenario, const People& people);
+/// The behavior: everyday states, and where there are disasters: noticing, time to react, flight,
+/// following a drone.
+crowd::BehaviorDescription behavior_of(const world::Scenario& scenario, const People& people);
 
 }  // namespace throng::places

@@ -1,0 +1,17 @@
+#include "world/scenario_crowd.h"
+
+#include "base/error.h"
+#include "crowd/menge_files/read.h"
+
+namespace throng::world {
+
+crowd::CrowdDescription crowd_of(const Scenario& scenario) {
+  if (!scenario.has_crowd()) {
+    throw InputError({scenario.id, "/crowd", "nothing: a place for recorded people",
+                      "the scene and behavior of a crowd to simulate"});
+  }
+  if (scenario.built_crowd) return *scenario.built_crowd;
+  return {crowd::read_scene(scenario.scene_file), crowd::read_behavior(scenario.behavior_file)};
+}
+
+}  // namespace throng::world
