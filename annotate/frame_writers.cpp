@@ -9,6 +9,7 @@
 #include "annotate/density.h"
 #include "annotate/keypoints.h"
 #include "annotate/png.h"
+#include "annotate/semantic.h"
 
 namespace throng::annotate {
 
@@ -67,6 +68,7 @@ constexpr std::array kWriters = {
     FrameWriter{GroundTruth::parts, write_raster<GroundTruth::parts, part_png>},
     FrameWriter{GroundTruth::normals, write_raster<GroundTruth::normals, normal_png>},
     FrameWriter{GroundTruth::flow, write_raster<GroundTruth::flow, flow_png>},
+    FrameWriter{GroundTruth::semantic, write_raster<GroundTruth::semantic, semantic_png>},
 };
 
 }  // namespace

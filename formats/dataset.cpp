@@ -82,7 +82,8 @@ Person thing_of(json record, std::shared_ptr<const json> track, const ExportOpti
   person.velocity = vector_of<Eigen::Vector2d>(record.at("velocity"));
   read_pose(record, person);
   person.is_ignored = person.visibility < options.filters.min_visibility ||
-                      person.amodal.height < options.filters.min_height_px;
+                      person.amodal.height < options.filters.min_height_px ||
+                      person.truncation > options.filters.max_truncation.value_or(1);
   person.record = std::move(record);
   person.track = std::move(track);
   return person;

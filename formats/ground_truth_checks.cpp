@@ -38,6 +38,7 @@ constexpr std::array kCheckers = {
     GroundTruthChecker{GroundTruth::parts, make<PixelCheck<check_parts>>},
     GroundTruthChecker{GroundTruth::normals, make<PixelCheck<check_normal_lengths>>},
     GroundTruthChecker{GroundTruth::flow, make<PixelCheck<check_flow_values>>},
+    GroundTruthChecker{GroundTruth::semantic, make<PixelCheck<check_semantic>>},
     GroundTruthChecker{GroundTruth::sensors, make<SensorTableCheck>},
 };
 

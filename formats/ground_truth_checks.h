@@ -71,5 +71,8 @@ void check_normal_lengths(const DatasetInfo& info, const Image& image, const Pix
 /// Flow is known or all 0.
 void check_flow_values(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                        Findings& findings);
+/// Classes are those of the masks and of the instances.
+void check_semantic(const DatasetInfo& info, const Image& image, const Pixels& pixels,
+                    Findings& findings);
 
 }  // namespace throng::formats

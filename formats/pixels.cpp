@@ -139,6 +139,7 @@ Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findin
   pixels.normals = read_plane(info, image, GroundTruth::normals, 3, 8, findings);
   pixels.flow = read_plane(info, image, GroundTruth::flow, 3, 16, findings);
   pixels.parts = read_plane(info, image, GroundTruth::parts, 1, 8, findings);
+  pixels.semantic = read_plane(info, image, GroundTruth::semantic, 1, 8, findings);
   return pixels;
 }
 

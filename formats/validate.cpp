@@ -86,6 +86,9 @@ ExportOptions options_of(const json& manifest) {
   const json filters = outputs.value("filters", json::object());
   options.filters.min_visibility = filters.value("min_visibility", 0.0);
   options.filters.min_height_px = filters.value("min_height_px", 0.0);
+  if (filters.contains("max_truncation")) {
+    options.filters.max_truncation = filters["max_truncation"].get<double>();
+  }
   options.webdataset.shard_mb =
       outputs.value("webdataset", json::object()).value("shard_mb", options.webdataset.shard_mb);
   const json splits = outputs.value("splits", json::object());

@@ -79,6 +79,13 @@ constexpr std::array kKinds = {
                     .file = "flow/RUN/CAMERA/FRAME.png",
                     .content = "KITTI's 16-bit PNG",
                     .needs = {.flow = true}},
+    GroundTruthKind{.kind = GroundTruth::semantic,
+                    .name = "semantic",
+                    .help = "the class of what shows: ground, person, ...",
+                    .extent = Extent::pixel,
+                    .file = "semantic/RUN/CAMERA/FRAME.png",
+                    .content = "8 bits, 0 sky, 1 ground, 2 building, 3 prop, 4 person, "
+                               "5 umbrella, 6 drone"},
     GroundTruthKind{.kind = GroundTruth::sensors,
                     .name = "sensors",
                     .help = "a table of what they read, and of the truth",

@@ -26,6 +26,7 @@ enum class GroundTruth : std::uint8_t {
   parts,
   normals,
   flow,
+  semantic,
   sensors,
 };
 

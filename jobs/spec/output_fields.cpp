@@ -116,6 +116,10 @@ void add_export_fields(FieldTable<JobSpec>& table) {
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
                &FilterOptions::min_height_px),
             "Height that the whole person must have in the picture.");
+  table.add("outputs/filters/max_truncation", "Most truncation", "", numbers(0, 1),
+            at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
+               &FilterOptions::max_truncation),
+            "Share of a person that may lie outside of the image; without it, any.");
   table.group("outputs/webdataset", "WebDataset", "How the webdataset format is cut.");
   table.add("outputs/webdataset/shard_mb", "Size of a shard", "MB", numbers(1, 100000),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::webdataset,
