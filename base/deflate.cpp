@@ -11,7 +11,8 @@ namespace throng {
 std::string_view deflated(std::span<const std::uint8_t> input, std::vector<std::uint8_t>& output) {
   thread_local std::vector<std::uint8_t> work(ISAL_DEF_LVL1_DEFAULT);
   output.resize(std::max(output.size(), input.size() + input.size() / 8 + 1024));
-  isal_zstream stream;
+  // isal_deflate_stateless_init() leaves hist_bits, on which the bytes depend, as it finds it.
+  isal_zstream stream{};
   isal_deflate_stateless_init(&stream);
   stream.level = 1;
   stream.level_buf = work.data();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct ExportArguments {
   std::vector<std::string> splits;
   double min_visibility = 0;
   double min_height_px = 0;
+  std::optional<double> max_truncation;
   double shard_mb = formats::WebDatasetOptions{}.shard_mb;
   std::string classes = "none";
   std::vector<std::string> class_names;
@@ -72,7 +74,7 @@ formats::SplitOptions splits_of(const std::vector<std::string>& words) {
 formats::ExportOptions options_of(const ExportArguments& arguments) {
   formats::ExportOptions options;
   options.splits = splits_of(arguments.splits);
-  options.filters = {arguments.min_visibility, arguments.min_height_px};
+  options.filters = {arguments.min_visibility, arguments.min_height_px, arguments.max_truncation};
   options.webdataset.shard_mb = arguments.shard_mb;
   options.classes.by = arguments.classes;
   for (const std::string& word : arguments.class_names) {
@@ -117,6 +119,10 @@ void add_export(CLI::App& app) {
   command
       ->add_option("--min-visibility", arguments->min_visibility,
                    "People less visible than this become ignore regions")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--max-truncation", arguments->max_truncation,
+                   "Who is farther outside of the image becomes an ignore region")
       ->check(CLI::Range(0.0, 1.0));
   command
       ->add_option("--min-height", arguments->min_height_px,

@@ -46,24 +46,10 @@ std::string weather_of(const json& record) {
   return environment == record.end() ? "unknown" : environment->value("weather", "unknown");
 }
 
-/// What lies where, for the kinds of ground truth that a job may ask for.
-const std::map<std::string, std::string>& places() {
-  static const std::map<std::string, std::string> table = {
-      {"coco", "annotations/instances.json"},
-      {"keypoints", "annotations/instances.json: keypoints, keypoints_3d"},
-      {"amodal", "annotations/instances.json: amodal_segmentation"},
-      {"density", "density/RUN/CAMERA/FRAME.npy: people per pixel, float32"},
-      {"exits", "exits/RUN.csv"},
-      {"fields",
-       "fields/RUN/FRAME.npy: people per square metre, velocity, Voronoi density; grid in "
-       "fields/RUN.json"},
-      {"depth", "depth/RUN/CAMERA/FRAME.png: centimetres, 16 bits, 0 beyond 655.35 m"},
-      {"instances", "instances/RUN/CAMERA/FRAME.png: red + 256 green + 65536 blue"},
-      {"parts", "parts/RUN/CAMERA/FRAME.png"},
-      {"normals", "normals/RUN/CAMERA/FRAME.png"},
-      {"flow", "flow/RUN/CAMERA/FRAME.png: KITTI's 16-bit PNG"},
-      {"sensors", "sensors/RUN/CAMERA.csv"}};
-  return table;
+/// Where a kind of ground truth lies, and what stands there.
+std::string place_of(const annotate::GroundTruthKind& kind) {
+  return kind.content.empty() ? std::string(kind.file)
+                              : fmt::format("{}: {}", kind.file, kind.content);
 }
 
 constexpr std::string_view kCocoSnippet = R"(
@@ -166,10 +152,8 @@ json DatasetCard::description() const {
       {"cameras",
        "cameras/RUN/CAMERA.opencv.yaml and .ros.yaml; .mask.png: 0 where the lens shows nothing"},
       {"files", "manifest.json: size and SHA-256 of each file"}};
-  for (const std::string& kind : info_.annotations) {
-    if (const auto place = places().find(kind); place != places().end()) {
-      places_here[kind] = place->second;
-    }
+  for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
+    if (info_.has(kind.kind)) places_here[std::string(kind.name)] = place_of(kind);
   }
   json formats = json::object();
   for (const json& name : manifest_.at("job").at("outputs").value("formats", json::array())) {
@@ -224,7 +208,7 @@ std::string DatasetCard::readme() const {
     text += fmt::format("| format {} | {}/ |\n", name, place.get<std::string>());
   }
   text += kCocoSnippet;
-  if (info_.has("density")) text += kDensitySnippet;
+  if (info_.has(annotate::GroundTruth::density)) text += kDensitySnippet;
   text += kProjectionSnippet;
   text += fmt::format(
       "\n## Splits\n\nWhole runs: {}.\n\n## Licence\n\nThe people that are drawn: {}. Everything "

@@ -82,7 +82,8 @@ Person thing_of(json record, std::shared_ptr<const json> track, const ExportOpti
   person.velocity = vector_of<Eigen::Vector2d>(record.at("velocity"));
   read_pose(record, person);
   person.is_ignored = person.visibility < options.filters.min_visibility ||
-                      person.amodal.height < options.filters.min_height_px;
+                      person.amodal.height < options.filters.min_height_px ||
+                      person.truncation > options.filters.max_truncation.value_or(1);
   person.record = std::move(record);
   person.track = std::move(track);
   return person;
@@ -148,8 +149,8 @@ json sample_of(const Image& image, const DatasetInfo& info) {
 
 std::string Image::stem() const { return fmt::format("{}-{}-{:06}", run, camera, frame); }
 
-bool DatasetInfo::has(std::string_view annotation) const {
-  return std::find(annotations.begin(), annotations.end(), annotation) != annotations.end();
+bool DatasetInfo::has(annotate::GroundTruth kind) const {
+  return annotate::holds(annotations, kind);
 }
 
 Split DatasetInfo::split_of(const std::string& run) const {
@@ -219,7 +220,7 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
     throw InputError(
         {(root / "manifest.json").string(), "", error.what(), "the manifest that throng wrote"});
   }
-  if (!info.has("coco")) {
+  if (!info.has(annotate::GroundTruth::coco)) {
     throw InputError({root.string(), "", "no COCO annotations",
                       "a dataset whose job has coco among outputs.annotations"});
   }

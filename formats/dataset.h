@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "annotate/coco.h"
+#include "annotate/spec/ground_truth.h"
 #include "formats/spec/options.h"
 
 namespace throng::formats {
@@ -106,7 +107,7 @@ struct DatasetInfo {
   bool sees_drones = false;              ///< drones may show each other: a class after people's
   ExportOptions options;
 
-  bool has(std::string_view annotation) const;
+  bool has(annotate::GroundTruth kind) const;
   /// The splits that have runs.
   std::vector<Split> splits() const;
   Split split_of(const std::string& run) const;

@@ -5,43 +5,54 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "base/error.h"
 #include "formats/makers.h"
 
 namespace throng::formats {
 
+using annotate::GroundTruth;
+
 namespace {
 
 constexpr std::array kFormats = {
-    Format{"coco", "COCO instances: boxes and RLE masks", "", make_coco},
-    Format{"coco-keypoints", "COCO person keypoints", "keypoints", make_coco_keypoints},
-    Format{"coco-panoptic", "COCO panoptic: PNG and segments", "instances", make_coco_panoptic},
-    Format{"yolo-detect", "YOLO boxes with data.yaml", "", make_yolo_detect},
-    Format{"yolo-segment", "YOLO polygons with data.yaml", "", make_yolo_segment},
-    Format{"yolo-pose", "YOLO boxes and keypoints with data.yaml", "keypoints", make_yolo_pose},
-    Format{"mot", "MOT Challenge: tracks of whole bodies", "", make_mot},
-    Format{"mots", "MOTS: tracks of masks", "", make_mots},
-    Format{"visdrone-det", "VisDrone DET: a text for each picture", "", make_visdrone_det},
-    Format{"visdrone-mot", "VisDrone MOT: a text for each sequence", "", make_visdrone_mot},
-    Format{"uavdt", "UAVDT: texts for each sequence", "", make_uavdt},
-    Format{"shanghaitech", "heads as .mat, density of sigma 4 as .h5 and .npy", "", make_points},
-    Format{"shanghaitech-adaptive", "the same, sigma from the nearest heads", "",
+    Format{"coco", "COCO instances: boxes and RLE masks", GroundTruth::coco, make_coco},
+    Format{"coco-keypoints", "COCO person keypoints", GroundTruth::keypoints, make_coco_keypoints},
+    Format{"coco-panoptic", "COCO panoptic: PNG and segments", GroundTruth::instances,
+           make_coco_panoptic},
+    Format{"yolo-detect", "YOLO boxes with data.yaml", GroundTruth::coco, make_yolo_detect},
+    Format{"yolo-segment", "YOLO polygons with data.yaml", GroundTruth::coco, make_yolo_segment},
+    Format{"yolo-pose", "YOLO boxes and keypoints with data.yaml", GroundTruth::keypoints,
+           make_yolo_pose},
+    Format{"mot", "MOT Challenge: tracks of whole bodies", GroundTruth::coco, make_mot},
+    Format{"mots", "MOTS: tracks of masks", GroundTruth::coco, make_mots},
+    Format{"visdrone-det", "VisDrone DET: a text for each picture", GroundTruth::coco,
+           make_visdrone_det},
+    Format{"visdrone-mot", "VisDrone MOT: a text for each sequence", GroundTruth::coco,
+           make_visdrone_mot},
+    Format{"uavdt", "UAVDT: texts for each sequence", GroundTruth::coco, make_uavdt},
+    Format{"shanghaitech", "heads as .mat, density of sigma 4 as .h5 and .npy", GroundTruth::coco,
+           make_points},
+    Format{"shanghaitech-adaptive", "the same, sigma from the nearest heads", GroundTruth::coco,
            make_points_adaptive},
-    Format{"shanghaitech-perspective", "the same, sigma from the distance to the camera", "",
-           make_points_perspective},
-    Format{"dronecrowd", "DroneCrowd: tracks of heads", "", make_dronecrowd},
-    Format{"kitti", "KITTI: boxes in the picture and in the camera's frame", "", make_kitti},
-    Format{"voc", "Pascal VOC: an XML for each picture", "", make_voc},
-    Format{"cvat", "CVAT for images 1.1", "", make_cvat},
-    Format{"webdataset", "WebDataset: tar shards of pictures and JSON", "", make_webdataset},
-    Format{"imagefolder", "Hugging Face ImageFolder with metadata.jsonl", "", make_imagefolder},
-    Format{"depth-exr", "depth as OpenEXR, metres", "depth", make_depth_exr},
-    Format{"flow-flo", "flow as Middlebury's .flo", "flow", make_flow_flo},
-    Format{"rosbag", "ROS 1 bag for each run: pictures, tf, odometry, IMU, people", "",
-           make_rosbag},
-    Format{"rosbag-lz4", "the same, compressed", "", make_rosbag_lz4},
-    Format{"table", "one CSV of all people in all pictures", "", make_table},
+    Format{"shanghaitech-perspective", "the same, sigma from the distance to the camera",
+           GroundTruth::coco, make_points_perspective},
+    Format{"dronecrowd", "DroneCrowd: tracks of heads", GroundTruth::coco, make_dronecrowd},
+    Format{"kitti", "KITTI: boxes in the picture and in the camera's frame", GroundTruth::coco,
+           make_kitti},
+    Format{"voc", "Pascal VOC: an XML for each picture", GroundTruth::coco, make_voc},
+    Format{"cvat", "CVAT for images 1.1", GroundTruth::coco, make_cvat},
+    Format{"webdataset", "WebDataset: tar shards of pictures and JSON", GroundTruth::coco,
+           make_webdataset},
+    Format{"imagefolder", "Hugging Face ImageFolder with metadata.jsonl", GroundTruth::coco,
+           make_imagefolder},
+    Format{"depth-exr", "depth as OpenEXR, metres", GroundTruth::depth, make_depth_exr},
+    Format{"flow-flo", "flow as Middlebury's .flo", GroundTruth::flow, make_flow_flo},
+    Format{"rosbag", "ROS 1 bag for each run: pictures, tf, odometry, IMU, people",
+           GroundTruth::coco, make_rosbag},
+    Format{"rosbag-lz4", "the same, compressed", GroundTruth::coco, make_rosbag_lz4},
+    Format{"table", "one CSV of all people in all pictures", GroundTruth::coco, make_table},
 };
 
 }  // namespace
@@ -72,14 +83,11 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
     if (std::find(chosen.begin(), chosen.end(), format) != chosen.end()) {
       problems.push_back({"", place, names[i] + " once more", "each format once"});
     }
-    for (const std::string_view need : {std::string_view("coco"), format->needs}) {
-      if (need.empty() ||
-          std::find(annotations.begin(), annotations.end(), need) != annotations.end()) {
-        continue;
-      }
-      problems.push_back(
-          {"", place, names[i],
-           fmt::format("\"{}\" among outputs.annotations, which {} is made of", need, names[i])});
+    for (const GroundTruth need : std::set{GroundTruth::coco, format->needs}) {
+      if (annotate::holds(annotations, need)) continue;
+      problems.push_back({"", place, names[i],
+                          fmt::format("\"{}\" among outputs.annotations, which {} is made of",
+                                      annotate::kind_of(need).name, names[i])});
     }
     chosen.push_back(format);
   }

@@ -26,9 +26,9 @@ class Exporter {
 };
 
 struct Format {
-  std::string_view name;     ///< what jobs and the command line call it; also its folder
-  std::string_view summary;  ///< for lists
-  std::string_view needs;    ///< kind of ground truth beside coco that it is made of, or ""
+  std::string_view name;        ///< what jobs and the command line call it; also its folder
+  std::string_view summary;     ///< for lists
+  annotate::GroundTruth needs;  ///< what it is made of: coco, or another kind beside it
   /// The info outlives the exporter.
   std::unique_ptr<Exporter> (*make)(const DatasetInfo& info, Output output);
 };

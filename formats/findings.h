@@ -50,12 +50,6 @@ void check_people(const Image& image, Findings& findings);
 /// Where the people of a picture are in the world, against their boxes.
 void check_bodies(const Image& image, Findings& findings);
 
-struct Pixels;  // formats/pixels.h
-
-/// One picture's density map and values per pixel against its people.
-void check_files(const DatasetInfo& info, const Image& image, const Pixels& pixels,
-                 Findings& findings);
-
 /// Everything below formats/, dataset.json and README.md, made again from the annotations and
 /// compared byte by byte; of a dataset that this version of the program wrote.
 void check_exports(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
@@ -65,9 +59,6 @@ void check_camera(const Image& image, Findings& findings);
 
 /// The run's calibration files against the image's lens.
 void check_camera_files(const DatasetInfo& info, const Image& image, Findings& findings);
-
-/// Parts are where people are, and normals have length 1.
-void check_parts_and_normals(const Image& image, const Pixels& pixels, Findings& findings);
 
 /// A density map against the heads of the records.
 void check_density_is_heads(const Image& image, const std::string& path, const FloatMap& map,

@@ -9,6 +9,7 @@
 
 #include "formats/dataset.h"
 #include "formats/findings.h"
+#include "formats/ground_truth_checks.h"
 
 namespace throng::formats {
 
@@ -42,9 +43,9 @@ void check_flight_between(const Image& before, const Image& after, Findings& fin
 
 /// sensors/RUN/DRONE.csv: rows follow from each other, readings from the truth, and the flight
 /// records of the pictures are between the rows.
-class SensorTableCheck {
+class SensorTableCheck : public GroundTruthCheck {
  public:
-  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
 
  private:
   struct Table {

@@ -14,6 +14,7 @@
 namespace throng::formats {
 
 namespace fs = std::filesystem;
+using annotate::GroundTruth;
 
 namespace {
 
@@ -93,10 +94,11 @@ void read_picture(const DatasetInfo& info, const Image& image, Pixels& pixels, F
 }
 
 /// A raster's samples, if it is of the image's size.
-std::vector<std::uint16_t> read_plane(const DatasetInfo& info, const Image& image, const char* kind,
+std::vector<std::uint16_t> read_plane(const DatasetInfo& info, const Image& image, GroundTruth what,
                                       int channels, int bits, Findings& findings) {
-  if (!info.has(kind)) return {};
-  const std::string name = raster_name(kind, image);
+  if (!info.has(what)) return {};
+  const std::string name = file_of(what, image.run, image.camera, image.frame);
+  const std::string kind(kind_of(what).name);
   try {
     Raster raster = read_raster(info.root / name);
     if (raster.width == image.width && raster.height == image.height &&
@@ -125,17 +127,19 @@ Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findin
   pixels.width = image.width;
   pixels.height = image.height;
   read_picture(info, image, pixels, findings);
-  const std::vector<std::uint16_t> rgb = read_plane(info, image, "instances", 3, 8, findings);
+  const std::vector<std::uint16_t> rgb =
+      read_plane(info, image, GroundTruth::instances, 3, 8, findings);
   pixels.ids.resize(rgb.size() / 3);
   for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
     pixels.ids[i] = static_cast<std::uint32_t>(rgb[3 * i]) |
                     static_cast<std::uint32_t>(rgb[3 * i + 1]) << 8U |
                     static_cast<std::uint32_t>(rgb[3 * i + 2]) << 16U;
   }
-  pixels.depth_cm = read_plane(info, image, "depth", 1, 16, findings);
-  pixels.normals = read_plane(info, image, "normals", 3, 8, findings);
-  pixels.flow = read_plane(info, image, "flow", 3, 16, findings);
-  pixels.parts = read_plane(info, image, "parts", 1, 8, findings);
+  pixels.depth_cm = read_plane(info, image, GroundTruth::depth, 1, 16, findings);
+  pixels.normals = read_plane(info, image, GroundTruth::normals, 3, 8, findings);
+  pixels.flow = read_plane(info, image, GroundTruth::flow, 3, 16, findings);
+  pixels.parts = read_plane(info, image, GroundTruth::parts, 1, 8, findings);
+  pixels.semantic = read_plane(info, image, GroundTruth::semantic, 1, 8, findings);
   return pixels;
 }
 

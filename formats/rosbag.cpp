@@ -264,7 +264,7 @@ class RosbagExporter : public Exporter {
   /// All readings up to the picture if the dataset has them, else the last one before it.
   void add_inertial(const Image& image, const json& measured, const std::string& topic,
                     const std::string& frame) {
-    if (!info_.has("sensors")) {
+    if (!info_.has(annotate::GroundTruth::sensors)) {
       bag_->add_imu(topic, frame, measured.at("time_s").get<double>(),
                     vector_in(measured.at("gyro")), vector_in(measured.at("accelerometer")));
       return;

@@ -13,14 +13,15 @@
 #include "formats/csv_table.h"
 #include "formats/dataset.h"
 #include "formats/findings.h"
+#include "formats/ground_truth_checks.h"
 
 namespace throng::formats {
 
 /// exits/RUN.csv: its columns against each other, over time and against the pictures' `exits`; and
 /// the polygons of these against each other.
-class ExitsCheck {
+class ExitsCheck : public GroundTruthCheck {
  public:
-  void add(const DatasetInfo& info, const Image& image, Findings& findings);
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
 
  private:
   struct Row {
@@ -57,10 +58,10 @@ class ExitsCheck {
 };
 
 /// fields/RUN/FRAME.npy against the people that cameras see.
-class FieldsCheck {
+class FieldsCheck : public GroundTruthCheck {
  public:
-  void add(const DatasetInfo& info, const Image& image);
-  void finish(const DatasetInfo& info, Findings& findings) const;
+  void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  void finish(const DatasetInfo& info, Findings& findings) override;
 
  private:
   struct Walker {

@@ -14,6 +14,7 @@
 #include "formats/dataset.h"
 #include "formats/findings.h"
 #include "formats/flight_checks.h"
+#include "formats/ground_truth_checks.h"
 #include "formats/run_checks.h"
 #include "formats/shot.h"
 
@@ -85,6 +86,9 @@ ExportOptions options_of(const json& manifest) {
   const json filters = outputs.value("filters", json::object());
   options.filters.min_visibility = filters.value("min_visibility", 0.0);
   options.filters.min_height_px = filters.value("min_height_px", 0.0);
+  if (filters.contains("max_truncation")) {
+    options.filters.max_truncation = filters["max_truncation"].get<double>();
+  }
   options.webdataset.shard_mb =
       outputs.value("webdataset", json::object()).value("shard_mb", options.webdataset.shard_mb);
   const json splits = outputs.value("splits", json::object());
@@ -142,14 +146,15 @@ class IdCheck {
 /// Checks of one picture at a time and of pairs, fed in the order of the COCO file.
 class ShotChecks {
  public:
-  void add(const DatasetInfo& info, const Image& image, Findings& findings) {
+  void add(const DatasetInfo& info, const Image& image, GroundTruthChecks& kinds,
+           Findings& findings) {
     Shot shot;
     shot.pixels = read_pixels(info, image, findings);
     shot.image = image;
     shot.camera = camera_of(image);
     shot.is_plain = is_plain(image);
     shot.at_once = is_shot_at_once(image);
-    check_files(info, image, shot.pixels, findings);
+    kinds.add_pixels(info, image, shot.pixels, findings);
     check_buildings(shot, findings);
     check_normals(shot, findings);
     alignment_.add(shot);
@@ -198,23 +203,14 @@ class RecordChecks {
     Image light = image;
     light.people.clear();
     last_.insert_or_assign(image.camera, std::move(light));
-    sensors_.add(info, image, findings);
-    exits_.add(info, image, findings);
-    fields_.add(info, image);
     constancy_.add(info, image, findings);
     presence_.add(image, findings);
     check_preview(info, image, findings);
   }
-  void finish(const DatasetInfo& info, Findings& findings) {
-    constancy_.finish(info, findings);
-    fields_.finish(info, findings);
-  }
+  void finish(const DatasetInfo& info, Findings& findings) { constancy_.finish(info, findings); }
 
  private:
   std::map<std::string, Image> last_;  ///< each camera's, without people
-  SensorTableCheck sensors_;
-  ExitsCheck exits_;
-  FieldsCheck fields_;
   ConstancyCheck constancy_;
   PresenceCheck presence_;
 };
@@ -231,6 +227,7 @@ Validation validate_dataset(const fs::path& root) {
   ShotChecks shots;
   FormatCheck other_formats;
   RecordChecks records(manifest);
+  GroundTruthChecks kinds(info);
   try {
     DatasetReader reader(info);
     Image image;
@@ -244,6 +241,7 @@ Validation validate_dataset(const fs::path& root) {
       other_formats.add(info, image, findings);
       check_bodies(image, findings);
       records.add(info, image, findings);
+      kinds.add(info, image, findings);
       const std::size_t before = validation.found;
       check_people(image, findings);
       // What is said of broken masks would only be repeated.
@@ -251,12 +249,13 @@ Validation validate_dataset(const fs::path& root) {
         shots.forget(image.camera);
         continue;
       }
-      shots.add(info, image, findings);
+      shots.add(info, image, kinds, findings);
     }
     shots.finish(findings);
     other_formats.finish(findings);
     check_counts(manifest, validation, findings);
     records.finish(info, findings);
+    kinds.finish(info, findings);
     check_metrics(info, manifest, findings);
     check_exports(info, manifest, findings);
   } catch (const InputError& error) {

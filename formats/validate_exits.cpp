@@ -357,8 +357,7 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
 }
 
 void ExitsCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
-  if (!info.has("exits")) return;
-  const std::string file = "exits/" + image.run + ".csv";
+  const std::string file = file_of(annotate::GroundTruth::exits, image.run);
   Run& run = read(info, image.run, findings);
   const auto exits = image.record.find("exits");
   if (exits == image.record.end()) return;

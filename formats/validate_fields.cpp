@@ -190,16 +190,15 @@ class FieldFile {
 
 }  // namespace
 
-void FieldsCheck::add(const DatasetInfo& info, const Image& image) {
-  if (!info.has("fields") || !is_shot_at_once(image)) return;
+void FieldsCheck::add(const DatasetInfo& /*info*/, const Image& image, Findings& /*findings*/) {
+  if (!is_shot_at_once(image)) return;
   auto& people = runs_[image.run][image.frame];
   for (const Person& person : image.people) {
     people.insert_or_assign(person.track_id, Walker{person.position.head<2>(), person.velocity});
   }
 }
 
-void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) const {
-  if (!info.has("fields")) return;
+void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) {
   for (const std::string& run : info.runs) {
     const std::string description = "fields/" + run + ".json";
     try {
@@ -215,7 +214,8 @@ void FieldsCheck::finish(const DatasetInfo& info, Findings& findings) const {
         findings.add("fields", description, "", "people of another number of frames");
       }
       for (std::size_t frame = 0; frame < people.size(); ++frame) {
-        const std::string path = fmt::format("fields/{}/{:06}.npy", run, frame);
+        const std::string path =
+            file_of(annotate::GroundTruth::fields, run, "", static_cast<std::int64_t>(frame));
         const Field field = read_field(info.root / path, grid);
         const FieldFile file(path, grid, field, findings);
         file.check_sums(people.at(frame).get<double>());

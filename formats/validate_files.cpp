@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "formats/findings.h"
+#include "formats/ground_truth_checks.h"
 #include "formats/instances.h"
 #include "formats/mask.h"
 #include "formats/npy.h"
@@ -29,7 +30,7 @@ std::string relative(const DatasetInfo& info, const fs::path& path) {
   return path.lexically_relative(info.root).string();
 }
 
-void check_density(const DatasetInfo& info, const Image& image, Findings& findings) {
+void check_map(const DatasetInfo& info, const Image& image, Findings& findings) {
   const auto file = image.record.find("density_file");
   if (file == image.record.end()) return;
   const std::string path = *file;
@@ -50,9 +51,29 @@ void check_density(const DatasetInfo& info, const Image& image, Findings& findin
   check_density_is_heads(image, path, map, info.density_sigma_px, findings);
 }
 
-/// Masks against the picture of instances, bit for bit.
-void check_instances(const Image& image, const std::vector<std::uint32_t>& ids,
+}  // namespace
+
+std::uint32_t instance_of(const Person& thing) {
+  const auto number = thing.number_in_run();
+  const bool is_drone = number > annotate::kFirstDroneNumber;
+  return static_cast<std::uint32_t>(
+      is_drone ? kFirstDrone + number - annotate::kFirstDroneNumber - 1 : number);
+}
+
+void check_density(const DatasetInfo& info, const Image& image, const Pixels& /*pixels*/,
+                   Findings& findings) {
+  try {
+    check_map(info, image, findings);
+  } catch (const InputError& error) {
+    const Problem& problem = error.problems().front();
+    findings.add("density-sum", relative(info, problem.source), problem.where, problem.found);
+  }
+}
+
+void check_instances(const DatasetInfo& /*info*/, const Image& image, const Pixels& values,
                      Findings& findings) {
+  const std::vector<std::uint32_t>& ids = values.ids;
+  if (ids.empty()) return;
   const std::string path = raster_name("instances", image);
   std::map<std::uint32_t, std::uint64_t> areas;
   for (const std::uint32_t id : ids) {
@@ -84,8 +105,9 @@ void check_instances(const Image& image, const std::vector<std::uint32_t>& ids,
   }
 }
 
-/// Depth inside the masks against where the people are.
-void check_depth(const Image& image, const Pixels& pixels, Findings& findings) {
+void check_depth(const DatasetInfo& /*info*/, const Image& image, const Pixels& pixels,
+                 Findings& findings) {
+  if (pixels.ids.empty() || pixels.depth_cm.empty()) return;
   const std::string path = raster_name("depth", image);
   const std::vector<std::uint32_t>& ids = pixels.ids;
   if (is_plain(image)) check_ground_depth(image, path, ids, pixels.depth_cm, findings);
@@ -116,8 +138,8 @@ void check_depth(const Image& image, const Pixels& pixels, Findings& findings) {
   }
 }
 
-/// Flow is known or all 0.
-void check_flow(const Image& image, const Pixels& pixels, Findings& findings) {
+void check_flow_values(const DatasetInfo& /*info*/, const Image& image, const Pixels& pixels,
+                       Findings& findings) {
   for (std::size_t i = 0; i < pixels.flow.size(); i += 3) {
     const std::uint16_t* pixel = pixels.flow.data() + i;
     if (pixel[2] == 1 || (pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0)) continue;
@@ -125,30 +147,6 @@ void check_flow(const Image& image, const Pixels& pixels, Findings& findings) {
                  "neither known nor all 0");
     return;
   }
-}
-
-}  // namespace
-
-std::uint32_t instance_of(const Person& thing) {
-  const auto number = thing.number_in_run();
-  const bool is_drone = number > annotate::kFirstDroneNumber;
-  return static_cast<std::uint32_t>(
-      is_drone ? kFirstDrone + number - annotate::kFirstDroneNumber - 1 : number);
-}
-
-void check_files(const DatasetInfo& info, const Image& image, const Pixels& pixels,
-                 Findings& findings) {
-  try {
-    check_density(info, image, findings);
-  } catch (const InputError& error) {
-    const Problem& problem = error.problems().front();
-    findings.add("density-sum", relative(info, problem.source), problem.where, problem.found);
-  }
-  check_flow(image, pixels, findings);
-  if (pixels.ids.empty()) return;
-  check_instances(image, pixels.ids, findings);
-  if (!pixels.depth_cm.empty()) check_depth(image, pixels, findings);
-  check_parts_and_normals(image, pixels, findings);
 }
 
 }  // namespace throng::formats

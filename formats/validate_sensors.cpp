@@ -172,8 +172,8 @@ std::string other_truth(const json& truth, const Row& a, const Row& b) {
 }  // namespace
 
 void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings& findings) {
-  if (!info.has("sensors") || !image.record.contains("flight")) return;
-  const std::string name = fmt::format("sensors/{}/{}.csv", image.run, image.camera);
+  if (!image.record.contains("flight")) return;
+  const std::string name = file_of(annotate::GroundTruth::sensors, image.run, image.camera);
   Table& table = tables_[name];
   if (!table.is_read) {
     table.is_read = true;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,7 @@ void settle_shares(bool has_train, const std::string& where, SplitOptions& split
 struct FilterOptions {
   double min_visibility = 0;
   double min_height_px = 0;
+  std::optional<double> max_truncation = std::nullopt;  ///< share outside of the image; none: any
 };
 
 /// Classes by a property that people have; "none": everybody is a person.

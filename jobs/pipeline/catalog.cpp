@@ -33,7 +33,10 @@ json airframe_list() {
 json format_list() {
   json list = json::array();
   for (const formats::Format& format : formats::all_formats()) {
-    list.push_back({{"name", format.name}, {"summary", format.summary}, {"needs", format.needs}});
+    const bool is_plain = format.needs == annotate::GroundTruth::coco;
+    list.push_back({{"name", format.name},
+                    {"summary", format.summary},
+                    {"needs", is_plain ? "" : annotate::kind_of(format.needs).name}});
   }
   return list;
 }

@@ -55,15 +55,15 @@ class Collector {
       runs.back()["environment"] = to_json(environment_of_run(job_.environment, run.seed));
     }
     add("metrics.json", json{{"runs", metrics}}.dump(kJsonIndent) + "\n");
-    if (wants(job_, "coco")) {
-      const std::string path = "annotations/instances.json";
+    if (wants(job_, annotate::GroundTruth::coco)) {
+      const std::string path = file_of(annotate::GroundTruth::coco, "");
       fs::create_directories((staging_.path() / path).parent_path());
       annotate::merge_coco(coco_shards_, staging_.path() / path, job_.name,
-                           {wants(job_, "keypoints"), job_.drones.size() > 1});
+                           {wants(job_, annotate::GroundTruth::keypoints), job_.drones.size() > 1});
       list(path);
     }
     json manifest = manifest_of(std::move(runs));
-    if (wants(job_, "coco")) add_exports(manifest);
+    if (wants(job_, annotate::GroundTruth::coco)) add_exports(manifest);
     write_manifest(std::move(manifest));
     staging_.commit();
   }

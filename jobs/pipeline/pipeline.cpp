@@ -2,21 +2,18 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "annotate/exits_csv.h"
-#include "annotate/ground_field.h"
 #include "annotate/png.h"
 #include "base/error.h"
 #include "base/redact.h"
 #include "camera/files.h"
-#include "jobs/pipeline/flight_record.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/recording.h"
+#include "jobs/pipeline/run_writers.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/environment.h"
 #include "metrics/evacuation.h"
@@ -30,9 +27,8 @@ namespace throng::jobs {
 
 namespace fs = std::filesystem;
 
-bool wants(const JobSpec& job, std::string_view annotation) {
-  const auto& wanted = job.outputs.annotations;
-  return std::find(wanted.begin(), wanted.end(), annotation) != wanted.end();
+bool wants(const JobSpec& job, annotate::GroundTruth kind) {
+  return annotate::holds(job.outputs.annotations, kind);
 }
 
 namespace {
@@ -84,28 +80,8 @@ void simulate_run(const JobFolder& folder, const JobSpec& job, const fs::path& s
 
 namespace {
 
-// Crowding and motion on the ground at the time of every frame.
-void add_fields(const JobSpec& job, int run, const world::Trace& trace,
-                const world::Scenario& scenario, Publication& output) {
-  nlohmann::json people = nlohmann::json::array();
-  const annotate::GroundGrid ground(scenario);
-  for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {
-    const auto field = annotate::ground_field(trace, ground, job.frame_time_s(frame));
-    output.add(fmt::format("fields/{}/{:06}.npy", run_name(run), frame),
-               annotate::npy_bytes(ground, field));
-    people.push_back(field.people);
-  }
-  const nlohmann::json grid = {{"origin_m", {ground.origin().x(), ground.origin().y()}},
-                               {"cell_m", ground.cell_m()},
-                               {"kernel_m", annotate::kFieldKernelM},
-                               {"columns", ground.columns()},
-                               {"rows", ground.rows()},
-                               {"people", people}};
-  output.add("fields/" + run_name(run) + ".json", grid.dump(kJsonIndent) + "\n");
-}
-
-// The calibration of every camera, and the tables of sensors if they are asked for.
-void add_flights(const JobSpec& job, int run, const world::Trace& trace, Publication& output) {
+// The calibration of every camera.
+void add_cameras(const JobSpec& job, int run, Publication& output) {
   const std::uint64_t seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     const std::string& id = job.drones[i].mission.id;
@@ -118,13 +94,6 @@ void add_flights(const JobSpec& job, int run, const world::Trace& trace, Publica
       output.add("cameras/" + place + ".mask.png",
                  annotate::png_bytes({lens->width, lens->height, 1}, render::shown_pixels(*lens)));
     }
-    if (!wants(job, "sensors")) continue;
-    const auto& ids = trace.header.drone_ids;
-    const auto drone =
-        static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
-    check(drone < ids.size(), "a trace holds the drones of its job");
-    const std::vector<world::DroneSample>& truth = trace.drones[drone];
-    output.add("sensors/" + place + ".csv", sensors_csv(truth, sensors_of(job, seed, truth, i)));
   }
 }
 
@@ -138,15 +107,11 @@ void measure_run(const JobFolder& folder, const JobSpec& job, const fs::path& sc
 
   Publication output(folder.output_of({Task::Kind::measure, run}));
   output.add("metrics/" + run_name(run) + ".json", figures.dump(kJsonIndent) + "\n");
-  if (wants(job, "exits")) {
-    std::vector<annotate::FrameTime> frames;
-    for (std::int64_t frame = 0; frame < job.frames_per_camera(); ++frame) {
-      frames.push_back({frame, job.frame_time_s(frame)});
-    }
-    output.add("exits/" + run_name(run) + ".csv", annotate::exits_csv(exits, trace.time_s, frames));
+  RunOutput run_output{job, run, scenario, trace, exits, output};
+  for (const RunWriter& writer : run_writers()) {
+    if (wants(job, writer.kind)) writer.write(run_output);
   }
-  if (wants(job, "fields")) add_fields(job, run, trace, scenario, output);
-  add_flights(job, run, trace, output);
+  add_cameras(job, run, output);
   // The trace may come from elsewhere (`throng render`): its seed is the one that counts.
   output.publish({{"seed", trace.header.seed}, {"metrics", figures}});
 }

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <functional>
 #include <stop_token>
-#include <string_view>
 
+#include "annotate/spec/ground_truth.h"
 #include "jobs/queue/executor.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/plan.h"
@@ -18,8 +18,8 @@ namespace throng::jobs {
 
 using OnTaskProgress = std::function<void(const TaskProgress&)>;
 
-/// Whether the job asks for this kind of ground truth, by its word in outputs.annotations.
-bool wants(const JobSpec& job, std::string_view annotation);
+/// Whether the job asks for this kind of ground truth.
+bool wants(const JobSpec& job, annotate::GroundTruth kind);
 
 /// What the simulation is asked to do in a run of the job.
 sim::RunSpec run_spec(const JobSpec& job, int run);

@@ -1,18 +1,14 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 
 #include "annotate/coco.h"
-#include "annotate/decimals.h"
-#include "annotate/density.h"
 #include "annotate/exit_view.h"
-#include "annotate/keypoints.h"
+#include "annotate/frame_writers.h"
 #include "annotate/labels.h"
 #include "annotate/person_facts.h"
-#include "annotate/png.h"
 #include "annotate/preview.h"
 #include "base/error.h"
 #include "camera/camera.h"
@@ -32,26 +28,6 @@ namespace throng::jobs {
 
 namespace {
 
-// The heads of the people in the labels, in box coordinates, as the records have them: one at the
-// picture's edge is inside for both or for none.
-std::vector<Eigen::Vector2d> heads_of(const annotate::FrameLabels& labels,
-                                      const camera::Camera& camera) {
-  std::vector<Eigen::Vector2d> heads;
-  for (const annotate::PersonLabel& label : labels.people) {
-    const std::optional<Eigen::Vector2d> head = render::head_in(label.person, camera);
-    if (!head) continue;
-    heads.emplace_back(annotate::rounded(head->x(), annotate::kPixelDecimals),
-                       annotate::rounded(head->y(), annotate::kPixelDecimals));
-  }
-  return heads;
-}
-
-std::int64_t count_inside(const std::vector<Eigen::Vector2d>& heads, int width, int height) {
-  return std::count_if(heads.begin(), heads.end(), [&](const Eigen::Vector2d& head) {
-    return head.x() >= 0 && head.y() >= 0 && head.x() < width && head.y() < height;
-  });
-}
-
 // One shard in the making: everything that its frames share.
 class ShardOutput {
  public:
@@ -68,7 +44,7 @@ class ShardOutput {
         drawn_(std::move(drawn)),
         clock_(clock),
         publication_(output) {
-    if (wants(job, "coco")) {
+    if (wants(job, annotate::GroundTruth::coco)) {
       coco_.emplace(publication_.folder() / "coco");
     }
   }
@@ -76,7 +52,6 @@ class ShardOutput {
   void add(const Picture& picture, std::size_t camera) {
     const render::Frame& frame = picture.frame;
     annotate::FrameLabels labels = annotate::label_people(frame);
-    if (wants(job_, "keypoints")) annotate::add_keypoints(frame, labels);
     lap("labels");
     const std::string& drone = job_.drones[camera].mission.id;
     const std::string place = fmt::format("{}/{}/{:06}", run_name(shard_.run), drone, frame.index);
@@ -95,25 +70,18 @@ class ShardOutput {
     image.flight = picture.flight;
     image.facts = &facts_;
     image.drone_ids = &drone_ids_;
-    image.whole_drone_masks = wants(job_, "amodal");
-    if (exits_ != nullptr) image.exits = exits_->json(frame.camera, frame.time_s);
     const std::string jpeg =
         annotate::jpeg_bytes(frame.rgb, frame.width(), frame.height(), job_.outputs.image_quality);
     lap("jpeg");
     publication_.add(image.file_name, jpeg);
     lap("write");
-    if (wants(job_, "density")) {
-      image.density_file = "density/" + place + ".npy";
-      image.density_count = add_density(image.density_file, frame, labels);
-      lap("density");
-    }
+    write_kinds(frame, labels, image);
     if (has_preview(job_, frame.index)) {
       publication_.add("previews/" + place + ".jpg",
                        annotate::jpeg_bytes(annotate::draw_preview(frame, labels), frame.width(),
                                             frame.height(), job_.outputs.image_quality));
       lap("previews");
     }
-    add_rasters(place, frame);
     if (coco_) coco_->add(image, labels);
     lap("write");
     annotations_ += static_cast<std::int64_t>(labels.people.size() + labels.drones.size());
@@ -137,34 +105,24 @@ class ShardOutput {
     return drawn.empty() ? "" : drawn.dump();
   }
 
-  std::int64_t add_density(const std::string& path, const render::Frame& frame,
-                           const annotate::FrameLabels& labels) {
-    const std::vector<Eigen::Vector2d> heads = heads_of(labels, frame.camera);
-    publication_.add(path,
-                     annotate::npy_bytes(annotate::density_map(heads, frame.width(), frame.height(),
-                                                               job_.outputs.density_sigma_px)));
-    return count_inside(heads, frame.width(), frame.height());
-  }
-
-  // Ground truth per pixel, as far as it is asked for.
-  void add_rasters(const std::string& place, const render::Frame& frame) {
-    struct Kind {
-      const char* name;
-      std::string (*bytes)(const render::Frame&);
-    };
-    for (const Kind& kind :
-         {Kind{"depth", annotate::depth_png}, Kind{"instances", annotate::instance_png},
-          Kind{"parts", annotate::part_png}, Kind{"normals", annotate::normal_png},
-          Kind{"flow", annotate::flow_png}}) {
-      if (!wants(job_, kind.name)) continue;
-      const std::string png = kind.bytes(frame);
-      lap("png");
-      publication_.add(fmt::format("{}/{}.png", kind.name, place), png);
-      lap("write");
+  // Every kind of ground truth that is asked for.
+  void write_kinds(const render::Frame& frame, annotate::FrameLabels& labels,
+                   annotate::CocoImage& image) {
+    annotate::FrameOutput output{
+        .frame = frame,
+        .labels = labels,
+        .record = image,
+        .exits = exits_,
+        .density_sigma_px = job_.outputs.density_sigma_px,
+        .add = [this](const std::string& path,
+                      std::string_view bytes) { publication_.add(path, bytes); },
+        .lap = [this](std::string_view stage) { lap(stage); }};
+    for (const annotate::FrameWriter& writer : annotate::frame_writers()) {
+      if (wants(job_, writer.kind)) writer.write(output);
     }
   }
 
-  void lap(const char* stage) {
+  void lap(std::string_view stage) {
     if (clock_ != nullptr) clock_->lap(stage);
   }
 
@@ -201,10 +159,11 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   if (is_profiling()) clock.emplace();
   render::RenderOptions options;
   options.quality = job.quality;
-  options.normals = wants(job, "normals");
-  options.flow = wants(job, "flow");
-  options.parts = wants(job, "parts");
-  options.whole_masks = wants(job, "coco") && wants(job, "amodal");
+  const annotate::RenderNeeds needs = annotate::render_needs(job.outputs.annotations);
+  options.normals = needs.normals;
+  options.flow = needs.flow;
+  options.parts = needs.parts;
+  options.whole_masks = needs.whole_masks;
   options.clock = clock ? &*clock : nullptr;
   render::Renderer renderer(scenario, population, environment.light, {}, options);
   Shoot shoot(job, seed, trace, population, renderer, options.clock);
@@ -213,7 +172,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   const nlohmann::json drawn = drawn_of_run(whole_job, shard.run);
   const annotate::PersonFacts facts(trace, population, job.styling);
   std::optional<annotate::ExitView> exits;
-  if (wants(job, "exits") && wants(job, "coco")) {
+  if (wants(job, annotate::GroundTruth::exits) && wants(job, annotate::GroundTruth::coco)) {
     exits.emplace(scenario, metrics::exit_series(trace, scenario), trace.time_s);
   }
   ShardOutput output(folder.output_of(task), job, shard, to_json(environment).dump(), drawn, facts,

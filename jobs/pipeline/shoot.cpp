@@ -112,7 +112,8 @@ Picture Shoot::take(std::size_t drone, std::int64_t frame) {
   const CameraSpec camera = camera_of_frame(cameras_[drone], draw);
   const double time_s = job_->frame_time_s(frame);
   std::optional<double> next_s;
-  if (wants(*job_, "flow") && frame + 1 < job_->frames_per_camera()) {
+  if (annotate::render_needs(job_->outputs.annotations).flow &&
+      frame + 1 < job_->frames_per_camera()) {
     next_s = job_->frame_time_s(frame + 1);
   }
   render::Exposed exposed = render::expose(

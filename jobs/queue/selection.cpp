@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "annotate/spec/ground_truth.h"
 #include "base/error.h"
 
 namespace throng::jobs {
@@ -43,7 +44,7 @@ bool is_below(std::string_view path, std::string_view folder) {
 }
 
 bool includes(const std::string& name, std::string_view path) {
-  if (name == "coco") return is_below(path, "annotations");
+  if (const auto* kind = annotate::find_kind(name)) return is_below(path, folder_of(*kind));
   return is_below(path, name) || is_below(path, "formats/" + name);
 }
 

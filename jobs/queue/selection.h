@@ -9,8 +9,8 @@ namespace throng::jobs {
 
 /// Nothing said: everything.
 struct Selection {
-  /// Folders and files at the top ("images", "metrics.json"), formats ("yolo-detect"), and "coco"
-  /// for the annotations; none: all.
+  /// Folders and files at the top ("images", "metrics.json"), formats ("yolo-detect") and kinds of
+  /// ground truth ("coco", "depth"); none: all.
   std::vector<std::string> include = {};
   /// Whose own files are wanted, by number; none: all. Files of no single run always are.
   std::vector<int> runs = {};

@@ -46,50 +46,9 @@ Quantity time_quantity() {
           true};
 }
 
-Quantity day_quantity() {
-  Quantity days = number_quantity(1, kDaysPerYear);
-  days.expected = fmt::format("an integer from 1 to {}", kDaysPerYear);
-  days.number = [number = days.number](const json& value) {
-    return value.is_number_integer() ? number(value) : std::nullopt;
-  };
-  days.json = [](double day) { return json(static_cast<int>(day)); };
-  return days;
-}
-
-Quantity weather_quantity() {
-  return {R"(one of "clear", "overcast", "fog", "rain")",
-          [](const json& value) -> std::optional<double> {
-            const auto found = std::find(kWeathers.begin(), kWeathers.end(), value);
-            if (found == kWeathers.end()) return std::nullopt;
-            return static_cast<double>(found - kWeathers.begin());
-          },
-          [](double index) { return json(kWeathers.at(static_cast<std::size_t>(index))); },
-          0,
-          kWeathers.size() - 1.0,
-          false};
-}
-
-/// A field of the job: its name, how it writes values, and where it is kept.
-struct Field {
-  const char* name;
-  Quantity quantity;
-  Distribution EnvironmentSpec::*value;
-};
-
-const std::array<Field, 6>& fields() {
-  static const std::array<Field, 6> list = {
-      {{"time_of_day", time_quantity(), &EnvironmentSpec::time_of_day_h},
-       {"latitude_deg", number_quantity(-90, 90), &EnvironmentSpec::latitude_deg},
-       {"day_of_year", day_quantity(), &EnvironmentSpec::day_of_year},
-       {"weather", weather_quantity(), &EnvironmentSpec::weather},
-       {"rain_mm_per_h", number_quantity(0, 200), &EnvironmentSpec::rain_mm_per_h},
-       {"smoke", number_quantity(0, 1), &EnvironmentSpec::smoke}}};
-  return list;
-}
-
-const Quantity& visibility_quantity() {
-  static const Quantity quantity = number_quantity(20, 100'000);
-  return quantity;
+Values times() {
+  return {
+      {{"type", "string"}, {"pattern", "^([01][0-9]|2[0-3]):[0-5][0-9]$"}}, "", time_quantity()};
 }
 
 std::string pointer_of(const char* name) { return fmt::format("/environment/{}", name); }
@@ -110,33 +69,48 @@ double usual_visibility_m(render::Weather weather) {
 
 }  // namespace
 
+const FieldTable<EnvironmentSpec>& environment_fields() {
+  static const FieldTable<EnvironmentSpec> fields = [] {
+    FieldTable<EnvironmentSpec> table;
+    table.add_drawn("time_of_day", "Time of day", "HH:MM", times(),
+                    at(&EnvironmentSpec::time_of_day_h),
+                    "Solar time at the run's start; sets the sun, which then stands still. Street "
+                    "lamps and windows are lit while it is below the horizon.");
+    table.add_drawn("latitude_deg", "Latitude", "degrees", numbers(-90, 90),
+                    at(&EnvironmentSpec::latitude_deg),
+                    "Where on Earth the sun is seen from; north is positive.");
+    table.add_drawn("day_of_year", "Day of the year", "days", integers(1, kDaysPerYear),
+                    at(&EnvironmentSpec::day_of_year), "1 is 1 January; 225 is mid-August.");
+    table.add_drawn(
+        "weather", "Weather", "", drawn_words(kWeathers), at(&EnvironmentSpec::weather),
+        "clear: sun and shadows; overcast: grey light without hard shadows; fog: contrast falls "
+        "with distance; rain: overcast, streaks, a wet ground with puddles.");
+    table.add_drawn("visibility_m", "Visibility", "m", numbers(20, 100000),
+                    at(&EnvironmentSpec::visibility_m),
+                    "Distance at which 2 % of a contrast is left; without it, by the weather: 3500 "
+                    "(clear), 8000 (overcast), 800 (fog), 3000 (rain).");
+    table.add_drawn(
+        "smoke", "Smoke", "", numbers(0, 1), at(&EnvironmentSpec::smoke),
+        "How much smoke and dust there is where the scenario's dangers (disaster_agents) are; it "
+        "hides what is behind it from the eye, not from the ground truth.");
+    table.add_drawn("rain_mm_per_h", "Rain", "mm/h", numbers(0, 200),
+                    at(&EnvironmentSpec::rain_mm_per_h),
+                    "Intensity of the rain, where the weather is rain.");
+    table.group("wind", "Wind", "What the drones fly in.");
+    table.add_all("wind", wind_fields(), at(&EnvironmentSpec::wind));
+    return table;
+  }();
+  return fields;
+}
+
 EnvironmentSpec read_environment(const json& value, std::vector<Problem>& problems) {
   EnvironmentSpec spec;
-  for (const Field& field : fields()) {
-    const auto found = value.find(field.name);
-    if (found == value.end()) continue;
-    spec.*field.value =
-        Distribution::read(*found, field.quantity, pointer_of(field.name), problems);
-  }
-  if (const auto found = value.find("visibility_m"); found != value.end()) {
-    spec.visibility_m =
-        Distribution::read(*found, visibility_quantity(), pointer_of("visibility_m"), problems);
-  }
-  if (const auto found = value.find("wind"); found != value.end()) {
-    spec.wind = read_wind(*found, problems);
-  }
+  const std::string no_source;
+  environment_fields().read(value, spec, {"/environment", no_source, problems});
   return spec;
 }
 
-json to_json(const EnvironmentSpec& spec) {
-  json value;
-  for (const Field& field : fields()) {
-    value[field.name] = (spec.*field.value).to_json(field.quantity);
-  }
-  value["wind"] = to_json(spec.wind);
-  if (spec.visibility_m) value["visibility_m"] = spec.visibility_m->to_json(visibility_quantity());
-  return value;
-}
+json to_json(const EnvironmentSpec& spec) { return environment_fields().print(spec); }
 
 RunEnvironment environment_of_run(const EnvironmentSpec& spec, std::uint64_t run_seed) {
   const auto draw = [&](const Distribution& distribution, const char* name) {

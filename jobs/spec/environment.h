@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jobs/spec/distribution.h"
+#include "jobs/spec/field_table.h"
 #include "jobs/spec/wind_spec.h"
 #include "render/spec/environment.h"
 
@@ -23,6 +24,9 @@ struct EnvironmentSpec {
   Distribution smoke{0};
   WindFields wind;
 };
+
+/// In the order of the schema.
+const FieldTable<EnvironmentSpec>& environment_fields();
 
 /// Reads the object; what it leaves out keeps its default. Problems carry JSON pointers.
 EnvironmentSpec read_environment(const nlohmann::json& value, std::vector<Problem>& problems);

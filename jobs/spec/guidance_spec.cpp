@@ -7,102 +7,215 @@
 namespace throng::jobs {
 
 using nlohmann::json;
+using nlohmann::ordered_json;
 
 namespace {
 
 constexpr double kGuidanceDegree = std::numbers::pi / 180;
 constexpr std::array kPerceptionWords{"truth", "camera"};
+/// Those of the table of sim/policy.cpp.
+constexpr std::array kPolicies{"hover",  "waypoints", "orbit",   "survey", "follow_density",
+                               "zigzag", "pilot_log", "balance", "signage"};
 
-Eigen::Vector3d point_of(const json& value) {
-  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+json fov_json(const sim::PerceptionSpec& spec) { return spec.fov_rad / kGuidanceDegree; }
+
+void set_fov(sim::PerceptionSpec& spec, const json& value, const FieldPlace& /*place*/) {
+  spec.fov_rad = value.get<double>() * kGuidanceDegree;
 }
 
-Eigen::Vector2d place_of(const json& value) {
-  return {value[0].get<double>(), value[1].get<double>()};
+const FieldTable<sim::PerceptionSpec>& perception_fields() {
+  static const FieldTable<sim::PerceptionSpec> fields = [] {
+    FieldTable<sim::PerceptionSpec> table;
+    table
+        .add_word("kind", "Kind", kPerceptionWords, at(&sim::PerceptionSpec::kind),
+                  "truth: everybody's place and aim; camera: what a camera that looks straight "
+                  "down from the drone would count. Without it, truth.")
+        .without_default();
+    table
+        .add("fov_deg", "Field of view", "degrees", numbers(10, 170), fov_json, set_fov,
+             "camera: the angle of the cone that it sees; without it, 90.")
+        .without_default();
+    table
+        .add("delay_s", "Delay", "s", numbers(0, 60), at(&sim::PerceptionSpec::delay_s),
+             "camera: from the picture to the estimate; without it, 1.")
+        .without_default();
+    table
+        .add("count_noise", "Count noise", "", numbers(0, 0.5),
+             at(&sim::PerceptionSpec::count_noise),
+             "camera: share of the people that it misses, and of those that it counts twice; "
+             "without it, 0.1.")
+        .without_default();
+    return table;
+  }();
+  return fields;
 }
 
-json json_of(const Eigen::Vector2d& place) { return {place.x(), place.y()}; }
-
-sim::PerceptionSpec perception_of(const json& value) {
-  sim::PerceptionSpec spec;
-  if (value.value("kind", "truth") == kPerceptionWords[1]) spec.kind = sim::PerceptionKind::camera;
-  spec.fov_rad = value.value("fov_deg", spec.fov_rad / kGuidanceDegree) * kGuidanceDegree;
-  spec.delay_s = value.value("delay_s", spec.delay_s);
-  spec.count_noise = value.value("count_noise", spec.count_noise);
-  return spec;
+const FieldTable<world::Rectangle>& area_fields() {
+  static const FieldTable<world::Rectangle> fields = [] {
+    FieldTable<world::Rectangle> table;
+    table.add("min", "Least corner", "m", coordinates(2), at(&world::Rectangle::min), "[x, y].")
+        .required();
+    table.add("max", "Greatest corner", "m", coordinates(2), at(&world::Rectangle::max), "[x, y].")
+        .required();
+    return table;
+  }();
+  return fields;
 }
 
-json json_of(const sim::PerceptionSpec& spec) {
-  return {{"kind", kPerceptionWords[spec.kind == sim::PerceptionKind::camera ? 1 : 0]},
-          {"fov_deg", spec.fov_rad / kGuidanceDegree},
-          {"delay_s", spec.delay_s},
-          {"count_noise", spec.count_noise}};
+json perception_json(const DroneSpec& drone) {
+  const auto& perception = drone.mission.guidance.perception;
+  return perception ? perception_fields().print(*perception) : json();
+}
+
+void set_perception(DroneSpec& drone, const json& value, const FieldPlace& place) {
+  perception_fields().read(value, drone.mission.guidance.perception.emplace(), place);
+}
+
+json area_json(const DroneSpec& drone) {
+  const auto& area = drone.mission.guidance.area;
+  return area ? area_fields().print(*area) : json();
+}
+
+void set_area(DroneSpec& drone, const json& value, const FieldPlace& place) {
+  area_fields().read(value, drone.mission.guidance.area.emplace(), place);
+}
+
+ordered_json waypoint_rules() {
+  ordered_json rules = {{"title", "Point"},
+                        {"description", "[x, y, z] in the world: Z up, the ground is z = 0."}};
+  rules.update(coordinates(3).rules);
+  return rules;
+}
+
+json waypoints_json(const DroneSpec& drone) {
+  json list;
+  for (const Eigen::Vector3d& point : drone.mission.waypoints) list.push_back(value_json(point));
+  return list;
+}
+
+void set_waypoints(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) {
+  drone.mission.waypoints.clear();
+  for (const json& point : value) set_value(point, drone.mission.waypoints.emplace_back());
+}
+
+json exits_json(const DroneSpec& drone) {
+  const std::vector<std::string>& exits = drone.mission.guidance.exits;
+  return exits.empty() ? json() : json(exits);
+}
+
+void set_exits(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) {
+  value.get_to(drone.mission.guidance.exits);
+}
+
+json log_json(const DroneSpec& drone) { return value_json(drone.pilot_log.filename().string()); }
+
+void set_log(DroneSpec& drone, const json& value, const FieldPlace& place) {
+  const auto name = value.get<std::string>();
+  if (place.source.empty()) {
+    place.problems.push_back({"", place.pointer, "\"" + name + "\"",
+                              "set-points, since a request has no files beside it"});
+    return;
+  }
+  drone.pilot_log = std::filesystem::path(place.source).parent_path() / name;
+}
+
+ordered_json setpoint_rules() {
+  ordered_json rules = {
+      {"title", "Set-point"},
+      {"description", "[time in s, x, y, z, yaw in degrees from +x, 1 while people can follow]."}};
+  rules.update(coordinates(6).rules);
+  return rules;
+}
+
+json setpoints_json(const DroneSpec& drone) {
+  json list;
+  for (const sim::PilotSample& sample : drone.mission.guidance.setpoints) {
+    list.push_back({sample.time_s, sample.position.x(), sample.position.y(), sample.position.z(),
+                    sample.yaw_rad / kGuidanceDegree, sample.beacon ? 1 : 0});
+  }
+  return list;
+}
+
+void set_setpoints(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) {
+  std::vector<sim::PilotSample>& setpoints = drone.mission.guidance.setpoints;
+  setpoints.clear();
+  for (const json& row : value) {
+    setpoints.push_back({row[0].get<double>(),
+                         {row[1].get<double>(), row[2].get<double>(), row[3].get<double>()},
+                         row[4].get<double>() * kGuidanceDegree,
+                         row[5].get<double>() != 0});
+  }
+}
+
+FieldTable<DroneSpec> make_guidance_fields() {
+  FieldTable<DroneSpec> table;
+  table.add("policy", "Policy", "", one_of(kPolicies),
+            at(&DroneSpec::mission, &sim::DroneMission::policy),
+            "hover: stay at the start; waypoints: fly from point to point and hover at the last; "
+            "orbit: circle a point and look at it; survey: lanes over an area; follow_density: "
+            "keep the camera on the densest crowd; zigzag: sweep and lead like a tele-operator; "
+            "pilot_log: repeat recorded set-points; balance: lead people from long queues to short "
+            "ones; signage: hover before the exit that is best and call people there.");
+  table
+      .add("waypoints", "Waypoints", "m", lists(0, 1000, waypoint_rules()), waypoints_json,
+           set_waypoints, R"(The points of the policy "waypoints", in order.)")
+      .with_default(ordered_json::array());
+  table
+      .add("speed_mps", "Speed", "m/s", numbers(0.1, 15),
+           at(&DroneSpec::mission, &sim::DroneMission::speed_mps), "Speed along the path.")
+      .randomized();
+  table.add(
+      "lead_speed_mps", "Speed with followers", "m/s", numbers(0.1, 10),
+      at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::lead_speed_mps),
+      "balance: how fast it leads people; without it, 1.6.");
+  table.add("batch", "Batch", "people", integers(1, 10000),
+            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::batch),
+            "balance: most people that it fetches at once; without it, 50.");
+  table
+      .add("exits", "Exits", "", lists(0, 127, texts(1, 200).rules), exits_json, set_exits,
+           "zigzag, balance, signage: ids of the scenario's exits that it may lead to; without it, "
+           "all that are open.")
+      .with_default(ordered_json::array());
+  table.add("beacon", "Beacon", "", booleans(),
+            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::beacon),
+            "hover, waypoints, orbit, survey, follow_density: whether people may follow the drone, "
+            "all the time; without it, false. The other policies decide themselves.");
+  table.add("perception", "Perception", "", object_of(perception_fields().schema()),
+            perception_json, set_perception, "What a policy knows of people.");
+  table.add("centre", "Centre", "m", coordinates(2),
+            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::centre),
+            "orbit: [x, y] that it circles.");
+  table.add("radius_m", "Radius", "m", numbers(1, 10000),
+            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::radius_m),
+            "orbit: distance from the centre.");
+  table.add("area", "Area", "", object_of(area_fields().schema()), area_json, set_area,
+            "survey: the rectangle that it covers; without it, the one that people must leave.");
+  table.add("overlap", "Overlap", "", numbers(0, 0.95),
+            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::overlap),
+            "survey: share of the camera's view that neighbouring lanes have in common; without "
+            "it, 0.3.");
+  table.add("log", "Pilot log", "", texts(1, 1000), log_json, set_log,
+            "pilot_log: a file of set-points in the job's folder, as throng simulate --pilot-logs "
+            "writes it.");
+  table
+      .add("setpoints", "Set-points", "", lists(0, 100'000, setpoint_rules()), setpoints_json,
+           set_setpoints, "pilot_log: the same in the job itself, by time.")
+      .with_default(ordered_json::array());
+  return table;
 }
 
 }  // namespace
 
-std::filesystem::path read_guidance(const json& value, const std::string& source,
-                                    const std::string& pointer, sim::DroneMission& mission,
-                                    std::vector<Problem>& problems) {
-  sim::GuidanceSpec& guidance = mission.guidance;
-  for (const auto& [key, field] : value.items()) {
-    if (key == "policy") field.get_to(mission.policy);
-    if (key == "speed_mps") field.get_to(mission.speed_mps);
-    if (key == "waypoints") {
-      for (const json& point : field) mission.waypoints.push_back(point_of(point));
-    }
-    if (key == "centre") guidance.center = place_of(field);
-    if (key == "radius_m") guidance.radius_m = field.get<double>();
-    if (key == "area") guidance.area = {place_of(field["min"]), place_of(field["max"])};
-    if (key == "overlap") guidance.overlap = field.get<double>();
-    if (key == "exits") field.get_to(guidance.exits);
-    if (key == "lead_speed_mps") guidance.lead_speed_mps = field.get<double>();
-    if (key == "batch") guidance.batch = field.get<int>();
-    if (key == "perception") guidance.perception = perception_of(field);
-    if (key == "beacon") guidance.beacon = field.get<bool>();
-    if (key == "setpoints") {
-      for (const json& row : field) {
-        guidance.setpoints.push_back(
-            {row[0].get<double>(),
-             {row[1].get<double>(), row[2].get<double>(), row[3].get<double>()},
-             row[4].get<double>() * kGuidanceDegree,
-             row[5].get<double>() != 0});
-      }
-    }
-  }
-  if (!value.contains("log")) return {};
-  const auto name = value["log"].get<std::string>();
-  if (source.empty()) {
-    problems.push_back({"", pointer + "/log", "\"" + name + "\"",
-                        "set-points, since a request has no files beside it"});
-    return {};
-  }
-  return std::filesystem::path(source).parent_path() / name;
+const FieldTable<DroneSpec>& guidance_fields() {
+  static const FieldTable<DroneSpec> table = make_guidance_fields();
+  return table;
 }
 
-json guidance_json(const sim::DroneMission& mission) {
-  const sim::GuidanceSpec& guidance = mission.guidance;
-  json value = {{"policy", mission.policy}, {"speed_mps", mission.speed_mps}};
-  for (const Eigen::Vector3d& point : mission.waypoints) {
-    value["waypoints"].push_back({point.x(), point.y(), point.z()});
-  }
-  if (guidance.center) value["centre"] = json_of(*guidance.center);
-  if (guidance.radius_m) value["radius_m"] = *guidance.radius_m;
-  if (guidance.area) {
-    value["area"] = {{"min", json_of(guidance.area->min)}, {"max", json_of(guidance.area->max)}};
-  }
-  if (guidance.overlap) value["overlap"] = *guidance.overlap;
-  if (!guidance.exits.empty()) value["exits"] = guidance.exits;
-  if (guidance.lead_speed_mps) value["lead_speed_mps"] = *guidance.lead_speed_mps;
-  if (guidance.batch) value["batch"] = *guidance.batch;
-  if (guidance.perception) value["perception"] = json_of(*guidance.perception);
-  if (guidance.beacon) value["beacon"] = *guidance.beacon;
-  for (const sim::PilotSample& sample : guidance.setpoints) {
-    value["setpoints"].push_back({sample.time_s, sample.position.x(), sample.position.y(),
-                                  sample.position.z(), sample.yaw_rad / kGuidanceDegree,
-                                  sample.beacon ? 1 : 0});
-  }
-  return value;
+void read_guidance(const json& value, const std::string& source, const std::string& pointer,
+                   DroneSpec& drone, std::vector<Problem>& problems) {
+  guidance_fields().read(value, drone, {pointer, source, problems});
 }
+
+json guidance_json(const DroneSpec& drone) { return guidance_fields().print(drone); }
 
 }  // namespace throng::jobs

@@ -83,17 +83,21 @@ Quantity quantity_of(const json& rules) {
   return quantity;
 }
 
-/// Whether the list places that the path names are there: "drones.3" of three drones is not.
-bool is_there(const json& job, const std::vector<std::string>& words) {
+/// Whether the list places that the path names are there: "drones.3" of three drones is not. A list
+/// that is left out may be filled by the scenario, but holds no distribution of the job's own.
+bool is_there(const json& job, const std::vector<std::string>& words, bool in_place) {
   const json* node = &job;
-  for (const std::string& word : words) {
-    if (is_index(word)) {
-      const auto index = static_cast<std::size_t>(std::stoi(word));
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (is_index(words[i])) {
+      const auto index = static_cast<std::size_t>(std::stoi(words[i]));
       if (!node->is_array() || index >= node->size()) return false;
       node = &node->at(index);
+    } else if (node->contains(words[i])) {
+      node = &node->at(words[i]);
     } else {
-      if (!node->contains(word)) return true;  // what is left out has a default
-      node = &node->at(word);
+      // What is left out has a default.
+      return !in_place ||
+             std::none_of(words.begin() + static_cast<std::ptrdiff_t>(i), words.end(), is_index);
     }
   }
   return true;
@@ -131,7 +135,7 @@ std::vector<RandomField> take_randomize(json& job, std::vector<Problem>& problem
                           "\"environment.time_of_day\" or \"drones.0.camera.pitch_deg\""});
       continue;
     }
-    if (!is_there(job, words)) {
+    if (!is_there(job, words, rules->contains(kInPlace))) {
       problems.push_back({"", place, fmt::format("\"{}\"", path), "a place that the job fills"});
       continue;
     }

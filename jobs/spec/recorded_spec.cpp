@@ -12,7 +12,6 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* kRecordedFolder = "recorded";
-constexpr const char* kRecordedPointer = "/crowd/recorded";
 /// In the order of metrics::TrajectoryKind.
 constexpr std::array kKindWords = {"any", "text", "sqlite", "scb", "csv"};
 
@@ -23,75 +22,138 @@ struct LengthUnit {
 constexpr std::array<LengthUnit, 4> kLengthUnits = {
     {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}}};
 
-metrics::TrajectoryFormat format_of(const json& value, std::vector<Problem>& problems) {
-  metrics::TrajectoryFormat format;
-  const std::string kind = value.value("format", kKindWords[0]);
-  for (std::size_t i = 0; i < kKindWords.size(); ++i) {
-    if (kind == kKindWords[i]) format.kind = static_cast<metrics::TrajectoryKind>(i);
-  }
-  if (value.contains("frame_rate_hz")) format.frames_per_s = value["frame_rate_hz"].get<double>();
+std::vector<std::string> unit_words() {
+  std::vector<std::string> words;
+  for (const LengthUnit& unit : kLengthUnits) words.emplace_back(unit.word);
+  return words;
+}
+
+json unit_json(const RecordedSpec& spec) {
   for (const LengthUnit& unit : kLengthUnits) {
-    if (value.value("unit", "") == unit.word) format.unit_m = unit.metres;
+    if (spec.format.unit_m == unit.metres) return unit.word;
   }
-  if (!value.contains("columns")) return format;
-  const json& columns = value["columns"];
-  format.columns.person = columns.value("person", format.columns.person);
-  format.columns.x = columns.value("x", format.columns.x);
-  format.columns.y = columns.value("y", format.columns.y);
-  format.columns.time = columns.value("time", "");
-  if (!format.columns.time.empty()) format.columns.frame.clear();
-  if (columns.contains("frame")) {
-    if (!format.columns.time.empty()) {
-      problems.push_back({"", fmt::format("{}/columns/frame", kRecordedPointer),
-                          "a column of frames beside one of times", "only one of them"});
-    }
-    format.columns.frame = columns["frame"].get<std::string>();
+  return {};
+}
+
+void set_unit(RecordedSpec& spec, const json& value, const FieldPlace& /*place*/) {
+  for (const LengthUnit& unit : kLengthUnits) {
+    if (value == unit.word) spec.format.unit_m = unit.metres;
   }
-  return format;
+}
+
+json file_json(const RecordedSpec& spec) {
+  return fmt::format("{}/{}", kRecordedFolder, spec.file.filename().string());
+}
+
+void set_file(RecordedSpec& spec, const json& value, const FieldPlace& place) {
+  const auto name = value.get<std::string>();
+  if (place.source.empty()) {
+    place.problems.push_back({"", place.pointer, fmt::format("\"{}\"", name),
+                              "a job file, since a request has no files beside it"});
+    return;
+  }
+  spec.file = std::filesystem::path(place.source).parent_path() / name;
+}
+
+/// A table says when by its frames or by times.
+void set_time_column(RecordedSpec& spec, const json& value, const FieldPlace& /*place*/) {
+  value.get_to(spec.format.columns.time);
+  spec.format.columns.frame.clear();
+}
+
+FieldTable<RecordedSpec> make_recorded_fields() {
+  FieldTable<RecordedSpec> table;
+  table
+      .add("file", "File", "", texts(1, 1000), file_json, set_file,
+           "The file of trajectories, named from the job's folder; a job's own folder keeps a "
+           "copy. Requests cannot name files.")
+      .required();
+  table
+      .add(
+          "sha256", "Hash", "", texts_like("^[0-9a-f]{64}$", "64 hexadecimal digits"),
+          [](const RecordedSpec& spec) { return json(spec.sha256); },
+          [](RecordedSpec& spec, const json& value, const FieldPlace&) {
+            value.get_to(spec.sha256);
+          },
+          "SHA-256 of the file; another file is refused. Filled in.")
+      .without_default();
+  table
+      .add_word("format", "Format", kKindWords,
+                at(&RecordedSpec::format, &metrics::TrajectoryFormat::kind),
+                "text of JuPedSim and PedPy, JuPedSim's sqlite, Menge's scb, or csv, a table whose "
+                "columns are named below; without it (any), by suffix and content.")
+      .without_default();
+  table.add("frame_rate_hz", "Frame rate", "Hz", numbers(0.01, 10000),
+            at(&RecordedSpec::format, &metrics::TrajectoryFormat::frames_per_s),
+            "Frames per second of the file, where it does not say or is wrong; with a column of "
+            "times, the rate to interpolate to.");
+  table.add("unit", "Unit", "", one_of(unit_words()), unit_json, set_unit,
+            "Of lengths in the file; without it, as the file says, else m.");
+  table
+      .group("columns", "Columns",
+             "What the columns of a table (csv) are called in its first line.")
+      .without_default();
+  table
+      .add("columns/person", "Person", "", texts(1, 200),
+           at(&RecordedSpec::format, &metrics::TrajectoryFormat::columns,
+              &metrics::TrajectoryColumns::person),
+           "Name or number of the person; without it, id.")
+      .without_default();
+  table
+      .add("columns/frame", "Frame", "", texts(1, 200),
+           at(&RecordedSpec::format, &metrics::TrajectoryFormat::columns,
+              &metrics::TrajectoryColumns::frame),
+           "Number of the frame; without it, frame.")
+      .without_default();
+  table
+      .add(
+          "columns/time", "Time", "", texts(1, 200),
+          [](const RecordedSpec& spec) { return value_json(spec.format.columns.time); },
+          set_time_column, "Time in seconds, instead of frame.")
+      .without_default();
+  table
+      .add("columns/x", "x", "", texts(1, 200),
+           at(&RecordedSpec::format, &metrics::TrajectoryFormat::columns,
+              &metrics::TrajectoryColumns::x),
+           "Place along x; without it, x.")
+      .without_default();
+  table
+      .add("columns/y", "y", "", texts(1, 200),
+           at(&RecordedSpec::format, &metrics::TrajectoryFormat::columns,
+              &metrics::TrajectoryColumns::y),
+           "Place along y; without it, y.")
+      .without_default();
+  table
+      .add("radius_m", "Radius", "m", numbers(0.05, 2),
+           at(&RecordedSpec::walkers, &metrics::WalkerDefaults::radius_m),
+           "Of everybody's body, which files do not say; without it, 0.2.")
+      .without_default();
+  table
+      .add("desired_speed_mps", "Desired speed", "m/s", numbers(0.1, 20),
+           at(&RecordedSpec::walkers, &metrics::WalkerDefaults::desired_speed_mps),
+           "Of everybody, for the metrics; without it, 1.34.")
+      .without_default();
+  return table;
 }
 
 }  // namespace
 
-std::optional<RecordedSpec> read_recorded(const json& crowd, const std::string& source,
-                                          std::vector<Problem>& problems) {
-  const auto found = crowd.find("recorded");
-  if (found == crowd.end()) return std::nullopt;
+const FieldTable<RecordedSpec>& recorded_fields() {
+  static const FieldTable<RecordedSpec> table = make_recorded_fields();
+  return table;
+}
+
+RecordedSpec read_recorded(const json& value, const FieldPlace& place) {
   RecordedSpec recorded;
-  recorded.format = format_of(*found, problems);
-  recorded.walkers.radius_m = found->value("radius_m", recorded.walkers.radius_m);
-  recorded.walkers.desired_speed_mps =
-      found->value("desired_speed_mps", recorded.walkers.desired_speed_mps);
-  const auto name = found->at("file").get<std::string>();
-  const std::string pointer = fmt::format("{}/file", kRecordedPointer);
-  if (source.empty()) {
-    problems.push_back({"", pointer, fmt::format("\"{}\"", name),
-                        "a job file, since a request has no files beside it"});
-    return recorded;
+  recorded_fields().read(value, recorded, place);
+  if (value_at(value, "columns/time") != nullptr && value_at(value, "columns/frame") != nullptr) {
+    place.problems.push_back({"", place.pointer + "/columns/frame",
+                              "a column of frames beside one of times", "only one of them"});
   }
-  recorded.file = std::filesystem::path(source).parent_path() / name;
-  recorded.sha256 = found->value("sha256", "");
   return recorded;
 }
 
-json to_json(const RecordedSpec& recorded) {
-  const metrics::TrajectoryFormat& format = recorded.format;
-  json value = {
-      {"file", fmt::format("{}/{}", kRecordedFolder, recorded.file.filename().string())},
-      {"sha256", recorded.sha256},
-      {"format", kKindWords[static_cast<std::size_t>(format.kind)]},
-      {"columns",
-       {{"person", format.columns.person}, {"x", format.columns.x}, {"y", format.columns.y}}},
-      {"radius_m", recorded.walkers.radius_m},
-      {"desired_speed_mps", recorded.walkers.desired_speed_mps}};
-  if (format.frames_per_s) value["frame_rate_hz"] = *format.frames_per_s;
-  for (const LengthUnit& unit : kLengthUnits) {
-    if (format.unit_m == unit.metres) value["unit"] = unit.word;
-  }
-  const bool by_time = !format.columns.time.empty();
-  value["columns"][by_time ? "time" : "frame"] =
-      by_time ? format.columns.time : format.columns.frame;
-  return value;
-}
+json to_json(const RecordedSpec& recorded) { return recorded_fields().print(recorded); }
 
 std::filesystem::path kept_recording(const RecordedSpec& recorded,
                                      const std::filesystem::path& job_folder) {

@@ -4,11 +4,9 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "base/error.h"
+#include "jobs/spec/field_table.h"
 #include "metrics/spec/trajectory_format.h"
 
 namespace throng::jobs {
@@ -20,10 +18,12 @@ struct RecordedSpec {
   metrics::WalkerDefaults walkers;
 };
 
-/// Reads the block, if it is there. The file is named from the folder of `source`, the job's file,
-/// and is not opened; a job without one (a request) can name none.
-std::optional<RecordedSpec> read_recorded(const nlohmann::json& crowd, const std::string& source,
-                                          std::vector<Problem>& problems);
+/// In the order of the schema.
+const FieldTable<RecordedSpec>& recorded_fields();
+
+/// Reads the block. The file is named from the folder of the job's file, and is not opened; a job
+/// without one (a request) can name none.
+RecordedSpec read_recorded(const nlohmann::json& value, const FieldPlace& place);
 
 /// The block as a job's folder has it: the file is `recorded/NAME` there.
 nlohmann::json to_json(const RecordedSpec& recorded);

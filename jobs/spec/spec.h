@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "annotate/spec/ground_truth.h"
 #include "base/error.h"
 #include "formats/spec/options.h"
 #include "jobs/spec/camera_spec.h"
@@ -39,7 +40,7 @@ struct CaptureSpec {
 struct OutputSpec {
   std::string image_format = "jpeg";
   int image_quality = 95;
-  std::vector<std::string> annotations = {"coco", "density", "exits"};
+  std::vector<std::string> annotations = annotate::default_ground_truth();
   double density_sigma_px = 4;
   int previews = 3;
   std::vector<std::string> formats;  ///< other formats, below formats/ in the dataset

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -19,80 +18,55 @@ using Words = std::array<const char*, 3>;
 constexpr Words kProfiles{"uniform", "log", "power"};
 constexpr Words kGusts{"none", "dryden", "ou"};
 
-Quantity word_quantity(const Words& words) {
-  return {fmt::format(R"(one of "{}", "{}", "{}")", words[0], words[1], words[2]),
-          [words](const json& value) -> std::optional<double> {
-            const auto* found = std::find(words.begin(), words.end(), value);
-            if (found == words.end()) return std::nullopt;
-            return static_cast<double>(found - words.begin());
-          },
-          [words](double index) { return json(words.at(static_cast<std::size_t>(index))); },
-          0,
-          words.size() - 1.0,
-          false};
-}
-
-/// A field of the job: its name, how it writes values, and where it is kept.
-struct WindField {
-  const char* name;
-  Quantity quantity;
-  Distribution WindFields::*value;
-};
-
-const std::array<WindField, 9>& wind_fields() {
-  static const std::array<WindField, 9> list = {
-      {{"speed_mps", number_quantity(0, 40), &WindFields::speed_mps},
-       {"direction_deg", number_quantity(-180, 360), &WindFields::direction_deg},
-       {"profile", word_quantity(kProfiles), &WindFields::profile},
-       {"roughness_m", number_quantity(1e-4, 3), &WindFields::roughness_m},
-       {"exponent", number_quantity(0, 1), &WindFields::exponent},
-       {"gusts", word_quantity(kGusts), &WindFields::gusts},
-       {"intensity", number_quantity(0, 5), &WindFields::intensity},
-       {"gust_mps", number_quantity(0, 15), &WindFields::gust_mps},
-       {"gust_time_s", number_quantity(0.1, 60), &WindFields::gust_time_s}}};
-  return list;
-}
-
 std::string wind_pointer(const char* name) { return fmt::format("/environment/wind/{}", name); }
 
 }  // namespace
 
-WindFields read_wind(const json& value, std::vector<Problem>& problems) {
-  WindFields fields;
-  for (const WindField& field : wind_fields()) {
-    const auto found = value.find(field.name);
-    if (found == value.end()) continue;
-    fields.*field.value =
-        Distribution::read(*found, field.quantity, wind_pointer(field.name), problems);
-  }
+const FieldTable<WindFields>& wind_fields() {
+  static const FieldTable<WindFields> fields = [] {
+    FieldTable<WindFields> table;
+    table.add_drawn("speed_mps", "Wind", "m/s", numbers(0, 40), at(&WindFields::speed_mps),
+                    "Mean wind 10 m above the ground.");
+    table.add_drawn("direction_deg", "Wind's direction", "degrees", numbers(-180, 360),
+                    at(&WindFields::direction_deg),
+                    "Where the wind blows to, counter-clockwise from +x (east).");
+    table.add_drawn("profile", "Profile", "", drawn_words(kProfiles), at(&WindFields::profile),
+                    "How the mean grows with height: log (with the logarithm of height over "
+                    "roughness), power (with a power of height), uniform (not at all).");
+    table.add_drawn(
+        "roughness_m", "Roughness", "m", numbers(0.0001, 3), at(&WindFields::roughness_m),
+        "Of the ground, for the profile log: 0.03 grass, 0.4 suburbs, 1 and more cities.");
+    table.add_drawn("exponent", "Exponent", "", numbers(0, 1), at(&WindFields::exponent),
+                    "Of the profile power.");
+    table.add_drawn("gusts", "Gusts", "", drawn_words(kGusts), at(&WindFields::gusts),
+                    "How each drone is shaken: dryden (turbulence of MIL-F-8785C at low altitude, "
+                    "which follows from wind and height), ou (Ornstein-Uhlenbeck, of a given "
+                    "strength and duration), none.");
+    table.add_drawn("intensity", "Intensity", "", numbers(0, 5), at(&WindFields::intensity),
+                    "Factor on the strength of dryden's gusts.");
+    table.add_drawn("gust_mps", "Strength of gusts", "m/s", numbers(0, 15),
+                    at(&WindFields::gust_mps), "Standard deviation of ou's gusts along each axis.");
+    table.add_drawn("gust_time_s", "Duration of gusts", "s", numbers(0.1, 60),
+                    at(&WindFields::gust_time_s), "Correlation time of ou's gusts.");
+    return table;
+  }();
   return fields;
 }
 
-json to_json(const WindFields& fields) {
-  json value;
-  for (const WindField& field : wind_fields()) {
-    value[field.name] = (fields.*field.value).to_json(field.quantity);
-  }
-  return value;
-}
-
 sim::WindSpec wind_of_run(const WindFields& fields, std::uint64_t run_seed) {
-  const auto draw = [&](Distribution WindFields::*member) {
-    const auto& list = wind_fields();
-    const auto* field = std::find_if(list.begin(), list.end(),
-                                     [&](const WindField& entry) { return entry.value == member; });
-    return (fields.*member).draw(run_seed, wind_pointer(field->name));
+  const auto draw = [&](const Distribution& distribution, const char* name) {
+    return distribution.draw(run_seed, wind_pointer(name));
   };
   sim::WindSpec wind;
-  wind.speed_mps = draw(&WindFields::speed_mps);
-  wind.direction_rad = draw(&WindFields::direction_deg) * kDegree;
-  wind.profile = static_cast<sim::WindProfile>(draw(&WindFields::profile));
-  wind.roughness_m = draw(&WindFields::roughness_m);
-  wind.exponent = draw(&WindFields::exponent);
-  wind.gusts = static_cast<sim::GustModel>(draw(&WindFields::gusts));
-  wind.intensity = draw(&WindFields::intensity);
-  wind.gust_mps = draw(&WindFields::gust_mps);
-  wind.gust_time_s = draw(&WindFields::gust_time_s);
+  wind.speed_mps = draw(fields.speed_mps, "speed_mps");
+  wind.direction_rad = draw(fields.direction_deg, "direction_deg") * kDegree;
+  wind.profile = static_cast<sim::WindProfile>(draw(fields.profile, "profile"));
+  wind.roughness_m = draw(fields.roughness_m, "roughness_m");
+  wind.exponent = draw(fields.exponent, "exponent");
+  wind.gusts = static_cast<sim::GustModel>(draw(fields.gusts, "gusts"));
+  wind.intensity = draw(fields.intensity, "intensity");
+  wind.gust_mps = draw(fields.gust_mps, "gust_mps");
+  wind.gust_time_s = draw(fields.gust_time_s, "gust_time_s");
   return wind;
 }
 

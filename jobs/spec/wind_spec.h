@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <vector>
 
 #include "jobs/spec/distribution.h"
+#include "jobs/spec/field_table.h"
 #include "sim/spec/wind_spec.h"
 
 namespace throng::jobs {
@@ -24,10 +24,8 @@ struct WindFields {
   Distribution gust_time_s{3};
 };
 
-/// Reads the object; what it leaves out keeps its default. Problems carry JSON pointers.
-WindFields read_wind(const nlohmann::json& value, std::vector<Problem>& problems);
-
-nlohmann::json to_json(const WindFields& fields);
+/// In the order of the schema.
+const FieldTable<WindFields>& wind_fields();
 
 /// What was drawn for a run.
 sim::WindSpec wind_of_run(const WindFields& fields, std::uint64_t run_seed);

@@ -153,7 +153,7 @@ class Frame:
         return pixels
 
     def has(self, kind: str) -> bool:
-        """Whether there is a label file: density, depth, instances, parts, normals or flow."""
+        """Whether there is a label file: density, depth, instances, parts, normals, flow or semantic."""
         return self._source.storage.exists(self._label_name(kind))
 
     def _label_name(self, kind: str) -> str:
@@ -216,6 +216,10 @@ class Frame:
     def parts(self) -> NDArray[np.uint8]:
         """(height, width) body parts, 1 head to 9 carried item; 0 elsewhere."""
         return self._png("parts", np.uint8, 1)
+
+    def semantic(self) -> NDArray[np.uint8]:
+        """(height, width) classes: 0 sky, 1 ground, 2 building, 3 prop, 4 person, 5 umbrella, 6 drone."""
+        return self._png("semantic", np.uint8, 1)
 
     def normals(self) -> FloatArray:
         """(height, width, 3) unit normals in world axes; 0 for sky."""

@@ -48,6 +48,8 @@ class Filters(Part):
     """Share of a person that must be visible. Default: 0."""
     min_height_px: float | None = None
     """Height that the whole person must have in the picture. Unit: px. Default: 0."""
+    max_truncation: float | None = None
+    """Share of a person that may lie outside of the image; without it, any."""
 
 
 @dataclass
@@ -97,13 +99,13 @@ class Outputs(Part):
     _: KW_ONLY
     image: Image | None = None
     """How frames are stored."""
-    annotations: Sequence[Literal["coco", "keypoints", "amodal", "density", "exits", "fields", "depth", "instances", "parts", "normals", "flow", "sensors"]] | None = None
+    annotations: Sequence[Literal["coco", "keypoints", "amodal", "density", "exits", "fields", "depth", "instances", "parts", "normals", "flow", "semantic", "sensors"]] | None = None
     """Which ground truth is written: coco (boxes, masks, cameras, what people do and look like), keypoints (COCO's
     17 of each person in the picture and in the world, with coco), amodal (masks of whole people, with coco),
     density (crowd density maps), exits (counts and clogging index per exit and frame), fields (density and
     velocity on the ground, per frame); per pixel, as PNG: depth, instances, parts (of the body), normals, flow
-    (motion to the next frame); per drone: sensors (a table of what they read, and of the truth). Default:
-    ["coco", "density", "exits"]."""
+    (motion to the next frame), semantic (the class of what shows: ground, person, ...); per drone: sensors (a
+    table of what they read, and of the truth). Default: ["coco", "density", "exits"]."""
     density: Density | None = None
     """How heads are spread."""
     previews: int | None = None

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <string>
+#include <vector>
+
 #include "base/random.h"
 
 namespace throng {
@@ -33,6 +36,29 @@ TEST(Deflate, ZlibReadsIt) {
       EXPECT_EQ(inflated(stream, size + 1), bytes) << size;
       EXPECT_TRUE(noise || size < 1000 || stream.size() < size / 20) << size;
     }
+  }
+}
+
+// What lies on the stack before must not show in the bytes.
+[[gnu::noinline]] void fill_stack(std::uint16_t value) {
+  volatile std::uint16_t words[100'000];  // more than the library's state takes
+  for (volatile std::uint16_t& word : words) word = value;
+}
+
+[[gnu::noinline]] std::string compressed_after(std::uint16_t value,
+                                               const std::vector<std::uint8_t>& bytes) {
+  std::vector<std::uint8_t> room;
+  fill_stack(value);
+  return std::string(deflated(bytes, room));
+}
+
+TEST(Deflate, EqualInputGivesEqualBytesWhateverWasInMemory) {
+  std::vector<std::uint8_t> bytes(461'040, 0);
+  for (std::size_t i = 0; i < bytes.size(); i += 1921) bytes[i] = 2;
+  const std::string whole = compressed_after(0, bytes);
+  // As the library's hist_bits: windows of 2^value bytes.
+  for (const std::uint16_t value : {1, 5, 9, 12}) {
+    EXPECT_TRUE(compressed_after(value, bytes) == whole) << value;
   }
 }
 

@@ -15,6 +15,7 @@
 #include "annotate/keypoints.h"
 #include "annotate/png.h"
 #include "annotate/preview.h"
+#include "annotate/semantic.h"
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/version.h"
@@ -108,6 +109,7 @@ class SmallDataset : public testing::Test {
     picture.flow.assign(2 * picture.id.size(), 1.5F);
     write("flow/" + place + ".png", annotate::flow_png(picture));
     write("instances/" + place + ".png", annotate::instance_png(picture));
+    write("semantic/" + place + ".png", annotate::semantic_png(picture));
     write("depth/" + place + ".png", annotate::depth_png(picture));
   }
 

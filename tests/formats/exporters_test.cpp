@@ -358,6 +358,27 @@ TEST(Splits, SharesAreAtMostEverything) {
   EXPECT_THAT(problems[1].found, testing::HasSubstr("1.1"));
 }
 
+TEST_F(Exports, WhoIsTooFarOutsideOfTheImageIsIgnored) {
+  std::string text = read_file(root_ / kCocoFile);
+  text.insert(text.find("\"visibility\""), R"("truncation":0.3,)");
+  write_file_atomically(root_ / kCocoFile, text);
+  const auto ignored = [&](std::optional<double> max_truncation) {
+    ExportOptions options;
+    options.filters.max_truncation = max_truncation;
+    const DatasetInfo described = info(options);
+    DatasetReader reader(described);
+    std::int64_t count = 0;
+    for (Image image; reader.next(image);) {
+      count += std::count_if(image.people.begin(), image.people.end(),
+                             [](const Person& person) { return person.is_ignored; });
+    }
+    return count;
+  };
+  EXPECT_EQ(ignored(std::nullopt), 0);
+  EXPECT_EQ(ignored(0.31), 0);
+  EXPECT_EQ(ignored(0.29), 1);
+}
+
 TEST_F(Exports, UnknownFormatsAndMissingNeedsAreNamed) {
   try {
     choose_formats({"mot", "docx", "mot", "yolo-pose"}, {"coco"}, "/outputs/formats");

@@ -206,6 +206,42 @@ TEST_F(Validate, DepthThatIsSomewhereElse) {
   expect("depth", "depth/run000/d1/000000.png", "annotation ");
 }
 
+TEST_F(Validate, ClassesThatAreNotThoseOfTheMasks) {
+  const std::string path = "semantic/run000/d1/000000.png";
+  annotations_.emplace_back("semantic");
+  write_manifest();
+  EXPECT_EQ(validate_dataset(root_).found, 0U);
+  const Raster whole = read_raster(root_ / path);
+  const auto damaged = [&](std::uint16_t from, std::uint8_t to) {
+    SCOPED_TRACE(from);
+    std::vector<std::uint8_t> classes(whole.samples.begin(), whole.samples.end());
+    const auto found = std::find(classes.begin(), classes.end(), from);
+    ASSERT_NE(found, classes.end());
+    *found = to;
+    write(path, annotate::png_bytes({whole.width, whole.height, 1}, classes));
+    expect("semantic", path, "image 1");
+  };
+  damaged(4, 1);  // a person's pixel that is ground
+  damaged(1, 4);
+  damaged(1, 6);
+  damaged(1, 7);
+  damaged(1, 2);  // only the instances know
+  damaged(5, 1);
+  std::erase(annotations_, "instances");
+  damaged(4, 1);  // the masks know without instances
+}
+
+TEST_F(Validate, KindsWhoseFilesAreMissing) {
+  annotations_.emplace_back("semantic");
+  fs::remove(root_ / "semantic/run001/d2/000002.png");
+  write_manifest();
+  expect("ground-truth", "semantic/run001/d2/000002.png", "image 12");
+  std::erase(annotations_, "semantic");
+  annotations_.emplace_back("exits");
+  write_manifest();
+  expect("ground-truth", "exits/run000.csv", "image 1");
+}
+
 // In the fixture nothing moves, but flow says so.
 TEST_F(Validate, FlowThatLeadsElsewhere) {
   annotations_.emplace_back("flow");

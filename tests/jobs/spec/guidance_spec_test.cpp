@@ -14,13 +14,13 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-sim::DroneMission read_given(const json& guidance, const std::string& source,
-                             std::vector<Problem>& problems) {
+DroneSpec read_given(const json& guidance, const std::string& source,
+                     std::vector<Problem>& problems) {
   const json job = {{"scenario", "x"}, {"drones", {{{"id", "d"}, {"guidance", guidance}}}}};
   EXPECT_TRUE(schema_problems(job, "job.json").empty());
-  sim::DroneMission mission;
-  read_guidance(guidance, source, "/drones/0/guidance", mission, problems);
-  return mission;
+  DroneSpec drone;
+  read_guidance(guidance, source, "/drones/0/guidance", drone, problems);
+  return drone;
 }
 
 TEST(GuidanceSpec, EveryFieldSurvivesTheRoundTrip) {
@@ -31,11 +31,12 @@ TEST(GuidanceSpec, EveryFieldSurvivesTheRoundTrip) {
     "perception": {"kind": "camera", "fov_deg": 60, "delay_s": 0.5, "count_noise": 0.25},
     "setpoints": [[0, 1, 2, 3, 90, 1], [0.5, 1, 2, 3, -45, 0]]})");
   std::vector<Problem> problems;
-  const sim::DroneMission mission = read_given(given, "", problems);
+  const DroneSpec drone = read_given(given, "", problems);
+  const sim::DroneMission& mission = drone.mission;
   EXPECT_TRUE(problems.empty());
   EXPECT_EQ(mission.guidance.perception->kind, sim::PerceptionKind::camera);
   EXPECT_FALSE(mission.guidance.setpoints[1].beacon);
-  const json written = guidance_json(mission);
+  const json written = guidance_json(drone);
   for (const auto& [key, value] : given.items()) {
     EXPECT_TRUE(written.contains(key)) << key;
   }
@@ -47,11 +48,13 @@ TEST(GuidanceSpec, EveryFieldSurvivesTheRoundTrip) {
 TEST(GuidanceSpec, APilotLogIsNamedFromTheJobsFolderAndNotOpened) {
   const json given = {{"policy", "pilot_log"}, {"log", "nowhere.csv"}};
   std::vector<Problem> problems;
-  sim::DroneMission mission;
-  EXPECT_EQ(read_guidance(given, "/jobs/one/job.json", "/drones/0/guidance", mission, problems),
-            "/jobs/one/nowhere.csv");
+  DroneSpec drone;
+  read_guidance(given, "/jobs/one/job.json", "/drones/0/guidance", drone, problems);
+  EXPECT_EQ(drone.pilot_log, "/jobs/one/nowhere.csv");
   EXPECT_TRUE(problems.empty());
-  EXPECT_EQ(read_guidance(given, "", "/drones/0/guidance", mission, problems), "");
+  DroneSpec of_request;
+  read_guidance(given, "", "/drones/0/guidance", of_request, problems);
+  EXPECT_EQ(of_request.pilot_log, "");
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_EQ(problems[0].where, "/drones/0/guidance/log");
   EXPECT_THAT(problems[0].expected, HasSubstr("set-points"));

@@ -1,0 +1,82 @@
+#include "annotate/frame_writers.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "annotate/decimals.h"
+#include "annotate/density.h"
+#include "annotate/keypoints.h"
+#include "annotate/png.h"
+#include "annotate/semantic.h"
+
+namespace throng::annotate {
+
+namespace {
+
+// The heads of the people in the labels, in box coordinates, as the records have them: one at the
+// image's border is inside for both or for none.
+std::vector<Eigen::Vector2d> heads_of(const FrameLabels& labels, const camera::Camera& camera) {
+  std::vector<Eigen::Vector2d> heads;
+  for (const PersonLabel& label : labels.people) {
+    const std::optional<Eigen::Vector2d> head = render::head_in(label.person, camera);
+    if (!head) continue;
+    heads.emplace_back(rounded(head->x(), kPixelDecimals), rounded(head->y(), kPixelDecimals));
+  }
+  return heads;
+}
+
+void write_keypoints(FrameOutput& output) { add_keypoints(output.frame, output.labels); }
+
+void write_amodal(FrameOutput& output) { output.record.whole_drone_masks = true; }
+
+void write_density(FrameOutput& output) {
+  const int width = output.frame.width();
+  const int height = output.frame.height();
+  const std::vector<Eigen::Vector2d> heads = heads_of(output.labels, output.frame.camera);
+  output.record.density_file = output.file_of(GroundTruth::density);
+  output.add(output.record.density_file,
+             npy_bytes(density_map(heads, width, height, output.density_sigma_px)));
+  output.record.density_count =
+      std::count_if(heads.begin(), heads.end(), [&](const Eigen::Vector2d& head) {
+        return head.x() >= 0 && head.y() >= 0 && head.x() < width && head.y() < height;
+      });
+  output.lap("density");
+}
+
+void write_exits(FrameOutput& output) {
+  if (output.exits == nullptr) return;
+  output.record.exits = output.exits->json(output.frame.camera, output.frame.time_s);
+}
+
+template <GroundTruth kind, std::string (*png)(const render::Frame&)>
+void write_raster(FrameOutput& output) {
+  const std::string bytes = png(output.frame);
+  output.lap("png");
+  output.add(output.file_of(kind), bytes);
+  output.lap("write");
+}
+
+constexpr std::array kWriters = {
+    FrameWriter{GroundTruth::keypoints, write_keypoints},
+    FrameWriter{GroundTruth::amodal, write_amodal},
+    FrameWriter{GroundTruth::density, write_density},
+    FrameWriter{GroundTruth::exits, write_exits},
+    FrameWriter{GroundTruth::depth, write_raster<GroundTruth::depth, depth_png>},
+    FrameWriter{GroundTruth::instances, write_raster<GroundTruth::instances, instance_png>},
+    FrameWriter{GroundTruth::parts, write_raster<GroundTruth::parts, part_png>},
+    FrameWriter{GroundTruth::normals, write_raster<GroundTruth::normals, normal_png>},
+    FrameWriter{GroundTruth::flow, write_raster<GroundTruth::flow, flow_png>},
+    FrameWriter{GroundTruth::semantic, write_raster<GroundTruth::semantic, semantic_png>},
+};
+
+}  // namespace
+
+std::string FrameOutput::file_of(GroundTruth kind) const {
+  return annotate::file_of(kind, record.run, record.camera_id, record.frame_index);
+}
+
+std::span<const FrameWriter> frame_writers() { return kWriters; }
+
+}  // namespace throng::annotate

@@ -1,0 +1,42 @@
+// What each kind of ground truth adds to a frame's output: files, or values of its COCO record. One
+// table; what a whole run's output holds is written by jobs/pipeline/run_writers.h.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "annotate/coco.h"
+#include "annotate/exit_view.h"
+#include "annotate/labels.h"
+#include "annotate/spec/ground_truth.h"
+#include "render/frame.h"
+
+namespace throng::annotate {
+
+/// A frame on its way into the dataset.
+struct FrameOutput {
+  const render::Frame& frame;
+  FrameLabels& labels;
+  CocoImage& record;  ///< run, camera and frame name the files; written after all kinds
+  const ExitView* exits = nullptr;  ///< null where the records hold no exits
+  double density_sigma_px = 0;
+  /// Adds a file of the dataset.
+  std::function<void(const std::string& path, std::string_view bytes)> add;
+  /// Where the time went since the last call (base/stage_clock.h).
+  std::function<void(std::string_view stage)> lap;
+
+  /// The frame's file of a kind.
+  std::string file_of(GroundTruth kind) const;
+};
+
+struct FrameWriter {
+  GroundTruth kind{};
+  void (*write)(FrameOutput& output) = nullptr;
+};
+
+/// In the order of the kinds. Those that are not here have no part of their own in a frame.
+std::span<const FrameWriter> frame_writers();
+
+}  // namespace throng::annotate

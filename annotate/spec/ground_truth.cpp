@@ -1,0 +1,179 @@
+#include "annotate/spec/ground_truth.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/error.h"
+
+namespace throng::annotate {
+
+namespace {
+
+constexpr std::string_view kCocoPath = "annotations/instances.json";
+
+constexpr std::array kKinds = {
+    GroundTruthKind{.kind = GroundTruth::coco,
+                    .name = "coco",
+                    .help = "boxes, masks, cameras, what people do and look like",
+                    .file = kCocoPath,
+                    .is_default = true},
+    GroundTruthKind{.kind = GroundTruth::keypoints,
+                    .name = "keypoints",
+                    .help = "COCO's 17 of each person in the picture and in the world, with coco",
+                    .file = kCocoPath,
+                    .content = "keypoints, keypoints_3d",
+                    .in_coco = true},
+    GroundTruthKind{.kind = GroundTruth::amodal,
+                    .name = "amodal",
+                    .help = "masks of whole people, with coco",
+                    .file = kCocoPath,
+                    .content = "amodal_segmentation",
+                    .needs = {.whole_masks = true},
+                    .in_coco = true},
+    GroundTruthKind{.kind = GroundTruth::density,
+                    .name = "density",
+                    .help = "crowd density maps",
+                    .file = "density/RUN/CAMERA/FRAME.npy",
+                    .content = "people per pixel, float32",
+                    .is_default = true},
+    GroundTruthKind{.kind = GroundTruth::exits,
+                    .name = "exits",
+                    .help = "counts and clogging index per exit and frame",
+                    .file = "exits/RUN.csv",
+                    .is_default = true},
+    GroundTruthKind{.kind = GroundTruth::fields,
+                    .name = "fields",
+                    .help = "density and velocity on the ground, per frame",
+                    .file = "fields/RUN/FRAME.npy",
+                    .content = "people per square metre, velocity, Voronoi density; grid in "
+                               "fields/RUN.json"},
+    GroundTruthKind{.kind = GroundTruth::depth,
+                    .name = "depth",
+                    .extent = Extent::pixel,
+                    .file = "depth/RUN/CAMERA/FRAME.png",
+                    .content = "centimetres, 16 bits, 0 beyond 655.35 m"},
+    GroundTruthKind{.kind = GroundTruth::instances,
+                    .name = "instances",
+                    .extent = Extent::pixel,
+                    .file = "instances/RUN/CAMERA/FRAME.png",
+                    .content = "red + 256 green + 65536 blue"},
+    GroundTruthKind{.kind = GroundTruth::parts,
+                    .name = "parts",
+                    .help = "of the body",
+                    .extent = Extent::pixel,
+                    .file = "parts/RUN/CAMERA/FRAME.png",
+                    .needs = {.parts = true}},
+    GroundTruthKind{.kind = GroundTruth::normals,
+                    .name = "normals",
+                    .extent = Extent::pixel,
+                    .file = "normals/RUN/CAMERA/FRAME.png",
+                    .needs = {.normals = true}},
+    GroundTruthKind{.kind = GroundTruth::flow,
+                    .name = "flow",
+                    .help = "motion to the next frame",
+                    .extent = Extent::pixel,
+                    .file = "flow/RUN/CAMERA/FRAME.png",
+                    .content = "KITTI's 16-bit PNG",
+                    .needs = {.flow = true}},
+    GroundTruthKind{.kind = GroundTruth::semantic,
+                    .name = "semantic",
+                    .help = "the class of what shows: ground, person, ...",
+                    .extent = Extent::pixel,
+                    .file = "semantic/RUN/CAMERA/FRAME.png",
+                    .content = "8 bits, 0 sky, 1 ground, 2 building, 3 prop, 4 person, "
+                               "5 umbrella, 6 drone"},
+    GroundTruthKind{.kind = GroundTruth::sensors,
+                    .name = "sensors",
+                    .help = "a table of what they read, and of the truth",
+                    .extent = Extent::drone,
+                    .file = "sensors/RUN/CAMERA.csv"},
+};
+
+constexpr bool is_in_order() {
+  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+    if (static_cast<std::size_t>(kKinds[i].kind) != i) return false;
+  }
+  return true;
+}
+static_assert(is_in_order(), "the table has the order of the enumerators");
+
+std::string help_of_extent(Extent extent) {
+  std::vector<std::string> parts;
+  for (const GroundTruthKind& kind : kKinds) {
+    if (kind.extent != extent) continue;
+    parts.push_back(kind.help.empty() ? std::string(kind.name)
+                                      : fmt::format("{} ({})", kind.name, kind.help));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+std::span<const GroundTruthKind> ground_truth_kinds() { return kKinds; }
+
+const GroundTruthKind& kind_of(GroundTruth kind) {
+  return kKinds.at(static_cast<std::size_t>(kind));
+}
+
+const GroundTruthKind* find_kind(std::string_view name) {
+  const auto* found = std::find_if(kKinds.begin(), kKinds.end(),
+                                   [&](const GroundTruthKind& kind) { return kind.name == name; });
+  return found == kKinds.end() ? nullptr : found;
+}
+
+bool holds(std::span<const std::string> names, GroundTruth kind) {
+  return std::find(names.begin(), names.end(), kind_of(kind).name) != names.end();
+}
+
+RenderNeeds render_needs(std::span<const std::string> names) {
+  RenderNeeds needs;
+  for (const std::string& name : names) {
+    const GroundTruthKind* kind = find_kind(name);
+    check(kind != nullptr, "the job schema knows the kinds of ground truth");
+    if (kind->in_coco && !holds(names, GroundTruth::coco)) continue;
+    needs.normals |= kind->needs.normals;
+    needs.flow |= kind->needs.flow;
+    needs.parts |= kind->needs.parts;
+    needs.whole_masks |= kind->needs.whole_masks;
+  }
+  return needs;
+}
+
+std::vector<std::string> default_ground_truth() {
+  std::vector<std::string> names;
+  for (const GroundTruthKind& kind : kKinds) {
+    if (kind.is_default) names.emplace_back(kind.name);
+  }
+  return names;
+}
+
+std::string ground_truth_help() {
+  return fmt::format("Which ground truth is written: {}; per pixel, as PNG: {}; per drone: {}.",
+                     help_of_extent(Extent::scene), help_of_extent(Extent::pixel),
+                     help_of_extent(Extent::drone));
+}
+
+std::string_view folder_of(const GroundTruthKind& kind) {
+  return kind.file.substr(0, kind.file.find('/'));
+}
+
+std::string file_of(GroundTruth kind, std::string_view run, std::string_view camera,
+                    std::int64_t frame) {
+  std::string file(kind_of(kind).file);
+  const std::string number = fmt::format("{:06}", frame);
+  // From the last to the first: a camera's id may hold such a word itself.
+  for (const auto& [name, value] : {std::pair<std::string_view, std::string_view>{"FRAME", number},
+                                    {"CAMERA", camera},
+                                    {"RUN", run}}) {
+    if (const auto at = file.find(name); at != std::string::npos) {
+      file.replace(at, name.size(), value);
+    }
+  }
+  return file;
+}
+
+}  // namespace throng::annotate

@@ -1,0 +1,89 @@
+// The kinds of ground truth that a dataset may hold: one table, from which follow the words of
+// outputs.annotations in the job schema, what the renderer is asked for, where files lie, what
+// dataset.json says of them, which files `throng validate` expects and which a download selects.
+// The code that writes and checks a kind is registered under the same enumerator:
+// annotate/frame_writers.cpp, jobs/pipeline/run_writers.cpp, formats/ground_truth_checks.cpp.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace throng::annotate {
+
+/// In the order of the table.
+enum class GroundTruth : std::uint8_t {
+  coco,
+  keypoints,
+  amodal,
+  density,
+  exits,
+  fields,
+  depth,
+  instances,
+  parts,
+  normals,
+  flow,
+  semantic,
+  sensors,
+};
+
+/// What a kind is made for; the job schema lists the kinds in these groups.
+enum class Extent : std::uint8_t {
+  scene,  ///< a frame's people, or the whole run
+  pixel,  ///< a raster for each frame
+  drone,  ///< a table for each drone and run
+};
+
+/// What the renderer fills beside color, ids and depth (render::RenderOptions).
+struct RenderNeeds {
+  bool normals = false;
+  bool flow = false;
+  bool parts = false;
+  bool whole_masks = false;
+};
+
+struct GroundTruthKind {
+  GroundTruth kind{};
+  std::string_view name = {};  ///< in outputs.annotations
+  std::string_view help = {};  ///< in parentheses after the name in the job schema, or ""
+  Extent extent = Extent::scene;
+  /// The file that holds it, below the dataset: RUN, CAMERA and FRAME stand for a run's name, a
+  /// drone's id and a frame's number of six digits.
+  std::string_view file = {};
+  std::string_view content = {};  ///< what stands in the file, for dataset.json, or ""
+  bool is_default = false;        ///< of a job that does not say
+  RenderNeeds needs = {};
+  bool in_coco = false;  ///< part of the COCO records: of no effect without the kind coco
+};
+
+/// All kinds, in the order of the enumerators.
+std::span<const GroundTruthKind> ground_truth_kinds();
+
+const GroundTruthKind& kind_of(GroundTruth kind);
+
+/// Null if there is no kind of this name.
+const GroundTruthKind* find_kind(std::string_view name);
+
+/// Whether a job's outputs.annotations hold the kind.
+bool holds(std::span<const std::string> names, GroundTruth kind);
+
+/// What the renderer must fill for a job's outputs.annotations.
+RenderNeeds render_needs(std::span<const std::string> names);
+
+/// outputs.annotations of a job that does not say.
+std::vector<std::string> default_ground_truth();
+
+/// The kinds and what they are, in one sentence: the help of outputs.annotations.
+std::string ground_truth_help();
+
+/// The folder at the dataset's top that holds the kind's files: "density".
+std::string_view folder_of(const GroundTruthKind& kind);
+
+/// The kind's file of a run, a camera and a frame, as far as its pattern names them.
+std::string file_of(GroundTruth kind, std::string_view run, std::string_view camera = "",
+                    std::int64_t frame = 0);
+
+}  // namespace throng::annotate

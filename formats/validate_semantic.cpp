@@ -1,0 +1,78 @@
+// Classes per pixel against the masks of people and drones, and against the picture of instances.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "annotate/semantic.h"
+#include "formats/ground_truth_checks.h"
+#include "formats/instances.h"
+#include "formats/mask.h"
+
+namespace throng::formats {
+
+using annotate::SemanticClass;
+
+namespace {
+
+/// Of a value of the picture of instances.
+SemanticClass class_of_instance(std::uint32_t id) {
+  if (id == 0) return SemanticClass::sky;
+  if (id < kFirstUmbrella) return SemanticClass::person;
+  if (id < kFirstBuilding) return SemanticClass::umbrella;
+  if (id < kFirstProp) return SemanticClass::building;
+  if (id < kFirstDrone) return SemanticClass::prop;
+  return id < kGround ? SemanticClass::drone : SemanticClass::ground;
+}
+
+/// Pixels that the masks of people, or of drones, cover: 1, else 0.
+std::vector<std::uint8_t> covered_by(const std::vector<Person>& things, const Image& image) {
+  const auto width = static_cast<std::size_t>(image.width);
+  std::vector<std::uint8_t> covered(width * static_cast<std::size_t>(image.height), 0);
+  for (const Person& thing : things) {
+    const Bitmap mask = bitmap_of(runs_of(thing.mask, covered.size()), image.height);
+    for (int y = mask.y; y < mask.y + mask.height; ++y) {
+      for (int x = mask.x; x < mask.x + mask.width; ++x) {
+        if (mask.at(x, y))
+          covered[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
+      }
+    }
+  }
+  return covered;
+}
+
+}  // namespace
+
+void check_semantic(const DatasetInfo& /*info*/, const Image& image, const Pixels& pixels,
+                    Findings& findings) {
+  const std::vector<std::uint16_t>& classes = pixels.semantic;
+  if (classes.empty()) return;
+  const auto fault = [&](std::size_t wrong, const char* what) {
+    if (wrong == 0) return;
+    findings.add("semantic", raster_name("semantic", image), fmt::format("image {}", image.id),
+                 fmt::format("{} pixels {}", wrong, what));
+  };
+  std::size_t unknown = 0;
+  for (const std::uint16_t value : classes) {
+    unknown += value > static_cast<std::uint16_t>(SemanticClass::drone) ? 1 : 0;
+  }
+  fault(unknown, "have a value that is no class");
+  const auto compare = [&](const std::vector<Person>& things, SemanticClass expected,
+                           const char* what) {
+    const std::vector<std::uint8_t> covered = covered_by(things, image);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      wrong += (classes[i] == static_cast<std::uint16_t>(expected)) == (covered[i] == 1) ? 0 : 1;
+    }
+    fault(wrong, what);
+  };
+  compare(image.people, SemanticClass::person, "are of a person, but in no mask, or the reverse");
+  compare(image.drones, SemanticClass::drone, "are of a drone, but in no mask, or the reverse");
+  std::size_t other = 0;
+  for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
+    other += classes[i] == static_cast<std::uint16_t>(class_of_instance(pixels.ids[i])) ? 0 : 1;
+  }
+  fault(other, "have another class than the instance that they show");
+}
+
+}  // namespace throng::formats

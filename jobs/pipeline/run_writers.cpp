@@ -1,0 +1,74 @@
+#include "jobs/pipeline/run_writers.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "annotate/exits_csv.h"
+#include "annotate/ground_field.h"
+#include "base/error.h"
+#include "jobs/pipeline/flight_record.h"
+#include "jobs/spec/plan.h"
+
+namespace throng::jobs {
+
+using annotate::GroundTruth;
+
+namespace {
+
+void write_exits_table(RunOutput& output) {
+  std::vector<annotate::FrameTime> frames;
+  for (std::int64_t frame = 0; frame < output.job.frames_per_camera(); ++frame) {
+    frames.push_back({frame, output.job.frame_time_s(frame)});
+  }
+  output.publication.add(file_of(GroundTruth::exits, run_name(output.run)),
+                         annotate::exits_csv(output.exits, output.trace.time_s, frames));
+}
+
+// Density and velocity on the ground at the time of every frame.
+void write_fields(RunOutput& output) {
+  nlohmann::json people = nlohmann::json::array();
+  const annotate::GroundGrid ground(output.scenario);
+  const std::string run = run_name(output.run);
+  for (std::int64_t frame = 0; frame < output.job.frames_per_camera(); ++frame) {
+    const auto field = annotate::ground_field(output.trace, ground, output.job.frame_time_s(frame));
+    output.publication.add(file_of(GroundTruth::fields, run, "", frame),
+                           annotate::npy_bytes(ground, field));
+    people.push_back(field.people);
+  }
+  const nlohmann::json grid = {{"origin_m", {ground.origin().x(), ground.origin().y()}},
+                               {"cell_m", ground.cell_m()},
+                               {"kernel_m", annotate::kFieldKernelM},
+                               {"columns", ground.columns()},
+                               {"rows", ground.rows()},
+                               {"people", people}};
+  output.publication.add("fields/" + run + ".json", grid.dump(kJsonIndent) + "\n");
+}
+
+void write_sensors(RunOutput& output) {
+  const std::uint64_t seed = plan_runs(output.job)[static_cast<std::size_t>(output.run)].seed;
+  for (std::size_t i = 0; i < output.job.drones.size(); ++i) {
+    const std::string& id = output.job.drones[i].mission.id;
+    const auto& ids = output.trace.header.drone_ids;
+    const auto drone =
+        static_cast<std::size_t>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+    check(drone < ids.size(), "a trace holds the drones of its job");
+    const std::vector<world::DroneSample>& truth = output.trace.drones[drone];
+    output.publication.add(file_of(GroundTruth::sensors, run_name(output.run), id),
+                           sensors_csv(truth, sensors_of(output.job, seed, truth, i)));
+  }
+}
+
+constexpr std::array kRunWriters = {
+    RunWriter{GroundTruth::exits, write_exits_table},
+    RunWriter{GroundTruth::fields, write_fields},
+    RunWriter{GroundTruth::sensors, write_sensors},
+};
+
+}  // namespace
+
+std::span<const RunWriter> run_writers() { return kRunWriters; }
+
+}  // namespace throng::jobs

@@ -1,0 +1,35 @@
+// What each kind of ground truth adds to a run's output. One table; what it adds to each frame is
+// written by annotate/frame_writers.h.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "annotate/spec/ground_truth.h"
+#include "jobs/queue/publication.h"
+#include "jobs/spec/spec.h"
+#include "metrics/exits.h"
+#include "world/scenario.h"
+#include "world/trace.h"
+
+namespace throng::jobs {
+
+/// A run on its way into the dataset.
+struct RunOutput {
+  const JobSpec& job;
+  int run = 0;
+  const world::Scenario& scenario;
+  const world::Trace& trace;
+  const std::vector<metrics::ExitSeries>& exits;
+  Publication& publication;
+};
+
+struct RunWriter {
+  annotate::GroundTruth kind{};
+  void (*write)(RunOutput& output) = nullptr;
+};
+
+/// In the order of the kinds. Those that are not here have no part in a run's output.
+std::span<const RunWriter> run_writers();
+
+}  // namespace throng::jobs

@@ -1,0 +1,85 @@
+#include "jobs/spec/camera_fields.h"
+#include "jobs/spec/guidance_spec.h"
+#include "jobs/spec/job_fields.h"
+
+namespace throng::jobs {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+json airframe_json(const DroneSpec& drone) {
+  const sim::DroneMission& mission = drone.mission;
+  return mission.own_airframe ? sim::to_json(*mission.own_airframe) : json(mission.airframe);
+}
+
+void set_airframe(DroneSpec& drone, const json& value, const FieldPlace& place) {
+  sim::DroneMission& mission = drone.mission;
+  if (value.is_string()) {
+    value.get_to(mission.airframe);
+    return;
+  }
+  mission.airframe = mission.id;
+  mission.own_airframe = sim::read_airframe(mission.id, value, place.pointer, place.problems);
+}
+
+json goal_json(const DroneSpec& drone) {
+  const auto& goal = drone.mission.moves_goal;
+  return goal ? json{goal->set, goal->goal} : json();
+}
+
+void set_goal(DroneSpec& drone, const json& value, const FieldPlace& /*place*/) {
+  drone.mission.moves_goal = world::GoalRef{value.at(0).get<int>(), value.at(1).get<int>()};
+}
+
+FieldTable<DroneSpec> make_drone_fields() {
+  FieldTable<DroneSpec> table;
+  table
+      .add("id", "Id", "", identifiers(), at(&DroneSpec::mission, &sim::DroneMission::id),
+           "Unique name: letters, digits, '_' and '-'; also the name of folders. A drone of the "
+           "scenario lends its start and goal to the one of the same id.")
+      .required();
+  table.add("airframe", "Airframe", "",
+            raw({{"type", {"string", "object"}}, {"pattern", identifiers().rules["pattern"]}},
+                "the name of an airframe, or an object that describes one"),
+            airframe_json, set_airframe,
+            "Which quadcopter flies: one that throng airframes lists, or an object with the fields "
+            "that it prints for one.");
+  table.group("battery", "Battery", "Whether flying ends.");
+  table.add("battery/charge", "Charge", "", numbers(0.01, 1),
+            at(&DroneSpec::mission, &sim::DroneMission::battery_charge),
+            "Share of a full battery at the run's start; the drone lands where it is when 15 % are "
+            "left. Without it, the battery lasts.");
+  table.add(
+      "start", "Start", "m", coordinates(3, true),
+      at(&DroneSpec::mission, &sim::DroneMission::start),
+      "Where the drone hovers when the run begins; without it, the scenario's start for this id.");
+  table.add("moves_goal", "Moved goal", "", lists(2, 2, integers(0, 1'000'000'000).rules),
+            goal_json, set_goal,
+            "The goal of the behaviour file, [goal set, goal], that follows the drone over the "
+            "ground; without it, the scenario's for this id.");
+  table.group("guidance", "Guidance", "Where the drone flies.");
+  table.add_all(
+      "guidance", guidance_fields(), [](auto& drone) -> auto& { return drone; });
+  table
+      .add(
+          "camera", "Camera", "", object_of(camera_fields().schema()),
+          [](const DroneSpec& drone) { return to_json(drone.camera); },
+          [](DroneSpec& drone, const json& value, const FieldPlace& place) {
+            drone.camera = read_camera(value, place.pointer, place.problems);
+          },
+          "A camera on a gimbal that cancels the drone's roll and pitch. Every number but the "
+          "image's size may be a distribution, drawn anew for every run.")
+      .with_default(ordered_json::object());
+  return table;
+}
+
+}  // namespace
+
+const FieldTable<DroneSpec>& drone_fields() {
+  static const FieldTable<DroneSpec> table = make_drone_fields();
+  return table;
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,256 @@
+#include "jobs/spec/job_fields.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "crowd/project.h"
+#include "jobs/spec/randomize.h"
+#include "render/spec/quality.h"
+
+namespace throng::jobs {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+json scenario_json(const JobSpec& job) {
+  return job.generate ? json{{"generate", places::to_json(*job.generate)}} : json(job.scenario);
+}
+
+void set_scenario(JobSpec& job, const json& value, const FieldPlace& place) {
+  if (value.is_string()) {
+    value.get_to(job.scenario);
+    return;
+  }
+  if (value.size() != 1 || !value.contains("generate")) {
+    place.problems.push_back(
+        {"", place.pointer, value.dump(), "an id, or an object with only \"generate\""});
+  }
+  job.generate = places::read_place_spec(value.value("generate", json()),
+                                         place.pointer + "/generate", place.problems);
+  job.scenario = "generated/" + places::id_of(*job.generate);
+}
+
+json drones_json(const JobSpec& job) {
+  json drones;
+  for (const DroneSpec& drone : job.drones) drones.push_back(drone_fields().print(drone));
+  return drones;
+}
+
+void set_drones(JobSpec& job, const json& value, const FieldPlace& place) {
+  for (const json& drone : value) {
+    const std::string index = std::to_string(job.drones.size());
+    drone_fields().read(drone, job.drones.emplace_back(), place.below(index));
+  }
+}
+
+ordered_json drone_rules() {
+  ordered_json rules = {
+      {"title", "Drone"}, {"description", "One drone and its camera."}, {"type", "object"}};
+  rules.update(drone_fields().schema());
+  return rules;
+}
+
+std::vector<std::string> quality_words() {
+  std::vector<std::string> words;
+  for (const render::QualitySettings& row : render::kQualities) words.emplace_back(row.word);
+  return words;
+}
+
+void add_crowd_fields(FieldTable<JobSpec>& table) {
+  table.group("crowd", "Crowd", "Who takes part, and how they move.");
+  table
+      .add("crowd/agents", "Agents", "people", integers(1, 1000000), at(&JobSpec::agents),
+           "How many of the scenario's people take part, drawn by the seed; without it, all.")
+      .randomized();
+  table.add(
+      "crowd/model", "Pedestrian model", "", identifiers(),
+      at(&JobSpec::crowd, &sim::CrowdSpec::model),
+      "How people keep clear of each other: a model that throng crowd --list names, for example "
+      "orca or helbing. Without it the one that the scenario names, else ttc, whose speeds and "
+      "flows are those of real crowds (orca where compat asks for the results of Menge).");
+  table.add_word("crowd/compat", "Compatibility", crowd::kCompatWords,
+                 at(&JobSpec::crowd, &sim::CrowdSpec::compat),
+                 "Whose results are wanted where the scenario's files leave a choice: the sensible "
+                 "ones (none), Menge's with its quirks (menge), or also those of the elements that "
+                 "Huang's group added to it (huang2016).");
+  table
+      .add_word("crowd/separation", "Separation", crowd::kSeparationWords,
+                at(&JobSpec::crowd, &sim::CrowdSpec::hard_separation),
+                "soft: as the model has it; hard: no two people ever overlap by more than 1 cm.")
+      .randomized();
+  table.add("crowd/compliance", "Compliance", "", numbers(0, 1),
+            at(&JobSpec::crowd, &sim::CrowdSpec::compliance),
+            "Probability that somebody who is near a guide follows it; multiplies that of the "
+            "behaviour file.");
+  table.add("crowd/physical", "Physical", "", booleans(),
+            at(&JobSpec::crowd, &sim::CrowdSpec::physical, &crowd::Physical::on),
+            "Whether bodies give way: people whom a drone hits or a crowd presses are pushed, and "
+            "fall where it is too much.");
+  table.add("crowd/fall_impulse_ns", "Impulse of a fall", "N s", numbers(0.1, 1000),
+            at(&JobSpec::crowd, &sim::CrowdSpec::physical, &crowd::Physical::fall_impulse_ns),
+            "A blow that throws somebody over, where bodies are physical.");
+  table.add(
+      "crowd/recorded", "Recorded people", "", object_of(recorded_fields().schema()),
+      [](const JobSpec& job) { return job.recorded ? to_json(*job.recorded) : json(); },
+      [](JobSpec& job, const json& value, const FieldPlace& place) {
+        job.recorded = read_recorded(value, place);
+      },
+      "People of a trajectory file, who are replayed instead of simulating the scenario's; see "
+      "docs/imports.md.");
+}
+
+void add_appearance_fields(FieldTable<JobSpec>& table) {
+  table.group("appearance", "Appearance",
+              "Which people take part, and what they wear against the colours of their wardrobes.");
+  table
+      .add("appearance/brightness", "Brightness", "", numbers(0.3, 2),
+           at(&JobSpec::styling, &skinning::Styling::brightness),
+           "Of dyed clothes: their colours' lightness is multiplied by it.")
+      .randomized();
+  table
+      .add("appearance/saturation", "Saturation", "", numbers(0, 2),
+           at(&JobSpec::styling, &skinning::Styling::saturation),
+           "Of dyed clothes: 0 makes them grey, 2 twice as colourful.")
+      .randomized();
+  table
+      .add("appearance/variety", "Variety", "", numbers(0.01, 1),
+           at(&JobSpec::styling, &skinning::Styling::variety),
+           "Share of the people (docs/people.md) that take part in a run, chosen by its seed.")
+      .randomized();
+  table
+      .add("appearance/youngest_years", "Youngest", "years", numbers(0, 150),
+           at(&JobSpec::styling, &skinning::Styling::youngest_years),
+           "Who is younger does not take part.")
+      .randomized();
+  table
+      .add("appearance/oldest_years", "Oldest", "years", numbers(0, 150),
+           at(&JobSpec::styling, &skinning::Styling::oldest_years),
+           "Who is older does not take part.")
+      .randomized();
+  table
+      .add("appearance/umbrellas", "Umbrellas", "", numbers(0, 1),
+           at(&JobSpec::styling, &skinning::Styling::umbrellas),
+           "Share of people under an umbrella when it rains; in dry weather nobody is.")
+      .randomized();
+  table.group("props", "Props", "What stands about in the place.");
+  table
+      .add("props/density", "Density", "", numbers(0, 1), at(&JobSpec::props_density),
+           "Share of the scenario's scattered props that are there in a run, chosen by its seed.")
+      .randomized();
+}
+
+FieldTable<JobSpec> make_job_fields() {
+  FieldTable<JobSpec> table;
+  table.add("name", "Name", "", texts(1, 120), at(&JobSpec::name),
+            "What people call the dataset; names the archive and its folder.");
+  table
+      .add(
+          "scenario", "Scenario", "",
+          raw({{"type", {"string", "object"}}, {"minLength", 1}, {"maxLength", 200}},
+              R"(the id of a scenario, or {"generate": ...})"),
+          scenario_json, set_scenario,
+          R"(Id of a scenario: its path below the scenarios folder, without suffix, for example city_square/nearest_exit. Or {"generate": {"kind": "plaza", "seed": 5}}, a place from a seed; docs/blueprint.md lists its parameters.)")
+      .required();
+  table.add("seed", "Seed", "", integers(0, 9007199254740991), at(&JobSpec::seed),
+            "All randomness comes from it: equal jobs with equal seeds give equal bytes.");
+  table.add("runs", "Runs", "runs", integers(1, 1000), at(&JobSpec::runs),
+            "How many times the scenario is simulated, each time with a seed of its own.");
+  add_crowd_fields(table);
+  table.add("drones", "Drones", "", lists(1, 16, drone_rules()), drones_json, set_drones,
+            "The drones in the air, one camera each; without it, the scenario's drones, hovering "
+            "at their starts.");
+  table.group("capture", "Capture",
+              "When pictures are taken, in every run, by every camera: at from_s, then every 1 / "
+              "rate_hz, up to to_s. The run lasts until to_s.");
+  table.add("capture/rate_hz", "Rate", "Hz", numbers(0.01, 60),
+            at(&JobSpec::capture, &CaptureSpec::rate_hz), "Frames per simulated second.");
+  table.add("capture/from_s", "From", "s", numbers(0, 7200),
+            at(&JobSpec::capture, &CaptureSpec::from_s),
+            "Time of the first frame, from the run's start.");
+  table.add("capture/to_s", "To", "s", numbers_above(0, 7200),
+            at(&JobSpec::capture, &CaptureSpec::to_s), "No frame is later than this.");
+  table
+      .add_word("quality", "Quality", quality_words(), at(&JobSpec::quality),
+                "Of the pictures: draft (quick: flat colours, no shadows, coarse people), "
+                "standard, high (soft shadows, finer people, four samples of colour per pixel).")
+      .randomized();
+  table.group("environment", "Environment",
+              "Light and weather. Any field may be a distribution, drawn anew for every run.");
+  table.add_all("environment", environment_fields(), at(&JobSpec::environment));
+  add_appearance_fields(table);
+  table.add(
+      "randomize", "Randomize", "",
+      raw({{"type", "object"},
+           {"additionalProperties", true},
+           {"properties", ordered_json::object()}}),
+      [](const JobSpec& job) { return job.randomize.empty() ? json() : to_json(job.randomize); },
+      [](JobSpec&, const json&, const FieldPlace&) {},
+      R"(Fields that are drawn anew for every run, by their dotted paths, each with a distribution: {"drones.0.camera.pitch_deg": {"uniform": [-80, -35]}}.)");
+  add_output_fields(table);
+  return table;
+}
+
+/// What the block "randomize" names, but the job and its scenario do not have.
+[[noreturn]] void refuse_place(const std::string& pointer) {
+  throw InputError({"", "/randomize/" + dotted(pointer), "a place that the job does not have",
+                    "a field of a drone of the job, and a start only where it is given"});
+}
+
+/// Sets a field of an object, or an element of a field that is a list. `pointer` is that of the
+/// whole job, for messages.
+template <typename Object>
+void set_at(const FieldTable<Object>& table, Object& object, const std::string& path,
+            const json& value, const std::string& pointer) {
+  const std::string source;
+  std::vector<Problem> problems;
+  const FieldPlace place{pointer, source, problems};
+  if (const Field<Object>* field = table.find(path)) {
+    field->set(object, value, place);
+  } else {
+    const std::size_t end = path.rfind('/');
+    const Field<Object>* list = table.find(path.substr(0, end));
+    check(list != nullptr, "the block randomize names fields of the tables");
+    json whole = list->get(object);
+    const std::size_t index = std::stoul(path.substr(end + 1));
+    if (index >= whole.size()) refuse_place(pointer);
+    whole[index] = value;
+    list->set(object, whole, place);
+  }
+  check(problems.empty(), "what is drawn for a job is what the job may say");
+}
+
+}  // namespace
+
+const FieldTable<JobSpec>& job_fields() {
+  static const FieldTable<JobSpec> table = make_job_fields();
+  return table;
+}
+
+std::string job_schema_text() {
+  ordered_json schema = {
+      {"$schema", "http://json-schema.org/draft-07/schema#"},
+      {"$id", "urn:throng:job:1"},
+      {"title", "Job"},
+      {"description",
+       "A dataset to make: a scenario, how often it is run, from which drones it is seen and what "
+       "is written. Everything but \"scenario\" has a default."},
+      {"type", "object"}};
+  schema.update(job_fields().schema());
+  return schema_text(schema);
+}
+
+void set_field(JobSpec& job, const std::string& pointer, const json& value) {
+  constexpr std::string_view kDrones = "/drones/";
+  if (!pointer.starts_with(kDrones)) {
+    return set_at(job_fields(), job, pointer.substr(1), value, pointer);
+  }
+  const std::size_t end = pointer.find('/', kDrones.size());
+  const std::size_t index = std::stoul(pointer.substr(kDrones.size(), end - kDrones.size()));
+  if (index >= job.drones.size()) refuse_place(pointer);
+  set_at(drone_fields(), job.drones[index], pointer.substr(end + 1), value, pointer);
+}
+
+}  // namespace throng::jobs

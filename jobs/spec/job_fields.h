@@ -1,0 +1,22 @@
+// The tables of a job's fields: everything that a job may say, in the order of the schema.
+#pragma once
+
+#include "jobs/spec/field_table.h"
+#include "jobs/spec/spec.h"
+
+namespace throng::jobs {
+
+/// All fields but those of single drones.
+const FieldTable<JobSpec>& job_fields();
+/// Those of an element of "drones".
+const FieldTable<DroneSpec>& drone_fields();
+/// The fields below "outputs", for job_fields().
+void add_output_fields(FieldTable<JobSpec>& table);
+
+/// The JSON Schema that follows from the tables.
+std::string job_schema_text();
+
+/// Sets what was drawn for a run: a field that the block "randomize" may name, by its JSON pointer.
+void set_field(JobSpec& job, const std::string& pointer, const nlohmann::json& value);
+
+}  // namespace throng::jobs

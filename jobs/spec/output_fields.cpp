@@ -1,0 +1,167 @@
+// The fields below "outputs": which ground truth and which other formats, how runs are split, who
+// is worth a label, what classes.
+#include <fmt/core.h>
+
+#include <array>
+
+#include "annotate/spec/ground_truth.h"
+#include "formats/spec/options.h"
+#include "jobs/spec/job_fields.h"
+#include "jobs/spec/plan.h"
+
+namespace throng::jobs {
+
+using formats::ClassOptions;
+using formats::ExportOptions;
+using formats::FilterOptions;
+using formats::Split;
+using formats::WebDatasetOptions;
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+namespace {
+
+Values ground_truth_values() {
+  ordered_json names = ordered_json::array();
+  for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
+    names.push_back(kind.name);
+  }
+  const std::size_t count = names.size();
+  return raw({{"type", "array"},
+              {"uniqueItems", true},
+              {"maxItems", count},
+              {"items", {{"type", "string"}, {"enum", std::move(names)}}}});
+}
+
+auto share_of(Split split) {
+  return [split](auto& job) -> auto& {
+    return job.outputs.exports.splits.share.at(static_cast<std::size_t>(split));
+  };
+}
+
+FieldTable<JobSpec>::Get runs_of(Split split) {
+  return [split](const JobSpec& job) {
+    json named = json::array();
+    for (const auto& [run, its_split] : job.outputs.exports.splits.runs) {
+      if (its_split == split) named.push_back(std::stoi(run.substr(3)));
+    }
+    return named;
+  };
+}
+
+FieldTable<JobSpec>::Set set_runs_of(Split split) {
+  return [split](JobSpec& job, const json& value, const FieldPlace& place) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const int run = value[i].get<int>();
+      const std::string pointer = place.below(std::to_string(i)).pointer;
+      if (run >= job.runs) {
+        place.problems.push_back({"", pointer, fmt::format("run {}", run),
+                                  fmt::format("a run of the job, 0 to {}", job.runs - 1)});
+      } else if (!job.outputs.exports.splits.runs.emplace(run_name(run), split).second) {
+        place.problems.push_back(
+            {"", pointer, fmt::format("run {}, which has a split already", run), "each run once"});
+      }
+    }
+  };
+}
+
+json class_names_json(const JobSpec& job) {
+  json names = json::array();
+  for (const auto& [value, name] : job.outputs.exports.classes.names) {
+    names.push_back(value + "=" + name);
+  }
+  return names;
+}
+
+void set_class_names(JobSpec& job, const json& value, const FieldPlace& place) {
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    try {
+      formats::add_class_name(value[i], place.below(std::to_string(i)).pointer,
+                              job.outputs.exports.classes);
+    } catch (const InputError& error) {
+      place.problems.push_back(error.problems().front());
+    }
+  }
+}
+
+void add_export_fields(FieldTable<JobSpec>& table) {
+  table.group("outputs/splits", "Splits", "How runs are shared out in other formats.");
+  table.add("outputs/splits/train", "Training", "", numbers(0, 1), share_of(Split::train),
+            "Share of the runs for training; whole runs, in their order. Where it is left out, "
+            "what the other two leave. The three sum to at most 1.");
+  table.add("outputs/splits/val", "Validation", "", numbers(0, 1), share_of(Split::val),
+            "Share of the runs for validation.");
+  table.add("outputs/splits/test", "Test", "", numbers(0, 1), share_of(Split::test),
+            "Share of the runs for tests.");
+  table.add("outputs/splits/train_runs", "Training runs by number", "",
+            raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
+            runs_of(Split::train), set_runs_of(Split::train),
+            "Runs that are in train whatever the shares say.");
+  table.add("outputs/splits/val_runs", "Validation runs by number", "",
+            raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
+            runs_of(Split::val), set_runs_of(Split::val),
+            "Runs that are in val whatever the shares say.");
+  table.add("outputs/splits/test_runs", "Test runs by number", "",
+            raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
+            runs_of(Split::test), set_runs_of(Split::test),
+            "Runs that are in test whatever the shares say.");
+  table.group("outputs/filters", "Filters",
+              "Who is worth a label in other formats; the rest become ignore regions where a "
+              "format has them.");
+  table.add("outputs/filters/min_visibility", "Least visibility", "", numbers(0, 1),
+            at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
+               &FilterOptions::min_visibility),
+            "Share of a person that must be visible.");
+  table.add("outputs/filters/min_height_px", "Least height", "px", numbers(0, 10000),
+            at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
+               &FilterOptions::min_height_px),
+            "Height that the whole person must have in the picture.");
+  table.add("outputs/filters/max_truncation", "Most truncation", "", numbers(0, 1),
+            at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
+               &FilterOptions::max_truncation),
+            "Share of a person that may lie outside of the image; without it, any.");
+  table.group("outputs/webdataset", "WebDataset", "How the webdataset format is cut.");
+  table.add("outputs/webdataset/shard_mb", "Size of a shard", "MB", numbers(1, 100000),
+            at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::webdataset,
+               &WebDatasetOptions::shard_mb),
+            "What a tar file of WebDataset may reach before the next is begun, in 10^6 bytes.");
+  table.group("outputs/classes", "Classes", "What COCO's and YOLO's classes tell apart.");
+  table.add("outputs/classes/by", "Property", "", one_of(formats::class_properties()),
+            at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::classes, &ClassOptions::by),
+            "Everybody is a person (none), or a class for each value of this.");
+  table.add("outputs/classes/names", "Names", "",
+            raw({{"type", "array"}, {"maxItems", 20}, {"items", texts(3, 60).rules}}),
+            class_names_json, set_class_names, "Other names for values: female=woman.");
+}
+
+}  // namespace
+
+void add_output_fields(FieldTable<JobSpec>& table) {
+  table.group("outputs", "Outputs", "What the dataset holds.");
+  table.group("outputs/image", "Images", "How frames are stored.");
+  table.add("outputs/image/format", "Format", "", one_of(std::array{"jpeg"}),
+            at(&JobSpec::outputs, &OutputSpec::image_format), "File format.");
+  table
+      .add("outputs/image/quality", "Quality", "1 to 100", integers(1, 100),
+           at(&JobSpec::outputs, &OutputSpec::image_quality), "JPEG quality.")
+      .randomized();
+  table.add("outputs/annotations", "Annotations", "", ground_truth_values(),
+            at(&JobSpec::outputs, &OutputSpec::annotations), annotate::ground_truth_help());
+  table.group("outputs/density", "Density maps", "How heads are spread.");
+  table
+      .add("outputs/density/sigma_px", "Sigma", "px", numbers(0.5, 64),
+           at(&JobSpec::outputs, &OutputSpec::density_sigma_px),
+           "Standard deviation of the Gaussian of one head.")
+      .randomized();
+  table.add("outputs/previews", "Previews", "pictures", integers(0, 100),
+            at(&JobSpec::outputs, &OutputSpec::previews),
+            "Pictures with drawn annotations per run and camera, evenly spread over the frames.");
+  table.add("outputs/formats", "Formats", "",
+            raw({{"type", "array"}, {"maxItems", 40}, {"items", texts(1, 40).rules}}),
+            at(&JobSpec::outputs, &OutputSpec::formats),
+            "Other formats that the dataset holds as well, below formats/: those that throng "
+            "export --list names.");
+  add_export_fields(table);
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Measures the structure of the source code: sizes, fronts of modules, cycles, function lengths, words, tests.
+
+usage: scripts/measure_structure.py [FOLDER]    (default: this checkout)
+
+Prints a Markdown table, a row per top-level folder with C++ sources. Columns:
+  files       .cpp and .h, with their lines
+  used        headers that files of another module include (tests do not count)
+  cycles      #includes that close a cycle between files of the module (NAME.h and NAME.cpp are one file)
+  functions   number, and lines of the median, the 90 % quantile and the longest
+  words       coined words found by scripts/check_language.py's table, per 1 000 lines
+  tests       lines of tests per line of product code
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+APART = {"tests", "bench", "examples"}
+SKIPPED = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'')
+FUNCTION = re.compile(r"\)\s*(?:const\s*)?(?:noexcept\s*)?(?:override\s*)?(?:final\s*)?(?:->\s*[\w:<>&*, ]+\s*)?"
+                      r"(?::\s*[\w:]+[({].*)?\{\s*$")
+COINED = re.compile(r"\b(k?[Mm]ost[A-Z_]\w*|k?[Ll]ongest[A-Z_]\w*|k?[Ff]arthest[A-Z_]\w*|most_\w+|longest_\w+|strewn|"
+                    r"rooms?\b|whoever|wherever it)\b")
+
+
+def git_files(root):
+    """Paths of the checkout's C++ files."""
+    listed = subprocess.run(["git", "ls-files", "*.cpp", "*.h"], check=True, capture_output=True, text=True, cwd=root)
+    return [path for path in listed.stdout.split() if (root / path).exists()]
+
+
+def function_lengths(text):
+    """Lines of each function body, header and braces included: blocks that follow a parameter list at the outermost
+    level of classes and namespaces."""
+    lengths, stack = [], []
+    for number, line in enumerate(SKIPPED.sub("", text).split("\n")):
+        opens_function = bool(FUNCTION.search(line)) and not re.match(r"\s*(if|for|while|switch|else|catch|do|return)\b", line)
+        for place, letter in enumerate(line):
+            if letter == "{":
+                inside = any(kind for kind, _ in stack)
+                stack.append((opens_function and not inside and place == len(line.rstrip()) - 1, number))
+            elif letter == "}" and stack:
+                is_function, first = stack.pop()
+                if is_function:
+                    lengths.append(number - first + 1)
+    return lengths
+
+
+def cycle_edges(edges):
+    """Number of edges that a depth-first search finds to lead back to a file that it is in."""
+    state, back = {}, 0
+
+    def visit(start):
+        nonlocal back
+        todo = [(start, iter(sorted(edges.get(start, ()))))]
+        state[start] = 1
+        while todo:
+            node, rest = todo[-1]
+            following = next(rest, None)
+            if following is None:
+                state[node] = 2
+                todo.pop()
+            elif state.get(following) == 1:
+                back += 1
+            elif following not in state:
+                state[following] = 1
+                todo.append((following, iter(sorted(edges.get(following, ())))))
+
+    for node in sorted(edges):
+        if node not in state:
+            visit(node)
+    return back
+
+
+def quantile(values, share):
+    """Nearest rank."""
+    ordered = sorted(values)
+    return ordered[min(len(ordered) - 1, int(share * len(ordered)))] if ordered else 0
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else ROOT
+    texts = {path: (root / path).read_text(errors="replace") for path in git_files(root)}
+    product = {path: text for path, text in texts.items() if path.split("/")[0] not in APART}
+    modules = sorted({path.split("/")[0] for path in product})
+    includes = {path: re.findall(r'^#include "([^"]+)"', text, re.M) for path, text in product.items()}
+    used = {target for path, targets in includes.items() for target in targets
+            if target.split("/")[0] != path.split("/")[0]}
+    print("| module | .cpp n/lines | .h n/lines (used outside) | cycles | functions n, median/p90/max | coined words | tests |")
+    print("|---|---|---|---|---|---|---|")
+    sums = [0] * 9
+    everything = []
+    for module in modules:
+        own = {path: text for path, text in product.items() if path.split("/")[0] == module}
+        lines = {path: text.count("\n") for path, text in own.items()}
+        sources = [path for path in own if path.endswith(".cpp")]
+        headers = [path for path in own if path.endswith(".h")]
+        edges = {}
+        for path in own:
+            name = path.rsplit(".", 1)[0]
+            targets = {target.rsplit(".", 1)[0] for target in includes[path] if target in own}
+            edges.setdefault(name, set()).update(targets - {name})
+        lengths = [length for path in sources for length in function_lengths(own[path])]
+        everything += lengths
+        words = sum(len(COINED.findall(text)) for text in own.values())
+        tests = sum(text.count("\n") for path, text in texts.items() if path.startswith(f"tests/{module}/"))
+        size = sum(lines.values())
+        front = sum(path in used for path in headers)
+        cycles = cycle_edges(edges)
+        row = [len(sources), sum(lines[p] for p in sources), len(headers), sum(lines[p] for p in headers), front, cycles,
+               len(lengths), words, tests]
+        sums = [a + b for a, b in zip(sums, row)]
+        print(f"| {module} | {row[0]}/{row[1]} | {row[2]}/{row[3]} ({front}) | {cycles} | {len(lengths)}, "
+              f"{quantile(lengths, .5)}/{quantile(lengths, .9)}/{max(lengths, default=0)} | {words} | {tests / size:.2f} |")
+    print(f"| **all** | {sums[0]}/{sums[1]} | {sums[2]}/{sums[3]} ({sums[4]}) | {sums[5]} | {sums[6]}, "
+          f"{quantile(everything, .5)}/{quantile(everything, .9)}/{max(everything)} | {sums[7]} | "
+          f"{sums[8] / (sums[1] + sums[3]):.2f} |")
+
+
+if __name__ == "__main__":
+    main()

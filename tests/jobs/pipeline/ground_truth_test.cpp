@@ -1,0 +1,99 @@
+// Every kind of ground truth of the table is written and checked by code that is registered for it.
+#include "annotate/spec/ground_truth.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "annotate/frame_writers.h"
+#include "formats/exporter.h"
+#include "formats/ground_truth_checks.h"
+#include "jobs/pipeline/run_writers.h"
+#include "jobs/spec/spec.h"
+
+namespace throng::jobs {
+namespace {
+
+using annotate::GroundTruth;
+using nlohmann::json;
+
+template <typename Rows>
+std::multiset<GroundTruth> kinds_in(const Rows& rows) {
+  std::multiset<GroundTruth> kinds;
+  for (const auto& row : rows) kinds.insert(row.kind);
+  return kinds;
+}
+
+TEST(GroundTruthTables, EveryKindIsWritten) {
+  const auto of_frames = kinds_in(annotate::frame_writers());
+  const auto of_runs = kinds_in(run_writers());
+  for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
+    EXPECT_LE(of_frames.count(kind.kind), 1U) << kind.name;
+    EXPECT_LE(of_runs.count(kind.kind), 1U) << kind.name;
+    // The COCO records themselves are written by the shard, whatever else is asked for.
+    if (kind.kind == GroundTruth::coco) continue;
+    EXPECT_GE(of_frames.count(kind.kind) + of_runs.count(kind.kind), 1U)
+        << "nothing writes " << kind.name;
+  }
+}
+
+TEST(GroundTruthTables, EveryKindWithFilesOfItsOwnIsChecked) {
+  const auto checked = kinds_in(formats::ground_truth_checkers());
+  for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
+    const bool is_record = kind.file == kind_of(GroundTruth::coco).file;
+    EXPECT_EQ(checked.count(kind.kind), is_record ? 0U : 1U) << kind.name;
+  }
+}
+
+TEST(GroundTruthTables, TheJobSchemaListsTheKinds) {
+  const json rules =
+      json::parse(job_schema()).at("/properties/outputs/properties/annotations"_json_pointer);
+  json names = json::array();
+  json defaults = json::array();
+  for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
+    names.push_back(kind.name);
+    if (kind.is_default) defaults.push_back(kind.name);
+  }
+  EXPECT_EQ(rules["items"]["enum"], names);
+  EXPECT_EQ(rules["maxItems"], names.size());
+  EXPECT_EQ(rules["default"], defaults);
+  EXPECT_EQ(rules["description"], annotate::ground_truth_help());
+}
+
+TEST(GroundTruthTables, NamesAndFoldersAreUnique) {
+  std::set<std::string_view> names;
+  std::map<std::string_view, std::string_view> folders;
+  for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_EQ(annotate::find_kind(kind.name), &kind_of(kind.kind));
+    const auto [folder, is_new] = folders.emplace(folder_of(kind), kind.file);
+    EXPECT_TRUE(is_new || folder->second == kind.file) << kind.name;
+  }
+  EXPECT_EQ(annotate::find_kind("cocoa"), nullptr);
+}
+
+TEST(GroundTruthTables, FilesAreNamedByRunCameraAndFrame) {
+  EXPECT_EQ(file_of(GroundTruth::depth, "run007", "d1", 12), "depth/run007/d1/000012.png");
+  EXPECT_EQ(file_of(GroundTruth::fields, "run007", "d1", 12), "fields/run007/000012.npy");
+  EXPECT_EQ(file_of(GroundTruth::exits, "run007"), "exits/run007.csv");
+  EXPECT_EQ(file_of(GroundTruth::coco, "run007"), "annotations/instances.json");
+  // Ids of drones are letters, digits, '_' and '-': also such words.
+  EXPECT_EQ(file_of(GroundTruth::flow, "run000", "RUN-CAMERA_FRAME", 3),
+            "flow/run000/RUN-CAMERA_FRAME/000003.png");
+}
+
+TEST(GroundTruthTables, TheRendererIsAskedForWhatTheKindsNeed) {
+  const auto needs = [](std::vector<std::string> names) { return annotate::render_needs(names); };
+  EXPECT_FALSE(needs({"coco", "depth", "instances"}).parts);
+  EXPECT_TRUE(needs({"parts"}).parts);
+  EXPECT_TRUE(needs({"coco", "normals"}).normals);
+  EXPECT_TRUE(needs({"flow"}).flow);
+  EXPECT_TRUE(needs({"coco", "amodal"}).whole_masks);
+  EXPECT_FALSE(needs({"amodal"}).whole_masks) << "whole masks are part of the records";
+}
+
+}  // namespace
+}  // namespace throng::jobs
