@@ -203,7 +203,7 @@ void append_annotation_record(std::string& text, const CocoImage& image, const P
   if (person.whole_mask != nullptr) append_whole_mask(text, image, *person.whole_mask);
   append_whole(text, image, label.agent, person.amodal_box, person.amodal_area_px,
                label.visibility);
-  append_decimals(text, person.position, kMetreDecimals);
+  append_decimals(text, person.position, kMeterDecimals);
   text += R"(,"velocity":)";
   append_decimals(text, person.velocity, kBodyDecimals);
   text.push_back(',');
@@ -231,7 +231,7 @@ void append_drone_record(std::string& text, const CocoImage& image, const DroneL
   append_shown(text, image, {kDroneCategory, number, &label.box, &label.mask, label.area_px});
   if (image.whole_drone_masks) append_whole_mask(text, image, *drone.whole_mask);
   append_whole(text, image, number, drone.amodal_box, drone.amodal_area_px, label.visibility);
-  append_decimals(text, drone.position, kMetreDecimals);
+  append_decimals(text, drone.position, kMeterDecimals);
   text += R"(,"velocity":)";
   append_decimals(text, drone.velocity, kBodyDecimals);
   const Eigen::Quaterniond& q = drone.orientation;

@@ -19,8 +19,8 @@ std::int64_t unit_of(int decimals) {
 
 /// How often the unit of the last decimal is in the number.
 std::int64_t scaled_by(double value, std::int64_t unit) {
-  constexpr double kLargest = 1e9;
-  check(std::isfinite(value) && std::abs(value) < kLargest, "every number in a dataset is finite");
+  constexpr double kMaxValue = 1e9;
+  check(std::isfinite(value) && std::abs(value) < kMaxValue, "every number in a dataset is finite");
   return std::llround(value * static_cast<double>(unit));
 }
 

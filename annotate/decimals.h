@@ -8,7 +8,7 @@
 namespace throng::annotate {
 
 /// Decimals of places, m.
-inline constexpr int kMetreDecimals = 3;
+inline constexpr int kMeterDecimals = 3;
 /// Decimals of what bodies are as a whole: boxes (m), velocities (m/s), headings (radians).
 inline constexpr int kBodyDecimals = 2;
 /// Decimals of pixels. Boxes of other formats are compared to 0.01 pixels.

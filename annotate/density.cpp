@@ -27,13 +27,13 @@ struct AxisKernel {
 // Gaussian about `centre` (box coordinates, inside [0, size)), taken at the pixels' middles.
 // Weights are relative to that of the head's own pixel, so that they do not vanish for a tiny
 // sigma.
-void set_kernel(AxisKernel& kernel, double centre, int size, double sigma) {
+void set_kernel(AxisKernel& kernel, double center, int size, double sigma) {
   const double reach = kCutOffSigmas * sigma;
-  const int own = std::min(static_cast<int>(centre), size - 1);
-  kernel.first = static_cast<int>(std::floor(std::max(0.0, centre - reach)));
-  const int last = static_cast<int>(std::floor(std::min<double>(size - 1, centre + reach)));
+  const int own = std::min(static_cast<int>(center), size - 1);
+  kernel.first = static_cast<int>(std::floor(std::max(0.0, center - reach)));
+  const int last = static_cast<int>(std::floor(std::min<double>(size - 1, center + reach)));
   kernel.weight.resize(last - kernel.first + 1);
-  const double own_distance = own + 0.5 - centre;
+  const double own_distance = own + 0.5 - center;
   const double scale = 1 / (2 * sigma * sigma);
   // From pixel to pixel a Gaussian's values change by a factor that itself changes by a constant
   // one; outwards from the head's own pixel all of these are at most 1.

@@ -1,4 +1,4 @@
-// Crowd density in the image: a Gaussian per head, each normalised inside the image, so that the
+// Crowd density in the image: a Gaussian per head, each normalized inside the image, so that the
 // map's sum is the count exactly.
 #pragma once
 

@@ -16,9 +16,9 @@ namespace throng::annotate {
 namespace {
 
 /// Sides of outlines are no longer, so that lenses bend them as they bend what is on the ground.
-constexpr double kLongestSideM = 0.5;
+constexpr double kMaxSideM = 0.5;
 /// Nearer to the camera's plane nothing is projected.
-constexpr double kNearestM = 0.1;
+constexpr double kMinDistanceM = 0.1;
 /// The passage's depth: what people stand in while they go out.
 constexpr double kDoorDepthM = 0.5;
 /// Sides that stand for the zone's half circle.
@@ -29,7 +29,7 @@ std::vector<Eigen::Vector2d> with_short_sides(const std::vector<Eigen::Vector2d>
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2d& from = corners[i];
     const Eigen::Vector2d& to = corners[(i + 1) % corners.size()];
-    const int parts = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kLongestSideM)));
+    const int parts = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kMaxSideM)));
     for (int part = 0; part < parts; ++part) fine.push_back(from + (to - from) * part / parts);
   }
   return fine;
@@ -57,7 +57,7 @@ std::vector<Eigen::Vector2d> door_of(const world::Exit& exit) {
 std::vector<Eigen::Vector3d> in_front(const std::vector<Eigen::Vector2d>& polygon,
                                       const camera::Camera& camera) {
   const auto depth_of = [&](const Eigen::Vector3d& point) {
-    return (camera.pose.R * point + camera.pose.t).z() - kNearestM;
+    return (camera.pose.R * point + camera.pose.t).z() - kMinDistanceM;
   };
   std::vector<Eigen::Vector3d> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

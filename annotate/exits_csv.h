@@ -15,7 +15,7 @@ struct FrameTime {
   double time_s = 0;
 };
 
-/// One row per frame and exit: frame, time_s, exit, in_zone, density, normalised_density,
+/// One row per frame and exit: frame, time_s, exit, in_zone, density, normalized_density,
 /// approach_speed, crossed_out, crossed_in, flow, since_crossing, state, clogging_index,
 /// voronoi_density, specific_flow, demand, queue, queue_length, predicted_wait, pressure,
 /// state_offline (units: docs/metrics.md), below a header line. `step_times_s` are the times of the

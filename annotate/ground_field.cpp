@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr std::size_t kMostCells = 1U << 17U;
+constexpr std::size_t kMaxCells = 1U << 17U;
 constexpr double kKernelReach = 3;  // times kFieldKernelM
 
 std::size_t nearest_step(const world::Trace& trace, double time_s) {
@@ -138,7 +138,7 @@ GroundGrid::GroundGrid(const world::Scenario& scenario)
   const auto cells_now = [&] {
     return static_cast<std::size_t>(count(size.x())) * static_cast<std::size_t>(count(size.y()));
   };
-  while (cells_now() > kMostCells) cell_m_ *= 2;
+  while (cells_now() > kMaxCells) cell_m_ *= 2;
   columns_ = count(size.x());
   rows_ = count(size.y());
   walkable_.assign(cells_now(), true);
@@ -171,11 +171,11 @@ GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, doub
   std::vector<double> x(grid.cells());
   std::vector<double> y(grid.cells());
   FieldPainter painter(grid);
-  constexpr double kNeighbourGridM = 0.8;
-  const metrics::PointGrid neighbours(places, kNeighbourGridM);
+  constexpr double kNeighborGridM = 0.8;
+  const metrics::PointGrid neighbors(places, kNeighborGridM);
   for (std::size_t i = 0; i < places.size(); ++i) {
     painter.add(places[i], velocities[i], weight, x, y);
-    const metrics::VoronoiCell cell = painter.cutter().cell(neighbours, i);
+    const metrics::VoronoiCell cell = painter.cutter().cell(neighbors, i);
     const auto density = static_cast<float>(cell.density_per_m2());
     painter.fill(cell.rings, [&](std::size_t index) { field.voronoi[index] = density; });
   }

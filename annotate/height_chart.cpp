@@ -17,13 +17,13 @@ namespace {
 
 constexpr int kSampled = 4000;
 constexpr double kAdultFrom = 18;  // years
-// Of the axis and its bins, in metres.
-constexpr double kLowest = 1.36;
-constexpr double kHighest = 2.04;
+// Of the axis and its bins, in meters.
+constexpr double kMinHeightM = 1.36;
+constexpr double kMaxHeightM = 2.04;
 constexpr double kBinWidth = 0.02;
 constexpr std::size_t kBins = 34;
 
-const std::array<cv::Scalar, 2> kColours = {cv::Scalar(196, 92, 60), cv::Scalar(48, 104, 158)};
+const std::array<cv::Scalar, 2> kColors = {cv::Scalar(196, 92, 60), cv::Scalar(48, 104, 158)};
 
 struct Adult {
   double height_m;
@@ -42,7 +42,7 @@ std::array<std::vector<Adult>, 2> sampled_adults(std::uint64_t seed) {
   return adults;
 }
 
-// Expected share of adults per metre, given how much each has lost.
+// Expected share of adults per meter, given how much each has lost.
 double density(const std::vector<Adult>& adults, bool male, double height_m) {
   const skinning::AdultHeights norm = skinning::adult_heights(male);
   double sum = 0;
@@ -66,16 +66,16 @@ class Chart {
 
   int px(double size) const { return static_cast<int>(std::lround(size * scale_)); }
   int x_of(double height_m) const {
-    const double share = (height_m - kLowest) / (kHighest - kLowest);
+    const double share = (height_m - kMinHeightM) / (kMaxHeightM - kMinHeightM);
     return static_cast<int>(std::lround(std::lerp(left_, right_, share)));
   }
   int y_of(double per_m) const {
-    constexpr double kMost = 7.2;  // per metre
-    return static_cast<int>(std::lround(std::lerp(bottom_, top_, per_m / kMost)));
+    constexpr double kMaxDensityPerM = 7.2;  // per meter
+    return static_cast<int>(std::lround(std::lerp(bottom_, top_, per_m / kMaxDensityPerM)));
   }
 
-  void text(const std::string& words, int x, int y, const cv::Scalar& colour) {
-    cv::putText(picture_, words, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45 * scale_, colour,
+  void text(const std::string& words, int x, int y, const cv::Scalar& color) {
+    cv::putText(picture_, words, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45 * scale_, color,
                 std::max(1, px(1)), cv::LINE_AA);
   }
 
@@ -91,15 +91,15 @@ class Chart {
   void bars(const std::vector<Adult>& adults, bool male) {
     std::array<int, kBins> count{};
     for (const Adult& adult : adults) {
-      const double bin = (adult.height_m - kLowest) / kBinWidth;
+      const double bin = (adult.height_m - kMinHeightM) / kBinWidth;
       if (bin >= 0 && bin < kBins) ++count[static_cast<std::size_t>(bin)];
     }
     cv::Mat filled = picture_.clone();
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       const double per_m = count[bin] / (kBinWidth * static_cast<double>(adults.size()));
-      const double from_m = kLowest + kBinWidth * static_cast<double>(bin);
+      const double from_m = kMinHeightM + kBinWidth * static_cast<double>(bin);
       cv::rectangle(filled, {x_of(from_m) + 1, y_of(per_m)},
-                    {x_of(from_m + kBinWidth) - 1, bottom_}, kColours[male ? 1 : 0], cv::FILLED);
+                    {x_of(from_m + kBinWidth) - 1, bottom_}, kColors[male ? 1 : 0], cv::FILLED);
     }
     cv::addWeighted(filled, 0.45, picture_, 0.55, 0, picture_);
   }
@@ -108,16 +108,16 @@ class Chart {
     constexpr int kPoints = 137;
     std::vector<cv::Point> points;
     for (int i = 0; i < kPoints; ++i) {
-      const double height_m = std::lerp(kLowest, kHighest, i / (kPoints - 1.0));
+      const double height_m = std::lerp(kMinHeightM, kMaxHeightM, i / (kPoints - 1.0));
       points.emplace_back(x_of(height_m), y_of(density(adults, male, height_m)));
     }
-    cv::polylines(picture_, points, false, kColours[male ? 1 : 0], std::max(1, px(2)), cv::LINE_AA);
+    cv::polylines(picture_, points, false, kColors[male ? 1 : 0], std::max(1, px(2)), cv::LINE_AA);
   }
 
   void tick(double height_m, bool male) {
-    if (height_m < kLowest || height_m > kHighest) return;
+    if (height_m < kMinHeightM || height_m > kMaxHeightM) return;
     const int x = x_of(height_m);
-    cv::line(picture_, {x, bottom_ + px(8)}, {x, bottom_ + px(22)}, kColours[male ? 1 : 0],
+    cv::line(picture_, {x, bottom_ + px(8)}, {x, bottom_ + px(22)}, kColors[male ? 1 : 0],
              std::max(1, px(1)));
   }
 
@@ -137,7 +137,7 @@ class Chart {
     text(fmt::format("{}: normal {:.2f} +- {:.3f} m less what age takes; {} sampled have {:.3f} +- "
                      "{:.3f} m before that",
                      male ? "men" : "women", norm.mean_m, norm.sd_m, adults.size(), mean_m, sd_m),
-         left_, px(6 + 20 * line), kColours[male ? 1 : 0]);
+         left_, px(6 + 20 * line), kColors[male ? 1 : 0]);
   }
 
  private:

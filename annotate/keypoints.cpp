@@ -40,7 +40,7 @@ bool is_recorded_seen(const render::Frame& frame, const render::PersonInView& pe
                       std::size_t keypoint) {
   if (!frame.camera.intrinsics.distortion || person.keypoints_px) return true;
   const Eigen::Vector3d place = person.keypoints[keypoint].cast<double>().unaryExpr(
-      [](double metres) { return rounded(metres, kMetreDecimals); });
+      [](double meters) { return rounded(meters, kMeterDecimals); });
   return frame.camera.project(place).visible;
 }
 
@@ -53,7 +53,7 @@ void add_keypoints(const render::Frame& frame, FrameLabels& labels) {
     label.keypoints.assign(seen.size(), {});
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (!seen[i].allFinite() || !is_recorded_seen(frame, label.person, i)) continue;
-      // As the record has it: rounding must not move a labelled point onto the image's edge.
+      // As the record has it: rounding must not move a labeled point onto the image's edge.
       const double x = rounded(static_cast<double>(seen[i].x()), kPixelDecimals);
       const double y = rounded(static_cast<double>(seen[i].y()), kPixelDecimals);
       if (!(x >= 0 && y >= 0 && x < frame.width() && y < frame.height())) continue;

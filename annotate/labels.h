@@ -24,9 +24,9 @@ using RunLengths = std::vector<std::uint32_t>;
 
 /// One of COCO's keypoints in the picture.
 struct Keypoint {
-  double x = 0;  ///< box coordinates, rounded to kPixelDecimals; 0 when not labelled
+  double x = 0;  ///< box coordinates, rounded to kPixelDecimals; 0 when not labeled
   double y = 0;
-  /// COCO's: 0 not labelled (outside the image), 1 hidden, by others or by the own body, 2 visible.
+  /// COCO's: 0 not labeled (outside the image), 1 hidden, by others or by the own body, 2 visible.
   int visibility = 0;
 };
 

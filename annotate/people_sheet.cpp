@@ -89,14 +89,14 @@ class Page {
   Sheet take() && { return std::move(sheet_); }
 
  private:
-  void write(const std::string& words, cv::Point at, double size, const cv::Scalar& colour) {
+  void write(const std::string& words, cv::Point at, double size, const cv::Scalar& color) {
     const double scale = size * unit_;
     const int thickness = px(size < 0.6 ? 1 : 2);
-    if (colour != kInk) {
+    if (color != kInk) {
       cv::putText(picture_, words, at, cv::FONT_HERSHEY_SIMPLEX, scale, {30, 30, 30},
                   thickness + px(2), cv::LINE_AA);
     }
-    cv::putText(picture_, words, at, cv::FONT_HERSHEY_SIMPLEX, scale, colour, thickness,
+    cv::putText(picture_, words, at, cv::FONT_HERSHEY_SIMPLEX, scale, color, thickness,
                 cv::LINE_AA);
   }
 

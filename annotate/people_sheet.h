@@ -17,7 +17,7 @@ namespace throng::annotate {
 struct SheetOptions {
   std::vector<std::uint32_t> portraits;  ///< characters; at least one
   std::vector<std::uint32_t> crowd;      ///< characters of the drones' views; at least one
-  std::uint64_t seed = 1;                ///< of colours, of the crowd and of the heights
+  std::uint64_t seed = 1;                ///< of colors, of the crowd and of the heights
   int width_px = 2400;                   ///< of the sheet, 800 to 8000
   render::DeviceChoice device;
 };

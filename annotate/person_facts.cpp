@@ -38,7 +38,7 @@ bool says_follow(std::string_view state) {
   return found != state.end();
 }
 
-/// Whether a texture is light and shade only at a part's corners, so that the tint is the colour.
+/// Whether a texture is light and shade only at a part's corners, so that the tint is the color.
 bool is_shade(const skinning::Population& population, const skinning::Mesh& mesh,
               const skinning::Part& part) {
   if (part.texture < 0 || population.textures.empty()) return true;
@@ -55,7 +55,7 @@ bool is_shade(const skinning::Population& population, const skinning::Mesh& mesh
   return true;
 }
 
-/// Surface of the finest mesh whose colour is a tint, m².
+/// Surface of the finest mesh whose color is a tint, m².
 double tinted_m2(const skinning::Population& population, const skinning::Character& character,
                  skinning::Tint tint) {
   if (character.levels.empty()) return 0;
@@ -76,8 +76,8 @@ double tinted_m2(const skinning::Population& population, const skinning::Charact
   return twice_m2 / 2;
 }
 
-/// Less of a colour, like a bald man's eyebrows, is none that somebody would name.
-constexpr double kLeastTintedM2 = 0.01;
+/// Less of a color, like a bald man's eyebrows, is none that somebody would name.
+constexpr double kMinTintedM2 = 0.01;
 
 nlohmann::json attributes_of(const skinning::Population& population,
                              const skinning::Character& character,
@@ -92,11 +92,11 @@ nlohmann::json attributes_of(const skinning::Population& population,
   for (const skinning::Tint tint :
        {skinning::Tint::top, skinning::Tint::bottom, skinning::Tint::hair, skinning::Tint::shoes}) {
     const auto index = static_cast<std::size_t>(tint);
-    if (character.tints[index].empty() || tinted_m2(population, character, tint) < kLeastTintedM2)
+    if (character.tints[index].empty() || tinted_m2(population, character, tint) < kMinTintedM2)
       continue;
-    const skinning::Rgb& colour = appearance.tint[index];
+    const skinning::Rgb& color = appearance.tint[index];
     attributes[std::string(skinning::kTintNames[index]) + "_colour"] =
-        fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+        fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
   }
   return attributes;
 }
@@ -121,7 +121,7 @@ PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& 
                          const skinning::Styling& styling)
     : trace_(&trace) {
   for (const std::string& name : trace.header.state_names) {
-    behaviour_.push_back(nlohmann::json(name).dump());
+    behavior_.push_back(nlohmann::json(name).dump());
   }
   for (const std::string& id : trace.header.exit_ids) exit_.push_back(nlohmann::json(id).dump());
   for (std::size_t agent = 0; agent < trace.agents(); ++agent) {
@@ -146,13 +146,13 @@ void PersonFacts::append(std::string& text, std::uint32_t agent, double time_s,
   check(agent < fixed_.size(), "facts are those of the run that is drawn");
   const std::size_t at = trace_->at(step_at(time_s), agent);
   const std::size_t state = trace_->state.empty() ? 0 : trace_->state[at];
-  const bool is_named = state < behaviour_.size();
+  const bool is_named = state < behavior_.size();
   const Activity activity =
       activity_of(is_named ? trace_->header.state_names[state] : "", trace_->flags[at], speed_mps);
   const int exit = trace_->exit_intent.empty() ? -1 : trace_->exit_intent[at];
   const bool has_exit = exit >= 0 && static_cast<std::size_t>(exit) < exit_.size();
   fmt::format_to(std::back_inserter(text), R"(,"state":"{}")", name_of(activity));
-  if (is_named) text += R"(,"behaviour":)" + behaviour_[state];
+  if (is_named) text += R"(,"behaviour":)" + behavior_[state];
   if (has_exit) text += R"(,"exit":)" + exit_[static_cast<std::size_t>(exit)];
 }
 

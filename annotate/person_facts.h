@@ -13,11 +13,11 @@
 
 namespace throng::annotate {
 
-/// What somebody does, whatever the behaviour file calls it.
+/// What somebody does, whatever the behavior file calls it.
 enum class Activity : std::uint8_t { waiting, walking, running, following, panicking, lying };
 std::string_view name_of(Activity activity);
 
-/// Of somebody in a behaviour's state of this name, with the trace's flags: lying with
+/// Of somebody in a behavior's state of this name, with the trace's flags: lying with
 /// world::kFallen, else panicking with world::kPanicked, else by speed: below 0.2 m/s they wait;
 /// faster they follow if the state's name says so, and above 2.07 m/s they run (Hreljac, 1993:
 /// where people change from walking to running).
@@ -41,9 +41,9 @@ class PersonFacts {
   std::size_t step_at(double time_s) const;
 
   const world::Trace* trace_;
-  std::vector<std::string> behaviour_;  ///< JSON, by state
-  std::vector<std::string> exit_;       ///< JSON, by exit
-  std::vector<std::string> fixed_;      ///< members that do not change, by agent
+  std::vector<std::string> behavior_;  ///< JSON, by state
+  std::vector<std::string> exit_;      ///< JSON, by exit
+  std::vector<std::string> fixed_;     ///< members that do not change, by agent
 };
 
 }  // namespace throng::annotate

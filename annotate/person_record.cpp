@@ -28,7 +28,7 @@ namespace {
 
 void append_keypoints(std::string& text, const PersonLabel& label) {
   text += R"(,"keypoints":[)";
-  int labelled = 0;
+  int labeled = 0;
   for (std::size_t i = 0; i < label.keypoints.size(); ++i) {
     const Keypoint& point = label.keypoints[i];
     if (i > 0) text.push_back(',');
@@ -37,12 +37,12 @@ void append_keypoints(std::string& text, const PersonLabel& label) {
     append_decimal(text, point.y, kPixelDecimals);
     text.push_back(',');
     text.push_back(static_cast<char>('0' + point.visibility));
-    if (point.visibility > 0) ++labelled;
+    if (point.visibility > 0) ++labeled;
   }
-  text += R"(],"num_keypoints":)" + std::to_string(labelled) + R"(,"keypoints_3d":[)";
+  text += R"(],"num_keypoints":)" + std::to_string(labeled) + R"(,"keypoints_3d":[)";
   for (std::size_t i = 0; i < label.keypoints.size(); ++i) {
     if (i > 0) text.push_back(',');
-    append_decimals(text, label.person.keypoints[i], kMetreDecimals);
+    append_decimals(text, label.person.keypoints[i], kMeterDecimals);
   }
   text.push_back(']');
 }

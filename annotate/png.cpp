@@ -17,7 +17,7 @@ namespace throng::annotate {
 
 namespace {
 
-constexpr std::uint8_t kGrey = 0;
+constexpr std::uint8_t kGray = 0;
 constexpr std::uint8_t kRgb = 2;
 constexpr std::uint8_t kFilterUp = 2;
 
@@ -39,12 +39,12 @@ std::string header(const Raster& raster, int bits) {
   append_big_endian(data, static_cast<std::uint32_t>(raster.width));
   append_big_endian(data, static_cast<std::uint32_t>(raster.height));
   data.push_back(static_cast<char>(bits));
-  data.push_back(static_cast<char>(raster.channels == 3 ? kRgb : kGrey));
+  data.push_back(static_cast<char>(raster.channels == 3 ? kRgb : kGray));
   data.append(3, '\0');  // deflate, the usual filters, not interlaced
   return data;
 }
 
-/// Each row as its difference to the one above: neighbouring rows of ground truth are nearly alike.
+/// Each row as its difference to the one above: neighboring rows of ground truth are nearly alike.
 std::string encoded(const Raster& raster, int bits, const std::uint8_t* bytes) {
   thread_local std::vector<std::uint8_t> filtered;
   thread_local std::vector<std::uint8_t> compressed;
@@ -96,14 +96,14 @@ std::string png_bytes(const Raster& raster, std::span<const std::uint16_t> sampl
 }
 
 std::string depth_png(const render::Frame& frame) {
-  thread_local std::vector<std::uint16_t> centimetres;
+  thread_local std::vector<std::uint16_t> centimeters;
   constexpr float kTooFar = 65536;
-  centimetres.resize(frame.depth_m.size());
-  std::transform(frame.depth_m.begin(), frame.depth_m.end(), centimetres.begin(), [](float depth) {
-    const float rounded = depth * kDepthPerMetre + 0.5F;
+  centimeters.resize(frame.depth_m.size());
+  std::transform(frame.depth_m.begin(), frame.depth_m.end(), centimeters.begin(), [](float depth) {
+    const float rounded = depth * kDepthPerMeter + 0.5F;
     return static_cast<std::uint16_t>(rounded < kTooFar ? static_cast<int>(rounded) : 0);
   });
-  return png_bytes({frame.width(), frame.height(), 1}, centimetres);
+  return png_bytes({frame.width(), frame.height(), 1}, centimeters);
 }
 
 std::string instance_png(const render::Frame& frame) {
@@ -133,13 +133,13 @@ std::string normal_png(const render::Frame& frame) {
 std::string flow_png(const render::Frame& frame) {
   constexpr float kZero = 32768;
   constexpr float kPerPixel = 64;
-  constexpr float kMost = 65535;
+  constexpr float kMaxValue = 65535;
   std::vector<std::uint16_t> samples(frame.flow.size() / 2 * 3);
   for (std::size_t i = 0; i * 2 < frame.flow.size(); ++i) {
     const float x = std::round(frame.flow[i * 2] * kPerPixel + kZero);
     const float y = std::round(frame.flow[i * 2 + 1] * kPerPixel + kZero);
     // What is unknown is no number: every comparison with it is false.
-    if (!(x >= 0 && y >= 0 && x <= kMost && y <= kMost)) continue;
+    if (!(x >= 0 && y >= 0 && x <= kMaxValue && y <= kMaxValue)) continue;
     samples[i * 3] = static_cast<std::uint16_t>(x);
     samples[i * 3 + 1] = static_cast<std::uint16_t>(y);
     samples[i * 3 + 2] = 1;

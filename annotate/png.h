@@ -14,17 +14,17 @@ namespace throng::annotate {
 struct Raster {
   int width = 0;
   int height = 0;
-  int channels = 1;  ///< 1 (grey) or 3 (RGB)
+  int channels = 1;  ///< 1 (gray) or 3 (RGB)
 };
 
 /// The bytes of a PNG file. Checks that there are width * height * channels samples.
 std::string png_bytes(const Raster& raster, std::span<const std::uint8_t> samples);
 std::string png_bytes(const Raster& raster, std::span<const std::uint16_t> samples);
 
-/// Depth in depth_png() of one metre.
-inline constexpr float kDepthPerMetre = 100;
+/// Depth in depth_png() of one meter.
+inline constexpr float kDepthPerMeter = 100;
 
-/// 16-bit grey: camera z in centimetres, rounded; 0 for the sky and whatever is farther than
+/// 16-bit gray: camera z in centimeters, rounded; 0 for the sky and whatever is farther than
 /// 655.35 m.
 std::string depth_png(const render::Frame& frame);
 
@@ -32,7 +32,7 @@ std::string depth_png(const render::Frame& frame);
 /// for things the id buffer's highest byte << 16 with its lowest 16 bits.
 std::string instance_png(const render::Frame& frame);
 
-/// 8-bit grey: render::BodyPart. Checks that the frame has parts.
+/// 8-bit gray: render::BodyPart. Checks that the frame has parts.
 std::string part_png(const render::Frame& frame);
 
 /// 8-bit RGB: Frame::normal as it is. Checks that the frame has normals.

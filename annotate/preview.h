@@ -10,7 +10,7 @@
 
 namespace throng::annotate {
 
-/// The frame's colours with each visible person's box (colour by track id) and a caption line
+/// The frame's colors with each visible person's box (color by track id) and a caption line
 /// (time, visible count). Returns RGB, same size.
 std::vector<std::uint8_t> draw_preview(const render::Frame& frame, const FrameLabels& labels);
 

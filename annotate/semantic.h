@@ -29,7 +29,7 @@ constexpr SemanticClass semantic_class(std::uint32_t id) {
   return id >= render::kIdProp ? SemanticClass::prop : SemanticClass::building;
 }
 
-/// The bytes of a PNG file: 8-bit grey, a SemanticClass for each pixel.
+/// The bytes of a PNG file: 8-bit gray, a SemanticClass for each pixel.
 std::string semantic_png(const render::Frame& frame);
 
 }  // namespace throng::annotate

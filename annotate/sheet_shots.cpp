@@ -266,13 +266,13 @@ std::vector<SheetRow> level_rows(const LevelsApart& apart, const SheetOptions& o
     if (i % kLevelColumns == 0) {
       rows.push_back({i == 0 ? "Levels of detail and their triangles, all drawn large" : "", {}});
     }
-    // All levels of a person wear one set of colours.
+    // All levels of a person wear one set of colors.
     const bool next = i == 0 || population.characters[i].name != population.characters[i - 1].name;
     if (next) {
       look = skinning::appearance_as(population, i, options.seed);
       for (std::size_t tint = 0; tint < skinning::kTintCount; ++tint) {
-        const auto& colours = population.characters[i].tints[tint];
-        if (!colours.empty()) look.tint[tint] = colours[options.seed % colours.size()];
+        const auto& colors = population.characters[i].tints[tint];
+        if (!colors.empty()) look.tint[tint] = colors[options.seed % colors.size()];
       }
     }
     look.character = i;

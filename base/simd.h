@@ -28,17 +28,19 @@ inline Int4 low_half(Int8 v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3);
 inline Int4 high_half(Int8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
 
 /// Bit i is set if lane i of a mask is true.
-inline unsigned bits(Int4 mask) {
+inline unsigned movemask(Int4 mask) {
 #if defined(__SSE2__)
   return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
 #else
   return (mask[0] & 1U) | (mask[1] & 2U) | (mask[2] & 4U) | (mask[3] & 8U);
 #endif
 }
-inline unsigned bits(Int8 mask) { return bits(low_half(mask)) | (bits(high_half(mask)) << 4U); }
+inline unsigned movemask(Int8 mask) {
+  return movemask(low_half(mask)) | (movemask(high_half(mask)) << 4U);
+}
 
 /// Whether a mask is true in any lane.
-inline bool any(Int4 mask) { return bits(mask) != 0; }
+inline bool any(Int4 mask) { return movemask(mask) != 0; }
 inline bool any(Int8 mask) { return any(low_half(mask) | high_half(mask)); }
 
 /// Lane by lane; b where one of them is no number.
@@ -82,7 +84,7 @@ struct Vectors<8> {
 
 /// The same in every lane.
 template <int kWidth>
-typename Vectors<kWidth>::Float every(float value) {
+typename Vectors<kWidth>::Float broadcast(float value) {
   return value - typename Vectors<kWidth>::Float{};
 }
 
@@ -121,11 +123,11 @@ inline constexpr auto kPackedLanes = [] {
 /// Stores the lanes of two vectors for which the mask is true, one after the other. Returns how
 /// many there are; what follows them, up to a whole vector, may be written too.
 template <int kWidth>
-std::size_t store_some(typename Vectors<kWidth>::Float a, typename Vectors<kWidth>::Int b,
-                       typename Vectors<kWidth>::Int mask, float* to_a, std::int32_t* to_b) {
+std::size_t compress_store(typename Vectors<kWidth>::Float a, typename Vectors<kWidth>::Int b,
+                           typename Vectors<kWidth>::Int mask, float* to_a, std::int32_t* to_b) {
 #if !defined(__clang__)  // which has no shuffle by a variable
   if constexpr (kWidth == 8) {
-    const unsigned which = bits(mask);
+    const unsigned which = movemask(mask);
     const Int8 from = load<8>(kPackedLanes[which].data());
     store(__builtin_shuffle(a, from), to_a);
     store(__builtin_shuffle(b, from), to_b);
@@ -187,21 +189,21 @@ inline void transpose(const std::array<Float4, 4>& r, Float4& a, Float4& b, Floa
 }
 
 /// Turns pairs of numbers into two vectors.
-inline void split(Float4 first, Float4 second, Float4& a, Float4& b) {
+inline void deinterleave(Float4 first, Float4 second, Float4& a, Float4& b) {
   a = __builtin_shufflevector(first, second, 0, 2, 4, 6);
   b = __builtin_shufflevector(first, second, 1, 3, 5, 7);
 }
-inline void split(Float8 first, Float8 second, Float8& a, Float8& b) {
+inline void deinterleave(Float8 first, Float8 second, Float8& a, Float8& b) {
   a = __builtin_shufflevector(first, second, 0, 2, 4, 6, 8, 10, 12, 14);
   b = __builtin_shufflevector(first, second, 1, 3, 5, 7, 9, 11, 13, 15);
 }
 
 /// Back to pairs.
-inline void mix(Float4 a, Float4 b, Float4& first, Float4& second) {
+inline void interleave(Float4 a, Float4 b, Float4& first, Float4& second) {
   first = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   second = __builtin_shufflevector(a, b, 2, 6, 3, 7);
 }
-inline void mix(Float8 a, Float8 b, Float8& first, Float8& second) {
+inline void interleave(Float8 a, Float8 b, Float8& first, Float8& second) {
   first = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
   second = __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
 }

@@ -125,7 +125,7 @@ void annotate_all(benchmark::State& state, bool with_keypoints) {
 void annotate_frame(benchmark::State& state) { annotate_all(state, false); }
 void annotate_with_keypoints(benchmark::State& state) { annotate_all(state, true); }
 
-// Each head's kernel as wide as its three nearest neighbours say, from 2 to 40 px.
+// Each head's kernel as wide as its three nearest neighbors say, from 2 to 40 px.
 void density_adaptive(benchmark::State& state) {
   const render::Frame& frame = frame_with(state.range(0));
   const auto heads = heads_of(frame);

@@ -52,12 +52,12 @@ class Observer : public sim::RunObserver {
 struct Tally {
   int figures = 0;
   int below = 0;
-  double least_ratio = std::numeric_limits<double>::infinity();
+  double min_ratio = std::numeric_limits<double>::infinity();
 
   void add(double run_s, double best_s) {
     ++figures;
     if (run_s < best_s - kRounding) ++below;
-    if (best_s > 0) least_ratio = std::min(least_ratio, run_s / best_s);
+    if (best_s > 0) min_ratio = std::min(min_ratio, run_s / best_s);
   }
   void add(const metrics::EscapeTimes& run, const metrics::BestTimes& best) {
     for (const int percent : kPercents) {
@@ -131,9 +131,9 @@ int main(int argc, char** argv) {
       fmt::print(
           "{:<50} {:>4} runs, {:>5} figures: noticed {} below, least {:.3f}; at once {} "
           "below, least {:.3f}; doors raised {}; reference {} below, least {:.3f}\n",
-          ids[i], row.runs, row.as_noticed.figures, row.as_noticed.below,
-          row.as_noticed.least_ratio, row.at_once.below, row.at_once.least_ratio, row.raised_doors,
-          row.reference.below, row.reference.least_ratio);
+          ids[i], row.runs, row.as_noticed.figures, row.as_noticed.below, row.as_noticed.min_ratio,
+          row.at_once.below, row.at_once.min_ratio, row.raised_doors, row.reference.below,
+          row.reference.min_ratio);
     }
     fmt::print("{} runs, {} figures below the bound\n\n", done, below);
     std::fflush(stdout);

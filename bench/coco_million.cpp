@@ -91,7 +91,7 @@ skinning::Population population_of(std::size_t characters) {
   for (skinning::Character& character : population.characters) {
     character.stature_m = 1.734F;
     character.wears = "long-sleeved shirt, trousers, leather shoes";
-    for (auto& colours : character.tints) colours = {{0x77, 0x77, 0x6d}};
+    for (auto& colors : character.tints) colors = {{0x77, 0x77, 0x6d}};
   }
   return population;
 }

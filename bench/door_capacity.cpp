@@ -26,11 +26,11 @@ namespace {
 using namespace throng;
 namespace describe = crowd::describe;
 
-constexpr std::size_t kLongestWindowS = 20;  // windows of 1, 2, ... s
+constexpr std::size_t kMaxWindowS = 20;  // windows of 1, 2, ... s
 constexpr std::array kWidthsM = {0.8, 1.0, 1.2, 1.6, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0};
-constexpr double kPitchM = 0.447;  // 5 people per square metre
+constexpr double kPitchM = 0.447;  // 5 people per square meter
 constexpr double kQuantile = 0.999;
-constexpr double kLongestS = 60;
+constexpr double kMaxDurationS = 60;
 constexpr int kSeeds = 4;
 constexpr int kRows = 40;
 constexpr double kWallM = 0.3;
@@ -92,7 +92,7 @@ std::vector<int> passages(const std::string& model, double width_m, std::uint64_
   std::vector<metrics::CrossingCounter> counters(crowd.agent_count());
   std::vector<int> out = {0};
   const int enough = static_cast<int>(0.8 * static_cast<double>(crowd.agent_count()));
-  while (crowd.time_s() < kLongestS && out.back() < enough) {
+  while (crowd.time_s() < kMaxDurationS && out.back() < enough) {
     int net = out.back();
     for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
       if (crowd.present()[i] == 0) continue;
@@ -106,19 +106,19 @@ std::vector<int> passages(const std::string& model, double width_m, std::uint64_
 
 void measure(const std::string& model) {
   for (const double width_m : kWidthsM) {
-    std::array<std::vector<int>, kLongestWindowS + 1> counts;
+    std::array<std::vector<int>, kMaxWindowS + 1> counts;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
       const std::vector<int> out = passages(model, width_m, seed);
-      for (std::size_t window_s = 1; window_s <= kLongestWindowS; ++window_s) {
+      for (std::size_t window_s = 1; window_s <= kMaxWindowS; ++window_s) {
         const std::size_t steps = 10 * window_s;
         for (std::size_t i = steps; i < out.size(); ++i) {
           counts[window_s].push_back(out[i] - out[i - steps]);
         }
       }
     }
-    std::array<double, kLongestWindowS + 1> quantiles{};
+    std::array<double, kMaxWindowS + 1> quantiles{};
     double rate = 0;
-    for (std::size_t window_s = 1; window_s <= kLongestWindowS; ++window_s) {
+    for (std::size_t window_s = 1; window_s <= kMaxWindowS; ++window_s) {
       std::vector<int>& values = counts[window_s];
       if (values.empty()) break;
       std::sort(values.begin(), values.end());
@@ -127,7 +127,7 @@ void measure(const std::string& model) {
       rate = quantiles[window_s] / static_cast<double>(window_s);  // of the longest that there is
     }
     double burst = 0;
-    for (std::size_t window_s = 1; window_s <= kLongestWindowS; ++window_s) {
+    for (std::size_t window_s = 1; window_s <= kMaxWindowS; ++window_s) {
       burst = std::max(burst, quantiles[window_s] - rate * static_cast<double>(window_s));
     }
     fmt::print("{:<11} {:>5.1f}  {:>4.0f} {:>4.0f} {:>4.0f} {:>4.0f} {:>4.0f}  {:>7.2f} {:>6.1f}\n",

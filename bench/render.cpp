@@ -1,6 +1,6 @@
 // Frames per second of this machine's cores on the whole way to a dataset: 1920 x 1080, a drone at
 // 30 m looking down 45 degrees with 70 degrees across; drawn by Mesa's software driver or a GPU
-// (--device gpu, with 4 samples a pixel), read back, labelled, and picture, boxes, masks and depth
+// (--device gpu, with 4 samples a pixel), read back, labeled, and picture, boxes, masks and depth
 // written into a folder in memory. One process per core, as jobs do it. With --draw-only frames are
 // drawn and read back.
 //   bench_render [--stages] [--seconds S] [--pictures FOLDER] [--quality WORD] [--people COUNT]

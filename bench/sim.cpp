@@ -21,7 +21,7 @@ const world::Scenario& city_square() {
   return scenario;
 }
 
-// Drones on their way round the square, ten metres above each other's paths.
+// Drones on their way round the square, ten meters above each other's paths.
 std::vector<sim::DroneMission> missions(int count) {
   std::vector<sim::DroneMission> list;
   for (int i = 0; i < count; ++i) {

@@ -39,7 +39,7 @@ constexpr std::array<DeltaAttribute, Stress::kAffectedCount> kDeltas = {{
     {"time_horizon_", -0.202, "change of the model's tau at full stress, as a share of it"},
 }};
 constexpr double kCoolDuration = 5;  // s
-constexpr double kMostDelta = 100;
+constexpr double kMaxDelta = 100;
 
 /// In the order of Stress::Exit.
 const std::vector<std::string_view>& exit_words() {
@@ -85,9 +85,9 @@ class TimedStress : public Action, public Stressor {
         duration_of_s_(context.agent_count) {}
 
   void enter(Crowd& crowd, std::size_t agent) override {
-    constexpr double kShortest = 1e-3;
+    constexpr double kMinLength = 1e-3;
     duration_of_s_[agent] =
-        static_cast<float>(std::max(duration_s_(agent, crowd.agents.entry[agent]), kShortest));
+        static_cast<float>(std::max(duration_s_(agent, crowd.agents.entry[agent]), kMinLength));
     response_.enter(crowd, agent, *this);
   }
   void leave(Crowd& crowd, std::size_t agent) override { response_.leave(crowd, agent); }
@@ -156,7 +156,7 @@ std::unique_ptr<Action> make_distance(const Element& element, const Attributes& 
 
 AttributeTable with_response(AttributeTable table) {
   for (const DeltaAttribute& delta : kDeltas) {
-    table.push_back(optional(distribution(delta.prefix, delta.help, -kMostDelta, kMostDelta)));
+    table.push_back(optional(distribution(delta.prefix, delta.help, -kMaxDelta, kMaxDelta)));
   }
   table.push_back(word("exit_behavior", exit_words(), "of the stress, when the state is left"));
   table.push_back(optional(

@@ -14,12 +14,12 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr double kLatest = 1e7;  // s
+constexpr double kMaxTime = 1e7;  // s
 
 void check_count(const Element& element, double count) {
-  if (count < 1 || count > static_cast<double>(kMostAgents)) {
+  if (count < 1 || count > static_cast<double>(kMaxAgents)) {
     element.fail(fmt::format("{:.6g} arrivals", count),
-                 fmt::format("from 1 to {} arrivals", kMostAgents));
+                 fmt::format("from 1 to {} arrivals", kMaxAgents));
   }
 }
 
@@ -40,7 +40,7 @@ std::unique_ptr<ArrivalTimes> make_rate(const Element& element, const Attributes
   Random random(context.seed, Stream::crowd_arrivals, context.first_agent);
   const auto gap_s = [&] { return regular ? 1 / per_s : -std::log1p(-random.uniform()) / per_s; };
   double time_s = regular ? start_s : start_s + gap_s();
-  for (; time_s < end_s && made->time_s.size() < kMostAgents; time_s += gap_s()) {
+  for (; time_s < end_s && made->time_s.size() < kMaxAgents; time_s += gap_s()) {
     made->time_s.push_back(time_s);
   }
   return made;
@@ -52,8 +52,8 @@ std::unique_ptr<ArrivalTimes> make_table(const Element& element, const Attribute
   for (const Element& child : element.children()) {
     if (child.name() != "At") child.fail_unknown("<At>");
     child.require_no_children();
-    const Attributes row(child, {number("time", "when they come, in s", 0, kLatest),
-                                 optional(integer("count", "how many", 1, kMostAgents), "1")});
+    const Attributes row(child, {number("time", "when they come, in s", 0, kMaxTime),
+                                 optional(integer("count", "how many", 1, kMaxAgents), "1")});
     const auto count = static_cast<std::size_t>(row.integer("count"));
     check_count(child, static_cast<double>(made->time_s.size() + count));
     made->time_s.insert(made->time_s.end(), count, row.number("time"));
@@ -85,7 +85,7 @@ class Arrivals : public Process {
       }
       if (!counted) alive = std::count(agents.present.begin(), agents.present.end(), 1);
       counted = true;
-      if (alive >= plan_.most_alive || !find_place(crowd, agent)) return;
+      if (alive >= plan_.max_alive || !find_place(crowd, agent)) return;
       machine.arrive(crowd, agent);
       ++alive;
       ++next_;
@@ -141,17 +141,17 @@ class Arrivals : public Process {
 const ArrivalRegistry& arrival_registry() {
   static const AttributeTable kCommon = {
       optional(
-          integer("most_alive", "nobody comes while as many agents are present", 1, kMostAgents),
+          integer("most_alive", "nobody comes while as many agents are present", 1, kMaxAgents),
           "4000000"),
       optional(
-          number("closed_from", "agents that have not arrived by then never do, in s", 0, kLatest),
+          number("closed_from", "agents that have not arrived by then never do, in s", 0, kMaxTime),
           "1e7")};
   static const ArrivalRegistry kRegistry(
       {{
           {"rate",
            "so many a second",
            {number("per_second", "mean number of arrivals in a second", 1e-6, 1e4),
-            optional(number("start", "in s", 0, kLatest), "0"), number("end", "in s", 0, kLatest),
+            optional(number("start", "in s", 0, kMaxTime), "0"), number("end", "in s", 0, kMaxTime),
             optional(word("process", {"poisson", "regular"},
                           "poisson: at random, independent of each other; regular: evenly"),
                      "poisson")},

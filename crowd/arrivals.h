@@ -29,7 +29,7 @@ struct ArrivalPlan {
   std::size_t first = 0;
   std::vector<double> time_s;           ///< one per agent
   std::vector<Eigen::Vector2f> places;  ///< where they may appear, m
-  std::size_t most_alive = 0;           ///< nobody comes while as many agents are present
+  std::size_t max_alive = 0;            ///< nobody comes while as many agents are present
   double closed_from_s = 0;             ///< agents that have not arrived by then never do
 };
 

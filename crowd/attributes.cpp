@@ -106,7 +106,7 @@ class Reader {
   std::vector<std::string> known_;
 };
 
-constexpr double kHighestSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr double kMaxSeed = std::numeric_limits<std::uint32_t>::max();
 
 /// Nothing when the group is optional and its `dist` is not given.
 std::optional<std::string_view> read_kind(const Element& element, Reader& reader,
@@ -132,17 +132,18 @@ std::optional<std::string_view> read_kind(const Element& element, Reader& reader
 void read_limits(const Element& element, Reader& reader, const AttributeSpec& spec,
                  Distribution& made) {
   const std::string prefix(spec.name);
-  const auto least = reader.find(prefix + "at_least");
-  const auto most = reader.find(prefix + "at_most");
-  if (made.kind == Distribution::Kind::normal && !least && !most) return;
+  const auto min_value = reader.find(prefix + "at_least");
+  const auto max_value = reader.find(prefix + "at_most");
+  if (made.kind == Distribution::Kind::normal && !min_value && !max_value) return;
   made.at_least = spec.min;
   made.at_most = spec.max;
-  if (least) made.at_least = reader.number(prefix + "at_least", *least, spec.min, spec.max);
-  if (most) made.at_most = reader.number(prefix + "at_most", *most, made.at_least, spec.max);
+  if (min_value) made.at_least = reader.number(prefix + "at_least", *min_value, spec.min, spec.max);
+  if (max_value)
+    made.at_most = reader.number(prefix + "at_most", *max_value, made.at_least, spec.max);
   constexpr double kTooFew = 1e-6;
   if (made.share_between_limits() > kTooFew) return;
   element.fail_attribute(
-      prefix + (most && !least ? "at_most" : "at_least"),
+      prefix + (max_value && !min_value ? "at_most" : "at_least"),
       fmt::format("limits of {:.6g} and {:.6g}, between which there is less than one in a million "
                   "of the values",
                   made.at_least, made.at_most),
@@ -176,7 +177,7 @@ std::optional<Distribution> read_distribution(const Element& element, Reader& re
   if (form.has_limits) read_limits(element, reader, spec, made);
   const std::string seed_name = prefix + "seed";
   if (const auto seed = reader.find(seed_name)) {
-    made.seed = static_cast<std::uint64_t>(reader.integer(seed_name, *seed, 0, kHighestSeed));
+    made.seed = static_cast<std::uint64_t>(reader.integer(seed_name, *seed, 0, kMaxSeed));
   }
   return made;
 }

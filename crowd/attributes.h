@@ -13,10 +13,10 @@
 
 namespace throng::crowd {
 
-/// Coordinates beyond this (in metres) are mistakes, and floats grow coarse there.
-constexpr double kFarthest = 1e5;
+/// Coordinates beyond this (in meters) are mistakes, and floats grow coarse there.
+constexpr double kMaxCoordinate = 1e5;
 /// Of goals, goal sets and agents.
-constexpr double kHighestId = 1e9;
+constexpr double kMaxId = 1e9;
 
 enum class AttributeType {
   number,
@@ -36,22 +36,22 @@ struct AttributeSpec {
   Presence presence = Presence::required;
   /// What an optional attribute is when it is not given; "" means that the reader asks has().
   std::string_view default_text = {};
-  double min = -kFarthest;
-  double max = kFarthest;
+  double min = -kMaxCoordinate;
+  double max = kMaxCoordinate;
   /// For text: the words allowed; empty allows any.
   std::vector<std::string_view> words = {};
 };
 
 /// Shorthands for tables.
-AttributeSpec number(std::string_view name, std::string_view help, double min = -kFarthest,
-                     double max = kFarthest);
+AttributeSpec number(std::string_view name, std::string_view help, double min = -kMaxCoordinate,
+                     double max = kMaxCoordinate);
 AttributeSpec integer(std::string_view name, std::string_view help, double min, double max);
 AttributeSpec boolean(std::string_view name, std::string_view help);
 AttributeSpec text(std::string_view name, std::string_view help);
 AttributeSpec word(std::string_view name, std::vector<std::string_view> words,
                    std::string_view help);
-AttributeSpec distribution(std::string_view prefix, std::string_view help, double min = -kFarthest,
-                           double max = kFarthest);
+AttributeSpec distribution(std::string_view prefix, std::string_view help,
+                           double min = -kMaxCoordinate, double max = kMaxCoordinate);
 AttributeSpec distribution_2(std::string_view help);
 /// The same attribute, optional. Without a default the reader has to ask has().
 AttributeSpec optional(AttributeSpec spec, std::string_view default_text = "");

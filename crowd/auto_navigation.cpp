@@ -151,7 +151,7 @@ void AutoNavigation::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   PathFinder& finder = ground.finders.local();
   finder.find(from, to, 0);
   for (const Eigen::Vector2f& bend : finder.bends()) {
-    route.whole = route.count < kMostBends;
+    route.whole = route.count < kMaxBends;
     if (!route.whole) break;
     route.bends[static_cast<std::size_t>(route.count++)] = bend;
   }
@@ -170,7 +170,7 @@ void AutoNavigation::notice_crowding(const Crowd& crowd, std::size_t agent, Rout
 /// A person alone takes the shortest path around a corner; in a crowd, people keep their distance
 /// from the wall as they turn, so that the whole width is used.
 void AutoNavigation::aim(const Crowd& crowd, std::size_t agent, Route& route) {
-  constexpr float kWidest = 5;       // m from the corner
+  constexpr float kMaxAside = 5;     // m from the corner
   constexpr float kCrowded = 0.25F;  // of the speed lost, from which on people keep their distance
   const Eigen::Vector2f& p = crowd.agents.position[agent];
   const Eigen::Vector2f bend = route.bends[static_cast<std::size_t>(route.next)];
@@ -185,7 +185,7 @@ void AutoNavigation::aim(const Crowd& crowd, std::size_t agent, Route& route) {
   if (!route.lane) return;
   const NavMesh::Place here = place_on(ground.mesh, p, route.polygon);
   Eigen::Vector2f aside = route.lane->pass(p) - route.lane->corner;
-  aside *= std::min(1.0F, kWidest / std::max(aside.norm(), 1e-3F)) *
+  aside *= std::min(1.0F, kMaxAside / std::max(aside.norm(), 1e-3F)) *
            std::min(1.0F, route.crowding / kCrowded);
   for (int halvings = 0; halvings < 4; ++halvings, aside /= 2) {
     // Not nearer to the corner than the shortest path.

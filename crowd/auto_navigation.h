@@ -31,7 +31,7 @@ class AutoNavigation {
   void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred);
 
  private:
-  static constexpr int kMostBends = 8;
+  static constexpr int kMaxBends = 8;
   static constexpr std::size_t kManyWalls = 1024;  ///< around one corner: room for so many at first
 
   /// For agents that mind the same obstacles, of radii up to the mesh's.
@@ -62,7 +62,7 @@ class AutoNavigation {
     std::optional<CornerLane> lane;
     float crowding = 0;                             ///< how much speed others cost lately, 0 to 1
     Eigen::Vector2f aim = Eigen::Vector2f::Zero();  ///< where to pass the next bend
-    std::array<Eigen::Vector2f, kMostBends> bends{};
+    std::array<Eigen::Vector2f, kMaxBends> bends{};
   };
 
   int ground_for(const Crowd& crowd, std::size_t agent);

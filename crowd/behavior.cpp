@@ -174,7 +174,7 @@ class MovingGoals : public Process {
   void after_motion(Crowd& crowd, Machine&) override { crowd.goals.advance_paths(crowd.dt_s); }
 };
 
-/// A behaviour file that is being read. All goals are read first, since states refer to them; the
+/// A behavior file that is being read. All goals are read first, since states refer to them; the
 /// rest in the file's order, in which the elements that draw get their random numbers.
 struct Loading {
   BehaviorContext& context;
@@ -276,7 +276,7 @@ std::uint8_t BehaviorContext::require_state(const Element& element, std::string_
 }
 
 std::vector<std::string> load_state_names(const Element& bfsm) {
-  constexpr std::size_t kMostStates = std::numeric_limits<std::uint8_t>::max();
+  constexpr std::size_t kMaxStates = std::numeric_limits<std::uint8_t>::max();
   std::vector<std::string> names;
   for (const Element& child : bfsm.children()) {
     if (child.name() != "State") continue;
@@ -287,8 +287,8 @@ std::vector<std::string> load_state_names(const Element& bfsm) {
     if (std::count(names.begin(), names.end(), names.back()) > 1) {
       child.fail_attribute("name", in_quotes(names.back()) + " again", "a name of its own");
     }
-    if (names.size() > kMostStates) {
-      child.fail("one more state", fmt::format("at most {} states", kMostStates));
+    if (names.size() > kMaxStates) {
+      child.fail("one more state", fmt::format("at most {} states", kMaxStates));
     }
   }
   if (names.empty()) bfsm.fail("no states", "at least one <State>");

@@ -1,4 +1,4 @@
-// The state machine: what the plug-in points do, and a behaviour file in memory.
+// The state machine: what the plug-in points do, and a behavior file in memory.
 #pragma once
 
 #include <Eigen/Core>
@@ -180,7 +180,7 @@ std::vector<VelModifierRegistry::Entry> formation_modifiers();
 /// `exit_reset`, which actions have whose change can be undone.
 AttributeSpec exit_reset_attribute();
 
-/// The names of a behaviour file's states, in its order. Throws InputError when two are equal.
+/// The names of a behavior file's states, in its order. Throws InputError when two are equal.
 std::vector<std::string> load_state_names(const Element& bfsm);
 /// Reads goals into the crowd, then states and transitions; `profile_modifiers` are the scene's,
 /// by profile. Throws InputError.

@@ -12,16 +12,16 @@ using Eigen::Vector2f;
 
 namespace {
 
-constexpr float kTouchingM = 0.1F;       // between bodies
-constexpr float kAhead = 0.5F;           // cosine: within 60 degrees
-constexpr float kLeastForceN = 20;       // less is not felt
-constexpr int kRounds = 12;              // how many people a push goes through
-constexpr float kFastestPushMps = 0.5F;  // that a crowd gives in one step
+constexpr float kTouchingM = 0.1F;   // between bodies
+constexpr float kAhead = 0.5F;       // cosine: within 60 degrees
+constexpr float kMinForceN = 20;     // less is not felt
+constexpr int kRounds = 12;          // how many people a push goes through
+constexpr float kMaxPushMps = 0.5F;  // that a crowd gives in one step
 
 // How much of a force goes to somebody in a direction.
 float share_towards(const Vector2f& force, const Vector2f& towards) {
   const float size = force.norm();
-  if (size < kLeastForceN) return 0;
+  if (size < kMinForceN) return 0;
   return std::max(0.0F, force.dot(towards) / size - kAhead);
 }
 
@@ -53,9 +53,9 @@ void Bodies::react(Crowd& crowd, const Grid& grid, std::vector<Vector2f>& veloci
     const float girth_m = 2 * std::numbers::pi_v<float> * grid.radius(slot);
     const float crush = pressure_[slot] / girth_m;
     if (crush > kCrushNPerM) fall(crowd, {static_cast<std::uint32_t>(agent), 0, crush});
-    if (!hands_on_[slot] && given_[slot].norm() > kLeastForceN && has_room(crowd, agent)) {
+    if (!hands_on_[slot] && given_[slot].norm() > kMinForceN && has_room(crowd, agent)) {
       const Vector2f push = static_cast<float>(crowd.dt_s) / kMassKg * given_[slot];
-      velocity[agent] += std::min(1.0F, kFastestPushMps / push.norm()) * push;
+      velocity[agent] += std::min(1.0F, kMaxPushMps / push.norm()) * push;
     }
   }
   for (std::size_t i = 0; i < agents.count(); ++i) {

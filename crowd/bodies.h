@@ -14,7 +14,7 @@ namespace throng::crowd {
 /// Who cannot go as fast as they want presses on those right ahead of them with the force that
 /// would drive them, m (v_wanted - v) / tau (Helbing, Farkas & Vicsek 2000, eq. 1: m = 80 kg,
 /// tau = 0.5 s), and those hand on what they get to whoever is ahead of them in turn. Nobody ahead:
-/// the push moves them. More than 1600 N per metre of somebody's girth and they fall (the same
+/// the push moves them. More than 1600 N per meter of somebody's girth and they fall (the same
 /// paper's limit for injuries), and so does whoever is struck with the impulse that the options
 /// give. Who has fallen lies for kLiesS, in everybody's way but pressed by nobody, and then gets
 /// up.

@@ -33,8 +33,8 @@ void BoxTree::build_node(const std::vector<Box>& boxes, int begin, int end) {
   const Eigen::Vector2f extent = node.box.max - node.box.min;
   const int axis = extent.x() >= extent.y() ? 0 : 1;
   std::sort(order_.begin() + begin, order_.begin() + end, [&](int a, int b) {
-    const float at_a = boxes[a].centre()[axis];
-    const float at_b = boxes[b].centre()[axis];
+    const float at_a = boxes[a].center()[axis];
+    const float at_b = boxes[b].center()[axis];
     return at_a != at_b ? at_a < at_b : a < b;
   });
   const int split = (begin + end) / 2;

@@ -13,7 +13,7 @@ class BoxTree {
   /// Over the boxes of things 0, 1, ...
   void build(const std::vector<Box>& boxes);
 
-  /// The things in the order of the leaves; who stores them in this order finds neighbours
+  /// The things in the order of the leaves; who stores them in this order finds neighbors
   /// together.
   const std::vector<int>& order() const { return order_; }
 

@@ -44,7 +44,7 @@ std::vector<ConditionRegistry::Entry> aircraft_conditions() {
   AttributeTable table = box_attributes();
   table.push_back(boolean("relative", "1: the box goes with the agent; 0: it stands"));
   table.push_back(
-      optional(integer("agent_class", "of those who count; -1: all", kAnyClass, kHighestId), "-1"));
+      optional(integer("agent_class", "of those who count; -1: all", kAnyClass, kMaxId), "-1"));
   return {{"clear_AABB", "nobody else is in a box along the axes", std::move(table), make_clear}};
 }
 

@@ -156,7 +156,7 @@ class Never : public Condition {
 
 AttributeTable near_set_attributes(std::string_view set) {
   return {number("distance", "from a goal's region in m", 0),
-          integer(set, "id of a goal set", 0, kHighestId)};
+          integer(set, "id of a goal set", 0, kMaxId)};
 }
 
 std::unique_ptr<Condition> make_follow(const Element& element, const Attributes& attributes,
@@ -247,7 +247,7 @@ std::vector<ConditionRegistry::Entry> evacuation_conditions() {
       {"proximity",
        "near an agent to be avoided",
        {number("distance", "from the avoided agent's edge in m", 0),
-        integer("agentToAvoid", "id of an agent", 0, kHighestId),
+        integer("agentToAvoid", "id of an agent", 0, kMaxId),
         optional(number("growth_rate", "of the distance in m/s", 0), "0"),
         optional(number("max_distance",
                         "up to which it grows in m; without it: no limit if it grows", 0)),

@@ -5,7 +5,7 @@ namespace throng::crowd {
 
 namespace {
 
-/// Whether the agent's centre is in a region, or outside it.
+/// Whether the agent's center is in a region, or outside it.
 template <typename Shape>
 class Where : public Condition {
  public:

@@ -7,8 +7,8 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr float kShortestWall = 1.5F;  // m
-constexpr float kLeastTurn = 0.3F;     // twice the sine of half of the angle between the walls
+constexpr float kMinWall = 1.5F;  // m
+constexpr float kMinTurn = 0.3F;  // twice the sine of half of the angle between the walls
 
 /// People walk on the right of a wall.
 Eigen::Vector2f outward(const Segment& wall) { return {wall.direction.y(), -wall.direction.x()}; }
@@ -33,10 +33,10 @@ std::optional<CornerLane> corner_lane(const Obstacles& obstacles, std::uint32_t 
       if (!second.convex || (second.begin - bend).squaredNorm() > reach * reach) continue;
       const float shortest =
           std::min((first.end - first.begin).norm(), (second.end - second.begin).norm());
-      if (shortest < kShortestWall) continue;
+      if (shortest < kMinWall) continue;
       const Eigen::Vector2f across = first.direction - second.direction;
       const float size = across.norm();
-      if (size < kLeastTurn) continue;
+      if (size < kMinTurn) continue;
       const Eigen::Vector2f come = bend - from;
       const bool is_first =
           std::abs(cross(first.direction, come)) < std::abs(cross(second.direction, come));

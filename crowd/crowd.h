@@ -26,7 +26,7 @@ struct Crowd {
   std::vector<std::string_view> model_parameter_names;  ///< of Agents::model_parameters
   Compat compat = Compat::none;
   double compliance = 1;                                    ///< of people with those who lead them
-  bool test_visibility = false;                             ///< walls hide neighbours
+  bool test_visibility = false;                             ///< walls hide neighbors
   InstructionSet instruction_set = best_instruction_set();  ///< for the loops that have a choice
   std::uint64_t seed = 1;                                   ///< of the run
   std::vector<std::vector<std::uint32_t>> social_groups;    ///< the ids of their members

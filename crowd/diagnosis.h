@@ -1,4 +1,4 @@
-// What is odd in a behaviour file though it can be run: each is warned of at load, with its place.
+// What is odd in a behavior file though it can be run: each is warned of at load, with its place.
 #pragma once
 
 #include <string>

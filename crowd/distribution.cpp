@@ -75,8 +75,8 @@ bool Distribution::is_by_quantile() const {
 double Distribution::quantile_between_limits(double unit) const {
   const auto [low, high] = limits_of(*this);
   const double below = share_below(*this, low);
-  const double most = std::nextafter(1.0, 0.0);  // of 1 the quantile is infinite
-  const double share = std::min(below + unit * (share_below(*this, high) - below), most);
+  const double max_value = std::nextafter(1.0, 0.0);  // of 1 the quantile is infinite
+  const double share = std::min(below + unit * (share_below(*this, high) - below), max_value);
   if (share <= 0)
     return std::max(low, 0.0);  // never of a normal distribution: its lower limit is finite
   const double value =
@@ -101,24 +101,26 @@ double Distribution::sample(MengeRandom& random) const {
 std::span<const DistributionForm> distribution_forms() {
   using Kind = Distribution::Kind;
   using Parameter = DistributionForm::Parameter;
-  constexpr double kLeast = 1e-6;
-  constexpr double kMost = 1e5;
+  constexpr double kMinParameter = 1e-6;
+  constexpr double kMaxParameter = 1e5;
   static constexpr std::array<Parameter, 1> kConstant = {{{"value", true, 0, 0, "the value"}}};
   static constexpr std::array<Parameter, 2> kUniform = {
       {{"min", true, 0, 0, "the lowest value"}, {"max", true, 0, 0, "the highest value"}}};
   static constexpr std::array<Parameter, 2> kNormal = {
-      {{"mean", true, 0, 0, "of the values"}, {"stddev", false, 0, kMost, "standard deviation"}}};
+      {{"mean", true, 0, 0, "of the values"},
+       {"stddev", false, 0, kMaxParameter, "standard deviation"}}};
   static constexpr std::array<Parameter, 2> kLognormal = {
       {{"log_mean", false, -20, 20, "mean of the values' natural logarithm"},
-       {"log_stddev", false, kLeast, 10, "standard deviation of the values' natural logarithm"}}};
+       {"log_stddev", false, kMinParameter, 10,
+        "standard deviation of the values' natural logarithm"}}};
   static constexpr std::array<Parameter, 2> kWeibull = {
       {{"shape", false, 0.01, 100, "below 1: rarer and rarer; above: more and more likely"},
-       {"scale", false, kLeast, kMost, "63 % of the values are below it"}}};
+       {"scale", false, kMinParameter, kMaxParameter, "63 % of the values are below it"}}};
   static constexpr std::array<Parameter, 2> kGamma = {
       {{"shape", false, 0.01, 1e4, "square of the mean over the standard deviation"},
-       {"scale", false, kLeast, kMost, "the mean over the shape"}}};
+       {"scale", false, kMinParameter, kMaxParameter, "the mean over the shape"}}};
   static constexpr std::array<Parameter, 1> kExponential = {
-      {{"mean", false, kLeast, kMost, "of the values"}}};
+      {{"mean", false, kMinParameter, kMaxParameter, "of the values"}}};
   static constexpr std::array<DistributionForm, 7> kForms = {{
       {"c", Kind::constant, "always the same", kConstant, false},
       {"u", Kind::uniform, "all alike between two values", kUniform, false},

@@ -17,8 +17,7 @@ class Dummy : public LocalModel {
         jump_{Distribution::Kind::normal, 0, crowd.model_constants[stddev], {}} {}
 
  protected:
-  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
-                           const Surroundings& around) override {
+  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const AgentView& around) override {
     const Walker self(crowd, grid, around.slot);
     if (jump_.second == 0) return self.preferred_velocity();
     Random random = noise(crowd, self.id);

@@ -11,10 +11,10 @@
 namespace throng::crowd {
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongestShown = 60;
+  constexpr std::size_t kMaxShown = 60;
   std::string out = "\"";
-  for (const char c : text.substr(0, kLongestShown)) out += (c >= ' ' && c <= '~') ? c : '?';
-  if (text.size() > kLongestShown) out += "...";
+  for (const char c : text.substr(0, kMaxShown)) out += (c >= ' ' && c <= '~') ? c : '?';
+  if (text.size() > kMaxShown) out += "...";
   return out + "\"";
 }
 

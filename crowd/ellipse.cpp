@@ -45,12 +45,12 @@ float contact_distance(const Ellipse& a, const Ellipse& b, const Eigen::Vector2f
   const float q1 = first.xx * change.yy + first.yy * change.xx - 2 * first.xy * change.xy;
 
   // Newton's steps, in the bracket that each one narrows.
-  constexpr int kMostSteps = 20;
+  constexpr int kMaxSteps = 20;
   constexpr float kExact = 1e-4F;  // f is flat at its maximum
   float low = 0;
   float high = 1;
   float t = 0.5F;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const float line = form + form_slope * t;
     const float p = t * (1 - t) * line;
     const float p1 = (1 - 2 * t) * line + t * (1 - t) * form_slope;

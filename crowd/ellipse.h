@@ -12,7 +12,7 @@ struct Ellipse {
   Eigen::Vector2f direction;
 };
 
-/// How far apart the centres of two ellipses are when one is moved towards the other in this
+/// How far apart the centers of two ellipses are when one is moved towards the other in this
 /// direction (a unit vector) until they touch, m (Perram and Wertheim 1985).
 float contact_distance(const Ellipse& a, const Ellipse& b, const Eigen::Vector2f& direction);
 

@@ -58,7 +58,7 @@ const EventTargetRegistry& event_target_registry() {
            {text("state", "the name of a state"),
             boolean("is_member", "1: who is in it; 0: everybody else")},
            make_state_members},
-          {"agent_id", "one agent", {integer("id", "of the agent", 0, kHighestId)}, make_one_agent},
+          {"agent_id", "one agent", {integer("id", "of the agent", 0, kMaxId)}, make_one_agent},
       }},
       {text("name", "by which responses refer to it")});
   return kRegistry;

@@ -107,7 +107,7 @@ const EventTriggerRegistry& event_trigger_registry() {
             word("behavior", watch_words(),
                  "any change; the step in which the number gets to the threshold; or every step in "
                  "which it is beyond"),
-            optional(integer("threshold", "number of agents; for all but on_...", 0, kHighestId))},
+            optional(integer("threshold", "number of agents; for all but on_...", 0, kMaxId))},
            make_state_population},
       }},
       {text("name", "of the trigger")});

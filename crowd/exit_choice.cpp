@@ -102,7 +102,7 @@ class ExitChoice : public GoalSelector {
     const std::uint32_t mask = crowd.agents.obstacle_mask[agent];
     const auto [found, is_new] = buried_.try_emplace({goal, mask}, false);
     if (!is_new || crowd.compat != Compat::none) return found->second;
-    const Eigen::Vector2f middle = crowd.goals[goal].shape->centre();
+    const Eigen::Vector2f middle = crowd.goals[goal].shape->center();
     const std::vector<Polygon>& polygons = crowd.obstacles.polygons();
     found->second = std::any_of(polygons.begin(), polygons.end(), [&](const Polygon& polygon) {
       return (polygon.obstacle_class & mask) != 0 && polygon.solid &&
@@ -112,9 +112,9 @@ class ExitChoice : public GoalSelector {
   }
 
   float expected_s(const Crowd& crowd, std::size_t agent, std::size_t index, float distance) const {
-    constexpr float kSlowest = 0.1F;  // m/s
+    constexpr float kMinSpeed = 0.1F;  // m/s
     const Goal& goal = crowd.goals[crowd.goals.set(spec_.set).goals[index]];
-    const float speed = std::max(kSlowest, crowd.agents[Property::pref_speed][agent]);
+    const float speed = std::max(kMinSpeed, crowd.agents[Property::pref_speed][agent]);
     const float flow = spec_.flow_per_s * std::max(goal.weight, 1e-3F);
     return std::max(distance / speed, queues_.ahead(index, distance) / flow);
   }
@@ -171,7 +171,7 @@ std::vector<GoalSelectorRegistry::Entry> evacuation_goal_selectors() {
   return {
       {"exit_choice",
        "the exit of a set through which one expects to be out first, by way and queue",
-       {integer("goal_set", "id of a goal set; a goal's weight is its width", 0, kHighestId),
+       {integer("goal_set", "id of a goal set; a goal's weight is its width", 0, kMaxId),
         optional(number("familiarity", "probability of knowing an exit beforehand", 0, 1), "1"),
         optional(number("sight", "exits nearer than this are known to all, in m", 0), "15"),
         optional(number("flow", "people through an exit of weight 1 in a second", 0.01, 100), "2"),

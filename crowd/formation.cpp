@@ -18,11 +18,11 @@ struct WeightedPlace {
 };
 
 std::vector<float> rest_of(NumberFile& file) {
-  constexpr std::size_t kMost = 3000;
+  constexpr std::size_t kMaxNumbers = 3000;
   std::vector<float> numbers;
   while (!file.at_end()) {
-    if (numbers.size() == kMost) {
-      file.fail("one more number", fmt::format("at most {} in a formation", kMost));
+    if (numbers.size() == kMaxNumbers) {
+      file.fail("one more number", fmt::format("at most {} in a formation", kMaxNumbers));
     }
     numbers.push_back(file.real("a coordinate or weight"));
   }
@@ -142,8 +142,8 @@ PreferredVelocity FormationGroup::lead(const Crowd& crowd, std::size_t agent,
   const Eigen::Vector2f velocity = velocity_ + (place - crowd.agents.position[agent]) / kCatchUp_s;
   const float speed = velocity.norm();
   if (speed <= kStanding) return {alone.direction, 0};
-  const float most = std::min(kHaste * alone.speed, crowd.agents[Property::max_speed][agent]);
-  return {velocity / speed, std::min(speed, most)};
+  const float max_value = std::min(kHaste * alone.speed, crowd.agents[Property::max_speed][agent]);
+  return {velocity / speed, std::min(speed, max_value)};
 }
 
 namespace {
@@ -156,7 +156,7 @@ class InFormation : public VelModifier {
   }
 
  private:
-  FormationGroup& group_;  // one of the behaviour's processes
+  FormationGroup& group_;  // one of the behavior's processes
 };
 
 std::unique_ptr<VelModifier> make_formation(const Element& element, const Attributes& attributes,

@@ -20,7 +20,7 @@ float bell(float distance_sq, float sigma) { return std::exp(-distance_sq / (2 *
 // Evaluated at the positions in Menge's series of the bottleneck, this gives the preferred speeds
 // recorded there to the last digit: agents behind the place count as well as those before it, a
 // wall counts at its point nearest to the place, not stretched, and with the agents' factor.
-float density_ahead(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+float density_ahead(const Crowd& crowd, const Grid& grid, const AgentView& around,
                     const Eigen::Vector2f& direction, const DensityKernel& kernel) {
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f place = position + kAhead * direction;
@@ -43,10 +43,10 @@ float density_ahead(const Crowd& crowd, const Grid& grid, const Surroundings& ar
 }
 
 float speed_at_density(float density, const Stride& stride) {
-  constexpr float kLeast = 0.001F;
+  constexpr float kMinDensity = 0.001F;
   constexpr float kRoom = 0.48F;  // persons
   constexpr float kPlenty = 100;  // m
-  const float space = density < kLeast ? kPlenty : kRoom / density;
+  const float space = density < kMinDensity ? kPlenty : kRoom / density;
   const float stretch = 0.5F * (1 + stride.buffer) / stride.factor;
   return space / stretch * (space / stretch);
 }
@@ -69,7 +69,7 @@ class Lookout : public Process {
 
   bool knows(std::size_t agent) const { return agent < slots_.size() && slots_[agent] != kNone; }
   const Grid& grid() const { return grid_; }
-  Surroundings look(const Crowd& crowd, std::size_t agent) {
+  AgentView look(const Crowd& crowd, std::size_t agent) {
     return neighborhood_.look(crowd, grid_, static_cast<std::size_t>(slots_[agent]));
   }
 
@@ -105,8 +105,8 @@ std::unique_ptr<VelModifier> make_slow_by_density(const Element&, const Attribut
   Sampler buffer = context.make_sampler(attributes.distribution("buffer_"));
   std::vector<Stride> strides(context.agent_count);
   for (std::size_t agent = 0; agent < strides.size(); ++agent) {
-    constexpr float kLeastFactor = 1e-3F;
-    strides[agent].factor = std::max(static_cast<float>(factor(agent, 0)), kLeastFactor);
+    constexpr float kMinFactor = 1e-3F;
+    strides[agent].factor = std::max(static_cast<float>(factor(agent, 0)), kMinFactor);
     strides[agent].buffer = std::max(static_cast<float>(buffer(agent, 0)), 0.0F);
   }
   DensityKernel kernel{attributes.real("sigma_agent"), attributes.real("sigma_obstacle")};

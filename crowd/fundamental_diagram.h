@@ -21,9 +21,9 @@ struct Stride {
   float buffer = 0.9F;   ///< room before and behind a stride, of its length
 };
 
-/// Persons per metre in a place 1 m ahead in this direction (a unit vector). Others count by
+/// Persons per meter in a place 1 m ahead in this direction (a unit vector). Others count by
 /// their distance to it with what they are aside stretched; walls where they are ahead.
-float density_ahead(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+float density_ahead(const Crowd& crowd, const Grid& grid, const AgentView& around,
                     const Eigen::Vector2f& direction, const DensityKernel& kernel);
 
 /// The speed in m/s at which the stride fits into the room that this density leaves.

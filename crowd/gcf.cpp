@@ -18,7 +18,7 @@ enum Constant : std::size_t {
   speed_color
 };
 
-constexpr float kNearest = 0.01F;  // m, in what is divided by a distance
+constexpr float kMinDistance = 0.01F;  // m, in what is divided by a distance
 
 /// The cubic over [x0, x1] with these values and slopes at the ends (Hermite).
 float hermite(float x, float x0, float y0, float slope0, float x1, float y1, float slope1) {
@@ -41,13 +41,12 @@ class Gcf : public LocalModel {
         constants_(crowd.model_constants),
         quirks_(crowd.compat != Compat::none) {
     constexpr float kWider = 5.0F / 3;
-    blend_ = std::clamp(kWider * constants_[agent_interp_width], kNearest,
+    blend_ = std::clamp(kWider * constants_[agent_interp_width], kMinDistance,
                         0.5F * constants_[max_agent_dist]);
   }
 
  protected:
-  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
-                           const Surroundings& around) override {
+  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const AgentView& around) override {
     const Walker self(crowd, grid, around.slot);
     const Ellipse body = body_of(crowd, self.id, self.velocity);
     Eigen::Vector2f acceleration =
@@ -55,13 +54,13 @@ class Gcf : public LocalModel {
     for (const Grid::Neighbor& neighbor : around.neighbors) {
       const std::size_t id = grid.id(neighbor.slot);
       const Eigen::Vector2f& velocity = grid.velocity(neighbor.slot);
-      const Apart apart(self, id, grid.position(neighbor.slot));
+      const Separation apart(self, id, grid.position(neighbor.slot));
       acceleration += push(self, body, apart, velocity, body_of(crowd, id, velocity)) * apart.away;
     }
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
-      constexpr float kShortest = 0.1F;  // m
-      if ((wall.end - wall.begin).norm() < kShortest) return;
-      const Apart apart(self, wall);
+      constexpr float kMinLength = 0.1F;  // m
+      if ((wall.end - wall.begin).norm() < kMinLength) return;
+      const Separation apart(self, wall);
       acceleration += wall_push(self, body, apart) * apart.away;
     });
     return self.velocity + static_cast<float>(crowd.dt_s) * acceleration;
@@ -79,7 +78,7 @@ class Gcf : public LocalModel {
             crowd.agents.orientation[id]};
   }
 
-  float push(const Walker& self, const Ellipse& body, const Apart& apart,
+  float push(const Walker& self, const Ellipse& body, const Separation& apart,
              const Eigen::Vector2f& other_velocity, const Ellipse& other_body) const {
     // Bodies are no longer than this, so that far ones need no closer look.
     const float reach =
@@ -88,8 +87,8 @@ class Gcf : public LocalModel {
     const float gap = apart.distance - contact_distance(body, other_body, apart.away);
     if (gap >= constants_[max_agent_dist]) return 0;
     const float closing = std::max(0.0F, apart.away.dot(other_velocity - self.velocity));
-    const float rush =
-        constants_[agent_force_strength] * self.preferred_speed + closing / std::max(gap, kNearest);
+    const float rush = constants_[agent_force_strength] * self.preferred_speed +
+                       closing / std::max(gap, kMinDistance);
     // 1 for who is ahead, 0.1 for who is behind.
     const float attention = 0.55F - 0.45F * apart.away.dot(self.orientation);
     const float strength = attention * response(gap) * rush * rush;
@@ -112,11 +111,11 @@ class Gcf : public LocalModel {
   /// very near to the wall; its series are met (4square and pedModelSwap to 1 mm over 5 s,
   /// bottleneck to 1 cm over 18 s and in its duration to 4 %) if there is no push at all from
   /// walls that are nearer than a fifth of the body's extent.
-  float wall_push(const Walker& self, const Ellipse& body, const Apart& apart) const {
+  float wall_push(const Walker& self, const Ellipse& body, const Separation& apart) const {
     const float extent = contact_distance(body, apart.away);
     const float gap = apart.distance - extent;
     if (quirks_) return gap < 0.2F * extent ? 0 : self.preferred_speed * extent / gap;
-    return std::min(self.preferred_speed * extent / std::max(gap, kNearest), response(0));
+    return std::min(self.preferred_speed * extent / std::max(gap, kMinDistance), response(0));
   }
 
   const std::vector<float>& constants_;

@@ -57,7 +57,7 @@ class RectangularGrid : public Generator {
   Eigen::Vector2f axis_;
 };
 
-/// Closest packing of discs: rows whose neighbours are shifted by half a disc. Along x every other
+/// Closest packing of discs: rows whose neighbors are shifted by half a disc. Along x every other
 /// row has one agent less, and rows are added until there are more agents than the population
 /// asked for. Along y rows stand side by side, all with as many agents: one more than it takes.
 class HexLattice : public Generator {
@@ -226,8 +226,8 @@ std::unique_ptr<Generator> make_scattered(const Element& element, const Attribut
   }
   std::vector<Eigen::Vector2f> places;
   // In a nook the first of a few people may stand in the way of the others.
-  constexpr std::uint64_t kMostDraws = 20;
-  for (std::uint64_t draw = 0; draw < kMostDraws && places.size() < spec.count; ++draw) {
+  constexpr std::uint64_t kMaxDraws = 20;
+  for (std::uint64_t draw = 0; draw < kMaxDraws && places.size() < spec.count; ++draw) {
     constexpr std::uint64_t kArea = std::uint64_t{1} << 63;  // apart from the agents' noise
     constexpr unsigned kDrawBit = 48;
     const std::uint64_t stream = kArea | draw << kDrawBit | context.first_agent;
@@ -289,8 +289,7 @@ const GeneratorRegistry& generator_registry() {
            {number("anchor_x", "place of the first agent in m"),
             number("anchor_y", "place of the first agent in m"),
             number("offset_x", "between columns in m"), number("offset_y", "between rows in m"),
-            integer("count_x", "columns", 1, kMostAgents),
-            integer("count_y", "rows", 1, kMostAgents),
+            integer("count_x", "columns", 1, kMaxAgents), integer("count_y", "rows", 1, kMaxAgents),
             optional(number("rotation", "about the first agent in degrees", -3600, 3600), "0")},
            make_grid},
           {"hex_lattice",
@@ -300,8 +299,8 @@ const GeneratorRegistry& generator_registry() {
             word("alignment", {"center", "left", "right"}, "what of the rows is at the anchor"),
             word("row_direction", {"x", "y"}, "along which rows run before they are turned"),
             number("density", "agents per m^2", 1e-6, 1000),
-            number("width", "from left to right in m", 1e-3, kFarthest),
-            integer("population", "lowest number of agents; rows are completed", 1, kMostAgents),
+            number("width", "from left to right in m", 1e-3, kMaxCoordinate),
+            integer("population", "lowest number of agents; rows are completed", 1, kMaxAgents),
             optional(number("rotation", "about the anchor in degrees", -3600, 3600), "0")},
            make_hex_lattice},
           {"nav_mesh_explicit",
@@ -311,7 +310,7 @@ const GeneratorRegistry& generator_registry() {
            make_listed_on_mesh},
           {"scatter",
            "at random in the free part of a polygon of <Vertex> children, elsewhere for every seed",
-           {integer("count", "agents", 1, kMostAgents),
+           {integer("count", "agents", 1, kMaxAgents),
             optional(number("apart", "least distance of two agents in m", 0.01, 1000), "0.5"),
             optional(number("clearance", "least distance from walls in m", 0, 1000), "0.3"),
             optional(integer("obstacleSet", "bits of the obstacle classes to keep out of; all", 0,
@@ -328,9 +327,9 @@ std::vector<Eigen::Vector2f> generate_places(const Element& element, GeneratorCo
   const Attributes attributes(element, entry.attributes);
   const std::unique_ptr<Generator> generator = entry.make(element, attributes, context);
   const std::size_t count = generator->count();
-  if (count > kMostAgents - std::min(context.first_agent, kMostAgents)) {
+  if (count > kMaxAgents - std::min(context.first_agent, kMaxAgents)) {
     element.fail(fmt::format("{} more agents", count),
-                 fmt::format("at most {} agents in a scene", kMostAgents));
+                 fmt::format("at most {} agents in a scene", kMaxAgents));
   }
   const Noise noise(attributes, context.seed, sequences);
   std::vector<Eigen::Vector2f> places(count);

@@ -11,7 +11,7 @@
 namespace throng::crowd {
 
 /// Agents in a scene; more is taken for a mistake.
-constexpr std::size_t kMostAgents = 4'000'000;
+constexpr std::size_t kMaxAgents = 4'000'000;
 
 /// What a <Generator> makes: places, each with its noise still to be added.
 class Generator {

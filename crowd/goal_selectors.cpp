@@ -85,7 +85,7 @@ class Lottery : public GoalSelector {
   Sampler unit_;
 };
 
-/// By the distance to the goals' centres, among those with room.
+/// By the distance to the goals' centers, among those with room.
 class Ranked : public GoalSelector {
  public:
   enum class Rank { nearest, second_nearest, farthest };
@@ -101,7 +101,7 @@ class Ranked : public GoalSelector {
       const Goal& candidate = crowd.goals[goal];
       if (!candidate.has_room()) continue;
       const float key =
-          sign * (candidate.shape->centre() - crowd.agents.position[agent]).squaredNorm();
+          sign * (candidate.shape->center() - crowd.agents.position[agent]).squaredNorm();
       if (key < first_key) {
         second = first;
         second_key = first_key;
@@ -134,7 +134,7 @@ class SecondNearestAsHuang : public GoalSelector {
       const Goal& candidate = crowd.goals[goal];
       if (!candidate.has_room()) continue;
       const float distance_sq =
-          (candidate.shape->centre() - crowd.agents.position[agent]).squaredNorm();
+          (candidate.shape->center() - crowd.agents.position[agent]).squaredNorm();
       if (distance_sq >= nearest_sq) continue;
       before.goal = nearest.goal >= 0 ? nearest.goal : goal;
       nearest.goal = goal;
@@ -156,9 +156,7 @@ std::unique_ptr<GoalSelector> make_shared_selector(const Element& element,
   return nullptr;
 }
 
-AttributeSpec goal_set_attribute() {
-  return integer("goal_set", "id of a goal set", 0, kHighestId);
-}
+AttributeSpec goal_set_attribute() { return integer("goal_set", "id of a goal set", 0, kMaxId); }
 
 std::unique_ptr<GoalSelector> make_identity(const Element&, const Attributes&, BehaviorContext&) {
   return std::make_unique<Identity>();
@@ -226,7 +224,7 @@ std::vector<GoalSelectorRegistry::Entry> plain_goal_selectors() {
       {"offset", "somewhere about the agent's place", {distribution_2("offset in m")}, make_offset},
       {"explicit",
        "one goal",
-       {goal_set_attribute(), integer("goal", "id within the set", 0, kHighestId)},
+       {goal_set_attribute(), integer("goal", "id within the set", 0, kMaxId)},
        make_explicit},
       {"random", "any goal of a set", {goal_set_attribute()}, make_lottery<false>},
       {"weighted", "any goal of a set, by weight", {goal_set_attribute()}, make_lottery<true>},

@@ -22,7 +22,7 @@ class ByWay : public GoalSelector {
     float best_key = std::numeric_limits<float>::infinity();
     for (const int goal : crowd.goals.set(set_).goals) {
       if (!crowd.goals[goal].has_room()) continue;
-      const NavMesh::Place to = file_->mesh.nearest(crowd.goals[goal].shape->centre());
+      const NavMesh::Place to = file_->mesh.nearest(crowd.goals[goal].shape->center());
       if (!finder_.find(from, to, crowd.agents[Property::radius][agent])) continue;
       const float key = nearest_ ? finder_.length_m() : -finder_.length_m();
       if (key >= best_key) continue;
@@ -39,19 +39,19 @@ class ByWay : public GoalSelector {
   bool nearest_;
 };
 
-template <bool kNearest>
+template <bool kMinDistance>
 std::unique_ptr<GoalSelector> make_by_way(const Element& element, const Attributes& attributes,
                                           BehaviorContext& context) {
   const int set = context.goals.require_set(element, attributes, "goal_set");
   return std::make_unique<ByWay>(
       shared_nav_mesh(element.text_file(attributes.text("file_name")), *context.crowd.parts), set,
-      kNearest);
+      kMinDistance);
 }
 
 }  // namespace
 
 std::vector<GoalSelectorRegistry::Entry> navigation_goal_selectors() {
-  const AttributeTable table = {integer("goal_set", "id of a goal set", 0, kHighestId),
+  const AttributeTable table = {integer("goal_set", "id of a goal set", 0, kMaxId),
                                 text("file_name", "of a navigation mesh (.nav)")};
   return {
       {"nearest_nav_mesh", "the nearest of a set, by the way across a mesh", table,

@@ -13,8 +13,8 @@ namespace {
 class PointGoal : public GoalShape {
  public:
   explicit PointGoal(const Eigen::Vector2f& point) : point_(point) {}
-  Eigen::Vector2f centre() const override { return point_; }
-  void move_to(const Eigen::Vector2f& centre) override { point_ = centre; }
+  Eigen::Vector2f center() const override { return point_; }
+  void move_to(const Eigen::Vector2f& center) override { point_ = center; }
   Eigen::Vector2f nearest_point(const Eigen::Vector2f&, float) const override { return point_; }
 
  private:
@@ -24,13 +24,13 @@ class PointGoal : public GoalShape {
 class CircleGoal : public GoalShape {
  public:
   explicit CircleGoal(const Circle& circle) : circle_(circle) {}
-  Eigen::Vector2f centre() const override { return circle_.centre; }
-  void move_to(const Eigen::Vector2f& centre) override { circle_.centre = centre; }
+  Eigen::Vector2f center() const override { return circle_.center; }
+  void move_to(const Eigen::Vector2f& center) override { circle_.center = center; }
   Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const override {
     return circle_.nearest_point(p, margin);
   }
   float menge_distance(const Eigen::Vector2f& p) const override {
-    return std::abs((p - circle_.centre).norm() - circle_.radius);
+    return std::abs((p - circle_.center).norm() - circle_.radius);
   }
 
  private:
@@ -40,10 +40,10 @@ class CircleGoal : public GoalShape {
 class BoxGoal : public GoalShape {
  public:
   explicit BoxGoal(const Box& box) : box_(box) {}
-  Eigen::Vector2f centre() const override { return box_.centre(); }
-  void move_to(const Eigen::Vector2f& centre) override {
+  Eigen::Vector2f center() const override { return box_.center(); }
+  void move_to(const Eigen::Vector2f& center) override {
     const Eigen::Vector2f half = 0.5F * (box_.max - box_.min);
-    box_ = {centre - half, centre + half};
+    box_ = {center - half, center + half};
   }
   Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const override {
     return box_.nearest_point(p, margin);
@@ -64,8 +64,8 @@ class BoxGoal : public GoalShape {
 class TurnedBoxGoal : public GoalShape {
  public:
   explicit TurnedBoxGoal(const TurnedBox& box) : box_(box) {}
-  Eigen::Vector2f centre() const override { return box_.to_world(box_.box().centre()); }
-  void move_to(const Eigen::Vector2f& centre) override { box_.pivot += centre - this->centre(); }
+  Eigen::Vector2f center() const override { return box_.to_world(box_.box().center()); }
+  void move_to(const Eigen::Vector2f& center) override { box_.pivot += center - this->center(); }
   Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const override {
     return box_.contains(p) && margin == 0
                ? p
@@ -181,7 +181,7 @@ const GoalRegistry& goal_registry() {
           {"OBB", "a turned box", shape_named("obb").attributes, make_turned_box},
           {"path", "moves at constant speed along its <Point>s", path_attributes(), make_path},
       }},
-      {integer("id", "unique within its set", 0, kHighestId),
+      {integer("id", "unique within its set", 0, kMaxId),
        optional(integer("capacity", "how many agents may have it as their goal at a time", 0,
                         std::numeric_limits<std::uint32_t>::max()),
                 "4294967295"),

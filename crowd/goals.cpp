@@ -7,7 +7,7 @@
 namespace throng::crowd {
 
 int Goals::load_set(const Element& element) {
-  const Attributes attributes(element, {integer("id", "of the set", 0, kHighestId)});
+  const Attributes attributes(element, {integer("id", "of the set", 0, kMaxId)});
   const auto id = static_cast<int>(attributes.integer("id"));
   int set = find_set(id);
   if (set >= 0) {
@@ -40,7 +40,7 @@ int Goals::add_goal(const Element& element, int set) {
   GoalContext context;
   goal.shape = entry.make(element, attributes, context);
   if (context.path) {
-    goal.on_path = goal.shape->centre();
+    goal.on_path = goal.shape->center();
     goal.path = std::move(context.path);
     goal.shape->move_to(goal.path->position() + goal.on_path);
   }

@@ -19,8 +19,8 @@ class GoalShape {
   virtual ~GoalShape() = default;
 
   /// The middle; selectors measure to it.
-  virtual Eigen::Vector2f centre() const = 0;
-  virtual void move_to(const Eigen::Vector2f& centre) = 0;
+  virtual Eigen::Vector2f center() const = 0;
+  virtual void move_to(const Eigen::Vector2f& center) = 0;
   /// The point nearest to p of the region made smaller by `margin` on all sides (down to its
   /// middle line or point where it is too small for that); p itself when it is inside.
   virtual Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const = 0;
@@ -39,7 +39,7 @@ struct Goal {
   float weight = 1;
   std::uint32_t assigned = 0;           ///< agents that have it as their goal, or keep it as theirs
   std::unique_ptr<GoalPath> path = {};  ///< what it moves along, if it does
-  Eigen::Vector2f on_path = Eigen::Vector2f::Zero();  ///< its centre, seen from the path
+  Eigen::Vector2f on_path = Eigen::Vector2f::Zero();  ///< its center, seen from the path
 
   bool has_room() const { return assigned < capacity; }
   /// In m, as conditions measure it.
@@ -53,7 +53,7 @@ struct GoalSet {
   std::vector<int> goals;  ///< indices
 };
 
-/// All goals of a behaviour file; others refer to them and to the sets by index.
+/// All goals of a behavior file; others refer to them and to the sets by index.
 class Goals {
  public:
   /// Reads a <GoalSet> and returns its index. One with the id of an earlier set adds to that, with

@@ -14,8 +14,8 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr std::size_t kFewestBuckets = 64;
-constexpr std::size_t kMostPartBuckets = 4096;
+constexpr std::size_t kMinBuckets = 64;
+constexpr std::size_t kMaxPartBuckets = 4096;
 constexpr std::size_t kParts = 32;        // at least, in a large crowd: work for many threads
 constexpr std::size_t kPartAgents = 256;  // in a small crowd
 constexpr std::size_t kRunAgents = 2048;
@@ -73,28 +73,28 @@ Grid::Extent Grid::extent_of(const Agents& agents) {
 void Grid::lay_out(const Agents& agents) {
   const std::size_t count = agents.count();
   const Extent all = extent_of(agents);
-  const std::size_t most = std::bit_ceil(std::max(kFewestBuckets, 2 * count));
-  std::size_t buckets = most;
+  const std::size_t max_value = std::bit_ceil(std::max(kMinBuckets, 2 * count));
+  std::size_t buckets = max_value;
   row_stride_ = 0x9E3779B1U;
   first_cell_ = 0;
   const float columns = (all.high.x() - all.low.x()) / kCellWidth + 2;
   const float rows = (all.high.y() - all.low.y()) / kCellHeight + 2;
-  if (columns > 0 && rows > 0 && columns * rows < static_cast<float>(most)) {
+  if (columns > 0 && rows > 0 && columns * rows < static_cast<float>(max_value)) {
     row_stride_ = static_cast<std::uint32_t>(columns);
     first_cell_ = static_cast<std::uint32_t>(row_of(all.low.y())) * row_stride_ +
                   static_cast<std::uint32_t>(column_of(all.low.x()));
     const std::size_t cells = std::bit_ceil(static_cast<std::size_t>(columns * rows) + 1);
-    buckets = std::clamp(cells, kFewestBuckets, most);
+    buckets = std::clamp(cells, kMinBuckets, max_value);
   }
   bucket_mask_ = static_cast<std::uint32_t>(buckets - 1);
   const std::size_t parts = std::clamp(std::bit_floor(count / kPartAgents), std::size_t{1}, kParts);
-  const std::size_t part_buckets = std::min(buckets / parts, kMostPartBuckets);
+  const std::size_t part_buckets = std::min(buckets / parts, kMaxPartBuckets);
   part_shift_ = std::countr_zero(part_buckets);
   parts_ = buckets / part_buckets;
-  const std::size_t most_parts = std::max(kParts, most / kMostPartBuckets);
-  bucket_begin_.reserve(most + 1);
-  place_.reserve(runs_of(count) * most_parts);
-  part_begin_.reserve(most_parts + 1);
+  const std::size_t max_parts = std::max(kParts, max_value / kMaxPartBuckets);
+  bucket_begin_.reserve(max_value + 1);
+  place_.reserve(runs_of(count) * max_parts);
+  part_begin_.reserve(max_parts + 1);
   bucket_begin_.resize(buckets + 1);
   bucket_of_.resize(count);
   by_part_.resize(count);

@@ -13,14 +13,14 @@
 
 namespace throng::crowd {
 
-/// A copy of what neighbours may know of the agents that are present, sorted by cell, so that those
+/// A copy of what neighbors may know of the agents that are present, sorted by cell, so that those
 /// who are near in space are near in memory. Cells are hashed into buckets such that a row's
-/// neighbouring cells stay neighbours: a query scans one run of slots per row. Where the crowd
+/// neighboring cells stay neighbors: a query scans one run of slots per row. Where the crowd
 /// fills its area, rows follow each other as they do in space.
 class Grid {
  public:
   struct Neighbor {
-    float distance_sq = 0;  ///< m^2, between centres
+    float distance_sq = 0;  ///< m^2, between centers
     std::uint32_t slot = 0;
   };
 
@@ -33,12 +33,12 @@ class Grid {
   /// What searches work with; kept from one to the next, so that they allocate nothing.
   class Candidates {
    public:
-    /// For searches for at most `most` neighbours.
-    explicit Candidates(std::size_t most = 0);
+    /// For searches for at most `most` neighbors.
+    explicit Candidates(std::size_t max_value = 0);
 
    private:
     friend struct NearestKernel;
-    void make_room(std::size_t most);
+    void make_room(std::size_t max_value);
 
     std::vector<float> distance_sq_;
     std::vector<std::int32_t> slot_;
@@ -61,9 +61,9 @@ class Grid {
   /// The agents nearest to the one in `slot`, nearer than `range`, at most `most`; sorted by
   /// distance, ties by id. They are in `candidates` until the next search with it. `reach` is a
   /// guess of how far they are, which is updated for the next time and does not change the result.
-  std::span<const Neighbor> nearest(std::size_t slot, float range, std::size_t most, float& reach,
-                                    Candidates& candidates) const {
-    return nearest_(*this, slot, range, most, reach, candidates);
+  std::span<const Neighbor> nearest(std::size_t slot, float range, std::size_t max_value,
+                                    float& reach, Candidates& candidates) const {
+    return nearest_(*this, slot, range, max_value, reach, candidates);
   }
 
   /// Calls visit(slot) once for everybody within the range of a point, and for some beyond.
@@ -79,7 +79,7 @@ class Grid {
  private:
   friend struct NearestKernel;
   using Nearest = std::span<const Neighbor>(const Grid&, std::size_t slot, float range,
-                                            std::size_t most, float& reach, Candidates&);
+                                            std::size_t max_value, float& reach, Candidates&);
 
   static constexpr float kCellWidth = 1.0F;   // m; a few people fit in
   static constexpr float kCellHeight = 2.0F;  // m; fewer, longer runs

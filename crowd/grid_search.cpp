@@ -1,4 +1,4 @@
-// The search for the nearest neighbours. Everybody within reach is collected, several at a time and
+// The search for the nearest neighbors. Everybody within reach is collected, several at a time and
 // without branches that a processor could not foresee; their order is then found by counting for
 // each how many are nearer, which for so few is faster than sorting.
 #include <algorithm>
@@ -10,11 +10,11 @@
 
 namespace throng::crowd {
 
-Grid::Candidates::Candidates(std::size_t most) { make_room(most); }
+Grid::Candidates::Candidates(std::size_t max_value) { make_room(max_value); }
 
-void Grid::Candidates::make_room(std::size_t most) {
+void Grid::Candidates::make_room(std::size_t max_value) {
   constexpr std::size_t kMore = 128;  // than are wanted may be within reach
-  const std::size_t capacity = most + most / 2 + kMore;
+  const std::size_t capacity = max_value + max_value / 2 + kMore;
   if (slot_.size() >= capacity) return;
   distance_sq_.resize(capacity);
   slot_.resize(capacity);
@@ -31,27 +31,28 @@ struct NearestKernel {
     float y = 0;
     float limit_sq = 0;  // m^2; those further away are not wanted
     std::size_t self = 0;
-    std::size_t most = 0;
+    std::size_t max_value = 0;
   };
 
   template <int kWidth>
   static std::span<const Neighbor> run(const Grid& grid, std::size_t slot, float range,
-                                       std::size_t most, float& reach, Candidates& candidates) {
-    if (most == 0 || !(range > 0)) return {};
-    candidates.make_room(most);
-    constexpr float kSmallestReach = 0.5F;  // m
-    float radius = std::clamp(reach, std::min(kSmallestReach, range), range);
-    collect<kWidth>(grid, slot, radius, most, candidates);
-    while (candidates.count_ < most && radius < range) {
+                                       std::size_t max_value, float& reach,
+                                       Candidates& candidates) {
+    if (max_value == 0 || !(range > 0)) return {};
+    candidates.make_room(max_value);
+    constexpr float kMinReach = 0.5F;  // m
+    float radius = std::clamp(reach, std::min(kMinReach, range), range);
+    collect<kWidth>(grid, slot, radius, max_value, candidates);
+    while (candidates.count_ < max_value && radius < range) {
       radius = std::min(2 * radius, range);
-      collect<kWidth>(grid, slot, radius, most, candidates);
+      collect<kWidth>(grid, slot, radius, max_value, candidates);
     }
     sort<kWidth>(grid, candidates);
-    std::size_t count = std::min(most, candidates.count_);
+    std::size_t count = std::min(max_value, candidates.count_);
     const std::vector<Neighbor>& sorted = candidates.sorted_;
     while (count > 0 && !(sorted[count - 1].distance_sq < range * range)) --count;
     constexpr float kMargin = 1.1F;  // people move a little between steps
-    reach = count == most ? kMargin * std::sqrt(sorted[count - 1].distance_sq) : range;
+    reach = count == max_value ? kMargin * std::sqrt(sorted[count - 1].distance_sq) : range;
     return {sorted.data(), count};
   }
 
@@ -59,9 +60,9 @@ struct NearestKernel {
   /// Finds everybody within the radius; if they are too many for the candidates' memory, at least
   /// the `most` nearest of them.
   template <int kWidth>
-  static void collect(const Grid& grid, std::size_t slot, float radius, std::size_t most,
+  static void collect(const Grid& grid, std::size_t slot, float radius, std::size_t max_value,
                       Candidates& candidates) {
-    Place place{grid.x_[slot], grid.y_[slot], radius * radius, slot, most};
+    Place place{grid.x_[slot], grid.y_[slot], radius * radius, slot, max_value};
     candidates.count_ = 0;
     grid.for_each_run(grid.position(slot), radius,
                       [&](std::size_t begin, std::size_t end, std::optional<int> row) {
@@ -97,9 +98,9 @@ struct NearestKernel {
   static void scan_some(const Grid& grid, std::size_t begin, std::size_t end, int row,
                         const Place& place, Candidates& candidates) {
     using V = Vectors<kWidth>;
-    const auto x = every<kWidth>(place.x);
-    const auto y = every<kWidth>(place.y);
-    const auto limit_sq = every<kWidth>(place.limit_sq);
+    const auto x = broadcast<kWidth>(place.x);
+    const auto y = broadcast<kWidth>(place.y);
+    const auto limit_sq = broadcast<kWidth>(place.limit_sq);
     const float* const xs = grid.x_.data();
     const float* const ys = grid.y_.data();
     const std::int32_t* const rows = grid.row_.data();
@@ -118,7 +119,7 @@ struct NearestKernel {
       } else {
         wanted &= slot < static_cast<std::int32_t>(end);
       }
-      count += store_some<kWidth>(distance_sq, slot, wanted, distances + count, slots + count);
+      count += compress_store<kWidth>(distance_sq, slot, wanted, distances + count, slots + count);
     }
     candidates.count_ = count;
   }
@@ -127,13 +128,13 @@ struct NearestKernel {
   template <int kWidth>
   static void keep_nearest(const Grid& grid, Place& place, Candidates& candidates) {
     sort<kWidth>(grid, candidates);
-    const std::size_t kept = std::min(place.most, candidates.count_);
+    const std::size_t kept = std::min(place.max_value, candidates.count_);
     for (std::size_t i = 0; i < kept; ++i) {
       candidates.distance_sq_[i] = candidates.sorted_[i].distance_sq;
       candidates.slot_[i] = static_cast<std::int32_t>(candidates.sorted_[i].slot);
     }
     candidates.count_ = kept;
-    if (kept == place.most) place.limit_sq = candidates.distance_sq_[kept - 1];
+    if (kept == place.max_value) place.limit_sq = candidates.distance_sq_[kept - 1];
   }
 
   /// Fills sorted_.

@@ -33,9 +33,9 @@ GrayImage read_gray_png(const std::filesystem::path& path) {
     fail(header.message);
   }
   header.format = PNG_FORMAT_GRAY;
-  constexpr std::uint64_t kMostPixels = 64'000'000;
+  constexpr std::uint64_t kMaxPixels = 64'000'000;
   const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
-  if (pixels > kMostPixels) {
+  if (pixels > kMaxPixels) {
     const std::string size = fmt::format("{} x {} pixels", header.width, header.height);
     png_image_free(&header);
     fail(size);

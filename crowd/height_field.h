@@ -9,7 +9,7 @@
 
 namespace throng::crowd {
 
-/// Heights at the centres of an image's pixels, interpolated in between; beside the image those of
+/// Heights at the centers of an image's pixels, interpolated in between; beside the image those of
 /// its rim. The image's first row is its northern one (largest y).
 class HeightField : public Elevation {
  public:

@@ -38,11 +38,11 @@ struct ForceLanes {
 
 /// `inside` is by how much they overlap, m; `sliding` how fast the other moves along the tangent.
 template <typename Float>
-ForceLanes<Float> contact_force(const Float& inside, const Float& sliding, float scale,
-                                const Float& distance, float stiffness, float rubbing) {
-  const Float touching = inside > 0 ? inside : Float{};
-  const Float push = scale * exponential(inside / distance) + stiffness * touching;
-  return {push < kStrongest ? push : Float{} + kStrongest, rubbing * touching * sliding};
+ForceLanes<Float> contact_force(const Float& overlap, const Float& tangential, float scale,
+                                const Float& distance, float stiffness, float friction_k) {
+  const Float touching = overlap > 0 ? overlap : Float{};
+  const Float push = scale * exponential(overlap / distance) + stiffness * touching;
+  return {push < kStrongest ? push : Float{} + kStrongest, friction_k * touching * tangential};
 }
 
 /// What the forces need to know of the step.
@@ -88,12 +88,12 @@ struct CrowdForceKernel {
       const auto other = discs_in<kWidth>(setting.grid, &others[first]);
       const Float<kWidth> x = self.x - other.x;
       const Float<kWidth> y = self.y - other.y;
-      const Float<kWidth> apart = square_root<kWidth>(x * x + y * y);
+      const Float<kWidth> separation = square_root<kWidth>(x * x + y * y);
       // Of two in one place, the one with the lower id has the other on the right.
-      const auto together = apart == 0;
-      Normals<kWidth> normals{together ? Float<kWidth>{} + 1 : x / apart,
-                              together ? Float<kWidth>{} : y / apart,
-                              every<kWidth>(constants[force_distance])};
+      const auto together = separation == 0;
+      Normals<kWidth> normals{together ? Float<kWidth>{} + 1 : x / separation,
+                              together ? Float<kWidth>{} : y / separation,
+                              broadcast<kWidth>(constants[force_distance])};
       if (any(there & together)) {
         part<kWidth>(setting, &agents.slots()[first], &others[first], normals);
       }
@@ -102,10 +102,10 @@ struct CrowdForceKernel {
       }
       const Float<kWidth> along =
           (other.vx - self.vx) * normals.y - (other.vy - self.vy) * normals.x;
-      const Float<kWidth> sliding = unsigned_friction ? (along < 0 ? -along : along) : along;
-      const auto force = contact_force<Float<kWidth>>(self.radius + other.radius - apart, sliding,
-                                                      constants[agent_scale], normals.reach,
-                                                      constants[body_force], constants[friction]);
+      const Float<kWidth> tangential = unsigned_friction ? (along < 0 ? -along : along) : along;
+      const auto force = contact_force<Float<kWidth>>(
+          self.radius + other.radius - separation, tangential, constants[agent_scale],
+          normals.reach, constants[body_force], constants[friction]);
       force_x += there ? force.push * normals.x + force.shear * normals.y : Float<kWidth>{};
       force_y += there ? force.push * normals.y - force.shear * normals.x : Float<kWidth>{};
     }
@@ -195,7 +195,7 @@ class Helbing : public Model {
     std::array<Eigen::Vector2f, LaneBatch::kAgents> forces;
     work.agents.clear();
     for (std::size_t slot = begin; slot < end; ++slot) {
-      const Surroundings around = neighborhood_.look(setting.crowd, setting.grid, slot);
+      const AgentView around = neighborhood_.look(setting.crowd, setting.grid, slot);
       forces[slot - begin] = drive(setting.crowd, around.agent);
       for (const Obstacles::Near& near : around.walls) {
         forces[slot - begin] +=

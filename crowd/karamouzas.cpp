@@ -9,7 +9,7 @@ namespace throng::crowd {
 namespace {
 
 constexpr float kRadiansPerHalfDegree = 0.5F * kRadiansPerDegree;
-constexpr std::size_t kMostColliding = 100;
+constexpr std::size_t kMaxColliding = 100;
 
 enum Parameter : std::size_t { personal_space, anticipation };
 enum Constant : std::size_t {
@@ -33,13 +33,13 @@ class Urgent {
     std::uint32_t slot = 0;  // of the other
   };
 
-  explicit Urgent(std::size_t most) : most_(most) {}
+  explicit Urgent(std::size_t max_value) : max_value_(max_value) {}
 
   void add(float time_s, std::uint32_t slot) {
     std::size_t at = count_;
     while (at > 0 && collisions_[at - 1].time_s > time_s) --at;
-    if (at >= most_) return;
-    if (count_ < most_) ++count_;
+    if (at >= max_value_) return;
+    if (count_ < max_value_) ++count_;
     std::copy_backward(collisions_.begin() + at, collisions_.begin() + count_ - 1,
                        collisions_.begin() + count_);
     collisions_[at] = {time_s, slot};
@@ -47,8 +47,8 @@ class Urgent {
   std::span<const Collision> all() const { return std::span(collisions_).first(count_); }
 
  private:
-  std::array<Collision, kMostColliding> collisions_;
-  std::size_t most_;
+  std::array<Collision, kMaxColliding> collisions_;
+  std::size_t max_value_;
   std::size_t count_ = 0;
 };
 
@@ -59,34 +59,33 @@ class Karamouzas : public LocalModel {
   explicit Karamouzas(const Crowd& crowd)
       : LocalModel(crowd),
         constants_(crowd.model_constants),
-        least_cosine_(std::cos(kRadiansPerHalfDegree * constants_[fov])) {}
+        min_cosine_(std::cos(kRadiansPerHalfDegree * constants_[fov])) {}
 
  protected:
-  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
-                           const Surroundings& around) override {
+  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const AgentView& around) override {
     const Walker self(crowd, grid, around.slot);
     const Agents& agents = crowd.agents;
     const auto dt_s = static_cast<float>(crowd.dt_s);
     const Eigen::Vector2f desired = self.velocity + dt_s * drive(crowd, grid, around, self);
     Eigen::Vector2f force = evade(crowd, grid, around, self, desired) + shiver(crowd, self);
     const float strength = force.norm();
-    const float most = agents[Property::max_accel][self.id];
-    if (strength > most) force *= most / strength;
+    const float max_value = agents[Property::max_accel][self.id];
+    if (strength > max_value) force *= max_value / strength;
     return desired + dt_s * force;
   }
 
  private:
   /// The accelerations towards the preferred velocity and away from walls.
-  Eigen::Vector2f drive(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+  Eigen::Vector2f drive(const Crowd& crowd, const Grid& grid, const AgentView& around,
                         const Walker& self) const {
     Eigen::Vector2f sum = (self.preferred_velocity() - self.velocity) / constants_[reaction_time];
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
-      constexpr float kNearest = 0.01F;  // m
-      const Apart apart(self, wall);
+      constexpr float kMinDistance = 0.01F;  // m
+      const Separation apart(self, wall);
       const float gap = apart.distance - self.radius;
       if (gap >= constants_[wall_distance]) return;
       sum += (constants_[wall_distance] - gap) /
-             std::pow(std::max(gap, kNearest), constants_[wall_steepness]) * apart.away;
+             std::pow(std::max(gap, kMinDistance), constants_[wall_steepness]) * apart.away;
     });
     return sum;
   }
@@ -94,7 +93,7 @@ class Karamouzas : public LocalModel {
   /// The force that evades the most urgent collisions; of somebody in whose personal space others
   /// are already, the one away from all of these, however many (in Menge's series of pedModelSwap
   /// colliding_count does not limit them: its mean speeds are met to 1 % over 4 s only so).
-  Eigen::Vector2f evade(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+  Eigen::Vector2f evade(const Crowd& crowd, const Grid& grid, const AgentView& around,
                         const Walker& self, const Eigen::Vector2f& desired) const {
     const float space = crowd.agents.model_parameters[personal_space][self.id];
     const float horizon_s = crowd.agents.model_parameters[anticipation][self.id];
@@ -108,7 +107,7 @@ class Karamouzas : public LocalModel {
       if (offset.squaredNorm() < radius * radius) {
         colliding = true;
         force += push(grid, self, desired, {0, neighbor.slot});
-      } else if (-offset.dot(facing) >= least_cosine_ * offset.norm()) {
+      } else if (-offset.dot(facing) >= min_cosine_ * offset.norm()) {
         const auto time_s = time_to_disc(offset, desired - grid.velocity(neighbor.slot), radius);
         if (time_s && *time_s < horizon_s) soon.add(*time_s, neighbor.slot);
       }
@@ -126,7 +125,7 @@ class Karamouzas : public LocalModel {
   Eigen::Vector2f push(const Grid& grid, const Walker& self, const Eigen::Vector2f& desired,
                        const Urgent::Collision& collision) const {
     const std::uint32_t slot = collision.slot;
-    const Apart apart(self, grid.id(slot), grid.position(slot));
+    const Separation apart(self, grid.id(slot), grid.position(slot));
     const Eigen::Vector2f later = apart.offset + collision.time_s * (desired - grid.velocity(slot));
     const float gap = std::max(0.0F, later.norm() - self.radius - grid.radius(slot));
     return strength(desired.norm() * collision.time_s + gap) * unit_or(later, apart.away);
@@ -136,8 +135,8 @@ class Karamouzas : public LocalModel {
   float strength(float distance) const {
     const float full = constants_[agent_force];
     if (distance < constants_[d_min]) {
-      constexpr float kNearest = 1e-3F;  // m
-      return full * constants_[d_min] / std::max(distance, kNearest);
+      constexpr float kMinDistance = 1e-3F;  // m
+      return full * constants_[d_min] / std::max(distance, kMinDistance);
     }
     if (distance < constants_[d_mid]) return full;
     if (distance >= constants_[d_max]) return 0;
@@ -153,7 +152,7 @@ class Karamouzas : public LocalModel {
   }
 
   const std::vector<float>& constants_;
-  float least_cosine_;
+  float min_cosine_;
 };
 
 std::unique_ptr<Model> make_karamouzas(const Crowd& crowd) {
@@ -174,7 +173,7 @@ ModelEntry karamouzas_model() {
        {"reaction_time", 0.4F, 1e-3F, 1000, "in which the preferred velocity is taken, in s"},
        {"wall_steepness", 2, 0, 10, "exponent of the walls' push"},
        {"wall_distance", 2, 0, 100, "from how far walls push, in m"},
-       {"colliding_count", 5, 0, kMostColliding, "how many coming collisions are evaded at once"},
+       {"colliding_count", 5, 0, kMaxColliding, "how many coming collisions are evaded at once"},
        {"d_min", 1, 0, 1000, "below this way to a collision, the force grows, in m"},
        {"d_mid", 8, 0, 1000, "above this way to a collision, the force falls, in m"},
        {"d_max", 10, 0, 1000, "from this way to a collision, there is no force, in m"},

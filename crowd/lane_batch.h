@@ -19,11 +19,11 @@ class LaneBatch {
   using Lanes = std::array<float, kAgents>;
   using Slots = std::array<std::uint32_t, kAgents>;  ///< in the grid
 
-  /// Room for so many neighbours at first.
+  /// Room for so many neighbors at first.
   explicit LaneBatch(std::size_t neighbors) : others_(neighbors) {}
 
   std::size_t size() const { return size_; }
-  /// How many neighbours there are at most.
+  /// How many neighbors there are at most.
   std::size_t rows() const { return rows_; }
   void clear() { size_ = rows_ = 0; }
 
@@ -46,7 +46,7 @@ class LaneBatch {
 
   const Slots& slots() const { return slots_; }
   const Lanes& neighbors() const { return neighbors_; }  ///< how many
-  /// Everybody's i-th neighbour; oneself for those who have none.
+  /// Everybody's i-th neighbor; oneself for those who have none.
   Slots row(std::size_t i) const {
     Slots others = others_[i];
     for (std::size_t lane = 0; lane < kAgents; ++lane) {

@@ -19,9 +19,9 @@ float highest_speed(const Crowd& crowd, std::size_t agent) {
 Eigen::Vector2f possible_velocity(const Crowd& crowd, std::size_t agent,
                                   const Eigen::Vector2f& velocity) {
   if (!velocity.allFinite()) return crowd.agents.velocity[agent];
-  const float most = highest_speed(crowd, agent);
+  const float max_value = highest_speed(crowd, agent);
   const float speed = velocity.norm();
-  return speed > most ? Eigen::Vector2f(velocity * (most / speed)) : velocity;
+  return speed > max_value ? Eigen::Vector2f(velocity * (max_value / speed)) : velocity;
 }
 
 Eigen::Vector2f unit_or(const Eigen::Vector2f& v, const Eigen::Vector2f& otherwise) {
@@ -61,13 +61,13 @@ Walker::Walker(const Crowd& crowd, const Grid& grid, std::size_t slot)
       preferred_direction(crowd.agents.preferred_direction[id]),
       orientation(crowd.agents.orientation[id]) {}
 
-Apart::Apart(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position)
+Separation::Separation(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position)
     : offset(self.position - other_position),
       distance(offset.norm()),
       away(distance > 0 ? Eigen::Vector2f(offset / distance)
                         : Eigen::Vector2f(self.id > other ? 1 : -1, 0)) {}
 
-Apart::Apart(const Walker& self, const Segment& wall)
+Separation::Separation(const Walker& self, const Segment& wall)
     : offset(self.position - nearest_on_segment(wall.begin, wall.end, self.position)),
       distance(offset.norm()),
       away(distance > 0 ? Eigen::Vector2f(offset / distance)
@@ -82,7 +82,7 @@ bool is_shared_corner(const std::vector<Segment>& segments, const Segment& wall,
 void LocalModel::step(const Crowd& crowd, const Grid& grid,
                       std::span<Eigen::Vector2f> new_velocity) {
   prepare();
-  neighborhood_.for_each(crowd, grid, [&](const Surroundings& around) {
+  neighborhood_.for_each(crowd, grid, [&](const AgentView& around) {
     new_velocity[around.agent] =
         possible_velocity(crowd, around.agent, velocity(crowd, grid, around));
   });

@@ -18,7 +18,7 @@ Eigen::Vector2f possible_velocity(const Crowd& crowd, std::size_t agent,
 /// v at unit length; `otherwise` when v has none.
 Eigen::Vector2f unit_or(const Eigen::Vector2f& v, const Eigen::Vector2f& otherwise);
 
-/// The time in s, not negative, after which a point at `offset` from the centre of a disc is in it
+/// The time in s, not negative, after which a point at `offset` from the center of a disc is in it
 /// if it moves with `velocity`: 0 when it is there already, nothing when it never will be.
 std::optional<float> time_to_disc(const Eigen::Vector2f& offset, const Eigen::Vector2f& velocity,
                                   float radius);
@@ -45,9 +45,9 @@ struct Walker {
 };
 
 /// Where another is, seen from a walker.
-struct Apart {
-  Apart(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position);
-  Apart(const Walker& self, const Segment& wall);
+struct Separation {
+  Separation(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position);
+  Separation(const Walker& self, const Segment& wall);
 
   Eigen::Vector2f offset;  ///< from the other, or from the wall's nearest point, to the walker, m
   float distance;          ///< m
@@ -64,8 +64,7 @@ bool is_shared_corner(const std::vector<Segment>& segments, const Segment& wall,
 /// Calls act(wall) for the walls around an agent, nearest first, without those that it sees a
 /// shared corner of.
 template <typename Act>
-void for_each_wall(const Crowd& crowd, const Grid& grid, const Surroundings& around,
-                   const Act& act) {
+void for_each_wall(const Crowd& crowd, const Grid& grid, const AgentView& around, const Act& act) {
   const std::vector<Segment>& segments = crowd.obstacles.segments();
   for (const Obstacles::Near& near : around.walls) {
     const Segment& wall = segments[near.segment];
@@ -84,7 +83,7 @@ class LocalModel : public Model {
   /// The new velocity of around.agent, m/s. Called for different agents at once. What is not
   /// finite leaves the velocity as it is.
   virtual Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
-                                   const Surroundings& around) = 0;
+                                   const AgentView& around) = 0;
   /// Before the agents of a step, by the thread that starts it.
   virtual void prepare() {}
 

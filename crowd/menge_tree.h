@@ -1,4 +1,4 @@
-// Neighbours in Menge's order, for runs that are to repeat published ones.
+// Neighbors in Menge's order, for runs that are to repeat published ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace throng::crowd {
 
-/// Agents who stand in rows have neighbours at equal distances, and which of them comes first
+/// Agents who stand in rows have neighbors at equal distances, and which of them comes first
 /// decides where everybody turns. Menge lists them as it meets them in a tree of boxes: cut in the
 /// middle of the longer side until ten agents or fewer are left, who keep the order that the cuts
 /// of earlier steps brought them into; the nearer box is looked at first.
@@ -28,7 +28,7 @@ class MengeTree {
 
   /// The same agents as Grid::nearest, ties in the tree's order.
   std::span<const Grid::Neighbor> nearest(const Grid& grid, std::size_t slot, float range,
-                                          std::size_t most, Search& search) const;
+                                          std::size_t max_value, Search& search) const;
 
  private:
   struct Node {

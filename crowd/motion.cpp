@@ -51,10 +51,11 @@ Float8 root(Float8 v) { return square_root<8>(v); }
 
 /// v moved towards `wanted`, by at most `most`.
 template <typename Float>
-Vector<Float> approach(const Vector<Float>& v, const Vector<Float>& wanted, const Float& most) {
+Vector<Float> approach(const Vector<Float>& v, const Vector<Float>& wanted,
+                       const Float& max_value) {
   const Vector<Float> change = wanted - v;
   const Float size = root(dot(change, change));
-  return select(size > most, v + (most / size) * change, wanted);
+  return select(size > max_value, v + (max_value / size) * change, wanted);
 }
 
 /// Where an agent turns to: its velocity, mixed with where it wants to go when it is slow.
@@ -81,11 +82,11 @@ auto keeps_facing(const Vector<Float>& velocity, const Vector<Float>& watched) {
 }
 
 /// `from` turned towards `to` by at most `most_rad`.
-Vector<float> turn(const Vector<float>& from, const Vector<float>& to, float most_rad) {
+Vector<float> turn(const Vector<float>& from, const Vector<float>& to, float max_rad) {
   const float sine = from.x * to.y - from.y * to.x;
   const float angle = std::atan2(sine, dot(from, to));
-  if (std::abs(angle) <= most_rad) return to;
-  const float turned = std::copysign(most_rad, angle);
+  if (std::abs(angle) <= max_rad) return to;
+  const float turned = std::copysign(max_rad, angle);
   const float c = std::cos(turned);
   const float s = std::sin(turned);
   const Vector<float> made{c * from.x - s * from.y, s * from.x + c * from.y};
@@ -94,12 +95,12 @@ Vector<float> turn(const Vector<float>& from, const Vector<float>& to, float mos
 
 /// Whether `to` is sure to be within the angle of `from`.
 template <typename Float>
-auto nearly_there(const Vector<Float>& from, const Vector<Float>& to, const Float& most_rad) {
+auto nearly_there(const Vector<Float>& from, const Vector<Float>& to, const Float& max_rad) {
   const Float sine = from.x * to.y - from.y * to.x;
   // sin(a) >= a - a^3/6; beyond the square root of 2 that gets no better.
-  const Float a = most_rad < 1.4F ? most_rad : Float{} + 1.4F;
-  const Float least_sine = a - a * a * a / 6;
-  return (dot(from, to) > 0) & ((sine < 0 ? -sine : sine) < least_sine);
+  const Float a = max_rad < 1.4F ? max_rad : Float{} + 1.4F;
+  const Float min_sine = a - a * a * a / 6;
+  return (dot(from, to) > 0) & ((sine < 0 ? -sine : sine) < min_sine);
 }
 
 /// atan2 by a polynomial through atan(a) / a at Chebyshev points in a^2; within 4e-7 rad.
@@ -137,8 +138,8 @@ struct Mover {
   Vector<Float> preferred;
   Vector<Float> watched;  ///< where those look who stand
   Float pref_speed;
-  Float most_accel;  ///< m/s^2
-  Float most_turn_rad;
+  Float accel_limit;  ///< m/s^2
+  Float max_turn_rad;
 };
 
 void read(const float* from, float& to) { to = *from; }
@@ -147,24 +148,24 @@ void read(const float* from, Float8& to) { to = load<8>(from); }
 
 void read(const Eigen::Vector2f* from, Vector<float>& to) { to = {from->x(), from->y()}; }
 void read(const Eigen::Vector2f* from, Vector<Float4>& to) {
-  split(load<4>(from[0].data()), load<4>(from[2].data()), to.x, to.y);
+  deinterleave(load<4>(from[0].data()), load<4>(from[2].data()), to.x, to.y);
 }
 void read(const Eigen::Vector2f* from, Vector<Float8>& to) {
-  split(load<8>(from[0].data()), load<8>(from[4].data()), to.x, to.y);
+  deinterleave(load<8>(from[0].data()), load<8>(from[4].data()), to.x, to.y);
 }
 
 void write(const Vector<float>& v, Eigen::Vector2f* to) { *to = {v.x, v.y}; }
 void write(const Vector<Float4>& v, Eigen::Vector2f* to) {
   Float4 first;
   Float4 second;
-  mix(v.x, v.y, first, second);
+  interleave(v.x, v.y, first, second);
   store(first, to[0].data());
   store(second, to[2].data());
 }
 void write(const Vector<Float8>& v, Eigen::Vector2f* to) {
   Float8 first;
   Float8 second;
-  mix(v.x, v.y, first, second);
+  interleave(v.x, v.y, first, second);
   store(first, to[0].data());
   store(second, to[4].data());
 }
@@ -174,8 +175,8 @@ void write(Float4 value, float* to) { store(value, to); }
 void write(Float8 value, float* to) { store(value, to); }
 
 unsigned which(bool mask) { return mask ? 1 : 0; }
-unsigned which(Int4 mask) { return bits(mask); }
-unsigned which(Int8 mask) { return bits(mask); }
+unsigned which(Int4 mask) { return movemask(mask); }
+unsigned which(Int8 mask) { return movemask(mask); }
 
 /// Moves as many agents as a Float has lanes.
 template <typename Float>
@@ -189,12 +190,12 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
   read(&agents.preferred_direction[i], mover.preferred);
   read(&agents.facing[i], mover.watched);
   read(&agents[Property::pref_speed][i], mover.pref_speed);
-  read(&agents[Property::max_accel][i], mover.most_accel);
-  read(&agents[Property::max_angle_vel][i], mover.most_turn_rad);
-  mover.most_turn_rad *= dt_s;
+  read(&agents[Property::max_accel][i], mover.accel_limit);
+  read(&agents[Property::max_angle_vel][i], mover.max_turn_rad);
+  mover.max_turn_rad *= dt_s;
 
   const Float step_s = dt_s - Float{};
-  const Vector<Float> velocity = approach(mover.velocity, mover.wanted, step_s * mover.most_accel);
+  const Vector<Float> velocity = approach(mover.velocity, mover.wanted, step_s * mover.accel_limit);
   Vector<Float> ahead = facing(velocity, mover.preferred, mover.orientation, mover.pref_speed);
   ahead = select(keeps_facing(velocity, mover.watched), mover.watched, ahead);
   write(velocity, &agents.velocity[i]);
@@ -203,7 +204,7 @@ void move_lanes(Agents& agents, std::span<const Eigen::Vector2f> new_velocity, f
   constexpr std::size_t kLanes =
       sizeof(Float) / sizeof(float);  // NOLINT(bugprone-sizeof-expression)
   constexpr unsigned kAll = (1U << kLanes) - 1;
-  const unsigned there = which(nearly_there(mover.orientation, ahead, mover.most_turn_rad));
+  const unsigned there = which(nearly_there(mover.orientation, ahead, mover.max_turn_rad));
   if (there == kAll) {
     write(ahead, &agents.orientation[i]);
     write(angle_rad(ahead), &agents.yaw_rad[i]);

@@ -8,7 +8,7 @@ namespace throng::crowd {
 
 namespace {
 
-/// A point may be this far outside of a polygon and still be in it, in m: of two neighbours, one
+/// A point may be this far outside of a polygon and still be in it, in m: of two neighbors, one
 /// has the points on their common edge.
 constexpr float kTolerance = 1e-4F;
 

@@ -19,7 +19,7 @@ struct Portal {
 struct NavPolygon {
   std::vector<Eigen::Vector2f> corners;  ///< counter-clockwise
   std::vector<Portal> portals;
-  Eigen::Vector2f centre = Eigen::Vector2f::Zero();
+  Eigen::Vector2f center = Eigen::Vector2f::Zero();
   /// The ground's height is plane.x * x + plane.y * y + plane.z.
   Eigen::Vector3f plane = Eigen::Vector3f::Zero();
   int group = 0;

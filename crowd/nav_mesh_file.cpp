@@ -88,8 +88,8 @@ class Reader {
   void read_polygon() {
     NavPolygon polygon;
     polygon.group = static_cast<int>(groups_.size()) - 1;
-    polygon.centre.x() = file_.real("a polygon's centre");
-    polygon.centre.y() = file_.real("a polygon's centre");
+    polygon.center.x() = file_.real("a polygon's centre");
+    polygon.center.y() = file_.real("a polygon's centre");
     const int corners = file_.count("the number of a polygon's corners", 3, 1);
     double area = 0;
     for (int i = 0; i < corners; ++i) {
@@ -141,7 +141,7 @@ class Reader {
     made.to = edge.first == polygon ? edge.second : edge.first;
     made.left = vertex(edge.begin);
     made.right = vertex(edge.end);
-    if (cross(made.right - from.centre, made.left - from.centre) < 0) {
+    if (cross(made.right - from.center, made.left - from.center) < 0) {
       std::swap(made.left, made.right);
     }
     return made;
@@ -174,9 +174,9 @@ class Reader {
         done[i] = true;
         const ObstacleEdge& edge = obstacles_[i];
         const Eigen::Vector2f& begin = vertex(edge.begin);
-        const Eigen::Vector2f& centre = polygons_[static_cast<std::size_t>(edge.polygon)].centre;
+        const Eigen::Vector2f& center = polygons_[static_cast<std::size_t>(edge.polygon)].center;
         outline.push_back(begin);
-        walkable_on_the_left += cross(vertex(edge.end) - begin, centre - begin) > 0 ? 1 : -1;
+        walkable_on_the_left += cross(vertex(edge.end) - begin, center - begin) > 0 ? 1 : -1;
       }
       if (i != first || outline.size() < 3) {
         file_.fail(fmt::format("an obstacle of {} edges that does not close", outline.size()),

@@ -12,10 +12,10 @@ namespace throng::crowd {
 namespace {
 
 /// The direction from `from` that just touches a circle, on its right (turn = -1) or left side.
-Eigen::Vector2f tangent(const Eigen::Vector2f& from, const Eigen::Vector2f& centre, float radius,
+Eigen::Vector2f tangent(const Eigen::Vector2f& from, const Eigen::Vector2f& center, float radius,
                         float turn) {
-  const Eigen::Vector2f way = (centre - from).normalized();
-  const float s = turn * std::min(1.0F, radius / (centre - from).norm());
+  const Eigen::Vector2f way = (center - from).normalized();
+  const float s = turn * std::min(1.0F, radius / (center - from).norm());
   const float c = std::sqrt(1 - s * s);
   return {c * way.x() - s * way.y(), s * way.x() + c * way.y()};
 }
@@ -145,7 +145,7 @@ void NavMeshRoutes::take_gates(std::span<const Gate> gates, const Eigen::Vector2
   route.count = first;
   Eigen::Vector2f at = position;
   for (const Gate& gate : gates) {
-    if (route.count == kMostGates) {
+    if (route.count == kMaxGates) {
       route.whole = false;
       return;
     }
@@ -180,7 +180,7 @@ std::unique_ptr<VelComponent> make_across_mesh(const Element& element, const Att
   SharedParts& parts = *context.crowd.parts;
   const TextFile file = element.text_file(attributes.text("file_name"));
   const Lengths lengths =
-      context.crowd.compat == Compat::none ? Lengths::shortest : Lengths::centres;
+      context.crowd.compat == Compat::none ? Lengths::shortest : Lengths::centers;
   auto routes = parts.get<NavMeshRoutes>(file.key(), [&] {
     return std::make_shared<NavMeshRoutes>(shared_nav_mesh(file, parts),
                                            file.path.filename().string(), lengths);

@@ -28,7 +28,7 @@ class NavMeshRoutes {
               PreferredVelocity& preferred);
 
  private:
-  static constexpr int kMostGates = 16;
+  static constexpr int kMaxGates = 16;
 
   struct Route {
     bool known = false;
@@ -38,8 +38,8 @@ class NavMeshRoutes {
     int count = 0;
     Eigen::Vector2f target = Eigen::Vector2f::Zero();
     Eigen::Vector2f end = Eigen::Vector2f::Zero();  ///< the place on the mesh nearest to the target
-    std::array<Gate, kMostGates> gates;
-    std::array<Eigen::Vector2f, kMostGates> headings;  ///< unit; from gate to gate
+    std::array<Gate, kMaxGates> gates;
+    std::array<Eigen::Vector2f, kMaxGates> headings;  ///< unit; from gate to gate
   };
 
   void plan(const Crowd& crowd, std::size_t agent, Route& route);

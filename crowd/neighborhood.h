@@ -12,7 +12,7 @@
 namespace throng::crowd {
 
 /// What one agent sees.
-struct Surroundings {
+struct AgentView {
   std::size_t agent = 0;                      ///< its id
   std::size_t slot = 0;                       ///< its place in the grid
   std::span<const Grid::Neighbor> neighbors;  ///< nearest first, at most max_neighbors
@@ -41,7 +41,7 @@ class Neighborhood {
     if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
   }
   /// What one agent sees; valid until this thread looks at another.
-  Surroundings look(const Crowd& crowd, const Grid& grid, std::size_t slot) {
+  AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot) {
     return look(crowd, grid, slot, found_.local());
   }
 
@@ -58,11 +58,12 @@ class Neighborhood {
   };
 
   static Found make_found(const Crowd& crowd);
-  Surroundings look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
+  AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
   std::span<const Grid::Neighbor> nearest(const Crowd& crowd, const Grid& grid, std::size_t slot,
-                                          std::size_t most, Found& found);
+                                          std::size_t max_value, Found& found);
   std::span<const Grid::Neighbor> nearest_visible(const Crowd& crowd, const Grid& grid,
-                                                  std::size_t slot, std::size_t most, Found& found);
+                                                  std::size_t slot, std::size_t max_value,
+                                                  Found& found);
 
   MengeTree tree_;            // of compatible runs
   std::vector<float> reach_;  // per agent, see Grid::nearest

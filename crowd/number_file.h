@@ -18,8 +18,8 @@ class NumberFile {
   explicit NumberFile(const TextFile& file);
 
   /// The next number; `what` names it in errors.
-  double number(std::string_view what, double min = -kFarthest, double max = kFarthest);
-  float real(std::string_view what, double min = -kFarthest, double max = kFarthest) {
+  double number(std::string_view what, double min = -kMaxCoordinate, double max = kMaxCoordinate);
+  float real(std::string_view what, double min = -kMaxCoordinate, double max = kMaxCoordinate) {
     return static_cast<float>(number(what, min, max));
   }
   int integer(std::string_view what, int min, int max);

@@ -13,8 +13,8 @@ namespace {
 
 /// Throws for what has no sides.
 void check_polygon(const Element& element, const std::vector<Eigen::Vector2f>& corners) {
-  constexpr float kShortestEdge = 1e-3F;  // m
-  constexpr double kSmallestArea = 1e-6;  // m^2
+  constexpr float kMinEdge = 1e-3F;  // m
+  constexpr double kMinArea = 1e-6;  // m^2
   if (corners.size() < 3) {
     element.fail(fmt::format("{} corners", corners.size()), "at least three <Vertex>");
   }
@@ -22,12 +22,12 @@ void check_polygon(const Element& element, const std::vector<Eigen::Vector2f>& c
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2f& a = corners[i];
     const Eigen::Vector2f& b = corners[(i + 1) % corners.size()];
-    if ((b - a).norm() < kShortestEdge) {
+    if ((b - a).norm() < kMinEdge) {
       element.fail(fmt::format("two corners at ({}, {})", a.x(), a.y()), "corners apart");
     }
     area += 0.5 * (static_cast<double>(a.x()) * b.y() - static_cast<double>(a.y()) * b.x());
   }
-  if (std::abs(area) < kSmallestArea) {
+  if (std::abs(area) < kMinArea) {
     element.fail("a polygon without area", "a polygon, counter-clockwise when it is solid");
   }
 }

@@ -47,9 +47,11 @@ class Orca : public Model {
   static constexpr std::size_t kGrain = 64;  // agents per task
 
   static Workspace make_workspace(const Crowd& crowd) {
-    const std::vector<float>& most = crowd.agents[Property::max_neighbors];
+    const std::vector<float>& max_value = crowd.agents[Property::max_neighbors];
     const auto neighbors =
-        most.empty() ? 0 : static_cast<std::size_t>(*std::max_element(most.begin(), most.end()));
+        max_value.empty()
+            ? 0
+            : static_cast<std::size_t>(*std::max_element(max_value.begin(), max_value.end()));
     const std::size_t walls = crowd.obstacles.segments().size();
     Workspace workspace{OrcaBatch(neighbors, walls), {}, {}};
     workspace.walls.reserve(walls);
@@ -74,7 +76,7 @@ class Orca : public Model {
     }
   }
 
-  void add(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+  void add(const Crowd& crowd, const Grid& grid, const AgentView& around,
            Workspace& workspace) const {
     const Agents& agents = crowd.agents;
     const std::size_t id = around.agent;
@@ -94,7 +96,7 @@ class Orca : public Model {
                         workspace.walls, around.neighbors);
   }
 
-  /// Where everybody wants to go, in the grid's order: neighbours look at each other's.
+  /// Where everybody wants to go, in the grid's order: neighbors look at each other's.
   void sort_directions(const Crowd& crowd, const Grid& grid) {
     constexpr std::size_t kDirectionGrain = 4096;
     if (directions_.size() < grid.size()) directions_.resize(grid.size());
@@ -156,7 +158,7 @@ ModelEntry weidmann_model() {
           {{"reach", pace.reach_m, 0.1F, 100, "how far ahead others count, in m"},
            {"jam_density", pace.jam_density, 0.1F, 100, "at which nobody would walk, per m^2"},
            {"decline", pace.decline, 0.01F, 100, "how late speed falls with density, per m^2"},
-           {"least", pace.least, 0, 1, "share of the free speed that is left in a jam"},
+           {"least", pace.min_value, 0, 1, "share of the free speed that is left in a jam"},
            {"headway", pace.headway_s, 0.01F, 100, "time to the one ahead in single file, in s"},
            {"keep_right", pace.keep_right, 0, 100,
             "how far one turns right from those who come towards one, in rad m^2"}},

@@ -82,7 +82,7 @@ struct OrcaKernel {
         part<kWidth>(grid, self, &agents.slots()[first], &others[first], other);
       }
       const auto plane =
-          avoid_disc_lanes<Float<kWidth>>(self, other, cutoff, every<kWidth>(1 / dt_s));
+          avoid_disc_lanes<Float<kWidth>>(self, other, cutoff, broadcast<kWidth>(1 / dt_s));
       const Float<kWidth> none{};
       planes.set<Float<kWidth>>(
           batch.wall_rows_ + i,

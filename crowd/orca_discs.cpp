@@ -18,14 +18,14 @@ struct AvoidDiscsKernel {
     planes.resize(first + others.size());
     const Grid::Body& body = grid.body(self);
     const DiscLanes<Float<kWidth>> me{
-        every<kWidth>(body.position.x()), every<kWidth>(body.position.y()),
-        every<kWidth>(body.velocity.x()), every<kWidth>(body.velocity.y()),
-        every<kWidth>(grid.radius(self))};
+        broadcast<kWidth>(body.position.x()), broadcast<kWidth>(body.position.y()),
+        broadcast<kWidth>(body.velocity.x()), broadcast<kWidth>(body.velocity.y()),
+        broadcast<kWidth>(grid.radius(self))};
     for (std::size_t at = 0; at < others.size(); at += kWidth) {
       auto seen = gather<kWidth>(grid, others.subspan(at));
       if (others[at].distance_sq == 0) nudge<kWidth>(grid, self, others.subspan(at), seen);
-      const auto made = avoid_disc_lanes<Float<kWidth>>(me, seen, every<kWidth>(1 / horizon_s),
-                                                        every<kWidth>(1 / dt_s));
+      const auto made = avoid_disc_lanes<Float<kWidth>>(me, seen, broadcast<kWidth>(1 / horizon_s),
+                                                        broadcast<kWidth>(1 / dt_s));
       store(made.point_x, &planes.point_x[first + at]);
       store(made.point_y, &planes.point_y[first + at]);
       store(made.direction_x, &planes.direction_x[first + at]);

@@ -21,11 +21,11 @@ struct Tangents {
   Eigen::Vector2f right;
 };
 
-Tangents tangents(const Eigen::Vector2f& centre, float radius) {
-  const float distance_sq = centre.squaredNorm();
+Tangents tangents(const Eigen::Vector2f& center, float radius) {
+  const float distance_sq = center.squaredNorm();
   const float length = std::sqrt(std::max(0.0F, distance_sq - radius * radius));
-  const Eigen::Vector2f along = length * centre / distance_sq;
-  const Eigen::Vector2f across = radius * left_of(centre) / distance_sq;
+  const Eigen::Vector2f along = length * center / distance_sq;
+  const Eigen::Vector2f across = radius * left_of(center) / distance_sq;
   return {along + across, along - across};
 }
 
@@ -39,14 +39,14 @@ struct VelocityObstacle {
   Eigen::Vector2f wall_direction;
   float radius = 0;               // of the capsule
   bool point = false;             // the wall is seen as one of its corners
-  bool left_leg_is_wall = false;  // the leg runs along the neighbouring wall, which bounds it
+  bool left_leg_is_wall = false;  // the leg runs along the neighboring wall, which bounds it
   bool right_leg_is_wall = false;
 };
 
 /// The half-plane outside a circle of the capsule's radius, in the direction of v.
-HalfPlane outside_circle(const Eigen::Vector2f& centre, float radius, const Eigen::Vector2f& v) {
-  const Eigen::Vector2f outward = unit(v - centre);
-  return {centre + radius * outward, -left_of(outward)};
+HalfPlane outside_circle(const Eigen::Vector2f& center, float radius, const Eigen::Vector2f& v) {
+  const Eigen::Vector2f outward = unit(v - center);
+  return {center + radius * outward, -left_of(outward)};
 }
 
 HalfPlane outside_line(const Eigen::Vector2f& through, const Eigen::Vector2f& direction,
@@ -55,7 +55,7 @@ HalfPlane outside_line(const Eigen::Vector2f& through, const Eigen::Vector2f& di
 }
 
 /// The half-plane at the point of the obstacle's boundary that is nearest to v; nothing when that
-/// is on a neighbouring wall, which has its own half-plane.
+/// is on a neighboring wall, which has its own half-plane.
 std::optional<HalfPlane> nearest_boundary(const VelocityObstacle& vo, const Eigen::Vector2f& v) {
   const Eigen::Vector2f across = vo.right_end - vo.left_end;
   const Eigen::Vector2f from_left = v - vo.left_end;
@@ -160,7 +160,7 @@ class WallAvoidance {
     vo.right_end = rate_ * to_right;
     vo.left_leg = left.convex ? tangents(to_left, self_.radius).left : -left.direction;
     vo.right_leg = right.convex ? tangents(to_right, self_.radius).right : left.direction;
-    // A leg that would cut into the neighbouring wall runs along it instead.
+    // A leg that would cut into the neighboring wall runs along it instead.
     const Eigen::Vector2f before = -segments_[left.previous].direction;
     if (left.convex && cross(vo.left_leg, before) >= 0) {
       vo.left_leg = before;

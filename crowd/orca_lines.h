@@ -34,7 +34,7 @@ HalfPlane avoid_disc(const Disc& self, const Disc& other, float horizon_s, float
 void avoid_walls(const Disc& self, const std::vector<Segment>& segments,
                  std::span<const Obstacles::Near> near, float horizon_s, HalfPlanes& planes);
 
-/// The same for a whole neighbourhood at a time: planes that are appended in its order. Two in one
+/// The same for a whole neighborhood at a time: planes that are appended in its order. Two in one
 /// place part along x, the one with the higher id to the right.
 using AvoidDiscs = void(const Grid& grid, std::size_t self, std::span<const Grid::Neighbor> others,
                         float horizon_s, float dt_s, HalfPlanes& planes);

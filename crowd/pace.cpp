@@ -8,21 +8,22 @@
 
 namespace throng::crowd {
 
-Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const Surroundings& around) const {
+Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const AgentView& around) const {
   const std::size_t id = around.agent;
   View view;
   view.direction = crowd.agents.preferred_direction[id];
   view.free_speed = crowd.agents[Property::pref_speed][id];
   const float reach = std::min(spec_.reach_m, crowd.agents[Property::neighbor_dist][id]);
   view.reach_sq = reach * reach;
-  const auto most = static_cast<std::size_t>(crowd.agents[Property::max_neighbors][id]);
-  if (!around.neighbors.empty() && around.neighbors.size() == most) {
+  const auto max_value = static_cast<std::size_t>(crowd.agents[Property::max_neighbors][id]);
+  if (!around.neighbors.empty() && around.neighbors.size() == max_value) {
     view.reach_sq = std::min(view.reach_sq, around.neighbors.back().distance_sq);
   }
   const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
   if (file > 0 && view.free_speed > 0) {
-    const float share = std::clamp(
-        gap_ahead_m(crowd, grid, around) / (spec_.headway_s * view.free_speed), spec_.least, 1.0F);
+    const float share =
+        std::clamp(gap_ahead_m(crowd, grid, around) / (spec_.headway_s * view.free_speed),
+                   spec_.min_value, 1.0F);
     view.file_share = 1 - file * (1 - share);
   }
   return view;
@@ -33,7 +34,7 @@ Gait Pace::gait(const View& view, const Ahead& ahead) const {
   Gait gait{1, 1, direction};
   if (ahead.along > 0) {
     const float share = 1 - std::exp(-spec_.decline * (1 / ahead.along - 1 / spec_.jam_density));
-    gait.share = std::clamp(share, spec_.least, 1.0F);
+    gait.share = std::clamp(share, spec_.min_value, 1.0F);
   }
   // Who is slow need not look as far; and at a door nobody waits for those beside them.
   gait.horizon_share = gait.share;

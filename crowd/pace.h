@@ -14,7 +14,7 @@ struct PaceSpec {
   float reach_m = 1.7F;       ///< how far ahead others count
   float jam_density = 4.82F;  ///< 1/m^2
   float decline = 1.56F;      ///< 1/m^2
-  float least = 0.19F;        ///< share of the free speed that is left in a jam
+  float min_value = 0.19F;    ///< share of the free speed that is left in a jam
   float headway_s = 0.85F;    ///< from touching the one ahead, in single file
   float keep_right = 6;       ///< rad m^2: turn by the density of those who come towards one
 };
@@ -47,7 +47,7 @@ class Pace {
     float reach_sq = 0;         ///< m^2: others count up to there
     float file_share = 1;       ///< of the free speed, at most, in single file
   };
-  View view(const Crowd& crowd, const Grid& grid, const Surroundings& around) const;
+  View view(const Crowd& crowd, const Grid& grid, const AgentView& around) const;
 
   /// People per m^2 in the half disc ahead. Those straight ahead and near count most: by
   /// (1 - d^2/R^2) cos(angle) for the distance d, where R is the reach, or the distance of the

@@ -19,7 +19,7 @@ struct PaceKernel {
   template <int kWidth>
   static void lanes(const Grid& grid, std::span<const Eigen::Vector2f> directions,
                     const LaneBatch& agents, std::size_t first, PaceBatch& batch) {
-    constexpr float kLeastSq = 1e-12F;  // m^2
+    constexpr float kMinSq = 1e-12F;  // m^2
     const Float<kWidth> none{};
     Float<kWidth> way_x;
     Float<kWidth> way_y;
@@ -44,7 +44,7 @@ struct PaceKernel {
       if (!any(counts)) break;  // others are farther still
       // Who is behind gets weight 0.
       const Float<kWidth> ahead = greater(way_x * apart_x + way_y * apart_y, none);
-      const Float<kWidth> distance = root(greater(distance_sq, none + kLeastSq));
+      const Float<kWidth> distance = root(greater(distance_sq, none + kMinSq));
       const Float<kWidth> near = ahead / distance * (reach_sq - distance_sq);
       const Float<kWidth> weight = counts ? near : none;
       Float<kWidth> cosine;

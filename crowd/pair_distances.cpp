@@ -8,8 +8,8 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr double kSmallestCellM = 0.05;
-constexpr double kLargestCellM = 1e9;  // larger than any distance between two places
+constexpr double kMinCellM = 0.05;
+constexpr double kMaxCellM = 1e9;  // larger than any distance between two places
 
 /// Calls visit(a, b) for each pair of entries in the same cell or in cells side by side. The
 /// entries are sorted by row, then column.
@@ -50,12 +50,13 @@ void PairDistancesMeter::sort_into_cells(std::span<const Eigen::Vector2f> positi
 PairDistances PairDistancesMeter::measure(std::span<const Eigen::Vector2f> positions,
                                           std::span<const float> radii_m,
                                           std::span<const std::uint8_t> present) {
-  constexpr float kFarthestM = 1e9F;
+  constexpr float kMaxDistanceM = 1e9F;
   placed_.clear();
   double largest_m = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     // Also false for what is not a number.
-    const bool near = positions[i].cwiseAbs().maxCoeff() < kFarthestM && positions[i].allFinite();
+    const bool near =
+        positions[i].cwiseAbs().maxCoeff() < kMaxDistanceM && positions[i].allFinite();
     if (present[i] == 0 || !near) continue;
     placed_.push_back({0, 0, static_cast<std::uint32_t>(i)});
     largest_m = std::max(largest_m, static_cast<double>(radii_m[i]));
@@ -64,9 +65,9 @@ PairDistances PairDistancesMeter::measure(std::span<const Eigen::Vector2f> posit
   if (placed_.size() < 2) return found;
   // In cells this wide all pairs that may overlap are near. When no two are as near as that, wider
   // cells find the nearest ones.
-  for (double cell_m = std::max(2 * largest_m, kSmallestCellM);; cell_m *= 2) {
+  for (double cell_m = std::max(2 * largest_m, kMinCellM);; cell_m *= 2) {
     sort_into_cells(positions, cell_m);
-    const bool first = cell_m < 2 * std::max(2 * largest_m, kSmallestCellM);
+    const bool first = cell_m < 2 * std::max(2 * largest_m, kMinCellM);
     for_near_pairs(placed_, [&](const Placed& a, const Placed& b) {
       const double distance_m =
           (positions[a.agent].cast<double>() - positions[b.agent].cast<double>()).norm();
@@ -74,7 +75,7 @@ PairDistances PairDistancesMeter::measure(std::span<const Eigen::Vector2f> posit
       const double touching_m = kTouching * (double{radii_m[a.agent]} + radii_m[b.agent]);
       if (first && distance_m < touching_m) ++found.overlapping;
     });
-    if (found.nearest_m <= cell_m || cell_m > 2 * kLargestCellM) return found;
+    if (found.nearest_m <= cell_m || cell_m > 2 * kMaxCellM) return found;
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace throng::crowd {
 
-/// What <Panic> in a behaviour file says.
+/// What <Panic> in a behavior file says.
 struct PanicSpec {
   float radius_m = 3;         ///< how far somebody's panic is noticed
   double rate_per_s = 0.2;    ///< chance in a second to catch it from each who panics nearby

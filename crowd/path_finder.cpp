@@ -65,7 +65,7 @@ bool PathFinder::find(const NavMesh::Place& from, const NavMesh::Place& to, floa
     pull_tight(from.point, to.point);
     return true;
   }
-  if (lengths_ == Lengths::centres) return find_by(Pass::centre_behind, from, to, radius);
+  if (lengths_ == Lengths::centers) return find_by(Pass::center_behind, from, to, radius);
   // None of them is always right, but they seldom fail together.
   float best_m = std::numeric_limits<float>::infinity();
   for (const Pass pass : {Pass::near_line, Pass::near_start, Pass::middle}) {
@@ -88,9 +88,9 @@ void PathFinder::find_through(std::span<const Gate> gates, const Eigen::Vector2f
 bool PathFinder::find_by(Pass pass, const NavMesh::Place& from, const NavMesh::Place& to,
                          float radius) {
   Search how{from.point, to.point, radius, pass, false};
-  if (pass == Pass::centre_behind) {
-    how.start = (*mesh_)[from.polygon].centre;
-    how.end = (*mesh_)[to.polygon].centre;
+  if (pass == Pass::center_behind) {
+    how.start = (*mesh_)[from.polygon].center;
+    how.end = (*mesh_)[to.polygon].center;
   }
   gates_.clear();
   if (!search(how, from.polygon, to.polygon)) {
@@ -145,10 +145,10 @@ Eigen::Vector2f PathFinder::passing_point(const Search& how, const Gate& gate,
       return nearest_on_segment(gate.left, gate.right, start);
     case Pass::middle:
       return 0.5F * (gate.left + gate.right);
-    case Pass::centre_behind:
+    case Pass::center_behind:
       break;
   }
-  return (*mesh_)[gate.polygon].centre;
+  return (*mesh_)[gate.polygon].center;
 }
 
 /// Reaches for the portals of a polygon that was entered through portal `before`.

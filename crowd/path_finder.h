@@ -23,7 +23,7 @@ struct Gate {
 /// What A* takes for the length of a way from portal to portal.
 enum class Lengths {
   shortest,  ///< between points of the portals, chosen in several ways: the best result counts
-  centres    ///< between the polygons' centres, as Menge does; it may miss the shortest way
+  centers    ///< between the polygons' centers, as Menge does; it may miss the shortest way
 };
 
 /// Finds ways. The polygons to pass are searched for with A* over the portals (Hart, Nilsson and
@@ -73,7 +73,7 @@ class PathFinder {
   };
 
   /// Where a way passes a portal, as long as nobody knows better.
-  enum class Pass { near_line, near_start, middle, centre_behind };
+  enum class Pass { near_line, near_start, middle, center_behind };
   struct Search {
     Eigen::Vector2f start;
     Eigen::Vector2f end;

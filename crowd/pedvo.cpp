@@ -18,9 +18,11 @@ struct Workspace {
 };
 
 Workspace make_workspace(const Crowd& crowd) {
-  const std::vector<float>& most = crowd.agents[Property::max_neighbors];
+  const std::vector<float>& max_value = crowd.agents[Property::max_neighbors];
   const auto neighbors =
-      most.empty() ? 0 : static_cast<std::size_t>(*std::max_element(most.begin(), most.end()));
+      max_value.empty()
+          ? 0
+          : static_cast<std::size_t>(*std::max_element(max_value.begin(), max_value.end()));
   Workspace workspace;
   workspace.planes.reserve(neighbors + crowd.obstacles.segments().size());
   workspace.scratch.reserve(neighbors + crowd.obstacles.segments().size());
@@ -58,8 +60,7 @@ class PedVo : public LocalModel {
  protected:
   void prepare() override { workspaces_.prepare(); }
 
-  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
-                           const Surroundings& around) override {
+  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const AgentView& around) override {
     const Walker self(crowd, grid, around.slot);
     const Disc disc{self.position, self.velocity, self.radius};
     Workspace& workspace = workspaces_.local();
@@ -70,7 +71,7 @@ class PedVo : public LocalModel {
     const std::size_t walls = planes.size();
     avoid_discs_(grid, around.slot, around.neighbors, parameter(crowd, tau, self),
                  static_cast<float>(crowd.dt_s), planes);
-    mind_right_of_way(crowd, grid, around, disc, walls, planes);
+    apply_right_of_way(crowd, grid, around, disc, walls, planes);
     const Bias bias(self.preferred_direction, parameter(crowd, turning_bias, self));
     for (std::size_t i = 0; i < planes.size() && !bias.is_none(); ++i) {
       planes.set(i, {bias.apply(planes[i].point), bias.apply(planes[i].direction).normalized()});
@@ -87,7 +88,7 @@ class PedVo : public LocalModel {
     return crowd.agents.model_parameters[which][walker.id];
   }
 
-  static float preferred_speed(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+  static float preferred_speed(const Crowd& crowd, const Grid& grid, const AgentView& around,
                                const Walker& self) {
     if (parameter(crowd, density_aware, self) == 0) return self.preferred_speed;
     const float density =
@@ -100,8 +101,8 @@ class PedVo : public LocalModel {
   /// Makes anew the planes, from `first` on, of those who have another priority. Who has no right
   /// of way does more than half of what is needed, and takes the other for going as it prefers, but
   /// for kTolerance.
-  static void mind_right_of_way(const Crowd& crowd, const Grid& grid, const Surroundings& around,
-                                const Disc& self, std::size_t first, HalfPlanes& planes) {
+  static void apply_right_of_way(const Crowd& crowd, const Grid& grid, const AgentView& around,
+                                 const Disc& self, std::size_t first, HalfPlanes& planes) {
     const Agents& agents = crowd.agents;
     const std::vector<float>& priority = agents[Property::priority];
     for (std::size_t i = 0; i < around.neighbors.size(); ++i) {

@@ -100,7 +100,7 @@ class PlaneSolver {
     const Failures failures =
         solve_in_disc<false>(planes, count, max_speed, preferred, Float{} == 0, v);
     if (any(failures.lanes)) {
-      minimise_violation(planes, count, hard, failures, max_speed, scratch, v);
+      minimize_violation(planes, count, hard, failures, max_speed, scratch, v);
     }
     return v;
   }
@@ -217,7 +217,7 @@ class PlaneSolver {
   }
 
   /// Makes the largest violation of the soft planes as small as possible, where not all can be met.
-  static void minimise_violation(const PlaneRows& planes, std::size_t count, const Float& hard,
+  static void minimize_violation(const PlaneRows& planes, std::size_t count, const Float& hard,
                                  const Failures& failures, const Float& max_speed,
                                  const WritablePlaneRows& scratch, Velocity& v) {
     Float largest{};

@@ -19,17 +19,18 @@ constexpr int kPlaceDecimals = 5;
 std::optional<std::vector<std::size_t>> frames_at(const std::optional<std::vector<double>>& times_s,
                                                   double dt_s) {
   if (!times_s) return std::nullopt;
-  constexpr double kMost = 1e15;
+  constexpr double kMaxFrame = 1e15;
   std::vector<std::size_t> frames;
   for (const double time_s : *times_s) {
-    frames.push_back(static_cast<std::size_t>(std::clamp(std::round(time_s / dt_s), 0.0, kMost)));
+    frames.push_back(
+        static_cast<std::size_t>(std::clamp(std::round(time_s / dt_s), 0.0, kMaxFrame)));
   }
   std::sort(frames.begin(), frames.end());
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
   return frames;
 }
 
-/// Which frames show the shares of a run; halves go to the even neighbour.
+/// Which frames show the shares of a run; halves go to the even neighbor.
 std::vector<std::size_t> frames_of_shares(std::size_t last) {
   std::vector<std::size_t> frames;
   frames.reserve(kShares.size());

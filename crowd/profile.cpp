@@ -10,7 +10,7 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr double kHighestMask = std::numeric_limits<std::uint32_t>::max();
+constexpr double kMaxMask = std::numeric_limits<std::uint32_t>::max();
 
 /// Something that may be an attribute or a <Property> with a distribution.
 struct Variable {
@@ -154,9 +154,8 @@ int sample_integer(const ProfileValue& value, Random random) {
 
 AttributeTable fixed_common_attributes() {
   return {
-      optional(
-          integer("obstacleSet", "bits of the obstacle classes in the way; all", 0, kHighestMask)),
-      optional(integer("class", "a number for reports and clear_AABB; 0", 0, kHighestId)),
+      optional(integer("obstacleSet", "bits of the obstacle classes in the way; all", 0, kMaxMask)),
+      optional(integer("class", "a number for reports and clear_AABB; 0", 0, kMaxId)),
   };
 }
 

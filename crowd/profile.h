@@ -26,7 +26,7 @@ struct Profile {
   std::vector<ProfileValue> model_parameters;           ///< in the order of the model's table
   std::uint32_t obstacle_mask = std::numeric_limits<std::uint32_t>::max();
   std::int32_t agent_class = 0;
-  std::vector<Element> modifiers;  ///< its <VelModifier>s, which need the behaviour to be made
+  std::vector<Element> modifiers;  ///< its <VelModifier>s, which need the behavior to be made
 };
 
 /// Reads an <AgentProfile>; `earlier` are those that it may inherit from. Throws InputError.

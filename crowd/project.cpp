@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kHighestSeed = std::numeric_limits<std::uint32_t>::max();
-constexpr double kLongestRunS = 1e7;
+constexpr double kMaxSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr double kMaxRunS = 1e7;
 
 template <std::size_t N>
 std::size_t index_of(std::string_view word, const std::array<std::string_view, N>& words,
@@ -71,12 +71,12 @@ std::string model_of(const Element& element, const Attributes& attributes) {
 }
 
 std::optional<double> time_step_of(const Element& element, const Attributes& attributes) {
-  constexpr double kShortestS = 1e-4;
+  constexpr double kMinStepS = 1e-4;
   const double time_step_s = attributes.number("timeStep");
   if (time_step_s <= 0) return std::nullopt;
-  if (time_step_s < kShortestS) {
+  if (time_step_s < kMinStepS) {
     element.fail_attribute("timeStep", fmt::format("{} s", time_step_s),
-                           fmt::format("at least {} s", kShortestS));
+                           fmt::format("at least {} s", kMinStepS));
   }
   return time_step_s;
 }
@@ -103,10 +103,11 @@ AttributeTable project_attributes() {
       optional(text("scene", "scene file")),
       optional(text("behavior", "behaviour file")),
       optional(text("model", "pedestrian model"), "orca"),
-      optional(number("duration", "longest time to simulate, in s", 0, kLongestRunS), "400"),
-      optional(number("timeStep", "in s; not above 0: as the scene says", -kFarthest, 10), "-1"),
+      optional(number("duration", "longest time to simulate, in s", 0, kMaxRunS), "400"),
+      optional(number("timeStep", "in s; not above 0: as the scene says", -kMaxCoordinate, 10),
+               "-1"),
       optional(integer("subSteps", "steps in between that are not recorded", 0, 1000), "0"),
-      optional(integer("random", "seed; 0 is taken for 1", 0, kHighestSeed), "0"),
+      optional(integer("random", "seed; 0 is taken for 1", 0, kMaxSeed), "0"),
       optional(word("compat", listed(kCompatWords), "whose results are wanted"), "none"),
       optional(
           word("separation", listed(kSeparationWords), "hard: bodies overlap by no more than 1 cm"),

@@ -1,4 +1,4 @@
-// A Menge project file: which scene and behaviour are run, with which model, for how long.
+// A Menge project file: which scene and behavior are run, with which model, for how long.
 #pragma once
 
 #include <array>

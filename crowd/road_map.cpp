@@ -160,7 +160,7 @@ void RoadMapRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   route.end = nearest_visible(crowd, agent, route.target);
   route.noticed_end = route.end;
   if (!finder.find(map_, nearest_visible(crowd, agent, p), route.end)) return;
-  route.count = std::min(finder.places().size(), kMostPlaces);
+  route.count = std::min(finder.places().size(), kMaxPlaces);
   route.whole = route.count == finder.places().size();
   std::copy_n(finder.places().begin(), route.count, route.places.begin());
 }

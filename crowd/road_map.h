@@ -69,7 +69,7 @@ class RoadMapRoutes {
   void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred);
 
  private:
-  static constexpr std::size_t kMostPlaces = 32;
+  static constexpr std::size_t kMaxPlaces = 32;
 
   struct Route {
     bool known = false;
@@ -81,7 +81,7 @@ class RoadMapRoutes {
     Eigen::Vector2f seen_from = Eigen::Vector2f::Zero();  ///< where the next place was last seen
     int noticed_end = -1;  ///< compatible runs: the `end` that the last step would have chosen
     Eigen::Vector2f edge = Eigen::Vector2f::Zero();  ///< the goal's nearest point then
-    std::array<int, kMostPlaces> places{};
+    std::array<int, kMaxPlaces> places{};
   };
 
   void prefer_as_menge(const Crowd& crowd, std::size_t agent, Route& route,

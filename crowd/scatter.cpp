@@ -45,7 +45,7 @@ class Places {
   std::unordered_map<std::int64_t, std::vector<Vector2f>> cells_;
 };
 
-/// Neighbours on the ground become neighbours in memory, which is where their ways and each other
+/// Neighbors on the ground become neighbors in memory, which is where their ways and each other
 /// are looked for: strip by strip, along each.
 void sort_by_strips(std::vector<Vector2f>& places) {
   constexpr float kStripM = 4;
@@ -61,7 +61,7 @@ void sort_by_strips(std::vector<Vector2f>& places) {
 
 std::vector<Vector2f> scatter(const ScatterSpec& spec, const Obstacles& walls,
                               std::span<const Vector2f> taken, Random random) {
-  constexpr int kMostMisses = 5000;  // in a row
+  constexpr int kMaxMisses = 5000;  // in a row
   Obstacles area;
   area.add_polygon(spec.area, 1);
   const Polygon& outline = area.polygons().front();
@@ -73,7 +73,7 @@ std::vector<Vector2f> scatter(const ScatterSpec& spec, const Obstacles& walls,
            walls.is_clear(place, spec.clearance_m, spec.obstacle_mask);
   };
   std::vector<Vector2f> places;
-  for (int misses = 0; places.size() < spec.count && misses < kMostMisses; ++misses) {
+  for (int misses = 0; places.size() < spec.count && misses < kMaxMisses; ++misses) {
     const double x = random.uniform(min.x(), max.x());
     const double y = random.uniform(min.y(), max.y());
     const Vector2f place(static_cast<float>(x), static_cast<float>(y));

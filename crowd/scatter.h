@@ -23,7 +23,7 @@ struct ScatterSpec {
 /// Places at random, evenly over the free part of the area and as far from each other and from
 /// those `taken` as the spec says: random sequential addition (Feder 1980), which fills an area
 /// with discs of diameter `apart_m` up to a share of 0.547. Fewer places than asked for where a
-/// long series of draws finds no room. Neighbours follow each other. The walls have to be built.
+/// long series of draws finds no room. Neighbors follow each other. The walls have to be built.
 std::vector<Eigen::Vector2f> scatter(const ScatterSpec& spec, const Obstacles& walls,
                                      std::span<const Eigen::Vector2f> taken, Random random);
 

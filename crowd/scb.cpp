@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kWord = 4;  // bytes
 /// By kScbVersions.
 constexpr std::array<std::size_t, kScbVersions.size()> kFloats = {3, 3, 4, 8, 4, 4};
-constexpr std::size_t kLongestRecord = 8;
+constexpr std::size_t kMaxRecordValues = 8;
 
 void put(std::string& bytes, std::uint32_t word) {
   for (unsigned shift = 0; shift < 32; shift += 8) {
@@ -43,8 +43,8 @@ std::size_t index_of(std::string_view version) {
 }
 
 /// What a version says of an agent; as many as kFloats are used.
-std::array<float, kLongestRecord> values_of(std::size_t version, const Simulation& crowd,
-                                            std::size_t agent) {
+std::array<float, kMaxRecordValues> values_of(std::size_t version, const Simulation& crowd,
+                                              std::size_t agent) {
   const Eigen::Vector2f& p = crowd.positions()[agent];
   const float yaw_rad = crowd.yaws_rad()[agent];
   const auto state = static_cast<float>(crowd.states()[agent]);
@@ -88,7 +88,7 @@ void ScbWriter::record(const Simulation& crowd) {
   const std::size_t floats = kFloats[version_];
   frame_.clear();
   for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
-    std::array<float, kLongestRecord> values{};
+    std::array<float, kMaxRecordValues> values{};
     if (crowd.present()[i] != 0) {
       values = values_of(version_, crowd, i);
     } else {

@@ -28,8 +28,8 @@ Box read_box(const Element& element, const Attributes& attributes) {
 AttributeTable turned_box_attributes(std::string_view x, std::string_view y) {
   return {number(x, "the corner that it turns about, in m"),
           number(y, "the corner that it turns about, in m"),
-          number("width", "along the turned x axis, in m", 0, kFarthest),
-          number("height", "along the turned y axis, in m", 0, kFarthest),
+          number("width", "along the turned x axis, in m", 0, kMaxCoordinate),
+          number("height", "along the turned y axis, in m", 0, kMaxCoordinate),
           number("angle", "counter-clockwise turn in degrees", -3600, 3600)};
 }
 
@@ -42,7 +42,7 @@ TurnedBox read_turned_box(const Attributes& attributes, std::string_view x, std:
 
 AttributeTable circle_attributes(std::string_view x, std::string_view y) {
   return {number(x, "centre in m"), number(y, "centre in m"),
-          number("radius", "in m", 0, kFarthest)};
+          number("radius", "in m", 0, kMaxCoordinate)};
 }
 
 Circle read_circle(const Attributes& attributes, std::string_view x, std::string_view y) {

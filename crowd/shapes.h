@@ -7,17 +7,17 @@
 namespace throng::crowd {
 
 struct Circle {
-  Eigen::Vector2f centre = Eigen::Vector2f::Zero();
+  Eigen::Vector2f center = Eigen::Vector2f::Zero();
   float radius = 0;
 
   bool contains(const Eigen::Vector2f& p) const {
-    return (p - centre).squaredNorm() <= radius * radius;
+    return (p - center).squaredNorm() <= radius * radius;
   }
   Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const {
     const float shrunk = std::max(0.0F, radius - margin);
-    const Eigen::Vector2f out = p - centre;
+    const Eigen::Vector2f out = p - center;
     const float distance = out.norm();
-    return distance <= shrunk ? p : Eigen::Vector2f(centre + (shrunk / distance) * out);
+    return distance <= shrunk ? p : Eigen::Vector2f(center + (shrunk / distance) * out);
   }
 };
 
@@ -25,7 +25,7 @@ struct Box {
   Eigen::Vector2f min = Eigen::Vector2f::Zero();
   Eigen::Vector2f max = Eigen::Vector2f::Zero();
 
-  Eigen::Vector2f centre() const { return 0.5F * (min + max); }
+  Eigen::Vector2f center() const { return 0.5F * (min + max); }
   bool contains(const Eigen::Vector2f& p) const {
     return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
   }

@@ -196,13 +196,13 @@ void Simulation::strike(std::size_t agent, const Eigen::Vector2f& impulse_ns) {
   if (state_->bodies) state_->bodies->strike(agent, impulse_ns);
 }
 
-void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& centre) {
+void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& center) {
   const int index = state_->crowd.goals.find_goal(set, goal);
   if (index < 0) {
     throw InputError(Problem{"", "moved goal", fmt::format("goal {} of goal set {}", goal, set),
                              "a goal of the behaviour file"});
   }
-  state_->crowd.goals[index].shape->move_to(centre);
+  state_->crowd.goals[index].shape->move_to(center);
 }
 
 void Simulation::fire(const std::string& trigger) {

@@ -33,7 +33,7 @@ struct Physical {
 struct Fall {
   std::uint32_t agent;
   float impulse_ns;     ///< of the blow; 0: it was the crowd
-  float crush_n_per_m;  ///< of the crowd, per metre of girth; 0: it was a blow
+  float crush_n_per_m;  ///< of the crowd, per meter of girth; 0: it was a blow
 };
 
 struct LoadOptions {
@@ -47,7 +47,7 @@ struct LoadOptions {
   Physical physical = {};
 };
 
-/// A goal chosen by an agent: set and goal id of the behaviour file; -1 for one made on the fly
+/// A goal chosen by an agent: set and goal id of the behavior file; -1 for one made on the fly
 /// (identity, offset, ...).
 struct GoalId {
   std::int32_t set = -1;
@@ -58,7 +58,7 @@ struct GoalId {
 /// threads.
 class Simulation {
  public:
-  /// Loads a Menge scene and behaviour file. Throws InputError (file, line, element, found,
+  /// Loads a Menge scene and behavior file. Throws InputError (file, line, element, found,
   /// expected) for anything it does not understand, EnvironmentError for unreadable files.
   Simulation(const std::filesystem::path& scene_file, const std::filesystem::path& behavior_file,
              const LoadOptions& options);
@@ -111,10 +111,10 @@ class Simulation {
   /// Hits somebody (N s): felt in the next step, and only where bodies are Physical.
   void strike(std::size_t agent, const Eigen::Vector2f& impulse_ns);
 
-  /// Moves a goal's centre, e.g. to a drone. Throws InputError when there is no such goal.
-  void move_goal(int set, int goal, const Eigen::Vector2f& centre);
+  /// Moves a goal's center, e.g. to a drone. Throws InputError when there is no such goal.
+  void move_goal(int set, int goal, const Eigen::Vector2f& center);
 
-  /// Fires the behaviour file's external triggers of this name; their events happen in the next
+  /// Fires the behavior file's external triggers of this name; their events happen in the next
   /// step. Throws InputError when there is none.
   void fire(const std::string& trigger);
 

@@ -8,7 +8,7 @@
 
 namespace throng::crowd {
 
-float singleness(const Crowd& crowd, const Grid& grid, const Surroundings& around) {
+float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around) {
   constexpr float kTwo = 5.5F;     // radii: what two need who pass each other
   constexpr float kOne = 4.5F;     // radii: with less, there is one after the other
   constexpr float kBeside = 0.7F;  // sine of the least angle between the way and what is beside it
@@ -32,7 +32,7 @@ float singleness(const Crowd& crowd, const Grid& grid, const Surroundings& aroun
   return std::clamp((kTwo * radius - left - right) / ((kTwo - kOne) * radius), 0.0F, 1.0F);
 }
 
-float gap_ahead_m(const Crowd& crowd, const Grid& grid, const Surroundings& around) {
+float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around) {
   constexpr float kLane = 0.5F;  // of where two touch: farther aside one zips in
   const Eigen::Vector2f& position = grid.position(around.slot);
   const Eigen::Vector2f& direction = crowd.agents.preferred_direction[around.agent];

@@ -7,11 +7,11 @@ namespace throng::crowd {
 
 /// 1 where walls at both sides leave room for one only, 0 where two can pass each other, and
 /// between these in between.
-float singleness(const Crowd& crowd, const Grid& grid, const Surroundings& around);
+float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around);
 
 /// How far straight on until one touches somebody who does not come towards one, m; infinite
 /// without anybody ahead. Others who are farther aside than half of the distance at which both
 /// touch do not count.
-float gap_ahead_m(const Crowd& crowd, const Grid& grid, const Surroundings& around);
+float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around);
 
 }  // namespace throng::crowd

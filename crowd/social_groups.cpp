@@ -12,9 +12,9 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr std::size_t kSmallest = 2;  // members of a group
-constexpr float kMostApart = 5;       // m, between those who are put into one group
-constexpr float kRelaxationS = 0.5F;  // of the social force model (Helbing, Molnar 1995)
+constexpr std::size_t kMinGroupSize = 2;  // members of a group
+constexpr float kMaxGroupDistance = 5;    // m, between those who are put into one group
+constexpr float kRelaxationS = 0.5F;      // of the social force model (Helbing, Molnar 1995)
 
 /// Who is still alone, by square cells as wide as a group may be.
 class Loners {
@@ -35,14 +35,14 @@ class Loners {
   std::vector<std::size_t> near(std::size_t agent) const {
     const Eigen::Vector2f& place = agents_.position[agent];
     std::vector<std::pair<float, std::size_t>> found;
-    for (const float dx : {-kMostApart, 0.0F, kMostApart}) {
-      for (const float dy : {-kMostApart, 0.0F, kMostApart}) {
+    for (const float dx : {-kMaxGroupDistance, 0.0F, kMaxGroupDistance}) {
+      for (const float dy : {-kMaxGroupDistance, 0.0F, kMaxGroupDistance}) {
         const auto bucket = cells_.find(cell(place + Eigen::Vector2f(dx, dy)));
         if (bucket == cells_.end()) continue;
         for (const std::size_t other : bucket->second) {
           const float apart = (agents_.position[other] - place).norm();
           const bool fits = other != agent && agents_.state[other] == agents_.state[agent];
-          if (fits && apart <= kMostApart) found.emplace_back(apart, other);
+          if (fits && apart <= kMaxGroupDistance) found.emplace_back(apart, other);
         }
       }
     }
@@ -55,8 +55,8 @@ class Loners {
 
  private:
   static std::int64_t cell(const Eigen::Vector2f& place) {
-    const auto column = static_cast<std::int64_t>(std::floor(place.x() / kMostApart));
-    const auto row = static_cast<std::int64_t>(std::floor(place.y() / kMostApart));
+    const auto column = static_cast<std::int64_t>(std::floor(place.x() / kMaxGroupDistance));
+    const auto row = static_cast<std::int64_t>(std::floor(place.y() / kMaxGroupDistance));
     return row * (std::int64_t{1} << 32) + column;
   }
 
@@ -67,13 +67,13 @@ class Loners {
 std::size_t draw_size(const SocialGroupsSpec& spec, Random& random) {
   const double total = std::accumulate(spec.weights.begin(), spec.weights.end(), 0.0);
   double left = random.uniform() * total;
-  std::size_t size = kSmallest;
+  std::size_t size = kMinGroupSize;
   for (const double weight : spec.weights) {
     if (left < weight) break;
     left -= weight;
     ++size;
   }
-  return std::min(size, kSmallest + spec.weights.size() - 1);
+  return std::min(size, kMinGroupSize + spec.weights.size() - 1);
 }
 
 void join(Crowd& crowd, const std::vector<std::size_t>& members) {
@@ -118,8 +118,8 @@ class SocialGroupForces : public VelModifier {
     Eigen::Vector2f wanted = preferred.speed * preferred.direction + kRelaxationS * force;
     // Nobody stops for the group altogether.
     const float along = wanted.dot(preferred.direction);
-    const float least = kLeastProgress * preferred.speed;
-    if (along < least) wanted += (least - along) * preferred.direction;
+    const float min_value = kMinProgress * preferred.speed;
+    if (along < min_value) wanted += (min_value - along) * preferred.direction;
     const float speed = wanted.norm();
     preferred.direction = wanted / speed;
     // Who has fallen behind may hurry a little.
@@ -128,7 +128,7 @@ class SocialGroupForces : public VelModifier {
   }
 
  private:
-  static constexpr float kLeastProgress = 0.3F;  // of the preferred speed, along the path
+  static constexpr float kMinProgress = 0.3F;  // of the preferred speed, along the path
 
   /// Those who are elsewhere, or do something else, are not waited for.
   static bool walks_along(const Agents& agents, std::size_t agent, std::uint32_t member) {
@@ -152,11 +152,11 @@ class SocialGroupForces : public VelModifier {
   static float progress(const Agents& agents, std::size_t agent,
                         const PreferredVelocity& preferred) {
     const float along = preferred.direction.dot(agents.velocity[agent]);
-    return std::clamp(along / (kLeastProgress * preferred.speed), 0.0F, 1.0F);
+    return std::clamp(along / (kMinProgress * preferred.speed), 0.0F, 1.0F);
   }
 
-  /// Towards the group's centre of mass (its own place included), when farther than a group of its
-  /// size is wide: (N - 1) / 2 m. Sets in over some centimetres, so that nobody trembles there.
+  /// Towards the group's center of mass (its own place included), when farther than a group of its
+  /// size is wide: (N - 1) / 2 m. Sets in over some centimeters, so that nobody trembles there.
   Eigen::Vector2f cohesion(const Eigen::Vector2f& place, const Eigen::Vector2f& sum,
                            int others) const {
     const Eigen::Vector2f way = (sum + place) / static_cast<float>(others + 1) - place;
@@ -252,7 +252,7 @@ void form_arriving_groups(const SocialGroupsSpec& spec, std::size_t first,
         members.push_back(members.back() + 1);
       }
       std::fill_n(arrival_s.begin() + static_cast<std::ptrdiff_t>(i), members.size(), arrival_s[i]);
-      if (members.size() >= kSmallest) join(crowd, members);
+      if (members.size() >= kMinGroupSize) join(crowd, members);
     }
     i += members.size();
   }

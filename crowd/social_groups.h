@@ -24,7 +24,7 @@ AttributeTable social_groups_attributes();
 /// Throws InputError.
 SocialGroupsSpec load_social_groups(const Element& element);
 
-/// Puts `share` of the agents first, ..., first + count - 1 into groups of near neighbours with
+/// Puts `share` of the agents first, ..., first + count - 1 into groups of near neighbors with
 /// one start state, and has each group walk as fast as its slowest member would. What is drawn
 /// depends on the seed and the ids only.
 void form_social_groups(const SocialGroupsSpec& spec, std::size_t first, std::size_t count,

@@ -12,7 +12,7 @@ Eigen::Vector2f goal_place(const Crowd& crowd, std::size_t agent, const Eigen::V
 void head_for(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place,
               PreferredVelocity& preferred);
 
-/// Straight to a place and on from there; what lies within a centimetre keeps the direction.
+/// Straight to a place and on from there; what lies within a centimeter keeps the direction.
 void head_through(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place,
                   PreferredVelocity& preferred);
 

@@ -31,14 +31,14 @@ enum Constant : std::size_t {
 /// Forces between discs are integrated with this step, whatever the simulation's step is.
 constexpr float kStepS = 0.02F;
 /// Collisions farther ahead in time are not seen; nearer ones count as if they were this near.
-constexpr float kFarthestS = 8;
-constexpr float kNearestS = 0.02F;
-constexpr float kSlowestSq = 1e-4F;  // m^2/s^2: relative velocities below never collide
-constexpr float kBehind = 0.3F;      // how much counts what is not in view
-constexpr float kView = -0.2F;       // cosine of the edge of the view
-constexpr float kAlongside = 0.7F;   // of the force between two who walk the same way
-constexpr float kMaxForce = 15;      // m/s^2
-constexpr float kSamePlace = 1e-3F;  // m: nearer than that two have no direction
+constexpr float kMaxHorizonS = 8;
+constexpr float kMinTimeS = 0.02F;
+constexpr float kMinRelativeSpeedSq = 1e-4F;  // m^2/s^2: relative velocities below never collide
+constexpr float kBehind = 0.3F;               // how much counts what is not in view
+constexpr float kView = -0.2F;                // cosine of the edge of the view
+constexpr float kAlongside = 0.7F;            // of the force between two who walk the same way
+constexpr float kMaxForce = 15;               // m/s^2
+constexpr float kSamePlace = 1e-3F;           // m: nearer than that two have no direction
 constexpr float kSamePlaceSq = kSamePlace * kSamePlace;
 constexpr float kContact = 100;       // 1/s^2: force per depth of an overlap
 constexpr float kWall = 10;           // m/s^2 at a wall
@@ -84,10 +84,10 @@ Eigen::Vector2f avoidance(const Eigen::Vector2f& offset, float distance,
   const float a = relative.squaredNorm();
   const float b = -offset.dot(relative);
   const float discriminant = b * b - a * (distance * distance - touch * touch);
-  if (a <= kSlowestSq || b <= 0 || discriminant <= 0) return Eigen::Vector2f::Zero();
+  if (a <= kMinRelativeSpeedSq || b <= 0 || discriminant <= 0) return Eigen::Vector2f::Zero();
   const float root = std::sqrt(discriminant);
-  const float t = std::max((b - root) / a, kNearestS);
-  if (t >= kFarthestS) return Eigen::Vector2f::Zero();
+  const float t = std::max((b - root) / a, kMinTimeS);
+  if (t >= kMaxHorizonS) return Eigen::Vector2f::Zero();
   const float slope = strength_m2 * std::exp(-t / horizon_s) / (t * t) * (2 / t + 1 / horizon_s);
   // Discs that would just graze each other have a gradient without limit.
   constexpr float kGrazing = 0.05F;
@@ -103,8 +103,7 @@ class TimeToCollision : public LocalModel {
         perceived_(crowd.agents.count(), 0.0F) {}
 
  protected:
-  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
-                           const Surroundings& around) override {
+  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const AgentView& around) override {
     Seen& seen = seen_.local();
     look(crowd, grid, around, seen);
     const std::size_t id = around.agent;
@@ -126,7 +125,7 @@ class TimeToCollision : public LocalModel {
   void prepare() override { seen_.prepare(); }
 
   /// The others, the walls and the density that the agent minds.
-  void look(const Crowd& crowd, const Grid& grid, const Surroundings& around, Seen& seen) const {
+  void look(const Crowd& crowd, const Grid& grid, const AgentView& around, Seen& seen) const {
     const Agents& agents = crowd.agents;
     const Eigen::Vector2f& position = grid.position(around.slot);
     const Eigen::Vector2f& direction = agents.preferred_direction[around.agent];
@@ -188,7 +187,7 @@ class TimeToCollision : public LocalModel {
 
   /// The nearest velocity that leads into no wall.
   static Eigen::Vector2f kept_off_walls(const Crowd& crowd, const Grid& grid,
-                                        const Surroundings& around, const Eigen::Vector2f& velocity,
+                                        const AgentView& around, const Eigen::Vector2f& velocity,
                                         Seen& seen) {
     constexpr float kHorizon_s = 0.15F;
     const float max_speed = crowd.agents[Property::max_speed][around.agent];
@@ -214,7 +213,7 @@ class TimeToCollision : public LocalModel {
 
   /// Of the free speed: where there is room for one only, speed is at most the gap to the one ahead
   /// by the headway (Seyfried et al. 2005, J. Stat. Mech. P10002).
-  float file_share(const Crowd& crowd, const Grid& grid, const Surroundings& around,
+  float file_share(const Crowd& crowd, const Grid& grid, const AgentView& around,
                    float free_mps) const {
     const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
     if (file <= 0 || free_mps <= 0) return 1;

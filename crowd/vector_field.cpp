@@ -43,9 +43,9 @@ Eigen::Vector2f VectorField::nearest(const Eigen::Vector2f& point) const {
 }
 
 Eigen::Vector2f VectorField::interpolated(const Eigen::Vector2f& point) const {
-  const Eigen::Vector2f centre = cell_of(point).array() - 0.5F;
-  const Eigen::Vector2f corner = centre.array().floor();
-  const Eigen::Vector2f share = centre - corner;
+  const Eigen::Vector2f center = cell_of(point).array() - 0.5F;
+  const Eigen::Vector2f corner = center.array().floor();
+  const Eigen::Vector2f share = center - corner;
   const int row = static_cast<int>(corner.y());
   const int column = static_cast<int>(corner.x());
   const Eigen::Vector2f below = (1 - share.x()) * at(row, column) + share.x() * at(row, column + 1);

@@ -8,7 +8,7 @@
 
 namespace throng::crowd {
 
-/// Vectors at the centres of a grid's cells; outside of the grid, the nearest cell's.
+/// Vectors at the centers of a grid's cells; outside of the grid, the nearest cell's.
 class VectorField {
  public:
   /// Reads Menge's format: rows and columns, cell size, the corner of least x and y, then the

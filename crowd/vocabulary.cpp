@@ -50,9 +50,9 @@ std::string type_of(const AttributeSpec& spec) {
 
 /// Limits that only keep numbers sane are not worth saying.
 std::string range_of(double min, double max) {
-  if (min <= -kFarthest && max >= kFarthest) return {};
-  if (max >= kFarthest) return fmt::format("at least {:g}", min);
-  if (min <= -kFarthest) return fmt::format("at most {:g}", max);
+  if (min <= -kMaxCoordinate && max >= kMaxCoordinate) return {};
+  if (max >= kMaxCoordinate) return fmt::format("at least {:g}", min);
+  if (min <= -kMaxCoordinate) return fmt::format("at most {:g}", max);
   return fmt::format("{:g} to {:g}", min, max);
 }
 

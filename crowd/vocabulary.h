@@ -29,7 +29,7 @@ struct VocabularyKind {
   std::vector<VocabularyEntry> entries;
 };
 
-/// In the order of the files: project, scene, behaviour.
+/// In the order of the files: project, scene, behavior.
 std::vector<VocabularyKind> vocabulary();
 
 }  // namespace throng::crowd

@@ -7,7 +7,7 @@ namespace throng::crowd {
 
 namespace {
 
-/// The columns whose centres lie between two x, within the grid.
+/// The columns whose centers lie between two x, within the grid.
 struct Columns {
   int begin = 0;
   int end = 0;
@@ -21,7 +21,7 @@ Columns columns_between(const WalkableGrid& grid, float low_x, float high_x) {
   return {std::max(0, column(low_x)), std::min(grid.columns, column(high_x) + 1)};
 }
 
-/// The last row whose centre is not above y; -1 when all are.
+/// The last row whose center is not above y; -1 when all are.
 int row_below(const WalkableGrid& grid, float y) {
   const float at = (y - grid.box.min.y()) / grid.cell_m - 0.5F;
   return static_cast<int>(std::floor(std::clamp(at, -1.0F, static_cast<float>(grid.rows))));
@@ -34,7 +34,7 @@ void block_beside_wall(const Segment& wall, float clearance, WalkableGrid& grid)
   const int last = std::min(grid.rows - 1, row_below(grid, high.y() + clearance) + 1);
   for (int row = first; row <= last; ++row) {
     // Only the part of the wall that is near this row matters.
-    const float y = grid.centre(0, row).y();
+    const float y = grid.center(0, row).y();
     const float height = high.y() - low.y();
     const auto x_at = [&](float at_y) {
       const float t = height > 0 ? std::clamp((at_y - low.y()) / height, 0.0F, 1.0F) : 0;
@@ -45,9 +45,9 @@ void block_beside_wall(const Segment& wall, float clearance, WalkableGrid& grid)
     const Columns columns =
         columns_between(grid, std::min(a, b) - clearance, std::max(a, b) + clearance);
     for (int column = columns.begin; column < columns.end; ++column) {
-      const Eigen::Vector2f centre = grid.centre(column, row);
+      const Eigen::Vector2f center = grid.center(column, row);
       const float distance_sq =
-          (nearest_on_segment(wall.begin, wall.end, centre) - centre).squaredNorm();
+          (nearest_on_segment(wall.begin, wall.end, center) - center).squaredNorm();
       if (distance_sq < clearance * clearance) grid.walkable[grid.index(column, row)] = 0;
     }
   }
@@ -64,7 +64,7 @@ void block_inside(const Obstacles& obstacles, const Polygon& polygon, WalkableGr
   const int first = std::max(0, row_below(grid, low_y));
   const int last = std::min(grid.rows - 1, row_below(grid, high_y) + 1);
   for (int row = first; row <= last; ++row) {
-    const float y = grid.centre(0, row).y();
+    const float y = grid.center(0, row).y();
     crossings.clear();
     for (int i = polygon.first; i < polygon.first + polygon.count; ++i) {
       const Eigen::Vector2f& a = obstacles.segments()[i].begin;
@@ -76,7 +76,7 @@ void block_inside(const Obstacles& obstacles, const Polygon& polygon, WalkableGr
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
       const Columns columns = columns_between(grid, crossings[i], crossings[i + 1]);
       for (int column = columns.begin; column < columns.end; ++column) {
-        const float x = grid.centre(column, row).x();
+        const float x = grid.center(column, row).x();
         if (x >= crossings[i] && x <= crossings[i + 1]) {
           grid.walkable[grid.index(column, row)] = 0;
         }

@@ -19,13 +19,13 @@ struct WalkableGrid {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
            static_cast<std::size_t>(column);
   }
-  Eigen::Vector2f centre(int column, int row) const {
+  Eigen::Vector2f center(int column, int row) const {
     return box.min + cell_m * Eigen::Vector2f(static_cast<float>(column) + 0.5F,
                                               static_cast<float>(row) + 0.5F);
   }
 };
 
-/// The cells of `box` whose centres are outside of the solid polygons of these classes and at least
+/// The cells of `box` whose centers are outside of the solid polygons of these classes and at least
 /// `clearance` away from all of their walls. The box grows to whole cells.
 WalkableGrid mark_walkable(const Obstacles& obstacles, std::uint32_t class_mask, const Box& box,
                            float cell_m, float clearance);

@@ -15,7 +15,7 @@ namespace throng::crowd {
 
 namespace {
 
-constexpr int kMostCorners = 6;  // of a polygon
+constexpr int kMaxCorners = 6;  // of a polygon
 
 template <typename Part, void (*kFree)(Part*)>
 struct Free {
@@ -80,7 +80,7 @@ Polygons make_polygons(const WalkableGrid& grid, float radius) {
   rcContext quiet(false);
   const Field field = make_field(grid);
   const float cells = 2 * radius / grid.cell_m;
-  constexpr int kMergeBelow = 400;  // cells; small neighbours become one
+  constexpr int kMergeBelow = 400;  // cells; small neighbors become one
   constexpr float kCoarsest = 1;    // how far outlines may be off, in cells
   Contours contours(rcAllocContourSet());
   Polygons polygons(rcAllocPolyMesh());
@@ -88,7 +88,7 @@ Polygons make_polygons(const WalkableGrid& grid, float radius) {
       rcBuildDistanceField(&quiet, *field) &&
       rcBuildRegions(&quiet, *field, 0, static_cast<int>(cells * cells), kMergeBelow) &&
       rcBuildContours(&quiet, *field, kCoarsest, 0, *contours, 0) &&
-      rcBuildPolyMesh(&quiet, *contours, kMostCorners, *polygons);
+      rcBuildPolyMesh(&quiet, *contours, kMaxCorners, *polygons);
   if (!done) polygons.reset();
   return polygons;
 }
@@ -97,15 +97,15 @@ Polygons make_polygons(const WalkableGrid& grid, float radius) {
 int add_rectangle(const Box& box, std::vector<NavPolygon>& mesh) {
   NavPolygon polygon;
   polygon.corners = {box.min, {box.max.x(), box.min.y()}, box.max, {box.min.x(), box.max.y()}};
-  polygon.centre = box.centre();
+  polygon.center = box.center();
   mesh.push_back(std::move(polygon));
   return static_cast<int>(mesh.size()) - 1;
 }
 
 void add_portal(int from, int to, const Eigen::Vector2f& a, const Eigen::Vector2f& b,
                 std::vector<NavPolygon>& mesh) {
-  const Eigen::Vector2f& centre = mesh[static_cast<std::size_t>(from)].centre;
-  const bool a_is_left = cross(b - centre, a - centre) > 0;
+  const Eigen::Vector2f& center = mesh[static_cast<std::size_t>(from)].center;
+  const bool a_is_left = cross(b - center, a - center) > 0;
   mesh[static_cast<std::size_t>(from)].portals.push_back(
       {to, a_is_left ? a : b, a_is_left ? b : a});
 }
@@ -118,12 +118,12 @@ void connect(int one, int other, const Eigen::Vector2f& a, const Eigen::Vector2f
 
 /// The open ground around the grid, in eight rectangles: [column][row], the middle one being the
 /// grid itself.
-using Surroundings = std::array<std::array<int, 3>, 3>;
+using AgentView = std::array<std::array<int, 3>, 3>;
 
-Surroundings add_surroundings(const Box& inner, const Box& outer, std::vector<NavPolygon>& mesh) {
+AgentView add_surroundings(const Box& inner, const Box& outer, std::vector<NavPolygon>& mesh) {
   const std::array<float, 4> x = {outer.min.x(), inner.min.x(), inner.max.x(), outer.max.x()};
   const std::array<float, 4> y = {outer.min.y(), inner.min.y(), inner.max.y(), outer.max.y()};
-  Surroundings around{};
+  AgentView around{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       const bool is_grid = i == 1 && j == 1;
@@ -143,7 +143,7 @@ Surroundings add_surroundings(const Box& inner, const Box& outer, std::vector<Na
 }
 
 /// The rectangle beside the grid that an edge of the grid's polygons lies on; -1 if on none.
-int beside(const Surroundings& around, const WalkableGrid& grid, const unsigned short* a,
+int beside(const AgentView& around, const WalkableGrid& grid, const unsigned short* a,
            const unsigned short* b) {
   if (a[0] == 0 && b[0] == 0) return around[0][1];
   if (a[0] == grid.columns && b[0] == grid.columns) return around[2][1];
@@ -154,12 +154,12 @@ int beside(const Surroundings& around, const WalkableGrid& grid, const unsigned 
 
 NavMesh join_polygons(const rcPolyMesh& polygons, const WalkableGrid& grid, const Box& outer) {
   std::vector<NavPolygon> mesh(static_cast<std::size_t>(polygons.npolys));
-  const Surroundings around = add_surroundings(grid.box, outer, mesh);
+  const AgentView around = add_surroundings(grid.box, outer, mesh);
   for (int i = 0; i < polygons.npolys; ++i) {
-    const unsigned short* corners = polygons.polys + std::ptrdiff_t{2} * kMostCorners * i;
-    const unsigned short* neighbors = corners + kMostCorners;
+    const unsigned short* corners = polygons.polys + std::ptrdiff_t{2} * kMaxCorners * i;
+    const unsigned short* neighbors = corners + kMaxCorners;
     int count = 0;
-    while (count < kMostCorners && corners[count] != RC_MESH_NULL_IDX) ++count;
+    while (count < kMaxCorners && corners[count] != RC_MESH_NULL_IDX) ++count;
     const auto raw = [&](int corner) {
       return polygons.verts + std::ptrdiff_t{3} * corners[corner % count];
     };
@@ -172,7 +172,7 @@ NavMesh join_polygons(const rcPolyMesh& polygons, const WalkableGrid& grid, cons
     float area = 0;
     for (int c = 0; c < count; ++c) {
       polygon.corners.push_back(place(c));
-      polygon.centre += place(c) / static_cast<float>(count);
+      polygon.center += place(c) / static_cast<float>(count);
       area += cross(place(c) - place(0), place(c + 1) - place(0));
     }
     if (area < 0) std::reverse(polygon.corners.begin(), polygon.corners.end());
@@ -202,8 +202,8 @@ NavMesh make_walkable_mesh(const Obstacles& obstacles, std::uint32_t class_mask,
   }
   if (!any) return NavMesh(std::vector<NavPolygon>());
 
-  constexpr float kMostCells = 4e6F;
-  constexpr float kLongestSide = 6e4F;  // cells; Recast counts in 16 bits
+  constexpr float kMaxCells = 4e6F;
+  constexpr float kMaxSide = 6e4F;  // cells; Recast counts in 16 bits
   float cell = options.cell_m.value_or(radius / 3);
   for (;;) {
     // A wall without thickness has to block a row of cells all along, even a slanting one.
@@ -212,7 +212,7 @@ NavMesh make_walkable_mesh(const Obstacles& obstacles, std::uint32_t class_mask,
     const Box grown{box.min.array() - margin, box.max.array() + margin};
     const Eigen::Vector2f size = grown.max - grown.min;
     const float fewest =
-        std::max(std::sqrt(size.x() * size.y() / kMostCells), size.maxCoeff() / kLongestSide);
+        std::max(std::sqrt(size.x() * size.y() / kMaxCells), size.maxCoeff() / kMaxSide);
     if (cell < fewest) {
       cell = 1.01F * fewest;
       continue;

@@ -15,8 +15,8 @@ struct WalkableMeshOptions {
 };
 
 /// Where a disc of this radius can walk among the obstacles of these classes, as convex polygons
-/// for its centre: their outlines are the obstacles' grown by the radius, exact to about a cell.
-/// The mesh also covers the open ground around, to some hundred metres beyond the obstacles and
+/// for its center: their outlines are the obstacles' grown by the radius, exact to about a cell.
+/// The mesh also covers the open ground around, to some hundred meters beyond the obstacles and
 /// `everyone`. Cells grow where millions would be needed. The polygons are made with Recast
 /// (Mononen), from a grid on which each obstacle is drawn with its margin. Empty when nothing is
 /// in the way, or everything is.

@@ -67,8 +67,7 @@ class Zanlungo : public LocalModel {
   explicit Zanlungo(const Crowd& crowd) : LocalModel(crowd), constants_(crowd.model_constants) {}
 
  protected:
-  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
-                           const Surroundings& around) override {
+  Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid, const AgentView& around) override {
     const Walker self(crowd, grid, around.slot);
     const float inertia = crowd.agents.model_parameters[mass][self.id];
     Eigen::Vector2f force =
@@ -104,14 +103,14 @@ class Zanlungo : public LocalModel {
       }
     }
 
-    Apart apart;
+    Separation apart;
     Eigen::Vector2f velocity;  // relative, of oneself, m/s
     float radius;              // sum of both, m
     float weight = 1;
   };
 
-  static std::optional<float> foresee(const Crowd& crowd, const Grid& grid,
-                                      const Surroundings& around, const Walker& self) {
+  static std::optional<float> foresee(const Crowd& crowd, const Grid& grid, const AgentView& around,
+                                      const Walker& self) {
     Foresight foresight;
     for (const Grid::Neighbor& neighbor : around.neighbors) {
       const Encounter encounter(crowd, grid, self, neighbor.slot);
@@ -124,7 +123,7 @@ class Zanlungo : public LocalModel {
   }
 
   Eigen::Vector2f push(const Encounter& encounter, float time_s) const {
-    const Apart& apart = encounter.apart;
+    const Separation& apart = encounter.apart;
     const bool approaching = apart.offset.dot(encounter.velocity) < 0 || apart.distance == 0;
     if (!approaching) return Eigen::Vector2f::Zero();
     const Eigen::Vector2f later = apart.offset + time_s * encounter.velocity;
@@ -137,11 +136,11 @@ class Zanlungo : public LocalModel {
   }
 
   Eigen::Vector2f push(const Walker& self, const Segment& wall, float time_s) const {
-    const Apart apart(self, wall);
+    const Separation apart(self, wall);
     if (apart.offset.dot(self.velocity) >= 0) return Eigen::Vector2f::Zero();
     Walker later = self;
     later.position += time_s * self.velocity;
-    const Apart then(later, wall);
+    const Separation then(later, wall);
     return strength(constants_[obstacle_scale], self.velocity.norm(), time_s,
                     then.distance - self.radius) *
            then.away;

@@ -15,11 +15,11 @@ namespace {
 
 constexpr int kCardVersion = 1;
 /// Of the characters that set-up bakes; own ones that were imported have their own.
-constexpr const char* kPeopleLicence =
+constexpr const char* kPeopleLicense =
     "CC0-1.0 for those that throng people build makes; see NOTICE.txt beside the baked people";
 
 /// Grounds, walls, sky and props are drawn from formulas.
-constexpr const char* kPlaceLicence =
+constexpr const char* kPlaceLicense =
     "no third party's: textures and shapes are computed; mesh files of a scenario have their own";
 
 /// "00016-00032": the class of a value between two borders, in names that sort.
@@ -114,7 +114,7 @@ void DatasetCard::add(const Image& image) {
   constexpr double kTruncated = 0.005;
   ++images_;
   people_ += static_cast<std::int64_t>(image.people.size());
-  most_in_image_ = std::max(most_in_image_, static_cast<std::int64_t>(image.people.size()));
+  max_in_image_ = std::max(max_in_image_, static_cast<std::int64_t>(image.people.size()));
   ++by_count_[band_of(static_cast<double>(image.people.size()), kCounts)];
   ++by_light_[light_of(image.record)];
   ++by_weather_[weather_of(image.record)];
@@ -133,7 +133,7 @@ json DatasetCard::statistics() const {
   return {{"images", images_},
           {"annotations", people_},
           {"annotations_of_drones", drones_},
-          {"most_people_in_an_image", most_in_image_},
+          {"most_people_in_an_image", max_in_image_},
           {"truncated", truncated_},
           {"fail_the_filters", ignored_},
           {"annotations_by_height_px", by_height_},
@@ -186,7 +186,7 @@ json DatasetCard::description() const {
         {"world", "right-handed, metres, z up, the ground is z = 0"},
         {"camera", "x right, y down, z forward"},
         {"time", "seconds since the run began; label and picture are of the same instant"}}},
-      {"licence", {{"people", kPeopleLicence}, {"place", kPlaceLicence}}},
+      {"licence", {{"people", kPeopleLicense}, {"place", kPlaceLicense}}},
       {"people", manifest_.value("people", json::object())},
       {"job", manifest_.at("job")}};
 }
@@ -213,7 +213,7 @@ std::string DatasetCard::readme() const {
   text += fmt::format(
       "\n## Splits\n\nWhole runs: {}.\n\n## Licence\n\nThe people that are drawn: {}. Everything "
       "else is made by {}.\n",
-      card.at("splits").dump(), kPeopleLicence, info_.generator);
+      card.at("splits").dump(), kPeopleLicense, info_.generator);
   return text;
 }
 

@@ -32,7 +32,7 @@ class DatasetCard : public Exporter {
   std::int64_t drones_ = 0;
   std::int64_t truncated_ = 0;
   std::int64_t ignored_ = 0;
-  std::int64_t most_in_image_ = 0;
+  std::int64_t max_in_image_ = 0;
   std::map<std::string, std::int64_t> by_height_;
   std::map<std::string, std::int64_t> by_visibility_;
   std::map<std::string, std::int64_t> by_count_;  ///< images by people in them

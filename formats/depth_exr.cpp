@@ -1,4 +1,4 @@
-// Depth as OpenEXR: one float channel in metres, infinity where nothing is. Scan lines without
+// Depth as OpenEXR: one float channel in meters, infinity where nothing is. Scan lines without
 // compression (OpenEXR file layout, Academy Software Foundation): a header of attributes, a table
 // of the lines' places, the lines.
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace throng::formats {
 
 namespace {
 
-constexpr float kMetresPerUnit = 0.01F;
+constexpr float kMetersPerUnit = 0.01F;
 /// Luminance: of single channels, the one that OpenCV reads. It ignores one named Z.
 constexpr std::string_view kChannel = "Y";
 
@@ -90,7 +90,7 @@ std::string exr_bytes(const Raster& depth) {
     file.add(line_bytes);
     for (int x = 0; x < depth.width; ++x, ++sample) {
       file.add(*sample == 0 ? std::numeric_limits<float>::infinity()
-                            : kMetresPerUnit * static_cast<float>(*sample));
+                            : kMetersPerUnit * static_cast<float>(*sample));
     }
   }
   return std::move(file.text());

@@ -21,7 +21,7 @@ class Findings {
   explicit Findings(Validation& validation) : validation_(&validation) {}
 
   void add(std::string rule, std::string file, std::string record, std::string what) {
-    if (validation_->found++ >= kMostFindings) return;
+    if (validation_->found++ >= kMaxFindings) return;
     validation_->findings.push_back(
         {std::move(rule), std::move(file), std::move(record), std::move(what)});
   }
@@ -54,7 +54,7 @@ void check_bodies(const Image& image, Findings& findings);
 /// compared byte by byte; of a dataset that this version of the program wrote.
 void check_exports(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
 
-/// R is a rotation, and the centre is where R and t put it.
+/// R is a rotation, and the center is where R and t put it.
 void check_camera(const Image& image, Findings& findings);
 
 /// The run's calibration files against the image's lens.
@@ -67,7 +67,7 @@ void check_density_is_heads(const Image& image, const std::string& path, const F
 /// Depth where the ground shows against where the plane z = 0 is; of a plain image.
 void check_ground_depth(const Image& image, const std::string& path,
                         const std::vector<std::uint32_t>& ids,
-                        const std::vector<std::uint16_t>& centimetres, Findings& findings);
+                        const std::vector<std::uint16_t>& centimeters, Findings& findings);
 
 /// Boxes, tracks and who is ignored in other formats' texts below formats/, as far as they have
 /// them as lines of numbers: YOLO, MOT and VisDrone.

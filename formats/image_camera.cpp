@@ -32,11 +32,11 @@ camera::Camera camera_of(const Image& image) {
 }
 
 double pixels_across(const camera::Camera& camera, const Eigen::Vector3d& world, double size_m) {
-  constexpr double kNearestM = 0.1;
+  constexpr double kMinDistanceM = 0.1;
   const camera::Intrinsics& k = camera.intrinsics;
   const Eigen::Vector3d p = camera.pose.R * world + camera.pose.t;
-  const double pinhole_px = size_m * k.fx_px / std::max(p.z(), kNearestM);
-  if (!k.distortion || p.z() < kNearestM) return pinhole_px;
+  const double pinhole_px = size_m * k.fx_px / std::max(p.z(), kMinDistanceM);
+  if (!k.distortion || p.z() < kMinDistanceM) return pinhole_px;
   const Eigen::Vector3d side = p.unitOrthogonal();
   double sum_px = 0;
   for (const Eigen::Vector3d& across : {side, Eigen::Vector3d(p.normalized().cross(side))}) {

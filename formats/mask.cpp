@@ -19,7 +19,7 @@ namespace {
 
 std::vector<std::uint32_t> runs_of(std::string_view counts, std::uint64_t pixels) {
   constexpr int kBits = 5;
-  constexpr int kMostShift = 40;
+  constexpr int kMaxShift = 40;
   std::vector<std::uint32_t> runs;
   std::uint64_t sum = 0;
   for (std::size_t at = 0; at < counts.size();) {
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> runs_of(std::string_view counts, std::uint64_t pixels
     int shift = 0;
     std::int64_t group = 0;
     do {
-      if (at == counts.size() || shift > kMostShift) refuse_counts(counts, "whole numbers");
+      if (at == counts.size() || shift > kMaxShift) refuse_counts(counts, "whole numbers");
       group = static_cast<unsigned char>(counts[at++]) - 48;
       if (group < 0 || group > 63) refuse_counts(counts, "characters from '0' to 'o'");
       value |= (group & 0x1f) << shift;

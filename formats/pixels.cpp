@@ -25,9 +25,9 @@ bool decode(const std::string& bytes, int& width, int& height, std::vector<std::
   thread_local const Codec decoder(tjInitDecompress(), &tjDestroy);
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   int subsampling = 0;
-  int colours = 0;
+  int colors = 0;
   if (tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height, &subsampling,
-                          &colours) != 0) {
+                          &colors) != 0) {
     return false;
   }
   rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -53,11 +53,11 @@ std::string quantization_of(const std::string& bytes) {
 std::string quantization_of_quality(int quality) {
   const Codec encoder(tjInitCompress(), &tjDestroy);
   constexpr int kSide = 16;
-  const std::array<unsigned char, std::size_t{3} * kSide * kSide> grey{};
+  const std::array<unsigned char, std::size_t{3} * kSide * kSide> gray{};
   unsigned char* made = nullptr;
   unsigned long size = 0;
   std::string tables;
-  if (tjCompress2(encoder.get(), grey.data(), kSide, 0, kSide, TJPF_RGB, &made, &size, TJSAMP_420,
+  if (tjCompress2(encoder.get(), gray.data(), kSide, 0, kSide, TJPF_RGB, &made, &size, TJSAMP_420,
                   quality, 0) == 0) {
     tables = quantization_of({reinterpret_cast<const char*>(made), size});
   }

@@ -23,7 +23,7 @@ namespace {
 enum class Kernel : std::uint8_t { fixed, adaptive, perspective };
 
 constexpr double kFixedSigmaPx = 4;
-constexpr double kLeastSigmaPx = 0.5;
+constexpr double kMinSigmaPx = 0.5;
 
 struct Heads {
   std::vector<Eigen::Vector2d> place;  ///< box coordinates, inside the image
@@ -46,7 +46,7 @@ Heads heads_of(const Image& image) {
 /// alone, a quarter of the image's mean side.
 std::vector<double> adaptive_sigmas(const Heads& heads, const Image& image) {
   constexpr double kBeta = 0.3;
-  constexpr std::size_t kNeighbours = 3;
+  constexpr std::size_t kNeighbors = 3;
   std::vector<double> sigmas;
   std::vector<double> distances;
   for (const Eigen::Vector2d& head : heads.place) {
@@ -54,7 +54,7 @@ std::vector<double> adaptive_sigmas(const Heads& heads, const Image& image) {
     for (const Eigen::Vector2d& other : heads.place) {
       if (&other != &head) distances.push_back((other - head).norm());
     }
-    const std::size_t count = std::min(kNeighbours, distances.size());
+    const std::size_t count = std::min(kNeighbors, distances.size());
     std::partial_sort(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(count),
                       distances.end());
     double sum = 0;
@@ -65,7 +65,7 @@ std::vector<double> adaptive_sigmas(const Heads& heads, const Image& image) {
   return sigmas;
 }
 
-/// 0.2 m at the head's distance (Zhang et al., 2015: 0.2 times the pixels of a metre).
+/// 0.2 m at the head's distance (Zhang et al., 2015: 0.2 times the pixels of a meter).
 std::vector<double> perspective_sigmas(const Heads& heads, const Image& image) {
   constexpr double kSigma_m = 0.2;
   const camera::Camera camera = camera_of(image);
@@ -81,7 +81,7 @@ std::vector<double> sigmas_of(Kernel kernel, const Heads& heads, const Image& im
   std::vector<double> sigmas(heads.place.size(), kFixedSigmaPx);
   if (kernel == Kernel::adaptive) sigmas = adaptive_sigmas(heads, image);
   if (kernel == Kernel::perspective) sigmas = perspective_sigmas(heads, image);
-  for (double& sigma : sigmas) sigma = std::max(sigma, kLeastSigmaPx);
+  for (double& sigma : sigmas) sigma = std::max(sigma, kMinSigmaPx);
   return sigmas;
 }
 

@@ -207,8 +207,8 @@ std::vector<PixelPlace> polygon_of(const Bitmap& mask) {
   std::vector<Piece> pieces = pieces_of(mask);
   if (pieces.empty()) return {};
   Places polygon = straightened(joined(std::move(pieces)));
-  constexpr std::size_t kLeastPoints = 3;  // of a polygon: fewer are taken for a box
-  while (polygon.size() < kLeastPoints) polygon.push_back(polygon.back());
+  constexpr std::size_t kMinPoints = 3;  // of a polygon: fewer are taken for a box
+  while (polygon.size() < kMinPoints) polygon.push_back(polygon.back());
   return polygon;
 }
 

@@ -11,12 +11,12 @@ namespace throng::formats {
 struct Raster {
   int width = 0;
   int height = 0;
-  int channels = 0;  ///< 1 (grey) or 3 (RGB)
+  int channels = 0;  ///< 1 (gray) or 3 (RGB)
   int bits = 0;      ///< 8 or 16
   std::vector<std::uint16_t> samples;
 };
 
-/// Throws InputError when the file is not there or is no grey or RGB PNG of 8 or 16 bits.
+/// Throws InputError when the file is not there or is no gray or RGB PNG of 8 or 16 bits.
 Raster read_raster(const std::filesystem::path& path);
 
 /// One number per pixel of a picture of instances: red + 256 * green + 65536 * blue. Throws like

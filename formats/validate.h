@@ -17,13 +17,13 @@ struct Finding {
 };
 
 struct Validation {
-  std::vector<Finding> findings;  ///< in the order of the files; the first kMostFindings
+  std::vector<Finding> findings;  ///< in the order of the files; the first kMaxFindings
   std::size_t found = 0;          ///< all of them
   std::size_t images = 0;
   std::size_t annotations = 0;
 };
 
-inline constexpr std::size_t kMostFindings = 100;
+inline constexpr std::size_t kMaxFindings = 100;
 
 /// Reads all of the dataset once. Memory does not grow with its pictures, but for the lists of its
 /// files and ids. Throws InputError when it is no finished dataset at all.

@@ -21,10 +21,10 @@ namespace {
 constexpr int kReachPx = 7;
 constexpr int kSide = 2 * kReachPx + 1;
 constexpr int kNearPx = 1;  ///< a maximum so near is where it should be
-constexpr std::size_t kMostBorders = 6000;
-constexpr std::size_t kFewestBorders = 150;
+constexpr std::size_t kMaxBorders = 6000;
+constexpr std::size_t kMinBorders = 150;
 /// Sound pictures reach 4 to 30, any others stay below 2 (tests/formats/validate_damages.py).
-constexpr double kLeastScore = 2.5;
+constexpr double kMinScore = 2.5;
 constexpr double kTellingScore = 5;
 
 /// A border between two pixels: its left upper one, and whether the other lies to the right.
@@ -48,8 +48,8 @@ class Differences {
     double sum = 0;
     for (int c = 0; c < 3; ++c) sum += std::abs(static_cast<double>(a[c]) - b[c]);
     // Strong edges of something else must not decide alone.
-    constexpr double kMost = 60;
-    return std::min(sum, kMost);
+    constexpr double kMaxSum = 60;
+    return std::min(sum, kMaxSum);
   }
 
  private:
@@ -88,9 +88,9 @@ std::vector<Border> borders_of(const Shot& shot, const std::vector<std::uint32_t
       add(x, y, false);
     }
   }
-  if (borders.size() <= kMostBorders) return borders;
+  if (borders.size() <= kMaxBorders) return borders;
   std::vector<Border> some;
-  const std::size_t step = borders.size() / kMostBorders + 1;
+  const std::size_t step = borders.size() / kMaxBorders + 1;
   for (std::size_t i = 0; i < borders.size(); i += step) some.push_back(borders[i]);
   return some;
 }
@@ -160,7 +160,7 @@ void AlignmentCheck::add(const Shot& shot) {
   const std::vector<std::uint32_t> labels = labels_of(shot);
   for (const bool of_people : {true, false}) {
     const std::vector<Border> borders = borders_of(shot, labels, of_people);
-    if (borders.size() < kFewestBorders) continue;
+    if (borders.size() < kMinBorders) continue;
     const Alignment found = align(shot, borders);
     scores_[{shot.image.run, shot.image.camera, of_people}].push_back(
         {shot.image.file, shot.record(), found.score(), found.best_score(), found.best_x,
@@ -179,7 +179,7 @@ void AlignmentCheck::finish(Findings& findings) const {
       if (!others_tell && !score.can_tell) continue;
       const int away = std::max(std::abs(score.best_x), std::abs(score.best_y));
       const bool is_elsewhere = away > kNearPx && score.best > 1.1 * score.here;
-      if (!is_elsewhere && score.here >= kLeastScore) continue;
+      if (!is_elsewhere && score.here >= kMinScore) continue;
       findings.add("picture-is-labels", score.file, score.record,
                    fmt::format("the outlines of {} have no edges in the picture: {:.1f} standard "
                                "deviations above other places, best {:.1f} at ({}, {}) px",

@@ -17,7 +17,7 @@ namespace {
 /// Outlines of masks are pixels whose middles are inside; thin ends of limbs have none.
 constexpr double kOutlineSlackPx = 2.5;
 
-double farthest_m(const Shot& shot, const Person& person) {
+double max_distance_m(const Shot& shot, const Person& person) {
   return corners_in_camera(shot.image, person).row(2).maxCoeff();
 }
 
@@ -34,13 +34,14 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
   const std::array<double, 4> off = {whole.x - box.x, whole.y - box.y,
                                      box.x + box.width - (whole.x + whole.width),
                                      box.y + box.height - (whole.y + whole.height)};
-  const double most = *std::max_element(off.begin(), off.end());
+  const double max_value = *std::max_element(off.begin(), off.end());
   // Small bodies lose whole limbs between the pixels.
-  constexpr std::uint64_t kFewestPixels = 60;
+  constexpr std::uint64_t kMinPixels = 60;
   const double slack_px = kOutlineSlackPx + 0.05 * std::max(box.width, box.height);
-  if (is_inside && whole.area() >= kFewestPixels && most > slack_px) {
-    findings.add("amodal-mask-fills-box", person,
-                 fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", most));
+  if (is_inside && whole.area() >= kMinPixels && max_value > slack_px) {
+    findings.add(
+        "amodal-mask-fills-box", person,
+        fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", max_value));
     return;
   }
   // Joints are inside of the body.
@@ -56,14 +57,14 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
     outside += is_on ? 0 : 1;
   }
   constexpr std::uint64_t kLargePixels = 200;
-  constexpr int kMostOutside = 3;  // thin limbs between the pixels
-  if (whole.area() >= kLargePixels && outside > kMostOutside) {
+  constexpr int kMaxOutside = 3;  // thin limbs between the pixels
+  if (whole.area() >= kLargePixels && outside > kMaxOutside) {
     findings.add("amodal-mask-fills-box", person,
                  fmt::format("{} keypoints are outside of amodal_segmentation", outside));
     return;
   }
   if (pixels.ids.empty() || pixels.depth_cm.empty()) return;
-  const double far_m = farthest_m(shot, person) + 0.1 + (shot.at_once ? 0 : 1);
+  const double far_m = max_distance_m(shot, person) + 0.1 + (shot.at_once ? 0 : 1);
   const std::uint32_t own = instance_of(person);
   std::size_t hidden = 0;
   std::size_t open = 0;
@@ -115,10 +116,10 @@ void check_box_is_tight(const Shot& shot, const Person& person, Findings& findin
 /// The head is seen near the upper end of an upright body, and among its keypoints.
 void check_head(const Shot& shot, const Person& person, Findings& findings) {
   if (!person.head || !shot.at_once) return;
-  const Eigen::Vector3d centre = shot.camera.pose.center();
+  const Eigen::Vector3d center = shot.camera.pose.center();
   const Eigen::Vector3d at = shot.camera.unproject(Eigen::Vector2d(person.head->array() - 0.5), 1);
   if (!at.allFinite()) return;
-  const Eigen::ParametrizedLine<double, 3> ray(centre, (at - centre).normalized());
+  const Eigen::ParametrizedLine<double, 3> ray(center, (at - center).normalized());
   Eigen::Vector3d expected = person.box_middle;
   double slack_m = 0.5;
   const auto keypoints = person.record.find("keypoints_3d");
@@ -137,7 +138,7 @@ void check_head(const Shot& shot, const Person& person, Findings& findings) {
     constexpr double kHeadShare = 0.42;                               // above the middle
     expected.z() += kHeadShare * height;
   }
-  const double depth_m = (centre - expected).norm();
+  const double depth_m = (center - expected).norm();
   const double off = ray.distance(expected);
   if (off <= slack_m + 0.01 * depth_m / shot.image.camera_matrix(0, 0)) return;
   findings.add("head", person,

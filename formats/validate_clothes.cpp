@@ -78,16 +78,16 @@ void ClothesCheck::finish(Findings& findings) const {
     std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pairs;  // label, picture
     Eigen::Vector2d mean_label = Eigen::Vector2d::Zero();
     Eigen::Vector2d mean_picture = Eigen::Vector2d::Zero();
-    constexpr std::size_t kFewestPixels = 60;
+    constexpr std::size_t kMinPixels = 60;
     for (const auto& [track, shirt] : shirts) {
-      if (shirt.pixels < kFewestPixels || !shirt.label) continue;
+      if (shirt.pixels < kMinPixels || !shirt.label) continue;
       pairs.emplace_back(chroma_of(*shirt.label),
                          chroma_of(shirt.sum / static_cast<double>(shirt.pixels)));
       mean_label += pairs.back().first;
       mean_picture += pairs.back().second;
     }
-    constexpr std::size_t kFewestPeople = 15;
-    if (pairs.size() < kFewestPeople) continue;
+    constexpr std::size_t kMinPeople = 15;
+    if (pairs.size() < kMinPeople) continue;
     const auto count = static_cast<double>(pairs.size());
     double both = 0;
     double labels = 0;
@@ -100,10 +100,10 @@ void ClothesCheck::finish(Findings& findings) const {
       pictures += b.squaredNorm();
     }
     const double correlation = both / std::max(1e-9, std::sqrt(labels * pictures));
-    // Grey shirts, and pictures without color by night, say nothing.
+    // Gray shirts, and pictures without color by night, say nothing.
     constexpr double kColorful = 0.4;
-    constexpr double kLeastCorrelation = 0.35;
-    if (std::sqrt(labels / count) < kColorful || correlation >= kLeastCorrelation) continue;
+    constexpr double kMinCorrelation = 0.35;
+    if (std::sqrt(labels / count) < kColorful || correlation >= kMinCorrelation) continue;
     findings.add("colors-are-clothes", kCocoFile, run,
                  fmt::format("top_colour of {} people and the colors of their torsos in the "
                              "pictures have a correlation of {:.2f}",

@@ -141,12 +141,12 @@ void ConstancyCheck::check_person(const Person& person, Findings& findings) {
       findings.add("state", person,
                    fmt::format("{} at {:.2f} m/s, {}", person.state, speed, wrong));
     }
-    const std::string behaviour = person.record.value("behaviour", "");
-    const bool follows = contains_follow(behaviour);
+    const std::string behavior = person.record.value("behaviour", "");
+    const bool follows = contains_follow(behavior);
     if ((person.state == "following" && !follows) ||
         (follows && (person.state == "walking" || person.state == "running"))) {
       findings.add("state", person,
-                   fmt::format("{} with behaviour \"{}\"", person.state, behaviour));
+                   fmt::format("{} with behaviour \"{}\"", person.state, behavior));
     }
   }
   const auto keypoints = person.record.find("keypoints_3d");

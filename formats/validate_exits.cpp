@@ -45,10 +45,10 @@ double common_ratio(std::vector<double> ratios) {
 std::optional<Vector2d> on_ground(const camera::Camera& camera, const json& point) {
   const Vector2d pixel(point.at(0).get<double>() - 0.5, point.at(1).get<double>() - 0.5);
   const Vector3d at = camera.unproject(pixel, 1);
-  const Vector3d centre = camera.pose.center();
-  const double down = centre.z() - at.z();
+  const Vector3d center = camera.pose.center();
+  const double down = center.z() - at.z();
   if (!at.allFinite() || !(down > 1e-6)) return std::nullopt;
-  return Vector2d((centre + (at - centre) * (centre.z() / down)).head<2>());
+  return Vector2d((center + (at - center) * (center.z() / down)).head<2>());
 }
 
 std::vector<Vector2d> polygon_on_ground(const camera::Camera& camera, const json& polygon) {
@@ -62,8 +62,8 @@ std::vector<Vector2d> polygon_on_ground(const camera::Camera& camera, const json
 }
 
 /// Whether every corner of the polygon is where the place's is seen.
-double farthest_corner_px(const camera::Camera& camera, const std::vector<Vector2d>& place,
-                          const json& polygon) {
+double max_corner_distance_px(const camera::Camera& camera, const std::vector<Vector2d>& place,
+                              const json& polygon) {
   double off_px = 0;
   for (std::size_t i = 0; i < place.size(); ++i) {
     const auto seen = camera.project({place[i].x(), place[i].y(), 0});
@@ -181,10 +181,10 @@ void ExitsCheck::check_series(const std::string& file, const std::string& exit,
       const double desired =
           speed_lack < 1 ? v("approach_speed") / (kFreeSpeed * (1 - speed_lack)) : 1;
       const bool is_between = index >= low - slack && index <= high + slack;
-      constexpr double kSlowestMps = 0.2;
-      constexpr double kFastestMps = 5;
+      constexpr double kMinSpeedMps = 0.2;
+      constexpr double kMaxSpeedMps = 5;
       const bool is_plausible = full < 0.05 || speed_lack < 0.02 || speed_lack > 0.98 ||
-                                (desired > kSlowestMps && desired < kFastestMps);
+                                (desired > kMinSpeedMps && desired < kMaxSpeedMps);
       const bool is_full_lack = v("approach_speed") > -0.01 || index >= high - slack;
       if (!is_between || !is_plausible || !is_full_lack) {
         fault(
@@ -282,7 +282,7 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
       continue;
     }
     if (known.size() != polygon.size()) continue;  // cut off by the camera's plane
-    const double off_px = farthest_corner_px(camera, known, polygon);
+    const double off_px = max_corner_distance_px(camera, known, polygon);
     // Corners are written to 0.01 px, and read from a picture that may be farther away.
     constexpr double kSlackPx = 0.5;
     if (off_px <= kSlackPx) continue;
@@ -293,11 +293,11 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
   if (place.door.size() < 4 || place.zone.size() < 3) return;
   // The zone is a half disc about the middle of the door.
   const double zone_m = [&] {
-    double most = 0;
+    double max_value = 0;
     for (const Vector2d& a : place.zone) {
-      for (const Vector2d& b : place.zone) most = std::max(most, (a - b).norm());
+      for (const Vector2d& b : place.zone) max_value = std::max(max_value, (a - b).norm());
     }
-    return most;
+    return max_value;
   }();
   double door_m = 0;
   for (const Vector2d& a : place.door) {

@@ -166,8 +166,8 @@ class FieldFile {
                       expected, missing, on_nothing));
       return;
     }
-    constexpr std::size_t kFewest = 60;
-    if (explained < kFewest) return;
+    constexpr std::size_t kMinCount = 60;
+    if (explained < kMinCount) return;
     const double mean_off = off / static_cast<double>(explained);
     const double mean_speed = std::sqrt(squares / static_cast<double>(explained));
     if (mean_off > 0.05 + 0.12 * mean_speed ||

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Whether a pixel of the picture of instances shows what has an annotation.
-bool is_labelled(std::uint32_t id) { return is_person(id) || (id >= kFirstDrone && id < kGround); }
+bool is_labeled(std::uint32_t id) { return is_person(id) || (id >= kFirstDrone && id < kGround); }
 
 std::string relative(const DatasetInfo& info, const fs::path& path) {
   return path.lexically_relative(info.root).string();
@@ -77,7 +77,7 @@ void check_instances(const DatasetInfo& /*info*/, const Image& image, const Pixe
   const std::string path = raster_name("instances", image);
   std::map<std::uint32_t, std::uint64_t> areas;
   for (const std::uint32_t id : ids) {
-    if (is_labelled(id)) ++areas[id];
+    if (is_labeled(id)) ++areas[id];
   }
   const auto pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
@@ -113,7 +113,7 @@ void check_depth(const DatasetInfo& /*info*/, const Image& image, const Pixels& 
   if (is_plain(image)) check_ground_depth(image, path, ids, pixels.depth_cm, findings);
   std::map<std::uint32_t, std::pair<double, double>> range;  // nearest and farthest, m
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (!is_labelled(ids[i])) continue;
+    if (!is_labeled(ids[i])) continue;
     const double z = pixels.depth_m(i);
     auto& [low, high] =
         range.try_emplace(ids[i], std::numeric_limits<double>::infinity(), 0.0).first->second;

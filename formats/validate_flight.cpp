@@ -78,10 +78,10 @@ class FlightRecord {
   void check_camera() const {
     const json& truth = flight_.at("true");
     const Vector3d position = numbers_at<3>(truth.at("position"));
-    const Vector3d centre = -image_.R.transpose() * image_.t;
-    if (!((position - centre).norm() <= 1e-6 * (1 + centre.norm()))) {
+    const Vector3d center = -image_.R.transpose() * image_.t;
+    if (!((position - center).norm() <= 1e-6 * (1 + center.norm()))) {
       fault(fmt::format("flight.true.position is {:.3f} m from the camera's centre",
-                        (position - centre).norm()));
+                        (position - center).norm()));
     }
     if (!are_alike(truth.at("height_m").get<double>(), position.z(), 1e-6)) {
       fault("flight.true.height_m is not the position's z");
@@ -187,19 +187,19 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
   // Six standard deviations of the sensors' errors (docs/drones.md), and what the drone does until
   // then.
   constexpr double kSigmas = 6;
-  constexpr double kMostJerkMps3 = 200;
-  constexpr double kMostTurnRadS2 = 150;
-  constexpr double kMostAccelerationMps2 = 25;
+  constexpr double kMaxJerkMps3 = 200;
+  constexpr double kMaxTurnRadS2 = 150;
+  constexpr double kMaxAccelerationMps2 = 25;
   const auto off = [](const Vector3d& a, const Vector3d& b) {
     return (a - b).cwiseAbs().maxCoeff();
   };
   const double gyro = off(sample.gyro, sample.body_rates);
-  if (gyro > kSigmas * kGyroTurnOnRadS + kMostTurnRadS2 * age_s * age_s + 0.02 +
-                 kMostTurnRadS2 * 0.02 * age_s) {
+  if (gyro > kSigmas * kGyroTurnOnRadS + kMaxTurnRadS2 * age_s * age_s + 0.02 +
+                 kMaxTurnRadS2 * 0.02 * age_s) {
     return fmt::format("gyro is {:.3f} rad/s off body_rates", gyro);
   }
   const double force = off(sample.accelerometer, sample.specific_force);
-  if (force > kSigmas * kAccelerometerTurnOnMps2 + 0.2 + kMostJerkMps3 * age_s * 0.1) {
+  if (force > kSigmas * kAccelerometerTurnOnMps2 + 0.2 + kMaxJerkMps3 * age_s * 0.1) {
     return fmt::format("the accelerometer is {:.2f} m/s2 off specific_force", force);
   }
   const Vector3d field = field_at(latitude_deg);
@@ -217,7 +217,7 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
                        pressure_at(sample.position.z()));
   }
   const Vector3d drift = sample.velocity.cwiseAbs() * gps_age_s +
-                         Vector3d::Constant(kMostAccelerationMps2 * gps_age_s * gps_age_s / 2);
+                         Vector3d::Constant(kMaxAccelerationMps2 * gps_age_s * gps_age_s / 2);
   const Vector3d wander(1, 1, 2);
   const Vector3d gps = (sample.gps_position - sample.position).cwiseAbs();
   if (((gps - kSigmas * wander - drift).array() > 0).any()) {
@@ -225,8 +225,8 @@ std::string implausible_reading(const SensorSample& sample, double latitude_deg,
                        gps.z());
   }
   const Vector3d speed = (sample.gps_velocity - sample.velocity).cwiseAbs();
-  const double most_speed = kSigmas * kGpsVerticalMps + kMostAccelerationMps2 * gps_age_s / 2;
-  if (speed.maxCoeff() > most_speed) {
+  const double max_speed = kSigmas * kGpsVerticalMps + kMaxAccelerationMps2 * gps_age_s / 2;
+  if (speed.maxCoeff() > max_speed) {
     return fmt::format("the GPS's velocity is ({:.2f}, {:.2f}, {:.2f}) m/s off", speed.x(),
                        speed.y(), speed.z());
   }
@@ -248,11 +248,11 @@ void check_flight_between(const Image& before, const Image& after, Findings& fin
   const Vector3d mean =
       0.5 * (numbers_at<3>(now.at("velocity")) + numbers_at<3>(then.at("velocity")));
   // A quadcopter's acceleration stays below this; the trapezoidal rule is off by a dt² / 8.
-  constexpr double kMostAccelerationMps2 = 8;
-  const double slack_m = 0.02 + kMostAccelerationMps2 * dt_s * dt_s / 8;
-  constexpr double kLongestS = 1.1;
+  constexpr double kMaxAccelerationMps2 = 8;
+  const double slack_m = 0.02 + kMaxAccelerationMps2 * dt_s * dt_s / 8;
+  constexpr double kMaxDurationS = 1.1;
   const double off_m = (moved - mean * dt_s).norm();
-  if (dt_s <= kLongestS && off_m > slack_m) {
+  if (dt_s <= kMaxDurationS && off_m > slack_m) {
     findings.add("flight", kCocoFile, record,
                  fmt::format("the drone moved ({:.2f}, {:.2f}, {:.2f}) m since the last frame, but "
                              "its velocity was ({:.2f}, {:.2f}, {:.2f}) m/s",
@@ -260,8 +260,8 @@ void check_flight_between(const Image& before, const Image& after, Findings& fin
   }
   const double used_w =
       3600 * (now.at("energy_wh").get<double>() - then.at("energy_wh").get<double>()) / dt_s;
-  constexpr double kMostW = 5000;
-  if (!(used_w >= 0 && used_w < kMostW)) {
+  constexpr double kMaxPowerW = 5000;
+  if (!(used_w >= 0 && used_w < kMaxPowerW)) {
     findings.add("flight", kCocoFile, record,
                  fmt::format("energy_wh grows by {:.0f} W since the last frame", used_w));
   }

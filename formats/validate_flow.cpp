@@ -68,9 +68,9 @@ void look_at_still(const Shot& before, const Shot& after, int x, int y, StillFlo
 
 void check_still_flow(const Shot& before, const Shot& after, Findings& findings) {
   const Pixels& pixels = before.pixels;
-  constexpr int kMostPoints = 6000;
+  constexpr int kMaxPoints = 6000;
   const int step =
-      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostPoints)));
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMaxPoints)));
   std::map<bool, StillFlow> tallies;  // by whether it is the ground
   for (int y = 0; y < pixels.height; y += step) {
     for (int x = y % step; x < pixels.width; x += step) {
@@ -78,18 +78,18 @@ void check_still_flow(const Shot& before, const Shot& after, Findings& findings)
     }
   }
   for (const auto& [is_ground, tally] : tallies) {
-    constexpr std::size_t kFewest = 20;
-    constexpr double kMostWrong = 0.03;
-    if (tally.looked_at < kFewest) continue;
-    const double most = kMostWrong * static_cast<double>(tally.looked_at);
-    if (static_cast<double>(tally.wrong) > most) {
+    constexpr std::size_t kMinCount = 20;
+    constexpr double kMaxWrong = 0.03;
+    if (tally.looked_at < kMinCount) continue;
+    const double max_value = kMaxWrong * static_cast<double>(tally.looked_at);
+    if (static_cast<double>(tally.wrong) > max_value) {
       findings.add("flow-of-still", raster_name("flow", before.image), before.record(),
                    fmt::format("{} of {} still pixels do not move as depth and cameras say: "
                                "({:.2f}, {:.2f}), expected ({:.2f}, {:.2f})",
                                tally.wrong, tally.looked_at, tally.found.x(), tally.found.y(),
                                tally.expected.x(), tally.expected.y()));
     }
-    if (static_cast<double>(tally.unknown) > most) {
+    if (static_cast<double>(tally.unknown) > max_value) {
       findings.add(
           "flow-of-still", raster_name("flow", before.image), before.record(),
           fmt::format("flow of {} of {} still pixels is unknown", tally.unknown, tally.looked_at));
@@ -161,8 +161,8 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
   const std::string record = fmt::format("annotation {}", then.id);
   const Bitmap body = whole_mask(after, now);
   const Led led = lead(before, then, body);
-  constexpr std::size_t kFewest = 12;
-  if (led.pixels < kFewest) return;
+  constexpr std::size_t kMinCount = 12;
+  if (led.pixels < kMinCount) return;
   const Box& box = now.amodal;
   const Eigen::Vector2d moved(box.x + box.width / 2 - then.amodal.x - then.amodal.width / 2,
                               box.y + box.height / 2 - then.amodal.y - then.amodal.height / 2);

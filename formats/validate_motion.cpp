@@ -27,8 +27,8 @@ double angle_off(const Person& person) {
 /// Velocities of people who go on as they do are their displacements.
 void check_velocities(const Shot& before, const Shot& after, Findings& findings) {
   const double dt_s = after.image.time_s - before.image.time_s;
-  constexpr double kLongestS = 1.1;  // in longer times people turn and stop
-  if (!(dt_s > 0) || dt_s > kLongestS) return;
+  constexpr double kMaxDurationS = 1.1;  // in longer times people turn and stop
+  if (!(dt_s > 0) || dt_s > kMaxDurationS) return;
   std::vector<double> ratios;
   for (const Person& now : after.image.people) {
     const Person* then = before.find(now.track_id);
@@ -52,11 +52,11 @@ void check_velocities(const Shot& before, const Shot& after, Findings& findings)
       ratios.push_back(moved.dot(mean) / mean.squaredNorm());
     }
   }
-  constexpr std::size_t kFewest = 6;
-  if (ratios.size() < kFewest) return;
+  constexpr std::size_t kMinCount = 6;
+  if (ratios.size() < kMinCount) return;
   const double ratio = median_of(ratios);
-  constexpr double kMostRatioOff = 0.03;
-  if (std::abs(ratio - 1) > kMostRatioOff) {
+  constexpr double kMaxRatioOff = 0.03;
+  if (std::abs(ratio - 1) > kMaxRatioOff) {
     findings.add("velocity-is-motion", kCocoFile, after.record(),
                  fmt::format("steady walkers move {:.3f} times as fast as their velocity says "
                              "(median of {})",
@@ -78,11 +78,11 @@ void check_headings(const Shot& shot, Findings& findings) {
                                person.heading_rad, person.velocity.x(), person.velocity.y()));
     }
   }
-  constexpr std::size_t kFewest = 5;
-  if (angles.size() < kFewest) return;
+  constexpr std::size_t kMinCount = 5;
+  if (angles.size() < kMinCount) return;
   const double angle = median_of(angles);
-  constexpr double kMostOffRad = 0.25;
-  if (angle > kMostOffRad) {
+  constexpr double kMaxOffRad = 0.25;
+  if (angle > kMaxOffRad) {
     findings.add("heading-is-motion", kCocoFile, shot.record(),
                  fmt::format("walkers face {:.2f} rad away from where they go (median of {})",
                              angle, angles.size()));

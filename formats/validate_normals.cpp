@@ -53,12 +53,12 @@ std::optional<Eigen::Vector3d> normal_by_depth(const Shot& shot, int x, int y, i
   const Eigen::Vector3d across = points[2] - points[1];
   const Eigen::Vector3d down = points[4] - points[3];
   const double size = std::min(across.norm(), down.norm());
-  // Depth is in whole centimetres: a small patch has no direction.
-  constexpr double kLeastM = 0.15;
+  // Depth is in whole centimeters: a small patch has no direction.
+  constexpr double kMinSizeM = 0.15;
   const auto bend = [&](std::size_t a, std::size_t b) {
     return (0.5 * (points[a] + points[b]) - points[0]).norm();
   };
-  if (size < kLeastM || bend(1, 2) > 0.06 * size || bend(3, 4) > 0.06 * size) return std::nullopt;
+  if (size < kMinSizeM || bend(1, 2) > 0.06 * size || bend(3, 4) > 0.06 * size) return std::nullopt;
   Eigen::Vector3d normal = across.cross(down).normalized();
   if (normal.dot(points[0] - shot.camera.pose.center()) > 0) normal = -normal;
   return normal;
@@ -79,17 +79,17 @@ void check_normals(const Shot& shot, Findings& findings) {
   if (!shot.at_once || pixels.normals.empty() || pixels.ids.empty() || pixels.depth_cm.empty()) {
     return;
   }
-  constexpr int kMostPoints = 20000;
+  constexpr int kMaxPoints = 20000;
   const int step =
-      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostPoints)));
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMaxPoints)));
   std::map<Kind, NormalTally> tallies;
-  const Eigen::Vector3d centre = shot.camera.pose.center();
+  const Eigen::Vector3d center = shot.camera.pose.center();
   for (int y = 1; y < pixels.height; y += step) {
     for (int x = 1 + y % step; x < pixels.width; x += step) {
       const std::size_t pixel = pixels.at(x, y);
       const std::optional<Kind> kind = kind_of(pixels.ids[pixel]);
       if (!kind || pixels.depth_cm[pixel] == 0) continue;
-      const Eigen::Vector3d ray = shot.camera.unproject({x, y}, 1) - centre;
+      const Eigen::Vector3d ray = shot.camera.unproject({x, y}, 1) - center;
       if (!ray.allFinite()) continue;
       const Eigen::Vector3d normal = normal_at(pixels, pixel);
       NormalTally& tally = tallies[*kind];
@@ -109,37 +109,37 @@ void check_normals(const Shot& shot, Findings& findings) {
     }
   }
   for (auto& [kind, tally] : tallies) {
-    constexpr std::size_t kFewest = 30;
+    constexpr std::size_t kMinCount = 30;
     const char* name = kKindNames.at(static_cast<std::size_t>(kind));
     const std::string file = raster_name("normals", shot.image);
-    const double most_away = kind == Kind::person ? 0.25 : 0.05;
-    if (tally.looked_at >= kFewest &&
-        static_cast<double>(tally.away) > most_away * static_cast<double>(tally.looked_at)) {
+    const double max_away = kind == Kind::person ? 0.25 : 0.05;
+    if (tally.looked_at >= kMinCount &&
+        static_cast<double>(tally.away) > max_away * static_cast<double>(tally.looked_at)) {
       findings.add("normals-face-camera", file, shot.record(),
                    fmt::format("{} of {} pixels of {} face away from the camera", tally.away,
                                tally.looked_at, name));
     }
     // At the edge of something nearer, a pixel of the ground may have another normal.
-    if (kind == Kind::ground && tally.looked_at >= 10 * kFewest &&
+    if (kind == Kind::ground && tally.looked_at >= 10 * kMinCount &&
         static_cast<double>(tally.not_up) > 0.04 * static_cast<double>(tally.looked_at)) {
       findings.add("normals-are-surface", file, shot.record(),
                    fmt::format("normals of {} of {} pixels of the ground do not point up",
                                tally.not_up, tally.looked_at));
     }
     // Bodies are round: what is exactly flat is the ground of another picture.
-    if (kind == Kind::person && tally.looked_at >= 2 * kFewest &&
+    if (kind == Kind::person && tally.looked_at >= 2 * kMinCount &&
         static_cast<double>(tally.flat) > 0.15 * static_cast<double>(tally.looked_at)) {
       findings.add("normals-are-surface", file, shot.record(),
                    fmt::format("normals of {} of {} pixels of people are those of flat ground",
                                tally.flat, tally.looked_at));
     }
-    if (tally.angles_rad.size() < kFewest) continue;
+    if (tally.angles_rad.size() < kMinCount) continue;
     const auto middle =
         tally.angles_rad.begin() + static_cast<std::ptrdiff_t>(tally.angles_rad.size() / 2);
     std::nth_element(tally.angles_rad.begin(), middle, tally.angles_rad.end());
     // People are round, and props have many small faces.
-    const double most_rad = kind == Kind::prop ? 0.9 : kind == Kind::person ? 0.6 : 0.09;
-    if (*middle > most_rad) {
+    const double max_rad = kind == Kind::prop ? 0.9 : kind == Kind::person ? 0.6 : 0.09;
+    if (*middle > max_rad) {
       findings.add("normals-are-surface", file, shot.record(),
                    fmt::format("normals of {} are {:.1f} degrees off the surface that the depth "
                                "shows (median of {})",

@@ -165,7 +165,7 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
   constexpr double kCoarseShare = 0.1;
   const double slack_px =
       kBoxSlackPx + kCoarseShare * std::max(person.amodal.width, person.amodal.height);
-  int labelled = 0;
+  int labeled = 0;
   for (const Keypoint& point : person.keypoints) {
     if (point.visibility == 0) {
       if (point.x != 0 || point.y != 0) {
@@ -173,16 +173,16 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
       }
       continue;
     }
-    ++labelled;
+    ++labeled;
     if (point.x < 0 || point.y < 0 || point.x > image.width || point.y > image.height ||
         !holds(person.amodal, point.x, point.y, slack_px)) {
       findings.add("keypoints", person, "a keypoint outside of bbox_amodal or the image");
     }
   }
-  if (person.record.at("num_keypoints") != labelled) {
+  if (person.record.at("num_keypoints") != labeled) {
     findings.add("keypoints", person,
                  fmt::format("num_keypoints {}, but {} are labelled",
-                             person.record.at("num_keypoints").dump(), labelled));
+                             person.record.at("num_keypoints").dump(), labeled));
   }
 }
 
@@ -219,7 +219,7 @@ void check_keypoints_3d(const camera::Camera& camera, const Person& person, Find
     const nlohmann::json& at = places->at(i);
     const auto seen =
         camera.project({at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>()});
-    // Places are written to a millimetre, pixels to a hundredth; the truth is in float.
+    // Places are written to a millimeter, pixels to a hundredth; the truth is in float.
     const double slack = 0.03 + 2e-3 * camera.intrinsics.fx_px / std::max(seen.depth_m, 0.1);
     if (seen.visible &&
         std::hypot(seen.pixel.x() + 0.5 - point.x, seen.pixel.y() + 0.5 - point.y) <= slack) {

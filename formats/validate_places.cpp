@@ -43,12 +43,12 @@ void check_density_is_heads(const Image& image, const std::string& path, const F
 void check_camera(const Image& image, Findings& findings) {
   constexpr double kSlack = 1e-6;
   const nlohmann::json& written = image.record.at("camera").at("centre");
-  const Eigen::Vector3d centre(written.at(0).get<double>(), written.at(1).get<double>(),
+  const Eigen::Vector3d center(written.at(0).get<double>(), written.at(1).get<double>(),
                                written.at(2).get<double>());
   const bool turns =
       (image.R * image.R.transpose() - Eigen::Matrix3d::Identity()).norm() < kSlack &&
       image.R.determinant() > 0;
-  if (!turns || !((image.R * centre + image.t).norm() < kSlack * (1 + centre.norm()))) {
+  if (!turns || !((image.R * center + image.t).norm() < kSlack * (1 + center.norm()))) {
     findings.add("camera", kCocoFile, fmt::format("image {}", image.id),
                  turns ? "the camera's centre is not where R and t put it" : "R is no rotation");
   }
@@ -56,11 +56,11 @@ void check_camera(const Image& image, Findings& findings) {
 
 void check_ground_depth(const Image& image, const std::string& path,
                         const std::vector<std::uint32_t>& ids,
-                        const std::vector<std::uint16_t>& centimetres, Findings& findings) {
+                        const std::vector<std::uint16_t>& centimeters, Findings& findings) {
   constexpr std::size_t kStep = 97;  // every so many pixels; coprime to usual widths
   constexpr double kRelative = 0.005;
   constexpr double kAbsoluteM = 0.03;
-  constexpr double kMostWrong = 0.02;  // pixels at the edge of something nearer
+  constexpr double kMaxWrong = 0.02;  // pixels at the edge of something nearer
   const Eigen::Matrix3d to_world = image.R.transpose() * image.camera_matrix.inverse();
   const double height = (image.R.transpose() * -image.t).z();
   std::size_t looked_at = 0;
@@ -68,7 +68,7 @@ void check_ground_depth(const Image& image, const std::string& path,
   double found_m = 0;
   double expected_m = 0;
   for (std::size_t i = 0; i < ids.size(); i += kStep) {
-    if (ids[i] != kGroundInstance || centimetres[i] == 0) continue;
+    if (ids[i] != kGroundInstance || centimeters[i] == 0) continue;
     const auto width = static_cast<std::size_t>(image.width);
     const std::size_t row = i / width;
     const std::size_t column = i % width;
@@ -77,14 +77,14 @@ void check_ground_depth(const Image& image, const std::string& path,
     if (ray.z() >= 0) continue;
     ++looked_at;
     const double z = -height / ray.z();
-    const double shown = centimetres[i] / 100.0;
+    const double shown = centimeters[i] / 100.0;
     if (std::abs(shown - z) <= kAbsoluteM + kRelative * z) continue;
     if (wrong++ == 0) {
       found_m = shown;
       expected_m = z;
     }
   }
-  if (static_cast<double>(wrong) <= kMostWrong * static_cast<double>(looked_at)) return;
+  if (static_cast<double>(wrong) <= kMaxWrong * static_cast<double>(looked_at)) return;
   findings.add("depth-of-ground", path, fmt::format("image {}", image.id),
                fmt::format("{} of {} looked at are off: {:.2f} m, but the camera is {:.2f} m from "
                            "the ground there",

@@ -67,8 +67,8 @@ void PresenceCheck::add(const Image& image, Findings& findings) {
       (last.back().image.run != image.run || last.back().image.frame + 1 != image.frame)) {
     last.clear();
   }
-  constexpr double kLongestS = 1.1;
-  if (last.size() == 2 && image.time_s - last.back().image.time_s <= kLongestS) {
+  constexpr double kMaxDurationS = 1.1;
+  if (last.size() == 2 && image.time_s - last.back().image.time_s <= kMaxDurationS) {
     check_between(last[0].image, last[1].image, image, findings);
   }
   for (const HiddenPerson& hidden : image.hidden) {

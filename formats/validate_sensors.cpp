@@ -83,9 +83,9 @@ std::string break_between(const Row& a, const Row& b) {
   if (off_rad_s > 0.1 + (at(a, kRates) - at(b, kRates)).norm()) {
     return fmt::format("turns by {:.3f} rad/s other than true_w says", off_rad_s);
   }
-  constexpr double kMostW = 5000;
+  constexpr double kMaxPowerW = 5000;
   const double power_w = (b[kEnergy] - a[kEnergy]) / dt_s;
-  if (!(power_w >= -1e-6 && power_w < kMostW)) {
+  if (!(power_w >= -1e-6 && power_w < kMaxPowerW)) {
     return fmt::format("energy_j grows by {:.0f} W", power_w);
   }
   if (b[kGpsTime] < a[kGpsTime] || b[kGpsTime] > b[kTime] + 1e-6 || b[kTime] - b[kGpsTime] > 0.5) {
@@ -95,8 +95,8 @@ std::string break_between(const Row& a, const Row& b) {
       (at(b, kGpsPosition) != at(a, kGpsPosition) || at(b, kGpsVelocity) != at(a, kGpsVelocity))) {
     return "another GPS position at the same gps_time_s";
   }
-  constexpr double kMostGustMps2 = 400;
-  if ((at(b, kAir) - at(a, kAir)).norm() > 0.5 + kMostGustMps2 * dt_s) {
+  constexpr double kMaxGustMps2 = 400;
+  if ((at(b, kAir) - at(a, kAir)).norm() > 0.5 + kMaxGustMps2 * dt_s) {
     return "air velocity jumps";
   }
   return "";

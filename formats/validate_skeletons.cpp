@@ -57,16 +57,16 @@ void check_facing(const Person& person, Findings& findings) {
   if (person.box_size.z() < kUpright * person.box_size.head<2>().maxCoeff()) return;
   struct Pair {
     std::size_t left;
-    double most_rad;
+    double max_rad;
     const char* name;
   };
   for (const Pair& pair : {Pair{kLeftHip, 0.5, "hips"}, Pair{kLeftShoulder, 0.9, "shoulders"}}) {
     const Eigen::Vector3d across =
         keypoint_at(person, pair.left) - keypoint_at(person, pair.left + 1);
-    constexpr double kLeastM = 0.06;
-    if (across.head<2>().norm() < kLeastM) continue;
+    constexpr double kMinSizeM = 0.06;
+    if (across.head<2>().norm() < kMinSizeM) continue;
     const double off = angle_between(facing_of(across), person.heading_rad);
-    if (off <= pair.most_rad) continue;
+    if (off <= pair.max_rad) continue;
     findings.add("heading-is-body", person,
                  fmt::format("the {} face {:.2f} rad away from heading", pair.name, off));
     return;
@@ -121,7 +121,7 @@ Sides sides_of(const Pixels& pixels, const Person& person) {
 void check_sides(const Shot& shot, Findings& findings) {
   if (shot.pixels.parts.empty()) return;
   Sides all;
-  constexpr int kFewest = 4;
+  constexpr int kMinCount = 4;
   for (const Person& person : shot.image.people) {
     if (person.keypoints.size() <= kLimbs.back().left_keypoint + 1) continue;
     const Sides sides = sides_of(shot.pixels, person);
@@ -129,16 +129,16 @@ void check_sides(const Shot& shot, Findings& findings) {
     all.opposite += sides.opposite;
     all.kind += sides.kind;
     all.other_kind += sides.other_kind;
-    if (sides.opposite >= kFewest && sides.opposite > 4 * sides.own) {
+    if (sides.opposite >= kMinCount && sides.opposite > 4 * sides.own) {
       findings.add("parts-at-keypoints", person,
                    fmt::format("{} shows the other side's limbs at {} of {} visible keypoints",
                                raster_name("parts", shot.image), sides.opposite,
                                sides.own + sides.opposite));
     }
   }
-  constexpr int kFewestOfAll = 12;
+  constexpr int kMinOfAll = 12;
   const auto judge = [&](int right, int wrong, const char* what) {
-    if (right + wrong < kFewestOfAll || wrong <= right) return;
+    if (right + wrong < kMinOfAll || wrong <= right) return;
     findings.add(
         "parts-at-keypoints", raster_name("parts", shot.image), shot.record(),
         fmt::format("{} of {} visible keypoints of limbs are on {}", wrong, right + wrong, what));
@@ -158,7 +158,7 @@ void check_visibility_of_keypoints(const Shot& shot, const Person& person, Findi
     const int y = static_cast<int>(point.y);
     if (point.visibility == 0 || !pixels.holds(x, y, 2)) continue;
     const double z = shot.camera.project(keypoint_at(person, i)).depth_m;
-    // A joint is up to 20 cm inside of the body; depth is written in centimetres.
+    // A joint is up to 20 cm inside of the body; depth is written in centimeters.
     bool is_at_surface = false;
     bool may_be_seen = false;
     for (int dy = -1; dy <= 1; ++dy) {
@@ -182,7 +182,7 @@ void check_visibility_of_keypoints(const Shot& shot, const Person& person, Findi
                            contradictions));
 }
 
-/// Heads are labelled where heads are.
+/// Heads are labeled where heads are.
 void check_heads_are_heads(const Shot& shot, Findings& findings) {
   const Pixels& pixels = shot.pixels;
   if (pixels.parts.empty() || pixels.ids.empty()) return;
@@ -200,8 +200,8 @@ void check_heads_are_heads(const Shot& shot, Findings& findings) {
     }
     heads += has_head ? 1 : 0;
   }
-  constexpr int kFewest = 6;
-  if (looked_at < kFewest || 2 * heads >= looked_at) return;
+  constexpr int kMinCount = 6;
+  if (looked_at < kMinCount || 2 * heads >= looked_at) return;
   findings.add("parts-at-keypoints", raster_name("parts", shot.image), shot.record(),
                fmt::format("{} of {} visible heads are labelled as heads", heads, looked_at));
 }

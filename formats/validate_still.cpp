@@ -13,7 +13,7 @@ namespace throng::formats {
 
 namespace {
 
-constexpr int kMostSamples = 4000;
+constexpr int kMaxSamples = 4000;
 
 /// Depth and ids in the 3 x 3 pixels around one.
 struct Patch {
@@ -79,7 +79,7 @@ Tallies tally(const Shot& from, const Shot& to) {
   Tallies tallies;
   const Pixels& pixels = from.pixels;
   const int step =
-      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostSamples)));
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMaxSamples)));
   for (int y = 1; y + 1 < pixels.height; y += step) {
     for (int x = 1 + y % step; x + 1 < pixels.width; x += step) {
       tally_point(from, to, x, y, tallies);
@@ -95,21 +95,21 @@ std::string name_of_still(std::uint32_t id) {
 }
 
 void judge(const Shot& from, const Shot& to, Findings& findings) {
-  constexpr std::size_t kFewest = 12;
+  constexpr std::size_t kMinCount = 12;
   // Rounded pixels meet edges: a few in a hundred are off in sound pictures.
-  constexpr double kMostThrough = 0.25;
-  constexpr double kMostOtherId = 0.25;
+  constexpr double kMaxThrough = 0.25;
+  constexpr double kMaxOtherId = 0.25;
   for (const auto& [id, tally] : tally(from, to)) {
-    if (tally.seen < kFewest) continue;
+    if (tally.seen < kMinCount) continue;
     const auto through = static_cast<double>(tally.seen_through);
-    if (through > kMostThrough * static_cast<double>(tally.seen)) {
+    if (through > kMaxThrough * static_cast<double>(tally.seen)) {
       findings.add(
           "depth-agrees", raster_name("depth", to.image), to.record(),
           fmt::format("{} of {} points of {} that {} shows are seen through", tally.seen_through,
                       tally.seen, name_of_still(id), raster_name("depth", from.image)));
     }
-    if (tally.same_place >= kFewest && static_cast<double>(tally.other_id) >
-                                           kMostOtherId * static_cast<double>(tally.same_place)) {
+    if (tally.same_place >= kMinCount &&
+        static_cast<double>(tally.other_id) > kMaxOtherId * static_cast<double>(tally.same_place)) {
       findings.add(
           "ids-agree", raster_name("instances", to.image), to.record(),
           fmt::format("{} of {} points that are {} in {} have another id", tally.other_id,
@@ -126,10 +126,10 @@ bool has_geometry(const Shot& shot) {
 std::optional<double> ground_depth_at(const Shot& shot, int x, int y) {
   const Eigen::Vector3d at = shot.camera.unproject({x, y}, 1);
   if (!at.allFinite()) return std::nullopt;
-  const Eigen::Vector3d centre = shot.camera.pose.center();
-  const double down = centre.z() - at.z();
+  const Eigen::Vector3d center = shot.camera.pose.center();
+  const double down = center.z() - at.z();
   if (!(down > 1e-3)) return std::nullopt;
-  return centre.z() / down;
+  return center.z() / down;
 }
 
 /// Colors of the same still points in consecutive pictures of one camera.
@@ -137,7 +137,7 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   const Pixels& pixels = before.pixels;
   if (pixels.rgb.empty() || after.pixels.rgb.empty()) return;
   const int step =
-      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMostSamples)));
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMaxSamples)));
   double both = 0;
   double then = 0;
   double now = 0;
@@ -165,13 +165,13 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
       ++count;
     }
   }
-  constexpr std::size_t kFewest = 200;
-  if (count < kFewest) return;
+  constexpr std::size_t kMinCount = 200;
+  if (count < kMinCount) return;
   const auto number = static_cast<double>(count);
   const double strength = std::sqrt(std::max(then, now) / number);
   const double weakness = std::sqrt(std::min(then, now) / number);
   const double likeness = both / std::max(1e-9, std::sqrt(then * now));
-  // Grey places say nothing.
+  // Gray places say nothing.
   constexpr double kColorful = 7;
   if (strength < kColorful || (likeness > 0.3 && weakness > 0.3 * strength)) return;
   findings.add("picture-colors", after.image.file, after.record(),
@@ -222,19 +222,19 @@ void check_buildings(const Shot& shot, Findings& findings) {
       if (std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * (*ground - *nearer)) ++foot.touching;
     }
   }
-  constexpr std::size_t kFewest = 40;
+  constexpr std::size_t kMinCount = 40;
   Foot all;
   for (const auto& [id, foot] : feet) {
     all.looked_at += foot.looked_at;
     all.touching += foot.touching;
-    if (foot.points >= kFewest && foot.below > 1 + foot.points / 50) {
+    if (foot.points >= kMinCount && foot.below > 1 + foot.points / 50) {
       findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),
                    fmt::format("{} of {} pixels of {} are below the ground", foot.below,
                                foot.points, name_of_still(id)));
     }
   }
   // Some buildings hang over the ground; all of them never do.
-  if (all.looked_at >= kFewest &&
+  if (all.looked_at >= kMinCount &&
       static_cast<double>(all.touching) < 0.25 * static_cast<double>(all.looked_at)) {
     findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),
                  fmt::format("buildings stand on the ground at {} of {} pixels of their feet only",

@@ -131,8 +131,8 @@ std::vector<Area> repaired(const Area& area) {
   for (const Area& piece : areas_of(whole)) {
     for (Area& rest : without(piece, holes)) parts.push_back(std::move(rest));
   }
-  constexpr double kLeastM2 = 0.01;
-  std::erase_if(parts, [](const Area& part) { return size_m2(part) < kLeastM2; });
+  constexpr double kMinAreaM2 = 0.01;
+  std::erase_if(parts, [](const Area& part) { return size_m2(part) < kMinAreaM2; });
   std::stable_sort(parts.begin(), parts.end(),
                    [](const Area& a, const Area& b) { return size_m2(a) > size_m2(b); });
   return parts;
@@ -194,13 +194,13 @@ double size_m2(const Area& area) {
   return size;
 }
 
-std::vector<Corners> simple_parts(const Area& area, double least_m2) {
+std::vector<Corners> simple_parts(const Area& area, double min_area_m2) {
   std::vector<Corners> parts;
   std::vector<Area> left = {area};
   while (!left.empty()) {
     const Area next = std::move(left.back());
     left.pop_back();
-    if (size_m2(next) < least_m2) continue;
+    if (size_m2(next) < min_area_m2) continue;
     if (next.holes.empty()) {
       if (world::is_simple(next.outline) && world::signed_area(next.outline) > 0) {
         parts.push_back(next.outline);
@@ -246,12 +246,12 @@ Corners corners_of(const world::Rectangle& rectangle) {
   return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
 }
 
-Corners circle(const Vector2d& centre, double radius_m) {
+Corners circle(const Vector2d& center, double radius_m) {
   constexpr int kCorners = 24;
   Corners corners;
   for (int i = 0; i < kCorners; ++i) {
     const double angle = 2 * std::numbers::pi * i / kCorners;
-    corners.push_back(centre + radius_m * Vector2d(std::cos(angle), std::sin(angle)));
+    corners.push_back(center + radius_m * Vector2d(std::cos(angle), std::sin(angle)));
   }
   return corners;
 }

@@ -46,13 +46,13 @@ bool meet(const Bounds& a, const Bounds& b);
 
 /// Simple polygons that cover the area: where there are holes it is cut through them. Pieces
 /// smaller than `least_m2` are left out.
-std::vector<Corners> simple_parts(const Area& area, double least_m2 = 0.01);
+std::vector<Corners> simple_parts(const Area& area, double min_area_m2 = 0.01);
 
 /// The smallest convex polygon around points; empty where they lie on a line.
 Corners hull_of(const std::vector<Eigen::Vector2d>& points);
 
 /// A rectangle's corners; a regular polygon of 24 corners in place of a circle.
 Corners corners_of(const world::Rectangle& rectangle);
-Corners circle(const Eigen::Vector2d& centre, double radius_m);
+Corners circle(const Eigen::Vector2d& center, double radius_m);
 
 }  // namespace throng::imports

@@ -20,8 +20,8 @@ std::size_t cells_along(double length_m) {
 }
 
 // The cell of a place along one axis; `count` for what is beyond.
-std::size_t cell_at(double metres, std::size_t count) {
-  const double cell = std::floor(metres / FreeGround::kCellM);
+std::size_t cell_at(double meters, std::size_t count) {
+  const double cell = std::floor(meters / FreeGround::kCellM);
   return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count)));
 }
 

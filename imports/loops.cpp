@@ -14,13 +14,13 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr std::size_t kMostCorners = 5'000;
+constexpr std::size_t kMaxCorners = 5'000;
 constexpr double kSamePlaceM = 1e-3;
-constexpr double kLeastM2 = 0.01;
+constexpr double kMinAreaM2 = 0.01;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// A place to the millimetre.
+/// A place to the millimeter.
 using Key = std::pair<std::int64_t, std::int64_t>;
 Key key_of(const Vector2d& p) {
   return {std::llround(p.x() / kSamePlaceM), std::llround(p.y() / kSamePlaceM)};
@@ -78,7 +78,7 @@ Corners with_crossings(const Corners& ring) {
 void keep(Corners loop, std::vector<Corners>& loops) {
   if (loop.size() < 3) return;
   const double size = world::signed_area(loop);
-  if (std::abs(size) < kLeastM2) return;
+  if (std::abs(size) < kMinAreaM2) return;
   if (size < 0) std::reverse(loop.begin(), loop.end());
   loops.push_back(std::move(loop));
 }
@@ -86,7 +86,7 @@ void keep(Corners loop, std::vector<Corners>& loops) {
 }  // namespace
 
 std::vector<Corners> simple_loops(const Corners& ring) {
-  if (ring.size() < 3 || ring.size() > kMostCorners) return {};
+  if (ring.size() < 3 || ring.size() > kMaxCorners) return {};
   std::vector<Corners> loops;
   Corners walked;
   std::map<Key, std::size_t> been;

@@ -7,7 +7,7 @@
 
 namespace throng::imports {
 
-/// Splits a ring wherever it comes back to a place where it has been, to the millimetre. No loop
+/// Splits a ring wherever it comes back to a place where it has been, to the millimeter. No loop
 /// crosses itself; those without area are left out. Nothing for rings of more than 5000 corners.
 std::vector<Corners> simple_loops(const Corners& ring);
 

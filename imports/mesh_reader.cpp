@@ -13,8 +13,8 @@ namespace throng::imports {
 
 namespace {
 
-constexpr std::size_t kMostTriangles = 1'000'000;
-constexpr std::uintmax_t kLargestFile = 256U << 20U;
+constexpr std::size_t kMaxTriangles = 1'000'000;
+constexpr std::uintmax_t kMaxFileBytes = 256U << 20U;
 
 Eigen::Vector3d corner_of(const aiVector3D& p, bool y_is_up) {
   if (y_is_up) return {p.x, -p.z, p.y};
@@ -24,7 +24,7 @@ Eigen::Vector3d corner_of(const aiVector3D& p, bool y_is_up) {
 }  // namespace
 
 std::vector<Solid> read_mesh(const std::filesystem::path& file, const std::string& submesh) {
-  if (std::filesystem::file_size(file) > kLargestFile) {
+  if (std::filesystem::file_size(file) > kMaxFileBytes) {
     throw InputError({file.string(), "", "a file of more than 256 MB", "a smaller mesh"});
   }
   Assimp::Importer importer;
@@ -59,9 +59,9 @@ std::vector<Solid> read_mesh(const std::filesystem::path& file, const std::strin
       }
     }
     triangles += solid.triangles.size();
-    if (triangles > kMostTriangles) {
+    if (triangles > kMaxTriangles) {
       throw InputError({file.string(), "", fmt::format("{} triangles and more", triangles),
-                        fmt::format("at most {}", kMostTriangles)});
+                        fmt::format("at most {}", kMaxTriangles)});
     }
     if (!solid.triangles.empty()) solids.push_back(std::move(solid));
   }

@@ -1,4 +1,4 @@
-// Mesh files as triangles with colours.
+// Mesh files as triangles with colors.
 #pragma once
 
 #include <filesystem>

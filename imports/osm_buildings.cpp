@@ -58,7 +58,7 @@ std::size_t building_around(const OsmArea& part, const std::vector<Outline>& out
 // A tower on a base reaches the ground in it: it is drawn and flown around as one.
 void stand_on_each_other(std::vector<BuildingPiece>& pieces) {
   constexpr double kSlackM = 0.5;
-  constexpr double kMostOverhang = 0.1;  // of the area
+  constexpr double kMaxOverhang = 0.1;  // of the area
   std::vector<std::size_t> order(pieces.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -76,7 +76,7 @@ void stand_on_each_other(std::vector<BuildingPiece>& pieces) {
     }
     double overhang_m2 = 0;
     for (const Area& rest : without(piece.area, below)) overhang_m2 += size_m2(rest);
-    if (overhang_m2 > kMostOverhang * size_m2(piece.area)) continue;
+    if (overhang_m2 > kMaxOverhang * size_m2(piece.area)) continue;
     piece.stands = true;
     piece.from_m = 0;
   }

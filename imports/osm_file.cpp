@@ -25,12 +25,12 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 256U << 20U;
-constexpr std::size_t kMostNodes = 2'000'000;
-constexpr double kLargestM = 5'000;
+constexpr std::uintmax_t kMaxFileBytes = 256U << 20U;
+constexpr std::size_t kMaxNodes = 2'000'000;
+constexpr double kMaxSizeM = 5'000;
 constexpr double kRadian = std::numbers::pi / 180;
 
-/// Metres east and north of a point on the WGS 84 ellipsoid, by its radii of curvature there
+/// Meters east and north of a point on the WGS 84 ellipsoid, by its radii of curvature there
 /// (Torge, Geodesy, 2001, section 4.1.3).
 class Projection {
  public:
@@ -95,9 +95,9 @@ void read_all(const fs::path& file, Extract& extract) {
     if (!node.visible() || !node.location().valid()) continue;
     if (extract.deleted.contains({'n', node.id()})) continue;
     extract.nodes[node.id()] = node.location();
-    if (extract.nodes.size() > kMostNodes) {
+    if (extract.nodes.size() > kMaxNodes) {
       throw InputError(
-          {file.string(), "", fmt::format("more than {} nodes", kMostNodes), "a smaller extract"});
+          {file.string(), "", fmt::format("more than {} nodes", kMaxNodes), "a smaller extract"});
     }
     all.extend(node.location());
   }
@@ -301,7 +301,7 @@ OsmFile read_osm_file(const fs::path& file, const std::optional<GeoPoint>& origi
   std::error_code unreadable;
   const std::uintmax_t size = fs::file_size(file, unreadable);
   if (unreadable) throw EnvironmentError(fmt::format("cannot read {}", file.string()));
-  if (size > kLargestFile) {
+  if (size > kMaxFileBytes) {
     throw InputError({file.string(), "", "a file of more than 256 MB", "a smaller extract"});
   }
   Extract extract;
@@ -322,10 +322,10 @@ OsmFile read_osm_file(const fs::path& file, const std::optional<GeoPoint>& origi
   const Projection projection(origin.value_or(middle));
   const world::Rectangle bounds{projection.at(low), projection.at(high)};
   const Vector2d extent = bounds.max - bounds.min;
-  constexpr double kFarthestM = 50'000;
+  constexpr double kMaxCoordinateM = 50'000;
   const double farthest =
       std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
-  if (!(extent.maxCoeff() <= kLargestM) || !(farthest <= kFarthestM) ||
+  if (!(extent.maxCoeff() <= kMaxSizeM) || !(farthest <= kMaxCoordinateM) ||
       std::abs(middle.latitude_deg) > 85) {
     throw InputError({file.string(), "bounds",
                       fmt::format("{:.0f} m x {:.0f} m, {:.0f} m from the origin", extent.x(),

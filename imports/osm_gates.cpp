@@ -11,8 +11,8 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kNearEdgeM = 1;
-constexpr double kNarrowestM = 2;
-constexpr double kWidestM = 12;
+constexpr double kMinWidthM = 2;
+constexpr double kMaxWidthM = 12;
 constexpr double kRoadShare = 0.3;  // cars have the rest
 
 /// A stretch of one side of the place, from its first corner (m).
@@ -44,7 +44,7 @@ std::optional<double> meets(const Side& side, const Vector2d& a, const Vector2d&
 }
 
 void add_stretches(const UsedWay& way, Side& side) {
-  const double width = std::clamp(way.kind.width_m, kNarrowestM, kWidestM);
+  const double width = std::clamp(way.kind.width_m, kMinWidthM, kMaxWidthM);
   const double share = (way.kind.road ? kRoadShare : 1.0) * width;
   const auto& points = way.line->points;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -75,8 +75,8 @@ std::optional<std::pair<Vector2d, Vector2d>> part_within(const Vector2d& from, c
       }
     }
   }
-  constexpr double kShortestM = 0.1;
-  if ((last - first) * way.norm() < kShortestM) return std::nullopt;
+  constexpr double kMinLengthM = 0.1;
+  if ((last - first) * way.norm() < kMinLengthM) return std::nullopt;
   return std::pair<Vector2d, Vector2d>(from + first * way, from + last * way);
 }
 

@@ -16,11 +16,11 @@ struct UsedWay {
   WayKind kind;
 };
 
-/// A gate on the edge of `inside` wherever a way crosses it or ends within a metre of it, as wide
+/// A gate on the edge of `inside` wherever a way crosses it or ends within a meter of it, as wide
 /// as the way (2 to 12 m); those that overlap are one.
 std::vector<Gate> gates_at_edge(const std::vector<UsedWay>& ways, const world::Rectangle& inside);
 
-/// What of a segment lies in a rectangle, if it is longer than a decimetre (Liang and Barsky, ACM
+/// What of a segment lies in a rectangle, if it is longer than a decimeter (Liang and Barsky, ACM
 /// Transactions on Graphics 3, 1984).
 std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> part_within(
     const Eigen::Vector2d& from, const Eigen::Vector2d& to, const world::Rectangle& area);

@@ -24,9 +24,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kLeastBuildingM2 = 1;
-constexpr double kLeastPatchM2 = 0.2;
-constexpr std::size_t kMostProps = 20'000;
+constexpr double kMinBuildingM2 = 1;
+constexpr double kMinPatchM2 = 0.2;
+constexpr std::size_t kMaxProps = 20'000;
 const Vector3d kRoofRgb(0.35, 0.33, 0.3);
 const Vector3d kWaterRgb(0.05, 0.12, 0.2);
 
@@ -78,7 +78,7 @@ class MapReader {
 void MapReader::add_surface(const Area& area, const std::string& material,
                             std::vector<world::GroundArea>& to) {
   for (const Area& part : clipped(area, ground_)) {
-    for (Corners& corners : simple_parts(part, kLeastPatchM2)) {
+    for (Corners& corners : simple_parts(part, kMinPatchM2)) {
       to.push_back({std::move(corners), material, false});
     }
   }
@@ -90,7 +90,7 @@ void MapReader::add_hanging(const BuildingPiece& piece) {
   constexpr double kRoofM = 0.3;
   const double from_m = piece.from_m > kHeadM ? piece.from_m : piece.to_m - kRoofM;
   for (const Area& part : clipped(piece.area, ground_)) {
-    for (const Corners& corners : simple_parts(part, kLeastBuildingM2)) {
+    for (const Corners& corners : simple_parts(part, kMinBuildingM2)) {
       const Triangles prism = prism_triangles(corners, from_m, piece.to_m);
       solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
     }
@@ -109,7 +109,7 @@ void MapReader::add_standing(const BuildingPiece& piece) {
     double kept_m2 = 0;
     for (const Area& rest : without(part, others)) {
       kept_m2 += size_m2(rest);
-      for (Corners& corners : simple_parts(rest, kLeastBuildingM2)) {
+      for (Corners& corners : simple_parts(rest, kMinBuildingM2)) {
         building_bounds_.push_back(bounds_of(corners));
         if (!piece.part) place_.obstacles.push_back(corners);
         place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1),
@@ -117,7 +117,7 @@ void MapReader::add_standing(const BuildingPiece& piece) {
       }
     }
     const double cut_m2 = size_m2(part) - kept_m2;
-    if (cut_m2 > kLeastBuildingM2 && !piece.part) {
+    if (cut_m2 > kMinBuildingM2 && !piece.part) {
       skip(piece.name, fmt::format("{:.0f} m² of it are in other buildings: cut off", cut_m2));
     }
   }
@@ -127,7 +127,7 @@ void MapReader::add_buildings() {
   MapBuildings found = buildings_of(file_.areas, source_);
   for (const Area& outline : found.outlines) {
     for (const Area& part : clipped(outline, ground_)) {
-      for (Corners& corners : simple_parts(part, kLeastBuildingM2)) {
+      for (Corners& corners : simple_parts(part, kMinBuildingM2)) {
         place_.obstacles.push_back(std::move(corners));
       }
     }
@@ -147,7 +147,7 @@ void MapReader::add_water(const OsmArea& found) {
   Solid solid;
   solid.rgb = kWaterRgb;
   for (const Area& part : clipped(found.area, ground_)) {
-    for (const Corners& corners : simple_parts(part, kLeastPatchM2)) {
+    for (const Corners& corners : simple_parts(part, kMinPatchM2)) {
       const Triangles flat = prism_triangles(corners, 0, kSurfaceM);
       solid.triangles.insert(solid.triangles.end(), flat.begin(), flat.end());
       place_.obstacles.push_back(corners);
@@ -192,7 +192,7 @@ void MapReader::add_way(const OsmLine& line, const WayKind& kind) {
   used_.push_back({&line, kind});
   if (!kind.road) return;
   add_crossings(line, kind);
-  if (!kind.centre_line) return;
+  if (!kind.center_line) return;
   constexpr double kFromEndsM = 4;
   for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
     const Vector2d way = line.points[i + 1] - line.points[i];
@@ -271,7 +271,7 @@ void MapReader::add_line(const OsmLine& line) {
 
 void MapReader::add_prop(world::PropKind kind, const Vector2d& at, const Tags& tags,
                          std::uint32_t look) {
-  if (!place_.inside.contains(at) || place_.props.size() >= kMostProps) return;
+  if (!place_.inside.contains(at) || place_.props.size() >= kMaxProps) return;
   world::Prop prop;
   prop.kind = kind;
   prop.position = at;
@@ -333,15 +333,15 @@ Place MapReader::read() {
 
 Place read_osm(const std::filesystem::path& file, const OsmOptions& options) {
   OsmFile extract = read_osm_file(file, options.origin);
-  constexpr double kSmallestM = 20;
+  constexpr double kMinSizeM = 20;
   constexpr double kAroundM = 8;
   const Vector2d around = Vector2d::Constant(kAroundM);
   const auto size = [&] { return Vector2d(extract.bounds.max - extract.bounds.min); };
   const auto grow = [&] {
     extract.bounds = {extract.bounds.min - around, extract.bounds.max + around};
   };
-  if (!extract.has_bounds && size().minCoeff() < kSmallestM) grow();
-  if (!(size().minCoeff() >= kSmallestM)) {
+  if (!extract.has_bounds && size().minCoeff() < kMinSizeM) grow();
+  if (!(size().minCoeff() >= kMinSizeM)) {
     throw InputError({file.string(), "bounds",
                       fmt::format("{:.1f} m x {:.1f} m", size().x(), size().y()),
                       "at least 20 m x 20 m"});

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLevelM = 3;
 constexpr double kLaneM = 3;
 constexpr double kTallestM = 900;
-constexpr double kLowestBuildingM = 2;
+constexpr double kMinBuildingM = 2;
 
 struct NamedWay {
   std::string_view name;
@@ -89,10 +89,10 @@ const std::string& value_of(const Tags& tags, const std::string& key) {
 
 std::optional<double> length_in(std::string_view text) {
   constexpr double kFoot = 0.3048;
-  constexpr double kLongest = 1000;
+  constexpr double kMaxLengthM = 1000;
   double value = 0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || !(value >= 0 && value <= kLongest)) return std::nullopt;
+  if (error != std::errc() || !(value >= 0 && value <= kMaxLengthM)) return std::nullopt;
   const char* const end = text.data() + text.size();
   if (end - rest >= 2 && *rest == ',' && is_digit(rest[1])) {  // a decimal comma
     std::string point(text);
@@ -120,21 +120,21 @@ std::optional<WayKind> way_kind(const Tags& tags) {
                                   [&](const NamedWay& way) { return way.name == name; });
   if (found == ways().end()) return std::nullopt;
   WayKind kind = found->kind;
-  constexpr double kNarrowest = 1;
-  constexpr double kWidest = 40;
+  constexpr double kMinWidthM = 1;
+  constexpr double kMaxWidthM = 40;
   if (const auto lanes = length_in(value_of(tags, "lanes")); lanes && kind.road) {
-    kind.width_m = std::clamp(*lanes * kLaneM, kLaneM, kWidest);
-    kind.centre_line = *lanes >= 2;
+    kind.width_m = std::clamp(*lanes * kLaneM, kLaneM, kMaxWidthM);
+    kind.center_line = *lanes >= 2;
   }
   if (const auto width = length_in(value_of(tags, "width"))) {
-    kind.width_m = std::clamp(*width, kNarrowest, kWidest);
+    kind.width_m = std::clamp(*width, kMinWidthM, kMaxWidthM);
   }
   return kind;
 }
 
 double building_height_m(const Tags& tags) {
   if (const auto height = length_in(value_of(tags, "height")); height && *height > 0) {
-    return std::clamp(*height, kLowestBuildingM, kTallestM);
+    return std::clamp(*height, kMinBuildingM, kTallestM);
   }
   if (const auto levels = length_in(value_of(tags, "building:levels")); levels && *levels > 0) {
     double roof = 0;
@@ -143,7 +143,7 @@ double building_height_m(const Tags& tags) {
     } else if (const auto roofs = length_in(value_of(tags, "roof:levels"))) {
       roof = *roofs * kLevelM;
     }
-    return std::clamp(*levels * kLevelM + roof, kLowestBuildingM, kTallestM);
+    return std::clamp(*levels * kLevelM + roof, kMinBuildingM, kTallestM);
   }
   const std::string& kind = value_of(tags, "building");
   if (kind == "garage" || kind == "garages" || kind == "shed" || kind == "kiosk" ||

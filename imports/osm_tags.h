@@ -21,7 +21,7 @@ struct WayKind {
   double width_m = 2;
   std::string material;
   bool road = false;         ///< cars have the middle of it
-  bool centre_line = false;  ///< dashes are painted on it
+  bool center_line = false;  ///< dashes are painted on it
 };
 
 /// By `highway`, with `width` or `lanes` where they are given; nothing for what nobody walks on.
@@ -39,7 +39,7 @@ bool is_underground(const Tags& tags);
 /// The material of an area of ground; empty for areas that are none.
 std::string surface_of(const Tags& tags);
 
-/// A barrier's width, height and colour (linear RGB); nothing for those that one walks through.
+/// A barrier's width, height and color (linear RGB); nothing for those that one walks through.
 struct Barrier {
   double width_m;
   double height_m;

@@ -23,7 +23,7 @@ struct Skipped {
   std::string text() const;
 };
 
-/// Triangles of one colour (linear RGB, 0 to 1), in the world (m).
+/// Triangles of one color (linear RGB, 0 to 1), in the world (m).
 struct Solid {
   Eigen::Vector3d rgb{0.6, 0.6, 0.6};
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kUsualSpeedMps = 1.34;  // Weidmann 1993
 constexpr double kGoalBeyondM = 2;
-constexpr int kDecimals = 3;  // millimetres are enough, and short
+constexpr int kDecimals = 3;  // millimeters are enough, and short
 constexpr double kDegrees = 180 / EIGEN_PI;
 
 double rounded(double value) { return std::round(value * 1000) / 1000; }
@@ -99,9 +99,9 @@ json drone_json(const Place& place) {
   const Vector2d size = place.inside.max - place.inside.min;
   const Vector2d middle = 0.5 * (place.inside.min + place.inside.max);
   constexpr double kAboveRoofsM = 6;
-  constexpr double kLowestM = 18;
-  constexpr double kHighestM = 60;
-  double height = std::clamp(0.45 * size.maxCoeff(), kLowestM, kHighestM);
+  constexpr double kMinHeightM = 18;
+  constexpr double kMaxHeightM = 60;
+  double height = std::clamp(0.45 * size.maxCoeff(), kMinHeightM, kMaxHeightM);
   for (const world::Building& building : place.buildings) {
     height = std::max(height, building.height_m + kAboveRoofsM);
   }

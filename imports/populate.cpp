@@ -22,8 +22,8 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kNarrowestGateM = 1.2;
-constexpr double kWidestFoundGateM = 8;
-constexpr std::size_t kMostFoundGates = 12;
+constexpr double kMaxFoundGateM = 8;
+constexpr std::size_t kMaxFoundGates = 12;
 constexpr double kBeforeGateM = 1.5;  // where a gate's ground must be free, on both sides
 constexpr double kApartM = 0.9;
 constexpr double kFromEdgeM = 2;
@@ -56,7 +56,7 @@ void find_gates_along(const Vector2d& from, const Vector2d& to, const world::Rec
     const double width = at - FreeGround::kCellM - open_from;
     if (width >= kNarrowestGateM) {
       const Vector2d middle = from + 0.5 * (open_from + at - FreeGround::kCellM) * along;
-      const double half = 0.5 * std::min(width, kWidestFoundGateM);
+      const double half = 0.5 * std::min(width, kMaxFoundGateM);
       gates.push_back({middle - half * along, middle + half * along, 2 * half});
     }
     open_from = at + FreeGround::kCellM;
@@ -73,7 +73,7 @@ std::vector<Gate> find_gates(const world::Rectangle& inside, const FreeGround& g
   std::stable_sort(gates.begin(), gates.end(), [](const Gate& a, const Gate& b) {
     return (a.to - a.from).norm() > (b.to - b.from).norm();
   });
-  if (gates.size() > kMostFoundGates) gates.resize(kMostFoundGates);
+  if (gates.size() > kMaxFoundGates) gates.resize(kMaxFoundGates);
   return gates;
 }
 

@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 32U << 20U;
-constexpr int kMostIncludes = 2'000;
-constexpr int kMostTakenOut = 50;  // libsdformat takes up to a quarter of a second for each
+constexpr std::uintmax_t kMaxFileBytes = 32U << 20U;
+constexpr int kMaxIncludes = 2'000;
+constexpr int kMaxTakenOut = 50;  // libsdformat takes up to a quarter of a second for each
 
 bool is_loaded(const sdf::Root& root) { return root.WorldCount() > 0 || root.Model() != nullptr; }
 
@@ -49,7 +49,7 @@ class RootLoader {
       : file_(file), skipped_(skipped), text_(file.string(), text_of(file)) {
     config_.SetFindCallback([&files, this](const std::string& uri) -> std::string {
       // A model may include itself, and would for ever.
-      if (++includes_ > kMostIncludes) return "";
+      if (++includes_ > kMaxIncludes) return "";
       const auto found = files.find(uri, file_);
       return found ? found->string() : "";
     });
@@ -58,7 +58,7 @@ class RootLoader {
   SdfText load(sdf::Root& root) {
     sdf::Console::Instance()->SetQuiet(true);
     sdf::Errors errors = load_once(root);
-    for (int i = 0; i < kMostTakenOut && !is_loaded(root); ++i) {
+    for (int i = 0; i < kMaxTakenOut && !is_loaded(root); ++i) {
       if (!take_out_first(errors)) break;
       errors = load_once(root);
     }
@@ -72,7 +72,7 @@ class RootLoader {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
     if (error) throw EnvironmentError(fmt::format("cannot read {}", file.string()));
-    if (size > kLargestFile) {
+    if (size > kMaxFileBytes) {
       throw InputError({file.string(), "", "a file of more than 32 MB", "a smaller world"});
     }
     return read_file(file);

@@ -7,7 +7,7 @@
 #include <sdf/sdf.hh>
 
 #include "base/error.h"
-#include "imports/gazebo_colours.h"
+#include "imports/gazebo_colors.h"
 #include "imports/mesh_reader.h"
 #include "world/polygon.h"
 
@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kLargestM = 10'000;
+constexpr double kMaxSizeM = 10'000;
 
 Vector3d vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
 
@@ -28,7 +28,7 @@ Vector3d vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.
 }
 
 double size_within(double size) {
-  if (!(size > 0 && size <= kLargestM)) {
+  if (!(size > 0 && size <= kMaxSizeM)) {
     reject(fmt::format("a size of {:g} m", size), "a size above 0 and up to 10 km");
   }
   return size;
@@ -94,14 +94,14 @@ Body mesh(const sdf::Mesh& mesh, const Isometry3d& pose, const std::string& file
   Body body;
   body.solids = read_mesh(*path, mesh.Submesh());
   const Vector3d scale = vector_of(mesh.Scale());
-  if (!scale.allFinite() || !(scale.cwiseAbs().maxCoeff() <= kLargestM)) {
+  if (!scale.allFinite() || !(scale.cwiseAbs().maxCoeff() <= kMaxSizeM)) {
     reject("a scale that is no number", "a scale");
   }
   for (Solid& solid : body.solids) {
     for (Triangle& triangle : solid.triangles) {
       for (Vector3d& corner : triangle) {
         corner = corner.cwiseProduct(scale);
-        if (!(corner.norm() <= kLargestM)) reject("a mesh of more than 10 km", "a smaller mesh");
+        if (!(corner.norm() <= kMaxSizeM)) reject("a mesh of more than 10 km", "a smaller mesh");
         corner = pose * corner;
       }
     }
@@ -131,7 +131,7 @@ Body polylines(const sdf::ElementPtr& geometry, const Isometry3d& pose) {
     for (auto point = line->FindElement("point"); point; point = point->GetNextElement("point")) {
       const auto at = point->Get<ignition::math::Vector2d>();
       corners.emplace_back(at.X(), at.Y());
-      if (!(corners.back().norm() <= kLargestM)) reject("a point that is far away", "10 km");
+      if (!(corners.back().norm() <= kMaxSizeM)) reject("a point that is far away", "10 km");
     }
     for (Area& area : repaired({corners, {}})) areas.push_back(std::move(area));
   }
@@ -203,17 +203,17 @@ Body body_of(const sdf::Geometry& geometry, const Isometry3d& pose, const std::s
   }
 }
 
-std::optional<Vector3d> colour_of(const sdf::Material* material) {
+std::optional<Vector3d> color_of(const sdf::Material* material) {
   if (material == nullptr) return std::nullopt;
   // libsdformat's default is black.
   const sdf::ElementPtr element = material->Element();
   const bool diffuse = element && element->HasElement("diffuse");
   if (!diffuse) {
-    if (const auto rgb = gazebo_colour(material->ScriptName())) return rgb;
+    if (const auto rgb = gazebo_color(material->ScriptName())) return rgb;
     if (!element || !element->HasElement("ambient")) return std::nullopt;
   }
-  const ignition::math::Color colour = diffuse ? material->Diffuse() : material->Ambient();
-  const Vector3d rgb(colour.R(), colour.G(), colour.B());
+  const ignition::math::Color color = diffuse ? material->Diffuse() : material->Ambient();
+  const Vector3d rgb(color.R(), color.G(), color.B());
   if (!rgb.allFinite()) return std::nullopt;
   return rgb.cwiseMax(0).cwiseMin(1);
 }

@@ -34,10 +34,10 @@ struct Body {
 Body body_of(const sdf::Geometry& geometry, const Eigen::Isometry3d& pose, const std::string& file,
              const LocalFiles& files);
 
-/// The colour that a material gives, if it does: diffuse, that of Gazebo's script, or ambient.
-std::optional<Eigen::Vector3d> colour_of(const sdf::Material* material);
+/// The color that a material gives, if it does: diffuse, that of Gazebo's script, or ambient.
+std::optional<Eigen::Vector3d> color_of(const sdf::Material* material);
 
-/// The ground's material that looks most like a colour.
+/// The ground's material that looks most like a color.
 std::string ground_material_like(const Eigen::Vector3d& rgb);
 
 }  // namespace throng::imports

@@ -30,11 +30,11 @@ namespace {
 
 constexpr double kTallM = 2;
 constexpr double kOnGroundM = 0.5;
-constexpr double kLeastBuildingM2 = 0.3;
-constexpr double kFarthestM = 5'000;
-constexpr double kLargestM = 3'000;
-constexpr std::size_t kMostBodies = 20'000;
-constexpr std::size_t kMostTriangles = 2'000'000;
+constexpr double kMinBuildingM2 = 0.3;
+constexpr double kMaxCoordinateM = 5'000;
+constexpr double kMaxSizeM = 3'000;
+constexpr std::size_t kMaxBodies = 20'000;
+constexpr std::size_t kMaxTriangles = 2'000'000;
 
 using Words = std::set<std::string>;
 
@@ -144,7 +144,7 @@ std::optional<Isometry3d> SdfReader::resolve(const sdf::SemanticPose& pose,
   local.linear() = turn.toRotationMatrix();
   local.translation() = at;
   const Isometry3d whole = parent * local;
-  if (!(whole.translation().cwiseAbs().maxCoeff() <= kFarthestM)) {
+  if (!(whole.translation().cwiseAbs().maxCoeff() <= kMaxCoordinateM)) {
     skip(element, path, "is more than 5 km away from the origin");
     return std::nullopt;
   }
@@ -157,9 +157,9 @@ std::optional<Body> SdfReader::body(const Owner& owner, const Isometry3d& link,
   const std::string name = path + "/" + owner.Name();
   const auto pose = resolve(owner.SemanticPose(), link, owner.Element(), name);
   if (!pose) return std::nullopt;
-  if (++bodies_ > kMostBodies) {
+  if (++bodies_ > kMaxBodies) {
     throw InputError(
-        {file_.string(), "", fmt::format("more than {} bodies", kMostBodies), "a smaller world"});
+        {file_.string(), "", fmt::format("more than {} bodies", kMaxBodies), "a smaller world"});
   }
   std::optional<Body> found;
   try {
@@ -171,8 +171,8 @@ std::optional<Body> SdfReader::body(const Owner& owner, const Isometry3d& link,
     return std::nullopt;
   }
   for (const Solid& solid : found->solids) triangles_ += solid.triangles.size();
-  if (triangles_ > kMostTriangles) {
-    throw InputError({file_.string(), "", fmt::format("more than {} triangles", kMostTriangles),
+  if (triangles_ > kMaxTriangles) {
+    throw InputError({file_.string(), "", fmt::format("more than {} triangles", kMaxTriangles),
                       "a smaller world"});
   }
   return found;
@@ -193,7 +193,7 @@ void SdfReader::add_building(const Body& body) {
     if (meet(bounds, building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
   }
   for (const Area& rest : without({*body.footprint, {}}, others)) {
-    for (Corners& part : simple_parts(rest, kLeastBuildingM2)) {
+    for (Corners& part : simple_parts(rest, kMinBuildingM2)) {
       building_bounds_.push_back(bounds_of(part));
       place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1), std::move(part),
                                   std::min(body.to_z, 900.0), world::Facade::by_id});
@@ -206,12 +206,12 @@ void SdfReader::add_seen(Body body, const Vector3d* rgb, Thing& thing) {
     for (Solid& solid : body.solids) solid.rgb = *rgb;
   }
   if (body.footprint && body.to_z < kStepM && body.to_z > -kOnGroundM) {
-    const Vector3d grey(0.5, 0.5, 0.5);
-    flat_.push_back({body.to_z, *body.footprint, ground_material_like(rgb ? *rgb : grey)});
+    const Vector3d gray(0.5, 0.5, 0.5);
+    flat_.push_back({body.to_z, *body.footprint, ground_material_like(rgb ? *rgb : gray)});
     return;
   }
   if (body.footprint && body.from_z < kOnGroundM && body.to_z >= kTallM &&
-      size_m2({*body.footprint, {}}) >= kLeastBuildingM2) {
+      size_m2({*body.footprint, {}}) >= kMinBuildingM2) {
     reach(*body.footprint);
     add_building(body);
     return;
@@ -279,7 +279,7 @@ void SdfReader::add_link(const sdf::Link& link, const Isometry3d& model, const s
     if (!seen) continue;
     drawn = true;
     if (link.CollisionCount() == 0) add_in_the_way(*seen);
-    const auto rgb = colour_of(visual.Material());
+    const auto rgb = color_of(visual.Material());
     add_seen(std::move(*seen), rgb ? &*rgb : nullptr, thing);
   }
   bool by_collisions = false;
@@ -316,22 +316,22 @@ void SdfReader::add_model(const sdf::Model& model, const Isometry3d& parent,
 
 // The place reaches as far as what stands in it; where that fills it, farther.
 void SdfReader::finish() {
-  constexpr double kLeastM = 8;
+  constexpr double kMinGroundM = 8;
   constexpr double kAroundM = 8;
-  constexpr double kLeastFree = 0.3;
+  constexpr double kMinFreeShare = 0.3;
   if (!low_.allFinite()) low_ = high_ = Vector2d::Zero();
   for (const Gate& gate : gates_) reach({gate.from, gate.to});
   world::Rectangle reached{low_, high_};
   const Vector2d size = high_ - low_;
-  if (!(size.maxCoeff() <= kLargestM)) {
+  if (!(size.maxCoeff() <= kMaxSizeM)) {
     throw InputError({file_.string(), "", fmt::format("{:.0f} m x {:.0f} m", size.x(), size.y()),
                       "at most 3 km, in metres"});
   }
-  bool crowded = size.minCoeff() < kLeastM;
+  bool crowded = size.minCoeff() < kMinGroundM;
   place_.inside = reached;
   place_.gates = gates_;
   place_.gates_asked = !gates_.empty();
-  if (!crowded && open_ground_m2(place_) < kLeastFree * size.prod()) {
+  if (!crowded && open_ground_m2(place_) < kMinFreeShare * size.prod()) {
     skip(nullptr, "edge", "most of the ground is walled up or built on: 8 m more around it");
     crowded = true;
   }

@@ -41,8 +41,8 @@ class Raster {
  public:
   Raster(const Vector2d& low, const Vector2d& high) : low_(low) {
     constexpr double kCell = 0.25;
-    constexpr double kMostCells = 1000;
-    cell_ = std::max(kCell, (high - low).maxCoeff() / kMostCells);
+    constexpr double kMaxCells = 1000;
+    cell_ = std::max(kCell, (high - low).maxCoeff() / kMaxCells);
     columns_ = 1 + static_cast<int>((high.x() - low.x()) / cell_);
     rows_ = 1 + static_cast<int>((high.y() - low.y()) / cell_);
     marked_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), false);

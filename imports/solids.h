@@ -13,7 +13,7 @@ namespace throng::imports {
 using Triangle = std::array<Eigen::Vector3d, 3>;
 using Triangles = std::vector<Triangle>;
 
-/// About the origin, the axis of a cylinder along z; metres.
+/// About the origin, the axis of a cylinder along z; meters.
 Triangles box_triangles(const Eigen::Vector3d& size);
 Triangles cylinder_triangles(double radius, double length);
 Triangles cone_triangles(double radius, double length);

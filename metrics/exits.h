@@ -73,8 +73,8 @@ struct ExitSeries {
   EdieRegion edie = {};                ///< those who intend the exit, in the zone, under demand
 };
 
-/// One series per exit of the scenario, at the trace's rate, causal except for values named "offline"
-/// and the clogs: a sample depends only on the trace up to its step.
+/// One series per exit of the scenario, at the trace's rate, causal except for values named
+/// "offline" and the clogs: a sample depends only on the trace up to its step.
 std::vector<ExitSeries> exit_series(const world::Trace& trace, const world::Scenario& scenario);
 
 }  // namespace throng::metrics

@@ -11,8 +11,8 @@ namespace throng::places {
 namespace {
 
 constexpr double kDiscStepM = 2;
-constexpr int kMostDiscSteps = 6;   // of one disaster
-constexpr int kMostLateDiscs = 24;  // of all: classes are bits
+constexpr int kMaxDiscSteps = 6;   // of one disaster
+constexpr int kMaxLateDiscs = 24;  // of all: classes are bits
 constexpr double kLookAheadS = 300;
 constexpr std::uint32_t kFirstLateClass = 8;
 
@@ -46,7 +46,7 @@ std::vector<BlockedDisc> blocked_discs(const People& people) {
       static_cast<int>(std::count_if(people.dangers.begin(), people.dangers.end(), starts_late));
   const auto growing =
       static_cast<int>(std::count_if(people.dangers.begin(), people.dangers.end(), does_grow));
-  const int most = std::min(kMostDiscSteps, (kMostLateDiscs - late) / std::max(1, growing));
+  const int max_value = std::min(kMaxDiscSteps, (kMaxLateDiscs - late) / std::max(1, growing));
   std::vector<BlockedDisc> discs;
   std::uint32_t next_class = kFirstLateClass;
   const auto take_class = [&] {
@@ -57,12 +57,12 @@ std::vector<BlockedDisc> blocked_discs(const People& people) {
   for (const Danger& danger : people.dangers) {
     if (danger.blocked_m <= 0) continue;
     const world::Disaster& seen = danger.seen;
-    const bool is_apart = starts_late(danger) && late <= kMostLateDiscs;
+    const bool is_apart = starts_late(danger) && late <= kMaxLateDiscs;
     discs.push_back({seen.position, danger.blocked_m, file_time_s(seen.start_s),
                      is_apart ? take_class() : kFirstClass});
-    if (!does_grow(danger) || most < 1) continue;
+    if (!does_grow(danger) || max_value < 1) continue;
     const double grows_m = growth_of(seen);
-    const int steps = std::clamp(static_cast<int>(std::lround(grows_m / kDiscStepM)), 1, most);
+    const int steps = std::clamp(static_cast<int>(std::lround(grows_m / kDiscStepM)), 1, max_value);
     for (int k = 1; k <= steps; ++k) {
       const double more_m = grows_m * k / steps;
       discs.push_back({seen.position, danger.blocked_m + more_m,

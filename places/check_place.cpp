@@ -147,35 +147,35 @@ bool anybody_reaches(std::size_t exit, const LoadedCrowd& loaded, const Routes& 
 }  // namespace
 
 void check_sizes(const Scenario& scenario, Findings& findings) {
-  constexpr double kSmallestM = 3;
-  constexpr double kLargestM = 20'000;
-  constexpr double kWidestExitM = 200;
-  constexpr double kHighestM = 500;
+  constexpr double kMinSizeM = 3;
+  constexpr double kMaxSizeM = 20'000;
+  constexpr double kMaxExitWidthM = 200;
+  constexpr double kMaxHeightM = 500;
   const Vector2d inside = scenario.inside.max - scenario.inside.min;
-  if (inside.minCoeff() < kSmallestM || inside.maxCoeff() > kLargestM) {
+  if (inside.minCoeff() < kMinSizeM || inside.maxCoeff() > kMaxSizeM) {
     findings.error("/inside", fmt::format("{:.4g} m by {:.4g} m", inside.x(), inside.y()),
-                   fmt::format("a place of {} m to {} m", kSmallestM, kLargestM),
+                   fmt::format("a place of {} m to {} m", kMinSizeM, kMaxSizeM),
                    "give all lengths in metres; was this drawn in millimetres or kilometres?");
   }
   const Vector2d ground = scenario.ground.max - scenario.ground.min;
-  if (ground.maxCoeff() > 2 * kLargestM) {
+  if (ground.maxCoeff() > 2 * kMaxSizeM) {
     findings.error("/ground", fmt::format("{:.4g} m by {:.4g} m", ground.x(), ground.y()),
-                   fmt::format("at most {} m", 2 * kLargestM),
+                   fmt::format("at most {} m", 2 * kMaxSizeM),
                    "give all lengths in metres, and draw no more ground than a camera sees");
   }
   for (std::size_t i = 0; i < scenario.exits.size(); ++i) {
-    if (scenario.exits[i].width_m() <= kWidestExitM) continue;
+    if (scenario.exits[i].width_m() <= kMaxExitWidthM) continue;
     findings.error(
         fmt::format("/exits/{}", i),
         fmt::format("exit \"{}\" {:.4g} m wide", scenario.exits[i].id, scenario.exits[i].width_m()),
-        fmt::format("a door of at most {} m", kWidestExitM),
+        fmt::format("a door of at most {} m", kMaxExitWidthM),
         "give all lengths in metres, or make several exits of it");
   }
   for (std::size_t i = 0; i < scenario.buildings.size(); ++i) {
-    if (scenario.buildings[i].height_m <= kHighestM) continue;
+    if (scenario.buildings[i].height_m <= kMaxHeightM) continue;
     findings.warning(fmt::format("/buildings/{}/height_m", i),
                      fmt::format("{:.4g} m", scenario.buildings[i].height_m),
-                     fmt::format("at most {} m", kHighestM), "give heights in metres");
+                     fmt::format("at most {} m", kMaxHeightM), "give heights in metres");
   }
 }
 
@@ -316,7 +316,7 @@ void check_ground(const Scenario& scenario, const Routes& routes, Findings& find
   Vector2d first = Vector2d::Zero();
   for (std::size_t cell = 0; cell < routes.nearest_exit.size(); ++cell) {
     if (routes.grid.walkable[cell] == 0 || routes.nearest_exit[cell] != Routes::kNone) continue;
-    const Vector2d at = routes.centre_of(static_cast<int>(cell));
+    const Vector2d at = routes.center_of(static_cast<int>(cell));
     if (!scenario.inside.contains(at)) continue;
     if (cells++ == 0) first = at;
   }
@@ -331,7 +331,7 @@ void check_ground(const Scenario& scenario, const Routes& routes, Findings& find
 
 void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Routes& routes,
                  Findings& findings) {
-  constexpr double kNarrowestM = 0.5;
+  constexpr double kMinWidthM = 0.5;
   bool any_demand = false;
   bool any_open = false;
   for (std::size_t i = 0; i < scenario.exits.size(); ++i) {
@@ -340,9 +340,9 @@ void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Rout
     if (!exit.open) continue;
     check_goals(exit, where, loaded.crowd.goals, findings);
     any_open = true;
-    if (exit.width_m() < kNarrowestM) {
+    if (exit.width_m() < kMinWidthM) {
       findings.error(where, fmt::format("exit \"{}\" {:.2g} m wide", exit.id, exit.width_m()),
-                     fmt::format("at least {} m", kNarrowestM),
+                     fmt::format("at least {} m", kMinWidthM),
                      "widen it, or give its ends in metres");
     } else if (!is_passable(exit, routes)) {
       findings.error(where, fmt::format("exit \"{}\" blocked by the scene's obstacles", exit.id),

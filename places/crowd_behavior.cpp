@@ -211,7 +211,8 @@ std::vector<Node> late_obstacles(const People& people) {
 std::vector<Attribute> spread_of(const Danger& danger, double from_edge_m) {
   constexpr double kInstantS = 0.3;
   const world::Disaster& seen = danger.seen;
-  const double grows_m = seen.growth_mps > 0 ? std::max(seen.most_m - seen.radius_m, 0.0) : 0.0;
+  const double grows_m =
+      seen.growth_mps > 0 ? std::max(seen.max_radius_m - seen.radius_m, 0.0) : 0.0;
   const double spreads_s = grows_m > 0 ? grows_m / seen.growth_mps : 0.0;
   std::vector<Attribute> spread;
   switch (seen.kind) {

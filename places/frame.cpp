@@ -130,8 +130,8 @@ void build_walls(const Frame& frame, const WallStyle& style, Random& random, jso
         const auto [low, high] =
             box_of(frame, side, {begin, end}, is_house ? frame.depth_m : kGardenWallM);
         const std::string id = fmt::format("house{}", buildings.size() + 1);
-        const double height_m = is_house ? random.uniform(style.least_height_m, style.most_height_m)
-                                         : kGardenWallHeightM;
+        const double height_m =
+            is_house ? random.uniform(style.min_height_m, style.max_height_m) : kGardenWallHeightM;
         buildings.push_back(house_json(id, low, high, height_m, random));
         begin = end;
       }

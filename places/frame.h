@@ -36,9 +36,9 @@ struct Frame {
 
 /// How a frame's walls are built up.
 struct WallStyle {
-  double density = 0.5;       ///< share of the pieces that are houses; the others are garden walls
-  double least_height_m = 6;  ///< of houses
-  double most_height_m = 18;
+  double density = 0.5;     ///< share of the pieces that are houses; the others are garden walls
+  double min_height_m = 6;  ///< of houses
+  double max_height_m = 18;
 };
 
 /// Gates spread over the sides, at least their own width from each other and from corners. As many

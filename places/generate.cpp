@@ -47,13 +47,14 @@ class Site {
   Frame& frame() { return frame_; }
   json& blueprint() { return blueprint_; }
 
-  double gate_width_m(double least, double most) {
-    const double drawn = random_.uniform(least, most);
+  double gate_width_m(double min_value, double max_value) {
+    const double drawn = random_.uniform(min_value, max_value);
     return spec_.exit_width_m > 0 ? spec_.exit_width_m : drawn;
   }
-  int gate_count(int least, int most) {
+  int gate_count(int min_value, int max_value) {
     const int drawn =
-        least + static_cast<int>(random_.below(static_cast<std::uint32_t>(most - least + 1)));
+        min_value +
+        static_cast<int>(random_.below(static_cast<std::uint32_t>(max_value - min_value + 1)));
     return spec_.exits > 0 ? spec_.exits : drawn;
   }
 
@@ -139,15 +140,15 @@ class Site {
   json blueprint_;
 };
 
-double drawn_size(const PlaceSpec& spec, double least, double most) {
+double drawn_size(const PlaceSpec& spec, double min_value, double max_value) {
   Random random(spec.seed, Stream::environment, kPlaceIndex + kPlaceKinds.size());
-  const double drawn = random.uniform(least, most);
+  const double drawn = random.uniform(min_value, max_value);
   return spec.size_m > 0 ? spec.size_m : std::round(drawn);
 }
 
-double drawn_share(const PlaceSpec& spec, double least, double most) {
+double drawn_share(const PlaceSpec& spec, double min_value, double max_value) {
   Random random(spec.seed, Stream::environment, kPlaceIndex + kPlaceKinds.size() + 1);
-  return random.uniform(least, most);
+  return random.uniform(min_value, max_value);
 }
 
 const std::vector<Side> kAllSides = {Side::south, Side::east, Side::north, Side::west};

@@ -17,8 +17,8 @@ using world::JsonValue;
 namespace {
 
 constexpr double kFarM = 100'000;
-constexpr int kMostPeople = 100'000;
-constexpr double kLongestS = 86'400;
+constexpr int kMaxPeople = 100'000;
+constexpr double kMaxDurationS = 86'400;
 constexpr double kGasHurtsAfterS = 60;  // an assumption: real gases take a breath or many minutes
 constexpr std::array<std::string_view, 4> kDoings = {"stroll", "wait", "cross", "leave"};
 
@@ -79,7 +79,7 @@ Facing read_facing(const JsonValue& value) {
 Group read_group(const JsonValue& item) {
   item.fields({"doing", "area", "count"}, {"facing"});
   Group group{read_doing(item["doing"]), read_outline(item["area"]),
-              item["count"].integer(1, kMostPeople)};
+              item["count"].integer(1, kMaxPeople)};
   if (item["facing"].exists()) {
     if (group.doing != Doing::wait) item["facing"].reject("a group that is doing \"wait\"");
     group.facing = read_facing(item["facing"]);
@@ -107,11 +107,11 @@ Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits)
     source.from = item["from"].vector2(kFarM);
     source.to = item["to"].vector2(kFarM);
   }
-  if (item["until_s"].exists()) source.until_s = item["until_s"].number(1, kLongestS);
+  if (item["until_s"].exists()) source.until_s = item["until_s"].number(1, kMaxDurationS);
   for (const JsonValue& row : item["table"].items()) {
     const auto pair = row.tuple(2, "[seconds, people]");
     if (pair.empty()) continue;
-    source.table.emplace_back(pair[0].number(0, kLongestS), pair[1].integer(1, kMostPeople));
+    source.table.emplace_back(pair[0].number(0, kMaxDurationS), pair[1].integer(1, kMaxPeople));
   }
   if (item["table"].exists() == item["per_minute"].exists()) {
     item.reject("both or none of \"per_minute\" and \"table\"", "one of them");

@@ -103,14 +103,14 @@ void draw_exits(const Scenario& scenario, Sheet& sheet) {
 void draw_goals(const Scenario& scenario, const crowd::Goals& goals, Sheet& sheet) {
   for (int i = 0; i < goals.count(); ++i) {
     const crowd::Goal& goal = goals[i];
-    const Vector2d centre = goal.shape->centre().cast<double>();
-    if (!scenario.ground.contains(centre)) continue;
+    const Vector2d center = goal.shape->center().cast<double>();
+    if (!scenario.ground.contains(center)) continue;
     constexpr double kGoalPx = 2.5;
-    sheet.dot(centre, kGoalPx, inks::kGoal);
+    sheet.dot(center, kGoalPx, inks::kGoal);
   }
 }
 
-/// How many people come at each place, by metre.
+/// How many people come at each place, by meter.
 using Arrivals = std::map<std::pair<long, long>, int>;
 
 /// Takes the places out that hang together with the first, none more than 2 m from the next, and
@@ -147,9 +147,9 @@ void draw_sources(Arrivals arrivals, Sheet& sheet) {
 }
 
 void draw_people(const LoadedCrowd& loaded, Sheet& sheet) {
-  constexpr std::size_t kMostDots = 3000;
+  constexpr std::size_t kMaxDots = 3000;
   constexpr double kPersonPx = 1.6;
-  const std::size_t stride = 1 + loaded.count() / kMostDots;
+  const std::size_t stride = 1 + loaded.count() / kMaxDots;
   Arrivals arrivals;
   for (std::size_t agent = 0; agent < loaded.count(); ++agent) {
     const Vector2d at = loaded.place(agent);
@@ -186,13 +186,13 @@ void draw_flows(const Scenario& scenario, const LoadedCrowd& loaded, const Route
     ++flows[static_cast<std::size_t>(exit)].people;
     ++all;
   }
-  constexpr double kWidestPx = 24;
+  constexpr double kMaxWidthPx = 24;
   for (std::size_t i = 0; i < flows.size(); ++i) {
     if (flows[i].people == 0) continue;
     const Vector2d from = flows[i].sum / flows[i].people;
     const Vector2d to = scenario.exits[i].middle();
     if ((to - from).norm() < 1) continue;
-    sheet.line(std::array{from, to}, inks::kFlow, 1 + kWidestPx * flows[i].people / all, true);
+    sheet.line(std::array{from, to}, inks::kFlow, 1 + kMaxWidthPx * flows[i].people / all, true);
     sheet.words(0.5 * (from + to), {6, -4}, fmt::format("{} nearest here", flows[i].people),
                 inks::kOpenExit);
   }

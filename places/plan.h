@@ -14,7 +14,7 @@
 
 namespace throng::places {
 
-/// A colour of a plan, 0 to 255 and how much of what is below it hides, 0 to 1.
+/// A color of a plan, 0 to 255 and how much of what is below it hides, 0 to 1.
 struct Ink {
   std::array<std::uint8_t, 3> rgb{};
   double opacity = 1;

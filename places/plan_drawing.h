@@ -1,4 +1,4 @@
-// What a plan's marks are made with: the paper, its scale and the colours of its legend.
+// What a plan's marks are made with: the paper, its scale and the colors of its legend.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ inline constexpr Ink kDrone{{140, 40, 160}};
 inline constexpr Ink kDanger{{230, 60, 20}};
 }  // namespace inks
 
-/// A sheet on which metres become pixels, +y upwards.
+/// A sheet on which meters become pixels, +y upwards.
 class Sheet {
  public:
   /// The area is drawn `size_px` wide or high, whichever is longer, with room for a legend below.
@@ -41,7 +41,7 @@ class Sheet {
   void ring(const Eigen::Vector2d& place, double radius_m, const Ink& stroke);
   void words(const Eigen::Vector2d& place, const Eigen::Vector2d& offset_px,
              const std::string& text, const Ink& ink);
-  /// Name, scale and north, and what the colours mean.
+  /// Name, scale and north, and what the colors mean.
   void finish(const std::string& title);
 
   Drawing take() { return std::move(drawing_); }

@@ -34,18 +34,18 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-std::string colour(const Ink& ink) {
+std::string color(const Ink& ink) {
   return fmt::format("#{:02x}{:02x}{:02x}", ink.rgb[0], ink.rgb[1], ink.rgb[2]);
 }
 
 std::string paint(const Mark& mark) {
-  std::string words = mark.fill.opacity > 0 ? fmt::format("fill=\"{}\"", colour(mark.fill))
+  std::string words = mark.fill.opacity > 0 ? fmt::format("fill=\"{}\"", color(mark.fill))
                                             : std::string("fill=\"none\"");
   if (mark.fill.opacity > 0 && mark.fill.opacity < 1) {
     words += fmt::format(" fill-opacity=\"{:.2g}\"", mark.fill.opacity);
   }
   if (mark.stroke.opacity > 0) {
-    words += fmt::format(" stroke=\"{}\"", colour(mark.stroke));
+    words += fmt::format(" stroke=\"{}\"", color(mark.stroke));
     if (mark.stroke.opacity < 1) {
       words += fmt::format(" stroke-opacity=\"{:.2g}\"", mark.stroke.opacity);
     }
@@ -83,7 +83,7 @@ std::string element_of(const Mark& mark) {
           fmt::format("<polyline points=\"{}\" {}/>\n", points_text(mark.points), paint(mark));
       if (mark.arrow) {
         words += fmt::format("<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"{:.2g}\"/>\n",
-                             points_text(head_of(mark)), colour(mark.stroke), mark.stroke.opacity);
+                             points_text(head_of(mark)), color(mark.stroke), mark.stroke.opacity);
       }
       return words;
     }
@@ -94,11 +94,11 @@ std::string element_of(const Mark& mark) {
     case Mark::Kind::text:
       break;
   }
-  // With a rim, since what it stands on has many colours.
+  // With a rim, since what it stands on has many colors.
   return fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.3g}\" fill=\"{}\" stroke=\"#ffffff\" "
       "stroke-width=\"{:.2g}\" stroke-linejoin=\"round\" paint-order=\"stroke\">{}</text>\n",
-      mark.points.front().x(), mark.points.front().y(), mark.width_px, colour(mark.fill), kRimPx,
+      mark.points.front().x(), mark.points.front().y(), mark.width_px, color(mark.fill), kRimPx,
       escaped(mark.text));
 }
 

@@ -17,7 +17,7 @@ using world::JsonValue;
 
 namespace {
 
-constexpr double kFarthestOutM = 100'000;
+constexpr double kMaxOutsideM = 100'000;
 
 /// The list at a place of the document, if it is one.
 json* list_at(json& document, const char* pointer) {
@@ -33,7 +33,7 @@ void expand_boxes(const JsonValue& said, json& items, const char* outline) {
     const auto corners = values[i]["box"].tuple(4, "[x0, y0, x1, y1]");
     if (corners.empty()) continue;
     const auto number = [&](std::size_t k) {
-      return corners[k].number(-kFarthestOutM, kFarthestOutM);
+      return corners[k].number(-kMaxOutsideM, kMaxOutsideM);
     };
     const Vector2d low(number(0), number(1));
     const Vector2d high(number(2), number(3));
@@ -49,8 +49,8 @@ void expand_boxes(const JsonValue& said, json& items, const char* outline) {
 /// A row of one kind of thing from a point to another, both included.
 void add_row(const JsonValue& row, json& props) {
   row.fields({"kind", "from", "to", "apart_m"}, {"yaw_deg", "scale"});
-  const Vector2d from = row["from"].vector2(kFarthestOutM);
-  const Vector2d to = row["to"].vector2(kFarthestOutM);
+  const Vector2d from = row["from"].vector2(kMaxOutsideM);
+  const Vector2d to = row["to"].vector2(kMaxOutsideM);
   const double apart_m = row["apart_m"].number(0.2, 1000);
   const double length_m = (to - from).norm();
   const int steps = static_cast<int>(std::lround(length_m / apart_m));

@@ -13,9 +13,9 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr std::uint32_t kClass = 1;
-constexpr double kNearestM = 0.36;  // between the middles of two people, in a crush
-constexpr double kCalmM = 0.45;     // no nearer as long as there is room
-constexpr double kFarthestM = 1;    // nobody cares beyond
+constexpr double kMinDistanceM = 0.36;  // between the middles of two people, in a crush
+constexpr double kCalmM = 0.45;         // no nearer as long as there is room
+constexpr double kMaxDistanceM = 1;     // nobody cares beyond
 
 std::vector<Vector2d> outline_of(const world::Prop& prop) {
   // Nothing thinner than this: a wall of no width is none.
@@ -63,13 +63,13 @@ Standing stand(std::span<const Vector2d> area, int count, const Solids& solids, 
   spec.area = in_floats(area);
   spec.count = static_cast<std::size_t>(count);
   spec.clearance_m = static_cast<float>(clearance_m);
-  double apart_m = std::clamp(0.62 * own_m, kCalmM, kFarthestM);
+  double apart_m = std::clamp(0.62 * own_m, kCalmM, kMaxDistanceM);
   std::vector<Eigen::Vector2f> places;
   while (true) {
     spec.apart_m = static_cast<float>(apart_m);
     places = crowd::scatter(spec, solids.walls(), others, Random(1, Stream::crowd_generator));
-    if (places.size() == spec.count || apart_m <= kNearestM) break;
-    apart_m = std::max(kNearestM, kCloser * apart_m);
+    if (places.size() == spec.count || apart_m <= kMinDistanceM) break;
+    apart_m = std::max(kMinDistanceM, kCloser * apart_m);
   }
   for (const Eigen::Vector2f& place : places) taken.push_back(place.cast<double>());
   return {static_cast<int>(places.size()), kSpare * apart_m};

@@ -89,12 +89,12 @@ void add_lawn(const Edge& edge, Random& random, json& blueprint) {
 }
 
 void add_houses(const Edge& edge, Random& random, json& blueprint) {
-  constexpr double kNarrowestM = 9;
+  constexpr double kMinWidthM = 9;
   const double near_m = kRoadM + kPavementM;
   const double tall_m = random.uniform(8, 15);
   double begin = -edge.half_m;
-  while (edge.half_m - begin > kNarrowestM) {
-    const double end = std::min(edge.half_m, begin + random.uniform(kNarrowestM, 22));
+  while (edge.half_m - begin > kMinWidthM) {
+    const double end = std::min(edge.half_m, begin + random.uniform(kMinWidthM, 22));
     const double far_m = near_m + random.uniform(9, 14);
     const auto [low, high] = edge.box(begin, end, near_m, far_m);
     json& buildings = blueprint["buildings"];

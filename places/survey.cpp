@@ -20,18 +20,18 @@ using Eigen::Vector2f;
 namespace {
 
 constexpr double kMarginM = 2;  // of the grid around `inside`
-constexpr double kMostCells = 4e6;
+constexpr double kMaxCells = 4e6;
 constexpr double kFinestCellM = 0.1;
 constexpr double kUsualCellM = 0.2;
 
-float least_radius_m(const LoadedCrowd& loaded) {
+float min_radius_m(const LoadedCrowd& loaded) {
   const std::vector<float>& radius = loaded.crowd.agents[crowd::Property::radius];
-  float least = std::numeric_limits<float>::max();
+  float min_value = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < loaded.count(); ++i) {
-    if (loaded.is_person[i] != 0) least = std::min(least, radius[i]);
+    if (loaded.is_person[i] != 0) min_value = std::min(min_value, radius[i]);
   }
   constexpr float kWithoutPeopleM = 0.2F;
-  return least < std::numeric_limits<float>::max() ? least : kWithoutPeopleM;
+  return min_value < std::numeric_limits<float>::max() ? min_value : kWithoutPeopleM;
 }
 
 std::uint32_t walls_of_people(const LoadedCrowd& loaded) {
@@ -51,7 +51,7 @@ float cell_size_m(const world::Scenario& scenario, double radius_m) {
   const Vector2d size =
       scenario.inside.max - scenario.inside.min + Vector2d::Constant(2 * kMarginM);
   return static_cast<float>(
-      std::max({cell_m, kFinestCellM, std::sqrt(size.x() * size.y() / kMostCells)}));
+      std::max({cell_m, kFinestCellM, std::sqrt(size.x() * size.y() / kMaxCells)}));
 }
 
 /// The cells on a door's line that somebody can stand in.
@@ -171,8 +171,8 @@ int Routes::walkable_near(const Vector2d& point, double reach_m) const {
   return best;
 }
 
-Vector2d Routes::centre_of(int cell) const {
-  return grid.centre(cell % grid.columns, cell / grid.columns).cast<double>();
+Vector2d Routes::center_of(int cell) const {
+  return grid.center(cell % grid.columns, cell / grid.columns).cast<double>();
 }
 
 bool is_passable(const world::Exit& exit, const Routes& routes) {
@@ -197,7 +197,7 @@ bool is_passable(const world::Exit& exit, const Routes& routes) {
 
 Routes find_routes(const world::Scenario& scenario, const LoadedCrowd& loaded) {
   Routes routes;
-  const float radius_m = least_radius_m(loaded);
+  const float radius_m = min_radius_m(loaded);
   const Vector2d margin = Vector2d::Constant(kMarginM);
   const crowd::Box box{(scenario.inside.min - margin).cast<float>(),
                        (scenario.inside.max + margin).cast<float>()};

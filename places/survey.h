@@ -42,7 +42,7 @@ struct Routes {
   int cell_at(const Eigen::Vector2d& point) const;
   /// The nearest walkable cell within `reach_m` of a point, or kNone.
   int walkable_near(const Eigen::Vector2d& point, double reach_m) const;
-  Eigen::Vector2d centre_of(int cell) const;
+  Eigen::Vector2d center_of(int cell) const;
 };
 
 Routes find_routes(const world::Scenario& scenario, const LoadedCrowd& loaded);

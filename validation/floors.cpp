@@ -110,10 +110,10 @@ std::vector<double> walk_alone(const Tested& tested, const Sampled& speed, std::
 }
 
 std::vector<int> exits_used(crowd::Simulation& crowd, const std::vector<Vector2d>& exits,
-                            double most_s) {
+                            double max_s) {
   std::vector<int> used(exits.size(), 0);
   std::vector<std::uint8_t> present(crowd.present().begin(), crowd.present().end());
-  until_all_left(crowd, most_s, [&](const crowd::Simulation& now) {
+  until_all_left(crowd, max_s, [&](const crowd::Simulation& now) {
     for (std::size_t i = 0; i < present.size(); ++i) {
       if (present[i] == 0 || now.present()[i] != 0) continue;
       present[i] = 0;
@@ -128,7 +128,7 @@ std::vector<int> exits_used(crowd::Simulation& crowd, const std::vector<Vector2d
   return used;
 }
 
-Verdict round_corner(const Tested& tested, double most_s) {
+Verdict round_corner(const Tested& tested, double max_s) {
   Scene scene;
   scene.walls = {box(-11, -1, 3, 0), box(-11, 2, 0, 13), box(2, 0, 3, 13)};
   Group group;
@@ -144,7 +144,7 @@ Verdict round_corner(const Tested& tested, double most_s) {
     }
   });
   const std::string time = end ? fmt::format("{:.1f} s", *end) : "jams";
-  return {outside == 0 && end && *end < most_s, fmt::format("{}, {} outside", time, outside)};
+  return {outside == 0 && end && *end < max_s, fmt::format("{}, {} outside", time, outside)};
 }
 
 Verdict assigned_exits(const Tested& tested, Effort) {

@@ -123,8 +123,8 @@ double specific_flow(const Tested& tested, const Bottleneck& bottleneck, std::ui
   std::vector<bool> passed(crowd.agent_count(), false);
   std::vector<double> times_s;
   const std::size_t last = bottleneck.people * 8 / 10;
-  constexpr double kLongest = 300;  // s
-  while (times_s.size() < last && crowd.time_s() < kLongest) {
+  constexpr double kMaxDurationS = 300;  // s
+  while (times_s.size() < last && crowd.time_s() < kMaxDurationS) {
     crowd.step();
     for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
       if (passed[i] || crowd.positions()[i].x() <= 0) continue;

@@ -46,7 +46,7 @@ Scene room_with_door(const Bottleneck& door);
 /// these times, in order; 0 when they do not get so far.
 double central_rate(const std::vector<double>& times_s, std::size_t people);
 
-/// People per metre and second between the 10th and the 80th percentile of the passages, as
+/// People per meter and second between the 10th and the 80th percentile of the passages, as
 /// measured in experiments; 0 when they do not get so far within 300 s.
 double specific_flow(const Tested& tested, const Bottleneck& bottleneck, std::uint64_t seed);
 

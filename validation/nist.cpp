@@ -118,8 +118,8 @@ Verdict congestion(const Tested& tested, Effort effort) {
   // corridor.
   double door = 0;
   double corridor = 0;
-  double door_most = 0;
-  double corridor_most = 0;
+  double door_max = 0;
+  double corridor_max = 0;
   const auto end = until_all_left(crowd, 300, [&](const crowd::Simulation& now) {
     int at_door = 0;
     int in_corridor = 0;
@@ -132,11 +132,11 @@ Verdict congestion(const Tested& tested, Effort effort) {
     const double share = std::min(1.0, now.dt_s() / 3);
     door += share * (at_door / 4.0 - door);
     corridor += share * (in_corridor / 4.0 - corridor);
-    door_most = std::max(door_most, door);
-    corridor_most = std::max(corridor_most, corridor);
+    door_max = std::max(door_max, door);
+    corridor_max = std::max(corridor_max, corridor);
   });
-  return {end && door_most > corridor_most,
-          fmt::format("{:.1f}, {:.1f} /m²{}", door_most, corridor_most, end ? "" : ", jams")};
+  return {end && door_max > corridor_max,
+          fmt::format("{:.1f}, {:.1f} /m²{}", door_max, corridor_max, end ? "" : ", jams")};
 }
 
 }  // namespace

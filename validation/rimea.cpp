@@ -89,12 +89,12 @@ Verdict speeds_of_groups(const Tested& tested, Effort) {
   for (std::size_t age = 0; age < kAges.size(); ++age) {
     const Sampled speed = Sampled::uniform(kAges[age].low, kAges[age].high);
     const std::vector<double> speeds = walk_alone(tested, speed, 50);
-    const auto [least, greatest] = std::minmax_element(speeds.begin(), speeds.end());
+    const auto [min_value, greatest] = std::minmax_element(speeds.begin(), speeds.end());
     constexpr double kTolerance = 0.03;  // m/s
-    inside = inside && *least >= kAges[age].low - kTolerance &&
+    inside = inside && *min_value >= kAges[age].low - kTolerance &&
              *greatest <= kAges[age].high + kTolerance;
     for (const double each : speeds) means[age] += each / static_cast<double>(speeds.size());
-    values += fmt::format("{}{:.2f}-{:.2f}", age == 0 ? "" : ", ", *least, *greatest);
+    values += fmt::format("{}{:.2f}-{:.2f}", age == 0 ? "" : ", ", *min_value, *greatest);
   }
   return {inside && means[1] > means[2] && means[2] > means[3], values + " m/s"};
 }

@@ -9,11 +9,11 @@ std::size_t count_present(const crowd::Simulation& crowd) {
   return static_cast<std::size_t>(std::count(present.begin(), present.end(), std::uint8_t{1}));
 }
 
-std::optional<double> until_all_left(crowd::Simulation& crowd, double most_s, const Look& look) {
+std::optional<double> until_all_left(crowd::Simulation& crowd, double max_s, const Look& look) {
   constexpr double kPatience = 60;  // s
   std::size_t left = count_present(crowd);
   double last_s = 0;
-  while (crowd.time_s() < most_s) {
+  while (crowd.time_s() < max_s) {
     crowd.step();
     if (look) look(crowd);
     const std::size_t now = count_present(crowd);

@@ -180,8 +180,8 @@ TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed) 
   while (crowd.time_s() < 180) {
     leavers.step([&](std::size_t agent) { ++out[agent < people ? 0 : 1]; });
   }
-  constexpr double kMetreSeconds = 4 * 120;
-  return {static_cast<double>(out[0]) / kMetreSeconds, static_cast<double>(out[1]) / kMetreSeconds};
+  constexpr double kMeterSeconds = 4 * 120;
+  return {static_cast<double>(out[0]) / kMeterSeconds, static_cast<double>(out[1]) / kMeterSeconds};
 }
 
 double corridor_flow(const Tested& tested, bool turns, double width, std::uint64_t seed) {

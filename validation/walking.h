@@ -41,10 +41,10 @@ struct TwoWayRun {
   double there = 0;  ///< 1/(m s), of those who walk one way; mean from 60 to 180 s
   double back = 0;   ///< 1/(m s), of the others
 };
-/// A corridor 4 m wide that `each` people per metre and second enter at both ends.
+/// A corridor 4 m wide that `each` people per meter and second enter at both ends.
 TwoWayRun walk_both_ways(const Tested& tested, double each, std::uint64_t seed);
 
-/// People per metre and second between the 10th and the 80th percentile of those who come out of a
+/// People per meter and second between the 10th and the 80th percentile of those who come out of a
 /// corridor that is straight, or turns by 90 degrees; 0 when that takes longer than 600 s.
 double corridor_flow(const Tested& tested, bool turns, double width_m, std::uint64_t seed);
 

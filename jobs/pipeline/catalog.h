@@ -8,7 +8,7 @@ namespace throng::jobs {
 /// {"airframes": [...], "formats": [...], "policies": [...]}, as the service lists them.
 nlohmann::json catalog();
 
-/// The baked people, {"content_hash", "licence", "people": [...]}; null when none have been baked.
+/// The baked people, {"content_hash", "license", "people": [...]}; null when none have been baked.
 /// Throws InputError when their index is damaged.
 nlohmann::json people_catalog();
 

@@ -35,10 +35,10 @@ sim::SensorLog sensors_of(const JobSpec& job, std::uint64_t run_seed,
 }
 
 json horizon_rows(const camera::Camera& camera) {
-  constexpr double kLeastSlope = 1e-6;
+  constexpr double kMinSlope = 1e-6;
   const camera::Intrinsics& k = camera.intrinsics;
   const Eigen::Vector3d up = camera.pose.R.col(2);
-  if (std::abs(up.y()) < kLeastSlope) return nullptr;
+  if (std::abs(up.y()) < kMinSlope) return nullptr;
   const auto row_at = [&](double column) {
     return k.cy_px - k.fy_px * (up.z() + up.x() * (column - k.cx_px) / k.fx_px) / up.y();
   };

@@ -8,7 +8,7 @@ namespace throng::jobs {
 
 void check_lens(const CameraSpec& run_camera, const std::string& pointer,
                 std::vector<Problem>& problems) {
-  constexpr int kWidestPicture = 12000;  // px; what software GL draws with room around it
+  constexpr int kMaxImagePx = 12000;  // px; what software GL draws with room around it
   const std::string at = pointer + "/distortion";
   const std::optional<camera::Intrinsics> k = intrinsics_of(run_camera);
   const Eigen::Vector2i size = k ? render::wide_size(*k) : Eigen::Vector2i::Zero();
@@ -22,11 +22,11 @@ void check_lens(const CameraSpec& run_camera, const std::string& pointer,
   } else if (size.minCoeff() == 0) {
     problems.push_back({"", at, "a lens whose model holds nowhere in the image",
                         "one that shows something of it"});
-  } else if (k->distortion && size.maxCoeff() > kWidestPicture) {
+  } else if (k->distortion && size.maxCoeff() > kMaxImagePx) {
     problems.push_back(
         {"", at,
          fmt::format("a lens that a flat picture of {} x {} pixels covers", size.x(), size.y()),
-         fmt::format("one of at most {0} x {0}", kWidestPicture)});
+         fmt::format("one of at most {0} x {0}", kMaxImagePx)});
   }
 }
 

@@ -12,9 +12,9 @@
 #include "annotate/preview.h"
 #include "base/error.h"
 #include "camera/camera.h"
+#include "jobs/pipeline/frame_capture.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
-#include "jobs/pipeline/shoot.h"
 #include "jobs/queue/people.h"
 #include "jobs/queue/profile.h"
 #include "jobs/queue/publication.h"
@@ -49,8 +49,8 @@ class ShardOutput {
     }
   }
 
-  void add(const Picture& picture, std::size_t camera) {
-    const render::Frame& frame = picture.frame;
+  void add(const CapturedFrame& captured, std::size_t camera) {
+    const render::Frame& frame = captured.frame;
     annotate::FrameLabels labels = annotate::label_people(frame);
     lap("labels");
     const std::string& drone = job_.drones[camera].mission.id;
@@ -65,9 +65,9 @@ class ShardOutput {
     image.time_s = frame.time_s;
     image.camera = frame.camera;
     image.environment = environment_;
-    image.drawn = drawn_of(picture);
-    image.sensor = picture.sensor;
-    image.flight = picture.flight;
+    image.drawn = drawn_of(captured);
+    image.sensor = captured.sensor;
+    image.flight = captured.flight;
     image.facts = &facts_;
     image.drone_ids = &drone_ids_;
     const std::string jpeg =
@@ -99,9 +99,9 @@ class ShardOutput {
 
  private:
   /// What was drawn for the run and for the frame, or "".
-  std::string drawn_of(const Picture& picture) const {
+  std::string drawn_of(const CapturedFrame& captured) const {
     nlohmann::json drawn = drawn_;
-    drawn.update(picture.drawn);
+    drawn.update(captured.drawn);
     return drawn.empty() ? "" : drawn.dump();
   }
 
@@ -166,7 +166,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   options.whole_masks = needs.whole_masks;
   options.clock = clock ? &*clock : nullptr;
   render::Renderer renderer(scenario, population, environment.light, {}, options);
-  Shoot shoot(job, seed, trace, population, renderer, options.clock);
+  FrameCapture frame_capture(job, seed, trace, population, renderer, options.clock);
 
   const Task task{Task::Kind::render, shard.run, shard.index};
   const nlohmann::json drawn = drawn_of_run(whole_job, shard.run);
@@ -183,9 +183,9 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   for (std::int64_t frame = shard.first_frame; frame < shard.end_frame; ++frame) {
     for (std::size_t i = 0; i < job.drones.size(); ++i) {
       if (stop.stop_requested()) throw Cancelled();
-      Picture picture = shoot.take(i, frame);
-      output.add(picture, i);
-      shoot.recycle(std::move(picture));
+      CapturedFrame captured = frame_capture.take(i, frame);
+      output.add(captured, i);
+      frame_capture.recycle(std::move(captured));
       if (on_progress) on_progress({++done, images});
     }
   }

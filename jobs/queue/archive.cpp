@@ -58,11 +58,11 @@ void Archive::choose(const Manifest& manifest, const Selection& selection) {
 
 // Other formats hold the same pictures under other names.
 void Archive::link_equal_files() {
-  constexpr std::size_t kLongestLink = 100;
+  constexpr std::size_t kMaxLinkLength = 100;
   std::unordered_map<std::string, std::string> first_of;
   for (std::size_t i = 0; i < files_.size(); ++i) {
     const auto [first, is_new] = first_of.try_emplace(files_[i].sha256, members_[i].path);
-    if (is_new || files_[i].bytes <= kTarBlock || first->second.size() > kLongestLink) continue;
+    if (is_new || files_[i].bytes <= kTarBlock || first->second.size() > kMaxLinkLength) continue;
     members_[i].same_as = first->second;
     members_[i].bytes = 0;
   }
@@ -139,7 +139,7 @@ void Archive::read_part(const Part& part, std::int64_t from, std::span<char> buf
 }
 
 std::string slug(const std::string& name) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxNameBytes = 60;
   std::string text;
   for (const char c : name) {
     const bool upper = c >= 'A' && c <= 'Z';
@@ -149,7 +149,7 @@ std::string slug(const std::string& name) {
     } else if (!text.empty() && text.back() != '-') {
       text += '-';
     }
-    if (text.size() == kLongest) break;
+    if (text.size() == kMaxNameBytes) break;
   }
   while (!text.empty() && text.back() == '-') text.pop_back();
   return text.empty() ? "dataset" : text;

@@ -18,7 +18,7 @@ namespace throng::jobs {
 namespace {
 
 // A line longer than this is no message of ours; it is cut so that memory stays bounded.
-constexpr std::size_t kLongestLine = 1 << 20;
+constexpr std::size_t kMaxLineBytes = 1 << 20;
 
 // posix_spawn's argument objects, released in any case.
 class SpawnSettings {
@@ -119,7 +119,7 @@ std::vector<std::string> ChildProcess::read_lines() {
   ssize_t count = 0;
   while ((count = ::read(output_, block.data(), block.size())) > 0) {
     pending_.append(block.data(), static_cast<std::size_t>(count));
-    if (pending_.size() > kLongestLine) pending_.clear();
+    if (pending_.size() > kMaxLineBytes) pending_.clear();
   }
   std::vector<std::string> lines;
   std::size_t start = 0;

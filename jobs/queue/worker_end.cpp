@@ -15,11 +15,11 @@ namespace throng::jobs {
 namespace {
 
 std::string tail_of(const std::filesystem::path& log) {
-  constexpr std::streamoff kLongest = 400;
+  constexpr std::streamoff kMaxTailBytes = 400;
   std::ifstream file(log, std::ios::binary | std::ios::ate);
   const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
   if (size <= 0) return "";
-  file.seekg(std::max<std::streamoff>(0, size - kLongest));
+  file.seekg(std::max<std::streamoff>(0, size - kMaxTailBytes));
   std::string text(std::istreambuf_iterator<char>(file), {});
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;

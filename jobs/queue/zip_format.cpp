@@ -7,8 +7,8 @@ namespace throng::jobs {
 
 namespace {
 
-constexpr std::int64_t kMost32 = 0xFFFFFFFF;  // said instead of what does not fit, which zip64 has
-constexpr std::uint64_t kMost16 = 0xFFFF;
+constexpr std::int64_t kMax32 = 0xFFFFFFFF;  // said instead of what does not fit, which zip64 has
+constexpr std::uint64_t kMax16 = 0xFFFF;
 constexpr std::uint16_t kNeeds20 = 20;  // version 2.0 of the format
 constexpr std::uint16_t kNeeds45 = 45;  // 4.5: zip64
 constexpr std::uint16_t kMadeOnUnix = 3U << 8U;
@@ -37,10 +37,10 @@ class Bytes {
   std::string text_;
 };
 
-bool is_large(std::int64_t bytes) { return bytes >= kMost32; }
+bool is_large(std::int64_t bytes) { return bytes >= kMax32; }
 
 std::uint32_t limited(std::int64_t number) {
-  return static_cast<std::uint32_t>(std::min(number, kMost32));
+  return static_cast<std::uint32_t>(std::min(number, kMax32));
 }
 
 /// Versions needed to read a member, then what both of its headers say of it.
@@ -101,7 +101,7 @@ std::string zip_entry(const ArchiveMember& member) {
 std::string zip_end(std::uint64_t entries, std::int64_t directory_offset,
                     std::int64_t directory_bytes) {
   Bytes end;
-  if (entries >= kMost16 || is_large(directory_offset) || is_large(directory_bytes)) {
+  if (entries >= kMax16 || is_large(directory_offset) || is_large(directory_bytes)) {
     constexpr std::uint64_t kRecordBytes = 44;  // behind this number
     end.add<std::uint32_t>(0x06064b50)
         .add(kRecordBytes)
@@ -118,7 +118,7 @@ std::string zip_end(std::uint64_t entries, std::int64_t directory_offset,
         .add(directory_offset + directory_bytes)
         .add<std::uint32_t>(1);
   }
-  const auto count = static_cast<std::uint16_t>(std::min(entries, kMost16));
+  const auto count = static_cast<std::uint16_t>(std::min(entries, kMax16));
   end.add<std::uint32_t>(0x06054b50)
       .add<std::uint16_t>(0)
       .add<std::uint16_t>(0)

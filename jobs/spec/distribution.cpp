@@ -128,8 +128,8 @@ double Distribution::draw(std::uint64_t run_seed, std::string_view pointer) cons
     case Kind::log_uniform:
       return std::exp(random.uniform(std::log(values_[0]), std::log(values_[1])));
     case Kind::normal: {
-      constexpr int kMostTries = 1000;
-      for (int i = 0; i < kMostTries; ++i) {
+      constexpr int kMaxTries = 1000;
+      for (int i = 0; i < kMaxTries; ++i) {
         const double value = random.normal(values_[0], values_[1]);
         if (value >= low_ && value <= high_) return value;
       }

@@ -88,12 +88,12 @@ std::string values_text(const ordered_json& rules) {
   if (type == "boolean") return "true or false";
   if (type == "object") return "an object";
   if (type == "array") {
-    const int least = rules.value("minItems", 0);
-    const int most = rules.at("maxItems");
-    return fmt::format(
-        "list of {}: {}",
-        least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most),
-        items_text(rules.at("items")));
+    const int min_value = rules.value("minItems", 0);
+    const int max_value = rules.at("maxItems");
+    return fmt::format("list of {}: {}",
+                       min_value == max_value ? fmt::format("{}", max_value)
+                                              : fmt::format("{} to {}", min_value, max_value),
+                       items_text(rules.at("items")));
   }
   if (type == "string") {
     return fmt::format("text of {} to {} characters", rules.at("minLength").dump(),

@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr double kFarthestM = 100'000;
+constexpr double kMaxCoordinateM = 100'000;
 constexpr const char* kIdentifier = "^[A-Za-z0-9_-]{1,32}$";
 
 /// A number without a point where it is whole.
@@ -149,13 +149,15 @@ Values texts_like(const std::string& pattern, const std::string& expected) {
   return {{{"type", "string"}, {"pattern", pattern}}, expected};
 }
 
-Values lists(int least, int most, ordered_json items) {
-  return {
-      {{"type", "array"}, {"minItems", least}, {"maxItems", most}, {"items", std::move(items)}}};
+Values lists(int min_value, int max_value, ordered_json items) {
+  return {{{"type", "array"},
+           {"minItems", min_value},
+           {"maxItems", max_value},
+           {"items", std::move(items)}}};
 }
 
 Values coordinates(int count, bool is_random) {
-  ordered_json items = numbers(-kFarthestM, kFarthestM).rules;
+  ordered_json items = numbers(-kMaxCoordinateM, kMaxCoordinateM).rules;
   if (is_random) items["x-randomize"] = true;
   return lists(count, count, std::move(items));
 }

@@ -34,7 +34,7 @@ Values identifiers();
 /// Texts that match a regular expression of JSON Schema.
 Values texts_like(const std::string& pattern, const std::string& expected);
 /// Lists of `least` to `most` items.
-Values lists(int least, int most, nlohmann::ordered_json items);
+Values lists(int min_value, int max_value, nlohmann::ordered_json items);
 /// `count` coordinates in m; `is_random`: the block "randomize" may name each.
 Values coordinates(int count, bool is_random = false);
 /// Objects with the fields of a table: its schema().

@@ -183,7 +183,7 @@ FieldTable<DroneSpec> make_guidance_fields() {
   table.add("perception", "Perception", "", object_of(perception_fields().schema()),
             perception_json, set_perception, "What a policy knows of people.");
   table.add("centre", "Centre", "m", coordinates(2),
-            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::centre),
+            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::center),
             "orbit: [x, y] that it circles.");
   table.add("radius_m", "Radius", "m", numbers(1, 10000),
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::radius_m),

@@ -17,7 +17,7 @@ constexpr std::array kKindWords = {"any", "text", "sqlite", "scb", "csv"};
 
 struct LengthUnit {
   const char* word;
-  double metres;
+  double meters;
 };
 constexpr std::array<LengthUnit, 4> kLengthUnits = {
     {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}}};
@@ -30,14 +30,14 @@ std::vector<std::string> unit_words() {
 
 json unit_json(const RecordedSpec& spec) {
   for (const LengthUnit& unit : kLengthUnits) {
-    if (spec.format.unit_m == unit.metres) return unit.word;
+    if (spec.format.unit_m == unit.meters) return unit.word;
   }
   return {};
 }
 
 void set_unit(RecordedSpec& spec, const json& value, const FieldPlace& /*place*/) {
   for (const LengthUnit& unit : kLengthUnits) {
-    if (value == unit.word) spec.format.unit_m = unit.metres;
+    if (value == unit.word) spec.format.unit_m = unit.meters;
   }
 }
 

@@ -71,11 +71,12 @@ std::string range_text(const json& schema) {
 }
 
 std::string array_text(const json& schema) {
-  const auto least = schema.value("minItems", 0);
-  const auto most = schema.value("maxItems", 0);
-  return fmt::format(
-      "an array of {}{}", schema.value("uniqueItems", false) ? "different items, " : "",
-      least == most ? fmt::format("{} items", most) : fmt::format("{} to {} items", least, most));
+  const auto min_value = schema.value("minItems", 0);
+  const auto max_value = schema.value("maxItems", 0);
+  return fmt::format("an array of {}{}",
+                     schema.value("uniqueItems", false) ? "different items, " : "",
+                     min_value == max_value ? fmt::format("{} items", max_value)
+                                            : fmt::format("{} to {} items", min_value, max_value));
 }
 
 std::string expectation(const json& schema) {

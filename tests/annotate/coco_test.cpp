@@ -194,17 +194,17 @@ TEST_F(Coco, PositionsProjectFromTheFileAlone) {
     const json& camera =
         coco["images"][annotation.at("image_id").get<std::size_t>() - 1].at("camera");
     Eigen::Matrix3d K, R;
-    Eigen::Vector3d t, centre, position;
+    Eigen::Vector3d t, center, position;
     for (int row = 0; row < 3; ++row) {
       t[row] = number(camera.at("t")[row]);
-      centre[row] = number(camera.at("centre")[row]);
+      center[row] = number(camera.at("centre")[row]);
       position[row] = number(annotation.at("position")[row]);
       for (int column = 0; column < 3; ++column) {
         K(row, column) = number(camera.at("K")[row][column]);
         R(row, column) = number(camera.at("R")[row][column]);
       }
     }
-    EXPECT_LT((R * centre + t).norm(), 1e-9);
+    EXPECT_LT((R * center + t).norm(), 1e-9);
     const Eigen::Vector3d seen = K * (R * position + t);
     const json& box = annotation.at("bbox_amodal");
     // The scene puts feet in the middle of the amodal box's lower edge.
@@ -249,7 +249,7 @@ TEST_F(Coco, TracksSayOnceWhatStaysTheSame) {
   EXPECT_FALSE(coco["annotations"][0].contains("attributes"));
 }
 
-TEST_F(Coco, WhoLiesIsLabelledSoWhateverTheirStateIsCalled) {
+TEST_F(Coco, WhoLiesIsLabeledSoWhateverTheirStateIsCalled) {
   skinning::Population population;
   population.characters.resize(3);
   world::Trace trace;

@@ -126,7 +126,7 @@ TEST(Keypoints, AgreeWithDepth) {
   EXPECT_GT(hidden, 150);
 }
 
-TEST(Keypoints, OutsideOfTheImageAreNotLabelled) {
+TEST(Keypoints, OutsideOfTheImageAreNotLabeled) {
   render::Stage stage(render::open_ground());
   const render::Frame frame =
       stage.draw(render::camera_at({2, 0, 2.2}, 180, -5), {stage.standing(0, 0, 0)});
@@ -139,18 +139,18 @@ TEST(Keypoints, OutsideOfTheImageAreNotLabelled) {
   std::string text;
   append_annotation_record(text, image, labels.people.at(0));
   const nlohmann::json record = nlohmann::json::parse(text);
-  int labelled = 0;
+  int labeled = 0;
   for (std::size_t i = 0; i < skinning::kKeypointCount; ++i) {
     const nlohmann::json& all = record.at("keypoints");
-    const bool is_labelled = all[3 * i + 2] > 0;
-    labelled += is_labelled ? 1 : 0;
-    EXPECT_TRUE(is_labelled || (all[3 * i] == 0 && all[3 * i + 1] == 0));
+    const bool is_labeled = all[3 * i + 2] > 0;
+    labeled += is_labeled ? 1 : 0;
+    EXPECT_TRUE(is_labeled || (all[3 * i] == 0 && all[3 * i + 1] == 0));
     EXPECT_NEAR(record.at("keypoints_3d")[i][2].get<double>(),
                 static_cast<double>(labels.people[0].person.keypoints[i].z()), 0.0006);
   }
-  EXPECT_EQ(record.at("num_keypoints"), labelled);
-  EXPECT_GT(labelled, 0);
-  EXPECT_LT(labelled, 17);
+  EXPECT_EQ(record.at("num_keypoints"), labeled);
+  EXPECT_GT(labeled, 0);
+  EXPECT_LT(labeled, 17);
   EXPECT_GT(record.at("truncation"), 0.2);
 }
 

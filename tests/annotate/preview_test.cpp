@@ -18,7 +18,7 @@ SyntheticScene small_crowd() {
   return scene;
 }
 
-TEST(Preview, DrawsEachBoxInItsOwnColourAndNothingElseBelowTheCaption) {
+TEST(Preview, DrawsEachBoxInItsOwnColorAndNothingElseBelowTheCaption) {
   render::Frame frame = empty_frame(320, 240);
   for (std::uint32_t agent : {4, 9}) {
     frame.people.emplace_back().agent = agent;
@@ -65,9 +65,9 @@ TEST(JpegBytes, DecodeToThePicture) {
 
   tjhandle decoder = tjInitDecompress();
   const auto* bytes = reinterpret_cast<const unsigned char*>(jpeg.data());
-  int width = 0, height = 0, subsampling = 0, colours = 0;
+  int width = 0, height = 0, subsampling = 0, colors = 0;
   ASSERT_EQ(
-      tjDecompressHeader3(decoder, bytes, jpeg.size(), &width, &height, &subsampling, &colours), 0);
+      tjDecompressHeader3(decoder, bytes, jpeg.size(), &width, &height, &subsampling, &colors), 0);
   EXPECT_EQ(width, 321);
   EXPECT_EQ(height, 123);
   EXPECT_EQ(subsampling, TJSAMP_420);

@@ -23,7 +23,7 @@ std::string scene_with_arrivals(const std::string& arrivals,
                      places, arrivals);
 }
 
-/// Ten metres to the sink.
+/// Ten meters to the sink.
 const std::string kToTheSink = R"(<BFSM>
   <GoalSet id="0"><Goal id="0" type="point" x="10" y="0" capacity="50"/></GoalSet>
   <State name="Walk" final="0"><GoalSelector type="explicit" goal_set="0" goal="0"/>
@@ -78,12 +78,12 @@ TEST(Arrivals, WaitWhileTooManyAreThere) {
       scene_with_arrivals(
           R"(<Arrivals type="rate" per_second="1" end="20" process="regular" most_alive="3"/>)"),
       kToTheSink);
-  long most = 0;
+  long max_value = 0;
   while (crowd.time_s() < 80 && !crowd.all_final()) {
     crowd.step();
-    most = std::max(most, present(crowd));
+    max_value = std::max(max_value, present(crowd));
   }
-  EXPECT_EQ(most, 3);
+  EXPECT_EQ(max_value, 3);
   EXPECT_TRUE(crowd.all_final());  // in the end everybody came and left
 }
 

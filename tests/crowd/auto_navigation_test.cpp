@@ -32,7 +32,7 @@ std::string point_goal(double x, double y) {
 }
 
 /// Steps until everybody has arrived or the time is over; no one may be deeper inside of a wall
-/// than a centimetre.
+/// than a centimeter.
 void run(Simulation& crowd, double until_s, const std::vector<Box>& walls) {
   while (!crowd.all_final() && crowd.time_s() < until_s) {
     crowd.step();
@@ -77,7 +77,7 @@ TEST(AutoNavigation, WaysAreShortAndNeverCrossWalls) {
       const auto draw = [&] { return static_cast<float>(random.uniform(-2, kSize + 2)); };
       const Eigen::Vector2f from(draw(), draw());
       const Eigen::Vector2f to(draw(), draw());
-      // Boxes a bit bigger than where an agent's centre may be: the way may be a little longer.
+      // Boxes a bit bigger than where an agent's center may be: the way may be a little longer.
       const float length = test::shortest_way(wide, from, to);
       if (!std::isfinite(length) || mesh.find(from) < 0 || mesh.find(to) < 0) continue;
       ASSERT_TRUE(finder.find({mesh.find(from), from}, {mesh.find(to), to}, 0));

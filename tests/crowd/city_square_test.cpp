@@ -84,16 +84,16 @@ TEST(CitySquare, EveryoneGetsOutByAllExits) {
 TEST(CitySquare, PeopleFollowWhatLeadsThem) {
   Simulation crowd = test::load_city_square(3);
   crowd.move_goal(99, 0, {-8, 0});  // before the crowded middle exit
-  std::size_t most_followers = 0;
+  std::size_t max_followers = 0;
   while (crowd.time_s() < 60) {
     crowd.step();
     std::size_t followers = 0;
     for (std::size_t i = 0; i < kPeople; ++i) {
       if (crowd.goals()[i].set == 99) ++followers;
     }
-    most_followers = std::max(most_followers, followers);
+    max_followers = std::max(max_followers, followers);
   }
-  EXPECT_GT(most_followers, 20U);
+  EXPECT_GT(max_followers, 20U);
 }
 
 TEST(CitySquare, NobodyGetsStuckBehindABuilding) {

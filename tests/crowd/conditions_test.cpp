@@ -191,7 +191,7 @@ std::vector<double> notice_times(const std::string& attributes,
   return {times.begin() + 1, times.end()};
 }
 
-TEST(Conditions, ProximityHonoursItsDistance) {
+TEST(Conditions, ProximityHonorsItsDistance) {
   const std::vector<double> times = notice_times(R"(distance="3")", {3.1, 3.3, 10});
   EXPECT_EQ(times[0], 0);
   EXPECT_LT(times[1], 0);

@@ -1,4 +1,4 @@
-// Small scenes and behaviours written to files for the tests.
+// Small scenes and behaviors written to files for the tests.
 #pragma once
 
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// What is odd in a behaviour file is warned of, with its place.
+// What is odd in a behavior file is warned of, with its place.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 namespace throng::crowd {
 namespace {
 
-/// Ten by four pixels, one metre each, that rise from west to east by 25.5 of 255 per pixel.
+/// Ten by four pixels, one meter each, that rise from west to east by 25.5 of 255 per pixel.
 void write_slope(const test::TemporaryFolder& folder) {
   std::array<std::uint8_t, 40> pixels{};
   for (std::size_t i = 0; i < pixels.size(); ++i) {

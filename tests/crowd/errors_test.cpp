@@ -95,7 +95,7 @@ TEST(Errors, InConditions) {
                  "Condition", "max_x", "0", "1");
 }
 
-TEST(Errors, InBehaviour) {
+TEST(Errors, InBehavior) {
   expect_problem(behavior_problem("<BFSM/>"), "BFSM", "", "no states", "<State>");
   expect_problem(
       behavior_problem(R"(<BFSM><State name="Start" final="0"/><Task type="x"/></BFSM>)"), "Task",

@@ -42,7 +42,7 @@ int choice_at(const std::string& selector, double x, const std::string& goals = 
   return crowd.goals()[0].goal;
 }
 
-TEST(GoalSelectors, ByDistanceToTheCentre) {
+TEST(GoalSelectors, ByDistanceToTheCenter) {
   EXPECT_EQ(choice_at(R"(type="nearest" goal_set="0")", 0), 6);
   EXPECT_EQ(choice_at(R"(type="nearest" goal_set="0")", 25), 5);
   EXPECT_EQ(choice_at(R"(type="farthest" goal_set="0")", 0), 5);

@@ -49,7 +49,7 @@ std::vector<Eigen::Vector2f> step(const Crowd& crowd) {
   return velocities;
 }
 
-/// As in the paper, one neighbour at a time, in double precision.
+/// As in the paper, one neighbor at a time, in double precision.
 Eigen::Vector2d expected_velocity(const Crowd& crowd, std::size_t self) {
   const Agents& agents = crowd.agents;
   std::vector<std::pair<double, std::size_t>> others;

@@ -139,7 +139,7 @@ std::string drawing_behavior() {
   </BFSM>)";
 }
 
-TEST(MengeSequences, GoOnThroughTheBehaviour) {
+TEST(MengeSequences, GoOnThroughTheBehavior) {
   std::string agents;
   for (int i = 0; i < 12; ++i) agents += test::agent_at(3 * i, 0);
   Simulation crowd = test::load(test::scene_with(agents), drawing_behavior(),

@@ -17,7 +17,7 @@ const std::filesystem::path kExamples =
     std::filesystem::path(THRONG_SOURCE_DIR) / "../shared/data/menge_examples";
 
 /// How long a run can be expected to follow Menge's. Rounding differs, and dense crowds multiply a
-/// difference by ten every few seconds: what two of our own runs that start 1 micrometre apart do
+/// difference by ten every few seconds: what two of our own runs that start 1 micrometer apart do
 /// not have in common is not asked for.
 struct Agreement {
   std::string name;     ///< of the series
@@ -73,7 +73,7 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// A behaviour file whose first `prob` target has its states in this order.
+/// A behavior file whose first `prob` target has its states in this order.
 std::string with_target_order(std::string text, const std::vector<std::string>& order) {
   // What is commented out may hold a target, too.
   for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--")) {
@@ -202,7 +202,7 @@ TEST_P(MengeReference, Agrees) {
 }
 
 constexpr double kEndless = 0;
-constexpr double kChaotic = 0.4;  // as far apart as our own runs that start 1 micrometre apart
+constexpr double kChaotic = 0.4;  // as far apart as our own runs that start 1 micrometer apart
 
 std::vector<Agreement> agreements() {
   const std::string events = "events/state_population_event/";

@@ -17,7 +17,7 @@ class AnyModel : public testing::TestWithParam<std::string> {
   static bool minds_others() { return GetParam() != "dummy"; }
 };
 
-TEST_P(AnyModel, WalksFortyMetresInTheTimeOfRimea1) {
+TEST_P(AnyModel, WalksFortyMetersInTheTimeOfRimea1) {
   Simulation crowd =
       test::load(test::model_scene(test::agent_at(0, 0), R"(pref_speed="1.33")"),
                  test::to_point_behavior(40, 0), {.model = GetParam(), .sub_steps = 4});
@@ -125,13 +125,13 @@ std::pair<float, float> aside(const std::string& first_extra, const std::string&
       test::load(test::two_profiles_scene(first_extra, second_extra, pedvo,
                                           test::agent_at(-3, 0.02), test::agent_at(3, -0.02)),
                  test::mirror_behavior(), {.model = "pedvo"});
-  std::pair<float, float> most;
+  std::pair<float, float> max_value;
   for (int i = 0; i < 60; ++i) {
     crowd.step();
-    most.first = std::max(most.first, std::abs(crowd.positions()[0].y()));
-    most.second = std::max(most.second, std::abs(crowd.positions()[1].y()));
+    max_value.first = std::max(max_value.first, std::abs(crowd.positions()[0].y()));
+    max_value.second = std::max(max_value.second, std::abs(crowd.positions()[1].y()));
   }
-  return most;
+  return max_value;
 }
 
 TEST(PedVo, WhoHasNoRightOfWayYields) {

@@ -45,7 +45,7 @@ class PaceOf {
     neighborhood.prepare(crowd_, grid_);
     std::size_t slot = 0;
     while (grid_.id(slot) != 0) ++slot;
-    const Surroundings around = neighborhood.look(crowd_, grid_, slot);
+    const AgentView around = neighborhood.look(crowd_, grid_, slot);
     std::vector<Eigen::Vector2f> directions;
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       directions.push_back(crowd_.agents.preferred_direction[grid_.id(i)]);
@@ -107,7 +107,7 @@ TEST(Pace, EveryInstructionSetGivesTheSameBits) {
 
 TEST(Pace, LeavesALittleInAJam) {
   const float share = PaceOf(crowd_on_lattice(0.3F), 60).share();
-  EXPECT_EQ(share, PaceSpec{}.least);
+  EXPECT_EQ(share, PaceSpec{}.min_value);
   EXPECT_GT(share, 0);
 }
 

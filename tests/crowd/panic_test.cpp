@@ -56,7 +56,7 @@ TEST(Panic, SpreadsFromOneToAnother) {
 }
 
 TEST(Panic, IsCaughtWithTheRate) {
-  // One neighbour within 2.5 m of the first: caught within t with probability 1 - exp(-rate t).
+  // One neighbor within 2.5 m of the first: caught within t with probability 1 - exp(-rate t).
   int caught = 0;
   constexpr int kRuns = 300;
   for (int seed = 1; seed <= kRuns; ++seed) {

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector2f;
 
-float least_distance(const std::vector<Vector2f>& places) {
+float min_distance(const std::vector<Vector2f>& places) {
   float nearest = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -49,7 +49,7 @@ TEST(Scatter, KeepsPeopleApartInTheAreaAndOutOfWalls) {
     spec.apart_m = static_cast<float>(random.uniform(0.3, 0.6));
     const auto places = scatter(spec, walls, {}, Random(seed, Stream::crowd_generator, 7));
     ASSERT_EQ(places.size(), spec.count);
-    EXPECT_GE(least_distance(places), spec.apart_m);
+    EXPECT_GE(min_distance(places), spec.apart_m);
     Obstacles area;
     area.add_polygon(spec.area, 1);
     std::vector<Obstacles::Near> near;
@@ -91,7 +91,7 @@ TEST(Scatter, LeavesRoomToThoseWhoAreThere) {
   std::vector<Vector2f> all = scatter(spec, {}, taken, Random(1, Stream::crowd_generator));
   ASSERT_EQ(all.size(), 12U);
   all.insert(all.end(), taken.begin(), taken.end());
-  EXPECT_GE(least_distance(all), 0.7F);
+  EXPECT_GE(min_distance(all), 0.7F);
 }
 
 TEST(Scatter, EndsWhereThereIsNoRoom) {
@@ -130,7 +130,7 @@ std::vector<Vector2f> scattered(const std::string& attributes, std::uint64_t see
 TEST(ScatterGenerator, DrawsFreePlacesAnewForEverySeed) {
   const auto places = scattered(R"(count="30" apart="0.6" clearance="0.4")", 5);
   ASSERT_EQ(places.size(), 31U);
-  EXPECT_GE(least_distance(places), 0.6F) << "nor too near to who was listed before";
+  EXPECT_GE(min_distance(places), 0.6F) << "nor too near to who was listed before";
   for (const Vector2f& place : places) {
     EXPECT_GE((place.cwiseAbs() - place.cwiseAbs().cwiseMin(1)).norm(), 0.4F);
   }

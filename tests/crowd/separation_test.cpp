@@ -11,7 +11,7 @@
 namespace throng::crowd {
 namespace {
 
-float deepest(const Simulation& crowd) {
+float max_depth(const Simulation& crowd) {
   float worst = 0;
   for (std::size_t i = 0; i < crowd.agent_count(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -43,8 +43,8 @@ TEST(Separation, BodiesDoNotOverlapWhereAllWaysCross) {
     soft.step();
     const std::vector<Eigen::Vector2f> before(hard.positions().begin(), hard.positions().end());
     hard.step();
-    soft_worst = std::max(soft_worst, deepest(soft));
-    ASSERT_LE(deepest(hard), 0.01F + 1e-4F) << hard.time_s();
+    soft_worst = std::max(soft_worst, max_depth(soft));
+    ASSERT_LE(max_depth(hard), 0.01F + 1e-4F) << hard.time_s();
     for (std::size_t i = 0; i < hard.agent_count(); ++i) {
       const Eigen::Vector2f walked = (hard.positions()[i] - before[i]) / 0.1F;
       ASSERT_LT((hard.velocities()[i] - walked).norm(), 1e-3F);
@@ -91,7 +91,7 @@ TEST(Separation, HoldsInADenseCrowdAtABottleneckAndPushesNobodyIntoWalls) {
   Simulation crowd = bottleneck("orca");
   while (crowd.time_s() < 25) {
     crowd.step();
-    ASSERT_LE(deepest(crowd), 0.01F + 1e-4F) << crowd.time_s();
+    ASSERT_LE(max_depth(crowd), 0.01F + 1e-4F) << crowd.time_s();
     expect_clear_of_walls(crowd);
   }
   const auto out = std::count_if(crowd.positions().begin(), crowd.positions().end(),
@@ -103,7 +103,7 @@ TEST(Separation, HoldsForForceModelsToo) {
   Simulation crowd = bottleneck("helbing");
   while (crowd.time_s() < 15) {
     crowd.step();
-    ASSERT_LE(deepest(crowd), 0.01F + 1e-4F) << crowd.time_s();
+    ASSERT_LE(max_depth(crowd), 0.01F + 1e-4F) << crowd.time_s();
   }
 }
 
@@ -113,7 +113,7 @@ TEST(Separation, MovesApartWhoOverlapsInTheBeginning) {
   Simulation crowd =
       test::load(test::scene_with(agents), test::mirror_behavior(), {.hard_separation = true});
   while (crowd.time_s() < 5) crowd.step();
-  EXPECT_LE(deepest(crowd), 0.01F + 1e-4F);
+  EXPECT_LE(max_depth(crowd), 0.01F + 1e-4F);
 }
 
 TEST(Separation, ThreadsDoNotChangeASingleBit) {

@@ -1,4 +1,4 @@
-// The option test_visibility: walls hide neighbours.
+// The option test_visibility: walls hide neighbors.
 #include <gtest/gtest.h>
 
 #include "crowd_files.h"
@@ -28,7 +28,7 @@ Eigen::Vector2f yielding(const std::string& others, int test_visibility, const s
 
 class Visibility : public testing::TestWithParam<std::string> {};
 
-TEST_P(Visibility, WallsHideNeighboursIfAsked) {
+TEST_P(Visibility, WallsHideNeighborsIfAsked) {
   const std::string& model = GetParam();
   const std::string behind = test::agent_at(0, -0.2);
   const std::string beside = test::agent_at(0.5, 0.35);

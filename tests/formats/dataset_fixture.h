@@ -128,13 +128,13 @@ class SmallDataset : public testing::Test {
   static std::vector<float> depth_of(const render::Frame& picture) {
     std::vector<float> depth_m(picture.id.size(), 9.0F);
     const camera::Camera& camera = picture.camera;
-    const Eigen::Vector3d centre = camera.pose.center();
+    const Eigen::Vector3d center = camera.pose.center();
     for (std::size_t i = 0; i < depth_m.size(); ++i) {
       if (picture.id[i] != render::kIdGround) continue;
       const auto column = static_cast<double>(static_cast<int>(i) % picture.width());
       const auto row = static_cast<double>(static_cast<int>(i) / picture.width());
-      const Eigen::Vector3d ray = camera.unproject({column, row}, 1) - centre;
-      depth_m[i] = static_cast<float>(-centre.z() / ray.z());
+      const Eigen::Vector3d ray = camera.unproject({column, row}, 1) - center;
+      depth_m[i] = static_cast<float>(-center.z() / ray.z());
     }
     return depth_m;
   }

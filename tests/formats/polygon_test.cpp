@@ -53,8 +53,8 @@ cv::Mat blotch(std::uint64_t seed, bool one_piece) {
   if (!one_piece) return image;
   cv::Mat labels;
   cv::Mat stats;
-  cv::Mat centres;
-  const int count = cv::connectedComponentsWithStats(image, labels, stats, centres, 8);
+  cv::Mat centers;
+  const int count = cv::connectedComponentsWithStats(image, labels, stats, centers, 8);
   int largest = 1;
   for (int i = 2; i < count; ++i) {
     if (stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(largest, cv::CC_STAT_AREA)) largest = i;
@@ -98,8 +98,8 @@ TEST(Polygon, PiecesAreJoinedByNoMoreThanTheyBring) {
     const double either = cv::countNonZero(again | mask);
     cv::Mat labels;
     cv::Mat stats;
-    cv::Mat centres;
-    const int count = cv::connectedComponentsWithStats(mask, labels, stats, centres, 8);
+    cv::Mat centers;
+    const int count = cv::connectedComponentsWithStats(mask, labels, stats, centers, 8);
     int largest = 0;
     for (int i = 1; i < count; ++i) {
       largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));

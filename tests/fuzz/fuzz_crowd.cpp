@@ -1,5 +1,5 @@
-// Any scene and behaviour, then a few steps. An input is a scene, "=====", a byte that chooses the
-// model and the other options, and a behaviour.
+// Any scene and behavior, then a few steps. An input is a scene, "=====", a byte that chooses the
+// model and the other options, and a behavior.
 #include <cstddef>
 #include <cstdint>
 

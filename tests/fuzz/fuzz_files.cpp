@@ -36,7 +36,7 @@ constexpr const char* kNearest = R"(<GoalSelector type="nearest" goal_set="0"/>)
 constexpr const char* kKdTree = R"(<SpatialQuery type="kd-tree"/>)";
 constexpr const char* kToGoal = R"(<VelComponent type="goal"/>)";
 
-/// Where a kind of resource stands in the scene and the behaviour.
+/// Where a kind of resource stands in the scene and the behavior.
 using Places = std::map<std::string, std::string>;
 
 std::string filled(std::string text, const Places& places, const Places& otherwise) {
@@ -77,7 +77,7 @@ const std::map<std::string_view, Places>& resources() {
   return kResources;
 }
 
-/// A grey image of 3 by 2 pixels.
+/// A gray image of 3 by 2 pixels.
 constexpr std::array<unsigned char, 73> kHills = {
     0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44,
     0x52, 0x00, 0x00, 0x00, 0x03, 0x00, 0x00, 0x00, 0x02, 0x08, 0x00, 0x00, 0x00, 0x00, 0xb8,
@@ -90,8 +90,8 @@ constexpr const char* kHillsXml = R"(<HeightField file_name="hills.png" cell_siz
 
 void read_scb(const std::filesystem::path& path) {
   ScbReader reader(path);
-  constexpr std::size_t kMost = 4;
-  for (std::size_t i = 0; i < std::min(reader.frame_count(), kMost); ++i) reader.frame(i);
+  constexpr std::size_t kMaxFrames = 4;
+  for (std::size_t i = 0; i < std::min(reader.frame_count(), kMaxFrames); ++i) reader.frame(i);
 }
 
 }  // namespace

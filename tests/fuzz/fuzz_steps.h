@@ -19,7 +19,7 @@ namespace throng::crowd::fuzz {
 /// Whether the text asks for more agents than a fuzz run has time for: a number above 40 in an
 /// attribute that counts.
 inline bool is_crowded(std::string_view text) {
-  constexpr int kMost = 40;
+  constexpr int kMaxSteps = 40;
   constexpr std::array<std::string_view, 8> kCounts = {
       "count_x", "count_y", "population", "density", "width", "count", "rate", "duration"};
   for (const std::string_view name : kCounts) {
@@ -32,7 +32,7 @@ inline bool is_crowded(std::string_view text) {
       }
       double value = 0;
       std::from_chars(rest.data(), rest.data() + std::min<std::size_t>(rest.size(), 32), value);
-      if (value > kMost) return true;
+      if (value > kMaxSteps) return true;
     }
   }
   return false;
@@ -42,12 +42,12 @@ inline bool is_crowded(std::string_view text) {
 /// environment it says what it got, to see whether an input of the corpus gets as far as it should.
 inline void load_and_step(const std::filesystem::path& scene, const std::filesystem::path& behavior,
                           const LoadOptions& options) {
-  constexpr std::size_t kMostAgents = 2000;
+  constexpr std::size_t kMaxAgents = 2000;
   constexpr int kSteps = 4;
   const bool say = std::getenv("THRONG_FUZZ_SAY") != nullptr;
   try {
     Simulation crowd(scene, behavior, options);
-    if (crowd.agent_count() > kMostAgents) return;
+    if (crowd.agent_count() > kMaxAgents) return;
     for (int i = 0; i < kSteps && !crowd.all_final(); ++i) crowd.step();
     if (say) fmt::print(stderr, "{} agents\n", crowd.agent_count());
   } catch (const InputError& error) {

@@ -22,13 +22,14 @@ const std::filesystem::path kPlaces =
 class Counter : public sim::RunObserver {
  public:
   void step(const world::CrowdStep& step) override {
-    most_ = std::max(most_, std::count(step.flags.begin(), step.flags.end(), world::kPresent));
+    max_value_ =
+        std::max(max_value_, std::count(step.flags.begin(), step.flags.end(), world::kPresent));
   }
   void event(const world::TraceEvent& event) override {
     if (event.type == "agent_escaped") ++escaped_;
   }
   long escaped_ = 0;
-  long most_ = 0;
+  long max_value_ = 0;
 };
 
 void expect_it_runs(Place place, int people) {
@@ -47,7 +48,7 @@ void expect_it_runs(Place place, int people) {
   for (const Problem& warning : sim::simulate(scenario, spec, counter)) {
     ADD_FAILURE() << warning.text();
   }
-  EXPECT_GE(counter.most_, people);
+  EXPECT_GE(counter.max_value_, people);
   EXPECT_GT(counter.escaped_, people / 3);
 }
 

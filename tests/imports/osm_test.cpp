@@ -30,7 +30,7 @@ class Quarter : public ::testing::Test {
     return std::any_of(place.obstacles.begin(), place.obstacles.end(),
                        [&](const Corners& obstacle) { return covers(obstacle, point); });
   }
-  /// Metres from the south-western corner's degrees.
+  /// Meters from the south-western corner's degrees.
   static Eigen::Vector2d at(double latitude, double longitude) {
     constexpr double kNorth = 111'229.0;  // of a degree at 50 degrees on WGS 84
     constexpr double kEast = 71'696.0;
@@ -45,7 +45,7 @@ class Quarter : public ::testing::Test {
   Place place = read_osm(kMaps / "quarter.osm", {GeoPoint{50, 10}, {}});
 };
 
-TEST_F(Quarter, IsProjectedToMetres) {
+TEST_F(Quarter, IsProjectedToMeters) {
   EXPECT_NEAR(place.inside.min.norm(), 0, 1e-6);
   EXPECT_NEAR(place.inside.max.x(), at(0, 10.0014).x(), 0.1);
   EXPECT_NEAR(place.inside.max.y(), at(50.0009, 0).y(), 0.1);
@@ -124,7 +124,7 @@ TEST(Osm, RefusesWhatIsNoExtract) {
   }
 }
 
-// A map on a grid of metres about 0, 0, where a degree has 110.574 km north and 111.320 km east.
+// A map on a grid of meters about 0, 0, where a degree has 110.574 km north and 111.320 km east.
 class DrawnMap {
  public:
   int node(double x, double y, const std::string& more = "") {

@@ -166,7 +166,7 @@ TEST(Sdf, ReadsOldNewAndUntidyFiles) {
   }
 }
 
-TEST(Sdf, KnowsPolylinesConesAndGazebosColours) {
+TEST(Sdf, KnowsPolylinesConesAndGazebosColors) {
   const Place place = world_of(
       "<model name='hall'><pose>20 0 0 0 0 0</pose><link name='l'><visual name='v'><geometry>"
       "<polyline><point>0 0</point><point>10 0</point><point>0 10</point><height>5</height>"

@@ -180,7 +180,7 @@ TEST_P(AnyDisaster, WhoHasNotNoticedCarriesOn) {
   const bool walks = std::string(GetParam()) == "attacker";
   std::vector<bool> near(crowd.agent_count());
   std::vector<Eigen::Vector2f> start(crowd.positions().begin(), crowd.positions().end());
-  std::vector<float> farthest_m(crowd.agent_count());
+  std::vector<float> max_distance_m(crowd.agent_count());
   std::size_t unaware = 0;
   while (crowd.time_s() < 20) {
     // The avoided agent's own radius counts too; it is agent 0.
@@ -193,12 +193,14 @@ TEST_P(AnyDisaster, WhoHasNotNoticedCarriesOn) {
     for (std::size_t i = 1; i < near.size(); ++i) {
       if (crowd.present()[i] == 0 || near[i]) continue;
       ASSERT_FALSE(alarmed[crowd.states()[i]]) << "agent " << i << " at " << crowd.time_s();
-      farthest_m[i] = std::max(farthest_m[i], (crowd.positions()[i] - start[i]).norm());
+      max_distance_m[i] = std::max(max_distance_m[i], (crowd.positions()[i] - start[i]).norm());
     }
   }
   for (std::size_t i = 1; i < near.size(); ++i) unaware += near[i] ? 0 : 1;
   EXPECT_GT(unaware, walks ? 20U : 80U);
-  EXPECT_GT(std::count_if(farthest_m.begin(), farthest_m.end(), [](float m) { return m > 5; }), 20)
+  EXPECT_GT(
+      std::count_if(max_distance_m.begin(), max_distance_m.end(), [](float m) { return m > 5; }),
+      20)
       << "they stroll and cross";
 }
 

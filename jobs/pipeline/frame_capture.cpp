@@ -1,4 +1,4 @@
-#include "jobs/pipeline/shoot.h"
+#include "jobs/pipeline/frame_capture.h"
 #include "jobs/pipeline/sensor_record.h"
 
 #include <algorithm>
@@ -42,8 +42,9 @@ render::AirframeShape shape_of(const sim::DroneMission& mission) {
 
 }  // namespace
 
-Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
-             const skinning::Population& population, render::Renderer& renderer, StageClock* clock)
+FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
+                           const skinning::Population& population, render::Renderer& renderer,
+                           StageClock* clock)
     : job_(&job),
       run_seed_(run_seed),
       trace_(&trace),
@@ -60,8 +61,8 @@ Shoot::Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& tra
   }
 }
 
-render::ShutterMoment Shoot::moment_at(std::size_t drone, std::int64_t frame, std::int64_t index,
-                                       double time_s) {
+render::ShutterMoment FrameCapture::moment_at(std::size_t drone, std::int64_t frame,
+                                              std::int64_t index, double time_s) {
   if (clock_ != nullptr) clock_->lap("light and rows");
   std::shared_ptr<const render::Scene> scene = scene_;
   if (!scene || scene->index != index || scene->time_s != time_s) {
@@ -76,7 +77,7 @@ render::ShutterMoment Shoot::moment_at(std::size_t drone, std::int64_t frame, st
   return {std::move(scene), camera_on(sample, cameras_[drone], view_at(drone, frame, sample))};
 }
 
-std::vector<render::DroneInstance> Shoot::drones_at(double time_s) const {
+std::vector<render::DroneInstance> FrameCapture::drones_at(double time_s) const {
   std::vector<render::DroneInstance> drones;
   for (std::size_t i = 0; i < drones_.size(); ++i) {
     const world::DroneSample sample = trace_->drone_at(drones_[i], time_s);
@@ -86,8 +87,8 @@ std::vector<render::DroneInstance> Shoot::drones_at(double time_s) const {
   return drones;
 }
 
-sim::ViewAngles Shoot::view_at(std::size_t drone, std::int64_t frame,
-                               const world::DroneSample& sample) const {
+sim::ViewAngles FrameCapture::view_at(std::size_t drone, std::int64_t frame,
+                                      const world::DroneSample& sample) const {
   const CameraSpec& camera = cameras_[drone];
   sim::ViewAngles view =
       camera.gimbal.ideal ? ideal_view(sample, camera) : gimbals_[drone].view_at(sample.time_s);
@@ -97,7 +98,7 @@ sim::ViewAngles Shoot::view_at(std::size_t drone, std::int64_t frame,
   return view;
 }
 
-std::string Shoot::flight_at(std::size_t drone, std::int64_t frame) const {
+std::string FrameCapture::flight_at(std::size_t drone, std::int64_t frame) const {
   const double time_s = job_->frame_time_s(frame);
   const world::DroneSample sample = trace_->drone_at(drones_[drone], time_s);
   const sim::ViewAngles view = view_at(drone, frame, sample);
@@ -106,7 +107,7 @@ std::string Shoot::flight_at(std::size_t drone, std::int64_t frame) const {
       .dump();
 }
 
-Picture Shoot::take(std::size_t drone, std::int64_t frame) {
+CapturedFrame FrameCapture::take(std::size_t drone, std::int64_t frame) {
   if (clock_ != nullptr) clock_->skip();
   const FrameDraw draw = draw_of_frame(cameras_.at(drone), run_seed_, drone, frame);
   const CameraSpec camera = camera_of_frame(cameras_[drone], draw);
@@ -129,14 +130,14 @@ Picture Shoot::take(std::size_t drone, std::int64_t frame) {
   render::apply_sensor(camera.sensor, derive_seed(run_seed_, Stream::camera_noise, index),
                        exposed.frame);
   if (clock_ != nullptr) clock_->lap("light and rows");
-  Picture picture;
-  picture.sensor = sensor_record(camera, exposed, job_->outputs.image_quality).dump();
-  picture.flight = flight_at(drone, frame);
-  picture.drawn = to_json(cameras_[drone], draw);
-  picture.frame = std::move(exposed.frame);
-  return picture;
+  CapturedFrame captured;
+  captured.sensor = sensor_record(camera, exposed, job_->outputs.image_quality).dump();
+  captured.flight = flight_at(drone, frame);
+  captured.drawn = to_json(cameras_[drone], draw);
+  captured.frame = std::move(exposed.frame);
+  return captured;
 }
 
-void Shoot::recycle(Picture&& picture) { lens_.recycle(std::move(picture.frame)); }
+void FrameCapture::recycle(CapturedFrame&& captured) { lens_.recycle(std::move(captured.frame)); }
 
 }  // namespace throng::jobs

@@ -18,7 +18,7 @@
 
 namespace throng::jobs {
 
-struct Picture {
+struct CapturedFrame {
   render::Frame frame;
   std::string sensor;    ///< a JSON object: what sensor and shutter did
   std::string flight;    ///< a JSON object: the drone then, and what its sensors say
@@ -26,15 +26,16 @@ struct Picture {
 };
 
 /// Everything given must outlive it. Pictures do not depend on which were taken before.
-class Shoot {
+class FrameCapture {
  public:
-  Shoot(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
-        const skinning::Population& population, render::Renderer& renderer, StageClock* clock);
+  FrameCapture(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
+               const skinning::Population& population, render::Renderer& renderer,
+               StageClock* clock);
 
-  Picture take(std::size_t drone, std::int64_t frame);
+  CapturedFrame take(std::size_t drone, std::int64_t frame);
 
   /// Takes a picture that is not needed any more, for its memory.
-  void recycle(Picture&& picture);
+  void recycle(CapturedFrame&& captured);
 
  private:
   /// What a camera sees at a time around that of one of its frames, in the scene of this index.
