@@ -62,7 +62,7 @@ class Client(unittest.TestCase):
         return done.stdout if code == 0 else done.stderr
 
     def test_submit_watch_and_fetch(self):
-        self.assertIn("1 runs", self.throng("submit", self.job, "--dry-run"))
+        self.assertIn("1 run,", self.throng("submit", self.job, "--dry-run"))
         archive = self.base / "out.tar"
         id_ = self.throng("submit", self.job, "--label", "a b", "--key", "k", "--fetch", archive).split()[0]
         with tarfile.open(archive) as tar:
