@@ -24,7 +24,7 @@ using throng::crowd::Node;
 
 constexpr double kFreeSpeedMps = 1.34;
 
-/// Where a stream's people come in, side by side.
+/// Positions side by side at which a stream's people enter.
 Points entrance(const Eigen::Vector2d& middle, const Eigen::Vector2d& along) {
   Points places;
   for (int i = -2; i <= 2; ++i) places.emplace_back(middle + 0.7 * i * along);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -21,19 +22,45 @@ bool is_closed(const Departures& departures, std::size_t exit, int second) {
   return !departures.closes_at_s.empty() && second >= departures.closes_at_s[exit];
 }
 
-/// How many can pass in a slot. Rounded so that no people get lost over the seconds.
-int spare_capacity(const Departures& departures, std::size_t exit, int second, int first_entry) {
-  const double rate = departures.capacity_per_s[exit];
-  if (departures.burst.empty()) {
-    return static_cast<int>(std::ceil(rate * (second + 1)) - std::ceil(rate * second));
+/// People who can still pass a door. With a burst: a token bucket in whole people. From the slot of
+/// the first arrival on, the slots bring floor(burst + rate * slots) in all, and of those that are
+/// not used up to ceil(burst) stay for the next slot. No sequence of passages is refused that has
+/// no more than burst + rate * t people in every t slots in a row: the t slots bring more than
+/// rate * t - 1, which together with ceil(burst) is at least the integer part of that. Without one:
+/// the rate, rounded so that no people get lost over the seconds, and nothing stays.
+class DoorBucket {
+ public:
+  DoorBucket(const Departures& departures, std::size_t exit, int first_entry)
+      : rate_per_s_(departures.capacity_per_s[exit]), first_entry_(first_entry) {
+    if (!departures.burst.empty()) burst_ = departures.burst[exit];
   }
-  const auto passed_after = [&](int slots) {
+
+  /// Opens the slot that begins with a second; slots open in order.
+  void open(int second) {
+    if (!burst_) {
+      room_ =
+          static_cast<int>(std::ceil(rate_per_s_ * (second + 1)) - std::ceil(rate_per_s_ * second));
+      return;
+    }
+    const int slots = second - first_entry_;
+    const int kept = std::min(room_, static_cast<int>(std::ceil(*burst_)));
+    room_ = kept + brought_after(slots + 1) - brought_after(slots);
+  }
+
+  int room() const { return room_; }
+  void take(int people) { room_ -= people; }
+
+ private:
+  int brought_after(int slots) const {
     constexpr double kRounding = 1e-9;
-    return slots <= 0 ? 0.0 : std::floor(departures.burst[exit] + rate * slots + kRounding);
-  };
-  const int slots = second - first_entry;
-  return static_cast<int>(passed_after(slots + 1) - passed_after(slots));
-}
+    return slots <= 0 ? 0 : static_cast<int>(*burst_ + rate_per_s_ * slots + kRounding);
+  }
+
+  double rate_per_s_;
+  std::optional<double> burst_;
+  int first_entry_;
+  int room_ = 0;
+};
 
 /// Maximum flow from people through doors that opens one slot after another. The network: each
 /// person comes to each door in the second in which they can be there, and may wait from each
@@ -216,6 +243,8 @@ std::vector<double> earliest_out_s(const Departures& departures) {
   check(departures.on_s.size() == exits, "every exit has a way out");
   DoorFlow flow(departures);
   std::vector<int> second(exits, 0);
+  std::vector<DoorBucket> buckets;
+  for (std::size_t e = 0; e < exits; ++e) buckets.emplace_back(departures, e, flow.first_entry(e));
   // Doors that serve nobody any more: who has no slot cannot get there, and others closed too soon.
   std::vector<bool> is_spent(exits, false);
   std::vector<double> out_s;
@@ -229,8 +258,11 @@ std::vector<double> earliest_out_s(const Departures& departures) {
     }
     if (next == exits) break;
     const int now = second[next]++;
-    const int room = spare_capacity(departures, next, now, flow.first_entry(next));
+    DoorBucket& bucket = buckets[next];
+    bucket.open(now);
+    const int room = bucket.room();
     const int more = flow.open(next, now, room);
+    bucket.take(more);
     is_spent[next] = room > 0 && more == 0 && now >= flow.last_entry();
     out_s.insert(out_s.end(), static_cast<std::size_t>(more), now + departures.on_s[next]);
   }

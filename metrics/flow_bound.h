@@ -15,9 +15,9 @@ struct Departures {
   std::vector<double> on_s;                   ///< per exit, from the door out of the place
   std::vector<double> closes_at_s = {};       ///< per exit, from when on it is closed; empty: none
   /// Per exit, people beyond `capacity_per_s` times any length of time that pass in it; empty:
-  /// none. Then t seconds from the slot on in which the first person can be at the door let
-  /// floor(burst + capacity_per_s * t) people pass: the arrival curve of Cruz (IEEE Trans. Inf.
-  /// Theory 37, 1991). Without it the slots take capacity_per_s each, rounded up.
+  /// none. Then at most burst + capacity_per_s * t people pass in any t slots in a row: the arrival
+  /// curve of Cruz (IEEE Trans. Inf. Theory 37, 1991), which a token bucket enforces. Without it
+  /// the slots take capacity_per_s each, rounded up.
   std::vector<double> burst = {};
 };
 

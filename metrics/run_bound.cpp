@@ -204,24 +204,26 @@ class LowerBound {
     return traveler;
   }
 
-  // If more people passed a door than its capacity allows, it can pass that many.
+  // If more people passed a door in any slots in a row than its capacity allows, it can pass that
+  // many.
   void raise_bursts(const std::vector<Traveler>& travelers) {
     for (std::size_t e = 0; e < doors_.on_s.size(); ++e) {
-      double first_s = kNever;
       std::vector<double> passages_s;
       for (std::size_t i = 0; i < people_.size(); ++i) {
         const bool shares = travelers[i].start_s <= origin_s_ + world::kTimeSlackS;
         if (!shares || travelers[i].beside_s) continue;
-        first_s = std::min(first_s, travelers[i].access_s[e]);
         const auto& last_out = people_[i]->last_out;
         if (people_[i]->escaped_s && last_out->exit == e) passages_s.push_back(last_out->time_s);
       }
       std::sort(passages_s.begin(), passages_s.end());
-      const double first_slot = std::max(0.0, std::ceil(first_s - origin_s_ - 1));
+      // People before a slot, less the rate up to it: the burst is the most by which it rises.
       double needed = 0;
+      double least = kNever;
       for (std::size_t k = 0; k < passages_s.size(); ++k) {
-        const double slots = std::floor(passages_s[k] - origin_s_) + 1 - first_slot;
-        needed = std::max(needed, static_cast<double>(k + 1) - doors_.capacity_per_s[e] * slots);
+        const double slot = std::floor(passages_s[k] - origin_s_);
+        const auto before = static_cast<double>(k);
+        least = std::min(least, before - doors_.capacity_per_s[e] * slot);
+        needed = std::max(needed, before + 1 - doors_.capacity_per_s[e] * (slot + 1) - least);
       }
       if (needed <= doors_.burst[e]) continue;
       doors_.burst[e] = needed;

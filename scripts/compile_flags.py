@@ -5,7 +5,7 @@ import shlex
 
 
 def macros_and_folders(build):
-    """All macros and include folders that any file of the build is compiled with. Where files differ about a macro's
+    """All macros and include folders that any file of the build is compiled with. If files differ about a macro's
     value, the first one counts: good enough for parsing, not for a program."""
     flags = {}
     for entry in json.loads((pathlib.Path(build) / "compile_commands.json").read_text()):

@@ -39,7 +39,7 @@ TEST(Deflate, ZlibReadsIt) {
   }
 }
 
-// What lies on the stack before must not show in the bytes.
+// Earlier contents of the stack must not show in the bytes.
 [[gnu::noinline]] void fill_stack(std::uint16_t value) {
   volatile std::uint16_t words[100'000];  // more than the library's state takes
   for (volatile std::uint16_t& word : words) word = value;

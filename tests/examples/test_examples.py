@@ -1,4 +1,4 @@
-"""What the programs in examples/ print: usage: test_examples.py NAME PROGRAM."""
+"""Output of the programs in examples/. Usage: test_examples.py NAME PROGRAM."""
 
 import os
 import re

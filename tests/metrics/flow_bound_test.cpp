@@ -62,6 +62,54 @@ TEST(EarliestOut, ABurstPassesAtOnceAndOnlyFromTheFirstArrivalOn) {
   EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{11, 11, 11, 12, 14, 16}));
 }
 
+// The same door, at which one person is early: those who come later find it rested, as if nobody
+// had passed, but not with more than its burst.
+TEST(EarliestOut, ADoorRestsWhileNobodyComes) {
+  Departures departures;
+  departures.capacity_per_s = {0.5};
+  departures.burst = {3};
+  departures.on_s = {1};
+  departures.access_s = {{0.5}};
+  for (int i = 0; i < 6; ++i) departures.access_s.push_back({30.5});
+  EXPECT_EQ(earliest_out_s(departures), (std::vector<double>{1, 31, 31, 31, 32, 34, 36}));
+}
+
+// People who pass a door at random times are never out before the earliest, if its burst is the
+// least that allows their passages in all slots in a row, found here by trying all of them.
+TEST(EarliestOut, AllowsAllPassagesWithinTheBurst) {
+  Random random(5, Stream::wind);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double rate_per_s = random.uniform(0.2, 3);
+    std::vector<double> passages_s;
+    const int people = 1 + static_cast<int>(random.uniform(0, 40));
+    const double spread_s = random.uniform(1, 60);
+    for (int i = 0; i < people; ++i) {
+      const bool in_a_group = i > 0 && random.uniform(0, 1) < 0.6;
+      passages_s.push_back(in_a_group ? passages_s.back() + random.uniform(0, 0.3)
+                                      : random.uniform(0, spread_s));
+    }
+    std::sort(passages_s.begin(), passages_s.end());
+    double burst = 0;
+    for (std::size_t first = 0; first < passages_s.size(); ++first) {
+      for (std::size_t last = first; last < passages_s.size(); ++last) {
+        const double slots = std::floor(passages_s[last]) - std::floor(passages_s[first]) + 1;
+        burst = std::max(burst, static_cast<double>(last - first + 1) - rate_per_s * slots);
+      }
+    }
+    Departures departures;
+    departures.capacity_per_s = {rate_per_s};
+    departures.burst = {burst};
+    departures.on_s = {0};
+    for (const double passage_s : passages_s) {
+      departures.access_s.push_back({passage_s - random.uniform(0, 3)});
+    }
+    const auto out_s = earliest_out_s(departures);
+    for (std::size_t i = 0; i < out_s.size(); ++i) {
+      EXPECT_LE(out_s[i], passages_s[i]) << "trial " << trial << ", person " << i;
+    }
+  }
+}
+
 // One door of 2 /s and people who come as they come: the k-th of them is out when they are there,
 // or half a second after the one before, whichever is later.
 TEST(EarliestOut, AtOneDoorIsTheQueueOfArrivals) {
