@@ -220,6 +220,10 @@ json parse_json_or_discard(std::string_view text, const JsonLimits& limits) {
   return read(text, limits, builder) ? json(json::value_t::discarded) : builder.take();
 }
 
+nlohmann::ordered_json parse_ordered_json(std::string_view text) {
+  return nlohmann::ordered_json::parse(text);
+}
+
 bool is_own_json(std::string_view text) { return json::accept(text); }
 
 json parse_own_json_list(std::string_view text, const std::string& what,

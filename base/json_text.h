@@ -44,6 +44,9 @@ nlohmann::json parse_own_json(std::string_view text, const std::string& what);
 /// callers with a message of their own.
 nlohmann::json parse_json_or_discard(std::string_view text, const JsonLimits& limits = {});
 
+/// Parses text that is part of this program, whose keys keep their order.
+nlohmann::ordered_json parse_ordered_json(std::string_view text);
+
 /// Whether text that this program wrote is valid JSON, without building the value.
 bool is_own_json(std::string_view text);
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/json_text.h"
 #include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/http.h"
@@ -38,8 +37,7 @@ std::int64_t free_bytes(const Call& call) { return free_bytes_of(call.folders.da
 
 /// The part of the job's schema at a pointer: how a job names what a list holds.
 json schema_at(const char* pointer) {
-  static const json kSchema = parse_own_json(jobs::job_schema(), "the schema");
-  return kSchema.at(json::json_pointer(pointer));
+  return jobs::job_schema().at(json::json_pointer(pointer));
 }
 
 }  // namespace
@@ -81,7 +79,7 @@ void send_version(const Call&, const Request&, Response& response) {
 }
 
 void send_schema(const Call&, const Request&, Response& response) {
-  response.set_content(std::string(jobs::job_schema()), "application/schema+json");
+  response.set_content(std::string(jobs::job_schema_text()), "application/schema+json");
 }
 
 void send_openapi(const Call&, const Request&, Response& response) {

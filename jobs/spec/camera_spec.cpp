@@ -80,7 +80,7 @@ std::string camera_pointer(std::size_t drone) { return fmt::format("/drones/{}/c
 
 std::vector<std::string> camera_presets() {
   // In the order of the file.
-  const auto document = nlohmann::ordered_json::parse(embedded::kCameras);
+  const auto document = parse_ordered_json(embedded::kCameras);
   std::vector<std::string> names;
   for (const auto& preset : document.at("cameras").items()) names.push_back(preset.key());
   return names;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/job_fields.h"
 
 namespace throng::jobs {
 
@@ -131,7 +131,7 @@ void append_rows(const ordered_json& object, const std::string& path, std::strin
 
 std::string job_fields_markdown() {
   std::string rows;
-  append_rows(ordered_json::parse(job_schema()), "", rows);
+  append_rows(ordered_job_schema(), "", rows);
   return rows;
 }
 

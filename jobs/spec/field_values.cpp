@@ -186,7 +186,7 @@ Values drawn_words(std::span<const std::string> words) {
 
 ordered_json plain_numbers(const json& value) {
   if (value.is_number_float()) return plain(value.get<double>());
-  return ordered_json::parse(value.dump());
+  return value;
 }
 
 json drawn_json(const Distribution& distribution, const Quantity& quantity) {

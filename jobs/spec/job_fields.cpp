@@ -229,7 +229,9 @@ const FieldTable<JobSpec>& job_fields() {
   return table;
 }
 
-std::string job_schema_text() {
+namespace {
+
+ordered_json make_job_schema() {
   ordered_json schema = {
       {"$schema", "http://json-schema.org/draft-07/schema#"},
       {"$id", "urn:throng:job:1"},
@@ -239,7 +241,14 @@ std::string job_schema_text() {
        "is written. Everything but \"scenario\" has a default."},
       {"type", "object"}};
   schema.update(job_fields().schema());
-  return schema_text(schema);
+  return schema;
+}
+
+}  // namespace
+
+const ordered_json& ordered_job_schema() {
+  static const ordered_json schema = make_job_schema();
+  return schema;
 }
 
 void set_field(JobSpec& job, const std::string& pointer, const json& value) {

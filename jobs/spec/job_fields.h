@@ -13,8 +13,8 @@ const FieldTable<DroneSpec>& drone_fields();
 /// The fields below "outputs", for job_fields().
 void add_output_fields(FieldTable<JobSpec>& table);
 
-/// The JSON Schema that follows from the tables.
-std::string job_schema_text();
+/// The JSON Schema that follows from the tables, in their order.
+const nlohmann::ordered_json& ordered_job_schema();
 
 /// Sets what was drawn for a run: a field that the block "randomize" may name, by its JSON pointer.
 void set_field(JobSpec& job, const std::string& pointer, const nlohmann::json& value);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/json_text.h"
 #include "jobs/spec/spec.h"
 #include "world/json_reader.h"
 
@@ -18,11 +17,6 @@ namespace {
 
 constexpr const char* kInPlace = "x-distribution";
 constexpr const char* kElsewhere = "x-randomize";
-
-const json& rules_of_job() {
-  static const json document = parse_own_json(job_schema(), "the schema");
-  return document;
-}
 
 bool is_index(const std::string& word) {
   return !word.empty() && word.size() < 3 &&
@@ -43,7 +37,7 @@ std::vector<std::string> words_of(const std::string& path) {
 
 /// The schema of the field, or null if there is none or it may not be drawn.
 const json* rules_at(const std::vector<std::string>& words) {
-  const json* node = &rules_of_job();
+  const json* node = &job_schema();
   for (const std::string& word : words) {
     if (is_index(word)) {
       if (!node->contains("items")) return nullptr;
@@ -162,7 +156,7 @@ json to_json(const std::vector<RandomField>& fields) {
 
 std::vector<std::string> random_paths() {
   std::vector<std::string> paths;
-  add_paths(rules_of_job(), "", paths);
+  add_paths(job_schema(), "", paths);
   return paths;
 }
 

@@ -12,7 +12,6 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "base/json_text.h"
 #include "base/suggest.h"
 #include "jobs/spec/spec.h"
 #include "world/json_reader.h"
@@ -23,15 +22,10 @@ using nlohmann::json;
 
 namespace {
 
-const json& schema_document() {
-  static const json document = parse_own_json(job_schema(), "the schema");
-  return document;
-}
-
 struct CompiledSchema {
   CompiledSchema() {
     valijson::SchemaParser().populateSchema(
-        valijson::adapters::NlohmannJsonAdapter(schema_document()), schema);
+        valijson::adapters::NlohmannJsonAdapter(job_schema()), schema);
   }
   valijson::Schema schema;
 };
@@ -47,7 +41,7 @@ json::json_pointer pointer_to(const std::vector<std::string>& context) {
 
 // The part of the schema that describes the place; our schema nests plainly, without references.
 const json& schema_at(const std::vector<std::string>& context) {
-  const json* node = &schema_document();
+  const json* node = &job_schema();
   for (std::size_t i = 1; i < context.size(); ++i) {
     const std::string key = context[i].substr(1, context[i].size() - 2);
     node = node->at("type") == "array" ? &node->at("items") : &node->at("properties").at(key);

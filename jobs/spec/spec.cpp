@@ -147,8 +147,13 @@ json drawn_of_run(const JobSpec& job, int run) {
   return drawn;
 }
 
-std::string_view job_schema() {
-  static const std::string text = job_schema_text();
+const json& job_schema() {
+  static const json schema = ordered_job_schema();
+  return schema;
+}
+
+std::string_view job_schema_text() {
+  static const std::string text = schema_text(ordered_job_schema());
   return text;
 }
 

@@ -95,7 +95,9 @@ JobSpec job_of_run(const JobSpec& job, int run);
 /// and of the cameras.
 nlohmann::json drawn_of_run(const JobSpec& job, int run);
 
-/// The JSON Schema text, embedded at build time.
-std::string_view job_schema();
+/// The JSON Schema of a job.
+const nlohmann::json& job_schema();
+/// The same as text, whose fields are in the order of docs/job.md.
+std::string_view job_schema_text();
 
 }  // namespace throng::jobs

@@ -148,7 +148,7 @@ TEST(CameraSpec, PresetsLendWhatIsLeftOut) {
   EXPECT_NEAR(intrinsics_of(smaller)->fx_px, 3666.7 / 4, 0.2);
   EXPECT_EQ(parsed(R"({"preset": "airsim", "hfov_deg": 50})").hfov_deg, 50);
   // The schema lists what there is.
-  const json schema = json::parse(job_schema());
+  const json& schema = job_schema();
   const json camera = schema["properties"]["drones"]["items"]["properties"]["camera"];
   const std::set<std::string> listed = camera["properties"]["preset"]["enum"];
   const std::vector<std::string> known = camera_presets();

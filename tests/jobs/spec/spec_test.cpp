@@ -111,7 +111,7 @@ TEST_F(Spec, NamesWhatIsWrongWithAPlaceFromASeed) {
 }
 
 TEST_F(Spec, DefaultsAreThoseOfTheSchema) {
-  expect_defaults(json::parse(job_schema()),
+  expect_defaults(job_schema(),
                   to_json(parse(R"({"scenario": "yard", "drones": [{"id": "d1"}]})")), "");
 }
 
