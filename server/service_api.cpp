@@ -36,9 +36,7 @@ std::int64_t resident_bytes() {
 std::int64_t free_bytes(const Call& call) { return free_bytes_of(call.folders.data()); }
 
 /// The part of the job's schema at a pointer: how a job names what a list holds.
-json schema_at(const char* pointer) {
-  return jobs::job_schema().at(json::json_pointer(pointer));
-}
+json schema_at(const char* pointer) { return jobs::job_schema().at(json::json_pointer(pointer)); }
 
 }  // namespace
 

@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
   }
   try {
     const std::filesystem::path source = argv[1];  // NOLINT(*-pointer-arithmetic)
-    throng::write_file_atomically(source / "jobs/spec/job.schema.json", throng::jobs::job_schema_text());
+    throng::write_file_atomically(source / "jobs/spec/job.schema.json",
+                                  throng::jobs::job_schema_text());
     const std::filesystem::path document = source / "docs/job.md";
     throng::write_file_atomically(document,
                                   throng::jobs::with_job_fields(throng::read_file(document)));

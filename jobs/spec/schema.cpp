@@ -24,8 +24,8 @@ namespace {
 
 struct CompiledSchema {
   CompiledSchema() {
-    valijson::SchemaParser().populateSchema(
-        valijson::adapters::NlohmannJsonAdapter(job_schema()), schema);
+    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(job_schema()),
+                                            schema);
   }
   valijson::Schema schema;
 };

@@ -49,8 +49,7 @@ TEST(GroundTruthTables, EveryKindWithFilesOfItsOwnIsChecked) {
 }
 
 TEST(GroundTruthTables, TheJobSchemaListsTheKinds) {
-  const json rules =
-      job_schema().at("/properties/outputs/properties/annotations"_json_pointer);
+  const json rules = job_schema().at("/properties/outputs/properties/annotations"_json_pointer);
   json names = json::array();
   json defaults = json::array();
   for (const annotate::GroundTruthKind& kind : annotate::ground_truth_kinds()) {

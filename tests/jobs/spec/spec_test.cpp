@@ -111,8 +111,8 @@ TEST_F(Spec, NamesWhatIsWrongWithAPlaceFromASeed) {
 }
 
 TEST_F(Spec, DefaultsAreThoseOfTheSchema) {
-  expect_defaults(job_schema(),
-                  to_json(parse(R"({"scenario": "yard", "drones": [{"id": "d1"}]})")), "");
+  expect_defaults(job_schema(), to_json(parse(R"({"scenario": "yard", "drones": [{"id": "d1"}]})")),
+                  "");
 }
 
 TEST_F(Spec, ReadsEveryField) {
