@@ -69,6 +69,7 @@ JOB = {
             "parts",
             "normals",
             "flow",
+            "semantic",
             "sensors",
         ],
         "previews": 1,
