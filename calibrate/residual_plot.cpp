@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "calibrate/warnings.h"
 
 namespace throng::calibrate {
+
+using drawing::Color;
+using drawing::Drawing;
+using drawing::Shape;
+using Eigen::Vector2d;
 
 namespace {
 
@@ -16,40 +22,67 @@ constexpr double kImageWidth = 800;  ///< of the drawn image, in units of the im
 constexpr double kSide = 320;        ///< of the scatter
 constexpr double kGap = 40;
 constexpr double kTop = 60;
-constexpr double kResidualTimes = 50;
+constexpr double kResidualScale = 50;
 constexpr double kBarHeight = 14;
+constexpr double kTextPx = 13;
+constexpr double kDotPx = 1.5;
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&') {
-      safe += "&amp;";
-    } else if (c == '<') {
-      safe += "&lt;";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
+constexpr Color kInk{{0, 0, 0}};
+constexpr Color kWhite{{255, 255, 255}};
+constexpr Color kBackground{{250, 250, 250}};
+constexpr Color kUncovered{{238, 238, 238}};
+constexpr Color kFrame{{136, 136, 136}};
+constexpr Color kAxis{{204, 204, 204}};
+constexpr Color kOutlier{{255, 0, 0}};
 
 /// A color per view, around the circle of hues.
-std::string color_of(std::size_t view, std::size_t views) {
-  constexpr double kCircle = 360;
-  return fmt::format("hsl({:.0f},65%,42%)",
-                     kCircle * static_cast<double>(view) / static_cast<double>(views));
+Color color_of(std::size_t view, std::size_t views) {
+  constexpr double kCircleDeg = 360;
+  return drawing::from_hsl(kCircleDeg * static_cast<double>(view) / static_cast<double>(views),
+                           0.65, 0.42);
 }
 
-std::string text_at(double x, double y, const std::string& text, int size = 13) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}</text>\n", x, y, size,
-                     escaped(text));
-}
+/// A part of the drawing with an origin of its own.
+class Panel {
+ public:
+  Panel(Drawing& drawing, const Vector2d& origin) : drawing_(drawing), origin_(origin) {}
 
-std::string line(double x1, double y1, double x2, double y2, const std::string& color) {
-  return fmt::format(
-      "<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\"/>\n", x1, y1, x2,
-      y2, color);
-}
+  void text(const Vector2d& at, std::string words, double font_px = kTextPx) {
+    Shape& shape = add(Shape::Kind::text, {at});
+    shape.fill = kInk;
+    shape.text = std::move(words);
+    shape.font_px = font_px;
+  }
+  void line(const Vector2d& from, const Vector2d& to, const Color& color) {
+    add(Shape::Kind::line, {from, to}).stroke = color;
+  }
+  void rectangle(const Vector2d& min, const Vector2d& size, const Color& fill,
+                 const Color& stroke = drawing::kTransparent) {
+    const Vector2d max = min + size;
+    Shape& shape = add(Shape::Kind::polygon, {min, {max.x(), min.y()}, max, {min.x(), max.y()}});
+    shape.fill = fill;
+    shape.stroke = stroke;
+  }
+  void circle(const Vector2d& center, double radius_px, const Color& fill,
+              const Color& stroke = drawing::kTransparent) {
+    Shape& shape = add(Shape::Kind::circle, {center});
+    shape.radius_px = radius_px;
+    shape.fill = fill;
+    shape.stroke = stroke;
+  }
+
+ private:
+  Shape& add(Shape::Kind kind, std::vector<Vector2d> points) {
+    for (Vector2d& point : points) point += origin_;
+    Shape& shape = drawing_.shapes.emplace_back();
+    shape.kind = kind;
+    shape.points = std::move(points);
+    return shape;
+  }
+
+  Drawing& drawing_;
+  Vector2d origin_;
+};
 
 template <typename Action>
 void each_point(const Calibration& calibration, const Action& action) {
@@ -59,111 +92,93 @@ void each_point(const Calibration& calibration, const Action& action) {
 }
 
 /// The image with its points and residuals; cells without points are shaded.
-std::string image_panel(const Calibration& calibration) {
+void draw_image(const Calibration& calibration, Panel panel) {
   const double scale = kImageWidth / calibration.size.width;
   const double height = scale * calibration.size.height;
-  std::string svg = fmt::format(
-      "<g transform=\"translate({},{})\"><rect width=\"{:.1f}\" height=\"{:.1f}\" fill=\"white\" "
-      "stroke=\"#888\"/>\n",
-      kGap, kTop, kImageWidth, height);
+  panel.rectangle({0, 0}, {kImageWidth, height}, kWhite, kFrame);
   const Coverage covered = covered_cells(calibration);
-  constexpr double kCellWidth = kImageWidth / kCoverageColumns;
-  const double cell_height = height / kCoverageRows;
+  const Vector2d cell(kImageWidth / kCoverageColumns, height / kCoverageRows);
   for (std::size_t i = 0; i < covered.size(); ++i) {
     if (covered.at(i)) continue;
-    const std::size_t row = i / kCoverageColumns;
-    svg += fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#eee\"/>\n",
-        kCellWidth * static_cast<double>(i % kCoverageColumns),
-        cell_height * static_cast<double>(row), kCellWidth, cell_height);
+    const Vector2d place(static_cast<double>(i % kCoverageColumns),
+                         static_cast<double>(i / kCoverageColumns));
+    panel.rectangle(place.cwiseProduct(cell), cell, kUncovered);
   }
+  constexpr double kOutlierPx = 5;
   each_point(calibration, [&](std::size_t view, const PointResult& point) {
-    const std::string color =
-        point.used ? color_of(view, calibration.views.size()) : std::string("red");
-    const double x = scale * (point.pixel.x() + 0.5);
-    const double y = scale * (point.pixel.y() + 0.5);
-    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n", x, y,
-                       point.used ? 1.5 : 5.0, color);
+    const Color color = point.used ? color_of(view, calibration.views.size()) : kOutlier;
+    const Vector2d at = scale * (point.pixel + Vector2d(0.5, 0.5));
+    panel.circle(at, point.used ? kDotPx : kOutlierPx, color);
     if (!point.used || !point.residual.allFinite()) return;
-    svg += line(x, y, x + scale * kResidualTimes * point.residual.x(),
-                y + scale * kResidualTimes * point.residual.y(), color);
+    panel.line(at, at + scale * kResidualScale * point.residual, color);
   });
-  return svg + "</g>\n";
 }
 
 /// All residuals around 0.
-std::string scatter_panel(const Calibration& calibration, double x) {
-  double reach = 0;
+void draw_scatter(const Calibration& calibration, Panel panel) {
+  double reach_px = 1e-9;
   each_point(calibration, [&](std::size_t, const PointResult& point) {
-    if (point.used) reach = std::max(reach, point.residual.cwiseAbs().maxCoeff());
+    if (point.used) reach_px = std::max(reach_px, point.residual.cwiseAbs().maxCoeff());
   });
-  reach = std::max(reach, 1e-9);
-  const double half = 0.5 * kSide;
-  std::string svg = fmt::format(
-      "<g transform=\"translate({},{})\"><rect width=\"{}\" height=\"{}\" fill=\"white\" "
-      "stroke=\"#888\"/>\n",
-      x, kTop, kSide, kSide);
-  svg += line(half, 0, half, kSide, "#ccc") + line(0, half, kSide, half, "#ccc");
-  svg +=
-      fmt::format("<circle cx=\"{0}\" cy=\"{0}\" r=\"{1:.1f}\" fill=\"none\" stroke=\"#888\"/>\n",
-                  half, half * calibration.rms_px / reach);
+  constexpr double kHalf = 0.5 * kSide;
+  const Vector2d center(kHalf, kHalf);
+  panel.rectangle({0, 0}, {kSide, kSide}, kWhite, kFrame);
+  panel.line({kHalf, 0}, {kHalf, kSide}, kAxis);
+  panel.line({0, kHalf}, {kSide, kHalf}, kAxis);
+  panel.circle(center, kHalf * calibration.rms_px / reach_px, drawing::kTransparent, kFrame);
   each_point(calibration, [&](std::size_t view, const PointResult& point) {
     if (!point.used) return;
-    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"1.5\" fill=\"{}\"/>\n",
-                       half + half * point.residual.x() / reach,
-                       half + half * point.residual.y() / reach,
-                       color_of(view, calibration.views.size()));
+    panel.circle(center + kHalf / reach_px * point.residual, kDotPx,
+                 color_of(view, calibration.views.size()));
   });
-  svg += text_at(4, kSide - 6, fmt::format("residuals up to {:.2f} px; circle: RMS", reach));
-  return svg + "</g>\n";
+  panel.text({4, kSide - 6}, fmt::format("residuals up to {:.2f} px; circle: RMS", reach_px));
 }
 
-std::string bars_panel(const Calibration& calibration, double x, double y) {
-  double max_value = calibration.rms_px;
-  for (const ViewResult& view : calibration.views) max_value = std::max(max_value, view.rms_px);
-  max_value = std::max(max_value, 1e-9);
-  constexpr double kLabel = 110;
+/// The RMS error of each view.
+void draw_bars(const Calibration& calibration, Panel panel) {
+  double max_px = std::max(calibration.rms_px, 1e-9);
+  for (const ViewResult& view : calibration.views) max_px = std::max(max_px, view.rms_px);
+  constexpr double kLabelPx = 110;
+  constexpr double kSmallTextPx = 10;
   constexpr std::size_t kMaxNameLength = 18;
-  std::string svg = fmt::format("<g transform=\"translate({},{})\">\n", x, y);
   for (std::size_t i = 0; i < calibration.views.size(); ++i) {
     const ViewResult& view = calibration.views[i];
-    const double at = kBarHeight * static_cast<double>(i);
-    std::string name = view.name.substr(view.name.find_last_of('/') + 1);
-    if (name.size() > kMaxNameLength) name = name.substr(0, kMaxNameLength);
-    svg += text_at(0, at + kBarHeight - 4, name, 10);
-    svg += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" fill=\"{}\"/>\n",
-                       kLabel, at + 2, (kSide - kLabel - kGap) * view.rms_px / max_value,
-                       kBarHeight - 4, color_of(i, calibration.views.size()));
-    svg += text_at(kSide - kGap + 4, at + kBarHeight - 4, fmt::format("{:.3f}", view.rms_px), 10);
+    const double y = kBarHeight * static_cast<double>(i);
+    const std::string name = view.name.substr(view.name.find_last_of('/') + 1);
+    panel.text({0, y + kBarHeight - 4}, name.substr(0, kMaxNameLength), kSmallTextPx);
+    panel.rectangle({kLabelPx, y + 2},
+                    {(kSide - kLabelPx - kGap) * view.rms_px / max_px, kBarHeight - 4},
+                    color_of(i, calibration.views.size()));
+    panel.text({kSide - kGap + 4, y + kBarHeight - 4}, fmt::format("{:.3f}", view.rms_px),
+               kSmallTextPx);
   }
-  return svg + "</g>\n";
 }
 
 }  // namespace
 
-std::string residual_plot(const Calibration& calibration) {
-  const double left = kGap + kImageWidth + kGap;
-  const double bars = kTop + kSide + kGap;
-  const double width = left + kSide + kGap;
+Drawing residual_plot(const Calibration& calibration) {
+  constexpr double kLeft = kGap + kImageWidth + kGap;
+  constexpr double kBarsTop = kTop + kSide + kGap;
   const double image = kImageWidth * calibration.size.height / calibration.size.width;
-  const double height =
-      kGap +
-      std::max(kTop + image, bars + kBarHeight * static_cast<double>(calibration.views.size()));
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 "
-      "0 "
-      "{0:.0f} {1:.0f}\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"#fafafa\"/>\n",
-      width, height);
-  svg += text_at(kGap, 36,
-                 fmt::format("{}: {} views, {} points, {} outliers; RMS {:.4f} px; points in "
-                             "{:.0f} % of the image (gray: none); residuals x {:.0f}",
-                             calibration.kind, calibration.views.size(), calibration.points,
-                             calibration.rejected, calibration.rms_px,
-                             100 * coverage_of(calibration), kResidualTimes),
-                 15);
-  return svg + image_panel(calibration) + scatter_panel(calibration, left) +
-         bars_panel(calibration, left, bars) + "</svg>\n";
+  const double bars = kBarHeight * static_cast<double>(calibration.views.size());
+  Drawing drawing;
+  drawing.width_px = static_cast<int>(kLeft + kSide + kGap);
+  drawing.height_px = static_cast<int>(std::ceil(kGap + std::max(kTop + image, kBarsTop + bars)));
+  drawing.title = "Calibration residuals";
+  Panel page(drawing, {0, 0});
+  page.rectangle({0, 0}, {drawing.width_px, drawing.height_px}, kBackground);
+  constexpr double kTitlePx = 15;
+  page.text({kGap, 36},
+            fmt::format("{}: {} views, {} points, {} outliers; RMS {:.4f} px; points in {:.0f} % "
+                        "of the image (gray: none); residuals x {:.0f}",
+                        calibration.kind, calibration.views.size(), calibration.points,
+                        calibration.rejected, calibration.rms_px, 100 * coverage_of(calibration),
+                        kResidualScale),
+            kTitlePx);
+  draw_image(calibration, Panel(drawing, {kGap, kTop}));
+  draw_scatter(calibration, Panel(drawing, {kLeft, kTop}));
+  draw_bars(calibration, Panel(drawing, {kLeft, kBarsTop}));
+  return drawing;
 }
 
 }  // namespace throng::calibrate

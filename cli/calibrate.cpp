@@ -95,7 +95,7 @@ void write_results(const calibrate::Calibration& calibration, const CalibrateArg
                           calibrate::ros_yaml(calibration, fs::path(arguments.ros).stem()));
   }
   if (!arguments.picture.empty()) {
-    write_file_atomically(arguments.picture, calibrate::residual_plot(calibration));
+    drawing::write_drawing(calibrate::residual_plot(calibration), arguments.picture);
   }
 }
 
@@ -131,7 +131,8 @@ void add_results(CLI::App& command, CalibrateArguments& arguments) {
                      "Camera JSON to write; default: standard output");
   command.add_option("--opencv", arguments.opencv, "Also write OpenCV's YAML");
   command.add_option("--ros", arguments.ros, "Also write ROS' camera_info (YAML)");
-  command.add_option("--picture", arguments.picture, "Also plot residuals and coverage (SVG)");
+  command.add_option("--picture", arguments.picture,
+                     "Also plot residuals and coverage (.svg, .png or .pdf)");
 }
 
 void add_fit(CLI::App& command, CalibrateArguments& arguments) {

@@ -207,7 +207,7 @@ void selftest(const SelftestArguments& arguments) {
     write_file_atomically(arguments.output, report.dump(2) + "\n");
   }
   if (!arguments.picture.empty()) {
-    write_file_atomically(arguments.picture, calibrate::residual_plot(found));
+    drawing::write_drawing(calibrate::residual_plot(found), arguments.picture);
   }
   if (!all_hold) throw EnvironmentError("the calibration differs from the camera that rendered");
 }
@@ -233,7 +233,8 @@ void add_calibrate_selftest(CLI::App& calibrate) {
       ->capture_default_str();
   command->add_option("--images", arguments->images, "Folder to keep the images in (PNG)");
   command->add_option("-o,--output", arguments->output, "JSON report to write");
-  command->add_option("--picture", arguments->picture, "Also plot residuals and coverage (SVG)");
+  command->add_option("--picture", arguments->picture,
+                      "Also plot residuals and coverage (.svg, .png or .pdf)");
   command->callback([arguments] { selftest(*arguments); });
 }
 

@@ -83,7 +83,7 @@ void draw_plan(const PlanArguments& arguments) {
     scenario = scenario_named(arguments.name);
   }
   if (!arguments.trace.empty()) paths = world::flown_paths(world::read_trace(arguments.trace));
-  places::write_plan(places::draw_plan(*scenario, arguments.size_px, paths), arguments.output);
+  drawing::write_drawing(places::draw_plan(*scenario, arguments.size_px, paths), arguments.output);
 }
 
 void add_plan(CLI::App& scenario) {
@@ -92,7 +92,7 @@ void add_plan(CLI::App& scenario) {
   const auto arguments = std::make_shared<PlanArguments>();
   command->add_option("scenario", arguments->name, "FILE.json, an id or a job's file")->required();
   command->add_option("--trace", arguments->trace, "Plot the flight paths of this run (TRACE.h5)");
-  command->add_option("-o,--output", arguments->output, "PLAN.svg or PLAN.png")->required();
+  command->add_option("-o,--output", arguments->output, "PLAN.svg, PLAN.png or PLAN.pdf")->required();
   command->add_option("--size", arguments->size_px, "Longer side in pixels")
       ->check(CLI::Range(200, 8000));
   command->callback([arguments] { draw_plan(*arguments); });

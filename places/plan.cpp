@@ -13,12 +13,13 @@
 
 namespace throng::places {
 
+using drawing::Color;
 using Eigen::Vector2d;
 using world::Scenario;
 
 namespace {
 
-Ink ground_ink(const std::string& material) {
+Color ground_color(const std::string& material) {
   static const std::map<std::string, std::array<std::uint8_t, 3>> kMaterials = {
       {"pavers", {236, 232, 226}},
       {"asphalt", {214, 214, 216}},
@@ -29,34 +30,32 @@ Ink ground_ink(const std::string& material) {
   return {found != kMaterials.end() ? found->second : std::array<std::uint8_t, 3>{240, 240, 240}};
 }
 
-constexpr Ink kNothing{{0, 0, 0}, 0};
-
 void draw_ground(const Scenario& scenario, Sheet& sheet) {
   const world::Rectangle& all = scenario.ground;
   sheet.polygon(std::array{all.min, Vector2d(all.max.x(), all.min.y()), all.max,
                            Vector2d(all.min.x(), all.max.y())},
-                ground_ink(scenario.ground_material), kNothing);
+                ground_color(scenario.ground_material), drawing::kTransparent);
   for (const world::GroundArea& area : scenario.areas) {
-    sheet.polygon(area.corners, ground_ink(area.material), kNothing);
+    sheet.polygon(area.corners, ground_color(area.material), drawing::kTransparent);
   }
-  constexpr Ink kPaint{{255, 255, 255}};
+  constexpr Color kPaint{{255, 255, 255}};
   for (const world::Marking& marking : scenario.markings) {
     const Vector2d along = (marking.to - marking.from).normalized();
     const Vector2d side = 0.5 * marking.width_m * Vector2d(-along.y(), along.x());
     sheet.polygon(std::array<Vector2d, 4>{marking.from - side, marking.to - side, marking.to + side,
                                           marking.from + side},
-                  kPaint, kNothing);
+                  kPaint, drawing::kTransparent);
   }
   const world::Rectangle& in = scenario.inside;
-  constexpr Ink kEdge{{120, 120, 120}, 0.5};
+  constexpr Color kEdge{{120, 120, 120}, 0.5};
   sheet.polygon(std::array{in.min, Vector2d(in.max.x(), in.min.y()), in.max,
                            Vector2d(in.min.x(), in.max.y())},
-                kNothing, kEdge);
+                drawing::kTransparent, kEdge);
 }
 
 void draw_things(const Scenario& scenario, Sheet& sheet) {
   for (const world::Building& building : scenario.buildings) {
-    sheet.polygon(building.footprint, inks::kBuilding, inks::kInk);
+    sheet.polygon(building.footprint, colors::kBuilding, colors::kInk);
   }
   for (const world::Prop& prop : scenario.props) {
     const Vector2d half =
@@ -67,7 +66,7 @@ void draw_things(const Scenario& scenario, Sheet& sheet) {
       return prop.position + x * half.x() * along + y * half.y() * across;
     };
     sheet.polygon(std::array{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)},
-                  inks::kProp, kNothing);
+                  colors::kProp, drawing::kTransparent);
   }
 }
 
@@ -75,27 +74,27 @@ void name_buildings(const Scenario& scenario, Sheet& sheet) {
   for (const world::Building& building : scenario.buildings) {
     Vector2d middle = Vector2d::Zero();
     for (const Vector2d& corner : building.footprint) middle += corner;
-    sheet.words(middle / static_cast<double>(building.footprint.size()), {-12, 4}, building.id,
-                inks::kInk);
+    sheet.label(middle / static_cast<double>(building.footprint.size()), {-12, 4}, building.id,
+                colors::kInk);
   }
 }
 
 void draw_obstacles(const crowd::Obstacles& obstacles, Sheet& sheet) {
   for (const crowd::Segment& segment : obstacles.segments()) {
     sheet.line(std::array<Vector2d, 2>{segment.begin.cast<double>(), segment.end.cast<double>()},
-               inks::kObstacle, 1.2);
+               colors::kObstacle, 1.2);
   }
 }
 
 void draw_exits(const Scenario& scenario, Sheet& sheet) {
   constexpr double kDoorPx = 5;
   for (const world::Exit& exit : scenario.exits) {
-    const Ink& ink = exit.open ? inks::kOpenExit : inks::kShutExit;
-    sheet.line(std::array{exit.from, exit.to}, ink, kDoorPx);
+    const Color& color = exit.open ? colors::kOpenExit : colors::kShutExit;
+    sheet.line(std::array{exit.from, exit.to}, color, kDoorPx);
     // Beyond the door, where nothing else is written.
     constexpr double kBesideM = 1.2;
-    sheet.words(exit.middle() + kBesideM * exit.outward, {exit.outward.x() < -0.5 ? -90.0 : 4.0, 4},
-                fmt::format("{} {:.3g} m", exit.id, exit.width_m()), ink);
+    sheet.label(exit.middle() + kBesideM * exit.outward, {exit.outward.x() < -0.5 ? -90.0 : 4.0, 4},
+                fmt::format("{} {:.3g} m", exit.id, exit.width_m()), color);
   }
 }
 
@@ -106,7 +105,7 @@ void draw_goals(const Scenario& scenario, const crowd::Goals& goals, Sheet& shee
     const Vector2d center = goal.shape->center().cast<double>();
     if (!scenario.ground.contains(center)) continue;
     constexpr double kGoalPx = 2.5;
-    sheet.dot(center, kGoalPx, inks::kGoal);
+    sheet.dot(center, kGoalPx, colors::kGoal);
   }
 }
 
@@ -139,10 +138,10 @@ void draw_sources(Arrivals arrivals, Sheet& sheet) {
   const auto at = [](const std::pair<long, long>& place) {
     return Vector2d(static_cast<double>(place.first), static_cast<double>(place.second));
   };
-  for (const auto& [place, count] : arrivals) sheet.dot(at(place), kSourcePx, inks::kSource);
+  for (const auto& [place, count] : arrivals) sheet.dot(at(place), kSourcePx, colors::kSource);
   while (!arrivals.empty()) {
     const Vector2d first = at(arrivals.begin()->first);
-    sheet.words(first, {8, -6}, fmt::format("{} come", take_source(arrivals)), inks::kSource);
+    sheet.label(first, {8, -6}, fmt::format("{} enter", take_source(arrivals)), colors::kSource);
   }
 }
 
@@ -155,11 +154,11 @@ void draw_people(const LoadedCrowd& loaded, Sheet& sheet) {
     const Vector2d at = loaded.place(agent);
     if (loaded.is_person[agent] == 0) {
       constexpr double kDangerPx = 7;
-      sheet.dot(at, kDangerPx, inks::kDanger);
+      sheet.dot(at, kDangerPx, colors::kDanger);
     } else if (loaded.crowd.agents.awaited[agent] != 0) {
       ++arrivals[{std::lround(at.x()), std::lround(at.y())}];
     } else if (agent % stride == 0) {
-      sheet.dot(at, kPersonPx, inks::kPerson);
+      sheet.dot(at, kPersonPx, colors::kPerson);
     }
   }
   draw_sources(std::move(arrivals), sheet);
@@ -192,17 +191,17 @@ void draw_flows(const Scenario& scenario, const LoadedCrowd& loaded, const Route
     const Vector2d from = flows[i].sum / flows[i].people;
     const Vector2d to = scenario.exits[i].middle();
     if ((to - from).norm() < 1) continue;
-    sheet.line(std::array{from, to}, inks::kFlow, 1 + kMaxWidthPx * flows[i].people / all, true);
-    sheet.words(0.5 * (from + to), {6, -4}, fmt::format("{} nearest here", flows[i].people),
-                inks::kOpenExit);
+    sheet.line(std::array{from, to}, colors::kFlow, 1 + kMaxWidthPx * flows[i].people / all, true);
+    sheet.label(0.5 * (from + to), {6, -4}, fmt::format("{} nearest here", flows[i].people),
+                colors::kOpenExit);
   }
 }
 
 void draw_start(const std::string& id, const Eigen::Vector3d& start, Sheet& sheet) {
   constexpr double kDroneM = 1.2;
-  sheet.ring(start.head<2>(), kDroneM, inks::kDrone);
-  sheet.words(start.head<2>(), {8, 16}, fmt::format("{}, {:.3g} m up", id, start.z()),
-              inks::kDrone);
+  sheet.ring(start.head<2>(), kDroneM, colors::kDrone);
+  sheet.label(start.head<2>(), {8, 16}, fmt::format("{}, {:.3g} m up", id, start.z()),
+              colors::kDrone);
 }
 
 void draw_drones(const Scenario& scenario, Sheet& sheet) {
@@ -210,7 +209,7 @@ void draw_drones(const Scenario& scenario, Sheet& sheet) {
     const Vector2d at = drone.position.head<2>();
     constexpr double kHeadingM = 3;
     const Vector2d heading(std::cos(drone.yaw_rad), std::sin(drone.yaw_rad));
-    sheet.line(std::array<Vector2d, 2>{at, at + kHeadingM * heading}, inks::kDrone, 2, true);
+    sheet.line(std::array<Vector2d, 2>{at, at + kHeadingM * heading}, colors::kDrone, 2, true);
     draw_start(drone.id, drone.position, sheet);
   }
 }
@@ -219,14 +218,15 @@ void draw_paths(std::span<const world::DronePath> paths, Sheet& sheet) {
   for (const world::DronePath& path : paths) {
     std::vector<Vector2d> places;
     for (const Eigen::Vector3d& place : path.places) places.emplace_back(place.head<2>());
-    if (places.size() > 1) sheet.line(places, inks::kDrone, 1.5, true);
+    if (places.size() > 1) sheet.line(places, colors::kDrone, 1.5, true);
     draw_start(path.id, path.places.front(), sheet);
   }
 }
 
 }  // namespace
 
-Drawing draw_plan(const Scenario& scenario, int size_px, std::span<const world::DronePath> paths) {
+drawing::Drawing draw_plan(const Scenario& scenario, int size_px,
+                           std::span<const world::DronePath> paths) {
   const LoadedCrowd loaded = load_crowd_of(scenario);
   const Routes routes = find_routes(scenario, loaded);
   Sheet sheet(scenario.ground, size_px);

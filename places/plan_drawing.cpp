@@ -9,6 +9,8 @@
 
 namespace throng::places {
 
+using drawing::Color;
+using drawing::Shape;
 using Eigen::Vector2d;
 
 namespace {
@@ -21,19 +23,19 @@ constexpr double kLettersPx = 13;
 
 struct Entry {
   const char* words;
-  Ink ink;
+  Color color;
 };
 
-constexpr std::array<Entry, 10> kLegend = {{{"building", inks::kBuilding},
-                                            {"obstacle of the crowd", inks::kObstacle},
-                                            {"thing", inks::kProp},
-                                            {"open exit", inks::kOpenExit},
-                                            {"shut exit", inks::kShutExit},
-                                            {"goal", inks::kGoal},
-                                            {"person at the start", inks::kPerson},
-                                            {"people come in here", inks::kSource},
-                                            {"drone", inks::kDrone},
-                                            {"danger", inks::kDanger}}};
+constexpr std::array<Entry, 10> kLegend = {{{"building", colors::kBuilding},
+                                            {"obstacle of the crowd", colors::kObstacle},
+                                            {"prop", colors::kProp},
+                                            {"open exit", colors::kOpenExit},
+                                            {"closed exit", colors::kShutExit},
+                                            {"goal", colors::kGoal},
+                                            {"person at the start", colors::kPerson},
+                                            {"people enter here", colors::kSource},
+                                            {"drone", colors::kDrone},
+                                            {"danger", colors::kDanger}}};
 
 /// A length for the scale: 1, 2 or 5 times a power of ten, about this long.
 double round_length(double length_m) {
@@ -44,14 +46,15 @@ double round_length(double length_m) {
   return power;
 }
 
-Mark text_mark(const Vector2d& at_px, std::string text, double size_px, const Ink& ink) {
-  Mark mark;
-  mark.kind = Mark::Kind::text;
-  mark.points = {at_px};
-  mark.fill = ink;
-  mark.width_px = size_px;
-  mark.text = std::move(text);
-  return mark;
+Shape text_shape(const Vector2d& at_px, std::string text, double size_px, const Color& color) {
+  Shape shape;
+  shape.kind = Shape::Kind::text;
+  shape.points = {at_px};
+  shape.fill = color;
+  shape.font_px = size_px;
+  shape.outlined = true;
+  shape.text = std::move(text);
+  return shape;
 }
 
 }  // namespace
@@ -70,63 +73,66 @@ Vector2d Sheet::at(const Vector2d& place) const {
           kTitlePx + kBorderPx + plan_height_px_ - (place.y() - area_.min.y()) * px_per_m_};
 }
 
-void Sheet::polygon(std::span<const Vector2d> corners, const Ink& fill, const Ink& stroke,
+void Sheet::polygon(std::span<const Vector2d> corners, const Color& fill, const Color& stroke,
                     double width_px) {
-  Mark mark;
-  for (const Vector2d& corner : corners) mark.points.push_back(at(corner));
-  mark.fill = fill;
-  mark.stroke = stroke;
-  mark.width_px = width_px;
-  drawing_.marks.push_back(std::move(mark));
+  Shape shape;
+  for (const Vector2d& corner : corners) shape.points.push_back(at(corner));
+  shape.fill = fill;
+  shape.stroke = stroke;
+  shape.width_px = width_px;
+  drawing_.shapes.push_back(std::move(shape));
 }
 
-void Sheet::line(std::span<const Vector2d> places, const Ink& stroke, double width_px, bool arrow) {
-  Mark mark;
-  mark.kind = Mark::Kind::line;
-  for (const Vector2d& place : places) mark.points.push_back(at(place));
-  mark.stroke = stroke;
-  mark.width_px = width_px;
-  mark.arrow = arrow;
-  drawing_.marks.push_back(std::move(mark));
+void Sheet::line(std::span<const Vector2d> places, const Color& stroke, double width_px,
+                 bool arrow) {
+  Shape shape;
+  shape.kind = Shape::Kind::line;
+  for (const Vector2d& place : places) shape.points.push_back(at(place));
+  shape.stroke = stroke;
+  shape.width_px = width_px;
+  shape.arrow = arrow;
+  drawing_.shapes.push_back(std::move(shape));
 }
 
-void Sheet::dot(const Vector2d& place, double radius_px, const Ink& fill) {
-  Mark mark;
-  mark.kind = Mark::Kind::circle;
-  mark.points = {at(place)};
-  mark.fill = fill;
-  mark.width_px = radius_px;
-  drawing_.marks.push_back(std::move(mark));
+void Sheet::dot(const Vector2d& place, double radius_px, const Color& fill) {
+  Shape shape;
+  shape.kind = Shape::Kind::circle;
+  shape.points = {at(place)};
+  shape.fill = fill;
+  shape.radius_px = radius_px;
+  drawing_.shapes.push_back(std::move(shape));
 }
 
-void Sheet::ring(const Vector2d& place, double radius_m, const Ink& stroke) {
-  Mark mark;
-  mark.kind = Mark::Kind::circle;
-  mark.points = {at(place)};
-  mark.stroke = stroke;
-  mark.width_px = std::max(2.0, radius_m * px_per_m_);
-  drawing_.marks.push_back(std::move(mark));
+void Sheet::ring(const Vector2d& place, double radius_m, const Color& stroke) {
+  Shape shape;
+  shape.kind = Shape::Kind::circle;
+  shape.points = {at(place)};
+  shape.stroke = stroke;
+  shape.radius_px = std::max(2.0, radius_m * px_per_m_);
+  drawing_.shapes.push_back(std::move(shape));
 }
 
-void Sheet::words(const Vector2d& place, const Vector2d& offset_px, const std::string& text,
-                  const Ink& ink) {
-  drawing_.marks.push_back(text_mark(at(place) + offset_px, text, kLettersPx, ink));
+void Sheet::label(const Vector2d& place, const Vector2d& offset_px, const std::string& text,
+                  const Color& color) {
+  drawing_.shapes.push_back(text_shape(at(place) + offset_px, text, kLettersPx, color));
 }
 
 void Sheet::finish(const std::string& title) {
   constexpr double kTitleLettersPx = 18;
-  drawing_.marks.push_back(text_mark({kBorderPx, kTitlePx}, title, kTitleLettersPx, inks::kInk));
+  drawing_.title = title;
+  drawing_.shapes.push_back(
+      text_shape({kBorderPx, kTitlePx}, title, kTitleLettersPx, colors::kInk));
   constexpr double kArrowPx = 34;
   const double right = drawing_.width_px - 2 * kBorderPx;
-  Mark north;
-  north.kind = Mark::Kind::line;
+  Shape north;
+  north.kind = Shape::Kind::line;
   north.points = {Vector2d(right, kTitlePx + kArrowPx), Vector2d(right, kTitlePx)};
-  north.stroke = inks::kInk;
+  north.stroke = colors::kInk;
   north.width_px = 2;
   north.arrow = true;
-  drawing_.marks.push_back(std::move(north));
-  drawing_.marks.push_back(
-      text_mark({right - 18, kTitlePx + 14}, std::string(1, 'N'), kLettersPx, inks::kInk));
+  drawing_.shapes.push_back(std::move(north));
+  drawing_.shapes.push_back(
+      text_shape({right - 18, kTitlePx + 14}, std::string(1, 'N'), kLettersPx, colors::kInk));
   add_legend(kTitlePx + plan_height_px_ + 2 * kBorderPx);
 }
 
@@ -135,16 +141,16 @@ void Sheet::add_legend(double top_px) {
   constexpr double kLinePx = 22;
   constexpr double kColumnPx = 200;
   const double length_m = round_length(kBarPx / px_per_m_);
-  Mark bar;
-  bar.kind = Mark::Kind::line;
+  Shape bar;
+  bar.kind = Shape::Kind::line;
   const double end = kBorderPx + length_m * px_per_m_;
   bar.points = {Vector2d(kBorderPx, top_px), Vector2d(kBorderPx, top_px + 6),
                 Vector2d(end, top_px + 6), Vector2d(end, top_px)};
-  bar.stroke = inks::kInk;
+  bar.stroke = colors::kInk;
   bar.width_px = 2;
-  drawing_.marks.push_back(std::move(bar));
+  drawing_.shapes.push_back(std::move(bar));
   const auto write = [&](const Vector2d& place, const std::string& text) {
-    drawing_.marks.push_back(text_mark(place, text, kLettersPx, inks::kInk));
+    drawing_.shapes.push_back(text_shape(place, text, kLettersPx, colors::kInk));
   };
   write({end + 8, top_px + 8}, fmt::format("{:g} m", length_m));
   Vector2d place(kBorderPx, top_px + kLinePx + 6);
@@ -152,12 +158,12 @@ void Sheet::add_legend(double top_px) {
     if (place.x() + kColumnPx > drawing_.width_px) {
       place = {static_cast<double>(kBorderPx), place.y() + kLinePx};
     }
-    Mark box;
+    Shape box;
     box.points = {place, place + Vector2d(12, 0), place + Vector2d(12, 10),
                   place + Vector2d(0, 10)};
-    box.fill = entry.ink;
+    box.fill = entry.color;
     box.fill.opacity = 1;
-    drawing_.marks.push_back(std::move(box));
+    drawing_.shapes.push_back(std::move(box));
     write(place + Vector2d(18, 10), entry.words);
     place.x() += kColumnPx;
   }

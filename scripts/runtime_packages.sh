@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints the Debian packages that a built throng needs at run time: the owners of the shared
-# libraries it is linked with, and the GL libraries that it opens by name.
+# libraries it is linked with, the GL libraries that it opens by name, and a font for plans.
 # usage: scripts/runtime_packages.sh build/release/cli/throng
 set -euo pipefail
 
@@ -15,5 +15,5 @@ owner() {
 libraries="$(ldd "$1" | sed -n 's/.*=> \(\/[^ ]*\) .*/\1/p')"
 {
   for library in $libraries; do owner "$library"; done | sed 's/:.*//'
-  printf '%s\n' ca-certificates curl libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0
+  printf '%s\n' ca-certificates curl fonts-dejavu-core libegl1 libegl-mesa0 libgl1-mesa-dri libopengl0
 } | sort -u

@@ -41,14 +41,14 @@ json check_job(const json& request) {
 json draw_scenario(const json& request) {
   const world::Scenario scenario =
       world::find_scenario(text_at(request, "scenarios"), text_at(request, "id"));
-  return {{"svg", places::to_svg(places::draw_plan(scenario, kPlanPx))}};
+  return {{"svg", drawing::to_svg(places::draw_plan(scenario, kPlanPx))}};
 }
 
 json draw_job(const json& request) {
   const JobSpec job = read_resolved_job(text_at(request, "job"), "").spec();
   const world::Scenario scenario = scenario_of(job, text_at(request, "scenarios"));
   const auto paths = sim::planned_paths(scenario, run_spec(job, 0));
-  return {{"svg", places::to_svg(places::draw_plan(scenario, kPlanPx, paths))}};
+  return {{"svg", drawing::to_svg(places::draw_plan(scenario, kPlanPx, paths))}};
 }
 
 json check_calibration(const json& request) {

@@ -305,7 +305,7 @@ class Scenario:
             return _program.call(["scenario", "check", self.write(folder, program=program)], program=program)
 
     def plan(self, path: PathLike, *, program: PathLike | None = None) -> Path:
-        """Draws the floor plan to an .svg or .png file."""
+        """Draws the floor plan to an .svg, .png or .pdf file."""
         with tempfile.TemporaryDirectory() as folder:
             _program.call(
                 ["scenario", "plan", self.write(folder, program=program), "-o", os.path.abspath(os.fspath(path))],

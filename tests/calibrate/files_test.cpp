@@ -175,9 +175,14 @@ TEST_F(Files, ResultsSayHowSureTheyAre) {
   EXPECT_EQ(poses.at<double>(3, 5), found.views[3].pose.translation.z());
   EXPECT_THAT(ros_yaml(found, "d1"), HasSubstr("camera_name: d1"));
   EXPECT_THAT(summary(found), HasSubstr("12 views"));
-  const std::string picture = residual_plot(found);
-  EXPECT_THAT(picture, HasSubstr("<svg"));
-  EXPECT_THAT(picture, HasSubstr("fill=\"red\""));
+  const drawing::Drawing plot = residual_plot(found);
+  EXPECT_THAT(drawing::to_svg(plot), HasSubstr("<svg"));
+  const auto outliers =
+      std::count_if(plot.shapes.begin(), plot.shapes.end(), [](const auto& shape) {
+        return shape.fill.rgb == std::array<std::uint8_t, 3>{255, 0, 0};
+      });
+  EXPECT_EQ(outliers, found.rejected);
+  EXPECT_GT(outliers, 0);
 }
 
 TEST_F(Files, RequestsAreCheckedFieldByField) {

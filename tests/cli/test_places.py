@@ -33,7 +33,7 @@ def test_ten_minutes(folder):
     for command in commands:
         done = subprocess.run(["bash", "-ec", command], cwd=folder, env=environment, capture_output=True, text=True)
         assert done.returncode == 0, (command, done.stdout, done.stderr)
-    assert (folder / "yard.svg").read_text().startswith("<svg")
+    assert "<svg" in (folder / "yard.svg").read_text()
     assert list((folder / "my_scenarios").glob("plaza_5_*.json"))
     datasets = [path.parent for path in (folder / "out").rglob("manifest.json")]
     assert datasets, "a dataset"

@@ -70,7 +70,7 @@ class AnyDisaster : public ::testing::TestWithParam<const char*> {
  protected:
   json blueprint_ = [] {
     json blueprint = throng::testing::square();
-    blueprint["disasters"] = {disaster(GetParam())};
+    blueprint["disasters"] = json::array({disaster(GetParam())});
     return blueprint;
   }();
 };
@@ -217,7 +217,7 @@ struct Hurt {
 
 std::vector<Hurt> hurt_by(const json& what, double until_s) {
   json blueprint = throng::testing::square();
-  blueprint["disasters"] = {what};
+  blueprint["disasters"] = json::array({what});
   crowd::Simulation crowd = crowd_of(blueprint);
   const std::vector<bool> casualty = states_named(crowd, {"Casualty"});
   std::vector<bool> lies(crowd.agent_count());
@@ -326,7 +326,7 @@ TEST(ADisaster, BlocksTheWholeOfItsDiscAndLittleMore) {
   fire["position"] = {0, 0};
   fire["growth_mps"] = 0;
   fire["blocked_m"] = kBlockedM;
-  blueprint["disasters"] = {fire};
+  blueprint["disasters"] = json::array({fire});
   const TemporaryFolder folder;
   const LoadedCrowd loaded = load_crowd_of(world::load_scenario(
       make_scenario(blueprint, "square.place.json", folder.path(), "sq"), "sq"));
@@ -348,7 +348,7 @@ TEST(ADisaster, ShutsADoorWhenItsDiscReachesIt) {
   gas["radius_m"] = 2;
   gas["growth_mps"] = 0.5;
   gas["most_m"] = 14;
-  blueprint["disasters"] = {gas};
+  blueprint["disasters"] = json::array({gas});
   const Made made = make_of(blueprint);
   // The door is 8 m away: the first disc of more than that has 10 m, which the gas has 16 s later.
   EXPECT_DOUBLE_EQ(made.scenario.exits[0].closes_at_s, kStartS + 16);
