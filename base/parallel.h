@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(THRONG_SANITIZE_THREAD)
 #include <sanitizer/tsan_interface.h>
 #endif
 
@@ -20,7 +20,7 @@ namespace throng {
 template <typename Body>
 void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
   if (count == 0) return;
-#if defined(__SANITIZE_THREAD__)
+#if defined(THRONG_SANITIZE_THREAD)
   // TBB itself is not instrumented: inform ThreadSanitizer of its fork and join.
   char fork = 0;
   char join = 0;

@@ -23,16 +23,17 @@ if(THRONG_SANITIZE)
   target_compile_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all -fno-sanitize=null,object-size,pointer-overflow,alignment,vptr)
   target_link_options(throng_flags INTERFACE -fsanitize=${THRONG_SANITIZE})
+  # Macros of our own: by __SANITIZE_ADDRESS__ Eigen allocates in another way than Debian's libceres.a, whose copies of
+  # Eigen's functions the linker may choose.
+  if(THRONG_SANITIZE MATCHES address)
+    target_compile_definitions(throng_flags INTERFACE THRONG_SANITIZE_ADDRESS=1)
+  elseif(THRONG_SANITIZE MATCHES thread)
+    target_compile_definitions(throng_flags INTERFACE THRONG_SANITIZE_THREAD=1)
+  endif()
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # The sanitizers' builds: g++ decides on warnings.
   target_compile_options(throng_flags INTERFACE -w)
-  # As g++ defines them by itself.
-  if(THRONG_SANITIZE MATCHES address)
-    target_compile_definitions(throng_flags INTERFACE __SANITIZE_ADDRESS__=1)
-  elseif(THRONG_SANITIZE MATCHES thread)
-    target_compile_definitions(throng_flags INTERFACE __SANITIZE_THREAD__=1)
-  endif()
 elseif(CMAKE_UNITY_BUILD)
   # Several files compiled as one: g++ then takes a file's own namespace for a header's, and its flow warnings see
   # strings overlap themselves and function objects without value.

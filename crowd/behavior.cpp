@@ -16,7 +16,10 @@ namespace {
 
 AttributeTable state_attributes() {
   return {text("name", "a name that no other state has"),
-          boolean("final", "1: the run may end when everyone is in such states")};
+          boolean("final", "1: the run may end when everyone is in such states"),
+          optional(boolean("lying",
+                           "1: people in this state lie on the ground; without it the name of the "
+                           "state decides (docs/trace.md)"))};
 }
 
 /// Always the same state: the `to` of a transition.
@@ -74,6 +77,7 @@ MachineState load_state(const Element& element, BehaviorContext& context, std::s
   const Attributes attributes(element, state_attributes());
   MachineState state;
   state.final = attributes.boolean("final");
+  if (attributes.has("lying")) state.lying = attributes.boolean("lying");
   for (const Element& child : element.children()) {
     if (child.name() == "GoalSelector") {
       load_goal_selector(child, context, index, state.goal, shared);

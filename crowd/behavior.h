@@ -83,6 +83,7 @@ struct Transition {
 
 struct MachineState {
   bool final = false;
+  std::optional<bool> lying;        ///< whether people lie on the ground in it, if it says so
   std::shared_ptr<StateGoal> goal;  ///< several states may share one
   std::unique_ptr<VelComponent> velocity;
   std::vector<std::unique_ptr<Action>> actions;

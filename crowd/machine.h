@@ -1,6 +1,7 @@
 // Runs the state machine: who changes state when, and where everybody wants to go.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "crowd/behavior.h"
@@ -44,6 +45,7 @@ class Machine {
   void prefer(Crowd& crowd) const;
 
   bool is_final(std::uint8_t state) const { return behavior_.states[state].final; }
+  std::optional<bool> is_lying(std::uint8_t state) const { return behavior_.states[state].lying; }
   /// Whether any transition leads out of a state.
   bool has_exits(std::uint8_t state) const { return !behavior_.states[state].transitions.empty(); }
 

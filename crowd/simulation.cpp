@@ -176,6 +176,10 @@ float Simulation::ground_m(std::size_t agent) const {
 
 bool Simulation::is_final(std::uint8_t state) const { return state_->machine->is_final(state); }
 
+std::optional<bool> Simulation::is_lying(std::uint8_t state) const {
+  return state_->machine->is_lying(state);
+}
+
 bool Simulation::has_exits(std::uint8_t state) const { return state_->machine->has_exits(state); }
 
 const std::vector<std::string>& Simulation::state_names() const { return state_->state_names; }

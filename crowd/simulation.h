@@ -102,6 +102,8 @@ class Simulation {
   float ground_m(std::size_t agent) const;                      ///< height where it stands
   const std::vector<std::string>& state_names() const;
   bool is_final(std::uint8_t state) const;
+  /// Whether people in the state lie on the ground; null if its description does not say so.
+  std::optional<bool> is_lying(std::uint8_t state) const;
   bool has_exits(std::uint8_t state) const;  ///< some transition leads out of it
 
   /// Whether an agent takes part; one that does not neither moves nor is seen by others, and its

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -196,9 +198,11 @@ std::string to_png(const Drawing& drawing) {
 }
 
 void write_drawing(const Drawing& drawing, const std::filesystem::path& file) {
+  using Format = std::string (*)(const Drawing&);
+  constexpr std::array<std::pair<std::string_view, Format>, 3> kFormats = {
+      {{".svg", to_svg}, {".png", to_png}, {".pdf", to_pdf}}};
   const std::string suffix = file.extension().string();
-  for (const auto& [known, format] :
-       {std::pair{".svg", to_svg}, std::pair{".png", to_png}, std::pair{".pdf", to_pdf}}) {
+  for (const auto& [known, format] : kFormats) {
     if (suffix == known) return write_file_atomically(file, format(drawing));
   }
   throw InputError({file.string(), "", fmt::format("the suffix \"{}\"", suffix),

@@ -25,27 +25,35 @@ DroneFigures flown(const std::string& id, const std::vector<world::DroneSample>&
   return figures;
 }
 
-void count_near_miss(const world::TraceEvent& event, DroneFigures& figures) {
+void count_near_miss(const world::NearMiss& event, DroneFigures& figures) {
   ++figures.near_misses;
-  figures.nearest_miss_m = std::min(figures.nearest_miss_m.value_or(event.value), event.value);
+  figures.nearest_miss_m =
+      std::min(figures.nearest_miss_m.value_or(event.distance_m), event.distance_m);
 }
 
-void count(const world::TraceEvent& event, DroneFigures& figures) {
-  if (event.type == "tilt_saturated") ++figures.tilt_saturated;
-  if (event.type == "blown_away") ++figures.blown_away;
-  if (event.type == "landed") figures.landed_s = event.time_s;
-  if (event.type == "battery_flat") figures.battery_flat_s = event.time_s;
-  if (event.type == "near_miss") count_near_miss(event, figures);
-  if (event.type == "downwash") figures.downwash_person_s += event.value;
-  if (event.type == "propeller_broken") ++figures.propellers_broken;
-  if (event.type == "structure_broken") figures.structure_broken = true;
-  if (event.type == "falling") figures.falling_s = event.time_s;
-  if (event.type == "fall_hazard") ++figures.fall_hazard_people;
-  if (event.type == "collision") {
-    ++figures.collisions[event.partner];
-    figures.hardest_ns = std::max(figures.hardest_ns, event.extra);
+/// Adds an event to its drone's figures.
+struct Count {
+  double time_s;
+  DroneFigures& figures;
+
+  void operator()(const world::TiltSaturated&) const { ++figures.tilt_saturated; }
+  void operator()(const world::BlownAway&) const { ++figures.blown_away; }
+  void operator()(const world::Landed&) const { figures.landed_s = time_s; }
+  void operator()(const world::BatteryFlat&) const { figures.battery_flat_s = time_s; }
+  void operator()(const world::NearMiss& event) const { count_near_miss(event, figures); }
+  void operator()(const world::Downwash& event) const {
+    figures.downwash_person_s += event.duration_s;
   }
-}
+  void operator()(const world::PropellerBroken&) const { ++figures.propellers_broken; }
+  void operator()(const world::StructureBroken&) const { figures.structure_broken = true; }
+  void operator()(const world::Falling&) const { figures.falling_s = time_s; }
+  void operator()(const world::FallHazard&) const { ++figures.fall_hazard_people; }
+  void operator()(const world::Collision& event) const {
+    ++figures.collisions[std::string(world::name_of(event.partner))];
+    figures.hardest_ns = std::max(figures.hardest_ns, event.impulse_ns);
+  }
+  void operator()(const auto&) const {}
+};
 
 json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
@@ -58,13 +66,17 @@ std::vector<DroneFigures> drone_figures(const world::Trace& trace) {
   }
   std::vector<std::set<std::int32_t>> blown_on(list.size());
   for (const world::TraceEvent& event : trace.events) {
-    if (event.drone < 0) continue;
-    const auto drone = static_cast<std::size_t>(event.drone);
-    count(event, list[drone]);
-    if (event.type == "downwash") blown_on[drone].insert(event.agent);
-    const bool has_other = event.type == "near_miss" && event.partner == "drone" &&
-                           event.other >= 0 && static_cast<std::size_t>(event.other) < list.size();
-    if (has_other) count_near_miss(event, list[static_cast<std::size_t>(event.other)]);
+    const auto drone = world::drone_of(event.kind);
+    if (!drone) continue;
+    const auto index = static_cast<std::size_t>(*drone);
+    std::visit(Count{event.time_s, list[index]}, event.kind);
+    if (const auto* downwash = std::get_if<world::Downwash>(&event.kind)) {
+      blown_on[index].insert(downwash->agent);
+    }
+    const auto* miss = std::get_if<world::NearMiss>(&event.kind);
+    const bool has_other = miss != nullptr && miss->partner == world::Partner::drone &&
+                           miss->index >= 0 && static_cast<std::size_t>(miss->index) < list.size();
+    if (has_other) count_near_miss(*miss, list[static_cast<std::size_t>(miss->index)]);
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     list[i].downwash_people = static_cast<int>(blown_on[i].size());

@@ -101,8 +101,8 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
     metrics.remaining = remaining_of(trace, scenario, people, distances);
   }
   for (const world::TraceEvent& event : trace.events) {
-    if (event.type != "fall") continue;
-    ++(event.partner == "drone" ? metrics.falls_struck : metrics.falls_crushed);
+    const auto* fall = std::get_if<world::PersonFall>(&event.kind);
+    if (fall != nullptr) ++(fall->struck ? metrics.falls_struck : metrics.falls_crushed);
   }
   return metrics;
 }

@@ -47,7 +47,7 @@ struct RunMetrics {
   std::vector<Horizon> horizons;
   double mean_escape_time_s = 0;  ///< of `escapes`, censored at the end of the run
   int not_escaped = 0;            ///< still inside at the end, unhurt
-  int casualties = 0;             ///< lie there at the end in a state for that (world::is_down)
+  int casualties = 0;             ///< lie there at the end in a state for that (world::TraceHeader)
   Remaining remaining;            ///< why people are inside at the end
   int falls_struck = 0;           ///< by a drone
   int falls_crushed = 0;          ///< by the crowd

@@ -52,9 +52,9 @@ PeopleTracker::PeopleTracker(const world::TraceHeader& header, const world::Scen
   for (const std::string& name : header.state_names) {
     const auto& aware = alarm_.aware_states;
     follows_.push_back(in_lower_case(name).find("follow") != std::string::npos);
-    is_down_.push_back(world::is_down(name));
     is_aware_.push_back(std::find(aware.begin(), aware.end(), name) != aware.end());
   }
+  is_down_ = header.lying_states();
   const double margin_m = mean_radius_m(header);
   for (const world::Exit& exit : scenario.exits) lines_.emplace_back(exit, margin_m);
   for (std::size_t agent = 0; agent < header.agent_count(); ++agent) {

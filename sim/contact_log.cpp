@@ -1,7 +1,6 @@
 #include "sim/contact_log.h"
 
 #include <algorithm>
-#include <array>
 
 namespace throng::sim {
 
@@ -11,11 +10,6 @@ constexpr double kCountedS = 0.05;
 constexpr double kSameContactS = 0.5;
 
 }  // namespace
-
-const char* word_of(Obstacle obstacle) {
-  constexpr std::array kWords{"ground", "building", "drone", "person"};
-  return kWords.at(static_cast<std::size_t>(obstacle));
-}
 
 void ContactLog::note(const Touch& touch) {
   const auto is_same = [&](const Contact& contact) {

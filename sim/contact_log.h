@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "sim/quadcopter.h"
+#include "world/trace_event.h"
 
 namespace throng::sim {
 
-enum class Obstacle : std::uint8_t { ground, building, drone, person };
-
-/// As in traces: "ground", "building", "drone", "person".
-const char* word_of(Obstacle obstacle);
+/// What a vehicle hits.
+using Obstacle = world::Partner;
 
 /// A vehicle hit something. One per approach: staying in touch, or touching the same object again
 /// within half a second, is the same one.

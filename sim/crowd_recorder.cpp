@@ -59,19 +59,14 @@ void CrowdRecorder::record(const CrowdSource& crowd, double time_s, RunObserver&
   for (std::size_t i = 0; i < led_.size(); ++i) {
     if (led_[i]) step.flags[i] |= world::kFollowing;
   }
-  if (down_states_.empty()) {
-    for (const std::string& name : crowd.header(0).state_names) {
-      down_states_.push_back(world::is_down(name));
-    }
-  }
+  if (down_states_.empty()) down_states_ = crowd.header(0).lying_states();
   for (std::size_t i = 0; i < down_.size(); ++i) down_[i] = down_states_[step.state[i]];
   observer.step(step);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (roles_[i] != AgentRole::person || escaped_[i] || !arrived_[i]) continue;
     if (present[i] != 0 && scenario_.inside.contains(positions[i].cast<double>())) continue;
     escaped_[i] = true;
-    observer.event({time_s, "agent_escaped", static_cast<std::int32_t>(i), -1,
-                    static_cast<double>(intents_[i])});
+    observer.event({time_s, world::AgentEscaped{static_cast<std::int32_t>(i), intents_[i]}});
   }
 }
 

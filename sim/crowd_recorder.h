@@ -25,7 +25,7 @@ class CrowdRecorder {
   const std::vector<std::int8_t>& intents() const { return intents_; }
   /// Per agent: whether it has got away.
   const std::vector<bool>& escaped() const { return escaped_; }
-  /// Per agent: whether it lies there, in a state named for it (world::is_down).
+  /// Per agent: whether it lies there, in a state for that (world::TraceHeader).
   const std::vector<bool>& down() const { return down_; }
 
  private:

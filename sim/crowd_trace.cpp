@@ -19,11 +19,13 @@ world::TraceHeader named(world::TraceHeader header, const std::string& name) {
   return header;
 }
 
-/// By number of the state: whether people in it lie on the ground.
-std::vector<bool> lying_states(const crowd::Simulation& crowd) {
-  std::vector<bool> lying;
-  lying.reserve(crowd.state_names().size());
-  for (const std::string& name : crowd.state_names()) lying.push_back(world::is_down(name));
+/// Per state: 1 if people in it lie on the ground.
+std::vector<std::uint8_t> lying_states(const crowd::Simulation& crowd) {
+  std::vector<std::uint8_t> lying;
+  for (const std::string& name : crowd.state_names()) {
+    const auto state = static_cast<std::uint8_t>(lying.size());
+    lying.push_back(crowd.is_lying(state).value_or(world::implies_lying(name)) ? 1 : 0);
+  }
   return lying;
 }
 
@@ -35,6 +37,7 @@ world::TraceHeader crowd_header(const crowd::Simulation& crowd, std::uint64_t se
   header.seed = seed;
   header.dt_s = crowd.dt_s();
   header.state_names = crowd.state_names();
+  header.state_lying = lying_states(crowd);
   header.role.assign(crowd.agent_count(), world::AgentRole::person);
   header.radius_m = copied(crowd.radii_m());
   header.pref_speed_mps = copied(crowd.desired_speeds_mps());
@@ -53,9 +56,9 @@ world::CrowdStep crowd_step(const crowd::Simulation& crowd) {
   step.state = copied(crowd.states());
   step.exit_intent.assign(count, -1);
   step.flags.resize(count);
-  const std::vector<bool> lies_in_state = lying_states(crowd);
+  const std::vector<std::uint8_t> lies_in_state = lying_states(crowd);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool is_lying = crowd.fallen()[i] != 0 || lies_in_state[step.state[i]];
+    const bool is_lying = crowd.fallen()[i] != 0 || lies_in_state[step.state[i]] != 0;
     step.flags[i] = static_cast<std::uint8_t>((crowd.present()[i] != 0 ? world::kPresent : 0) |
                                               (crowd.panicked()[i] != 0 ? world::kPanicked : 0) |
                                               (is_lying ? world::kFallen : 0));

@@ -43,14 +43,8 @@ void DownwashExposure::flush(double time_s, bool all) {
       ++entry;
       continue;
     }
-    world::TraceEvent event;
-    event.time_s = exposure.from_s;
-    event.type = "downwash";
-    event.agent = pair.second;
-    event.drone = static_cast<std::int32_t>(pair.first);
-    event.value = exposure.seconds;
-    event.extra = exposure.fastest_mps;
-    log_(event);
+    log_({exposure.from_s, world::Downwash{static_cast<std::int32_t>(pair.first), pair.second,
+                                           exposure.seconds, exposure.fastest_mps}});
     entry = exposures_.erase(entry);
   }
 }

@@ -26,22 +26,14 @@ void FallWarning::update(double time_s, const FallingCraft& vehicle, const Peopl
   if (height_m <= kPersonHeightM) return;
   std::vector<NearPerson> near;
   people.collect({vehicle.state.position.head<2>(), height_m}, near);
-  world::TraceEvent event;
-  event.time_s = time_s;
-  event.type = "falling";
-  event.drone = static_cast<std::int32_t>(drone_);
-  event.value = height_m;
-  event.extra = static_cast<double>(near.size());
-  log(event);
+  const auto drone = static_cast<std::int32_t>(drone_);
+  log({time_s, world::Falling{drone, height_m, static_cast<int>(near.size())}});
   const GroundImpact impact = ground_impact(vehicle.state);
   near.clear();
   people.collect({impact.place, vehicle.radius_m + kHazardM}, near);
-  event.type = "fall_hazard";
   for (const NearPerson& person : near) {
-    event.agent = person.agent;
-    event.value = (person.position - impact.place).norm();
-    event.extra = impact.in_s;
-    log(event);
+    const double distance_m = (person.position - impact.place).norm();
+    log({time_s, world::FallHazard{drone, person.agent, distance_m, impact.in_s}});
   }
 }
 

@@ -57,7 +57,7 @@ Flight::Flight(const std::vector<world::Building>& buildings,
   for (std::size_t i = 0; i < drones.size(); ++i) {
     const PlannedDrone& drone = drones[i];
     world_.add(drone.airframe, drone.start, drone.yaw_rad);
-    pilots_.emplace_back(drone, FlightLimits{});
+    pilots_.emplace_back(drone, static_cast<std::int32_t>(pilots_.size()), FlightLimits{});
     gusts_.emplace_back(wind_, weather.seed, i);
     jets_.emplace_back(drone.airframe);
     falls_.emplace_back(i);
@@ -126,10 +126,8 @@ void Flight::control() {
   const double dt_s = ticks_per_control_ * world_.dt_s();
   blow();
   for (std::size_t i = 0; i < pilots_.size(); ++i) {
-    world_.command(i,
-                   pilots_[i].control(states_[i], dt_s, [&](std::string_view type, double value) {
-                     report(i, type, value);
-                   }));
+    const auto report = [&](const world::EventKind& event) { log_.event({time_s_, event}); };
+    world_.command(i, pilots_[i].control(states_[i], dt_s, report));
   }
 }
 
@@ -173,18 +171,10 @@ void Flight::record_impacts(std::span<const Impact> impacts) {
   for (const Impact& impact : impacts) {
     if (impact.speed_mps < kCollisionMps) continue;
     near_misses_.collided(impact.vehicle, impact.obstacle, impact.index);
-    const bool is_person = impact.obstacle == Obstacle::person;
-    world::TraceEvent event;
-    event.time_s = std::max(0.0, time_s_ - impact.ago_s);
-    event.type = "collision";
-    event.agent = is_person ? impact.index : -1;
-    event.drone = static_cast<std::int32_t>(impact.vehicle);
-    event.value = impact.speed_mps;
-    event.partner = word_of(impact.obstacle);
-    event.other = is_person ? -1 : impact.index;
-    event.extra = impact.impulse_ns;
-    log_.event(event);
-    if (is_person && log_.strike) {
+    log_.event({std::max(0.0, time_s_ - impact.ago_s),
+                world::Collision{static_cast<std::int32_t>(impact.vehicle), impact.obstacle,
+                                 impact.index, impact.speed_mps, impact.impulse_ns}});
+    if (impact.obstacle == world::Partner::person && log_.strike) {
       log_.strike(static_cast<std::size_t>(impact.index), impact.push_ns.head<2>());
     }
     damage(impact);
@@ -197,13 +187,15 @@ void Flight::damage(const Impact& impact) {
   const Damage damage = damage_of(impact, airframe);
   if (!damage.structure && !damage.any_propeller()) return;
   const double speed_mps = wall_speed_mps(impact.impulse_ns, airframe);
+  const auto drone = static_cast<std::int32_t>(impact.vehicle);
   for (std::size_t rotor = 0; rotor < damage.propeller.size(); ++rotor) {
     if (!damage.structure && !damage.propeller[rotor]) continue;
     world_.break_rotor(impact.vehicle, rotor);
     if (damage.structure) continue;
-    report(impact.vehicle, "propeller_broken", speed_mps, static_cast<double>(rotor));
+    log_.event(
+        {time_s_, world::PropellerBroken{drone, speed_mps, static_cast<std::int32_t>(rotor)}});
   }
-  if (damage.structure) report(impact.vehicle, "structure_broken", speed_mps);
+  if (damage.structure) log_.event({time_s_, world::StructureBroken{drone, speed_mps}});
   pilots_[impact.vehicle].damaged(damage, world_.state(impact.vehicle));
 }
 
@@ -224,16 +216,6 @@ void Flight::watch_surroundings() {
     exposure_.update(time_s_, interval_s_, i, jets_[i], crafts_[i].position, near_);
   }
   exposure_.flush(time_s_, false);
-}
-
-void Flight::report(std::size_t drone, std::string_view type, double value, double extra) {
-  world::TraceEvent event;
-  event.time_s = time_s_;
-  event.type = type;
-  event.drone = static_cast<std::int32_t>(drone);
-  event.value = value;
-  event.extra = extra;
-  log_.event(event);
 }
 
 }  // namespace throng::sim

@@ -62,7 +62,6 @@ class Flight {
   void damage(const Impact& impact);
   void watch_falls();
   void watch_surroundings();
-  void report(std::size_t drone, std::string_view type, double value, double extra = 0);
 
   int ticks_per_interval_;
   int ticks_per_control_;

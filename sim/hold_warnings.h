@@ -2,7 +2,6 @@
 #pragma once
 
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,7 +20,7 @@ class HoldWarnings {
   const std::vector<Problem>& warnings() const { return warnings_; }
 
  private:
-  std::set<std::pair<std::int32_t, std::string>> noted_;
+  std::set<std::pair<std::int32_t, std::size_t>> noted_;  ///< drone and kind
   std::vector<Problem> warnings_;
 };
 

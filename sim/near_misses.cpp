@@ -180,17 +180,10 @@ void NearMisses::finish() {
 void NearMisses::write(const Key& key, const Case& entry) {
   if (entry.hit) return;
   const auto [vehicle, obstacle, index] = key;
-  const bool is_person = obstacle == Obstacle::person;
-  world::TraceEvent event;
-  event.time_s = entry.gap_time_s;
-  event.type = "near_miss";
-  event.agent = is_person ? index : -1;
-  event.drone = static_cast<std::int32_t>(vehicle);
-  event.value = std::max(0.0, entry.gap_m);
-  event.partner = word_of(obstacle);
-  event.other = is_person ? -1 : index;
-  event.extra = std::isfinite(entry.contact_in_s) ? entry.contact_in_s : -1;
-  log_(event);
+  world::NearMiss miss{static_cast<std::int32_t>(vehicle), obstacle, index,
+                       std::max(0.0, entry.gap_m), std::nullopt};
+  if (std::isfinite(entry.contact_in_s)) miss.contact_s = entry.contact_in_s;
+  log_({entry.gap_time_s, miss});
 }
 
 }  // namespace throng::sim

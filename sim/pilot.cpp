@@ -22,8 +22,9 @@ constexpr double kRestingS = 0.5;
 
 }  // namespace
 
-Pilot::Pilot(const PlannedDrone& drone, const FlightLimits& limits)
-    : airframe_(drone.airframe),
+Pilot::Pilot(const PlannedDrone& drone, std::int32_t index, const FlightLimits& limits)
+    : drone_(index),
+      airframe_(drone.airframe),
       policy_(drone.policy->make(
           {drone.mission, drone.start, drone.yaw_rad, limits, drone.scenario, drone.index})),
       guides_(guides(*drone.policy)),
@@ -65,11 +66,11 @@ void Pilot::watch_battery(const FlightState& state, const Report& report) {
   const double charge = battery_.charge();
   if (charge <= 0 && phase_ != Phase::stopped) {
     phase_ = Phase::stopped;
-    report("battery_flat", state.position.z());
+    report(world::BatteryFlat{drone_, state.position.z()});
   } else if (charge <= kReserve && phase_ == Phase::flying) {
     phase_ = Phase::landing;
     setpoint_.position = state.position;
-    report("battery_low", charge);
+    report(world::BatteryLow{drone_, charge});
   }
 }
 
@@ -88,7 +89,7 @@ void Pilot::descend(const FlightState& state, double dt_s, const Report& report)
   if (resting_s_ < kRestingS) return;
   phase_ = Phase::stopped;
   has_landed_ = true;
-  report("landed", state.position.z());
+  report(world::Landed{drone_, state.position.z()});
 }
 
 // As PX4's failure detector does by default: 60 degrees of tilt for 0.3 s mean that the drone is
@@ -108,14 +109,14 @@ void Pilot::watch_hold(const FlightState& state, double dt_s, const Report& repo
   const double before_s = saturated_s_;
   saturated_s_ = controller_.tilt_saturated() ? before_s + dt_s : 0;
   if (before_s < kTooLongSaturatedS && saturated_s_ >= kTooLongSaturatedS) {
-    report("tilt_saturated", off_m);
+    report(world::TiltSaturated{drone_, off_m});
   }
   const bool goes_away = off.dot(state.velocity - setpoint_.velocity) > 0;
   away_s_ = std::clamp(away_s_ + (goes_away ? dt_s : -dt_s), 0.0, kTooLongAwayS);
   if (off_m < kFoundM) lost_ = false;
   if (lost_ || off_m < kLostM || away_s_ < kTooLongAwayS) return;
   lost_ = true;
-  report("blown_away", off_m);
+  report(world::BlownAway{drone_, off_m});
 }
 
 }  // namespace throng::sim

@@ -4,21 +4,21 @@
 
 #include <functional>
 #include <memory>
-#include <string_view>
 
 #include "sim/battery.h"
 #include "sim/controller.h"
 #include "sim/damage.h"
 #include "sim/plan.h"
+#include "world/trace_event.h"
 
 namespace throng::sim {
 
 class Pilot {
  public:
-  /// Takes an event's type and value (docs/trace.md).
-  using Report = std::function<void(std::string_view type, double value)>;
+  using Report = std::function<void(const world::EventKind&)>;
 
-  Pilot(const PlannedDrone& drone, const FlightLimits& limits);
+  /// `index` is the drone's number in events.
+  Pilot(const PlannedDrone& drone, std::int32_t index, const FlightLimits& limits);
 
   /// Has got used to a steady wind (m/s).
   void trim(const Eigen::Vector3d& wind) { controller_.trim(wind); }
@@ -59,6 +59,7 @@ class Pilot {
   void watch_attitude(const FlightState& state, double dt_s);
   void watch_hold(const FlightState& state, double dt_s, const Report& report);
 
+  std::int32_t drone_;  ///< its number
   Airframe airframe_;
   std::unique_ptr<Policy> policy_;
   bool guides_;        ///< the policy decides about the beacon

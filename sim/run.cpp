@@ -102,14 +102,9 @@ std::span<const std::uint8_t> people_there(const CrowdSource& crowd,
 
 void report_falls(const CrowdSource& crowd, double time_s, RunObserver& observer) {
   for (const crowd::Fall& fall : crowd.falls()) {
-    world::TraceEvent event;
-    event.time_s = time_s;
-    event.type = "fall";
-    event.agent = static_cast<std::int32_t>(fall.agent);
-    event.value = fall.impulse_ns;
-    event.partner = fall.impulse_ns > 0 ? "drone" : "crowd";
-    event.extra = fall.crush_n_per_m;
-    observer.event(event);
+    observer.event(
+        {time_s, world::PersonFall{static_cast<std::int32_t>(fall.agent), fall.impulse_ns > 0,
+                                   fall.impulse_ns, fall.crush_n_per_m}});
   }
 }
 
@@ -119,7 +114,7 @@ void report_closed_doors(const world::Scenario& scenario, double before_s, doubl
   for (std::size_t e = 0; e < scenario.exits.size(); ++e) {
     const world::Exit& exit = scenario.exits[e];
     if (!exit.is_open(before_s) || exit.is_open(time_s)) continue;
-    observer.event({time_s, "exit_shut", -1, -1, static_cast<double>(e)});
+    observer.event({time_s, world::ExitClosed{static_cast<std::int32_t>(e)}});
   }
 }
 

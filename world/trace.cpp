@@ -8,7 +8,7 @@
 
 namespace throng::world {
 
-bool is_down(std::string_view state_name) {
+bool implies_lying(std::string_view state_name) {
   std::string lower(state_name);
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -17,6 +17,13 @@ bool is_down(std::string_view state_name) {
       "fainted", "casualty",      "lying", "trampled",    "killed"};
   return std::any_of(kWords.begin(), kWords.end(),
                      [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
+std::vector<bool> TraceHeader::lying_states() const {
+  if (!state_lying.empty()) return {state_lying.begin(), state_lying.end()};
+  std::vector<bool> lying;
+  for (const std::string& name : state_names) lying.push_back(implies_lying(name));
+  return lying;
 }
 
 DroneSample Trace::drone_at(std::size_t drone, double time) const {

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "world/trace_event.h"
+
 namespace throng::world {
 
 /// Times are sums of steps in floating point: two that are nearer than this are the same step.
@@ -30,9 +32,9 @@ inline constexpr std::uint8_t kPanicked = 2;
 inline constexpr std::uint8_t kFallen = 4;
 inline constexpr std::uint8_t kFollowing = 8;
 
-/// Whether somebody in a behavior's state of this name cannot stand: its name contains one of the
-/// words in docs/trace.md, in upper or lower case.
-bool is_down(std::string_view state_name);
+/// Whether people in a state of this name lie on the ground, where nothing else says so: the name
+/// contains one of the words in docs/trace.md, in upper or lower case.
+bool implies_lying(std::string_view state_name);
 
 /// Constant data of a run.
 struct TraceHeader {
@@ -41,7 +43,9 @@ struct TraceHeader {
   std::uint64_t seed = 0;
   double dt_s = 0.1;                     ///< crowd step
   std::vector<std::string> state_names;  ///< index = value in Trace::state
-  std::vector<std::string> exit_ids;     ///< index = value in Trace::exit_intent
+  /// Per state: 1 if people in it lie on the ground. Empty: the names decide (implies_lying).
+  std::vector<std::uint8_t> state_lying;
+  std::vector<std::string> exit_ids;  ///< index = value in Trace::exit_intent
   std::vector<std::string> drone_ids;
   std::vector<AgentRole> role;        ///< per agent; size = number of agents
   std::vector<float> radius_m;        ///< per agent
@@ -49,6 +53,8 @@ struct TraceHeader {
   std::vector<std::int32_t> group;    ///< per agent: number of its social group; -1: walks alone
 
   std::size_t agent_count() const { return role.size(); }
+  /// Per state: whether people in it lie on the ground.
+  std::vector<bool> lying_states() const;
 };
 
 /// All agents at one crowd step.
@@ -74,18 +80,6 @@ struct DroneSample {
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();
   Eigen::Vector3d air_velocity = Eigen::Vector3d::Zero();  ///< wind with gusts here, m/s, world
   double energy_j = 0;                                     ///< taken from the battery so far
-};
-
-/// Something that happened, e.g. "tilt_saturated", "agent_escaped" (docs/trace.md lists them all).
-struct TraceEvent {
-  double time_s = 0;
-  std::string type;          ///< a word of at most 31 characters
-  std::int32_t agent = -1;   ///< -1: none
-  std::int32_t drone = -1;   ///< -1: none
-  double value = 0;          ///< meaning depends on the type
-  std::string partner = {};  ///< what the drone met, a word of at most 31 characters; "": nothing
-  std::int32_t other = -1;   ///< number of the partner among its kind (drone, building); -1: none
-  double extra = 0;          ///< a second value, whose meaning depends on the type
 };
 
 /// A whole trace in memory. Arrays over [step][agent] are row-major.

@@ -76,6 +76,9 @@ class Reader {
       reject(source_, "dt_s", fmt::format("{}", header.dt_s), "a positive number");
     }
     header.state_names = hdf5::read_texts(root_, "state_names");
+    if (H5Lexists(root_.id(), "state_lying", H5P_DEFAULT) > 0) {
+      header.state_lying = numbers<std::uint8_t>(root_, "state_lying", {header.state_names.size()});
+    }
     header.exit_ids = hdf5::read_texts(root_, "exit_ids");
     header.drone_ids = hdf5::read_texts(root_, "drone_ids");
     const hdf5::Handle agents = open_group("agents");
@@ -120,10 +123,9 @@ class Reader {
     mark_lying(trace);
   }
 
-  /// Files written before kFallen covered the states whose names imply that people lie.
+  /// Files written before kFallen covered the states in which people lie.
   static void mark_lying(Trace& trace) {
-    std::vector<bool> is_lying;
-    for (const std::string& name : trace.header.state_names) is_lying.push_back(is_down(name));
+    const std::vector<bool> is_lying = trace.header.lying_states();
     if (std::find(is_lying.begin(), is_lying.end(), true) == is_lying.end()) return;
     for (std::size_t i = 0; i < trace.state.size(); ++i) {
       if (is_lying[trace.state[i]]) trace.flags[i] |= kFallen;
@@ -190,8 +192,9 @@ class Reader {
     for (std::size_t i = 0; i < count; ++i) {
       require_index(agent[i], -1, header.agent_count(), "events/agent");
       require_index(drone[i], -1, header.drone_ids.size(), "events/drone");
-      events.push_back(
-          {time_s[i], types[i], agent[i], drone[i], value[i], partners[i], other[i], extra[i]});
+      events.push_back(from_row(
+          {time_s[i], types[i], agent[i], drone[i], value[i], partners[i], other[i], extra[i]},
+          source_));
     }
     return events;
   }

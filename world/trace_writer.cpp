@@ -195,7 +195,7 @@ class EventColumns {
         other_(group, "other", {}, kEventRowsPerChunk, ""),
         extra_(group, "extra", {}, kEventRowsPerChunk, "") {}
 
-  void add(const TraceEvent& event) {
+  void add(const EventRow& event) {
     time_s_.add(event.time_s);
     type_.add(event.type);
     agent_.add(event.agent);
@@ -236,6 +236,10 @@ void write_header(const hdf5::Handle& file, const TraceHeader& header) {
   hdf5::write_attribute(file, "seed", header.seed);
   hdf5::write_attribute(file, "dt_s", header.dt_s);
   hdf5::write_texts(file, "state_names", header.state_names);
+  if (!header.state_lying.empty()) {
+    Column<std::uint8_t> lying(file, "state_lying", {}, 1024, "");
+    for (const std::uint8_t lies : header.state_lying) lying.add(lies);
+  }
   hdf5::write_texts(file, "exit_ids", header.exit_ids);
   hdf5::write_texts(file, "drone_ids", header.drone_ids);
   const hdf5::Handle agents = hdf5::create_group(file, "agents");
@@ -330,7 +334,7 @@ struct TraceWriter::File {
     for (DroneColumns& drone : drones) drone.flush();
     std::stable_sort(waiting_events.begin(), waiting_events.end(),
                      [](const TraceEvent& a, const TraceEvent& b) { return a.time_s < b.time_s; });
-    for (const TraceEvent& event : waiting_events) events->add(event);
+    for (const TraceEvent& event : waiting_events) events->add(to_row(event));
     events->flush();
     crowd.reset();
     drones.clear();
@@ -387,9 +391,6 @@ void TraceWriter::add_drone(std::size_t drone, const DroneSample& sample) {
 }
 
 void TraceWriter::add_event(const TraceEvent& event) {
-  check(!event.type.empty() && event.type.size() < kEventWordWidth &&
-            event.partner.size() < kEventWordWidth,
-        "an event's type and partner are short words");
   file_->waiting_events.push_back(event);
 }
 

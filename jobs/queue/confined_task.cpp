@@ -39,7 +39,7 @@ constexpr auto kMaxWait = std::chrono::minutes(1);  // for others
 constexpr int kMinAtOnce = 4;
 constexpr int kMaxAtOnce = 64;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(THRONG_SANITIZE_ADDRESS) || defined(THRONG_SANITIZE_THREAD)
 constexpr bool kMayLimitMemory = false;  // sanitizers reserve terabytes of addresses
 #else
 constexpr bool kMayLimitMemory = true;

@@ -26,7 +26,7 @@ class Counter : public sim::RunObserver {
         std::max(max_value_, std::count(step.flags.begin(), step.flags.end(), world::kPresent));
   }
   void event(const world::TraceEvent& event) override {
-    if (event.type == "agent_escaped") ++escaped_;
+    if (std::holds_alternative<world::AgentEscaped>(event.kind)) ++escaped_;
   }
   long escaped_ = 0;
   long max_value_ = 0;

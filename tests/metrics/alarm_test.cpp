@@ -50,6 +50,15 @@ TEST_F(AlarmFiles, AwareIsWhatOnlyTheNewsLeadsTo) {
       << "neither Away, where others get to, nor Casualty";
 }
 
+TEST_F(AlarmFiles, NobodyIsAwareInAStateInWhichPeopleLie) {
+  const std::string states =
+      R"(<State name="Struck" lying="1"/><State name="Dead_end" lying="0"/>)";
+  world::Scenario place = scenario(states + transition("Walk", "Struck", kNews) +
+                                   transition("Walk", "Dead_end", kNews));
+  place.disaster_agents = {7};
+  EXPECT_EQ(alarm_of(place).aware_states, (Names{"Dead_end"}));
+}
+
 TEST_F(AlarmFiles, PartsOfConditionsAndTargetsCount) {
   const std::string both =
       std::string(R"(<Condition type="and">)") + kNews +

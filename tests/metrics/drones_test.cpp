@@ -37,16 +37,17 @@ TEST(DroneFigures, AreThoseOfItsSamples) {
 
 TEST(DroneFigures, CountItsEvents) {
   world::Trace trace = flight_of_two();
-  trace.events = {{1, "collision", 4, 0, 3.0, "person", -1, 5.0},
-                  {2, "collision", -1, 0, 2.0, "building", 3, 2.0},
-                  {3, "near_miss", -1, 0, 0.4, "drone", 1, 1.0},
-                  {4, "near_miss", 7, 0, 0.7, "person", -1, -1},
-                  {5, "downwash", 7, 0, 2.5, "", -1, 6},
-                  {6, "downwash", 7, 0, 1.5, "", -1, 6},
-                  {7, "tilt_saturated", -1, 1, 4},
-                  {8, "blown_away", -1, 1, 6},
-                  {9, "battery_flat", -1, 1, 12},
-                  {9, "agent_escaped", 2, -1, 0}};
+  using world::Partner;
+  trace.events = {{1, world::Collision{0, Partner::person, 4, 3, 5}},
+                  {2, world::Collision{0, Partner::building, 3, 2, 2}},
+                  {3, world::NearMiss{0, Partner::drone, 1, 0.4, 1}},
+                  {4, world::NearMiss{0, Partner::person, 7, 0.7, {}}},
+                  {5, world::Downwash{0, 7, 2.5, 6}},
+                  {6, world::Downwash{0, 7, 1.5, 6}},
+                  {7, world::TiltSaturated{1, 4}},
+                  {8, world::BlownAway{1, 6}},
+                  {9, world::BatteryFlat{1, 12}},
+                  {9, world::AgentEscaped{2, 0}}};
   const auto figures = drone_figures(trace);
   const DroneFigures& a = figures[0];
   EXPECT_EQ(a.collisions, (std::map<std::string, int>{{"building", 1}, {"person", 1}}));

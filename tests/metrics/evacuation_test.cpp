@@ -102,6 +102,17 @@ TEST(RunMetrics, WhoLiesHurtIsCountedApart) {
   EXPECT_TRUE(json.at("by_person").at("hurt_s").at(1).is_null());
 }
 
+TEST(RunMetrics, CasualtiesAreInTheStatesThatTheTraceNames) {
+  world::Trace trace = trace_of({standing({0, 0}), standing({1, 0})});
+  trace.header.state_names = {"Dead_end", "Struck"};
+  trace.header.state_lying = {0, 1};
+  for (std::size_t step = 100; step < trace.steps(); ++step) trace.state[trace.at(step, 1)] = 1;
+  const RunMetrics metrics = measure(trace);
+  EXPECT_EQ(metrics.casualties, 1);
+  EXPECT_FALSE(metrics.persons[0].hurt_s);
+  EXPECT_TRUE(metrics.persons[1].hurt_s);
+}
+
 TEST(RunMetrics, WhereAllAreOutOrHurtWhatComesLaterIsKnown) {
   world::Trace trace = trace_of({standing({0, 0}), walking({-5, 0}, {1, 0})});
   trace.header.state_names = {"Walk", "Casualty"};

@@ -31,7 +31,7 @@ TEST_P(MeetsSomebody, OneCollisionWithItsSpeedAndImpulse) {
                {{{12, 0}, {0, 0}}});
   const auto collisions = record.of_type("collision");
   ASSERT_GE(collisions.size(), 1U);
-  const world::TraceEvent& event = collisions.front();
+  const world::EventRow& event = collisions.front();
   EXPECT_EQ(event.partner, "person");
   EXPECT_EQ(event.agent, 0);
   EXPECT_EQ(event.drone, 0);
@@ -70,10 +70,10 @@ TEST(Collision, PeopleFarBelowAreNotMet) {
 
 TEST(Collision, WhoIsNotThereIsNotMet) {
   const std::vector<PlannedDrone> drones{planned_drone({0, 0, 1.2}, {{20, 0, 1.2}}, 3)};
-  std::vector<world::TraceEvent> events;
+  std::vector<world::EventRow> events;
   Flight flight({}, drones, testing::kInterval, 1.0 / 480,
                 {[](std::size_t, const world::DroneSample&) {},
-                 [&](const world::TraceEvent& event) { events.push_back(event); }});
+                 [&](const world::TraceEvent& event) { events.push_back(to_row(event)); }});
   const std::vector<Eigen::Vector2f> positions{{12, 0}};
   const std::vector<std::uint8_t> absent{0};
   for (int i = 0; i < 80; ++i) flight.advance({positions, absent});

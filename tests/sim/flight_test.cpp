@@ -23,7 +23,7 @@ const world::Building kHouse{"house", {{0, 0}, {10, 0}, {10, 4}, {4, 4}, {4, 10}
 
 struct Record {
   std::vector<std::vector<world::DroneSample>> samples;
-  std::vector<world::TraceEvent> events;
+  std::vector<world::EventRow> events;
 };
 
 PlannedDrone planned(const Vector3d& start, std::vector<Vector3d> waypoints, double speed_mps) {
@@ -38,7 +38,7 @@ Record fly(const std::vector<world::Building>& buildings, const std::vector<Plan
                 {[&](std::size_t drone, const world::DroneSample& sample) {
                    record.samples[drone].push_back(sample);
                  },
-                 [&](const world::TraceEvent& event) { record.events.push_back(event); }});
+                 [&](const world::TraceEvent& event) { record.events.push_back(to_row(event)); }});
   for (double t = 0; t < duration_s - 1e-9; t += kInterval) flight.advance();
   return record;
 }
@@ -118,7 +118,7 @@ TEST(Flight, NobodyFliesThroughAHouse) {
 
 TEST(Flight, TheInnerCornerOfAHouseIsOpenAir) {
   const Record record = fly({kHouse}, {planned({12, 7, 4}, {{6, 7, 4}, {6, 12, 4}}, 3)}, 10);
-  for (const world::TraceEvent& event : record.events) EXPECT_EQ(event.type, "near_miss");
+  for (const world::EventRow& event : record.events) EXPECT_EQ(event.type, "near_miss");
   EXPECT_LT(closest(record.samples[0], {6, 12, 4}), 0.1);
 }
 
@@ -133,8 +133,8 @@ TEST(Flight, TheGroundHoldsWhoFliesIntoIt) {
 TEST(Flight, TwoThatMeetCollide) {
   const Record record =
       fly({}, {planned({0, 0, 10}, {{20, 0, 10}}, 4), planned({20, 0, 10}, {{0, 0, 10}}, 4)}, 6);
-  std::vector<world::TraceEvent> collisions;
-  for (const world::TraceEvent& event : record.events) {
+  std::vector<world::EventRow> collisions;
+  for (const world::EventRow& event : record.events) {
     if (event.type == "collision") collisions.push_back(event);
   }
   ASSERT_GE(collisions.size(), 2U);

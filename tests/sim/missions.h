@@ -14,11 +14,11 @@ inline constexpr double kInterval = 0.1;
 
 struct FlightRecord {
   std::vector<std::vector<world::DroneSample>> samples;
-  std::vector<world::TraceEvent> events;
+  std::vector<world::EventRow> events;
 
-  std::vector<world::TraceEvent> of_type(const std::string& type) const {
-    std::vector<world::TraceEvent> list;
-    for (const world::TraceEvent& event : events) {
+  std::vector<world::EventRow> of_type(const std::string& type) const {
+    std::vector<world::EventRow> list;
+    for (const world::EventRow& event : events) {
       if (event.type == type) list.push_back(event);
     }
     return list;
@@ -55,7 +55,7 @@ inline FlightRecord fly_with(const std::vector<PlannedDrone>& drones, double dur
                 {[&](std::size_t drone, const world::DroneSample& sample) {
                    record.samples[drone].push_back(sample);
                  },
-                 [&](const world::TraceEvent& event) { record.events.push_back(event); }},
+                 [&](const world::TraceEvent& event) { record.events.push_back(to_row(event)); }},
                 weather);
   const std::vector<std::uint8_t> present(walkers.size(), 1);
   for (int step = 1; step * kInterval < duration_s + 1e-9; ++step) {

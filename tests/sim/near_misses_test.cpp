@@ -51,7 +51,7 @@ TEST(NearMiss, OneWithItsLeastDistance) {
                {{{10, 0}, {0, 0}}});
   const auto misses = record.of_type("near_miss");
   ASSERT_EQ(misses.size(), 2U);
-  for (const world::TraceEvent& miss : misses) {
+  for (const world::EventRow& miss : misses) {
     EXPECT_EQ(miss.agent, 0);
     EXPECT_EQ(miss.drone, 0);
     EXPECT_EQ(miss.partner, "person");

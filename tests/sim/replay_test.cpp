@@ -73,12 +73,12 @@ class Steps : public RunObserver {
   void begin(const world::TraceHeader& header) override { header_ = header; }
   void step(const world::CrowdStep& step) override { steps_.push_back(step); }
   void drone(std::size_t, const world::DroneSample& sample) override { drone_.push_back(sample); }
-  void event(const world::TraceEvent& event) override { events_.push_back(event); }
+  void event(const world::TraceEvent& event) override { events_.push_back(to_row(event)); }
 
   world::TraceHeader header_;
   std::vector<world::CrowdStep> steps_;
   std::vector<world::DroneSample> drone_;
-  std::vector<world::TraceEvent> events_;
+  std::vector<world::EventRow> events_;
 };
 
 TEST(Replay, ARunHasThePeopleOfTheRecordingAndItsOwnDrones) {

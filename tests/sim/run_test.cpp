@@ -118,8 +118,9 @@ TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
   EXPECT_FALSE(street.inside.contains(told.steps.back().position.at(0).cast<double>()));
   int others = 0;
   for (const world::TraceEvent& event : told.events) {
-    if (event.type != "agent_escaped") continue;
-    EXPECT_NE(event.agent, 0);
+    const auto* escaped = std::get_if<world::AgentEscaped>(&event.kind);
+    if (escaped == nullptr) continue;
+    EXPECT_NE(escaped->agent, 0);
     ++others;
   }
   EXPECT_GT(others, 0);
@@ -132,9 +133,10 @@ TEST(Run, TellsWhenADisasterReachesADoor) {
   square.exits[3].closes_at_s = 2;
   Told told;
   watch(square, 3, told);
-  std::vector<std::pair<double, double>> closed;
+  std::vector<std::pair<double, std::int32_t>> closed;
   for (const world::TraceEvent& event : told.events) {
-    if (event.type == "exit_shut") closed.emplace_back(event.time_s, event.value);
+    const auto* exit = std::get_if<world::ExitClosed>(&event.kind);
+    if (exit != nullptr) closed.emplace_back(event.time_s, exit->exit);
   }
   ASSERT_EQ(closed.size(), 2U);
   EXPECT_NEAR(closed[0].first, 1.3, 0.06) << "the first step from then on";
@@ -195,9 +197,10 @@ class Evacuation : public ::testing::Test {
 TEST_F(Evacuation, PeopleGetAwayAndEachOnce) {
   std::set<int> escaped;
   for (const world::TraceEvent& event : trace().events) {
-    if (event.type != "agent_escaped") continue;
-    EXPECT_TRUE(escaped.insert(event.agent).second);
-    const auto agent = static_cast<std::size_t>(event.agent);
+    const auto* escape = std::get_if<world::AgentEscaped>(&event.kind);
+    if (escape == nullptr) continue;
+    EXPECT_TRUE(escaped.insert(escape->agent).second);
+    const auto agent = static_cast<std::size_t>(escape->agent);
     EXPECT_EQ(trace().header.role[agent], AgentRole::person);
     const auto step = static_cast<std::size_t>(std::lround(event.time_s / trace().header.dt_s));
     const auto inside = [&](std::size_t at) {
@@ -406,18 +409,19 @@ RunSpec low_flight(bool physical) {
 TEST(Run, PhysicalPeopleFallWhenADroneHitsThemHard) {
   const world::Trace hard = trace_of(low_flight(false));
   const world::Trace physical = trace_of(low_flight(true));
-  const auto count = [](const world::Trace& trace, const std::string& type) {
+  const auto count = [](const world::Trace& trace, std::string_view type) {
     return std::count_if(trace.events.begin(), trace.events.end(),
-                         [&](const world::TraceEvent& event) { return event.type == type; });
+                         [&](const auto& event) { return world::name_of(event.kind) == type; });
   };
   ASSERT_GT(count(hard, "collision"), 0);
   EXPECT_EQ(count(hard, "fall"), 0);
   ASSERT_GT(count(physical, "fall"), 0);
   for (const world::TraceEvent& event : physical.events) {
-    if (event.type != "fall") continue;
-    EXPECT_EQ(event.partner, "drone");
-    EXPECT_GE(event.value, 1);
-    const auto agent = static_cast<std::size_t>(event.agent);
+    const auto* fall = std::get_if<world::PersonFall>(&event.kind);
+    if (fall == nullptr) continue;
+    EXPECT_TRUE(fall->struck);
+    EXPECT_GE(fall->impulse_ns, 1);
+    const auto agent = static_cast<std::size_t>(fall->agent);
     const auto step = static_cast<std::size_t>(std::lround(event.time_s / physical.header.dt_s));
     EXPECT_EQ(physical.flags[physical.at(step - 1, agent)] & world::kFallen, 0);
     for (std::size_t later = step; later < physical.steps(); ++later) {

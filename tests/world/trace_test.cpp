@@ -75,12 +75,13 @@ void write_trace(const fs::path& path, std::size_t agents = kAgents, std::size_t
       writer.add_drone(0, sample_of(0.1 * static_cast<double>(step) + i / 80.0));
     }
     if (step % 10 == 0 && agents > 5) {
-      writer.add_event({0.1 * static_cast<double>(step), "agent_escaped", 5, -1, 0.5});
+      writer.add_event({0.1 * static_cast<double>(step), AgentEscaped{5, 1}});
     }
   }
   if (agents > 5)
-    writer.add_event({0, "collision", 3, 0, 4.5, "person", 1, 0.25});  // earlier than the last one
-  writer.add_event({99, "tilt_saturated", -1, 1, -2});
+    // Earlier than the last one.
+    writer.add_event({0, Collision{0, Partner::person, 3, 4.5, 0.25}});
+  writer.add_event({99, TiltSaturated{1, 2}});
   writer.finish();
 }
 
@@ -147,16 +148,14 @@ TEST(Trace, ReadsBackWhatWasWritten) {
   EXPECT_TRUE(
       std::is_sorted(trace.events.begin(), trace.events.end(),
                      [](const TraceEvent& a, const TraceEvent& b) { return a.time_s < b.time_s; }));
-  EXPECT_EQ(trace.events[3].type, "agent_escaped");
-  EXPECT_EQ(trace.events[3].agent, 5);
-  EXPECT_EQ(trace.events[3].partner, "");
-  EXPECT_EQ(trace.events[3].other, -1);
-  EXPECT_EQ(trace.events[1].partner, "person");
-  EXPECT_EQ(trace.events[1].other, 1);
-  EXPECT_EQ(trace.events[1].extra, 0.25);
-  EXPECT_EQ(trace.events.back().type, "tilt_saturated");
-  EXPECT_EQ(trace.events.back().drone, 1);
-  EXPECT_EQ(trace.events.back().value, -2);
+  EXPECT_EQ(std::get<AgentEscaped>(trace.events[3].kind).agent, 5);
+  EXPECT_EQ(std::get<AgentEscaped>(trace.events[3].kind).exit, 1);
+  const Collision& collision = std::get<Collision>(trace.events[1].kind);
+  EXPECT_EQ(collision.partner, Partner::person);
+  EXPECT_EQ(collision.index, 3);
+  EXPECT_EQ(collision.impulse_ns, 0.25);
+  EXPECT_EQ(std::get<TiltSaturated>(trace.events.back().kind).drone, 1);
+  EXPECT_EQ(std::get<TiltSaturated>(trace.events.back().kind).off_m, 2);
 }
 
 TEST(Trace, EqualRunsGiveEqualBytes) {
@@ -312,12 +311,31 @@ TEST(Trace, OlderFilesGetTheFlagOfThoseWhoseStateSaysThatTheyLie) {
             (std::vector<std::uint8_t>{kPresent | kFallen, kPresent | kFallen, kPresent}));
 }
 
-TEST(IsDown, KnowsTheWordsOfStatesInWhichNobodyStands) {
+TEST(TraceFile, SaysInWhichStatesPeopleLieWhateverTheirNames) {
+  const TemporaryFolder folder;
+  TraceHeader header = header_of(3);
+  header.state_names = {"Walk", "Dead_end", "Nap"};
+  header.state_lying = {0, 0, 1};
+  {
+    TraceWriter writer(folder.path() / "run.h5", header);
+    CrowdStep step = step_of(0, 3);
+    step.state = {0, 1, 2};
+    step.flags = {kPresent, kPresent, kPresent};
+    writer.add(step);
+    writer.finish();
+  }
+  const Trace trace = read_trace(folder.path() / "run.h5");
+  EXPECT_EQ(trace.header.state_lying, header.state_lying);
+  EXPECT_EQ(trace.header.lying_states(), (std::vector<bool>{false, false, true}));
+  EXPECT_EQ(trace.flags, (std::vector<std::uint8_t>{kPresent, kPresent, kPresent | kFallen}));
+}
+
+TEST(ImpliesLying, KnowsTheWordsOfStatesInWhichNobodyStands) {
   for (const char* name : {"Fallen", "incapacitated", "is_dead", "Collapsed2", "CASUALTY"}) {
-    EXPECT_TRUE(is_down(name)) << name;
+    EXPECT_TRUE(implies_lying(name)) << name;
   }
   for (const char* name : {"walk", "Wait", "flee", "GoToExit", ""}) {
-    EXPECT_FALSE(is_down(name)) << name;
+    EXPECT_FALSE(implies_lying(name)) << name;
   }
 }
 

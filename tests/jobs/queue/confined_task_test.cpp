@@ -78,7 +78,7 @@ TEST(ConfinedTask, TheChildReachesNoNetwork) {
   EXPECT_EQ(answer["socket"], -1);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(THRONG_SANITIZE_ADDRESS) && !defined(THRONG_SANITIZE_THREAD)
 TEST(ConfinedTask, TheChildHasAMemoryLimit) {
   const auto greedy = [](const json&) {
     return json{{"size", std::string(std::size_t{5} << 30U, 'x').size()}};

@@ -28,7 +28,7 @@ TEST(WorkerLimits, NoSocketLeadsOutOfTheMachine) {
 }
 
 TEST(WorkerLimits, MemoryIsBoundedIfAsked) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(THRONG_SANITIZE_ADDRESS) || defined(THRONG_SANITIZE_THREAD)
   GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
 #endif
   EXPECT_EXIT(
