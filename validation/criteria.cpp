@@ -29,13 +29,13 @@ std::string in_s(double time_s) {
 
 }  // namespace
 
-Verdict corridor_time(const Corridor& walk) {
-  return {walk.time_s >= 26 && walk.time_s <= 34 && walk.inside,
-          fmt::format("{:.1f} s{}", walk.time_s, walk.inside ? "" : ", left the corridor")};
+Verdict corridor_time(double time_s, bool inside) {
+  return {time_s >= 26 && time_s <= 34 && inside,
+          fmt::format("{:.1f} s{}", time_s, inside ? "" : ", left the corridor")};
 }
 
-Verdict corridor_speed(const Corridor& walk) {
-  const double speed = 40 / walk.time_s;
+Verdict corridor_speed(double time_s) {
+  const double speed = 40 / time_s;
   return {std::abs(speed - 1) <= 0.05, fmt::format("{:.3f} m/s", speed)};
 }
 

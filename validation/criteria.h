@@ -8,17 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "validation/floors.h"
 #include "validation/flow.h"
 #include "validation/suite.h"
 #include "validation/walking.h"
 
 namespace throng::validation::criteria {
 
-/// RiMEA 1: 26 to 34 s for 40 m, inside the corridor.
-Verdict corridor_time(const Corridor& walk);
+/// RiMEA 1: 26 to 34 s for 40 m, inside the corridor all the time.
+Verdict corridor_time(double time_s, bool inside);
 /// NIST 2.1: 40 m at 1 m/s within 5 %.
-Verdict corridor_speed(const Corridor& walk);
+Verdict corridor_speed(double time_s);
 /// RiMEA 4: speeds at growing densities fall.
 Verdict falling_speeds(const std::vector<double>& speeds_mps);
 /// RiMEA 5: agent i starts 10 (i + 1) s after the beginning, within 0.5 s.

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kNistSeed = 1;
 
 Verdict corridor_speed(const Tested& tested, Effort) {
-  return criteria::corridor_speed(walk_corridor(tested, 1.0));
+  return criteria::corridor_speed(walk_corridor(tested, 1.0).time_s);
 }
 
 Verdict demographics(const Tested& tested, Effort) {
