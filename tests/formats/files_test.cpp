@@ -191,6 +191,7 @@ TEST(SplitShares, RoundToWholeRuns) {
   };
   // r: train, a: val, e: test.
   EXPECT_EQ(splits({0.7, 0.2, 0.1}, 9), "rrrrrraae") << "6.3, 8.1 and 9 round to 6, 8 and 9";
+  EXPECT_EQ(splits({0.7, 0.2, 0.1}, 8), "rrrrrrae") << "5.6 and 7.2 round to 6 and 7";
   EXPECT_EQ(splits({0.5, 0.5, 0}, 4), "rraa");
   EXPECT_EQ(splits({1, 1, 0}, 4), "rraa") << "scaled";
   EXPECT_EQ(splits({0, 0, 1}, 2), "ee");

@@ -63,6 +63,7 @@ TEST(RecordRules, BoxesAreThoseOfMasks) {
   expect_people("box-not-empty", [](Person& p) { p.amodal.height = -1; });
   expect_people("box-in-image", [](Person& p) { p.box.y = 78; });
   expect_people("box-in-image", [](Person& p) { p.box.x = -1; });
+  expect_people("box-in-image", [](Person& p) { p.box.x = 99; });
 }
 
 TEST(RecordRules, MasksFillTheirPicture) {
