@@ -144,6 +144,21 @@ TEST(Masks, HaveCocosCompressedCounts) {
   EXPECT_THAT(refused([] { runs_of("O", 16); }), HasSubstr("runs of positive length"));
 }
 
+TEST(Masks, TakePartsOfColumns) {
+  // Picture of 3 x 4; a run over the end of the first column: (0, 3), (1, 0) and (1, 1).
+  const Bitmap mask = bitmap_of({3, 3, 6}, 4);
+  EXPECT_EQ(mask.x, 0);
+  EXPECT_EQ(mask.width, 2);
+  EXPECT_EQ(mask.height, 4);
+  EXPECT_TRUE(mask.at(0, 3));
+  EXPECT_TRUE(mask.at(1, 0));
+  EXPECT_TRUE(mask.at(1, 1));
+  EXPECT_FALSE(mask.at(0, 2));
+  EXPECT_FALSE(mask.at(1, 2));
+  EXPECT_EQ(mask.area(), 3);
+  EXPECT_EQ(runs_of({mask}, 3, 4), (std::vector<std::uint32_t>{3, 3, 6})) << "and back";
+}
+
 TEST(Masks, AreJoined) {
   const Bitmap a{0, 0, 2, 1, {1, 1}};
   const Bitmap b{1, 0, 2, 1, {1, 0}};
