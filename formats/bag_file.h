@@ -12,7 +12,7 @@
 
 namespace throng::formats {
 
-/// Where a frame is in another: X_parent = rotation * X_child + position.
+/// Pose of a frame in another: X_parent = rotation * X_child + position.
 struct BagPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();

@@ -46,7 +46,7 @@ std::string weather_of(const json& record) {
   return environment == record.end() ? "unknown" : environment->value("weather", "unknown");
 }
 
-/// Where a kind of ground truth lies, and what stands there.
+/// The place of a kind of ground truth, and its content.
 std::string place_of(const annotate::GroundTruthKind& kind) {
   return kind.content.empty() ? std::string(kind.file)
                               : fmt::format("{}: {}", kind.file, kind.content);

@@ -1,4 +1,4 @@
-// Where files that are made again are held against those that are there.
+// Compares files that are made again with those that are there.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ class Comparison {
  public:
   using Report = std::function<void(const std::string& path, const std::string& what)>;
 
-  /// `report` is told of each difference; paths are below `folder`.
+  /// `report` is called for each difference; paths are below `folder`.
   Comparison(std::filesystem::path folder, Report report)
       : folder_(std::move(folder)), report_(std::move(report)) {}
 

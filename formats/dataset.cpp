@@ -67,7 +67,7 @@ std::size_t category_of(const json& record, const json& track, const ClassOption
   return static_cast<std::size_t>(found - values.begin());
 }
 
-/// What people and drones have in common.
+/// The values that people and drones have in common.
 Person thing_of(json record, std::shared_ptr<const json> track, const ExportOptions& options) {
   Person person;
   record.at("id").get_to(person.id);

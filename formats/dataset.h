@@ -118,15 +118,15 @@ struct DatasetInfo {
 /// everything about a picture in one object.
 nlohmann::json sample_of(const Image& image, const DatasetInfo& info);
 
-/// What a dataset's manifest says. Throws InputError when it has no COCO annotations, or when the
-/// options name runs that it does not have.
+/// Describes a dataset by its manifest. Throws InputError when it has no COCO annotations, or when
+/// the options name runs that it does not have.
 DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::json& manifest,
                              const ExportOptions& options);
 
 /// Reads manifest.json. Throws InputError when `root` is not a finished dataset.
 nlohmann::json read_manifest(const std::filesystem::path& root);
 
-/// Where a dataset's COCO file is, below its root.
+/// Path of a dataset's COCO file, below its root.
 inline constexpr const char* kCocoFile = "annotations/instances.json";
 
 /// The class of drones.

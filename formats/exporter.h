@@ -1,4 +1,4 @@
-// What a format is: a name, what it needs, and an exporter that is fed picture by picture.
+// A format: a name, what it needs, and an exporter that is fed picture by picture.
 #pragma once
 
 #include <filesystem>
@@ -45,7 +45,7 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
                                           const std::vector<std::string>& annotations,
                                           const std::string& where);
 
-/// What is worth saying of splits without a run: formats whose programs want them.
+/// Warnings about splits without a run: formats whose programs want them.
 std::vector<Problem> split_warnings(const DatasetInfo& info,
                                     const std::vector<const Format*>& formats);
 

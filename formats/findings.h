@@ -1,4 +1,4 @@
-// Where checks of a dataset put what they find.
+// Collects the findings of a dataset's checks.
 #pragma once
 
 #include <cstdint>
@@ -41,13 +41,13 @@ inline std::vector<Person> things_of(const Image& image) {
   return things;
 }
 
-/// What stands for somebody, or a drone, in pictures of instances.
+/// The value of a person or drone in pictures of instances.
 std::uint32_t instance_of(const Person& thing);
 
 /// One picture's annotations by themselves: boxes, masks, visibility, keypoints.
 void check_people(const Image& image, Findings& findings);
 
-/// Where the people of a picture are in the world, against their boxes.
+/// Positions of a picture's people in the world, against their boxes.
 void check_bodies(const Image& image, Findings& findings);
 
 /// Everything below formats/, dataset.json and README.md, made again from the annotations and
@@ -77,7 +77,7 @@ class FormatCheck {
   void finish(Findings& findings);
 
  private:
-  /// What a format's lines of an image begin with.
+  /// The first numbers of a format's lines of an image.
   static std::vector<std::vector<double>> lines_of(const std::string& format, const Image& image);
   static void compare(const std::string& file, const Image& image, std::istream& text,
                       const std::vector<std::vector<double>>& expected, Findings& findings);

@@ -30,8 +30,8 @@ struct SensorSample {
   Eigen::Vector3d gps_velocity;
 };
 
-/// What is not within six standard deviations of the sensors' errors; "" if nothing. The readings
-/// are at most `age_s` older than the truth, the GPS fix `gps_age_s`.
+/// Names a reading beyond six standard deviations of the sensors' errors; "" if there is none. The
+/// readings are at most `age_s` older than the truth, the GPS fix `gps_age_s`.
 std::string implausible_reading(const SensorSample& sample, double latitude_deg, double age_s,
                                 double gps_age_s);
 

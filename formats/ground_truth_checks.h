@@ -1,4 +1,4 @@
-// What `throng validate` looks at for each kind of ground truth: one table. Checks of the COCO
+// The checks of `throng validate` for each kind of ground truth: one table. Checks of the COCO
 // records, and of several kinds or pictures against each other, are in formats/shot.h and
 // formats/findings.h.
 #pragma once
@@ -36,7 +36,7 @@ struct GroundTruthChecker {
   std::unique_ptr<GroundTruthCheck> (*make)() = nullptr;
 };
 
-/// In the order of the kinds. Those that are not here are part of the COCO records.
+/// In the order of the kinds. Kinds that are not here are part of the COCO records.
 std::span<const GroundTruthChecker> ground_truth_checkers();
 
 /// The checks of all kinds that a dataset has, and whether their files are there.

@@ -28,7 +28,7 @@ void add_element(std::string& bytes, Type type, std::string_view content) {
   while (bytes.size() % kAligned != 0) bytes.push_back('\0');
 }
 
-/// What every array begins with.
+/// The beginning of every array.
 std::string array_start(Class kind, std::int32_t rows, std::int32_t columns,
                         std::string_view name) {
   std::string flags;

@@ -31,7 +31,7 @@ std::string sequence_info(const DatasetInfo& info, const Image& image) {
       image.sequence(), info.rate_hz, info.frames_per_camera, image.width, image.height);
 }
 
-/// What MOT and MOTS share: the folders of a sequence, its pictures and its text.
+/// Common to MOT and MOTS: the folders of a sequence, its pictures and its text.
 class SequenceExporter : public Exporter {
  public:
   SequenceExporter(const DatasetInfo& info, Output output)
@@ -54,7 +54,7 @@ class SequenceExporter : public Exporter {
 
  protected:
   virtual void append(std::string& lines, const Image& image) const = 0;
-  /// What else there is of a picture, below the sequence's folder.
+  /// Writes further files of a picture, below the sequence's folder.
   virtual void add_files(const Image& image, const std::string& folder) = 0;
 
   const Output& output() const { return output_; }
@@ -90,7 +90,7 @@ class MotExporter : public SequenceExporter {
     }
   }
 
-  /// What a detector would say that finds what is visible, as sure as it sees much of somebody.
+  /// Detections of an ideal detector of the visible parts; the score is the visibility.
   void add_files(const Image& image, const std::string& folder) override {
     std::string lines;
     for (const Person& person : image.people) {
@@ -134,7 +134,7 @@ class MotsExporter : public SequenceExporter {
     add(kMotsIgnoredId, kMotsIgnored, counts_of(runs_of(ignored, image.width, image.height)));
   }
 
-  /// The same ids as pixels. Those that 16 bits do not hold are ignored there.
+  /// The same ids as pixels. Ids beyond 16 bits are ignored there.
   void add_files(const Image& image, const std::string& folder) override {
     const auto width = static_cast<std::size_t>(image.width);
     const std::size_t pixels = width * static_cast<std::size_t>(image.height);

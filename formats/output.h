@@ -1,4 +1,4 @@
-// Where an exporter writes: files below one folder, which nobody reads before all of it is there.
+// The output of an exporter: files below one folder, which nobody reads before all of it is there.
 #pragma once
 
 #include <filesystem>
@@ -40,7 +40,7 @@ class Output {
   OutputStream open(const std::filesystem::path& path) const {
     return {folder_ / path, comparison_, path};
   }
-  /// To be told of a file that was written without a stream, below folder(), and is closed.
+  /// To be called for a file that was written without a stream, below folder(), and is closed.
   void written(const std::filesystem::path& path) const;
   /// The same file under another name: a hard link, or a copy where links do not work.
   void link(const std::filesystem::path& path, const std::filesystem::path& source) const;

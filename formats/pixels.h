@@ -1,4 +1,4 @@
-// What a dataset has per pixel of one picture, read once for all checks.
+// A dataset's values per pixel of one picture, read once for all checks.
 #pragma once
 
 #include <cstdint>

@@ -59,7 +59,7 @@ BorderRing take_border(OpenEdges& edges) {
   do {
     const auto found = edges.find(at);
     check(found != edges.end(), "the edges of a mask form rings");
-    // Where two pixels touch by a corner the way leads on to the other one: a turn to the left.
+    // If two pixels touch by a corner, the path goes on to the other one: a turn to the left.
     int next = direction < 0 ? 0 : (direction + 3) % 4;
     while ((found->second & 1U << next) == 0) next = (next + 1) % 4;
     direction = next;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What libpng reads from.
+/// The bytes that libpng reads from.
 struct Source {
   const std::string* bytes;
   std::size_t at;

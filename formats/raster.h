@@ -23,7 +23,7 @@ Raster read_raster(const std::filesystem::path& path);
 /// read_raster(), and when the picture is not of 8-bit RGB.
 std::vector<std::uint32_t> read_instances(const std::filesystem::path& path);
 
-/// Where the dataset keeps values of this kind for a picture: "images/a/b.jpg" and "depth" give
+/// Path of the values of this kind of a picture: "images/a/b.jpg" and "depth" give
 /// "depth/a/b.png".
 std::filesystem::path raster_path(const std::filesystem::path& root, const char* kind,
                                   const std::string& image_file);

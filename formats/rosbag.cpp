@@ -108,7 +108,7 @@ class SensorTable {
   std::size_t number_ = 1;
 };
 
-/// What ROS calls a lens with these coefficients.
+/// ROS' name of a lens with these coefficients.
 BagLens lens_of(const Image& image) {
   BagLens lens{static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height),
                image.camera_matrix, "plumb_bob", std::vector<double>(5, 0)};
@@ -143,7 +143,7 @@ BagMotion motion_of(const json& truth) {
   return motion;
 }
 
-/// Where the camera is in the world.
+/// Pose of the camera in the world.
 BagPose pose_of_camera(const Image& image) {
   return {-image.R.transpose() * image.t, Eigen::Quaterniond(Eigen::Matrix3d(image.R.transpose()))};
 }
@@ -243,7 +243,7 @@ class RosbagExporter : public Exporter {
     bag_->add_text(root + "/ground_truth/annotations", time_s, sample_of(image, info_).dump());
   }
 
-  /// Where the drone and its camera are, and what its inertial unit reads. Of a dataset without
+  /// Poses of the drone and its camera, and the readings of its inertial unit. Of a dataset without
   /// flights only the camera is known.
   void add_flight(const Image& image, const std::string& root, const std::string& body_frame,
                   const std::string& optical_frame) {

@@ -12,6 +12,7 @@
 
 #include "formats/csv_table.h"
 #include "formats/dataset.h"
+#include "formats/exit_series.h"
 #include "formats/findings.h"
 #include "formats/ground_truth_checks.h"
 
@@ -24,16 +25,8 @@ class ExitsCheck : public GroundTruthCheck {
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
 
  private:
-  struct Row {
-    std::size_t line = 0;
-    std::map<std::string, double> value;  ///< NaN for texts
-    std::string state;
-    std::string state_offline;
-  };
-  /// Of one exit in one run, by frame.
-  using Series = std::map<std::int64_t, Row>;
   struct Run {
-    std::map<std::string, Series> exits;
+    std::map<std::string, ExitSeries> exits;
     std::vector<std::string> order;
     std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks, by frame
     std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< seen there, by frame and exit
@@ -45,8 +38,6 @@ class ExitsCheck : public GroundTruthCheck {
   };
 
   Run& read(const DatasetInfo& info, const std::string& run, Findings& findings);
-  void check_series(const std::string& file, const std::string& exit, const Series& series,
-                    Findings& findings) const;
   void check_polygons(const Image& image, const nlohmann::json& exit, Findings& findings);
   static void check_values(const std::string& file, const Image& image, const nlohmann::json& exit,
                            const Run& run, Findings& findings);
@@ -71,7 +62,7 @@ class FieldsCheck : public GroundTruthCheck {
   std::map<std::string, std::map<std::int64_t, std::map<std::int64_t, Walker>>> runs_;
 };
 
-/// What stays the same: a run's environment, a camera's lens, a person's attributes and bones.
+/// Constant values: a run's environment, a camera's lens, a person's attributes and bones.
 class ConstancyCheck {
  public:
   explicit ConstancyCheck(const nlohmann::json& manifest) : manifest_(manifest) {}
@@ -93,7 +84,7 @@ class ConstancyCheck {
   std::map<std::string, std::set<std::int64_t>> frames_;  ///< by run and camera
 };
 
-/// Whoever is in the records of the frames before and after is in those of the frame between.
+/// A person in the records of the frames before and after is in those of the frame between.
 class PresenceCheck {
  public:
   void add(const Image& image, Findings& findings);

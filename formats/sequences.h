@@ -28,7 +28,7 @@ class SequenceTexts {
     return texts_.emplace(path, output_->open(path)).first->second;
   }
 
-  /// Where VisDrone and its kin keep the text of the sequence that an image is part of.
+  /// The text of an image's sequence, at the place that VisDrone and similar formats have.
   OutputStream& annotations_of(const Image& image) {
     bool is_new = false;
     return of(image.run,

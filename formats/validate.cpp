@@ -244,7 +244,7 @@ Validation validate_dataset(const fs::path& root) {
       kinds.add(info, image, findings);
       const std::size_t before = validation.found;
       check_people(image, findings);
-      // What is said of broken masks would only be repeated.
+      // Findings about broken masks would only be repeated.
       if (validation.found > before) {
         shots.forget(image.camera);
         continue;

@@ -56,7 +56,7 @@ class Differences {
   const Pixels& pixels_;
 };
 
-/// What a pixel belongs to: instances, or whose mask it is in.
+/// The owner of a pixel: instances, or whose mask it is in.
 std::vector<std::uint32_t> labels_of(const Shot& shot) {
   if (!shot.pixels.ids.empty()) return shot.pixels.ids;
   std::vector<std::uint32_t> labels(shot.pixels.count());

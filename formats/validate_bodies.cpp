@@ -21,13 +21,9 @@ double max_distance_m(const Shot& shot, const Person& person) {
   return corners_in_camera(shot.image, person).row(2).maxCoeff();
 }
 
-/// The mask of the whole body fills its box, and what hides it is nearer than the body.
-void check_whole_mask_place(const Shot& shot, const Person& person, Findings& findings) {
-  const auto found = person.record.find("amodal_segmentation");
-  if (found == person.record.end()) return;
-  const Pixels& pixels = shot.pixels;
-  const Bitmap whole =
-      bitmap_of(runs_of(found->at("counts").get<std::string>(), pixels.count()), shot.image.height);
+/// The mask of the whole body fills its box.
+bool check_mask_fills_box(const Shot& shot, const Person& person, const Bitmap& whole,
+                          Findings& findings) {
   const Box& box = person.amodal;
   const bool is_inside = box.x >= 0 && box.y >= 0 && box.x + box.width <= shot.image.width &&
                          box.y + box.height <= shot.image.height;
@@ -38,13 +34,14 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
   // Small bodies lose whole limbs between the pixels.
   constexpr std::uint64_t kMinPixels = 60;
   const double slack_px = kOutlineSlackPx + 0.05 * std::max(box.width, box.height);
-  if (is_inside && whole.area() >= kMinPixels && max_value > slack_px) {
-    findings.add(
-        "amodal-mask-fills-box", person,
-        fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", max_value));
-    return;
-  }
-  // Joints are inside of the body.
+  if (!is_inside || whole.area() < kMinPixels || max_value <= slack_px) return true;
+  findings.add("amodal-mask-fills-box", person,
+               fmt::format("amodal_segmentation ends {:.1f} px inside of bbox_amodal", max_value));
+  return false;
+}
+
+/// Joints are inside of the body.
+bool check_joints_on_mask(const Person& person, const Bitmap& whole, Findings& findings) {
   int outside = 0;
   for (const Keypoint& point : person.keypoints) {
     if (point.visibility == 0) continue;
@@ -58,11 +55,16 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
   }
   constexpr std::uint64_t kLargePixels = 200;
   constexpr int kMaxOutside = 3;  // thin limbs between the pixels
-  if (whole.area() >= kLargePixels && outside > kMaxOutside) {
-    findings.add("amodal-mask-fills-box", person,
-                 fmt::format("{} keypoints are outside of amodal_segmentation", outside));
-    return;
-  }
+  if (whole.area() < kLargePixels || outside <= kMaxOutside) return true;
+  findings.add("amodal-mask-fills-box", person,
+               fmt::format("{} keypoints are outside of amodal_segmentation", outside));
+  return false;
+}
+
+/// Objects that hide the body are nearer than it.
+void check_hidden_by_nearer(const Shot& shot, const Person& person, const Bitmap& whole,
+                            Findings& findings) {
+  const Pixels& pixels = shot.pixels;
   if (pixels.ids.empty() || pixels.depth_cm.empty()) return;
   const double far_m = max_distance_m(shot, person) + 0.1 + (shot.at_once ? 0 : 1);
   const std::uint32_t own = instance_of(person);
@@ -82,6 +84,17 @@ void check_whole_mask_place(const Shot& shot, const Person& person, Findings& fi
                  fmt::format("{} of {} pixels of amodal_segmentation that show somebody or "
                              "something else show what is farther away",
                              open, hidden));
+  }
+}
+
+void check_whole_mask_place(const Shot& shot, const Person& person, Findings& findings) {
+  const auto found = person.record.find("amodal_segmentation");
+  if (found == person.record.end()) return;
+  const auto runs = runs_of(found->at("counts").get<std::string>(), shot.pixels.count());
+  const Bitmap whole = bitmap_of(runs, shot.image.height);
+  if (check_mask_fills_box(shot, person, whole, findings) &&
+      check_joints_on_mask(person, whole, findings)) {
+    check_hidden_by_nearer(shot, person, whole, findings);
   }
 }
 

@@ -1,4 +1,4 @@
-// What does not change: environment, lens, bones, and what the tracks say of people.
+// Values that do not change: environment, lens, bones, and what the tracks say of people.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kDegree = EIGEN_PI / 180;
+constexpr double kRadPerDegree = EIGEN_PI / 180;
 
 /// Pairs of COCO's keypoints on one bone, and by how much their distance may vary (m): bones are
 /// blended between poses, so that limbs in fast motion shrink.
@@ -35,7 +35,7 @@ constexpr std::array<Bone, 10> kBones = {{{0, 1, 0.03},
                                           {5, 7, 0.15},
                                           {6, 8, 0.15}}};
 
-/// Where the sun stands: Spencer's declination, solar time. Azimuth counter-clockwise from east.
+/// Direction of the sun: Spencer's declination, solar time. Azimuth counter-clockwise from east.
 struct SunPlace {
   double azimuth_deg;
   double elevation_deg;
@@ -46,14 +46,15 @@ SunPlace sun_of(double hours, double latitude_deg, double day_of_year) {
   const double declination = 0.006918 - 0.399912 * std::cos(day) + 0.070257 * std::sin(day) -
                              0.006758 * std::cos(2 * day) + 0.000907 * std::sin(2 * day) -
                              0.002697 * std::cos(3 * day) + 0.00148 * std::sin(3 * day);
-  const double latitude = latitude_deg * kDegree;
-  const double angle = (hours - 12) * 15 * kDegree;
+  const double latitude = latitude_deg * kRadPerDegree;
+  const double angle = (hours - 12) * 15 * kRadPerDegree;
   const double east = -std::cos(declination) * std::sin(angle);
   const double north = std::cos(latitude) * std::sin(declination) -
                        std::sin(latitude) * std::cos(declination) * std::cos(angle);
   const double up = std::sin(latitude) * std::sin(declination) +
                     std::cos(latitude) * std::cos(declination) * std::cos(angle);
-  return {std::atan2(north, east) / kDegree, std::asin(std::clamp(up, -1.0, 1.0)) / kDegree};
+  return {std::atan2(north, east) / kRadPerDegree,
+          std::asin(std::clamp(up, -1.0, 1.0)) / kRadPerDegree};
 }
 
 const char* age_band_of(double years) {
@@ -66,7 +67,7 @@ bool contains_follow(std::string text) {
   return text.find("follow") != std::string::npos;
 }
 
-/// What states say of the speed; "" if it is right. Speeds are rounded.
+/// Speeds that contradict states; "" if none does. Speeds are rounded.
 std::string wrong_speed(const std::string& state, double speed_mps) {
   constexpr double kRounding = 0.01;
   constexpr double kStanding = 0.2;

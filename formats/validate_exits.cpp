@@ -18,30 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kCapacityPerMs = 1.3;
-constexpr double kFullDensity = 0.6;
-constexpr double kFreeSpeed = 0.6;
-
-double value_of(const std::map<std::string, double>& row, const char* name) {
-  const auto found = row.find(name);
-  return found == row.end() ? std::nan("") : found->second;
-}
-
-double out_of(const std::map<std::string, double>& row) { return value_of(row, "crossed_out"); }
-/// People gone out less people come in.
-double net_of(const std::map<std::string, double>& row) {
-  return out_of(row) - value_of(row, "crossed_in");
-}
-
-/// The middle value of ratios of columns, which are one number but for rounding; NaN without any.
-double common_ratio(std::vector<double> ratios) {
-  if (ratios.empty()) return std::nan("");
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
-}
-
-/// Where a point of the picture is on the ground.
+/// Position of a point of the picture on the ground.
 std::optional<Vector2d> on_ground(const camera::Camera& camera, const json& point) {
   const Vector2d pixel(point.at(0).get<double>() - 0.5, point.at(1).get<double>() - 0.5);
   const Vector3d at = camera.unproject(pixel, 1);
@@ -97,16 +74,16 @@ ExitsCheck::Run& ExitsCheck::read(const DatasetInfo& info, const std::string& na
   const std::size_t offline = column("state_offline");
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const std::vector<std::string>& cells = table.rows[i];
-    Row row{i + 2, {}, cells[state], cells[offline]};
+    ExitRow row{i + 2, {}, cells[state], cells[offline]};
     for (std::size_t c = 0; c < cells.size(); ++c)
       row.value[table.columns[c]] = number_of(cells[c]);
     const auto number = static_cast<std::int64_t>(number_of(cells[frame]));
     if (!run.exits.contains(cells[exit])) run.order.push_back(cells[exit]);
     const double time_s = info.from_s + static_cast<double>(number) / info.rate_hz;
-    if (!(std::abs(value_of(row.value, "time_s") - time_s) <= 1e-6)) {
-      findings.add("exits", file, fmt::format("line {}", i + 2),
-                   fmt::format("time_s {}, but frame {} is of {} s", value_of(row.value, "time_s"),
-                               number, time_s));
+    if (!(std::abs(row["time_s"] - time_s) <= 1e-6)) {
+      findings.add(
+          "exits", file, fmt::format("line {}", i + 2),
+          fmt::format("time_s {}, but frame {} is of {} s", row["time_s"], number, time_s));
     }
     if (!run.exits[cells[exit]].emplace(number, std::move(row)).second) {
       findings.add("exits", file, fmt::format("line {}", i + 2),
@@ -119,120 +96,9 @@ ExitsCheck::Run& ExitsCheck::read(const DatasetInfo& info, const std::string& na
           "exits", file, id,
           fmt::format("{} rows, but there are {} frames", series.size(), info.frames_per_camera));
     }
-    check_series(file, id, series, findings);
+    check_exit_series(file, id, series, findings);
   }
   return run;
-}
-
-void ExitsCheck::check_series(const std::string& file, const std::string& exit,
-                              const Series& series, Findings& findings) const {
-  std::vector<double> areas;
-  std::vector<double> packings;
-  std::vector<double> widths;
-  for (const auto& [frame, row] : series) {
-    const auto v = [&, &row = row](const char* name) { return value_of(row.value, name); };
-    if (v("density") > 0.02) areas.push_back(v("in_zone") / v("density"));
-    if (v("density") > 0.1) packings.push_back(v("normalised_density") / v("density"));
-    if (std::abs(v("specific_flow")) > 0.05) widths.push_back(v("flow") / v("specific_flow"));
-  }
-  const double area = common_ratio(areas);
-  const double packing = common_ratio(packings);
-  const double width = common_ratio(widths);
-  const Row* last = nullptr;
-  for (const auto& [frame, row] : series) {
-    const auto v = [&, &row = row](const char* name) { return value_of(row.value, name); };
-    const auto fault = [&, &row = row](const std::string& what) {
-      findings.add("exits", file, fmt::format("line {}", row.line),
-                   fmt::format("{}: {}", exit, what));
-    };
-    const auto differs = [](double a, double b, double slack) { return std::abs(a - b) > slack; };
-    if (differs(v("density") * area, v("in_zone"), 0.02 + 0.01 * v("in_zone"))) {
-      fault(fmt::format("density {} is not in_zone {} over the zone's {:.2f} m2", v("density"),
-                        v("in_zone"), area));
-    }
-    if (differs(v("normalised_density"), v("density") * packing, 2e-4 + 0.005 * v("density"))) {
-      fault(fmt::format("normalised_density {} is not density {} times {:.4f}",
-                        v("normalised_density"), v("density"), packing));
-    }
-    if (differs(v("specific_flow") * width, v("flow"), 0.02 + 0.003 * width)) {
-      fault(fmt::format("specific_flow {} is not flow {} over {:.2f} m", v("specific_flow"),
-                        v("flow"), width));
-    }
-    const bool demand = v("demand") > 0;
-    const bool is_closed = row.state == "closed";
-    if (!is_closed && demand == (row.state == "idle")) {
-      fault(fmt::format("state {} with demand {}", row.state, v("demand")));
-    }
-    if ((row.state_offline == "closed") != is_closed ||
-        (row.state_offline == "idle") != (row.state == "idle") ||
-        (row.state == "clogged" && row.state_offline != "clogged")) {
-      fault(fmt::format("state_offline {} where state is {}", row.state_offline, row.state));
-    }
-    const double index = v("clogging_index");
-    if (!demand && index != 0) fault(fmt::format("clogging_index {} without demand", index));
-    if (demand && std::isfinite(width)) {
-      const double full = std::min(1.0, v("normalised_density") / kFullDensity);
-      const double flow_lack = std::clamp(1 - v("flow") / (kCapacityPerMs * width), 0.0, 1.0);
-      const double low = 0.5 * full * flow_lack;
-      const double high = low + 0.5 * full;
-      const double slack = 0.004 + 0.01 * full;
-      const double speed_lack = full > 0 ? std::clamp((index - low) / (0.5 * full), 0.0, 1.0) : 0;
-      // The mean desired speed that the index would stand for.
-      const double desired =
-          speed_lack < 1 ? v("approach_speed") / (kFreeSpeed * (1 - speed_lack)) : 1;
-      const bool is_between = index >= low - slack && index <= high + slack;
-      constexpr double kMinSpeedMps = 0.2;
-      constexpr double kMaxSpeedMps = 5;
-      const bool is_plausible = full < 0.05 || speed_lack < 0.02 || speed_lack > 0.98 ||
-                                (desired > kMinSpeedMps && desired < kMaxSpeedMps);
-      const bool is_full_lack = v("approach_speed") > -0.01 || index >= high - slack;
-      if (!is_between || !is_plausible || !is_full_lack) {
-        fault(
-            fmt::format("clogging_index {}, but density, flow and approach speed give {:.3f} to "
-                        "{:.3f}",
-                        index, low, high));
-      }
-    }
-    if (v("queue") == 0 && (v("queue_length") != 0 || v("predicted_wait") != 0)) {
-      fault("a queue of nobody with a length or a wait");
-    }
-    if (std::isfinite(width) &&
-        v("predicted_wait") > v("queue") / (0.1 * kCapacityPerMs * width) * 1.01 + 0.02) {
-      fault(fmt::format("predicted_wait {} s for a queue of {}", v("predicted_wait"), v("queue")));
-    }
-    if (last != nullptr) {
-      const auto before = [&](const char* name) { return value_of(last->value, name); };
-      const double dt_s = v("time_s") - before("time_s");
-      const double grown = before("since_crossing") + dt_s;
-      if (v("since_crossing") > dt_s + 0.11 && differs(v("since_crossing"), grown, 0.11)) {
-        fault(fmt::format("since_crossing {} s, {} s before it was {} s", v("since_crossing"), dt_s,
-                          before("since_crossing")));
-      }
-      if (out_of(row.value) < out_of(last->value) ||
-          value_of(row.value, "crossed_in") < value_of(last->value, "crossed_in")) {
-        fault("fewer crossings than before");
-      }
-      if (out_of(row.value) > out_of(last->value) && v("since_crossing") > dt_s + 0.11) {
-        fault(fmt::format("crossed_out grows, but since_crossing is {} s", v("since_crossing")));
-      }
-      if (last->state == "closed" && !is_closed) fault("a closed exit that opens");
-    }
-    constexpr std::int64_t kFlowFrames = 4;  // seconds that flow is taken over
-    const std::int64_t back = last == nullptr
-                                  ? 0
-                                  : std::llround(static_cast<double>(kFlowFrames) /
-                                                 (v("time_s") - value_of(last->value, "time_s")));
-    const auto then = back > 0 ? series.find(frame - back) : series.end();
-    if (then != series.end() &&
-        std::abs(v("time_s") - value_of(then->second.value, "time_s") - kFlowFrames) < 1e-6) {
-      const double expected = (net_of(row.value) - net_of(then->second.value)) / kFlowFrames;
-      // A crossing at the border of the 4 s may be in or out.
-      if (differs(v("flow"), expected, 0.26)) {
-        fault(fmt::format("flow {} /s, but crossings changed by {} /s", v("flow"), expected));
-      }
-    }
-    last = &row;
-  }
 }
 
 void ExitsCheck::check_values(const std::string& file, const Image& image, const json& exit,
@@ -245,7 +111,7 @@ void ExitsCheck::check_values(const std::string& file, const Image& image, const
                  fmt::format("exit {} is not in {} for frame {}", id, file, image.frame));
     return;
   }
-  const Row& row = series->second.at(image.frame);
+  const ExitRow& row = series->second.at(image.frame);
   struct Pair {
     const char* key;
     const char* column;
@@ -257,7 +123,7 @@ void ExitsCheck::check_values(const std::string& file, const Image& image, const
         Pair{"clogging_index", "clogging_index", 1e-6}, Pair{"flow_per_s", "flow", 1e-6}}) {
     if (!exit.contains(pair.key)) continue;
     const double found = exit.at(pair.key).get<double>();
-    const double expected = value_of(row.value, pair.column);
+    const double expected = row[pair.column];
     if (!std::isfinite(expected) || std::abs(found - expected) <= pair.slack) continue;
     findings.add("exits", kCocoFile, record,
                  fmt::format("{} of {} is {}, but {} line {} says {}", pair.key, id, found, file,
@@ -348,10 +214,10 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
     const int found = ++run.in_zone[image.frame][id];
     const auto row = run.exits.at(id).find(image.frame);
     if (row == run.exits.at(id).end()) continue;
-    if (found > value_of(row->second.value, "in_zone")) {
+    if (found > row->second["in_zone"]) {
       findings.add("exits", file, fmt::format("line {}", row->second.line),
                    fmt::format("{}: in_zone {}, but pictures show {} there who head for it", id,
-                               value_of(row->second.value, "in_zone"), found));
+                               row->second["in_zone"], found));
     }
   }
 }

@@ -62,7 +62,7 @@ Field read_field(const fs::path& file, const Grid& grid) {
   return field;
 }
 
-/// What the people whom cameras see add to density and momentum, were nothing built.
+/// Density and momentum of the people whom cameras see, without buildings.
 struct Share {
   std::vector<double> density;
   std::vector<Vector2d> momentum;
@@ -143,7 +143,7 @@ class FieldFile {
       if (share.density[i] <= 0) continue;
       expected += share.density[i];
       const double found = field_.density(i);
-      // What falls on buildings is elsewhere.
+      // The share that falls on buildings is elsewhere.
       if (found > 0) missing += std::max(0.0, share.density[i] - found);
       if (found <= 0 || found > 1.05 * share.density[i] || share.density[i] < 0.02) continue;
       const Vector2d mean = share.momentum[i] / share.density[i];

@@ -97,7 +97,7 @@ void check_still_flow(const Shot& before, const Shot& after, Findings& findings)
   }
 }
 
-/// Where a person's pixels go.
+/// Motion of a person's pixels.
 struct Led {
   double left = 1e9;
   double top = 1e9;
@@ -192,7 +192,7 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
                     led.known - led.on_body, led.known));
     return;
   }
-  // What shows all of the body moves as the body does.
+  // Pixels of the entire body move as the body does.
   constexpr double kMostlyWhole = 0.9;
   if (then.visibility < kMostlyWhole || !before.is_plain || then.truncation > 0 ||
       now.truncation > 0) {

@@ -39,7 +39,7 @@ bool are_close(const std::vector<double>& found, const std::vector<double>& expe
                     [](double a, double b) { return std::abs(a - b) <= kTextSlackPx; });
 }
 
-/// Where a file is, whatever its split.
+/// Path of a file in any split.
 fs::path in_a_split(const fs::path& before, const fs::path& after) {
   for (const std::string_view split : kSplitNames) {
     if (fs::is_regular_file(before / split / after)) return before / split / after;

@@ -36,7 +36,7 @@ void check_velocities(const Shot& before, const Shot& after, Findings& findings)
     const Vector2d moved = (now.position - then->position).head<2>() / dt_s;
     const Vector2d mean = 0.5 * (now.velocity + then->velocity);
     const double change = (now.velocity - then->velocity).norm();
-    // Whoever changes the pace within the frame can be off by as much as that change.
+    // A change of speed within the frame may be as large as the difference.
     constexpr double kMaxOffMps = 1.5;
     const double off = (moved - mean).norm();
     if (off > kMaxOffMps + 0.5 * change) {
@@ -95,7 +95,7 @@ bool is_known(const Shot& shot, std::int64_t track_id) {
                      [&](const HiddenPerson& person) { return person.track_id == track_id; });
 }
 
-/// Whoever one camera shows and the other one must see is in that one's records.
+/// People whom one camera shows and the other one must see are in that one's records.
 void check_who_is_there(const Shot& shot, const Shot& other, Findings& findings) {
   for (const Person& person : shot.image.people) {
     if (!person.track->contains("attributes")) continue;  // no character

@@ -72,13 +72,9 @@ struct NormalTally {
   std::vector<double> angles_rad;
 };
 
-}  // namespace
-
-void check_normals(const Shot& shot, Findings& findings) {
+/// Looks at up to about 20 000 pixels, by the kind of surface that they show.
+std::map<Kind, NormalTally> tally_normals(const Shot& shot) {
   const Pixels& pixels = shot.pixels;
-  if (!shot.at_once || pixels.normals.empty() || pixels.ids.empty() || pixels.depth_cm.empty()) {
-    return;
-  }
   constexpr int kMaxPoints = 20000;
   const int step =
       std::max(1, static_cast<int>(std::sqrt(static_cast<double>(pixels.count()) / kMaxPoints)));
@@ -108,44 +104,57 @@ void check_normals(const Shot& shot, Findings& findings) {
       }
     }
   }
-  for (auto& [kind, tally] : tallies) {
-    constexpr std::size_t kMinCount = 30;
-    const char* name = kKindNames.at(static_cast<std::size_t>(kind));
-    const std::string file = raster_name("normals", shot.image);
-    const double max_away = kind == Kind::person ? 0.25 : 0.05;
-    if (tally.looked_at >= kMinCount &&
-        static_cast<double>(tally.away) > max_away * static_cast<double>(tally.looked_at)) {
-      findings.add("normals-face-camera", file, shot.record(),
-                   fmt::format("{} of {} pixels of {} face away from the camera", tally.away,
-                               tally.looked_at, name));
-    }
-    // At the edge of something nearer, a pixel of the ground may have another normal.
-    if (kind == Kind::ground && tally.looked_at >= 10 * kMinCount &&
-        static_cast<double>(tally.not_up) > 0.04 * static_cast<double>(tally.looked_at)) {
-      findings.add("normals-are-surface", file, shot.record(),
-                   fmt::format("normals of {} of {} pixels of the ground do not point up",
-                               tally.not_up, tally.looked_at));
-    }
-    // Bodies are round: what is exactly flat is the ground of another picture.
-    if (kind == Kind::person && tally.looked_at >= 2 * kMinCount &&
-        static_cast<double>(tally.flat) > 0.15 * static_cast<double>(tally.looked_at)) {
-      findings.add("normals-are-surface", file, shot.record(),
-                   fmt::format("normals of {} of {} pixels of people are those of flat ground",
-                               tally.flat, tally.looked_at));
-    }
-    if (tally.angles_rad.size() < kMinCount) continue;
-    const auto middle =
-        tally.angles_rad.begin() + static_cast<std::ptrdiff_t>(tally.angles_rad.size() / 2);
-    std::nth_element(tally.angles_rad.begin(), middle, tally.angles_rad.end());
-    // People are round, and props have many small faces.
-    const double max_rad = kind == Kind::prop ? 0.9 : kind == Kind::person ? 0.6 : 0.09;
-    if (*middle > max_rad) {
-      findings.add("normals-are-surface", file, shot.record(),
-                   fmt::format("normals of {} are {:.1f} degrees off the surface that the depth "
-                               "shows (median of {})",
-                               name, *middle * 180 / EIGEN_PI, tally.angles_rad.size()));
-    }
+  return tallies;
+}
+
+void judge_normals(const Shot& shot, Kind kind, NormalTally& tally, Findings& findings) {
+  constexpr std::size_t kMinCount = 30;
+  const char* name = kKindNames.at(static_cast<std::size_t>(kind));
+  const std::string file = raster_name("normals", shot.image);
+  const double max_away = kind == Kind::person ? 0.25 : 0.05;
+  if (tally.looked_at >= kMinCount &&
+      static_cast<double>(tally.away) > max_away * static_cast<double>(tally.looked_at)) {
+    findings.add("normals-face-camera", file, shot.record(),
+                 fmt::format("{} of {} pixels of {} face away from the camera", tally.away,
+                             tally.looked_at, name));
   }
+  // At the edge of something nearer, a pixel of the ground may have another normal.
+  if (kind == Kind::ground && tally.looked_at >= 10 * kMinCount &&
+      static_cast<double>(tally.not_up) > 0.04 * static_cast<double>(tally.looked_at)) {
+    findings.add("normals-are-surface", file, shot.record(),
+                 fmt::format("normals of {} of {} pixels of the ground do not point up",
+                             tally.not_up, tally.looked_at));
+  }
+  // Bodies are round: what is exactly flat is the ground of another picture.
+  if (kind == Kind::person && tally.looked_at >= 2 * kMinCount &&
+      static_cast<double>(tally.flat) > 0.15 * static_cast<double>(tally.looked_at)) {
+    findings.add("normals-are-surface", file, shot.record(),
+                 fmt::format("normals of {} of {} pixels of people are those of flat ground",
+                             tally.flat, tally.looked_at));
+  }
+  if (tally.angles_rad.size() < kMinCount) return;
+  const auto middle =
+      tally.angles_rad.begin() + static_cast<std::ptrdiff_t>(tally.angles_rad.size() / 2);
+  std::nth_element(tally.angles_rad.begin(), middle, tally.angles_rad.end());
+  // People are round, and props have many small faces.
+  const double max_rad = kind == Kind::prop ? 0.9 : kind == Kind::person ? 0.6 : 0.09;
+  if (*middle > max_rad) {
+    findings.add("normals-are-surface", file, shot.record(),
+                 fmt::format("normals of {} are {:.1f} degrees off the surface that the depth "
+                             "shows (median of {})",
+                             name, *middle * 180 / EIGEN_PI, tally.angles_rad.size()));
+  }
+}
+
+}  // namespace
+
+void check_normals(const Shot& shot, Findings& findings) {
+  const Pixels& pixels = shot.pixels;
+  if (!shot.at_once || pixels.normals.empty() || pixels.ids.empty() || pixels.depth_cm.empty()) {
+    return;
+  }
+  std::map<Kind, NormalTally> tallies = tally_normals(shot);
+  for (auto& [kind, tally] : tallies) judge_normals(shot, kind, tally, findings);
 }
 
 }  // namespace throng::formats

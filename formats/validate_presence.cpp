@@ -1,4 +1,4 @@
-// Who is in a picture, by the pictures before and after.
+// Presence in a picture, by the pictures before and after.
 #include <fmt/format.h>
 
 #include <algorithm>

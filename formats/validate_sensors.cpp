@@ -55,7 +55,7 @@ SensorSample sample_of_row(const Row& row) {
           row[kPressure],     row[kHeight],       at(row, kGpsPosition),   at(row, kGpsVelocity)};
 }
 
-/// What of a row does not follow from the one before; "" if nothing.
+/// Names a value of a row that does not follow from the one before; "" if all do.
 std::string break_between(const Row& a, const Row& b) {
   const double dt_s = b[kTime] - a[kTime];
   if (!(dt_s > 0)) return fmt::format("time_s {} after {}", b[kTime], a[kTime]);
@@ -113,7 +113,7 @@ bool are_equal(const Vector3d& a, const Vector3d& b, double slack) {
   return (a - b).cwiseAbs().maxCoeff() <= slack + 1e-7 * b.cwiseAbs().maxCoeff();
 }
 
-/// What of a picture's readings is not in the row; "" if nothing.
+/// Names a reading of a picture that is not in the row; "" if all are.
 std::string other_reading(const json& measured, const Row& row) {
   struct Reading {
     const char* name;
@@ -141,7 +141,7 @@ std::string other_reading(const json& measured, const Row& row) {
   return "";
 }
 
-/// What of a picture's truth is not between two rows; "" if nothing.
+/// Names a true value of a picture that is not between two rows; "" if all are.
 std::string other_truth(const json& truth, const Row& a, const Row& b) {
   const double dt_s = b[kTime] - a[kTime];
   const double time_s = truth.at("time_s").get<double>();

@@ -32,7 +32,7 @@ double angle_between(double a_rad, double b_rad) {
   return std::abs(std::remainder(a_rad - b_rad, 2 * EIGEN_PI));
 }
 
-/// Where a body faces whose left side is so far from its right one.
+/// Facing direction of a body, from its left side to its right one.
 double facing_of(const Eigen::Vector3d& right_to_left) {
   return std::atan2(-right_to_left.x(), right_to_left.y());
 }

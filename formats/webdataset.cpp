@@ -24,7 +24,7 @@ namespace {
 constexpr double kBytesPerMb = 1e6;
 constexpr std::int64_t kTarBlock = 512;
 
-/// What a member takes in a tar file: a header and whole blocks.
+/// Size of a member in a tar file: a header and whole blocks.
 std::int64_t bytes_in_tar(std::string_view member) {
   const auto size = static_cast<std::int64_t>(member.size());
   return kTarBlock + (size + kTarBlock - 1) / kTarBlock * kTarBlock;

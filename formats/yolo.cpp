@@ -23,7 +23,7 @@ enum class Task : std::uint8_t { detect, segment, pose };
 constexpr std::array<int, skinning::kKeypointCount> kMirrored = {0,  2, 1,  4,  3,  6,  5,  8, 7,
                                                                  10, 9, 12, 11, 14, 13, 16, 15};
 
-/// Where in a pixel a polygon's point is written: whether loaders cut off or round, they come to
+/// Offset of a polygon's point within its pixel: whether loaders cut off or round, they come to
 /// this pixel, whose middle is a whole number for OpenCV.
 constexpr double kInPixel = 0.25;
 

@@ -26,7 +26,7 @@ std::optional<Area> tidied(const Area& area);
 /// its holes do not (simple_loops()), the largest part first, those of less than 0.01 m² left out.
 std::vector<Area> repaired(const Area& area);
 
-/// What of an area lies in a rectangle, and outside of others.
+/// The parts of an area in a rectangle, and outside of others.
 std::vector<Area> clipped(const Area& area, const world::Rectangle& to);
 std::vector<Area> without(const Area& area, const std::vector<Area>& others);
 
@@ -45,7 +45,7 @@ Bounds bounds_of(const Corners& corners);
 bool meet(const Bounds& a, const Bounds& b);
 
 /// Simple polygons that cover the area: where there are holes it is cut through them. Pieces
-/// smaller than `least_m2` are left out.
+/// smaller than `min_area_m2` are left out.
 std::vector<Corners> simple_parts(const Area& area, double min_area_m2 = 0.01);
 
 /// The smallest convex polygon around points; empty where they lie on a line.

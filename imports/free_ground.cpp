@@ -25,7 +25,7 @@ std::size_t cell_at(double meters, std::size_t count) {
   return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(count)));
 }
 
-// Where along x the points lie that an edge can be near enough to, seen from a row at y.
+// Range of x that an edge can be near enough to, in a row at y.
 std::pair<double, double> reach_in_band(const Vector2d& a, const Vector2d& b, double y) {
   const double rise = b.y() - a.y();
   double from = 0;

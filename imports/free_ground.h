@@ -1,4 +1,4 @@
-// Where somebody can stand: a grid over the place, and which parts of it are connected.
+// Ground to stand on: a grid over the place, and which parts of it are connected.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// What Gazebo's own materials look like, for worlds that name them instead of a color.
+// Colors of Gazebo's own materials, for worlds that name them instead of a color.
 #pragma once
 
 #include <Eigen/Core>

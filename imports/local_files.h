@@ -12,8 +12,9 @@ class LocalFiles {
  public:
   explicit LocalFiles(const std::vector<std::filesystem::path>& folders);
 
-  /// What a URI names (model://a/b, file://a, a/b), first beside `from`, a file, then in each
-  /// folder; nothing where it is not there, not below one of the folders or on another machine.
+  /// The file that a URI names (model://a/b, file://a, a/b), first beside `from`, a file, then in
+  /// each folder; nothing where it is not there, not below one of the folders or on another
+  /// machine.
   std::optional<std::filesystem::path> find(const std::string& uri,
                                             const std::filesystem::path& from) const;
 

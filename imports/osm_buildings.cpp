@@ -28,7 +28,7 @@ BuildingPiece piece_of(const OsmArea& area, const Tags& tags) {
   return piece;
 }
 
-// What a part does not say, its building does.
+// Tags that a part lacks are those of its building.
 Tags inherited(const Tags& part, const Tags& building) {
   Tags tags = part;
   constexpr const char* kHeight = "height";

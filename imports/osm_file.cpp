@@ -236,7 +236,7 @@ class ExtractReader {
     return joined_rings(std::move(parts));
   }
 
-  // What libosmium cannot assemble: taken apart where it crosses itself.
+  // Takes areas that libosmium cannot assemble apart at their crossings.
   void repair(const std::vector<const osmium::Way*>& outer,
               const std::vector<const osmium::Way*>& inner, const std::string& name,
               const Tags& tags) {

@@ -1,4 +1,4 @@
-// What is in an OpenStreetMap extract, in meters.
+// Content of an OpenStreetMap extract, in meters.
 #pragma once
 
 #include <Eigen/Core>
@@ -54,9 +54,9 @@ struct OsmFile {
 /// Reads OSM XML by libosmium, all that has tags. x is east and y north of the origin (default: the
 /// middle of the bounds), by the ellipsoid's radii of curvature there: over 3 km off by less than a
 /// meter. Rings that cross themselves are repaired(); those
-/// that do not close, and what is not whole in the file, are in `skipped`. What JOSM marks as
-/// deleted is not there; a multipolygon without tags has those of its outer ways. Throws InputError
-/// for what is no such file, spans more than 5 km, or has more than 2 million nodes, and
+/// that do not close, and what is not whole in the file, are in `skipped`. Objects that JOSM marks
+/// as deleted is not there; a multipolygon without tags has those of its outer ways. Throws
+/// InputError for what is no such file, spans more than 5 km, or has more than 2 million nodes, and
 /// EnvironmentError.
 OsmFile read_osm_file(const std::filesystem::path& file, const std::optional<GeoPoint>& origin);
 

@@ -29,7 +29,7 @@ struct Side {
   std::vector<Stretch> stretches;
 };
 
-// Where a segment meets a side or comes near enough to it; along the side.
+// Position along a side of a segment that meets it or comes near enough.
 std::optional<double> meets(const Side& side, const Vector2d& a, const Vector2d& b) {
   const Vector2d in(-side.along.y(), side.along.x());
   const double depth_a = (a - side.from).dot(in);

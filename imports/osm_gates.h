@@ -1,4 +1,4 @@
-// Where ways leave an extract.
+// Gates at the places where ways leave an extract.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ struct UsedWay {
 /// as the way (2 to 12 m); those that overlap are one.
 std::vector<Gate> gates_at_edge(const std::vector<UsedWay>& ways, const world::Rectangle& inside);
 
-/// What of a segment lies in a rectangle, if it is longer than a decimeter (Liang and Barsky, ACM
+/// The part of a segment in a rectangle, if it is longer than a decimeter (Liang and Barsky, ACM
 /// Transactions on Graphics 3, 1984).
 std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> part_within(
     const Eigen::Vector2d& from, const Eigen::Vector2d& to, const world::Rectangle& area);

@@ -98,7 +98,7 @@ void MapReader::add_hanging(const BuildingPiece& piece) {
   if (!solid.triangles.empty()) thing(piece.name).solids.push_back(std::move(solid));
 }
 
-// What stands there already is cut out, so that no two buildings overlap.
+// Buildings that are there already are cut out, so that no two buildings overlap.
 void MapReader::add_standing(const BuildingPiece& piece) {
   for (const Area& part : clipped(piece.area, ground_)) {
     std::vector<Area> others;

@@ -18,7 +18,7 @@ struct OsmOptions {
 /// Reads an extract: buildings with their heights (multipolygons too; parts that begin above 2 m
 /// are drawn, and people pass below), ways by their widths, crossings, areas of green and of
 /// paving, water, barriers with the gates in them, trees, lamps, benches, bins and bollards. Ways
-/// that leave the bounds are ways in and out, shared by their widths, a footway counting in full
+/// that leave the bounds have gates there, shared by their widths, a footway counting in full
 /// and a road as three tenths. The rest is listed in Place::skipped. Throws as read_osm_file().
 Place read_osm(const std::filesystem::path& file, const OsmOptions& options);
 

@@ -1,4 +1,4 @@
-// What OpenStreetMap's tags mean for a place: sizes and surfaces, where mappers gave none.
+// Meaning of OpenStreetMap's tags for a place: sizes and surfaces, where mappers gave none.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ std::optional<WayKind> way_kind(const Tags& tags);
 /// How high a building is (m), with its roof: `height`, else `building:levels` of 3 m and on them
 /// `roof:height` or `roof:levels`, else by its kind.
 double building_height_m(const Tags& tags);
-/// Where it begins: `min_height`, else `building:min_level`, else the ground.
+/// Height of its lower end: `min_height`, else `building:min_level`, else the ground.
 double building_base_m(const Tags& tags);
 
 bool is_water(const Tags& tags);

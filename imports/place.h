@@ -35,7 +35,7 @@ struct Thing {
   std::vector<Solid> solids;
 };
 
-/// A way in and out: a segment on the ground.
+/// An exit and entrance: a segment on the ground.
 struct Gate {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();

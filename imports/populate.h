@@ -1,4 +1,4 @@
-// Gives a place people: ways in and out that can be reached, and room to stand.
+// Gives a place people: gates that can be reached, and room to stand.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ struct PopulateOptions {
   std::uint64_t seed = 1;
 };
 
-/// What a place lacks to be a scenario.
+/// The parts that a place lacks to be a scenario.
 struct Population {
   std::vector<Gate> gates;              ///< each can be reached from every start
   std::vector<Eigen::Vector2d> starts;  ///< m
@@ -29,7 +29,7 @@ Population populate(Place& place, const PopulateOptions& options);
 /// How much ground populate() would find from where people can leave: 0 where it would throw (m²).
 double open_ground_m2(const Place& place);
 
-/// The way out through a gate: a unit vector away from the middle of the place.
+/// The direction out of a gate: a unit vector away from the middle of the place.
 Eigen::Vector2d outward_of(const Gate& gate, const world::Rectangle& inside);
 
 }  // namespace throng::imports

@@ -16,7 +16,7 @@ class SdfText {
   /// Throws InputError (`name`, line) for what is no XML, or where the root is not <sdf>.
   SdfText(const std::string& name, const std::string& text);
 
-  /// What is left, for libsdformat.
+  /// The remaining text, for libsdformat.
   const std::string& text() const { return text_; }
   /// The line of the file that a line of text() comes from.
   int line_of(int line) const;

@@ -67,7 +67,7 @@ class SdfReader {
  private:
   static std::vector<fs::path> folders_of(const fs::path& file, const SdfOptions& options) {
     std::vector<fs::path> folders = options.models;
-    // Where repositories of worlds have their models.
+    // The folders of models in repositories of worlds.
     folders.push_back(file.parent_path() / "models");
     folders.push_back(file.parent_path() / ".." / "models");
     folders.insert(folders.begin(), file.parent_path());
@@ -185,7 +185,7 @@ void SdfReader::reach(const Corners& corners) {
   }
 }
 
-// What is there already is cut out, so that no two buildings overlap.
+// Buildings that are there already are cut out, so that no two buildings overlap.
 void SdfReader::add_building(const Body& body) {
   std::vector<Area> others;
   const Bounds bounds = bounds_of(*body.footprint);
@@ -325,7 +325,7 @@ void SdfReader::finish() {
   const Vector2d size = high_ - low_;
   if (!(size.maxCoeff() <= kMaxSizeM)) {
     throw InputError({file_.string(), "", fmt::format("{:.0f} m x {:.0f} m", size.x(), size.y()),
-                      "at most 3 km, in metres"});
+                      "at most 3 km, in meters"});
   }
   bool crowded = size.minCoeff() < kMinGroundM;
   place_.inside = reached;

@@ -21,7 +21,7 @@ void add_quad(Triangles& triangles, const Vector3d& a, const Vector3d& b, const 
   triangles.push_back({a, c, d});
 }
 
-// What of a polygon is on one side of a height.
+// The part of a polygon on one side of a height.
 std::vector<Vector3d> cut(const std::vector<Vector3d>& polygon, double z, double side) {
   std::vector<Vector3d> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -61,7 +61,11 @@ class Raster {
     for (int row = row_of(low.y()); row <= row_of(high.y()); ++row) {
       for (int column = column_of(low.x()); column <= column_of(high.x()); ++column) {
         const Vector2d middle = low_ + cell_ * Vector2d(column + 0.5, row + 0.5);
-        if (world::distance_to(flat, middle) < 0.5 * cell_) marked_[at(column, row)] = true;
+        // Upright faces on the line between two cells, as at both ends of the raster, count.
+        constexpr double kRoundingM = 1e-6;
+        if (world::distance_to(flat, middle) <= 0.5 * cell_ + kRoundingM) {
+          marked_[at(column, row)] = true;
+        }
       }
     }
   }

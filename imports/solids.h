@@ -24,7 +24,7 @@ Triangles prism_triangles(const Corners& footprint, double from_z, double to_z);
 
 void move(Triangles& triangles, const Eigen::Isometry3d& pose);
 
-/// What reaches between these heights meets people who walk.
+/// Bodies between these heights are obstacles for people who walk.
 inline constexpr double kStepM = 0.2;
 inline constexpr double kHeadM = 2;
 

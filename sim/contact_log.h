@@ -12,7 +12,7 @@
 
 namespace throng::sim {
 
-/// What a vehicle hits.
+/// Objects that a vehicle can hit.
 using Obstacle = world::Partner;
 
 /// A vehicle hit something. One per approach: staying in touch, or touching the same object again

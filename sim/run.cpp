@@ -147,6 +147,16 @@ std::vector<world::AgentRole> roles_of(const world::Scenario& scenario, const Ru
   return roles;
 }
 
+std::vector<Problem> warnings_of(const CrowdSource& crowd, const std::vector<PlannedDrone>& drones,
+                                 const HoldWarnings& hold, const PropWatch& props) {
+  std::vector<Problem> warnings = crowd.warnings();
+  for (auto& warning : idle_goals(drones)) warnings.push_back(std::move(warning));
+  for (auto& warning : possible_meetings(drones)) warnings.push_back(std::move(warning));
+  warnings.insert(warnings.end(), hold.warnings().begin(), hold.warnings().end());
+  warnings.insert(warnings.end(), props.problems().begin(), props.problems().end());
+  return warnings;
+}
+
 }  // namespace
 
 std::string model_for(const world::Scenario& scenario, const CrowdSpec& spec) {
@@ -227,12 +237,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
     if (progress) progress(std::min(time_s, spec.duration_s), spec.duration_s);
   }
   flight.finish();
-  std::vector<Problem> warnings = crowd.warnings();
-  for (auto& warning : idle_goals(drones)) warnings.push_back(std::move(warning));
-  for (auto& warning : possible_meetings(drones)) warnings.push_back(std::move(warning));
-  warnings.insert(warnings.end(), hold.warnings().begin(), hold.warnings().end());
-  warnings.insert(warnings.end(), props.problems().begin(), props.problems().end());
-  return warnings;
+  return warnings_of(crowd, drones, hold, props);
 }
 
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,

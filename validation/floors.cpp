@@ -1,11 +1,9 @@
 #include "validation/floors.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "validation/criteria.h"
 #include "validation/flow.h"
 #include "validation/run.h"
 
@@ -143,8 +141,7 @@ Verdict round_corner(const Tested& tested, double max_s) {
       if (now.present()[i] != 0 && !within(p, -11, 0, 2, 2) && !within(p, 0, 0, 2, 13)) ++outside;
     }
   });
-  const std::string time = end ? fmt::format("{:.1f} s", *end) : "jams";
-  return {outside == 0 && end && *end < max_s, fmt::format("{}, {} outside", time, outside)};
+  return criteria::corner_walk(end, outside, max_s);
 }
 
 Verdict assigned_exits(const Tested& tested, Effort) {
@@ -178,34 +175,21 @@ Verdict assigned_exits(const Tested& tested, Effort) {
   scene.behavior.leave_at_goal("Main,Other");
   crowd::Simulation crowd = load(scene, tested, kFloorSeed);
   const std::vector<int> used = exits_used(crowd, {Vector2d(-2, 1), Vector2d(32, 1)}, 600);
-  const int told_main = static_cast<int>(main.places.size());
-  const int told_other = static_cast<int>(other.places.size());
-  return {used[0] == told_main && used[1] == told_other,
-          fmt::format("{} of {}, {} of {}", used[0], told_main, used[1], told_other)};
+  return criteria::exit_assignment({used[0], used[1]}, {static_cast<int>(main.places.size()),
+                                                        static_cast<int>(other.places.size())});
 }
 
 Verdict single_file(const Tested& tested, Effort effort) {
   const std::vector<std::size_t> numbers =
       effort == Effort::full ? std::vector<std::size_t>{10, 14, 18, 22, 26, 30, 35, 40}
                              : std::vector<std::size_t>{14, 22, 30};
-  constexpr double kFree = 1.34;
-  std::size_t near = 0;
-  bool ordered = true;
-  std::string values;
+  std::vector<criteria::FileSpeeds> files;
   for (const std::size_t people : numbers) {
-    const double speed = file_speed(tested, people, Sampled::constant(1.34));
-    const double slower = file_speed(tested, people, Sampled::constant(0.8));
-    const double faster = file_speed(tested, people, Sampled::constant(1.6));
-    constexpr double kSame = 0.02;  // m/s
-    ordered = ordered && slower < speed + kSame && speed < faster + kSame;
-    const double headway = 26 / static_cast<double>(people);
-    const double observed = std::clamp((headway - 0.36) / 1.06, 0.0, kFree);
-    if (std::abs(speed - observed) <= 0.25) ++near;
-    values += fmt::format("{}{:.2f}", values.empty() ? "" : " ", speed);
+    files.push_back({people, file_speed(tested, people, Sampled::constant(1.34)),
+                     file_speed(tested, people, Sampled::constant(0.8)),
+                     file_speed(tested, people, Sampled::constant(1.6))});
   }
-  return {4 * near >= 3 * numbers.size() && ordered,
-          fmt::format("{} m/s, {} of {} near{}", values, near, numbers.size(),
-                      ordered ? "" : ", not ordered by free speed")};
+  return criteria::single_file_speeds(files);
 }
 
 }  // namespace throng::validation

@@ -32,11 +32,11 @@ Corridor walk_corridor(const Tested& tested, double speed_mps);
 /// speed.
 std::vector<double> walk_alone(const Tested& tested, const Sampled& speed, std::size_t people);
 
-/// How many left next to each of these places within `most_s`.
+/// How many left next to each of these places within `max_s`.
 std::vector<int> exits_used(crowd::Simulation& crowd, const std::vector<Eigen::Vector2d>& exits,
                             double max_s);
 
-/// RiMEA 6 and NIST 2.3: 20 people round a corner, within `most_s`.
+/// RiMEA 6 and NIST 2.3: 20 people round a corner, within `max_s`.
 Verdict round_corner(const Tested& tested, double max_s);
 /// RiMEA 10 and NIST 3.1.
 Verdict assigned_exits(const Tested& tested, Effort effort);

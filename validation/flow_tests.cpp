@@ -1,9 +1,5 @@
 // Our own tests of flows: those that decide whether evacuation times can be believed.
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <cmath>
-
+#include "validation/criteria.h"
 #include "validation/flow.h"
 #include "validation/suite.h"
 
@@ -15,20 +11,17 @@ Verdict weidmann_diagram(const Tested& tested, Effort effort) {
   const std::vector<double> densities = effort == Effort::full
                                             ? std::vector<double>{0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4}
                                             : std::vector<double>{0.5, 2, 4};
-  double worst = 0;
-  for (const double density : densities) {
-    const double off = walk_in_ring(tested, density, 1).speed_mps - weidmann_speed_mps(density);
-    if (std::abs(off) > std::abs(worst)) worst = off;
-  }
-  return {std::abs(worst) <= 0.2, fmt::format("{:+.2f} m/s at most", worst)};
+  std::vector<DensitySpeed> measured;
+  measured.reserve(densities.size());
+  for (const double density : densities) measured.push_back(walk_in_ring(tested, density, 1));
+  return criteria::weidmann_diagram(measured);
 }
 
 Verdict doors(const Tested& tested, double wall_m, Effort effort) {
   const std::vector<double> widths = effort == Effort::full
                                          ? std::vector<double>{0.8, 1.0, 1.2, 1.6, 2.0}
                                          : std::vector<double>{0.8, 2.0};
-  std::string values;
-  bool inside = true;
+  std::vector<double> medians;
   for (const double width : widths) {
     const std::uint64_t seeds = effort == Effort::full ? 7 : 3;
     std::vector<double> flows;
@@ -36,11 +29,9 @@ Verdict doors(const Tested& tested, double wall_m, Effort effort) {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       flows.push_back(specific_flow(tested, {width, wall_m, 150}, seed));
     }
-    const double flow = median(flows);
-    inside = inside && flow >= 1.2 && flow <= 2.3;
-    values += fmt::format("{}{:.2f}", values.empty() ? "" : " ", flow);
+    medians.push_back(median(flows));
   }
-  return {inside, values + " /(m s)"};
+  return criteria::specific_flows(medians);
 }
 
 }  // namespace

@@ -2,10 +2,7 @@
 // bottlenecks in series and those about stairs, which a crowd in a plane does not have.
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
+#include "validation/criteria.h"
 #include "validation/floors.h"
 #include "validation/flow.h"
 #include "validation/run.h"
@@ -21,24 +18,19 @@ constexpr std::uint64_t kSeed = 1;
 
 Verdict one_in_corridor(const Tested& tested, Effort) {
   const Corridor walk = walk_corridor(tested, 1.33);
-  return {walk.time_s >= 26 && walk.time_s <= 34 && walk.inside,
-          fmt::format("{:.1f} s{}", walk.time_s, walk.inside ? "" : ", left the corridor")};
+  return criteria::corridor_time(walk.time_s, walk.inside);
 }
 
 Verdict speed_over_density(const Tested& tested, Effort effort) {
   const std::vector<double> densities = effort == Effort::full
                                             ? std::vector<double>{0.5, 1, 2, 3, 4, 5, 6}
                                             : std::vector<double>{1, 3};
-  std::string values;
-  bool falls = true;
-  double last = 10;
+  std::vector<double> speeds;
+  speeds.reserve(densities.size());
   for (const double density : densities) {
-    const double speed = walk_in_ring(tested, density, kSeed).speed_mps;
-    values += fmt::format("{}{:.2f}", values.empty() ? "" : " ", speed);
-    falls = falls && speed < last;
-    last = speed;
+    speeds.push_back(walk_in_ring(tested, density, kSeed).speed_mps);
   }
-  return {falls, values + " m/s"};
+  return criteria::falling_speeds(speeds);
 }
 
 Verdict pre_movement(const Tested& tested, Effort) {
@@ -59,7 +51,7 @@ Verdict pre_movement(const Tested& tested, Effort) {
   scene.behavior.walk_to(0).leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kSeed);
   const std::vector<Eigen::Vector2f> begin(crowd.positions().begin(), crowd.positions().end());
-  std::array<double, kPeople> started{};
+  std::vector<double> started(kPeople, 0);
   const auto end = until_all_left(crowd, 300, [&](const crowd::Simulation& now) {
     constexpr float kStep = 0.01F;  // m
     for (std::size_t i = 0; i < started.size(); ++i) {
@@ -69,34 +61,16 @@ Verdict pre_movement(const Tested& tested, Effort) {
       }
     }
   });
-  double worst = 0;
-  for (int i = 0; i < kPeople; ++i) {
-    worst = std::max(worst, std::abs(started[static_cast<std::size_t>(i)] - 10.0 * (i + 1)));
-  }
-  return {end && worst <= 0.5, fmt::format("{:.1f} s off{}", worst, end ? "" : ", not all out")};
+  return criteria::start_times(started, end.has_value());
 }
 
 Verdict speeds_of_groups(const Tested& tested, Effort) {
-  struct AgeGroup {
-    double low;
-    double high;
-  };
-  constexpr std::array<AgeGroup, 4> kAges = {
-      {{0.58, 1.61}, {1.41, 1.54}, {0.68, 1.41}, {0.46, 0.76}}};
-  std::string values;
-  bool inside = true;
-  std::array<double, kAges.size()> means{};
-  for (std::size_t age = 0; age < kAges.size(); ++age) {
-    const Sampled speed = Sampled::uniform(kAges[age].low, kAges[age].high);
-    const std::vector<double> speeds = walk_alone(tested, speed, 50);
-    const auto [min_value, greatest] = std::minmax_element(speeds.begin(), speeds.end());
-    constexpr double kTolerance = 0.03;  // m/s
-    inside = inside && *min_value >= kAges[age].low - kTolerance &&
-             *greatest <= kAges[age].high + kTolerance;
-    for (const double each : speeds) means[age] += each / static_cast<double>(speeds.size());
-    values += fmt::format("{}{:.2f}-{:.2f}", age == 0 ? "" : ", ", *min_value, *greatest);
+  std::vector<criteria::AgeSpeeds> groups = {
+      {0.58, 1.61, {}}, {1.41, 1.54, {}}, {0.68, 1.41, {}}, {0.46, 0.76, {}}};
+  for (criteria::AgeSpeeds& group : groups) {
+    group.measured_mps = walk_alone(tested, Sampled::uniform(group.min_mps, group.max_mps), 50);
   }
-  return {inside && means[1] > means[2] && means[2] > means[3], values + " m/s"};
+  return criteria::age_speeds(groups);
 }
 
 /// 30 m x 20 m, exits of 1 m in the walls at both ends, at 1/4 and 3/4 of their length.
@@ -125,10 +99,7 @@ Verdict half_the_exits(const Tested& tested, Effort effort) {
   const std::size_t people = effort == Effort::full ? 1000 : 200;
   const auto four = empty_hall(tested, people, true);
   const auto two = empty_hall(tested, people, false);
-  if (!four || !two) return {false, "jams"};
-  const double ratio = *two / *four;
-  return {ratio >= 1.6 && ratio <= 2.4,
-          fmt::format("{:.2f} ({:.0f} s, {:.0f} s)", ratio, *four, *two)};
+  return criteria::exit_ratio(four, two);
 }
 
 Verdict exit_choice(const Tested& tested, Effort effort) {
@@ -145,15 +116,12 @@ Verdict exit_choice(const Tested& tested, Effort effort) {
   scene.behavior.leave_at_goal();
   crowd::Simulation crowd = load(scene, tested, kSeed);
   const std::vector<int> used = exits_used(crowd, {Vector2d(5, -1), Vector2d(20, -1)}, 1800);
-  const double share = 100.0 * used[0] / std::max(1, used[0] + used[1]);
-  return {used[0] + used[1] == static_cast<int>(crowd.agent_count()) && share > 50 && used[1] > 0,
-          fmt::format("{:.0f} % the nearer, {} of {} out", share, used[0] + used[1],
-                      crowd.agent_count())};
+  return criteria::exit_shares({used[0], used[1]}, static_cast<int>(crowd.agent_count()));
 }
 
-/// How long people need from a start area of 4 m x 50 m along a way of 4 m width: straight on for
+/// How long people need from a start area of 4 m x 50 m along a path of 4 m width: straight on for
 /// so long, or round a corner.
-std::optional<double> long_way(const Tested& tested, std::size_t people, double straight_m) {
+std::optional<double> walk_path(const Tested& tested, std::size_t people, double straight_m) {
   constexpr double kWidth = 4;
   Scene scene;
   Group group;
@@ -176,12 +144,10 @@ std::optional<double> long_way(const Tested& tested, std::size_t people, double 
 
 Verdict large_corner(const Tested& tested, Effort effort) {
   const std::size_t people = effort == Effort::full ? 500 : 100;
-  const auto shorter = long_way(tested, people, 20);
-  const auto corner = long_way(tested, people, 0);
-  const auto longer = long_way(tested, people, 28);
-  if (!shorter || !corner || !longer) return {false, "jams"};
-  return {*shorter <= *corner && *corner <= *longer,
-          fmt::format("{:.0f}, {:.0f}, {:.0f} s", *shorter, *corner, *longer)};
+  const auto shorter = walk_path(tested, people, 20);
+  const auto corner = walk_path(tested, people, 0);
+  const auto longer = walk_path(tested, people, 28);
+  return criteria::corner_times(shorter, corner, longer);
 }
 
 }  // namespace
@@ -205,10 +171,11 @@ std::vector<Test> rimea_tests() {
        speeds_of_groups},
       {"rimea_9", "RiMEA 9", "hall of 30 m x 20 m, 1000 people, four exits of 1 m, then two",
        "time with two / time with four in 1.6 to 2.4", half_the_exits},
-      {"rimea_10", "RiMEA 10", "23 people in 12 rooms along a corridor, each told one of two exits",
-       "all take the exit they were told", assigned_exits},
+      {"rimea_10", "RiMEA 10",
+       "23 people in 12 rooms along a corridor, each assigned to one of two exits",
+       "all take their exit", assigned_exits},
       {"rimea_11", "RiMEA 11",
-       "hall of 30 m x 20 m, 600 people in its left part, two exits in one wall, behaviour "
+       "hall of 30 m x 20 m, 600 people in its left part, two exits in one wall, behavior "
        "`exit_choice`",
        "reported; expected: all out, most by the nearer exit, some by the other", exit_choice,
        false},

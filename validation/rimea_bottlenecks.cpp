@@ -1,10 +1,9 @@
 // RiMEA 12: two bottlenecks in series, and what the length and width of one do.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "validation/criteria.h"
 #include "validation/flow.h"
 #include "validation/run.h"
 #include "validation/suite.h"
@@ -27,7 +26,7 @@ struct Outcome {
   std::optional<double> end_s;
   double first_flow = 0;  ///< people per second through the first way out, 10th to 80th percentile
   double last_flow = 0;   ///< through the last one
-  std::size_t first_queue = 0;  ///< most people slower than 0.3 m/s in the first room, after 10 s
+  std::size_t first_queue = 0;  ///< max slower than 0.3 m/s in the first room, after 10 s
   std::size_t last_queue = 0;   ///< in the second room
 };
 
@@ -38,13 +37,6 @@ void add_room_walls(double right_x, const Series& series, Scene& scene) {
   scene.walls.push_back(box(right_x, half, end, 6));
   scene.walls.push_back(box(right_x - 10, -6, right_x, -5));
   scene.walls.push_back(box(right_x - 10, 5, right_x, 6));
-}
-
-double flow(const std::vector<double>& times_s, std::size_t people) {
-  const std::size_t first = people / 10;
-  const std::size_t last = people * 8 / 10;
-  if (times_s.size() < last) return 0;
-  return static_cast<double>(last - first) / (times_s[last - 1] - times_s[first - 1]);
 }
 
 Outcome walk(const Tested& tested, const Series& series, std::uint64_t seed) {
@@ -85,17 +77,13 @@ Outcome walk(const Tested& tested, const Series& series, std::uint64_t seed) {
     outcome.first_queue = std::max(outcome.first_queue, first_queue);
     outcome.last_queue = std::max(outcome.last_queue, last_queue);
   });
-  outcome.first_flow = flow(first_s, series.people);
-  outcome.last_flow = flow(last_s, series.people);
+  outcome.first_flow = central_rate(first_s, series.people);
+  outcome.last_flow = central_rate(last_s, series.people);
   return outcome;
 }
 
 std::size_t people_of(Effort effort) { return effort == Effort::full ? 150 : 50; }
 std::size_t runs_of(Effort effort) { return effort == Effort::full ? 7 : 3; }
-
-std::string in_s(double time_s) {
-  return std::isinf(time_s) ? "jams" : fmt::format("{:.1f} s", time_s);
-}
 
 /// Median of the times until all are out; infinite where most runs jam.
 double median_end(const Tested& tested, const Series& series, Effort effort) {
@@ -114,7 +102,7 @@ Verdict near_goal(const Tested& tested, Effort effort) {
   const double near = median_end(tested, series, effort);
   series.goal_m = 5;
   const double far = median_end(tested, series, effort);
-  return {near <= far && !std::isinf(near), in_s(near) + ", " + in_s(far)};
+  return criteria::ordered_times(near, far, false);
 }
 
 Verdict long_bottleneck(const Tested& tested, Effort) {
@@ -127,7 +115,7 @@ Verdict long_bottleneck(const Tested& tested, Effort) {
   series.length_m = 5;
   series.goal_m = 1;
   const double longer = median_end(tested, series, kAlways);
-  return {shorter < longer && !std::isinf(shorter), in_s(shorter) + ", " + in_s(longer)};
+  return criteria::ordered_times(shorter, longer, true);
 }
 
 Verdict two_bottlenecks(const Tested& tested, Effort effort) {
@@ -144,11 +132,7 @@ Verdict two_bottlenecks(const Tested& tested, Effort effort) {
     first.push_back(static_cast<double>(outcome.first_queue));
     last.push_back(static_cast<double>(outcome.last_queue));
   }
-  const double difference = median(differences);
-  if (std::isinf(difference)) return {false, "jams"};
-  return {
-      difference >= -0.05 && median(first) > median(last),
-      fmt::format("{:+.2f} /s, queues {:.0f}, {:.0f}", difference, median(first), median(last))};
+  return criteria::series_flow({median(differences), median(first), median(last)});
 }
 
 Verdict widths(const Tested& tested, Effort effort) {
@@ -161,8 +145,7 @@ Verdict widths(const Tested& tested, Effort effort) {
     }
     flows.push_back(median(of_seeds));
   }
-  return {flows[0] > 0 && flows[0] < flows[1] && flows[1] < flows[2],
-          fmt::format("{:.2f}, {:.2f}, {:.2f} /s", flows[0], flows[1], flows[2])};
+  return criteria::growing_flows(flows);
 }
 
 }  // namespace
@@ -177,8 +160,7 @@ std::vector<Test> rimea_bottleneck_tests() {
        "through the long one slower", long_bottleneck},
       {"rimea_12c", "RiMEA 12 c", "the same with a second room and door behind the first; medians",
        "flow at the first less that at the last at least -0.05 /s; the longer queue is in the "
-       "first "
-       "room",
+       "first room",
        two_bottlenecks},
       {"rimea_12d", "RiMEA 12 d", "the same room, doors of 0.8, 1.0 and 1.2 m; medians",
        "flow grows with width", widths},

@@ -58,8 +58,8 @@ MeetingRun meet(const Tested& tested, double aside_m, std::uint64_t seed);
 
 struct QueueRun {
   std::size_t passed = 0;  ///< people through the door
-  double turns = 0;        ///< of the heading by more than 90 degrees, per person and minute
-  double stops = 0;        ///< per person and minute
+  double turns = 0;  ///< of the heading by more than 90°, per person and minute; 0 without people
+  double stops = 0;  ///< per person and minute
 };
 /// 150 people before a door of 0.8 m, from 20 to 60 s.
 QueueRun stand_in_queue(const Tested& tested, std::uint64_t seed);

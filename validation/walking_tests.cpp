@@ -1,10 +1,8 @@
 // IMO's exit, and tests of our own: how people move where no standard asks.
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <string>
 #include <vector>
 
+#include "validation/criteria.h"
 #include "validation/flow.h"
 #include "validation/suite.h"
 #include "validation/walking.h"
@@ -25,13 +23,11 @@ double greatest(Effort effort, const Measure& measure) {
 }
 
 Verdict exit_flow(const Tested& tested, Effort effort) {
-  bool all_out = true;
-  const double flow = greatest(effort, [&](std::uint64_t seed) {
-    const ExitRun run = leave_room(tested, seed);
-    all_out = all_out && run.all_out;
-    return run.flow_per_s;
-  });
-  return {all_out && flow <= 1.33, fmt::format("{:.2f} /s{}", flow, all_out ? "" : ", jams")};
+  std::vector<ExitRun> runs;
+  for (std::size_t seed = 1; seed <= seeds_of(effort); ++seed) {
+    runs.push_back(leave_room(tested, seed));
+  }
+  return criteria::exit_flow(runs);
 }
 
 Verdict capacity_drop(const Tested& tested, Effort) {
@@ -41,8 +37,7 @@ Verdict capacity_drop(const Tested& tested, Effort) {
   }
   const double dense = walk_in_ring(tested, 3, 1).speed_mps * 3;
   const double packed = walk_in_ring(tested, 5.5, 1).speed_mps * 5.5;
-  return {peak > 0 && dense <= 0.7 * peak && packed < 0.5,
-          fmt::format("{:.2f}, {:.2f}, {:.2f} /(m s)", peak, dense, packed)};
+  return criteria::capacity_drop(peak, dense, packed);
 }
 
 Verdict open_square(const Tested& tested, Effort effort) {
@@ -50,55 +45,38 @@ Verdict open_square(const Tested& tested, Effort effort) {
     return greatest(effort,
                     [&](std::uint64_t seed) { return cross_square(tested, density, seed).stuck; });
   };
-  const double half = stuck(0.5);
-  const double one = stuck(1);
-  return {half <= 0.05 && one <= 0.05, fmt::format("{:.0f} %, {:.0f} %", 100 * half, 100 * one)};
+  return criteria::open_square(stuck(0.5), stuck(1));
 }
 
 Verdict against_each_other(const Tested& tested, Effort effort) {
   const CounterRun alone = pass_corridor(tested, 0, 1);
-  std::size_t left = alone.left;
-  const double against = greatest(effort, [&](std::uint64_t seed) {
-    const CounterRun run = pass_corridor(tested, 100, seed);
-    left += run.left;
-    return run.time_s;
-  });
-  return {left == 0 && against <= 2.5 * alone.time_s,
-          fmt::format("{:.0f}, {:.0f} s{}", alone.time_s, against, left == 0 ? "" : ", jams")};
+  std::vector<CounterRun> against;
+  for (std::size_t seed = 1; seed <= seeds_of(effort); ++seed) {
+    against.push_back(pass_corridor(tested, 100, seed));
+  }
+  return criteria::counter_flow(alone, against);
 }
 
 Verdict both_ways(const Tested& tested, Effort effort) {
-  const double lost = greatest(effort, [&](std::uint64_t seed) {
-    const TwoWayRun run = walk_both_ways(tested, 0.75, seed);
-    return 0.75 - std::min(run.there, run.back);
-  });
-  return {lost <= 0.25 * 0.75, fmt::format("{:.2f} /(m s)", 0.75 - lost)};
+  std::vector<TwoWayRun> runs;
+  for (std::size_t seed = 1; seed <= seeds_of(effort); ++seed) {
+    runs.push_back(walk_both_ways(tested, 0.75, seed));
+  }
+  return criteria::two_way(runs, 0.75);
 }
 
 Verdict around_corner(const Tested& tested, Effort) {
-  std::string measured;
-  bool passed = true;
+  std::vector<criteria::CornerFlow> flows;
   for (const double width_m : {2.0, 4.0}) {
-    const double straight = corridor_flow(tested, false, width_m, 1);
-    const double corner = corridor_flow(tested, true, width_m, 1);
-    passed = passed && straight > 0 && corner >= 0.85 * straight;
-    measured += fmt::format("{}{:.2f}, {:.2f}", measured.empty() ? "" : "; ", straight, corner);
+    flows.push_back(
+        {corridor_flow(tested, false, width_m, 1), corridor_flow(tested, true, width_m, 1)});
   }
-  return {passed, measured + " /(m s)"};
+  return criteria::corner_flow(flows);
 }
 
-Verdict evasion(const Tested& tested, Effort) {
-  const MeetingRun run = meet(tested, 0.3, 1);
-  return {run.passed && run.begins_s >= 2 && run.acceleration_mps2 <= 1,
-          fmt::format("{:.1f} s, {:.1f} m/s²{}", run.begins_s, run.acceleration_mps2,
-                      run.passed ? "" : ", they touch")};
-}
+Verdict evasion(const Tested& tested, Effort) { return criteria::evasion(meet(tested, 0.3, 1)); }
 
-Verdict queue(const Tested& tested, Effort) {
-  const QueueRun run = stand_in_queue(tested, 1);
-  return {run.passed > 0 && run.turns < 1,
-          fmt::format("{:.1f} turns, {:.1f} stops", run.turns, run.stops)};
-}
+Verdict queue(const Tested& tested, Effort) { return criteria::queue(stand_in_queue(tested, 1)); }
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 namespace throng::world {
 
-/// What a drone collides with or comes near to.
+/// Objects that a drone can collide with or come near to.
 enum class Partner : std::uint8_t { ground, building, drone, person };
 
 /// "ground", "building", "drone" or "person".

@@ -1,4 +1,4 @@
-// What a user may choose about exports: splits, filters and classes.
+// Options of exports: splits, filters and classes.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct SplitOptions {
 void settle_shares(bool has_train, const std::string& where, SplitOptions& splits,
                    std::vector<Problem>& problems);
 
-/// Who is worth a label. The rest become ignore regions where a format has them.
+/// People that get a label. The rest become ignore regions if a format has them.
 struct FilterOptions {
   double min_visibility = 0;
   double min_height_px = 0;

@@ -156,6 +156,9 @@ void add_lens_fields(FieldTable<CameraSpec>& table) {
   table.add("model", "Lens model", "", one_of(kModels), model_json, set_model,
             "pinhole: straight lines stay straight; brown_conrady and fisheye (Kannala and Brandt) "
             "as in OpenCV, with the coefficients of distortion.");
+}
+
+void add_distortion_fields(FieldTable<CameraSpec>& table) {
   table.group("distortion", "Distortion",
               "Coefficients of the lens model, by their names in OpenCV.");
   add_number(table, "distortion/k1", "k1", "", -100, 100,
@@ -182,6 +185,9 @@ void add_lens_fields(FieldTable<CameraSpec>& table) {
   add_number(table, "distortion/p2", "p2", "", -100, 100,
              at(&CameraSpec::distortion, &LensCoefficients::p2),
              "Second tangential term; brown_conrady only.");
+}
+
+void add_view_fields(FieldTable<CameraSpec>& table) {
   add_number(table, "pitch_deg", "Pitch", "degrees", -90, 30, at(&CameraSpec::pitch_deg),
              "Angle above the horizon; -90 looks straight down.");
   add_number(table, "yaw_deg", "Yaw", "degrees", -180, 180, at(&CameraSpec::yaw_deg),
@@ -254,6 +260,8 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
 FieldTable<CameraSpec> make_camera_fields() {
   FieldTable<CameraSpec> table;
   add_lens_fields(table);
+  add_distortion_fields(table);
+  add_view_fields(table);
   add_body_fields(table);
   return table;
 }

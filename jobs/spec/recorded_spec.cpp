@@ -61,8 +61,7 @@ void set_time_column(RecordedSpec& spec, const json& value, const FieldPlace& /*
   spec.format.columns.frame.clear();
 }
 
-FieldTable<RecordedSpec> make_recorded_fields() {
-  FieldTable<RecordedSpec> table;
+void add_file_fields(FieldTable<RecordedSpec>& table) {
   table
       .add("file", "File", "", texts(1, 1000), file_json, set_file,
            "The file of trajectories, named from the job's folder; a job's own folder keeps a "
@@ -89,6 +88,9 @@ FieldTable<RecordedSpec> make_recorded_fields() {
             "times, the rate to interpolate to.");
   table.add("unit", "Unit", "", one_of(unit_words()), unit_json, set_unit,
             "Of lengths in the file; without it, as the file says, else m.");
+}
+
+void add_column_fields(FieldTable<RecordedSpec>& table) {
   table
       .group("columns", "Columns",
              "What the columns of a table (csv) are called in its first line.")
@@ -123,6 +125,9 @@ FieldTable<RecordedSpec> make_recorded_fields() {
               &metrics::TrajectoryColumns::y),
            "Place along y; without it, y.")
       .without_default();
+}
+
+void add_walker_fields(FieldTable<RecordedSpec>& table) {
   table
       .add("radius_m", "Radius", "m", numbers(0.05, 2),
            at(&RecordedSpec::walkers, &metrics::WalkerDefaults::radius_m),
@@ -133,6 +138,13 @@ FieldTable<RecordedSpec> make_recorded_fields() {
            at(&RecordedSpec::walkers, &metrics::WalkerDefaults::desired_speed_mps),
            "Of everybody, for the metrics; without it, 1.34.")
       .without_default();
+}
+
+FieldTable<RecordedSpec> make_recorded_fields() {
+  FieldTable<RecordedSpec> table;
+  add_file_fields(table);
+  add_column_fields(table);
+  add_walker_fields(table);
   return table;
 }
 

@@ -25,7 +25,7 @@
 namespace throng::formats {
 
 /// Two runs of two cameras with three frames each, written once for all tests of a program.
-class SmallDataset : public testing::Test {
+class SmallDataset : public ::testing::Test {
  protected:
   static constexpr int kRuns = 2;
   static constexpr int kCameras = 2;
@@ -33,8 +33,8 @@ class SmallDataset : public testing::Test {
 
   void SetUp() override {
     folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        ("formats_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        std::filesystem::path(::testing::TempDir()) /
+        ("formats_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
     root_ = folder_ / "dataset";
@@ -172,7 +172,7 @@ class SmallDataset : public testing::Test {
 
   nlohmann::json coco() const { return nlohmann::json::parse(read_file(root_ / kCocoFile)); }
 
-  /// What the manifest says that the dataset has; write_manifest() writes it.
+  /// Kinds of ground truth in the manifest; write_manifest() writes them.
   std::vector<std::string> annotations_ = {"coco", "keypoints", "density", "depth", "instances"};
   std::vector<std::string> formats_;  ///< that it has below formats/
   std::filesystem::path folder_;

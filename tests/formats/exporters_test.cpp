@@ -40,12 +40,12 @@ TEST_F(Exports, YoloBoxesAreTheVisibleOnes) {
     }
   }
   EXPECT_GT(count, 60U);
-  EXPECT_THAT(read_file(out / "data.yaml"), testing::HasSubstr("  0: \"person\""));
+  EXPECT_THAT(read_file(out / "data.yaml"), ::testing::HasSubstr("  0: \"person\""));
 }
 
 TEST_F(Exports, YoloPosesAreTheKeypoints) {
   const fs::path out = exported("yolo-pose");
-  EXPECT_THAT(read_file(out / "data.yaml"), testing::HasSubstr("kpt_shape: [17, 3]"));
+  EXPECT_THAT(read_file(out / "data.yaml"), ::testing::HasSubstr("kpt_shape: [17, 3]"));
   for (const auto& [stem, people] : people_by_stem(coco())) {
     const auto lines = lines_of(out / "labels/train" / (stem + ".txt"));
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -97,7 +97,8 @@ TEST_F(Exports, MotCountsFromOneAndHasWholeBodies) {
     const auto lines = lines_of(out / sequence / "gt/gt.txt");
     ASSERT_EQ(lines.size(), expected.size());
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      EXPECT_THAT(numbers_of(lines[i]), testing::Pointwise(testing::DoubleNear(1e-4), expected[i]));
+      EXPECT_THAT(numbers_of(lines[i]),
+                  ::testing::Pointwise(::testing::DoubleNear(1e-4), expected[i]));
       ignored += expected[i][6] == 0 ? 1 : 0;
       hidden += expected[i][8] == 0 ? 1 : 0;
     }
@@ -199,10 +200,10 @@ TEST_F(Exports, VisDroneHasWholeNumbersAndClasses) {
       const bool kept = number(person.at("bbox_amodal")[3]) >= 12;
       const double hidden = visibility > 0.995 ? 0 : visibility >= 0.5 ? 1 : 2;
       const json& box = person.at("bbox");
-      EXPECT_THAT(
-          numbers_of(lines[i]),
-          testing::ElementsAre(number(box[0]), number(box[1]), number(box[2]), number(box[3]), kept,
-                               kept, person.value("truncation", 0.0) < 0.005 ? 0 : 1, hidden));
+      EXPECT_THAT(numbers_of(lines[i]),
+                  ::testing::ElementsAre(number(box[0]), number(box[1]), number(box[2]),
+                                         number(box[3]), kept, kept,
+                                         person.value("truncation", 0.0) < 0.005 ? 0 : 1, hidden));
     }
   }
   const fs::path mot = exported("visdrone-mot", options) / "train";
@@ -309,7 +310,7 @@ TEST_F(Exports, SplitsKeepRunsTogether) {
   const DatasetInfo described = info(options);
   EXPECT_EQ(described.split_of("run000"), Split::test);
   EXPECT_EQ(described.split_of("run001"), Split::train);
-  EXPECT_THAT(described.splits(), testing::ElementsAre(Split::train, Split::test));
+  EXPECT_THAT(described.splits(), ::testing::ElementsAre(Split::train, Split::test));
   options.splits.runs = {{"run009", Split::test}};
   EXPECT_THROW(info(options), InputError);
 }
@@ -318,18 +319,18 @@ TEST_F(Exports, YoloNamesOnlySplitsThatHavePictures) {
   ExportOptions options;
   for (const std::string format : {"yolo-detect", "yolo-segment", "yolo-pose"}) {
     const std::string yaml = read_file(exported(format, options) / "data.yaml");
-    EXPECT_THAT(yaml, testing::HasSubstr("train: images/train\n"));
-    EXPECT_THAT(yaml, testing::Not(testing::HasSubstr("val:")));
-    EXPECT_THAT(yaml, testing::Not(testing::HasSubstr("test:")));
+    EXPECT_THAT(yaml, ::testing::HasSubstr("train: images/train\n"));
+    EXPECT_THAT(yaml, ::testing::Not(::testing::HasSubstr("val:")));
+    EXPECT_THAT(yaml, ::testing::Not(::testing::HasSubstr("test:")));
     const auto warnings = split_warnings(info(options), {find_format(format), find_format("mot")});
     ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_THAT(warnings[0].text(), testing::HasSubstr(format + "/data.yaml"));
-    EXPECT_THAT(warnings[0].text(), testing::HasSubstr("val"));
+    EXPECT_THAT(warnings[0].text(), ::testing::HasSubstr(format + "/data.yaml"));
+    EXPECT_THAT(warnings[0].text(), ::testing::HasSubstr("val"));
   }
   options.splits.runs = {{"run000", Split::test}, {"run001", Split::val}};
   const std::string yaml = read_file(exported("yolo-detect", options) / "data.yaml");
-  EXPECT_THAT(yaml, testing::Not(testing::HasSubstr("train:")));
-  EXPECT_THAT(yaml, testing::HasSubstr("val: images/val\ntest: images/test\n"));
+  EXPECT_THAT(yaml, ::testing::Not(::testing::HasSubstr("train:")));
+  EXPECT_THAT(yaml, ::testing::HasSubstr("val: images/val\ntest: images/test\n"));
   options.splits.runs = {{"run001", Split::val}};
   EXPECT_TRUE(split_warnings(info(options), {find_format("yolo-pose")}).empty());
 }
@@ -343,19 +344,19 @@ TEST(Splits, SharesAreAtMostEverything) {
     return splits.share;
   };
   std::vector<Problem> problems;
-  EXPECT_THAT(settled({0.7, 0.2, 0.1}, true, problems), testing::ElementsAre(0.7, 0.2, 0.1));
+  EXPECT_THAT(settled({0.7, 0.2, 0.1}, true, problems), ::testing::ElementsAre(0.7, 0.2, 0.1));
   EXPECT_THAT(settled({1, 0.2, 0.1}, false, problems),
-              testing::ElementsAre(testing::DoubleEq(0.7), 0.2, 0.1))
+              ::testing::ElementsAre(::testing::DoubleEq(0.7), 0.2, 0.1))
       << "train gets what the others leave";
-  EXPECT_THAT(settled({1, 1, 0}, false, problems), testing::ElementsAre(0, 1, 0));
+  EXPECT_THAT(settled({1, 1, 0}, false, problems), ::testing::ElementsAre(0, 1, 0));
   EXPECT_TRUE(problems.empty());
   settled({1, 0.2, 0}, true, problems);
   settled({1, 0.7, 0.4}, false, problems);
   settled({0, 0, 0}, true, problems);
   ASSERT_EQ(problems.size(), 3U);
   for (const Problem& problem : problems) EXPECT_EQ(problem.where, "/outputs/splits");
-  EXPECT_THAT(problems[0].found, testing::HasSubstr("1.2"));
-  EXPECT_THAT(problems[1].found, testing::HasSubstr("1.1"));
+  EXPECT_THAT(problems[0].found, ::testing::HasSubstr("1.2"));
+  EXPECT_THAT(problems[1].found, ::testing::HasSubstr("1.1"));
 }
 
 // Records have a truncation where it is above 0.
@@ -388,9 +389,9 @@ TEST_F(Exports, UnknownFormatsAndMissingNeedsAreNamed) {
   } catch (const InputError& error) {
     ASSERT_EQ(error.problems().size(), 3U);
     EXPECT_EQ(error.problems()[0].where, "/outputs/formats/1");
-    EXPECT_THAT(error.problems()[0].expected, testing::HasSubstr("visdrone-det"));
+    EXPECT_THAT(error.problems()[0].expected, ::testing::HasSubstr("visdrone-det"));
     EXPECT_EQ(error.problems()[1].found, "mot once more");
-    EXPECT_THAT(error.problems()[2].expected, testing::HasSubstr("\"keypoints\""));
+    EXPECT_THAT(error.problems()[2].expected, ::testing::HasSubstr("\"keypoints\""));
   }
 }
 
@@ -402,8 +403,8 @@ TEST_F(Exports, ADamagedRecordIsNamedByItsLine) {
     exported("mot");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.problems()[0].where, testing::StartsWith("line "));
-    EXPECT_THAT(error.problems()[0].found, testing::HasSubstr("bbox"));
+    EXPECT_THAT(error.problems()[0].where, ::testing::StartsWith("line "));
+    EXPECT_THAT(error.problems()[0].found, ::testing::HasSubstr("bbox"));
   }
 }
 

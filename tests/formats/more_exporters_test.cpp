@@ -158,17 +158,17 @@ TEST_F(MoreExports, KittiSaysWhatTheLensIs) {
     return std::string();
   };
   fs::path out = exported("kitti");
-  EXPECT_THAT(last_line(out), testing::StartsWith("Tr_world_to_cam:"));
+  EXPECT_THAT(last_line(out), ::testing::StartsWith("Tr_world_to_cam:"));
   EXPECT_FALSE(fs::exists(out / "README.txt"));
   fs::remove_all(out);
   distort({{"model", "brown_conrady"},
            {"distortion", {{"k1", -0.2}, {"k2", 0.03}, {"p1", 0.001}, {"p2", 0}, {"k3", 0.5}}}});
   out = exported("kitti");
   const std::string line = last_line(out);
-  EXPECT_THAT(line, testing::StartsWith("D2_brown_conrady: "));
+  EXPECT_THAT(line, ::testing::StartsWith("D2_brown_conrady: "));
   EXPECT_THAT(numbers_of(line.substr(line.find(' '))),
-              testing::ElementsAre(-0.2, 0.03, 0.001, 0, 0.5, 0, 0, 0));
-  EXPECT_THAT(read_file(out / "README.txt"), testing::HasSubstr("distorted"));
+              ::testing::ElementsAre(-0.2, 0.03, 0.001, 0, 0.5, 0, 0, 0));
+  EXPECT_THAT(read_file(out / "README.txt"), ::testing::HasSubstr("distorted"));
 }
 
 TEST_F(MoreExports, VocCountsFromOneWithBothEndsInside) {
@@ -309,10 +309,10 @@ TEST_F(MoreExports, TheTableHasALineForEachAnnotation) {
   for (const std::string& line : lines) {
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), columns);
   }
-  EXPECT_THAT(lines[1], testing::HasSubstr("," + all.at("annotations")[0].at("id").dump() + ","));
+  EXPECT_THAT(lines[1], ::testing::HasSubstr("," + all.at("annotations")[0].at("id").dump() + ","));
 }
 
-// What is in them is read by rosbag itself: tests/cli/test_external_readers.py.
+// Their content is read by rosbag itself: tests/cli/test_external_readers.py.
 TEST_F(MoreExports, BagsAreTheSameEveryTime) {
   const std::string bag = read_file(exported("rosbag") / "train/run001.bag");
   EXPECT_TRUE(bag.starts_with("#ROSBAG V2.0\n"));

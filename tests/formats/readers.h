@@ -1,4 +1,4 @@
-// What tests of exports read with, and compare with: the dataset's own COCO file.
+// Readers for tests of exports, and of the dataset's own COCO file to compare with.
 #pragma once
 
 #include <algorithm>

@@ -229,7 +229,7 @@ TEST(ValidateChecks, ReadingsAreWithinTheSensorsErrors) {
 }
 
 TEST(ValidateChecks, TablesWithQuotesAndLinesThatAreCutOff) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "table.csv";
+  const auto path = std::filesystem::path(::testing::TempDir()) / "table.csv";
   write_file_atomically(path, "a,b\n\"x,\"\"y\",2.5\n");
   const CsvTable table = read_csv(path);
   ASSERT_EQ(table.rows.size(), 1U);

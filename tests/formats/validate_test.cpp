@@ -24,7 +24,7 @@ using nlohmann::json;
 
 class Validate : public SmallDataset {
  protected:
-  /// Changes the first record that begins with such a member, and lists the files anew.
+  /// Changes the first record that begins with such a member, and lists the files again.
   void change_record(const std::string& begin, const std::function<void(json&)>& change) {
     change_lines(begin, [&](std::string line) {
       const bool has_comma = line.ends_with(',');

@@ -89,7 +89,7 @@ TEST(Areas, RepairLeavesGoodOnesAndHolesAsTheyAre) {
   EXPECT_TRUE(repaired({{{0, 0}, {5, 0}, {9, 0}}, {}}).empty());
 }
 
-// Whatever the ring, its loops are simple and lie within its bounds.
+// Loops of any ring are simple and lie within its bounds.
 TEST(Areas, LoopsAreAlwaysSimple) {
   throng::Random random(7, throng::Stream::crowd_generator);
   for (int round = 0; round < 200; ++round) {

@@ -1,4 +1,4 @@
-// OpenStreetMap: buildings, ways, barriers and gates of a small map drawn by hand.
+// OpenStreetMap: buildings, streets, barriers and gates of a small map drawn by hand.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -8,11 +8,16 @@
 #include "base/files.h"
 #include "imports/osm_map.h"
 #include "imports/osm_tags.h"
+#include "tests/imports/drawn_map.h"
 #include "tests/world/temporary_folder.h"
 #include "world/polygon.h"
 
 namespace throng::imports {
 namespace {
+
+using imports_testing::DrawnMap;
+using imports_testing::height_at;
+using imports_testing::stops_people;
 
 const std::filesystem::path kMaps = std::filesystem::path(THRONG_SOURCE_DIR) / "tests/imports/data";
 
@@ -122,71 +127,6 @@ TEST(Osm, RefusesWhatIsNoExtract) {
         std::string("<osm version='0.6'><node id='1' lat='1' lon='2'/>")}) {
     EXPECT_THROW(read(text), InputError) << text;
   }
-}
-
-// A map on a grid of meters about 0, 0, where a degree has 110.574 km north and 111.320 km east.
-class DrawnMap {
- public:
-  int node(double x, double y, const std::string& more = "") {
-    text_ += fmt::format("<node id='{}' lat='{:.9f}' lon='{:.9f}' {}/>", ++last_, y / 110'574,
-                         x / 111'320, more);
-    return last_;
-  }
-  std::vector<int> ring(const std::vector<std::pair<double, double>>& corners) {
-    std::vector<int> nodes;
-    for (const auto& [x, y] : corners) nodes.push_back(node(x, y));
-    nodes.push_back(nodes.front());
-    return nodes;
-  }
-  std::vector<int> box(double x1, double y1, double x2, double y2) {
-    return ring({{x1, y1}, {x2, y1}, {x2, y2}, {x1, y2}});
-  }
-  int way(const std::vector<int>& nodes, const std::string& tags, const std::string& more = "") {
-    text_ += fmt::format("<way id='{}' {}>", ++last_, more);
-    for (const int node : nodes) text_ += fmt::format("<nd ref='{}'/>", node);
-    text_ += tags_of(tags) + "</way>";
-    return last_;
-  }
-  void relation(const std::string& members, const std::string& tags) {
-    text_ += fmt::format("<relation id='{}'>{}{}</relation>", ++last_, members, tags_of(tags));
-  }
-  Place read() const {
-    const throng::testing::TemporaryFolder folder;
-    write_file_atomically(folder.path() / "m.osm",
-                          "<osm version='0.6'><bounds minlat='-0.0005' minlon='-0.0005' "
-                          "maxlat='0.0005' maxlon='0.0005'/>" +
-                              text_ + "</osm>");
-    return read_osm(folder.path() / "m.osm", {GeoPoint{0, 0}, {}});
-  }
-
- private:
-  // "building=yes height=5"
-  static std::string tags_of(const std::string& words) {
-    std::string tags;
-    for (std::size_t at = 0; at < words.size();) {
-      const std::size_t end = std::min(words.find(' ', at), words.size());
-      const std::string word = words.substr(at, end - at);
-      const std::size_t sign = word.find('=');
-      tags += fmt::format("<tag k='{}' v='{}'/>", word.substr(0, sign), word.substr(sign + 1));
-      at = end + 1;
-    }
-    return tags;
-  }
-  std::string text_;
-  int last_ = 0;
-};
-
-double height_at(const Place& place, const Eigen::Vector2d& point) {
-  for (const world::Building& building : place.buildings) {
-    if (world::distance_to(building.footprint, point) == 0) return building.height_m;
-  }
-  return 0;
-}
-
-bool stops_people(const Place& place, const Eigen::Vector2d& point) {
-  return std::any_of(place.obstacles.begin(), place.obstacles.end(), [&](const Corners& corners) {
-    return world::distance_to(corners, point) == 0;
-  });
 }
 
 TEST(OsmBuildings, AreDrawnByTheirParts) {

@@ -13,7 +13,7 @@ namespace {
 
 class Default : public testing::TestWithParam<std::string> {};
 
-/// What it does not do well: docs/validation.md says by how much.
+/// Tests that it fails: docs/validation.md says by how much.
 const std::set<std::string> kKnownFailures = {
     "doors", "passages", "rimea_12b", "evasion", "capacity_drop", "open_square", "corner"};
 
@@ -26,7 +26,7 @@ TEST_P(Default, Passes) {
 
 std::vector<std::string> all_ids() {
   std::vector<std::string> ids;
-  for (const Test& test : all_tests()) ids.push_back(test.id);
+  for (const auto& test : all_tests()) ids.push_back(test.id);
   return ids;
 }
 
