@@ -1,14 +1,18 @@
-# One library per module. A module declares the modules and libraries it may use; an #include of any other module stops
-# the configuration. A module may lie in a folder of another ("jobs/spec"): its library is throng_jobs_spec.
+# One library per module. A module declares its public headers, and the modules and libraries it may use; an #include of
+# any other module, or of a private header of one, stops the configuration (cmake/ModuleRules.cmake). A module may lie in
+# a folder of another ("jobs/spec"): its library is throng_jobs_spec. Other folders in a module are part of it.
+include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
 
 # With sanitizers most modules are compiled without optimization, which takes half the time; these would run too slowly.
 set(THRONG_OPTIMIZED_MODULES base crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
 # The modules that the fuzz targets (tests/fuzz) cover.
 set(THRONG_FUZZED_MODULES base crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
 
-# throng_room(NAME SOURCES file... ROOMS module... LIBRARIES target... PRIVATE_LIBRARIES target...)
-function(throng_room name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+# throng_module(NAME PUBLIC header... SOURCES file... MODULES module... LIBRARIES target... PRIVATE_LIBRARIES target...)
+# PUBLIC lists the headers that other modules, their tests, benchmarks and examples may include.
+function(throng_module name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;SOURCES;MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  throng_declare_module(${name} PUBLIC ${ARG_PUBLIC} MODULES ${ARG_MODULES})
   string(REPLACE "/" "_" target "${name}")
   if(ARG_SOURCES)
     set(links PUBLIC)
@@ -19,90 +23,24 @@ function(throng_room name)
     add_library(throng_${target} INTERFACE)
   endif()
   add_library(throng::${target} ALIAS throng_${target})
-  set(room_targets "${ARG_ROOMS}")
-  list(TRANSFORM room_targets REPLACE "/" "_")
-  list(TRANSFORM room_targets PREPEND "throng::")
+  set(module_targets "${ARG_MODULES}")
+  list(TRANSFORM module_targets REPLACE "/" "_")
+  list(TRANSFORM module_targets PREPEND "throng::")
   target_include_directories(throng_${target} ${links}
     "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:include/throng>")
-  target_link_libraries(throng_${target} ${links} ${room_targets} ${ARG_LIBRARIES})
+  target_link_libraries(throng_${target} ${links} ${module_targets} ${ARG_LIBRARIES})
   if(THRONG_SANITIZE AND ARG_SOURCES AND name IN_LIST THRONG_OPTIMIZED_MODULES)
     target_compile_options(throng_${target} PRIVATE -O1)
   endif()
   if(THRONG_FUZZ AND ARG_SOURCES AND name IN_LIST THRONG_FUZZED_MODULES)
     target_compile_options(throng_${target} PRIVATE -fsanitize=fuzzer-no-link)
   endif()
-  throng_check_includes(${name} "${ARG_ROOMS}")
 endfunction()
 
 # throng_kernels(file...): files with loops for several instruction sets (base/instruction_set.h). Square roots do not
 # report errors, so that they can be vectors; the vectors stay inside functions, so their calling convention is nobody's.
 function(throng_kernels)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-Wno-psabi" SKIP_UNITY_BUILD_INCLUSION ON)
-endfunction()
-
-# The module that a path below the source folder belongs to, the innermost one: jobs/spec/plan.h is in jobs/spec. Empty
-# for a path in no module.
-function(throng_room_of path result)
-  set(${result} "" PARENT_SCOPE)
-  get_filename_component(folder "${path}" DIRECTORY)
-  while(NOT folder STREQUAL "")
-    if(folder IN_LIST THRONG_ROOMS)
-      set(${result} "${folder}" PARENT_SCOPE)
-      return()
-    endif()
-    get_filename_component(folder "${folder}" DIRECTORY)
-  endwhile()
-endfunction()
-
-# Fails when a file of the module includes a module that it did not declare.
-function(throng_check_includes name rooms)
-  file(GLOB_RECURSE files RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${name}/*.h" "${PROJECT_SOURCE_DIR}/${name}/*.cpp")
-  foreach(file IN LISTS files)
-    throng_room_of("${file}" room)
-    if(NOT room STREQUAL name)
-      continue() # of a module in a folder of this one
-    endif()
-    file(STRINGS "${PROJECT_SOURCE_DIR}/${file}" includes REGEX "^#include \"[a-z_]+/")
-    foreach(line IN LISTS includes)
-      string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" path "${line}")
-      throng_room_of("${path}" used)
-      if(NOT used STREQUAL "" AND NOT used STREQUAL name AND NOT used IN_LIST rooms)
-        message(FATAL_ERROR "${PROJECT_SOURCE_DIR}/${file} includes room '${used}', which room '${name}' does not declare in its CMakeLists.txt")
-      endif()
-    endforeach()
-  endforeach()
-endfunction()
-
-# throng_refuse_links(TARGET module...): stops the configuration when the target is linked with one of the modules, be it
-# through others.
-function(throng_refuse_links target)
-  set(open "${target}")
-  set(seen "")
-  while(open)
-    list(POP_FRONT open next)
-    string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" next "${next}")
-    if(NOT TARGET "${next}")
-      continue()
-    endif()
-    get_target_property(aliased "${next}" ALIASED_TARGET)
-    if(aliased)
-      set(next "${aliased}")
-    endif()
-    if(next IN_LIST seen)
-      continue()
-    endif()
-    list(APPEND seen "${next}")
-    foreach(module IN LISTS ARGN)
-      string(REPLACE "/" "_" refused "throng_${module}")
-      if(next STREQUAL refused)
-        message(FATAL_ERROR "${target} is linked with module '${module}', which it is to do without")
-      endif()
-    endforeach()
-    get_target_property(libraries "${next}" INTERFACE_LINK_LIBRARIES)
-    if(libraries)
-      list(APPEND open ${libraries})
-    endif()
-  endwhile()
 endfunction()
 
 # throng_embed(TARGET SYMBOL FILE): makes the file's text available as `extern const std::string_view throng::embedded::SYMBOL`.
