@@ -23,7 +23,7 @@ enum class Compat {
   huang2016  ///< also those of the elements that the paper's authors added to it
 };
 
-/// Whether people's bodies give way (crowd/bodies.h).
+/// Whether people's bodies give way (crowd/motion/bodies.h).
 struct Physical {
   bool on = false;
   float fall_impulse_ns = 20;  ///< a blow that throws somebody over

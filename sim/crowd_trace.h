@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "crowd/recorder.h"
+#include "crowd/output/recorder.h"
 #include "world/trace.h"
 
 namespace throng::sim {
