@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/renderer.h"
-#include "skinning/plan.h"
+#include "skinning/animate/plan.h"
 #include "skinning/population.h"
 #include "world/trace.h"
 

@@ -13,7 +13,7 @@
 #include "render/pixel_weights.h"
 #include "render/spec/environment.h"
 #include "render/spec/quality.h"
-#include "skinning/motion.h"
+#include "skinning/animate/motion.h"
 #include "skinning/population.h"
 #include "world/scenario.h"
 
