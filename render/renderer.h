@@ -8,9 +8,9 @@
 
 #include "base/stage_clock.h"
 #include "camera/camera.h"
-#include "render/airframe_mesh.h"
 #include "render/frame.h"
 #include "render/pixel_weights.h"
+#include "render/props/airframe_mesh.h"
 #include "render/spec/environment.h"
 #include "render/spec/quality.h"
 #include "skinning/animate/motion.h"
@@ -84,7 +84,7 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Color, id, depth and the people's ground truth, all from one draw of one instant. The camera
-  /// is a pinhole; Lens (render/lens.h) renders all cameras. `next` serves the flow only.
+  /// is a pinhole; Lens (render/lens/lens.h) renders all cameras. `next` serves the flow only.
   Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr,
              const DrawChoice& choice = {});
 
