@@ -18,7 +18,7 @@
 #include "crowd/output/positions.h"
 #include "crowd/output/scb.h"
 #include "crowd/output/series.h"
-#include "sim/crowd_trace.h"
+#include "sim/people/crowd_trace.h"
 
 namespace throng::cli {
 

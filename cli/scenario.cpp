@@ -22,7 +22,7 @@
 #include "places/check.h"
 #include "places/generate.h"
 #include "places/plan.h"
-#include "sim/planned_paths.h"
+#include "sim/planning/planned_paths.h"
 #include "world/drone_path.h"
 
 namespace throng::cli {

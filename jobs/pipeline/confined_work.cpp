@@ -15,7 +15,7 @@
 #include "jobs/pipeline/resolve.h"
 #include "jobs/pipeline/scenario_check.h"
 #include "places/plan.h"
-#include "sim/planned_paths.h"
+#include "sim/planning/planned_paths.h"
 #include "world/scenario.h"
 
 namespace throng::jobs {

@@ -12,8 +12,8 @@
 #include "render/animator.h"
 #include "render/lens/exposure.h"
 #include "render/lens/lens.h"
-#include "sim/gimbal.h"
-#include "sim/sensors.h"
+#include "sim/sensors/gimbal.h"
+#include "sim/sensors/sensors.h"
 #include "world/trace.h"
 
 namespace throng::jobs {

@@ -24,7 +24,7 @@ struct PilotSample {
   bool beacon = true;  ///< whether people can follow it
 };
 
-/// A policy's knowledge of people (sim/perception.h).
+/// A policy's knowledge of people (sim/sensors/perception.h).
 enum class PerceptionKind { truth, camera };
 struct PerceptionSpec {
   PerceptionKind kind = PerceptionKind::truth;
