@@ -9,7 +9,7 @@
 
 #include "crowd/behavior/goal_path.h"
 #include "crowd/elements/registry.h"
-#include "crowd/simulation.h"
+#include "crowd/types.h"
 
 namespace throng::crowd {
 

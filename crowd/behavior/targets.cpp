@@ -7,14 +7,14 @@ namespace throng::crowd {
 namespace {
 
 /// One of several states, by weight.
-class Lottery : public Target {
+class StateLottery : public Target {
  public:
   struct Ticket {
     std::uint8_t state = 0;
     double weight = 1;
   };
 
-  Lottery(std::vector<Ticket> tickets, const Sampler& unit)
+  StateLottery(std::vector<Ticket> tickets, const Sampler& unit)
       : tickets_(std::move(tickets)), unit_(unit) {
     for (const Ticket& ticket : tickets_) total_ += ticket.weight;
   }
@@ -54,7 +54,7 @@ class Return : public Target {
 
 std::unique_ptr<Target> make_lottery(const Element& element, const Attributes&,
                                      BehaviorContext& context) {
-  std::vector<Lottery::Ticket> tickets;
+  std::vector<StateLottery::Ticket> tickets;
   for (const Element& child : element.children()) {
     if (child.name() != "State") child.fail_unknown("<State>");
     child.require_no_children();
@@ -65,7 +65,7 @@ std::unique_ptr<Target> make_lottery(const Element& element, const Attributes&,
                        attributes.number("weight")});
   }
   if (tickets.empty()) element.fail("no states", "at least one <State>");
-  auto made = std::make_unique<Lottery>(std::move(tickets), context.make_unit_sampler());
+  auto made = std::make_unique<StateLottery>(std::move(tickets), context.make_unit_sampler());
   if (made->total() == 0) element.fail("weights of 0", "a state with a weight above 0");
   return made;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "crowd/simulation.h"
+#include "crowd/types.h"
 
 namespace throng::crowd {
 

@@ -13,7 +13,7 @@ using Eigen::Vector2f;
 namespace {
 
 constexpr float kTouchingM = 0.1F;   // between bodies
-constexpr float kAhead = 0.5F;       // cosine: within 60 degrees
+constexpr float kMinCosine = 0.5F;   // within 60 degrees
 constexpr float kMinForceN = 20;     // less is not felt
 constexpr int kRounds = 12;          // how many people a push goes through
 constexpr float kMaxPushMps = 0.5F;  // that a crowd gives in one step
@@ -22,7 +22,7 @@ constexpr float kMaxPushMps = 0.5F;  // that a crowd gives in one step
 float share_towards(const Vector2f& force, const Vector2f& towards) {
   const float size = force.norm();
   if (size < kMinForceN) return 0;
-  return std::max(0.0F, force.dot(towards) / size - kAhead);
+  return std::max(0.0F, force.dot(towards) / size - kMinCosine);
 }
 
 }  // namespace

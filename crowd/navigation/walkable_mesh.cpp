@@ -118,12 +118,12 @@ void connect(int one, int other, const Eigen::Vector2f& a, const Eigen::Vector2f
 
 /// The open ground around the grid, in eight rectangles: [column][row], the middle one being the
 /// grid itself.
-using AgentView = std::array<std::array<int, 3>, 3>;
+using CellBlock = std::array<std::array<int, 3>, 3>;
 
-AgentView add_surroundings(const Box& inner, const Box& outer, std::vector<NavPolygon>& mesh) {
+CellBlock add_surroundings(const Box& inner, const Box& outer, std::vector<NavPolygon>& mesh) {
   const std::array<float, 4> x = {outer.min.x(), inner.min.x(), inner.max.x(), outer.max.x()};
   const std::array<float, 4> y = {outer.min.y(), inner.min.y(), inner.max.y(), outer.max.y()};
-  AgentView around{};
+  CellBlock around{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       const bool is_grid = i == 1 && j == 1;
@@ -143,7 +143,7 @@ AgentView add_surroundings(const Box& inner, const Box& outer, std::vector<NavPo
 }
 
 /// The rectangle beside the grid that an edge of the grid's polygons lies on; -1 if on none.
-int beside(const AgentView& around, const WalkableGrid& grid, const unsigned short* a,
+int beside(const CellBlock& around, const WalkableGrid& grid, const unsigned short* a,
            const unsigned short* b) {
   if (a[0] == 0 && b[0] == 0) return around[0][1];
   if (a[0] == grid.columns && b[0] == grid.columns) return around[2][1];
@@ -154,7 +154,7 @@ int beside(const AgentView& around, const WalkableGrid& grid, const unsigned sho
 
 NavMesh join_polygons(const rcPolyMesh& polygons, const WalkableGrid& grid, const Box& outer) {
   std::vector<NavPolygon> mesh(static_cast<std::size_t>(polygons.npolys));
-  const AgentView around = add_surroundings(grid.box, outer, mesh);
+  const CellBlock around = add_surroundings(grid.box, outer, mesh);
   for (int i = 0; i < polygons.npolys; ++i) {
     const unsigned short* corners = polygons.polys + std::ptrdiff_t{2} * kMaxCorners * i;
     const unsigned short* neighbors = corners + kMaxCorners;

@@ -17,7 +17,7 @@ namespace throng::render {
 namespace {
 
 constexpr std::size_t kChannels = 3;
-constexpr std::size_t kGrain = 16;
+constexpr std::size_t kNoiseGrain = 16;
 constexpr double kDaylightK = 6500;
 constexpr double kBaseIso = 100;
 
@@ -128,7 +128,7 @@ void apply_sensor(const Sensor& sensor, std::uint64_t seed, Frame& frame) {
   const auto read_variance = static_cast<float>(sensor.read_noise_e * sensor.read_noise_e);
   const auto width = static_cast<std::size_t>(frame.width());
   const auto rows = static_cast<std::size_t>(frame.height());
-  parallel_ranges(rows, kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(rows, kNoiseGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<float> light(width, 1.0F);
     for (std::size_t row = begin; row < end; ++row) {
       if (sensor.vignette > 0) {

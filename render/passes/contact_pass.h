@@ -8,7 +8,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/place/daylight.h"
-#include "render/renderer.h"
+#include "render/scene.h"
 #include "render/view.h"
 #include "world/scenario.h"
 

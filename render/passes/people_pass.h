@@ -9,7 +9,7 @@
 
 #include "render/gl/gl_objects.h"
 #include "render/people/people_meshes.h"
-#include "render/renderer.h"
+#include "render/scene.h"
 #include "render/spec/quality.h"
 #include "skinning/population.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/gl/gl_objects.h"
-#include "render/renderer.h"
+#include "render/scene.h"
 #include "render/spec/environment.h"
 #include "world/disasters.h"
 

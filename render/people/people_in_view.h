@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "camera/camera.h"
+#include "render/frame.h"
 #include "render/passes/people_pass.h"
 #include "render/people/person_geometry.h"
-#include "render/renderer.h"
+#include "render/scene.h"
 #include "render/spec/quality.h"
 #include "skinning/landmarks.h"
 #include "skinning/population.h"

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "camera/camera.h"
-#include "render/renderer.h"
+#include "render/frame.h"
+#include "render/scene.h"
+#include "skinning/landmarks.h"
 #include "skinning/population.h"
 
 namespace throng::render {

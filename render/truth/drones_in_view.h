@@ -3,7 +3,7 @@
 
 #include "render/frame.h"
 #include "render/people/person_geometry.h"
-#include "render/renderer.h"
+#include "render/scene.h"
 
 namespace throng::render {
 

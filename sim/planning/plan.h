@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "sim/policies/policy.h"
-#include "sim/run.h"
 #include "sim/spec/airframe.h"
+#include "sim/spec/run_spec.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

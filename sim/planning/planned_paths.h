@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/run.h"
+#include "sim/spec/run_spec.h"
 #include "world/drone_path.h"
 
 namespace throng::sim {

@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "sim/run.h"
 #include "sim/sensors/world_view.h"
+#include "sim/spec/run_spec.h"
 #include "sim/vehicle/controller.h"
 
 namespace throng::sim {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/people/crowd_source.h"
-#include "sim/run.h"
+#include "sim/run_observer.h"
 #include "world/scenario.h"
 #include "world/trace.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/run.h"
+#include "sim/spec/run_spec.h"
 
 namespace throng::sim {
 

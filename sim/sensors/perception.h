@@ -6,8 +6,8 @@
 
 #include "sim/people/crowd_source.h"
 #include "sim/recording/crowd_recorder.h"
-#include "sim/run.h"
 #include "sim/sensors/world_view.h"
+#include "sim/spec/run_spec.h"
 #include "world/scenario.h"
 
 namespace throng::sim {

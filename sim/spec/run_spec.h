@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "crowd/simulation.h"
+#include "crowd/types.h"
 #include "sim/spec/airframe.h"
 #include "sim/spec/wind_spec.h"
 #include "world/scenario.h"

@@ -7,6 +7,7 @@
 #include "base/angle.h"
 #include "skinning/animate/gait_tables.h"
 #include "skinning/animate/posture.h"
+#include "skinning/animate/smooth_step.h"
 
 namespace throng::skinning {
 
@@ -31,11 +32,6 @@ double sample(const std::array<float, GaitTable::kSamples>& table, double phase)
   const double c = value(1);
   const double d = value(2);
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
-}
-
-double smooth(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
 }
 
 const GaitTable& table_of(const Gait& gait) { return gait.runs ? kRunTable : kWalkTable; }

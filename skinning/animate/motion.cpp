@@ -6,17 +6,13 @@
 #include <limits>
 
 #include "base/error.h"
+#include "skinning/animate/smooth_step.h"
 
 namespace throng::skinning {
 
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2
-
-double smooth(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "skinning/animate/smooth_step.h"
 #include "skinning/animate/standing.h"
 
 namespace throng::skinning {
@@ -25,11 +26,6 @@ Neighbors around(double share, std::size_t count) {
   const double at = (share - std::floor(share)) * static_cast<double>(count);
   const std::size_t before = static_cast<std::size_t>(at) % count;
   return {before, (before + 1) % count, at - std::floor(at)};
-}
-
-double smooth(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
 }
 
 // Takes out of the hips' shift what gets on, so that the clip is on the spot.

@@ -7,17 +7,13 @@
 
 #include "base/angle.h"
 #include "skinning/animate/posture.h"
+#include "skinning/animate/smooth_step.h"
 
 namespace throng::skinning {
 
 namespace {
 
 double sine(double phase) { return std::sin(2 * std::numbers::pi * phase); }
-
-double smooth(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 // Flat feet where they are at rest, and hips as high as slightly bent knees carry them.
 void put_feet(const Walker& walker, Figure& figure) {
