@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "calibrate/request.h"
+#include "drawing/drawing.h"
 #include "jobs/pipeline/catalog.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
