@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "skinning/person.h"
+#include "skinning/bake/person.h"
 
 namespace throng::annotate {
 

@@ -9,7 +9,7 @@
 namespace throng::annotate {
 
 /// Fills an RGB picture: bars are the barefoot heights of people sampled with this seed, curves
-/// the normal distributions less what age takes (skinning/person.h), ticks below the axis the
+/// the normal distributions less what age takes (skinning/bake/person.h), ticks below the axis the
 /// population's own adults as they stand in their shoes. Women and men in two colors.
 void draw_height_chart(cv::Mat picture, const skinning::Population& population, std::uint64_t seed);
 

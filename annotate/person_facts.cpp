@@ -12,7 +12,6 @@
 #include "base/error.h"
 #include "render/animator.h"
 #include "skinning/items.h"
-#include "skinning/skeleton.h"
 
 namespace throng::annotate {
 

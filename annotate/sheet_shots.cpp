@@ -10,7 +10,7 @@
 
 #include "base/angle.h"
 #include "base/random.h"
-#include "skinning/motion.h"
+#include "skinning/animate/motion.h"
 
 namespace throng::annotate {
 

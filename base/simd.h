@@ -1,5 +1,5 @@
 // Vectors of 4 or 8 floats on which operators work lane by lane (GCC's vector extension). For
-// kernels only (see instruction_set.h), whose files throng_kernels() in cmake/Rooms.cmake names.
+// kernels only (see instruction_set.h), whose files throng_kernels() in cmake/Modules.cmake names.
 #pragma once
 
 #include <array>

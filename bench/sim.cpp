@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "sim/flight.h"
 #include "sim/run.h"
+#include "sim/vehicle/flight.h"
 #include "world/scenario.h"
 
 namespace throng {

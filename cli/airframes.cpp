@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/suggest.h"
 #include "cli/commands.h"
-#include "sim/battery.h"
+#include "sim/vehicle/battery.h"
 
 namespace throng::cli {
 

@@ -20,7 +20,8 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
-#include "render/lens.h"
+#include "drawing/drawing.h"
+#include "render/lens/lens.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
 

@@ -15,10 +15,10 @@
 #include "cli/crowd_options.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
-#include "crowd/positions.h"
-#include "crowd/scb.h"
-#include "crowd/series.h"
-#include "sim/crowd_trace.h"
+#include "crowd/output/positions.h"
+#include "crowd/output/scb.h"
+#include "crowd/output/series.h"
+#include "sim/people/crowd_trace.h"
 
 namespace throng::cli {
 

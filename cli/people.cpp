@@ -6,7 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/progress_bar.h"
-#include "skinning/builder.h"
+#include "skinning/bake/builder.h"
 #include "skinning/items.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"

@@ -11,7 +11,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
-#include "skinning/import.h"
+#include "skinning/import/import.h"
 
 namespace throng::cli {
 

@@ -16,13 +16,14 @@
 #include "cli/job_runner.h"
 #include "cli/scenario_import.h"
 #include "cli/scenario_named.h"
+#include "drawing/drawing.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
 #include "places/blueprint.h"
 #include "places/check.h"
 #include "places/generate.h"
 #include "places/plan.h"
-#include "sim/planned_paths.h"
+#include "sim/planning/planned_paths.h"
 #include "world/drone_path.h"
 
 namespace throng::cli {
@@ -92,7 +93,8 @@ void add_plan(CLI::App& scenario) {
   const auto arguments = std::make_shared<PlanArguments>();
   command->add_option("scenario", arguments->name, "FILE.json, an id or a job's file")->required();
   command->add_option("--trace", arguments->trace, "Plot the flight paths of this run (TRACE.h5)");
-  command->add_option("-o,--output", arguments->output, "PLAN.svg, PLAN.png or PLAN.pdf")->required();
+  command->add_option("-o,--output", arguments->output, "PLAN.svg, PLAN.png or PLAN.pdf")
+      ->required();
   command->add_option("--size", arguments->size_px, "Longer side in pixels")
       ->check(CLI::Range(200, 8000));
   command->callback([arguments] { draw_plan(*arguments); });

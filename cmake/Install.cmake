@@ -15,9 +15,12 @@ foreach(module IN LISTS THRONG_LIBRARY_MODULES)
   set_target_properties(throng_${name} PROPERTIES EXPORT_NAME "${name}")
   target_compile_features(throng_${name} PUBLIC cxx_std_20)
   list(APPEND targets throng_${name})
-  # Without those of modules in its folder.
-  file(GLOB headers "${PROJECT_SOURCE_DIR}/${module}/*.h")
-  install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/throng/${module}" COMPONENT library)
+  throng_interface_headers(${module} headers)
+  foreach(header IN LISTS headers)
+    get_filename_component(folder "${header}" DIRECTORY)
+    install(FILES "${PROJECT_SOURCE_DIR}/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/throng/${folder}"
+      COMPONENT library)
+  endforeach()
 endforeach()
 install(TARGETS ${targets} EXPORT throng_targets ARCHIVE COMPONENT library)
 install(EXPORT throng_targets FILE throngTargets.cmake NAMESPACE throng:: DESTINATION "${package_folder}"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crowd/simulation.h"
+#include "crowd/types.h"
 
 namespace throng::crowd {
 

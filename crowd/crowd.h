@@ -8,10 +8,10 @@
 
 #include "base/instruction_set.h"
 #include "crowd/agents.h"
-#include "crowd/elevation.h"
-#include "crowd/goals.h"
-#include "crowd/obstacles.h"
-#include "crowd/shared_parts.h"
+#include "crowd/behavior/goals.h"
+#include "crowd/elements/shared_parts.h"
+#include "crowd/navigation/elevation.h"
+#include "crowd/spatial/obstacles.h"
 
 namespace throng::crowd {
 

@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include "crowd/element.h"
-#include "crowd/suggest.h"
+#include "crowd/elements/element.h"
+#include "crowd/elements/suggest.h"
 
 namespace throng::crowd {
 

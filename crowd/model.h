@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crowd/crowd.h"
-#include "crowd/grid.h"
+#include "crowd/spatial/grid.h"
 
 namespace throng::crowd {
 

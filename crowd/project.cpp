@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "crowd/element.h"
+#include "crowd/elements/element.h"
 #include "crowd/menge_files/read.h"
 #include "crowd/model.h"
 

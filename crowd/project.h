@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "crowd/attributes.h"
-#include "crowd/scb.h"
+#include "crowd/elements/attributes.h"
+#include "crowd/output/scb.h"
 #include "crowd/simulation.h"
 
 namespace throng::crowd {

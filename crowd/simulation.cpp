@@ -6,17 +6,17 @@
 #include <iterator>
 
 #include "base/error.h"
-#include "crowd/behavior.h"
-#include "crowd/bodies.h"
+#include "crowd/behavior/behavior.h"
+#include "crowd/behavior/machine.h"
 #include "crowd/crowd.h"
-#include "crowd/element.h"
-#include "crowd/grid.h"
-#include "crowd/machine.h"
+#include "crowd/elements/element.h"
 #include "crowd/menge_files/read.h"
 #include "crowd/model.h"
-#include "crowd/motion.h"
+#include "crowd/motion/bodies.h"
+#include "crowd/motion/motion.h"
+#include "crowd/motion/separation.h"
 #include "crowd/scene.h"
-#include "crowd/separation.h"
+#include "crowd/spatial/grid.h"
 
 namespace throng::crowd {
 

@@ -3,22 +3,22 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include "crowd/agent_groups.h"
 #include "crowd/agents.h"
-#include "crowd/arrivals.h"
-#include "crowd/behavior.h"
-#include "crowd/elevation.h"
-#include "crowd/events.h"
-#include "crowd/facing.h"
-#include "crowd/generators.h"
-#include "crowd/goals.h"
+#include "crowd/behavior/behavior.h"
+#include "crowd/behavior/goals.h"
+#include "crowd/behavior/panic.h"
+#include "crowd/events/events.h"
 #include "crowd/model.h"
-#include "crowd/obstacle_sets.h"
-#include "crowd/panic.h"
-#include "crowd/profile.h"
+#include "crowd/motion/facing.h"
+#include "crowd/navigation/elevation.h"
+#include "crowd/population/agent_groups.h"
+#include "crowd/population/arrivals.h"
+#include "crowd/population/generators.h"
+#include "crowd/population/profile.h"
+#include "crowd/population/social_groups.h"
 #include "crowd/project.h"
 #include "crowd/scene.h"
-#include "crowd/social_groups.h"
+#include "crowd/spatial/obstacle_sets.h"
 
 namespace throng::crowd {
 

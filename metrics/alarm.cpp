@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "crowd/element.h"
+#include "crowd/elements/element.h"
 #include "world/scenario_crowd.h"
 #include "world/trace.h"
 

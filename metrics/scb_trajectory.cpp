@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "crowd/scb.h"
+#include "crowd/output/scb.h"
 #include "metrics/trajectory_file.h"
 
 namespace throng::metrics {

@@ -217,12 +217,13 @@ void add_profiles(const People& people, SceneBuilder& scene) {
                   {"class", 1},
                   {"max_speed", 3},
                   {"max_accel", 5}},
-       .properties = {Node("Property", {{"name", "pref_speed"},
-                                        {"dist", "n"},
-                                        {"mean", significant_text(people.speed_mps, 3)},
-                                        {"stddev", significant_text(0.19 * people.speed_mps, 3)}}),
-                      // So alike that all of them share one mesh (crowd/auto_navigation.h).
-                      describe::property("r", describe::Sampled::uniform(kSlimmestM, 0.24))}});
+       .properties = {
+           Node("Property", {{"name", "pref_speed"},
+                             {"dist", "n"},
+                             {"mean", significant_text(people.speed_mps, 3)},
+                             {"stddev", significant_text(0.19 * people.speed_mps, 3)}}),
+           // So alike that all of them share one mesh (crowd/navigation/auto_navigation.h).
+           describe::property("r", describe::Sampled::uniform(kSlimmestM, 0.24))}});
   if (people.dangers.empty()) return;
   scene.add_profile({.name = "danger",
                      .common = {{"max_neighbors", 0},

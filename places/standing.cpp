@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowd/scatter.h"
+#include "crowd/population/scatter.h"
 #include "world/polygon.h"
 
 namespace throng::places {

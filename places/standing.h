@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "crowd/obstacles.h"
+#include "crowd/spatial/obstacles.h"
 #include "world/scenario.h"
 
 namespace throng::places {

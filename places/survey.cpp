@@ -6,8 +6,8 @@
 #include <queue>
 #include <utility>
 
-#include "crowd/behavior.h"
-#include "crowd/element.h"
+#include "crowd/behavior/behavior.h"
+#include "crowd/elements/element.h"
 #include "crowd/model.h"
 #include "crowd/scene.h"
 #include "world/scenario_crowd.h"

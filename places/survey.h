@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "crowd/crowd.h"
-#include "crowd/walkable_grid.h"
+#include "crowd/navigation/walkable_grid.h"
 #include "world/scenario.h"
 
 namespace throng::places {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "render/renderer.h"
-#include "skinning/plan.h"
+#include "render/scene.h"
+#include "skinning/animate/plan.h"
 #include "skinning/population.h"
 #include "world/trace.h"
 

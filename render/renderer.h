@@ -8,12 +8,11 @@
 
 #include "base/stage_clock.h"
 #include "camera/camera.h"
-#include "render/airframe_mesh.h"
 #include "render/frame.h"
 #include "render/pixel_weights.h"
+#include "render/scene.h"
 #include "render/spec/environment.h"
 #include "render/spec/quality.h"
-#include "skinning/motion.h"
 #include "skinning/population.h"
 #include "world/scenario.h"
 
@@ -39,32 +38,6 @@ struct RenderOptions {
   StageClock* clock = nullptr;
 };
 
-/// One person as rendered: where, which body, which pose.
-struct PersonInstance {
-  std::uint32_t agent = 0;
-  Eigen::Vector3f position = Eigen::Vector3f::Zero();
-  Eigen::Vector2f velocity = Eigen::Vector2f::Zero();
-  float yaw_rad = 0;
-  skinning::Appearance appearance;
-  skinning::PoseBlend pose;
-};
-
-/// Everything that is in the world at one instant.
-struct Scene {
-  std::int64_t index = 0;  ///< becomes Frame::index
-  double time_s = 0;
-  std::vector<PersonInstance> people;
-  std::vector<Eigen::Vector2f> dangers;  ///< where what people run from is (m)
-  /// Also that of the camera, which does not see itself.
-  std::vector<DroneInstance> drones = {};
-};
-
-/// The next frame of the same camera: what flow leads to.
-struct NextFrame {
-  Scene scene;
-  camera::Camera camera;
-};
-
 /// Options of a draw.
 struct DrawChoice {
   const PixelWeights* weights = nullptr;  ///< what people's areas are counted in; nothing: pixels
@@ -84,7 +57,7 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Color, id, depth and the people's ground truth, all from one draw of one instant. The camera
-  /// is a pinhole; Lens (render/lens.h) renders all cameras. `next` serves the flow only.
+  /// is a pinhole; Lens (render/lens/lens.h) renders all cameras. `next` serves the flow only.
   Frame draw(const Scene& scene, const camera::Camera& camera, const NextFrame* next = nullptr,
              const DrawChoice& choice = {});
 

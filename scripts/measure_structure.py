@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""Measures the structure of the source code: sizes, fronts of modules, cycles, function lengths, words, tests.
+"""Measures the structure of the source code: sizes, public headers, cycles, function lengths, words, tests.
 
 usage: scripts/measure_structure.py [FOLDER]    (default: this checkout)
 
 Prints a Markdown table, a row per top-level folder with C++ sources. Columns:
   files       .cpp and .h, with their lines
-  used        headers that files of another module include (tests do not count)
+  public      headers that the modules in the folder declare as PUBLIC
+  folders     that hold them, and the files of the largest
   cycles      #includes that close a cycle between files of the module (NAME.h and NAME.cpp are one file)
   functions   number, and lines of the median, the 90 % quantile and the longest
   words       coined words found by scripts/check_language.py's table, per 1 000 lines
   tests       lines of tests per line of product code
 """
+import collections
 import pathlib
 import re
 import subprocess
@@ -23,6 +25,17 @@ FUNCTION = re.compile(r"\)\s*(?:const\s*)?(?:noexcept\s*)?(?:override\s*)?(?:fin
                       r"(?::\s*[\w:]+[({].*)?\{\s*$")
 COINED = re.compile(r"\b(k?[Mm]ost[A-Z_]\w*|k?[Ll]ongest[A-Z_]\w*|k?[Ff]arthest[A-Z_]\w*|most_\w+|longest_\w+|strewn|"
                     r"rooms?\b|whoever|wherever it)\b")
+
+
+def public_headers(root):
+    """Paths of the headers in the PUBLIC lists of all modules."""
+    listed = subprocess.run(["git", "ls-files", "*CMakeLists.txt"], check=True, capture_output=True, text=True, cwd=root)
+    headers = set()
+    for path in listed.stdout.split():
+        declaration = re.search(r"throng_module\((\S+)\s+PUBLIC\s+([^)A-Z]*)", (root / path).read_text())
+        if declaration:
+            headers |= {f"{declaration[1]}/{header}" for header in declaration[2].split()}
+    return headers
 
 
 def git_files(root):
@@ -86,10 +99,9 @@ def main():
     product = {path: text for path, text in texts.items() if path.split("/")[0] not in APART}
     modules = sorted({path.split("/")[0] for path in product})
     includes = {path: re.findall(r'^#include "([^"]+)"', text, re.M) for path, text in product.items()}
-    used = {target for path, targets in includes.items() for target in targets
-            if target.split("/")[0] != path.split("/")[0]}
-    print("| module | .cpp n/lines | .h n/lines (used outside) | cycles | functions n, median/p90/max | coined words | tests |")
-    print("|---|---|---|---|---|---|---|")
+    public = public_headers(root)
+    print("| module | .cpp n/lines | .h n/lines (public) | folders (largest) | cycles | functions n, median/p90/max | coined words | tests |")
+    print("|---|---|---|---|---|---|---|---|")
     sums = [0] * 9
     everything = []
     for module in modules:
@@ -107,14 +119,16 @@ def main():
         words = sum(len(COINED.findall(text)) for text in own.values())
         tests = sum(text.count("\n") for path, text in texts.items() if path.startswith(f"tests/{module}/"))
         size = sum(lines.values())
-        front = sum(path in used for path in headers)
+        front = sum(path in public for path in headers)
+        folders = collections.Counter(path.rsplit("/", 1)[0] for path in own)
         cycles = cycle_edges(edges)
         row = [len(sources), sum(lines[p] for p in sources), len(headers), sum(lines[p] for p in headers), front, cycles,
                len(lengths), words, tests]
         sums = [a + b for a, b in zip(sums, row)]
-        print(f"| {module} | {row[0]}/{row[1]} | {row[2]}/{row[3]} ({front}) | {cycles} | {len(lengths)}, "
+        print(f"| {module} | {row[0]}/{row[1]} | {row[2]}/{row[3]} ({front}) | "
+              f"{len(folders)} ({max(folders.values())}) | {cycles} | {len(lengths)}, "
               f"{quantile(lengths, .5)}/{quantile(lengths, .9)}/{max(lengths, default=0)} | {words} | {tests / size:.2f} |")
-    print(f"| **all** | {sums[0]}/{sums[1]} | {sums[2]}/{sums[3]} ({sums[4]}) | {sums[5]} | {sums[6]}, "
+    print(f"| **all** | {sums[0]}/{sums[1]} | {sums[2]}/{sums[3]} ({sums[4]}) | | {sums[5]} | {sums[6]}, "
           f"{quantile(everything, .5)}/{quantile(everything, .9)}/{max(everything)} | {sums[7]} | "
           f"{sums[8] / (sums[1] + sums[3]):.2f} |")
 

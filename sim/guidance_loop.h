@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "sim/crowd_recorder.h"
-#include "sim/crowd_source.h"
-#include "sim/flight.h"
-#include "sim/perception.h"
-#include "sim/plan.h"
+#include "sim/people/crowd_source.h"
+#include "sim/planning/plan.h"
+#include "sim/recording/crowd_recorder.h"
+#include "sim/sensors/perception.h"
+#include "sim/vehicle/flight.h"
 
 namespace throng::sim {
 

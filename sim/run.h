@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "crowd/simulation.h"
+#include "sim/run_observer.h"
 #include "sim/spec/run_spec.h"
 #include "world/scenario.h"
 #include "world/trace.h"
@@ -26,24 +27,6 @@ crowd::Simulation load_crowd(const world::Scenario& scenario, std::uint64_t seed
 
 /// Called with simulated seconds done and the total.
 using RunProgress = std::function<void(double done_s, double total_s)>;
-
-/// Observer of a run. All methods are called from the simulating thread.
-class RunObserver {
- public:
-  RunObserver() = default;
-  virtual ~RunObserver() = default;
-  RunObserver(const RunObserver&) = delete;
-  RunObserver& operator=(const RunObserver&) = delete;
-
-  virtual void begin(const world::TraceHeader&) {}
-  virtual void step(const world::CrowdStep&) {}
-  virtual void drone(std::size_t /*drone*/, const world::DroneSample&) {}
-  virtual void event(const world::TraceEvent&) {}
-  /// Set-point of the drone and whether it leads, once per step of the crowd.
-  virtual void pilot(std::size_t /*drone*/, const PilotSample&) {}
-  /// Whether the rest of the run is of no interest.
-  virtual bool done() const { return false; }
-};
 
 /// Simulates one run. Throws and returns like the other.
 std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& spec,

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "skinning/population.h"
+#include "skinning/character.h"
 #include "skinning/skeleton.h"
 
 namespace throng::skinning {

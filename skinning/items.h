@@ -11,7 +11,7 @@
 #include <optional>
 #include <string_view>
 
-#include "skinning/population.h"
+#include "skinning/character.h"
 #include "skinning/skeleton.h"
 
 namespace throng::skinning {

@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "skinning/population.h"
+#include "skinning/character.h"
 
 namespace throng::skinning {
 
@@ -16,10 +16,6 @@ extern const std::array<Bone, kBoneCount> kParent;
 
 /// Names as they stand in GLB files, in palette order.
 extern const std::array<std::string_view, kBoneCount> kBoneNames;
-
-/// Names of the tints in files, by Tint.
-inline constexpr std::array<std::string_view, kTintCount + 1> kTintNames = {
-    "none", "top", "bottom", "hair", "shoes", "item", "portrait"};
 
 /// Joint position of each bone, in model space (meters, Z up, facing +X).
 using Joints = std::array<Eigen::Vector3f, kBoneCount>;

@@ -23,7 +23,7 @@ std::string significant_text(double value, int digits);
 Node typed(std::string name, std::string_view type, std::vector<Attribute> attributes = {},
            std::vector<Node> children = {});
 
-/// A distribution that values are sampled from (crowd/distribution.h).
+/// A distribution that values are sampled from (crowd/elements/distribution.h).
 class Sampled {
  public:
   static Sampled constant(double value);

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/exporter.h"
-#include "sim/battery.h"
-#include "sim/policy.h"
+#include "sim/policies/policy.h"
 #include "sim/spec/airframe.h"
+#include "sim/vehicle/battery.h"
 #include "skinning/items.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"

@@ -9,13 +9,14 @@
 
 #include "base/error.h"
 #include "calibrate/request.h"
+#include "drawing/drawing.h"
 #include "jobs/pipeline/catalog.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/pipeline/scenario_check.h"
 #include "places/plan.h"
-#include "sim/planned_paths.h"
+#include "sim/planning/planned_paths.h"
 #include "world/scenario.h"
 
 namespace throng::jobs {

@@ -7,8 +7,8 @@
 
 #include "camera/camera.h"
 #include "jobs/spec/spec.h"
-#include "sim/gimbal.h"
-#include "sim/sensors.h"
+#include "sim/sensors/gimbal.h"
+#include "sim/sensors/sensors.h"
 #include "world/trace.h"
 
 namespace throng::jobs {

@@ -11,7 +11,7 @@
 #include "jobs/pipeline/frame_draw.h"
 #include "jobs/pipeline/gimbal.h"
 #include "jobs/pipeline/pipeline.h"
-#include "render/sensor.h"
+#include "render/lens/sensor.h"
 #include "sim/spec/airframe.h"
 
 namespace throng::jobs {

@@ -10,10 +10,10 @@
 #include "base/stage_clock.h"
 #include "jobs/spec/spec.h"
 #include "render/animator.h"
-#include "render/exposure.h"
-#include "render/lens.h"
-#include "sim/gimbal.h"
-#include "sim/sensors.h"
+#include "render/lens/exposure.h"
+#include "render/lens/lens.h"
+#include "sim/sensors/gimbal.h"
+#include "sim/sensors/sensors.h"
 #include "world/trace.h"
 
 namespace throng::jobs {

@@ -3,7 +3,7 @@
 
 #include "camera/camera.h"
 #include "jobs/spec/camera_spec.h"
-#include "sim/gimbal.h"
+#include "sim/sensors/gimbal.h"
 #include "world/trace.h"
 
 namespace throng::jobs {

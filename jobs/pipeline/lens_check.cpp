@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "render/lens.h"
+#include "render/lens/lens.h"
 
 namespace throng::jobs {
 

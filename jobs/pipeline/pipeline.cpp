@@ -18,7 +18,7 @@
 #include "jobs/spec/environment.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
-#include "render/lens_map.h"
+#include "render/lens/lens_map.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 #include "world/trace.h"

@@ -14,9 +14,9 @@
 #include "jobs/pipeline/lens_check.h"
 #include "jobs/pipeline/recording.h"
 #include "jobs/spec/plan.h"
-#include "sim/participants.h"
-#include "sim/pilot_log.h"
-#include "sim/plan.h"
+#include "sim/people/participants.h"
+#include "sim/planning/plan.h"
+#include "sim/recording/pilot_log.h"
 #include "sim/run.h"
 
 namespace throng::jobs {

@@ -7,7 +7,7 @@
 #include "crowd/simulation.h"
 #include "jobs/spec/scenario_summary.h"
 #include "places/check.h"
-#include "render/mesh_file.h"
+#include "render/props/mesh_file.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "jobs/spec/camera_spec.h"
-#include "render/exposure.h"
+#include "render/lens/exposure.h"
 
 namespace throng::jobs {
 

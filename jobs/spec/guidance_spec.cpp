@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kGuidanceDegree = std::numbers::pi / 180;
 constexpr std::array kPerceptionWords{"truth", "camera"};
-/// Those of the table of sim/policy.cpp.
+/// Those of the table of sim/policies/policy.cpp.
 constexpr std::array kPolicies{"hover",  "waypoints", "orbit",   "survey", "follow_density",
                                "zigzag", "pilot_log", "balance", "signage"};
 

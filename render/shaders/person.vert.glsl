@@ -2,7 +2,7 @@
 // the shadow map instead of being seen by the camera; with CORNERS it is lit and colored corner by
 // corner, with LIT_CORNERS only lit so; with SURFACE it carries what person_surface.frag.glsl writes.
 layout(location = 0) in vec3 position_in;
-layout(location = 1) in uvec4 skin;     // bones, weights, part, normal: see render/people_meshes.h
+layout(location = 1) in uvec4 skin;     // bones, weights, part, normal: see render/people/people_meshes.h
 layout(location = 2) in vec2 uv_in;
 layout(location = 3) in uvec2 colors;  // the texture around this corner, sRGB; of a portrait, linear
 layout(location = 4) in vec3 foot;      // per instance from here: position, m
@@ -13,8 +13,8 @@ layout(location = 7) in uvec4 placing;  // shift in pixels; cosine and sine of t
 layout(binding = 3) uniform usamplerBuffer posed_bones;  // [character][palette][bone]; device_palettes.h
 
 const int kBones = 21;
-const float kMaxShift = 8.0;  // m; also in render/device_palettes.h
-const float kAboveGround = 0.002;  // m; also in render/person_geometry.cpp
+const float kMaxShift = 8.0;  // m; also in render/people/device_palettes.h
+const float kAboveGround = 0.002;  // m; also in render/people/person_geometry.cpp
 
 uint first_byte(uint word) { return word & 0xFFu; }
 

@@ -1,4 +1,4 @@
-// Props; the finishes are those of render/prop_shapes.h. With LEAVES: cards with leaves on them and
+// Props; the finishes are those of render/props/prop_shapes.h. With LEAVES: cards with leaves on them and
 // holes between.
 in vec3 world;
 in vec3 normal;

@@ -1,5 +1,5 @@
 // With SILHOUETTES every fragment of a person, hidden or not, also marks its pixel in their own
-// tile of an atlas (render/silhouettes.h).
+// tile of an atlas (render/truth/silhouettes.h).
 #ifdef SILHOUETTES
 flat in ivec2 to_tile;  // pixels
 layout(r8, binding = 0) writeonly uniform image2D silhouettes;

@@ -1,4 +1,4 @@
-// How long a frame is exposed and read out (render/exposure.h renders it).
+// How long a frame is exposed and read out (render/lens/exposure.h renders it).
 #pragma once
 
 namespace throng::render {

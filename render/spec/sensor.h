@@ -1,4 +1,4 @@
-// A camera's sensor: exposure compensation, white balance, vignetting, noise (render/sensor.h
+// A camera's sensor: exposure compensation, white balance, vignetting, noise (render/lens/sensor.h
 // applies them).
 #pragma once
 

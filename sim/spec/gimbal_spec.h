@@ -1,4 +1,4 @@
-// How exactly a camera's gimbal follows its commands (sim/gimbal.h).
+// How exactly a camera's gimbal follows its commands (sim/sensors/gimbal.h).
 #pragma once
 
 #include <Eigen/Core>

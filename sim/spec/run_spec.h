@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "crowd/simulation.h"
+#include "crowd/types.h"
 #include "sim/spec/airframe.h"
 #include "sim/spec/wind_spec.h"
 #include "world/scenario.h"
@@ -24,7 +24,7 @@ struct PilotSample {
   bool beacon = true;  ///< whether people can follow it
 };
 
-/// A policy's knowledge of people (sim/perception.h).
+/// A policy's knowledge of people (sim/sensors/perception.h).
 enum class PerceptionKind { truth, camera };
 struct PerceptionSpec {
   PerceptionKind kind = PerceptionKind::truth;

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "crowd/path_finder.h"
-#include "crowd/walkable_mesh.h"
+#include "crowd/navigation/path_finder.h"
+#include "crowd/navigation/walkable_mesh.h"
 #include "crowd_files.h"
 #include "navigation_files.h"
 

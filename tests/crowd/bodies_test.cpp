@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "crowd/bodies.h"
+#include "crowd/motion/bodies.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {

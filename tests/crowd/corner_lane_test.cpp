@@ -1,5 +1,5 @@
 // Where people pass a corner.
-#include "crowd/corner_lane.h"
+#include "crowd/navigation/corner_lane.h"
 
 #include <gtest/gtest.h>
 

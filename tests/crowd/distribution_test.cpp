@@ -1,6 +1,6 @@
 // Distributions: their shapes against closed forms (Kolmogorov and Smirnov), their limits, and how
 // the files write them.
-#include "crowd/distribution.h"
+#include "crowd/elements/distribution.h"
 
 #include <gtest/gtest.h>
 

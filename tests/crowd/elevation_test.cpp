@@ -1,5 +1,5 @@
 // The height of the ground, and what slopes do.
-#include "crowd/elevation.h"
+#include "crowd/navigation/elevation.h"
 
 #include <gtest/gtest.h>
 #include <png.h>

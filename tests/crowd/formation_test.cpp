@@ -1,4 +1,4 @@
-#include "crowd/formation.h"
+#include "crowd/navigation/formation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "crowd/grid.h"
+#include "crowd/spatial/grid.h"
 
 #include <gtest/gtest.h>
 

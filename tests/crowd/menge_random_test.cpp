@@ -1,11 +1,11 @@
-#include "crowd/menge_random.h"
+#include "crowd/menge_compat/menge_random.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "crowd/distribution.h"
+#include "crowd/elements/distribution.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {

@@ -1,4 +1,4 @@
-#include "crowd/menge_tree.h"
+#include "crowd/menge_compat/menge_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "crowd/ellipse.h"
 #include "crowd/model.h"
+#include "crowd/models/ellipse.h"
 #include "crowd_files.h"
 #include "model_scenes.h"
 

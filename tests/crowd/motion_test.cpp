@@ -1,4 +1,4 @@
-#include "crowd/motion.h"
+#include "crowd/motion/motion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Navigation meshes from files, and ways across them.
-#include "crowd/nav_mesh.h"
+#include "crowd/navigation/nav_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "crowd/nav_mesh_file.h"
-#include "crowd/path_finder.h"
-#include "crowd/walkable_mesh.h"
+#include "crowd/navigation/nav_mesh_file.h"
+#include "crowd/navigation/path_finder.h"
+#include "crowd/navigation/walkable_mesh.h"
 #include "crowd_files.h"
 #include "navigation_files.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "crowd/obstacles.h"
+#include "crowd/spatial/obstacles.h"
 
 namespace throng::crowd::test {
 

@@ -1,4 +1,4 @@
-#include "crowd/obstacles.h"
+#include "crowd/spatial/obstacles.h"
 
 #include <gtest/gtest.h>
 

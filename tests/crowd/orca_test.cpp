@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "crowd/orca_batch.h"
-#include "crowd/orca_lines.h"
+#include "crowd/kernels/orca_batch.h"
+#include "crowd/models/orca_lines.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {

@@ -1,5 +1,5 @@
 // How people of the model `weidmann` slow down where it is crowded ahead.
-#include "crowd/pace.h"
+#include "crowd/models/pace.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "crowd/grid.h"
+#include "crowd/spatial/grid.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {

@@ -1,5 +1,5 @@
 // Road maps from files, and ways along them.
-#include "crowd/road_map.h"
+#include "crowd/navigation/road_map.h"
 
 #include <gtest/gtest.h>
 

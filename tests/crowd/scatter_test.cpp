@@ -1,5 +1,5 @@
 // People strewn at random: where they may stand, and that every seed strews them anew.
-#include "crowd/scatter.h"
+#include "crowd/population/scatter.h"
 
 #include <fmt/core.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // Trajectory files byte by byte, read here without the code that writes them.
-#include "crowd/scb.h"
+#include "crowd/output/scb.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The tables that say what a crowd did.
-#include "crowd/series.h"
+#include "crowd/output/series.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "base/random.h"
-#include "crowd/csv.h"
-#include "crowd/pair_distances.h"
-#include "crowd/positions.h"
+#include "crowd/output/csv.h"
+#include "crowd/output/pair_distances.h"
+#include "crowd/output/positions.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {

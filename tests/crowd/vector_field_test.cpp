@@ -1,5 +1,5 @@
 // Fields of directions from files.
-#include "crowd/vector_field.h"
+#include "crowd/navigation/vector_field.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "crowd/element.h"
-#include "crowd/suggest.h"
+#include "crowd/elements/element.h"
+#include "crowd/elements/suggest.h"
 #include "crowd_files.h"
 
 namespace throng::crowd {

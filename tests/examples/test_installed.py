@@ -27,6 +27,13 @@ class Installed(unittest.TestCase):
             headers = {str(path.relative_to(prefix / "include/throng")) for path in prefix.rglob("*.h")}
             self.assertLessEqual({"crowd/simulation.h", "crowd/description/builder.h", "crowd/menge_files/write.h",
                                   "world/scenario.h", "base/error.h"}, headers)
+            # Private headers are not installed, and the installed ones need no others.
+            self.assertNotIn("crowd/behavior/machine.h", headers)
+            self.assertNotIn("crowd/menge_files/utf8.h", headers)
+            every = folder / "every.cpp"
+            every.write_text("".join(f'#include "{header}"\n' for header in sorted(headers)))
+            libraries = run("pkg-config", "--cflags", "eigen3", "hdf5").split()
+            run(COMPILER, "-std=c++20", "-fsyntax-only", *libraries, "-I", prefix / "include/throng", every)
             # Nothing of the installed package says where it was built.
             for file in prefix.rglob("*.cmake"):
                 self.assertNotIn(str(Path(BUILD).resolve()), file.read_text(), file)

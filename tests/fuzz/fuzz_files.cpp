@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <map>
 
+#include "crowd/output/scb.h"
 #include "crowd/project.h"
-#include "crowd/scb.h"
 #include "fuzz_folder.h"
 #include "fuzz_steps.h"
 

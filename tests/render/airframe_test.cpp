@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "render/drones_in_view.h"
-#include "render/exposure.h"
-#include "render/lens.h"
+#include "render/lens/exposure.h"
+#include "render/lens/lens.h"
+#include "render/truth/drones_in_view.h"
 #include "stage.h"
 
 namespace throng::render {

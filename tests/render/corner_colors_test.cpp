@@ -1,4 +1,4 @@
-#include "render/corner_colors.h"
+#include "render/people/corner_colors.h"
 
 #include <gtest/gtest.h>
 

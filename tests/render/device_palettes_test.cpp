@@ -1,4 +1,4 @@
-#include "render/device_palettes.h"
+#include "render/people/device_palettes.h"
 
 #include <gtest/gtest.h>
 

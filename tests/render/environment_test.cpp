@@ -1,8 +1,8 @@
 // Light and weather on pixels.
 #include <gtest/gtest.h>
 
-#include "render/daylight.h"
-#include "render/lamps.h"
+#include "render/place/daylight.h"
+#include "render/place/lamps.h"
 #include "stage.h"
 
 namespace throng::render {

@@ -1,5 +1,5 @@
 // Motion blur and rolling shutter, against positions at the time at which rows are exposed.
-#include "render/exposure.h"
+#include "render/lens/exposure.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/random.h"
-#include "render/person_geometry.h"
+#include "render/people/person_geometry.h"
 #include "stage.h"
 
 namespace throng::render {

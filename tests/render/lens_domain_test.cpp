@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/random.h"
-#include "render/lens.h"
+#include "render/lens/lens.h"
 #include "stage.h"
 
 namespace throng::render {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "render/lens.h"
+#include "render/lens/lens.h"
 #include "stage.h"
 
 namespace throng::render {

@@ -1,5 +1,5 @@
 // Images through distorting lenses, against the camera's model and against pinhole images.
-#include "render/lens.h"
+#include "render/lens/lens.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // People of a scene in view, and those who need textures.
-#include "render/people_in_view.h"
+#include "render/people/people_in_view.h"
 
 #include <gtest/gtest.h>
 

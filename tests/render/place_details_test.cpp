@@ -1,5 +1,5 @@
 // Doors where exits are in walls, and what stands on roofs.
-#include "render/place_details.h"
+#include "render/place/place_details.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "render/prop_shapes.h"
+#include "render/props/prop_shapes.h"
 #include "stage.h"
 
 namespace throng::render {

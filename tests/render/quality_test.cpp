@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "render/smooth_edges.h"
+#include "render/passes/smooth_edges.h"
 #include "stage.h"
 
 namespace throng::render {

@@ -1,12 +1,12 @@
 // Rubble of a collapse, and walls too low to be houses.
-#include "render/rubble.h"
+#include "render/place/rubble.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "render/lamps.h"
-#include "render/place_details.h"
+#include "render/place/lamps.h"
+#include "render/place/place_details.h"
 #include "stage.h"
 
 namespace throng::render {

@@ -1,4 +1,4 @@
-#include "render/sensor.h"
+#include "render/lens/sensor.h"
 
 #include <gtest/gtest.h>
 

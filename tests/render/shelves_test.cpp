@@ -1,5 +1,5 @@
 // Rectangles packed into rows.
-#include "render/shelves.h"
+#include "render/people/shelves.h"
 
 #include <gtest/gtest.h>
 

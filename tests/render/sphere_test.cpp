@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/files.h"
-#include "render/lens.h"
+#include "render/lens/lens.h"
 #include "stage.h"
 
 namespace throng::render {

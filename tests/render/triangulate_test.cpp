@@ -1,4 +1,4 @@
-#include "render/triangulate.h"
+#include "render/place/triangulate.h"
 
 #include <gtest/gtest.h>
 

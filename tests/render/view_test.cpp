@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "render/lighting.h"
+#include "render/place/lighting.h"
 #include "skinning/levels.h"
 #include "stage.h"
 

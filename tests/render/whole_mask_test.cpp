@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "render/exposure.h"
-#include "render/lens.h"
+#include "render/lens/exposure.h"
+#include "render/lens/lens.h"
 #include "stage.h"
 
 namespace throng::render {

@@ -1,11 +1,11 @@
 // Damage by collisions and its consequences: a falling drone and a warning of the people below.
-#include "sim/damage.h"
+#include "sim/vehicle/damage.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/fall_warning.h"
+#include "sim/recording/fall_warning.h"
 #include "tests/sim/missions.h"
 
 namespace throng::sim {

@@ -1,10 +1,10 @@
-#include "sim/downwash.h"
+#include "sim/vehicle/downwash.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/battery.h"
+#include "sim/vehicle/battery.h"
 #include "tests/sim/airframes.h"
 
 namespace throng::sim {

@@ -1,5 +1,5 @@
 // Drones that fly missions among buildings.
-#include "sim/flight.h"
+#include "sim/vehicle/flight.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "sim/gimbal.h"
+#include "sim/sensors/gimbal.h"
 
 #include <gtest/gtest.h>
 

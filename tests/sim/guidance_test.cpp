@@ -6,7 +6,7 @@
 
 #include "base/files.h"
 #include "sim/guidance_loop.h"
-#include "sim/pilot_log.h"
+#include "sim/recording/pilot_log.h"
 #include "sim/run.h"
 #include "tests/sim/missions.h"
 #include "tests/world/temporary_folder.h"

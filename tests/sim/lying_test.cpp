@@ -3,7 +3,7 @@
 
 #include "crowd/description/builder.h"
 #include "crowd/simulation.h"
-#include "sim/crowd_trace.h"
+#include "sim/people/crowd_trace.h"
 
 namespace throng::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/flight.h"
+#include "sim/vehicle/flight.h"
 #include "tests/sim/airframes.h"
 
 namespace throng::sim::testing {

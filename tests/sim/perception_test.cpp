@@ -1,5 +1,5 @@
 // The estimate of a counting camera against the truth.
-#include "sim/perception.h"
+#include "sim/sensors/perception.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "sim/pilot_log.h"
+#include "sim/recording/pilot_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

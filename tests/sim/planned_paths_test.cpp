@@ -1,4 +1,4 @@
-#include "sim/planned_paths.h"
+#include "sim/planning/planned_paths.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/quadcopter.h"
+#include "sim/vehicle/quadcopter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The queue model against people's choice of exits.
-#include "sim/queue_model.h"
+#include "sim/policies/queue_model.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "sim/crowd_source.h"
+#include "sim/people/crowd_source.h"
 #include "sim/run.h"
 #include "tests/sim/recordings.h"
 

@@ -1,5 +1,5 @@
 // The sensors' errors have the documented sizes and durations.
-#include "sim/sensors.h"
+#include "sim/sensors/sensors.h"
 
 #include <gtest/gtest.h>
 

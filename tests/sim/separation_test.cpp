@@ -1,5 +1,5 @@
 // Drones that would meet are found before they fly.
-#include "sim/separation.h"
+#include "sim/planning/separation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

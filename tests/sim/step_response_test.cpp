@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/angle.h"
-#include "sim/controller.h"
-#include "sim/flight_world.h"
 #include "sim/spec/airframe.h"
-#include "sim/wind.h"
+#include "sim/vehicle/controller.h"
+#include "sim/vehicle/flight_world.h"
+#include "sim/vehicle/wind.h"
 #include "tests/sim/airframes.h"
 
 namespace throng::sim {

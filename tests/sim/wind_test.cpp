@@ -1,4 +1,4 @@
-#include "sim/wind.h"
+#include "sim/vehicle/wind.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "skinning/person.h"
+#include "skinning/bake/person.h"
 
 namespace throng::skinning {
 namespace {

@@ -1,4 +1,4 @@
-#include "skinning/builder.h"
+#include "skinning/bake/builder.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,11 +9,11 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "skinning/notice.h"
+#include "skinning/bake/notice.h"
+#include "skinning/bake/workbench.h"
 #include "skinning/population.h"
 #include "skinning/population_files.h"
-#include "skinning/wardrobe.h"
-#include "skinning/workbench.h"
+#include "skinning/wardrobe/wardrobe.h"
 
 namespace throng::skinning {
 namespace {

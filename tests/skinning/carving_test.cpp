@@ -1,4 +1,4 @@
-#include "skinning/carving.h"
+#include "skinning/bake/carving.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "skinning/gait.h"
+#include "skinning/animate/gait.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Characters of the user's own: rigged models that assimp wrote, with descriptions.
-#include "skinning/import.h"
+#include "skinning/import/import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

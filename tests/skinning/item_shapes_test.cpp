@@ -1,4 +1,4 @@
-#include "skinning/item_shapes.h"
+#include "skinning/wardrobe/item_shapes.h"
 
 #include <gtest/gtest.h>
 

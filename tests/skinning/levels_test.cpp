@@ -8,10 +8,10 @@
 
 #include "baked_people.h"
 #include "base/angle.h"
+#include "skinning/animate/motion.h"
+#include "skinning/bake/raster.h"
 #include "skinning/image.h"
 #include "skinning/levels.h"
-#include "skinning/motion.h"
-#include "skinning/raster.h"
 
 namespace throng::skinning {
 namespace {

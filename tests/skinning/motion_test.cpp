@@ -1,11 +1,11 @@
-#include "skinning/motion.h"
+#include "skinning/animate/motion.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "skinning/clips.h"
+#include "skinning/animate/clips.h"
 
 namespace throng::skinning {
 namespace {

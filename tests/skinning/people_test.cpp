@@ -8,10 +8,10 @@
 #include <set>
 
 #include "baked_people.h"
-#include "skinning/gait.h"
+#include "skinning/animate/gait.h"
+#include "skinning/animate/motion.h"
+#include "skinning/bake/raster.h"
 #include "skinning/levels.h"
-#include "skinning/motion.h"
-#include "skinning/raster.h"
 #include "walkers.h"
 
 namespace throng::skinning {

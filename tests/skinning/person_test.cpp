@@ -1,4 +1,4 @@
-#include "skinning/person.h"
+#include "skinning/bake/person.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "skinning/garments.h"
+#include "skinning/wardrobe/garments.h"
 
 namespace throng::skinning {
 namespace {

@@ -1,4 +1,4 @@
-#include "skinning/plan.h"
+#include "skinning/animate/plan.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/angle.h"
-#include "skinning/footsteps.h"
+#include "skinning/animate/footsteps.h"
 #include "walkers.h"
 
 namespace throng::skinning {

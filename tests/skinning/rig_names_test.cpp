@@ -1,4 +1,4 @@
-#include "skinning/rig_names.h"
+#include "skinning/import/rig_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "skinning/gait.h"
+#include "skinning/animate/gait.h"
 #include "walkers.h"
 
 namespace throng::skinning {

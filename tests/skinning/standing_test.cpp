@@ -1,4 +1,4 @@
-#include "skinning/standing.h"
+#include "skinning/animate/standing.h"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "made_up.h"
-#include "skinning/clips.h"
-#include "skinning/figure.h"
-#include "skinning/plan.h"
+#include "skinning/animate/clips.h"
+#include "skinning/animate/figure.h"
+#include "skinning/animate/plan.h"
 
 namespace throng::skinning {
 

@@ -1,0 +1,94 @@
+# One library per module. A module declares its public headers, and the modules and libraries it may use; an #include of
+# any other module, or of a private header of one, stops the configuration (cmake/ModuleRules.cmake). A module may lie in
+# a folder of another ("jobs/spec"): its library is throng_jobs_spec. Other folders in a module are part of it.
+include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
+
+# With sanitizers most modules are compiled without optimization, which takes half the time; these would run too slowly.
+set(THRONG_OPTIMIZED_MODULES base crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
+# The modules that the fuzz targets (tests/fuzz) cover.
+set(THRONG_FUZZED_MODULES base crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
+
+# throng_module(NAME PUBLIC header... SOURCES file... MODULES module... LIBRARIES target... PRIVATE_LIBRARIES target...)
+# PUBLIC lists the headers that other modules, their tests, benchmarks and examples may include.
+function(throng_module name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;SOURCES;MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  throng_declare_module(${name} PUBLIC ${ARG_PUBLIC} MODULES ${ARG_MODULES})
+  string(REPLACE "/" "_" target "${name}")
+  if(ARG_SOURCES)
+    set(links PUBLIC)
+    add_library(throng_${target} STATIC ${ARG_SOURCES})
+    target_link_libraries(throng_${target} PRIVATE $<BUILD_INTERFACE:throng_flags> ${ARG_PRIVATE_LIBRARIES})
+  else() # only headers
+    set(links INTERFACE)
+    add_library(throng_${target} INTERFACE)
+  endif()
+  add_library(throng::${target} ALIAS throng_${target})
+  set(module_targets "${ARG_MODULES}")
+  list(TRANSFORM module_targets REPLACE "/" "_")
+  list(TRANSFORM module_targets PREPEND "throng::")
+  target_include_directories(throng_${target} ${links}
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:include/throng>")
+  target_link_libraries(throng_${target} ${links} ${module_targets} ${ARG_LIBRARIES})
+  if(THRONG_SANITIZE AND ARG_SOURCES AND name IN_LIST THRONG_OPTIMIZED_MODULES)
+    target_compile_options(throng_${target} PRIVATE -O1)
+  endif()
+  if(THRONG_FUZZ AND ARG_SOURCES AND name IN_LIST THRONG_FUZZED_MODULES)
+    target_compile_options(throng_${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
+endfunction()
+
+# throng_kernels(file...): files with loops for several instruction sets (base/instruction_set.h). Square roots do not
+# report errors, so that they can be vectors; the vectors stay inside functions, so their calling convention is nobody's.
+function(throng_kernels)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-Wno-psabi" SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# throng_embed(TARGET SYMBOL FILE): makes the file's text available as `extern const std::string_view throng::embedded::SYMBOL`.
+function(throng_embed target symbol file)
+  set(output "${CMAKE_CURRENT_BINARY_DIR}/embedded_${symbol}.cpp")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+  file(READ "${file}" text)
+  # Raw string literals are limited to 64 KiB by the standard; split the text to stay below it.
+  string(LENGTH "${text}" length)
+  set(literal "")
+  set(position 0)
+  while(position LESS length)
+    string(SUBSTRING "${text}" ${position} 8000 chunk)
+    string(APPEND literal "R\"__throng__(${chunk})__throng__\"\n")
+    math(EXPR position "${position} + 8000")
+  endwhile()
+  file(CONFIGURE OUTPUT "${output}" CONTENT "#include <string_view>\nnamespace throng::embedded {\nextern const std::string_view ${symbol};  // NOLINT\nconst std::string_view ${symbol} =  // NOLINT\n@literal@;\n}  // namespace throng::embedded\n" @ONLY)
+  target_sources(${target} PRIVATE "${output}")
+  # Apart in joined builds: clang-tidy has nothing to say of it.
+  set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# throng_test(NAME SOURCES file... LIBRARIES target... SHARDS n): one GoogleTest program per module, test_NAME. Its tests run
+# in n processes (default 1), NAME.1 to NAME.n; `test_NAME --gtest_filter=...` runs a single one.
+function(throng_test name)
+  cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(test_${name} ${ARG_SOURCES})
+  target_link_libraries(test_${name} PRIVATE throng_flags ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
+  target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(test_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # The tests' own code is compiled often and runs briefly.
+  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  add_dependencies(throng_tests test_${name})
+  if(NOT ARG_SHARDS)
+    set(ARG_SHARDS 1)
+  endif()
+  foreach(shard RANGE 1 ${ARG_SHARDS})
+    math(EXPR index "${shard} - 1")
+    add_test(NAME ${name}.${shard} COMMAND test_${name} --gtest_brief=1)
+    set_tests_properties(${name}.${shard} PROPERTIES LABELS "${name}" TIMEOUT 900
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${index}")
+  endforeach()
+endfunction()
+
+# throng_bench(NAME SOURCES file... LIBRARIES target...): one Google Benchmark program, bench_NAME.
+function(throng_bench name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(bench_${name} ${ARG_SOURCES})
+  target_link_libraries(bench_${name} PRIVATE throng_flags ${ARG_LIBRARIES} benchmark::benchmark_main)
+  target_compile_definitions(bench_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endfunction()

@@ -1,0 +1,66 @@
+// A few agents and those they see, one agent per lane of a vector.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "crowd/spatial/grid.h"
+
+namespace throng::crowd {
+
+/// Kept from batch to batch, so that nothing is allocated. What is computed for an agent must not
+/// depend on who else is in the batch.
+class LaneBatch {
+ public:
+  static constexpr std::size_t kAgents = 8;
+  using Lanes = std::array<float, kAgents>;
+  using Slots = std::array<std::uint32_t, kAgents>;  ///< in the grid
+
+  /// Room for so many neighbors at first.
+  explicit LaneBatch(std::size_t neighbors) : others_(neighbors) {}
+
+  std::size_t size() const { return size_; }
+  /// How many neighbors there are at most.
+  std::size_t rows() const { return rows_; }
+  void clear() { size_ = rows_ = 0; }
+
+  /// Adds one of at most kAgents. Returns its lane.
+  std::size_t add(std::size_t slot, std::span<const Grid::Neighbor> neighbors) {
+    if (others_.size() < neighbors.size()) others_.resize(neighbors.size());
+    slots_[size_] = static_cast<std::uint32_t>(slot);
+    neighbors_[size_] = static_cast<float>(neighbors.size());
+    for (std::size_t i = 0; i < neighbors.size(); ++i) others_[i][size_] = neighbors[i].slot;
+    rows_ = std::max(rows_, neighbors.size());
+    return size_++;
+  }
+  /// To be called after the last: lanes without an agent become the first one, alone.
+  void fill() {
+    for (std::size_t lane = size_; lane < kAgents; ++lane) {
+      slots_[lane] = slots_[0];
+      neighbors_[lane] = 0;
+    }
+  }
+
+  const Slots& slots() const { return slots_; }
+  const Lanes& neighbors() const { return neighbors_; }  ///< how many
+  /// Everybody's i-th neighbor; oneself for those who have none.
+  Slots row(std::size_t i) const {
+    Slots others = others_[i];
+    for (std::size_t lane = 0; lane < kAgents; ++lane) {
+      if (!(neighbors_[lane] > static_cast<float>(i))) others[lane] = slots_[lane];
+    }
+    return others;
+  }
+
+ private:
+  std::size_t size_ = 0;
+  std::size_t rows_ = 0;
+  Slots slots_{};
+  Lanes neighbors_{};
+  std::vector<Slots> others_;
+};
+
+}  // namespace throng::crowd

@@ -1,0 +1,91 @@
+#include "crowd/models/local_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace throng::crowd {
+
+namespace {
+
+/// Forces know no highest speed, so Menge has none with them; without its quirks max_speed holds
+/// in every model.
+float highest_speed(const Crowd& crowd, std::size_t agent) {
+  constexpr float kNoLimit = 1e6F;  // m/s; squares of it still are floats
+  return crowd.compat == Compat::none ? crowd.agents[Property::max_speed][agent] : kNoLimit;
+}
+
+}  // namespace
+
+Eigen::Vector2f possible_velocity(const Crowd& crowd, std::size_t agent,
+                                  const Eigen::Vector2f& velocity) {
+  if (!velocity.allFinite()) return crowd.agents.velocity[agent];
+  const float max_value = highest_speed(crowd, agent);
+  const float speed = velocity.norm();
+  return speed > max_value ? Eigen::Vector2f(velocity * (max_value / speed)) : velocity;
+}
+
+Eigen::Vector2f unit_or(const Eigen::Vector2f& v, const Eigen::Vector2f& otherwise) {
+  const float length = v.norm();
+  return length > 0 ? Eigen::Vector2f(v / length) : otherwise;
+}
+
+std::optional<float> time_to_disc(const Eigen::Vector2f& offset, const Eigen::Vector2f& velocity,
+                                  float radius) {
+  const float outside = offset.squaredNorm() - radius * radius;
+  if (outside <= 0) return 0.0F;
+  const float approach = -offset.dot(velocity);
+  if (approach <= 0) return std::nullopt;
+  const float speed_sq = velocity.squaredNorm();
+  const float discriminant = approach * approach - speed_sq * outside;
+  if (discriminant < 0) return std::nullopt;
+  // The smaller root, in the form that does not cancel.
+  return outside / (approach + std::sqrt(discriminant));
+}
+
+Random noise(const Crowd& crowd, std::size_t agent) {
+  constexpr int kAgentBits = 32;
+  return {crowd.seed, Stream::crowd_model, (crowd.step << kAgentBits) | agent};
+}
+
+Eigen::Vector2f any_direction(Random& random) {
+  const auto angle = static_cast<float>(random.uniform(0, 2 * M_PI));
+  return {std::cos(angle), std::sin(angle)};
+}
+
+Walker::Walker(const Crowd& crowd, const Grid& grid, std::size_t slot)
+    : id(grid.id(slot)),
+      position(grid.position(slot)),
+      velocity(grid.velocity(slot)),
+      radius(grid.radius(slot)),
+      preferred_speed(crowd.agents.preferred_speed[id]),
+      preferred_direction(crowd.agents.preferred_direction[id]),
+      orientation(crowd.agents.orientation[id]) {}
+
+Separation::Separation(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position)
+    : offset(self.position - other_position),
+      distance(offset.norm()),
+      away(distance > 0 ? Eigen::Vector2f(offset / distance)
+                        : Eigen::Vector2f(self.id > other ? 1 : -1, 0)) {}
+
+Separation::Separation(const Walker& self, const Segment& wall)
+    : offset(self.position - nearest_on_segment(wall.begin, wall.end, self.position)),
+      distance(offset.norm()),
+      away(distance > 0 ? Eigen::Vector2f(offset / distance)
+                        : Eigen::Vector2f(wall.direction.y(), -wall.direction.x())) {}
+
+bool is_shared_corner(const std::vector<Segment>& segments, const Segment& wall,
+                      const Eigen::Vector2f& p) {
+  if (wall.direction.dot(p - wall.end) < 0) return false;
+  return cross(segments[wall.next].direction, p - wall.end) < 0;
+}
+
+void LocalModel::step(const Crowd& crowd, const Grid& grid,
+                      std::span<Eigen::Vector2f> new_velocity) {
+  prepare();
+  neighborhood_.for_each(crowd, grid, [&](const AgentView& around) {
+    new_velocity[around.agent] =
+        possible_velocity(crowd, around.agent, velocity(crowd, grid, around));
+  });
+}
+
+}  // namespace throng::crowd

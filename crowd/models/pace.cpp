@@ -1,0 +1,50 @@
+#include "crowd/models/pace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crowd/models/oncoming.h"
+#include "crowd/models/single_file.h"
+
+namespace throng::crowd {
+
+Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const AgentView& around) const {
+  const std::size_t id = around.agent;
+  View view;
+  view.direction = crowd.agents.preferred_direction[id];
+  view.free_speed = crowd.agents[Property::pref_speed][id];
+  const float reach = std::min(spec_.reach_m, crowd.agents[Property::neighbor_dist][id]);
+  view.reach_sq = reach * reach;
+  const auto max_value = static_cast<std::size_t>(crowd.agents[Property::max_neighbors][id]);
+  if (!around.neighbors.empty() && around.neighbors.size() == max_value) {
+    view.reach_sq = std::min(view.reach_sq, around.neighbors.back().distance_sq);
+  }
+  const float file = around.walls.empty() ? 0 : singleness(crowd, grid, around);
+  if (file > 0 && view.free_speed > 0) {
+    const float share =
+        std::clamp(gap_ahead_m(crowd, grid, around) / (spec_.headway_s * view.free_speed),
+                   spec_.min_value, 1.0F);
+    view.file_share = 1 - file * (1 - share);
+  }
+  return view;
+}
+
+Gait Pace::gait(const View& view, const Ahead& ahead) const {
+  const Eigen::Vector2f& direction = view.direction;
+  Gait gait{1, 1, direction};
+  if (ahead.along > 0) {
+    const float share = 1 - std::exp(-spec_.decline * (1 / ahead.along - 1 / spec_.jam_density));
+    gait.share = std::clamp(share, spec_.min_value, 1.0F);
+  }
+  // Who is slow need not look as far; and at a door nobody waits for those beside them.
+  gait.horizon_share = gait.share;
+  gait.share = std::min(gait.share, view.file_share);
+  if (ahead.against > 0) {
+    const float farther = 2 * ahead.against / std::max(ahead.along, ahead.against);
+    gait.horizon_share = std::max(gait.horizon_share, std::min(1.0F, farther));
+    gait.direction = turned_right(direction, spec_.keep_right, ahead.against);
+  }
+  return gait;
+}
+
+}  // namespace throng::crowd

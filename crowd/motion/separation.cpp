@@ -1,0 +1,157 @@
+#include "crowd/motion/separation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace throng::crowd {
+
+namespace {
+
+constexpr std::size_t kGrain = 64;  // agents per task
+constexpr int kRounds = 60;         // of pushing
+/// Pushing ends when nobody overlaps by more than this, m.
+constexpr float kGoodEnough = 0.8F * Separation::kTolerance;
+/// How far somebody may go in a round, in radii: not past anybody, nor through a wall.
+constexpr float kStride = 0.5F;
+
+}  // namespace
+
+Separation::Separation(const Crowd& crowd) : grid_(crowd.instruction_set), walls_({}) {}
+
+void Separation::remember(const Crowd& crowd) {
+  const Agents& agents = crowd.agents;
+  before_ = agents.position;
+  clearance_before_.resize(agents.count());
+  walls_.prepare();
+  parallel_ranges(agents.count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Obstacles::Near>& walls = walls_.local();
+    for (std::size_t i = begin; i < end; ++i) {
+      const float radius = agents[Property::radius][i];
+      crowd.obstacles.near(agents.position[i], radius, agents.obstacle_mask[i], walls);
+      clearance_before_[i] = walls.empty() ? radius : std::sqrt(walls.front().distance_sq);
+    }
+  });
+}
+
+void Separation::separate(Crowd& crowd) {
+  sort(crowd);
+  float worst = look_around();
+  for (int round = 0; round < kRounds && worst > kGoodEnough; ++round) {
+    push_apart(crowd);
+    worst = look_around();
+  }
+  while (worst > kTolerance && send_back()) worst = look_around();
+  Agents& agents = crowd.agents;
+  const auto rate = static_cast<float>(1 / crowd.dt_s);
+  parallel_ranges(grid_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const std::size_t id = grid_.id(slot);
+      if (bodies_[slot].position == agents.position[id]) continue;
+      agents.position[id] = bodies_[slot].position;
+      agents.velocity[id] = rate * (agents.position[id] - before_[id]);
+    }
+  });
+}
+
+void Separation::sort(const Crowd& crowd) {
+  const Agents& agents = crowd.agents;
+  grid_.build(agents);
+  bodies_.resize(grid_.size());
+  largest_radius_ = 0;
+  for (std::size_t slot = 0; slot < grid_.size(); ++slot) {
+    const std::size_t id = grid_.id(slot);
+    const float clearance = std::min(grid_.radius(slot), clearance_before_[id]);
+    bodies_[slot] = {grid_.position(slot), Eigen::Vector2f::Zero(), clearance, 0, false};
+    largest_radius_ = std::max(largest_radius_, grid_.radius(slot));
+  }
+  drift_ = 0;
+}
+
+float Separation::look_around() {
+  drift_ = 0;
+  for (std::size_t slot = 0; slot < grid_.size(); ++slot) {
+    drift_ = std::max(drift_, (bodies_[slot].position - grid_.position(slot)).norm());
+  }
+  parallel_ranges(grid_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) look_around(slot);
+  });
+  float worst = 0;
+  for (const Body& body : bodies_) worst = std::max(worst, body.overlap);
+  return worst;
+}
+
+void Separation::look_around(std::size_t slot) {
+  Body& self = bodies_[slot];
+  const float radius = grid_.radius(slot);
+  self.overlap = 0;
+  self.push.setZero();
+  grid_.visit(self.position, radius + largest_radius_ + drift_, [&](std::size_t other) {
+    if (other == slot) return;
+    const Eigen::Vector2f apart = self.position - bodies_[other].position;
+    const float touching = radius + grid_.radius(other);
+    const float distance_sq = apart.squaredNorm();
+    if (!(distance_sq < touching * touching)) return;
+    const float distance = std::sqrt(distance_sq);
+    const float overlap = touching - distance;
+    self.overlap = std::max(self.overlap, overlap);
+    const float sign = grid_.id(slot) > grid_.id(other) ? 1 : -1;
+    self.push += 0.5F * overlap *
+                 (distance > 0 ? Eigen::Vector2f(apart / distance) : Eigen::Vector2f(sign, 0));
+  });
+}
+
+void Separation::push_apart(const Crowd& crowd) {
+  walls_.prepare();
+  parallel_ranges(grid_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Obstacles::Near>& walls = walls_.local();
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      Body& self = bodies_[slot];
+      const float length = self.push.norm();
+      if (!(length > 0)) continue;
+      const float max_value = kStride * grid_.radius(slot);
+      const Eigen::Vector2f push = std::min(1.0F, max_value / length) * self.push;
+      self.position = kept_off_walls(crowd, slot, self.position + push, walls);
+    }
+  });
+}
+
+Eigen::Vector2f Separation::kept_off_walls(const Crowd& crowd, std::size_t slot,
+                                           const Eigen::Vector2f& wanted,
+                                           std::vector<Obstacles::Near>& walls) const {
+  const Body& self = bodies_[slot];
+  const float range = self.clearance + (wanted - self.position).norm();
+  crowd.obstacles.near(self.position, range, crowd.agents.obstacle_mask[grid_.id(slot)], walls);
+  Eigen::Vector2f place = wanted;
+  constexpr int kCorners = 2;  // where one wall pushes into the next
+  for (int i = 0; i < kCorners; ++i) {
+    for (const Obstacles::Near& near : walls) {
+      const Segment& wall = crowd.obstacles.segments()[near.segment];
+      const Eigen::Vector2f outward(wall.direction.y(), -wall.direction.x());
+      const float along = wall.direction.dot(place - wall.begin);
+      const float height = outward.dot(place - wall.begin);
+      if (along >= 0 && along <= (wall.end - wall.begin).norm()) {
+        if (height < self.clearance) place += (self.clearance - height) * outward;
+        continue;
+      }
+      const Eigen::Vector2f corner = along < 0 ? wall.begin : wall.end;
+      const float distance = (place - corner).norm();
+      if (distance > 0 && distance < self.clearance) {
+        place = corner + self.clearance / distance * (place - corner);
+      }
+    }
+  }
+  return place;
+}
+
+bool Separation::send_back() {
+  bool any = false;
+  for (std::size_t slot = 0; slot < grid_.size(); ++slot) {
+    Body& body = bodies_[slot];
+    if (body.stays || !(body.overlap > kTolerance)) continue;
+    body.position = before_[grid_.id(slot)];
+    body.stays = any = true;
+  }
+  return any;
+}
+
+}  // namespace throng::crowd

@@ -1,0 +1,30 @@
+// The height of the ground.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "crowd/elements/registry.h"
+#include "crowd/elements/shared_parts.h"
+
+namespace throng::crowd {
+
+class Elevation {
+ public:
+  virtual ~Elevation() = default;
+  virtual float height_m(const Eigen::Vector2f& point) const = 0;
+  /// Uphill, m of height per m of way.
+  virtual Eigen::Vector2f gradient(const Eigen::Vector2f& point) const = 0;
+};
+
+struct ElevationContext {
+  SharedParts& parts;
+};
+using ElevationRegistry = Registry<Elevation, ElevationContext>;
+/// flat, nav_mesh, height_field.
+const ElevationRegistry& elevation_registry();
+
+ElevationRegistry::Entry height_field_elevation();
+
+}  // namespace throng::crowd

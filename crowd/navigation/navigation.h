@@ -1,0 +1,20 @@
+// Plug-ins that know the way around walls, one file each.
+#pragma once
+
+#include <vector>
+
+#include "crowd/behavior/behavior.h"
+
+namespace throng::crowd {
+
+VelComponentRegistry::Entry auto_component();
+VelComponentRegistry::Entry nav_mesh_component();
+VelComponentRegistry::Entry road_map_component();
+VelComponentRegistry::Entry vector_field_component();
+
+/// By the length of the way across a mesh.
+std::vector<GoalSelectorRegistry::Entry> navigation_goal_selectors();
+/// What the ground's slopes do.
+std::vector<VelModifierRegistry::Entry> slope_modifiers();
+
+}  // namespace throng::crowd

@@ -1,0 +1,103 @@
+// A graph of places from a file, and agents' ways along it.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "crowd/elements/text_file.h"
+#include "crowd/navigation/steering.h"
+
+namespace throng::crowd {
+
+/// Places and the ways between them, to be walked either way.
+struct RoadMap {
+  struct Road {
+    int to = 0;
+    float length_m = 0;
+  };
+
+  std::vector<Eigen::Vector2f> places;   ///< at least one
+  std::vector<std::vector<Road>> roads;  ///< by place
+};
+
+/// Reads Menge's format: places with the number of their roads, then roads. Throws InputError
+/// (file, line, found, expected), EnvironmentError when the file cannot be read.
+RoadMap load_road_map(const TextFile& source);
+
+/// The shortest way between two places, by A* (Hart, Nilsson and Raphael 1968). One for each
+/// thread: it keeps its memory.
+class RoadFinder {
+ public:
+  explicit RoadFinder(const RoadMap& map);
+  /// Finds a way; false if there is none. The map is the one given to the constructor.
+  bool find(const RoadMap& map, int from, int to);
+  /// The places of the way found last, from its beginning to its end.
+  const std::vector<int>& places() const { return places_; }
+
+ private:
+  struct Node {
+    unsigned search = 0;  // the last that reached it
+    bool done = false;
+    int before = -1;
+    float cost = 0;
+  };
+  struct Open {
+    float estimate = 0;
+    int place = 0;
+  };
+
+  std::vector<Node> nodes_;
+  std::vector<Open> open_;  // a heap
+  std::vector<int> places_;
+  unsigned search_ = 0;
+};
+
+/// The ways of all agents that use one map, in whatever state. An agent begins at the nearest place
+/// that it sees, goes on to the next as soon as it sees that, and looks for a new way when it does
+/// not see the place it heads for or its goal has moved. Walls hide what an agent cannot get to
+/// straight. In compatible runs who has lost sight of a place goes back to where it was last seen
+/// from, and looks for a new way only when it does not see that either; and a goal's moves are
+/// noticed a step later, at the goal's very edge.
+class RoadMapRoutes {
+ public:
+  explicit RoadMapRoutes(RoadMap map);
+
+  void enter(const Crowd& crowd, std::size_t agent);  ///< the agent has another goal
+  void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred);
+
+ private:
+  static constexpr std::size_t kMaxPlaces = 32;
+
+  struct Route {
+    bool known = false;
+    bool whole = false;  ///< after the last place comes the goal
+    std::size_t next = 0;
+    std::size_t count = 0;
+    int end = -1;  ///< the place nearest to the goal
+    Eigen::Vector2f target = Eigen::Vector2f::Zero();
+    Eigen::Vector2f seen_from = Eigen::Vector2f::Zero();  ///< where the next place was last seen
+    int noticed_end = -1;  ///< compatible runs: the `end` that the last step would have chosen
+    Eigen::Vector2f edge = Eigen::Vector2f::Zero();  ///< the goal's nearest point then
+    std::array<int, kMaxPlaces> places{};
+  };
+
+  void prefer_as_menge(const Crowd& crowd, std::size_t agent, Route& route,
+                       PreferredVelocity& preferred);
+  void head_on(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
+               const Route& route, PreferredVelocity& preferred) const;
+  static bool sees(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& place);
+  void plan(const Crowd& crowd, std::size_t agent, Route& route);
+  bool is_elsewhere(const Crowd& crowd, std::size_t agent, Route& route) const;
+  bool advance(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& target,
+               Route& route) const;
+  int nearest_visible(const Crowd& crowd, std::size_t agent, const Eigen::Vector2f& point) const;
+
+  RoadMap map_;
+  std::vector<Route> routes_;  // by agent
+  tbb::enumerable_thread_specific<RoadFinder> finders_;
+};
+
+}  // namespace throng::crowd

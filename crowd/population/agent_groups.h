@@ -1,0 +1,55 @@
+// The groups of a scene: who starts where, with which profile and in which state.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crowd/crowd.h"
+#include "crowd/elements/registry.h"
+#include "crowd/menge_compat/menge_random.h"
+#include "crowd/population/profile.h"
+#include "crowd/population/social_groups.h"
+#include "crowd/process.h"
+
+namespace throng::crowd {
+
+/// What the elements of a group refer to.
+struct GroupContext {
+  const std::vector<Profile>& profiles;
+  const std::vector<std::string>& state_names;
+  std::uint64_t seed = 1;
+  MengeSequences& sequences;
+  std::optional<SocialGroupsSpec> social_groups;
+};
+
+/// Chooses the profile of each agent of a group.
+class ProfileSelector {
+ public:
+  virtual ~ProfileSelector() = default;
+  /// An index into GroupContext::profiles. Called once per agent, in the order of their ids.
+  virtual std::size_t select(std::size_t agent) = 0;
+};
+
+/// Chooses the state in which each agent of a group starts.
+class StateSelector {
+ public:
+  virtual ~StateSelector() = default;
+  virtual std::uint8_t select(std::size_t agent) = 0;
+};
+
+using ProfileSelectorRegistry = Registry<ProfileSelector, GroupContext>;
+using StateSelectorRegistry = Registry<StateSelector, GroupContext>;
+/// const, random, weighted.
+const ProfileSelectorRegistry& profile_selector_registry();
+/// const.
+const StateSelectorRegistry& state_selector_registry();
+
+/// Adds the agents of an <AgentGroup> to the crowd, and to `processes` what lets them come later.
+/// Throws InputError.
+void load_group(const Element& group, GroupContext& context, Crowd& crowd,
+                std::vector<std::unique_ptr<Process>>& processes);
+
+}  // namespace throng::crowd

@@ -1,0 +1,73 @@
+// What each agent sees of the others and of the walls; pedestrian models are functions of it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/parallel.h"
+#include "crowd/crowd.h"
+#include "crowd/menge_compat/menge_tree.h"
+#include "crowd/spatial/grid.h"
+
+namespace throng::crowd {
+
+/// What one agent sees.
+struct AgentView {
+  std::size_t agent = 0;                      ///< its id
+  std::size_t slot = 0;                       ///< its place in the grid
+  std::span<const Grid::Neighbor> neighbors;  ///< nearest first, at most max_neighbors
+  std::span<const Obstacles::Near> walls;     ///< nearest first
+};
+
+/// Finds everybody's surroundings, step after step, without allocating after the first ones.
+class Neighborhood {
+ public:
+  explicit Neighborhood(const Crowd& crowd);
+
+  /// Calls act(surroundings) once for every agent in the grid, on all threads.
+  template <typename Act>
+  void for_each(const Crowd& crowd, const Grid& grid, const Act& act) {
+    prepare(crowd, grid);
+    parallel_ranges(grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      Found& found = found_.local();
+      for (std::size_t slot = begin; slot < end; ++slot) act(look(crowd, grid, slot, found));
+    });
+  }
+
+  /// To be called before a loop that looks at single agents, by the thread that starts it.
+  void prepare(const Crowd& crowd, const Grid& grid) {
+    found_.prepare();
+    if (crowd.compat != Compat::none) tree_.build(grid, crowd.agents.count());
+    if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
+  }
+  /// What one agent sees; valid until this thread looks at another.
+  AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot) {
+    return look(crowd, grid, slot, found_.local());
+  }
+
+ private:
+  static constexpr std::size_t kGrain = 64;  // agents per task
+  static constexpr float kFirstReach = 2;    // m
+
+  /// What one thread works with.
+  struct Found {
+    Grid::Candidates candidates;
+    MengeTree::Search search;
+    std::vector<Obstacles::Near> walls;
+    std::vector<Grid::Neighbor> visible;
+  };
+
+  static Found make_found(const Crowd& crowd);
+  AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot, Found& found);
+  std::span<const Grid::Neighbor> nearest(const Crowd& crowd, const Grid& grid, std::size_t slot,
+                                          std::size_t max_value, Found& found);
+  std::span<const Grid::Neighbor> nearest_visible(const Crowd& crowd, const Grid& grid,
+                                                  std::size_t slot, std::size_t max_value,
+                                                  Found& found);
+
+  MengeTree tree_;            // of compatible runs
+  std::vector<float> reach_;  // per agent, see Grid::nearest
+  PerThread<Found> found_;
+};
+
+}  // namespace throng::crowd

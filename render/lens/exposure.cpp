@@ -1,0 +1,301 @@
+#include "render/lens/exposure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "base/error.h"
+#include "base/srgb.h"
+
+namespace throng::render {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kStillPx = 0.25;
+constexpr int kMaxSamples = 15;
+constexpr double kStripMotionPx = 0.5;
+constexpr int kMaxStrips = 32;
+
+double moved_px(const camera::Camera& before, const Vector3d& point_before,
+                const camera::Camera& after, const Vector3d& point_after) {
+  const camera::Camera::Projection a = before.project(point_before);
+  const camera::Camera::Projection b = after.project(point_after);
+  const camera::Intrinsics& k = before.intrinsics;
+  const Eigen::AlignedBox2d image(Vector2d(0, 0), Vector2d(k.width, k.height));
+  if (!a.visible || !b.visible || !(image.contains(a.pixel) || image.contains(b.pixel))) return 0;
+  return (a.pixel - b.pixel).norm();
+}
+
+/// Ground point seen by a pixel, or, above the horizon, a far point.
+std::optional<Vector3d> far_point(const camera::Camera& camera, const Vector2d& pixel) {
+  constexpr double kFar_m = 300;
+  const Vector3d center = camera.pose.center();
+  const Vector3d ray = camera.unproject(pixel, 1) - center;
+  if (ray.hasNaN()) return std::nullopt;
+  const double to_ground = -center.z() / ray.z();
+  return center + ray * (to_ground > 0 ? std::min(to_ground, kFar_m) : kFar_m);
+}
+
+double camera_motion_px(const camera::Camera& before, const camera::Camera& after) {
+  constexpr int kSteps = 4;
+  const camera::Intrinsics& k = before.intrinsics;
+  double max_value = 0;
+  for (int row = 0; row <= kSteps; ++row) {
+    for (int column = 0; column <= kSteps; ++column) {
+      const Vector2d pixel((k.width - 1.0) * column / kSteps, (k.height - 1.0) * row / kSteps);
+      const std::optional<Vector3d> point = far_point(before, pixel);
+      if (point) max_value = std::max(max_value, moved_px(before, *point, after, *point));
+    }
+  }
+  return max_value;
+}
+
+/// An odd number, so that one sample is in the middle.
+int samples_for(double motion_px) {
+  if (motion_px < kStillPx) return 1;
+  const int wanted = std::max(3, static_cast<int>(std::ceil(motion_px)));
+  return std::min(wanted + 1 - wanted % 2, kMaxSamples);
+}
+
+int strips_for(double motion_px, int rows) {
+  if (motion_px < kStillPx) return 1;
+  const int wanted = static_cast<int>(std::ceil(std::min(motion_px, 1e3) / kStripMotionPx));
+  return std::min({wanted, kMaxStrips, rows});
+}
+
+double motion_during(const MomentAt& moment_at, double time_s, double duration_s) {
+  if (duration_s <= 0) return 0;
+  return image_motion_px(moment_at(time_s - duration_s / 2), moment_at(time_s + duration_s / 2));
+}
+
+/// A strip of rows: the middle moment's everything, with the colors of all moments.
+Frame exposed_strip(Lens& lens, const MomentAt& moment_at, double time_s, double exposure_s,
+                    int samples, const Rows& rows, std::optional<double> next_s) {
+  std::vector<float> light;
+  Frame strip;
+  for (int i = 0; i < samples; ++i) {
+    const bool middle = 2 * i + 1 == samples;
+    // The middles of equal parts of the exposure; the middle one's share is exactly 0.
+    const double offset_s = exposure_s * (2 * i + 1 - samples) / (2.0 * samples);
+    const ShutterMoment moment = moment_at(time_s + offset_s);
+    std::optional<NextFrame> next;
+    if (middle && next_s) {
+      const ShutterMoment later = moment_at(*next_s);
+      next = NextFrame{*later.scene, later.camera};
+    }
+    Frame frame =
+        lens.draw_rows(*moment.scene, moment.camera, rows, next ? &*next : nullptr, middle);
+    if (samples == 1) return frame;
+    light.resize(frame.rgb.size());
+    for (std::size_t j = 0; j < light.size(); ++j) light[j] += linear_of_srgb(frame.rgb[j]);
+    if (middle) {
+      strip = std::move(frame);
+    } else {
+      lens.recycle(std::move(frame));
+    }
+  }
+  for (std::size_t j = 0; j < light.size(); ++j) {
+    strip.rgb[j] = srgb_of_linear(light[j] / static_cast<float>(samples));
+  }
+  return strip;
+}
+
+template <typename Value>
+void append(std::vector<Value>& to, const std::vector<Value>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// People of strips put together.
+class PeopleInStrips {
+ public:
+  void add(const Frame& strip, const Rows& rows) {
+    for (const PersonInView& person : strip.people) {
+      Known& known = people_[person.agent];
+      const std::uint64_t area_px = person.amodal_area_px;
+      if (known.strips == 0 || area_px > known.largest_px) {
+        known.person = person;
+        known.largest_px = area_px;
+      }
+      ++known.strips;
+      known.area_px += area_px;
+      known.box.extend(person.amodal_box);
+      if (person.whole_mask != nullptr) {
+        known.whole = union_of(known.whole, *person.whole_mask);
+      }
+      see_head(strip.camera, person.head, rows, known);
+      see_keypoints(strip.camera, person, rows, known);
+    }
+  }
+
+  std::vector<PersonInView> take() const {
+    std::vector<PersonInView> people;
+    for (const auto& [agent, known] : people_) {
+      people.push_back(known.person);
+      people.back().amodal_box = known.box;
+      people.back().amodal_area_px = known.area_px;
+      people.back().head_px = known.head_px;
+      people.back().keypoints_px = known.keypoints_px;
+      if (known.person.whole_mask != nullptr) {
+        people.back().whole_mask = std::make_shared<PixelMask>(known.whole);
+      }
+    }
+    return people;
+  }
+
+ private:
+  struct Known {
+    PersonInView person;  ///< in the strip that has most of them
+    std::uint64_t largest_px = 0;
+    int strips = 0;
+    std::uint64_t area_px = 0;
+    Eigen::AlignedBox2d box;
+    PixelMask whole;
+    std::optional<Vector2d> head_px;
+    double head_off_rows = std::numeric_limits<double>::infinity();
+    skinning::Keypoints keypoints_px =
+        skinning::keypoints_at(Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+    std::array<float, skinning::kKeypointCount> keypoints_off_rows{};
+    Known() { keypoints_off_rows.fill(std::numeric_limits<float>::infinity()); }
+  };
+
+  /// Keeps the sight of the head from the strip whose rows it is in, or nearest to.
+  static void see_head(const camera::Camera& camera, const Vector3d& head, const Rows& rows,
+                       Known& known) {
+    const camera::Camera::Projection seen = camera.project(head);
+    if (!seen.visible) return;
+    const Vector2d at = seen.pixel.array() + 0.5;
+    const double off = std::max({rows.first - at.y(), at.y() - rows.end, 0.0});
+    if (off >= known.head_off_rows) return;
+    known.head_off_rows = off;
+    known.head_px = at;
+  }
+
+  /// The same for each keypoint.
+  static void see_keypoints(const camera::Camera& camera, const PersonInView& person,
+                            const Rows& rows, Known& known) {
+    const skinning::Keypoints seen = keypoints_in(person, camera);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (!seen[i].allFinite()) continue;
+      const float y = seen[i].y();
+      const float off =
+          std::max({static_cast<float>(rows.first) - y, y - static_cast<float>(rows.end), 0.0F});
+      if (off >= known.keypoints_off_rows[i]) continue;
+      known.keypoints_off_rows[i] = off;
+      known.keypoints_px[i] = seen[i];
+    }
+  }
+
+  std::map<std::uint32_t, Known> people_;
+};
+
+/// Drones of strips put together.
+class DronesInStrips {
+ public:
+  void add(const Frame& strip) {
+    for (const DroneInView& drone : strip.drones) {
+      const auto [entry, is_new] = drones_.try_emplace(drone.drone, Known{drone, 0});
+      Known& known = entry->second;
+      if (is_new) {
+        known.largest_px = drone.amodal_area_px;
+        continue;
+      }
+      DroneInView sum = drone.amodal_area_px > known.largest_px ? drone : known.drone;
+      known.largest_px = std::max(known.largest_px, drone.amodal_area_px);
+      sum.amodal_area_px = known.drone.amodal_area_px + drone.amodal_area_px;
+      sum.amodal_box = known.drone.amodal_box.merged(drone.amodal_box);
+      sum.whole_mask =
+          std::make_shared<PixelMask>(union_of(*known.drone.whole_mask, *drone.whole_mask));
+      known.drone = std::move(sum);
+    }
+  }
+
+  std::vector<DroneInView> take() const {
+    std::vector<DroneInView> drones;
+    for (const auto& [number, known] : drones_) drones.push_back(known.drone);
+    return drones;
+  }
+
+ private:
+  struct Known {
+    DroneInView drone;  ///< in the strip that has most of it
+    std::uint64_t largest_px = 0;
+  };
+  std::map<std::uint32_t, Known> drones_;
+};
+
+}  // namespace
+
+double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
+  double max_value = camera_motion_px(from.camera, to.camera);
+  std::unordered_map<std::uint32_t, const PersonInstance*> later;
+  for (const PersonInstance& person : to.scene->people) later[person.agent] = &person;
+  for (const PersonInstance& person : from.scene->people) {
+    const auto found = later.find(person.agent);
+    if (found == later.end()) continue;
+    max_value = std::max(max_value, moved_px(from.camera, person.position.cast<double>(), to.camera,
+                                             found->second->position.cast<double>()));
+  }
+  for (const DroneInstance& drone : from.scene->drones) {
+    if (carries(drone, from.camera.pose.center())) continue;
+    for (const DroneInstance& after : to.scene->drones) {
+      if (after.drone != drone.drone) continue;
+      max_value =
+          std::max(max_value, moved_px(from.camera, drone.position, to.camera, after.position));
+    }
+  }
+  return max_value;
+}
+
+Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Exposure& exposure,
+               std::optional<double> next_s) {
+  check(exposure.exposure_s >= 0 && exposure.readout_s >= 0, "time runs forwards");
+  Exposed exposed;
+  exposed.blur_px = motion_during(moment_at, time_s, exposure.exposure_s);
+  exposed.samples = samples_for(exposed.blur_px);
+  const camera::Camera camera = moment_at(time_s).camera;
+  const int height = camera.intrinsics.height;
+  const int strips = strips_for(motion_during(moment_at, time_s, exposure.readout_s), height);
+  const int strip_rows = (height + strips - 1) / strips;
+  Frame& frame = exposed.frame;
+  PeopleInStrips people;
+  DronesInStrips drones;
+  exposed.strips = 0;
+  for (int first = 0; first < height; first += strip_rows, ++exposed.strips) {
+    const Rows rows{first, std::min(first + strip_rows, height)};
+    const double middle_row = 0.5 * (rows.first + rows.end - height);
+    const double strip_s = strips == 1 ? time_s : time_s + exposure.readout_s * middle_row / height;
+    Frame strip =
+        exposed_strip(lens, moment_at, strip_s, exposure.exposure_s, exposed.samples, rows,
+                      next_s ? std::optional(*next_s + strip_s - time_s) : std::nullopt);
+    if (strips == 1) {
+      frame = std::move(strip);
+      frame.time_s = time_s;
+      exposed.strips = 1;
+      return exposed;
+    }
+    people.add(strip, rows);
+    drones.add(strip);
+    frame.index = strip.index;
+    append(frame.rgb, strip.rgb);
+    append(frame.id, strip.id);
+    append(frame.depth_m, strip.depth_m);
+    append(frame.normal, strip.normal);
+    append(frame.flow, strip.flow);
+    append(frame.part, strip.part);
+  }
+  frame.time_s = time_s;
+  frame.camera = camera;
+  frame.people = people.take();
+  frame.drones = drones.take();
+  return exposed;
+}
+
+}  // namespace throng::render

@@ -1,0 +1,47 @@
+// Effects of time on an image: the world and the camera move while the shutter is open (motion
+// blur) and while the rows are read one after the other (rolling shutter).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "camera/camera.h"
+#include "render/frame.h"
+#include "render/lens/lens.h"
+#include "render/spec/exposure.h"
+
+namespace throng::render {
+
+/// The world and the camera at one time.
+struct ShutterMoment {
+  std::shared_ptr<const Scene> scene;
+  camera::Camera camera;
+};
+using MomentAt = std::function<ShutterMoment(double time_s)>;
+
+/// How a frame was exposed.
+struct Exposed {
+  Frame frame;
+  int samples = 1;     ///< moments that each row's light is averaged over
+  int strips = 1;      ///< strips of rows that were each rendered at a time of their own
+  double blur_px = 0;  ///< max motion in the image during the exposure
+};
+
+/// How far (px) what is seen moves at most between two moments: the ground (z = 0), by the
+/// camera's motion, and people, by theirs as well.
+double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
+
+/// Renders as many moments as the motion needs: one when nothing moves by a quarter of a pixel,
+/// else one per pixel of blur up to 15, and strips in which the reading moves nothing by more than
+/// half a pixel, 32 at most. Colors are averaged in linear light. Ids, depth, boxes and areas are
+/// those of the middle of each strip's exposure; a person's box is the union over the strips of
+/// what shows in each, their position that of the strip where most of them is. The frame's camera
+/// is the one at `time_s`.
+///
+/// `next_s` is when the next frame is taken, if flow is wanted: flow goes from each row's time to
+/// as long after it.
+Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Exposure& exposure,
+               std::optional<double> next_s = std::nullopt);
+
+}  // namespace throng::render

@@ -1,0 +1,88 @@
+#include "render/passes/contact_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/gl/color_only.h"
+#include "render/gl/shaders.h"
+
+namespace throng::render {
+
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kMinSizePx = 48;  // standing height of people who still get a rim: it costs as
+                                   // much as they do, and shows as a few pixels
+constexpr double kPersonReachM = 0.5;
+constexpr double kTypicalStatureM = 1.7;
+
+/// A prop's part that touches the ground or nearly does: what it hides the sky from.
+double reach_of(world::PropKind kind) { return kind == world::PropKind::car ? 0.7 : 0.35; }
+
+}  // namespace
+
+ContactPass::Rim ContactPass::rim(const Vector2d& middle, const Vector2d& half_size, double yaw_rad,
+                                  double reach_m, double strength) {
+  return {{static_cast<float>(middle.x()), static_cast<float>(middle.y()),
+           static_cast<float>(half_size.x()), static_cast<float>(half_size.y())},
+          {static_cast<float>(std::cos(yaw_rad)), static_cast<float>(std::sin(yaw_rad)),
+           static_cast<float>(reach_m), static_cast<float>(strength)}};
+}
+
+// In the sun the sky gives a smaller part of the light.
+ContactPass::ContactPass(const world::Scenario& scenario, const Daylight& light)
+    : strength_(light.soft || light.dark ? 0.62 : 0.42),
+      instances_(make_buffer()),
+      array_(make_vertex_array()),
+      program_(make_program({embedded::shader_view, embedded::shader_contact_vert},
+                            {embedded::shader_light, embedded::shader_contact_frag})) {
+  for (const world::Prop& prop : scenario.props) {
+    const Vector2d half =
+        prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
+    still_.push_back(
+        rim(prop.position, 0.9 * half, prop.yaw_rad, reach_of(prop.kind), 1.1 * strength_));
+  }
+  constexpr double kWallReachM = 0.9;
+  for (const world::Building& building : scenario.buildings) {
+    for (std::size_t i = 0; i < building.footprint.size(); ++i) {
+      const Vector2d& from = building.footprint[i];
+      const Vector2d edge = building.footprint[(i + 1) % building.footprint.size()] - from;
+      still_.push_back(rim(from + 0.5 * edge, {0.5 * edge.norm(), 0},
+                           std::atan2(edge.y(), edge.x()), kWallReachM, 0.7 * strength_));
+    }
+  }
+  describe_vertices(array_, 0, instances_, sizeof(Rim), 1,
+                    {{0, 4, GL_FLOAT, false, offsetof(Rim, footprint)},
+                     {1, 4, GL_FLOAT, false, offsetof(Rim, shade)}});
+}
+
+void ContactPass::draw(std::span<const PersonInstance> people, const camera::Camera& camera) {
+  const ClipPlanes planes = clip_planes(camera);
+  const Eigen::Vector3d eye = camera.pose.center();
+  const double max_distance_m = camera.intrinsics.fy_px * kTypicalStatureM / kMinSizePx;
+  std::vector<const PersonInstance*> seen;
+  for (const PersonInstance& person : people) {
+    const Eigen::Vector3d foot = person.position.cast<double>();
+    if ((foot - eye).norm() > max_distance_m || is_outside(planes, foot, kPersonReachM)) continue;
+    seen.push_back(&person);
+  }
+  // Rounding of overlapping rims depends on their order.
+  std::sort(seen.begin(), seen.end(),
+            [](const PersonInstance* a, const PersonInstance* b) { return a->agent < b->agent; });
+  rims_ = still_;
+  for (const PersonInstance* person : seen) {
+    rims_.push_back(rim(person->position.head<2>().cast<double>(), {0.04, 0.1}, person->yaw_rad,
+                        kPersonReachM, strength_));
+  }
+  if (rims_.empty()) return;
+  glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(rims_.size() * sizeof(Rim)),
+                    rims_.data(), GL_STREAM_DRAW);
+  const ColorOnly guard;
+  glBindVertexArray(array_.name());
+  glUseProgram(program_.name());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rims_.size()));
+}
+
+}  // namespace throng::render

@@ -1,0 +1,42 @@
+// The dark rim on the ground around people, props and walls: the sky that they hide from it.
+// Without it, what stands in the shade seems to float.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "render/gl/gl_objects.h"
+#include "render/place/daylight.h"
+#include "render/scene.h"
+#include "render/view.h"
+#include "world/scenario.h"
+
+namespace throng::render {
+
+class ContactPass {
+ public:
+  ContactPass(const world::Scenario& scenario, const Daylight& light);
+
+  /// Darkens the ground in the colors alone. Expects the View and Light blocks and the target to
+  /// be bound and the ground to be rendered. People smaller than a few pixels are left out.
+  void draw(std::span<const PersonInstance> people, const camera::Camera& camera);
+
+ private:
+  /// One instance, as shaders/contact.vert.glsl reads it.
+  struct Rim {
+    std::array<float, 4> footprint{};  ///< middle, half sizes (m)
+    std::array<float, 4> shade{};      ///< heading's cosine and sine, reach (m), strength
+  };
+  static Rim rim(const Eigen::Vector2d& middle, const Eigen::Vector2d& half_size, double yaw_rad,
+                 double reach_m, double strength);
+
+  std::vector<Rim> still_;  ///< of props and walls
+  std::vector<Rim> rims_;   ///< of the frame
+  double strength_;
+  Buffer instances_;
+  VertexArray array_;
+  Program program_;
+};
+
+}  // namespace throng::render

@@ -1,0 +1,149 @@
+#include "render/passes/prop_pass.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "render/frame.h"
+#include "render/gl/shaders.h"
+#include "render/place/rubble.h"
+#include "render/props/mesh_file.h"
+
+namespace throng::render {
+
+namespace {
+
+using embedded::shader_light;
+using embedded::shader_noise;
+
+constexpr std::string_view kNoShadows = "#define NO_SHADOWS\n";
+constexpr std::string_view kLeaves = "#define LEAVES\n";
+
+/// Appends the triangles of one kind, solid or leaves, of a mesh whose vertices start at `base`.
+Range append(const PropMesh& mesh, bool leaves, std::uint32_t base,
+             std::vector<std::uint32_t>& indices) {
+  const auto first = static_cast<std::uint32_t>(indices.size());
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const bool is_leaf =
+        mesh.vertices[mesh.indices[i]].paint[3] == static_cast<std::uint8_t>(Finish::leaves);
+    if (is_leaf != leaves) continue;
+    for (std::size_t k = i; k < i + 3; ++k) indices.push_back(base + mesh.indices[k]);
+  }
+  return {first, static_cast<std::uint32_t>(indices.size()) - first};
+}
+
+}  // namespace
+
+PropPass::Item& PropPass::add(const PropMesh& mesh, bool closed, std::vector<PropVertex>& vertices,
+                              std::vector<std::uint32_t>& indices) {
+  Eigen::AlignedBox3d bounds;
+  for (const PropVertex& vertex : mesh.vertices) {
+    bounds.extend(Eigen::Vector3f(vertex.position.data()).cast<double>());
+  }
+  const auto base = static_cast<std::uint32_t>(vertices.size());
+  Item& item = items_.emplace_back();
+  item.middle = bounds.center();
+  item.radius_m = 0.5 * bounds.diagonal().norm();
+  item.solid = append(mesh, false, base, indices);
+  item.leaves = append(mesh, true, base, indices);
+  item.closed = closed;
+  vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+  return item;
+}
+
+VertexArray make_prop_array(const Buffer& vertices, const Buffer& indices) {
+  VertexArray array = make_vertex_array();
+  describe_vertices(array, 0, vertices, sizeof(PropVertex), 0,
+                    {{0, 3, GL_FLOAT, false, offsetof(PropVertex, position)},
+                     {1, 3, GL_FLOAT, false, offsetof(PropVertex, normal)},
+                     {2, 2, GL_FLOAT, false, offsetof(PropVertex, card)},
+                     {3, 4, GL_UNSIGNED_BYTE, true, offsetof(PropVertex, paint)},
+                     {4, 1, GL_UNSIGNED_INT, false, offsetof(PropVertex, id)}});
+  glVertexArrayElementBuffer(array.name(), indices.name());
+  return array;
+}
+
+PropPass::PropPass(const world::Scenario& scenario, std::string_view words,
+                   const QualitySettings& quality) {
+  std::vector<PropVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::uint32_t id = kIdProp;
+  for (const world::Prop& prop : scenario.props) {
+    add(prop_shape(prop, id++), true, vertices, indices);
+  }
+  for (const world::PlacedMesh& mesh : scenario.meshes) {
+    add(mesh_from_file(mesh, id++), false, vertices, indices);
+  }
+  for (const world::Disaster& disaster : scenario.disasters) {
+    const std::vector<RubblePiece> pieces = rubble_of(disaster, id);
+    for (const RubblePiece& piece : pieces) {
+      add(piece.mesh, true, vertices, indices).from_s = piece.from_s;
+    }
+    if (!pieces.empty()) ++id;
+  }
+  if (items_.empty()) return;
+  vertices_ = make_buffer(vertices);
+  indices_ = make_buffer(indices);
+  array_ = make_prop_array(vertices_, indices_);
+  const auto camera_program = [&](std::string_view kind) {
+    return make_program({embedded::shader_view, embedded::shader_prop_vert},
+                        {words, quality.shadow_texels > 0 ? "" : kNoShadows, kind, shader_light,
+                         shader_noise, embedded::shader_prop_frag});
+  };
+  solid_ = camera_program("");
+  leaves_ = camera_program(kLeaves);
+  shadow_ = make_program({shader_light, embedded::shader_place_shadow_vert}, {});
+  check_gl("loading props");
+}
+
+void PropPass::draw_ranges(const Program& program, const std::vector<const Item*>& items,
+                           Range Item::*range) const {
+  std::vector<GLsizei> counts;
+  std::vector<const void*> offsets;
+  for (const Item* item : items) {
+    const Range& triangles = item->*range;
+    if (triangles.count == 0) continue;
+    counts.push_back(static_cast<GLsizei>(triangles.count));
+    const std::size_t offset = triangles.first * sizeof(std::uint32_t);
+    offsets.push_back(reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr)
+  }
+  if (counts.empty()) return;
+  glUseProgram(program.name());
+  glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
+                      static_cast<GLsizei>(counts.size()));
+}
+
+void PropPass::draw(const ClipPlanes& planes, double time_s) const {
+  std::vector<const Item*> closed;
+  std::vector<const Item*> open;
+  for (const Item& item : items_) {
+    if (time_s < item.from_s || is_outside(planes, item.middle, item.radius_m)) continue;
+    (item.closed ? closed : open).push_back(&item);
+  }
+  if (closed.empty() && open.empty()) return;
+  glBindVertexArray(array_.name());
+  glEnable(GL_CULL_FACE);
+  draw_ranges(solid_, closed, &Item::solid);
+  glDisable(GL_CULL_FACE);
+  draw_ranges(solid_, open, &Item::solid);
+  draw_ranges(leaves_, closed, &Item::leaves);
+}
+
+void PropPass::draw_shadow(const Eigen::AlignedBox2d& area, const Eigen::Vector2d& slope,
+                           double time_s) const {
+  std::vector<const Item*> casters;
+  for (const Item& item : items_) {
+    if (time_s < item.from_s) continue;
+    const Eigen::Vector2d middle = item.middle.head<2>();
+    Eigen::AlignedBox2d shade(middle);
+    shade.extend(Eigen::Vector2d(middle - slope * (item.middle.z() + item.radius_m)));
+    shade = {shade.min().array() - item.radius_m, shade.max().array() + item.radius_m};
+    if (shade.intersects(area)) casters.push_back(&item);
+  }
+  if (casters.empty()) return;
+  glBindVertexArray(array_.name());
+  glDisable(GL_CULL_FACE);
+  draw_ranges(shadow_, casters, &Item::solid);
+  draw_ranges(shadow_, casters, &Item::leaves);
+}
+
+}  // namespace throng::render

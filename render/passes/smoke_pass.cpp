@@ -1,0 +1,161 @@
+#include "render/passes/smoke_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/random.h"
+#include "render/gl/color_only.h"
+#include "render/gl/shaders.h"
+#include "render/place/lighting.h"
+#include "render/view.h"
+
+namespace throng::render {
+
+namespace {
+
+constexpr std::uint64_t kSmoke = std::uint64_t{1} << 43;  // apart from other uses of the stream
+constexpr std::uint64_t kPuffs = 130;                     // of one danger
+constexpr std::uint64_t kUsualDust = 40;                  // of them
+constexpr double kLifeS = 15;
+constexpr double kDriftMps = 0.45;
+constexpr std::uint64_t kFlames = std::uint64_t{1} << 45;
+constexpr float kShines = 2;  // added to the opacity of what does; also in shaders/smoke.frag.glsl
+const Eigen::Vector3d kSoot(0.10, 0.10, 0.105);
+const Eigen::Vector3d kDustAlbedo(0.36, 0.31, 0.25);
+
+}  // namespace
+
+SmokePass::SmokePass(const Environment& environment, std::vector<world::Disaster> disasters)
+    : environment_(environment),
+      disasters_(std::move(disasters)),
+      instances_(make_buffer()),
+      array_(make_vertex_array()),
+      program_(make_program({embedded::shader_view, embedded::shader_smoke_vert},
+                            {light_words(environment), embedded::shader_light,
+                             embedded::shader_noise, embedded::shader_smoke_frag})) {
+  describe_vertices(array_, 0, instances_, sizeof(Puff), 1,
+                    {{0, 4, GL_FLOAT, false, offsetof(Puff, place)},
+                     {1, 4, GL_FLOAT, false, offsetof(Puff, look)}});
+}
+
+SmokePass::Source SmokePass::source_of(const world::Disaster& disaster, double time_s) {
+  Source source{
+      disaster.position, time_s - disaster.start_s, disaster.reach_m(time_s), 1, kUsualDust, kSoot,
+      kDustAlbedo};
+  switch (disaster.kind) {
+    case world::DisasterKind::gas:
+      source.rise = 0.15;
+      source.dust = 78;
+      source.smoke_albedo = {0.42, 0.45, 0.20};
+      source.dust_albedo = {0.46, 0.48, 0.24};
+      break;
+    case world::DisasterKind::collapse:
+      source.rise = 0.4;
+      source.dust = 91;
+      source.smoke_albedo = {0.40, 0.37, 0.33};
+      source.dust_albedo = {0.42, 0.38, 0.33};
+      break;
+    case world::DisasterKind::explosion:
+    case world::DisasterKind::fire:
+    case world::DisasterKind::attacker:
+      break;
+  }
+  return source;
+}
+
+// Every puff rises, widens and thins out over kLifeS, and then starts again.
+void SmokePass::add_puffs(const Source& source, std::size_t number, double time_s,
+                          const camera::Camera& camera) {
+  Random wind(environment_.seed, Stream::environment, kSmoke);
+  const double heading = wind.uniform(0, 2 * std::numbers::pi);
+  const Eigen::Vector2d drift = kDriftMps * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  for (std::uint64_t i = 0; i < kPuffs; ++i) {
+    Random random(environment_.seed, Stream::environment, kSmoke + 1 + kPuffs * number + i);
+    const double whole = time_s / kLifeS + random.uniform();
+    const double age_s = kLifeS * (whole - std::floor(whole));
+    if (age_s > source.age_s) continue;
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const Eigen::Vector2d side(std::cos(angle), std::sin(angle));
+    const double strength = environment_.smoke * std::min(age_s / 1.5, 1.0) *
+                            std::pow(1 - age_s / kLifeS, 1.3) * random.uniform(0.5, 1);
+    const bool dust = i < source.dust;
+    const double spread = random.uniform(0.2, 1);
+    const double wide = std::sqrt(spread) * source.reach_m;
+    const Eigen::Vector2d at = source.place + wide * side +
+                               side * (dust ? 0.6 + 0.35 * age_s : 0.3 + 0.1 * age_s) * spread +
+                               (dust ? 0.4 : 1.0) * age_s * drift;
+    const double height =
+        dust ? 0.4 + 0.05 * age_s : 0.6 + source.rise * 1.05 * std::pow(age_s, 0.92);
+    const double radius =
+        (dust ? 0.7 + 0.12 * age_s : 0.55 + 0.2 * age_s) * (1 + 0.12 * source.reach_m);
+    const double tone = random.uniform(0.7, 1.3);
+    const Eigen::Vector3d albedo = tone * (dust ? source.dust_albedo : source.smoke_albedo);
+    Puff puff;
+    puff.place = {static_cast<float>(at.x()), static_cast<float>(at.y()),
+                  static_cast<float>(height), static_cast<float>(radius)};
+    puff.look = {static_cast<float>(albedo.x()), static_cast<float>(albedo.y()),
+                 static_cast<float>(albedo.z()),
+                 static_cast<float>((dust ? 0.35 : 0.75) * strength)};
+    puff.depth_m = static_cast<float>(camera.project({at.x(), at.y(), height}).depth_m);
+    if (puff.depth_m > puff.place[3]) puffs_.push_back(puff);
+  }
+}
+
+void SmokePass::add_flames(const world::Disaster& disaster, std::size_t number, double time_s,
+                           const camera::Camera& camera) {
+  constexpr std::uint64_t kMaxPuffs = 60;
+  constexpr double kFlameS = 1.1;
+  constexpr double kFireballS = 4;
+  const double since_s = time_s - disaster.start_s;
+  const bool explodes = disaster.kind == world::DisasterKind::explosion;
+  if (since_s < 0 || (explodes && since_s > kFireballS)) return;
+  if (!explodes && disaster.kind != world::DisasterKind::fire) return;
+  const double reach_m = 0.6 * disaster.reach_m(time_s);
+  const double fades = explodes ? 1 - since_s / kFireballS : 1;
+  for (std::uint64_t i = 0; i < kMaxPuffs; ++i) {
+    Random random(environment_.seed, Stream::environment, kFlames + kMaxPuffs * number + i);
+    const double whole = time_s / kFlameS + random.uniform();
+    const double share = whole - std::floor(whole);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const double out_m = reach_m * std::sqrt(random.uniform()) * (1 - 0.5 * share);
+    const Eigen::Vector3d at(disaster.position.x() + out_m * std::cos(angle),
+                             disaster.position.y() + out_m * std::sin(angle),
+                             0.2 + (1.2 + 0.5 * reach_m) * share);
+    const double radius = (0.22 + 0.16 * reach_m) * (1.1 - 0.8 * share);
+    Puff puff;
+    puff.place = {static_cast<float>(at.x()), static_cast<float>(at.y()),
+                  static_cast<float>(at.z()), static_cast<float>(radius)};
+    // From yellow to red as it rises.
+    puff.look = {2.4F, static_cast<float>(1.15 - 0.85 * share), 0.12F,
+                 kShines + static_cast<float>(0.6 * fades * environment_.smoke * (1 - share))};
+    puff.depth_m = static_cast<float>(camera.project(at).depth_m);
+    if (puff.depth_m > puff.place[3]) puffs_.push_back(puff);
+  }
+}
+
+void SmokePass::draw(const Scene& scene, const camera::Camera& camera) {
+  if (environment_.smoke <= 0) return;
+  puffs_.clear();
+  for (std::size_t i = 0; i < disasters_.size(); ++i) {
+    if (disasters_[i].kind == world::DisasterKind::attacker) continue;
+    add_puffs(source_of(disasters_[i], scene.time_s), i, scene.time_s, camera);
+    add_flames(disasters_[i], i, scene.time_s, camera);
+  }
+  for (std::size_t i = 0; disasters_.empty() && i < scene.dangers.size(); ++i) {
+    add_puffs({scene.dangers[i].cast<double>(), kLifeS, 0, 1, kUsualDust, kSoot, kDustAlbedo}, i,
+              scene.time_s, camera);
+  }
+  std::stable_sort(puffs_.begin(), puffs_.end(),
+                   [](const Puff& a, const Puff& b) { return a.depth_m > b.depth_m; });
+  if (puffs_.empty()) return;
+  glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(puffs_.size() * sizeof(Puff)),
+                    puffs_.data(), GL_STREAM_DRAW);
+  const ColorOnly guard;
+  glBindVertexArray(array_.name());
+  glUseProgram(program_.name());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(puffs_.size()));
+}
+
+}  // namespace throng::render

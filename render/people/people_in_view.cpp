@@ -1,0 +1,132 @@
+#include "render/people/people_in_view.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "base/error.h"
+#include "render/view.h"
+
+namespace throng::render {
+
+namespace {
+
+/// The level of detail whose bounds are people's boxes in the world: a coarse one, as the outlines
+/// of all levels are nearly equal.
+constexpr std::size_t kBoxLevel = 4;
+
+Eigen::AlignedBox2d image_box(const camera::Camera& camera) {
+  return {Eigen::Vector2d::Zero(),
+          Eigen::Vector2d(camera.intrinsics.width, camera.intrinsics.height)};
+}
+
+}  // namespace
+
+PeopleFinder::PeopleFinder(const skinning::Population& population, const QualitySettings& quality)
+    : population_(&population), quality_(quality) {
+  landmarks_.reserve(population.characters.size());
+  for (const skinning::Character& character : population.characters) {
+    std::vector<BodyShape>& bodies = bodies_.emplace_back();
+    std::vector<BodyShape>& umbrellas = umbrellas_.emplace_back();
+    for (const skinning::Mesh& mesh : character.levels) {
+      bodies.emplace_back(mesh, parts_of(character, mesh, Share::body));
+      umbrellas.emplace_back(mesh, parts_of(character, mesh, Share::umbrella));
+    }
+    landmarks_.push_back(skinning::landmarks_of(character));
+  }
+}
+
+Shading PeopleFinder::shading_of(std::size_t level) const {
+  return static_cast<int>(level) < quality_.textured_levels ? Shading::textured
+                                                            : Shading::by_corners;
+}
+
+PersonDraw PeopleFinder::draw_of(std::uint32_t person, double height_px, double depth_m,
+                                 std::size_t levels) const {
+  const std::size_t level = height_px < quality_.proxy_below_px
+                                ? levels - 1
+                                : level_of_detail(quality_.detail * height_px, levels);
+  return {person, static_cast<std::uint32_t>(level), shading_of(level),
+          static_cast<float>(depth_m)};
+}
+
+PersonDraw PeopleFinder::caster(std::uint32_t person, const PersonInstance& instance) const {
+  const std::size_t level =
+      population_->characters[instance.appearance.character].levels.size() - 1;
+  return {person, static_cast<std::uint32_t>(level), shading_of(level), 0};
+}
+
+void PeopleFinder::measure(const PersonInstance& person, const skinning::Palette& palette,
+                           PersonInView& truth) const {
+  const std::uint32_t character = person.appearance.character;
+  const float stature_m = population_->characters[character].stature_m;
+  truth.agent = person.agent;
+  truth.position = person.position.cast<double>();
+  truth.hips = posed_point(palette, person, skinning::Bone::hips, kHipsShare * stature_m);
+  truth.head = posed_point(palette, person, skinning::Bone::head, kHeadShare * stature_m);
+  truth.velocity = person.velocity.cast<double>();
+  truth.yaw_rad = person.yaw_rad;
+  truth.stature_m = stature_m;
+  const std::vector<BodyShape>& all = bodies_[character];
+  measure_body(all[std::min(kBoxLevel, all.size() - 1)], landmarks_[character], palette, person,
+               truth);
+}
+
+/// Near people show the most texels; equals go by agent, so that nothing hangs on their order.
+void PeopleFinder::texture_the_nearest(std::vector<Seen>& seen) const {
+  std::vector<Seen*> others;
+  for (Seen& person : seen) {
+    if (person.draw.shading == Shading::by_corners) others.push_back(&person);
+  }
+  const auto room = static_cast<std::size_t>(quality_.people_places);
+  const auto count =
+      static_cast<std::ptrdiff_t>(std::min(others.size(), room - std::min(room, seen.size())));
+  const auto key = [](const Seen* person) {
+    return std::tuple(person->draw.depth_m, person->truth.agent);
+  };
+  std::nth_element(others.begin(), others.begin() + count, others.end(),
+                   [&](const Seen* a, const Seen* b) { return key(a) < key(b); });
+  std::for_each(others.begin(), others.begin() + count,
+                [](Seen* person) { person->draw.shading = Shading::lit_by_corners; });
+}
+
+std::vector<Seen> PeopleFinder::find(const Scene& scene, const camera::Camera& camera) const {
+  const ClipPlanes planes = clip_planes(camera);
+  const Eigen::AlignedBox2d image = image_box(camera);
+  std::vector<Seen> seen;
+  seen.reserve(scene.people.size());
+  for (std::uint32_t i = 0; i < scene.people.size(); ++i) {
+    const PersonInstance& person = scene.people[i];
+    check(person.appearance.character < population_->characters.size() &&
+              std::max(person.pose.a, person.pose.b) < population_->palettes_per_character,
+          "people use characters and palettes that the population has");
+    const skinning::Character& character = population_->characters[person.appearance.character];
+    const Eigen::Vector3d middle =
+        person.position.cast<double>() + Eigen::Vector3d(0, 0, 0.5 * character.stature_m);
+    if (is_outside(planes, middle, kPersonReach * character.stature_m)) continue;
+    const double depth_m = std::max<double>(camera.project(middle).depth_m, kNear);
+    const double height_px = camera.intrinsics.fy_px * character.stature_m / depth_m;
+    const PersonDraw draw = draw_of(i, height_px, depth_m, character.levels.size());
+    const skinning::Palette palette = blended_palette(*population_, person);
+    const auto box_of = [&](const std::vector<std::vector<BodyShape>>& shapes) {
+      const BodyShape& shape = shapes[person.appearance.character][draw.level];
+      return silhouette(shape, palette, person, camera).box;
+    };
+    const auto shows = [&](const Eigen::AlignedBox2d& box) {
+      return !box.isEmpty() && box.intersects(image);
+    };
+    const Eigen::AlignedBox2d body = box_of(bodies_);
+    if (!shows(body) && !shows(box_of(umbrellas_))) continue;
+    Seen& found = seen.emplace_back();
+    found.draw = draw;
+    found.is_listed = shows(body);
+    found.truth.amodal_box = body;
+    found.truth.level = draw.level;
+    measure(person, palette, found.truth);
+  }
+  std::sort(seen.begin(), seen.end(),
+            [](const Seen& a, const Seen& b) { return a.truth.agent < b.truth.agent; });
+  texture_the_nearest(seen);
+  return seen;
+}
+
+}  // namespace throng::render

@@ -1,0 +1,17 @@
+// Shapes of what is built up for an occasion: barriers, fences, kiosks, tents, stages, and of
+// trains and fountains.
+#pragma once
+
+#include "render/props/prop_builder.h"
+
+namespace throng::render {
+
+void make_barrier(PropBuilder& builder);
+void make_fence(PropBuilder& builder);
+void make_kiosk(PropBuilder& builder);
+void make_tent(PropBuilder& builder);
+void make_stage(PropBuilder& builder);
+void make_train(PropBuilder& builder);
+void make_fountain(PropBuilder& builder);
+
+}  // namespace throng::render

@@ -1,0 +1,118 @@
+// Builds the triangles of procedural shapes out of quads, blocks and tubes.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+
+#include "base/random.h"
+#include "render/props/prop_shapes.h"
+
+namespace throng::render {
+
+/// Collects surfaces in the prop's own frame: x along its heading, z up, the foot at the origin.
+class PropBuilder {
+ public:
+  PropBuilder(const world::Prop& prop, std::uint32_t id)
+      : prop_(prop), id_(id), random_(prop.look, Stream::environment) {}
+
+  PropMesh take() { return std::move(mesh_); }
+  Random& random() { return random_; }
+
+  void quad(const std::array<Eigen::Vector3d, 4>& corners, const Eigen::Vector3d& paint,
+            Finish finish) {
+    const Eigen::Vector3d normal =
+        (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized();
+    quad(corners, {normal, normal, normal, normal}, paint, finish);
+  }
+
+  void quad(const std::array<Eigen::Vector3d, 4>& corners,
+            const std::array<Eigen::Vector3d, 4>& normals, const Eigen::Vector3d& paint,
+            Finish finish) {
+    constexpr std::array<std::array<float, 2>, 4> kCard = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      mesh_.vertices.push_back({three(prop_.scale * turned(corners[i]) +
+                                      Eigen::Vector3d(prop_.position.x(), prop_.position.y(), 0)),
+                                three(turned(normals[i])), kCard[i], painted(paint, finish), id_});
+    }
+    mesh_.indices.insert(mesh_.indices.end(),
+                         {first, first + 1, first + 2, first, first + 2, first + 3});
+  }
+
+  /// A block between two rectangles at different heights; the lower side is left out where it
+  /// stands on the ground.
+  void block(const Eigen::AlignedBox2d& below, double z0, const Eigen::AlignedBox2d& above,
+             double z1, const Eigen::Vector3d& paint, Finish finish = Finish::matt) {
+    const auto at = [](const Eigen::AlignedBox2d& box, int corner, double z) {
+      return Eigen::Vector3d(corner == 0 || corner == 3 ? box.min().x() : box.max().x(),
+                             corner < 2 ? box.min().y() : box.max().y(), z);
+    };
+    for (int side = 0; side < 4; ++side) {
+      const int next = (side + 1) % 4;
+      quad({at(below, side, z0), at(below, next, z0), at(above, next, z1), at(above, side, z1)},
+           paint, finish);
+    }
+    quad({at(above, 0, z1), at(above, 1, z1), at(above, 2, z1), at(above, 3, z1)}, paint, finish);
+    if (z0 > 0) {
+      quad({at(below, 3, z0), at(below, 2, z0), at(below, 1, z0), at(below, 0, z0)}, paint, finish);
+    }
+  }
+
+  void box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Eigen::Vector3d& paint,
+           Finish finish = Finish::matt) {
+    const Eigen::AlignedBox2d outline(low.head<2>(), high.head<2>());
+    block(outline, low.z(), outline, high.z(), paint, finish);
+  }
+
+  /// A tube from one point to another, closed at its end.
+  void tube(const Eigen::Vector3d& from, double radius_from, const Eigen::Vector3d& to,
+            double radius_to, const Eigen::Vector3d& paint, Finish finish = Finish::matt,
+            int sides = 8) {
+    const Eigen::Vector3d axis = (to - from).normalized();
+    const Eigen::Vector3d u = axis.unitOrthogonal();
+    const Eigen::Vector3d v = axis.cross(u);
+    const auto out = [&](int i) -> Eigen::Vector3d {
+      const double angle = 2 * std::numbers::pi * i / sides;
+      return std::cos(angle) * u + std::sin(angle) * v;
+    };
+    for (int i = 0; i < sides; ++i) {
+      const Eigen::Vector3d a = out(i);
+      const Eigen::Vector3d b = out(i + 1);
+      quad({from + radius_from * a, from + radius_from * b, to + radius_to * b, to + radius_to * a},
+           {a, b, b, a}, paint, finish);
+      if (i % 2 == 0 && radius_to > 0) {
+        quad({to, to + radius_to * a, to + radius_to * b, to + radius_to * out(i + 2)}, paint,
+             finish);
+      }
+    }
+  }
+
+ private:
+  static std::array<float, 3> three(const Eigen::Vector3d& v) {
+    return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+  }
+
+  static std::array<std::uint8_t, 4> painted(const Eigen::Vector3d& paint, Finish finish) {
+    const auto byte = [](double share) {
+      return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
+    };
+    return {byte(paint.x()), byte(paint.y()), byte(paint.z()), static_cast<std::uint8_t>(finish)};
+  }
+
+  Eigen::Vector3d turned(const Eigen::Vector3d& v) const {
+    return Eigen::AngleAxisd(prop_.yaw_rad, Eigen::Vector3d::UnitZ()) * v;
+  }
+
+  const world::Prop& prop_;
+  std::uint32_t id_;
+  Random random_;
+  PropMesh mesh_;
+};
+
+}  // namespace throng::render

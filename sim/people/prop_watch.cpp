@@ -1,0 +1,72 @@
+#include "sim/people/prop_watch.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "world/props.h"
+
+namespace throng::sim {
+
+namespace {
+
+/// The inner part of what a prop covers, along each side: who brushes past its edge is not in it.
+world::Prop core_of(world::Prop prop) {
+  constexpr double kCore = 0.6;
+  prop.scale *= kCore;
+  return prop;
+}
+
+}  // namespace
+
+PropWatch::PropWatch(const world::Scenario& scenario) : scenario_(&scenario) {
+  for (std::size_t i = 0; i < scenario.props.size(); ++i) {
+    const world::Prop& prop = scenario.props[i];
+    const double reach_m =
+        prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size.norm();
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m);
+    const Cell low = cell_of(prop.position - reach);
+    const Cell high = cell_of(prop.position + reach);
+    for (int x = low.first; x <= high.first; ++x) {
+      for (int y = low.second; y <= high.second; ++y) props_in_[{x, y}].push_back(i);
+    }
+  }
+}
+
+PropWatch::Cell PropWatch::cell_of(const Eigen::Vector2d& point) {
+  return {static_cast<int>(std::floor(point.x())), static_cast<int>(std::floor(point.y()))};
+}
+
+void PropWatch::look(std::span<const Eigen::Vector2f> positions,
+                     std::span<const std::uint8_t> there, double time_s) {
+  if (props_in_.empty()) return;
+  for (std::size_t agent = 0; agent < positions.size(); ++agent) {
+    if (there[agent] == 0) continue;
+    const Eigen::Vector2d at = positions[agent].cast<double>();
+    const auto cell = props_in_.find(cell_of(at));
+    if (cell == props_in_.end()) continue;
+    for (const std::size_t i : cell->second) {
+      const world::Prop& prop = scenario_->props[i];
+      if (!noted_.contains(i) && world::distance_to(core_of(prop), at) <= 0) {
+        note(i, agent, at, time_s);
+      }
+    }
+  }
+}
+
+void PropWatch::note(std::size_t number, std::size_t agent, const Eigen::Vector2d& at,
+                     double time_s) {
+  noted_.insert(number);
+  const world::Prop& prop = scenario_->props[number];
+  const bool placed = number < scenario_->placed_props;
+  problems_.push_back(
+      {scenario_->id, placed ? fmt::format("/props/{}/position", number) : std::string("/scatter"),
+       fmt::format(
+           "a {} at ({:.2f}, {:.2f}), in which agent {} is at ({:.2f}, {:.2f}) after {:.1f} s",
+           world::prop_types().at(static_cast<std::size_t>(prop.kind)).name, prop.position.x(),
+           prop.position.y(), agent, at.x(), at.y(), time_s),
+       placed ? "a place where nobody walks, or where the crowd's scene has an obstacle"
+              : "areas in which nobody walks"});
+}
+
+}  // namespace throng::sim

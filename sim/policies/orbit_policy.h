@@ -1,0 +1,12 @@
+// "orbit": circle a point at the height of the start, the camera toward it.
+#pragma once
+
+#include <memory>
+
+#include "sim/policies/policy.h"
+
+namespace throng::sim {
+
+std::unique_ptr<Policy> make_orbit_policy(const PolicyContext& context);
+
+}  // namespace throng::sim

@@ -1,0 +1,109 @@
+#include "sim/recording/pilot_log.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace throng::sim {
+
+namespace {
+
+constexpr std::size_t kColumns = 6;
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  return text;
+}
+
+class LogReader {
+ public:
+  explicit LogReader(const std::string& source) : source_(source) {}
+
+  [[noreturn]] void fail(std::string found, std::string expected) const {
+    throw InputError(
+        {source_, fmt::format("line {}", line_), std::move(found), std::move(expected)});
+  }
+
+  void read_line(std::string_view text) {
+    ++line_;
+    text = trimmed(text);
+    if (line_ == 1) {
+      if (text != kPilotLogHeader) {
+        fail(fmt::format("\"{:.60}\"", text), fmt::format("the header \"{}\"", kPilotLogHeader));
+      }
+      return;
+    }
+    if (!text.empty()) samples_.push_back(read_sample(text));
+  }
+
+  std::vector<PilotSample> take() {
+    if (samples_.empty()) fail("no set-point", "at least one line below the header");
+    return std::move(samples_);
+  }
+
+ private:
+  PilotSample read_sample(std::string_view text) const {
+    std::array<double, kColumns> values{};
+    for (std::size_t i = 0; i < kColumns; ++i) {
+      const std::size_t comma = text.find(',');
+      if ((comma == std::string_view::npos) != (i + 1 == kColumns)) {
+        fail("another number of values", fmt::format("{} values", kColumns));
+      }
+      values[i] = number(trimmed(text.substr(0, comma)));
+      text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
+    }
+    if (!samples_.empty() && !(values[0] > samples_.back().time_s)) {
+      fail(fmt::format("{:g} s after {:g} s", values[0], samples_.back().time_s),
+           "a later time than that of the line before");
+    }
+    if (values[5] != 0 && values[5] != 1) fail(fmt::format("beacon {:g}", values[5]), "0 or 1");
+    return {values[0],
+            {values[1], values[2], values[3]},
+            values[4] * std::numbers::pi / 180,
+            values[5] == 1};
+  }
+
+  double number(std::string_view text) const {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+      fail(fmt::format("\"{:.40}\"", text), "a number");
+    }
+    return value;
+  }
+
+  const std::string& source_;
+  int line_ = 0;
+  std::vector<PilotSample> samples_;
+};
+
+}  // namespace
+
+std::string pilot_log_csv(const std::vector<PilotSample>& samples) {
+  std::string csv = fmt::format("{}\n", kPilotLogHeader);
+  for (const PilotSample& sample : samples) {
+    fmt::format_to(std::back_inserter(csv), "{:.10g},{:.6f},{:.6f},{:.6f},{:.6f},{}\n",
+                   sample.time_s, sample.position.x(), sample.position.y(), sample.position.z(),
+                   sample.yaw_rad * 180 / std::numbers::pi, sample.beacon ? 1 : 0);
+  }
+  return csv;
+}
+
+std::vector<PilotSample> parse_pilot_log(std::string_view csv, const std::string& source) {
+  LogReader reader(source);
+  while (!csv.empty()) {
+    const std::size_t end = csv.find('\n');
+    reader.read_line(csv.substr(0, end));
+    csv.remove_prefix(end == std::string_view::npos ? csv.size() : end + 1);
+  }
+  return reader.take();
+}
+
+}  // namespace throng::sim

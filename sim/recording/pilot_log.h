@@ -1,0 +1,21 @@
+// Pilot logs: where a drone was sent, as CSV that people can read, write and replay.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/spec/run_spec.h"
+
+namespace throng::sim {
+
+/// The first line of every log: seconds, meters, degrees counter-clockwise from +x, and 1 while
+/// people can follow the drone.
+inline constexpr std::string_view kPilotLogHeader = "time_s,x_m,y_m,z_m,yaw_deg,beacon";
+
+std::string pilot_log_csv(const std::vector<PilotSample>& samples);
+
+/// Throws InputError (file and line, found, expected), also for times that do not grow.
+std::vector<PilotSample> parse_pilot_log(std::string_view csv, const std::string& source);
+
+}  // namespace throng::sim

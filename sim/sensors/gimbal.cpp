@@ -1,0 +1,112 @@
+#include "sim/sensors/gimbal.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace throng::sim {
+
+using Eigen::Vector3d;
+
+namespace {
+
+// Numbers of the sensors' stream that no drone's sensors have.
+constexpr std::uint64_t kFirstGimbal = std::uint64_t{1} << 32;
+constexpr double kMaxStepS = 1e-3;
+
+Vector3d normal3(Random& random) {
+  Vector3d v;
+  for (double& value : v) value = random.normal(0, 1);
+  return v;
+}
+
+ViewAngles angles_of(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+ViewAngles mixed(const ViewAngles& a, const ViewAngles& b, double share) {
+  return {a.yaw + share * (b.yaw - a.yaw), a.pitch + share * (b.pitch - a.pitch),
+          a.roll + share * (b.roll - a.roll)};
+}
+
+/// x'' = w² (target - x) - 2 z w x', about three axes.
+class SecondOrder {
+ public:
+  SecondOrder(const GimbalSpec& spec, const Vector3d& start) : spec_(spec), angle_(start) {}
+
+  const Vector3d& advance(const Vector3d& from, const Vector3d& to, double dt_s) {
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kMaxStepS)));
+    const double step_s = dt_s / steps;
+    const double w = spec_.natural_rad_s;
+    for (int i = 1; i <= steps; ++i) {
+      const Vector3d target = from + static_cast<double>(i) / steps * (to - from);
+      rate_ += step_s * (w * w * (target - angle_) - 2 * spec_.damping * w * rate_);
+      angle_ += step_s * rate_;
+    }
+    return angle_;
+  }
+
+ private:
+  GimbalSpec spec_;
+  Vector3d angle_;
+  Vector3d rate_ = Vector3d::Zero();
+};
+
+}  // namespace
+
+double heading_of(const Eigen::Quaterniond& orientation) {
+  const Vector3d nose = orientation * Vector3d::UnitX();
+  return std::atan2(nose.y(), nose.x());
+}
+
+GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const GimbalCommand& command,
+                     const GimbalSpec& spec, std::uint64_t seed, std::uint64_t camera) {
+  check(!truth.empty(), "a drone with a camera has flown");
+  Random random(seed, Stream::sensors, kFirstGimbal + camera);
+  Vector3d bias;
+  for (double& value : bias) value = random.uniform(-spec.bias_rad, spec.bias_rad);
+  Vector3d jitter = normal3(random);
+  double heading = heading_of(truth.front().orientation);
+  Vector3d target(heading + command.yaw_rad, command.pitch_rad, 0);
+  SecondOrder response(spec, target);
+  double last_s = truth.front().time_s;
+  for (const world::DroneSample& sample : truth) {
+    const double dt_s = sample.time_s - last_s;
+    last_s = sample.time_s;
+    // Heading without jumps at half a turn.
+    heading += std::remainder(heading_of(sample.orientation) - heading, 2 * EIGEN_PI);
+    const Vector3d next(heading + command.yaw_rad, command.pitch_rad, 0);
+    if (spec.ideal) {
+      points_.push_back({sample.time_s, angles_of(next), angles_of(next)});
+      continue;
+    }
+    const Vector3d angle = response.advance(target, next, dt_s);
+    target = next;
+    // The part that the motors cannot hold decays with their time constant.
+    const double kept = std::exp(-dt_s * spec.natural_rad_s);
+    jitter = kept * jitter + std::sqrt(1 - kept * kept) * normal3(random);
+    const Vector3d held = angle + spec.jitter_rad * jitter;
+    points_.push_back({sample.time_s, angles_of(held + bias),
+                       angles_of(held + spec.reading_rad * normal3(random))});
+  }
+}
+
+GimbalLog::Place GimbalLog::place_of(double time_s) const {
+  const auto after =
+      std::upper_bound(points_.begin(), points_.end(), time_s,
+                       [](double t, const Point& point) { return t < point.time_s; });
+  if (after == points_.begin()) return {points_.front(), points_.front(), 0};
+  if (after == points_.end()) return {points_.back(), points_.back(), 0};
+  const Point& before = *(after - 1);
+  return {before, *after, (time_s - before.time_s) / (after->time_s - before.time_s)};
+}
+
+ViewAngles GimbalLog::view_at(double time_s) const {
+  const Place place = place_of(time_s);
+  return mixed(place.before.view, place.after.view, place.share);
+}
+
+ViewAngles GimbalLog::reading_at(double time_s) const { return place_of(time_s).before.reading; }
+
+}  // namespace throng::sim

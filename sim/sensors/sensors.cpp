@@ -1,0 +1,183 @@
+#include "sim/sensors/sensors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace throng::sim {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kSeaLevelPa = 101'325;
+constexpr double kLapse = 2.25577e-5;  // 1/m
+constexpr double kPressureExponent = 5.25588;
+constexpr std::uint64_t kSensorsPerDrone = 8;
+
+enum class Sensor : std::uint64_t { gyro, accelerometer, magnetometer, barometer, gps };
+
+Random random_of(std::uint64_t seed, std::uint64_t drone, Sensor sensor) {
+  return {seed, Stream::sensors, drone * kSensorsPerDrone + static_cast<std::uint64_t>(sensor)};
+}
+
+Vector3d normals(Random& random) {
+  Vector3d v;
+  for (double& value : v) value = random.normal(0, 1);
+  return v;
+}
+
+/// A first-order Gauss-Markov process in three dimensions, driven by white noise of `walk`
+/// (unit / (s sqrt(Hz))); exact for any step (Furrer et al. 2016, eq. 5 and 6).
+class Wander {
+ public:
+  Wander(double walk, double correlation_s) : walk_(walk), correlation_s_(correlation_s) {}
+
+  const Vector3d& advance(double dt_s, Random& random) {
+    const double kept = std::exp(-dt_s / correlation_s_);
+    const double sd = walk_ * std::sqrt(0.5 * correlation_s_ * (1 - kept * kept));
+    value_ = kept * value_ + sd * normals(random);
+    return value_;
+  }
+
+ private:
+  double walk_;
+  double correlation_s_;
+  Vector3d value_ = Vector3d::Zero();
+};
+
+/// The walk that gives a process of this standard deviation.
+double walk_of(double sd, double correlation_s) { return sd * std::sqrt(2 / correlation_s); }
+
+class InertialTriad {
+ public:
+  InertialTriad(const InertialNoise& noise, Random random)
+      : noise_(noise), random_(random), wander_(noise.walk, noise.walk_s) {
+    turn_on_ = noise.turn_on * normals(random_);
+  }
+
+  Vector3d read(const Vector3d& truth, double dt_s) {
+    const Vector3d white = noise_.density / std::sqrt(dt_s) * normals(random_);
+    return truth + turn_on_ + wander_.advance(dt_s, random_) + white;
+  }
+
+ private:
+  InertialNoise noise_;
+  Random random_;
+  Wander wander_;
+  Vector3d turn_on_;
+};
+
+/// Fixes at a steady rate; each becomes known a delay after it was true.
+class Gps {
+ public:
+  Gps(const SensorNoise& noise, Random random)
+      : noise_(noise), random_(random), error_(normals(random_)) {}
+
+  /// Sees one more sample of the truth; the newest fix that is known then.
+  const GpsFix& read(const world::DroneSample& truth) {
+    while (static_cast<double>(next_) / noise_.gps_hz <= truth.time_s + world::kTimeSlackS) {
+      fixes_.push_back(fix(truth));
+      ++next_;
+    }
+    while (known_ + 1 < fixes_.size() &&
+           fixes_[known_ + 1].time_s + noise_.gps_delay_s <= truth.time_s) {
+      ++known_;
+    }
+    return fixes_[known_];
+  }
+
+ private:
+  GpsFix fix(const world::DroneSample& truth) {
+    const Vector3d wander(noise_.gps_horizontal_m, noise_.gps_horizontal_m, noise_.gps_vertical_m);
+    const Vector3d speed(noise_.gps_horizontal_mps, noise_.gps_horizontal_mps,
+                         noise_.gps_vertical_mps);
+    // Starts anywhere, not at the truth: the receiver has been on for a while.
+    const double kept = std::exp(-1 / (noise_.gps_hz * noise_.gps_wander_s));
+    if (next_ > 0) error_ = kept * error_ + std::sqrt(1 - kept * kept) * normals(random_);
+    GpsFix fix;
+    fix.time_s = truth.time_s;
+    fix.position =
+        truth.position + wander.cwiseProduct(error_) + noise_.gps_white_m * normals(random_);
+    fix.velocity = truth.velocity + speed.cwiseProduct(normals(random_));
+    return fix;
+  }
+
+  SensorNoise noise_;
+  Random random_;
+  Vector3d error_;  ///< of the position, per standard deviation
+  std::vector<GpsFix> fixes_;
+  long next_ = 0;  ///< number of the next fix
+  std::size_t known_ = 0;
+};
+
+class Barometer {
+ public:
+  Barometer(const SensorNoise& noise, Random random)
+      : noise_(noise),
+        random_(random),
+        weather_(walk_of(noise.weather_share, noise.weather_s), noise.weather_s) {}
+
+  double read(double height_m, double dt_s) {
+    const double share = 1 + weather_.advance(dt_s, random_).x();
+    return pressure_at(height_m) * share + random_.normal(0, noise_.pressure_pa);
+  }
+
+ private:
+  SensorNoise noise_;
+  Random random_;
+  Wander weather_;
+};
+
+}  // namespace
+
+double pressure_at(double height_m) {
+  return kSeaLevelPa * std::pow(1 - kLapse * height_m, kPressureExponent);
+}
+
+double height_at(double pressure_pa) {
+  return (1 - std::pow(pressure_pa / kSeaLevelPa, 1 / kPressureExponent)) / kLapse;
+}
+
+Vector3d magnetic_field(double latitude_rad) {
+  constexpr double kEquatorUt = 30;
+  return kEquatorUt * Vector3d(0, std::cos(latitude_rad), -2 * std::sin(latitude_rad));
+}
+
+SensorLog::SensorLog(const std::vector<world::DroneSample>& truth, std::uint64_t seed,
+                     std::uint64_t drone, double latitude_rad, const SensorNoise& noise) {
+  check(!truth.empty(), "a drone with sensors has flown");
+  const Vector3d field = magnetic_field(latitude_rad);
+  InertialTriad gyro(noise.gyro, random_of(seed, drone, Sensor::gyro));
+  InertialTriad accelerometer(noise.accelerometer, random_of(seed, drone, Sensor::accelerometer));
+  Random magnetic = random_of(seed, drone, Sensor::magnetometer);
+  Barometer barometer(noise, random_of(seed, drone, Sensor::barometer));
+  Gps gps(noise, random_of(seed, drone, Sensor::gps));
+  constexpr double kUsualStepS = 1.0 / 60;
+  double last_s = truth.front().time_s - kUsualStepS;
+  for (const world::DroneSample& sample : truth) {
+    const double dt_s = sample.time_s - last_s;
+    last_s = sample.time_s;
+    SensorReading reading;
+    reading.time_s = sample.time_s;
+    reading.gyro = gyro.read(sample.body_rates, dt_s);
+    reading.accelerometer = accelerometer.read(sample.specific_force, dt_s);
+    reading.magnetometer = sample.orientation.conjugate() * field +
+                           noise.field_share * field.norm() * normals(magnetic);
+    reading.pressure_pa = barometer.read(sample.position.z(), dt_s);
+    reading.height_m = height_at(reading.pressure_pa);
+    reading.gps = gps.read(sample);
+    readings_.push_back(reading);
+  }
+}
+
+const SensorReading& SensorLog::at(double time_s) const {
+  const auto after =
+      std::upper_bound(readings_.begin(), readings_.end(), time_s + world::kTimeSlackS,
+                       [](double t, const SensorReading& reading) { return t < reading.time_s; });
+  return after == readings_.begin() ? readings_.front() : *(after - 1);
+}
+
+}  // namespace throng::sim

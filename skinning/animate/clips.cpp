@@ -1,0 +1,155 @@
+#include "skinning/animate/clips.h"
+
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "skinning/animate/gait.h"
+#include "skinning/animate/motion.h"
+#include "skinning/animate/standing.h"
+
+namespace throng::skinning {
+
+namespace {
+
+constexpr double kStandardStatureM = 1.7;
+constexpr double kLookAside = 55 * kDegree;
+
+// The speed at which a stride of this length is natural.
+float natural_speed(double stride) {
+  double low = 0;
+  double high = 8;
+  for (int step = 0; step < 40; ++step) {
+    const double middle = 0.5 * (low + high);
+    const double length = stride_length_m(middle, kStandardStatureM) / kStandardStatureM;
+    (length < stride ? low : high) = middle;
+  }
+  return static_cast<float>(low);
+}
+
+Gait gait_of(const std::string& name, double stride) {
+  return {name == "run" || name == "panic", stride, name == "panic", name == "walk_look_up"};
+}
+
+float middle_of(const std::string& name, double stride) {
+  return stride > 0 ? static_cast<float>(middle(gait_of(name, stride))) : 0.0F;
+}
+
+class Catalog {
+ public:
+  void add(const std::string& name, std::uint32_t frames, bool cyclic = true, double stride = 0) {
+    clips_.push_back({name, stride > 0 ? natural_speed(stride) : 0.0F, next_, frames,
+                      static_cast<float>(stride), middle_of(name, stride), cyclic});
+    next_ += frames;
+  }
+  std::vector<Clip> clips() && { return std::move(clips_); }
+
+ private:
+  std::vector<Clip> clips_;
+  std::uint32_t next_ = 0;
+};
+
+// Frame `frame` of a clip as a share of it: of a cycle, or from the first frame to the last.
+double share_of(const Clip& clip, std::uint32_t frame) {
+  const std::uint32_t intervals = clip.cyclic ? clip.frames : clip.frames - 1;
+  return static_cast<double>(frame) / std::max(intervals, 1U);
+}
+
+// Of a clip that raises something in its first half and then holds it.
+Figure held(const Walker& walker, const Clip& clip, double share) {
+  const double raised = std::min(2 * share, 1.0);
+  const double phase = std::max(2 * share - 1, 0.0);
+  if (clip.name == "phone") return look_at_phone(walker, raised, phase);
+  if (clip.name == "look_up_left") return look_up(walker, kLookAside, raised, phase);
+  if (clip.name == "look_up_right") return look_up(walker, -kLookAside, raised, phase);
+  return look_up(walker, 0, raised, phase);
+}
+
+Figure standing_figure(const Walker& walker, const Clip& clip, double share) {
+  if (clip.name == "idle") return stand(walker, share);
+  if (clip.name == "look_around") return look_around(walker, share);
+  if (clip.name == "turn_30") return turn_on_the_spot(walker, 30 * kDegree, share);
+  if (clip.name == "turn_60") return turn_on_the_spot(walker, 60 * kDegree, share);
+  if (clip.name == "turn_90") return turn_on_the_spot(walker, 90 * kDegree, share);
+  return held(walker, clip, share);
+}
+
+// A character's own motion for a clip that moves forward; null for none.
+const OwnMotion::Cycle* own_cycle(const OwnMotion& own, const Clip& clip) {
+  const bool walks =
+      clip.name == "walk" || clip.name.rfind("start", 0) == 0 || clip.name.rfind("stop", 0) == 0;
+  if (walks && own.walk) return &*own.walk;
+  return clip.name == "run" && own.run ? &*own.run : nullptr;
+}
+
+bool starts_with(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
+
+}  // namespace
+
+std::vector<Clip> standard_clips() {
+  Catalog catalog;
+  catalog.add("idle", 24);
+  catalog.add("look_around", 16);
+  catalog.add("phone", 11, false);
+  for (const char* name : {"look_up", "look_up_left", "look_up_right"}) {
+    catalog.add(name, 9, false);
+  }
+  for (const char* name : {"turn_30", "turn_60", "turn_90"}) catalog.add(name, 12);
+  for (const char* name : {"fall_forwards", "fall_backwards"}) catalog.add(name, 16, false);
+  for (int i = 0; i < 23; ++i) catalog.add("walk", kClipFrames, true, 0.22 + 0.04 * i);
+  for (int i = 1; i < 18; i += 2) {
+    const double stride = 0.22 + 0.04 * i;
+    for (const char* name : {"start_left", "start_right"}) catalog.add(name, 6, false, stride);
+    for (const char* name : {"stop_left", "stop_right"}) catalog.add(name, 4, false, stride);
+  }
+  for (int i = 0; i < 5; ++i) catalog.add("walk_look_up", kClipFrames, true, 0.46 + 0.12 * i);
+  for (int i = 0; i < 14; ++i) catalog.add("run", kClipFrames, true, 0.84 + 0.07 * i);
+  for (int i = 0; i < 6; ++i) catalog.add("panic", kClipFrames, true, 0.9 + 0.16 * i);
+  return std::move(catalog).clips();
+}
+
+std::vector<Palette> bake_clip(const Walker& walker, const Clip& clip, const OwnMotion& own) {
+  check(clip.frames > 0, "a clip has frames");
+  std::vector<Palette> palettes;
+  palettes.reserve(clip.frames);
+  if (starts_with(clip.name, "fall")) {
+    // Nobody lies on a backpack.
+    const bool forwards = clip.name == "fall_forwards" || walker.manner.carries == Carry::backpack;
+    for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
+      const Pose pose = fall(walker, forwards, share_of(clip, frame));
+      palettes.push_back(grounded(walker, pose, walker.body));
+    }
+    return palettes;
+  }
+  if (clip.stride <= 0) {
+    for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
+      const double share = share_of(clip, frame);
+      const bool stands_as = clip.name == "idle" && !own.idle.empty();
+      const Figure figure =
+          stands_as ? stand_as(walker, own.idle, share) : standing_figure(walker, clip, share);
+      palettes.push_back(grounded(walker, solve(walker, figure), walker.soles));
+    }
+    return palettes;
+  }
+  const Stride stride(walker, gait_of(clip.name, clip.stride), own_cycle(own, clip));
+  const Side side = clip.name.ends_with("right") ? Side::right : Side::left;
+  for (std::uint32_t frame = 0; frame < clip.frames; ++frame) {
+    const double share = share_of(clip, frame);
+    Figure figure;
+    bool touches = true;
+    if (starts_with(clip.name, "start")) {
+      figure = start(walker, stride, side, share);
+    } else if (starts_with(clip.name, "stop")) {
+      figure = stop(walker, stride, side, share);
+    } else {
+      figure = stride.at(share);
+      touches = stride.supported(share);
+    }
+    const Pose pose = solve(walker, figure);
+    palettes.push_back(touches ? grounded(walker, pose, walker.soles)
+                               : pose_palette(walker.joints, pose));
+  }
+  return palettes;
+}
+
+}  // namespace throng::skinning

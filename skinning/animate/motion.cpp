@@ -1,0 +1,88 @@
+#include "skinning/animate/motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "skinning/animate/smooth_step.h"
+
+namespace throng::skinning {
+
+namespace {
+
+constexpr double kGravity = 9.81;  // m/s^2
+
+}  // namespace
+
+double running_speed_mps(double stature_m) { return 1.55 * std::sqrt(stature_m); }
+
+double stride_length_m(double speed_mps, double stature_m, double age_years) {
+  const double relative_speed = speed_mps / std::sqrt(kGravity * stature_m);
+  const double walk = 0.42 + 1.22 * relative_speed;
+  const double run = 0.30 + 1.29 * relative_speed;
+  const double change = running_speed_mps(stature_m);
+  const double blend = smooth(change - 0.25, change + 0.25, speed_mps);
+  const double young = walk + blend * (run - walk);
+  const double age = 1 - std::clamp(0.006 * (age_years - 60), 0.0, 0.15);
+  const double shuffle = std::min(0.5 + 0.5 * speed_mps / 0.3, 1.0);
+  return stature_m * young * age * shuffle;
+}
+
+PoseBlend frame_of(const Clip& clip, double frame) {
+  const auto frames = static_cast<double>(clip.frames);
+  if (clip.cyclic) {
+    const double at = frame - frames * std::floor(frame / frames);
+    const auto before = std::min(static_cast<std::uint32_t>(at), clip.frames - 1);
+    return {clip.first + before, clip.first + (before + 1) % clip.frames,
+            static_cast<float>(at - before)};
+  }
+  const double at = std::clamp(frame, 0.0, frames - 1);
+  const auto before = static_cast<std::uint32_t>(at);
+  return {clip.first + before, clip.first + std::min(before + 1, clip.frames - 1),
+          static_cast<float>(at - before)};
+}
+
+PoseBlend pose_at(const Population& population, double phase, double speed_mps, double time_s) {
+  check(!population.clips.empty(), "a population has clips");
+  const ClipSet clips(population);
+  constexpr double kStature_m = 1.75;
+  if (speed_mps < kStandingSpeed) {
+    const Clip& idle = clips.nearest("idle");
+    return frame_of(idle, (phase + time_s / kIdlePeriod) * idle.frames);
+  }
+  const bool runs = speed_mps > running_speed_mps(kStature_m);
+  const Clip& clip =
+      clips.nearest(runs ? "run" : "walk", stride_length_m(speed_mps, kStature_m) / kStature_m);
+  return frame_of(clip, phase * clip.frames);
+}
+
+const Clip* ClipSet::find(std::string_view name, double stride) const {
+  const Clip* best = nullptr;
+  double best_distance = std::numeric_limits<double>::max();
+  for (const Clip& clip : *clips_) {
+    const double distance = std::abs(clip.stride - stride);
+    if (clip.name != name || distance >= best_distance) continue;
+    best = &clip;
+    best_distance = distance;
+  }
+  return best;
+}
+
+const Clip& ClipSet::nearest(std::string_view name, double stride) const {
+  constexpr std::array<std::array<std::string_view, 3>, 4> kInstead = {
+      {{"panic", "run", "walk"},
+       {"run", "walk", "walk"},
+       {"walk_look_up", "walk", "run"},
+       {"walk", "run", "run"}}};
+  const Clip* clip = find(name, stride);
+  for (const auto& names : kInstead) {
+    if (names[0] != name) continue;
+    if (clip == nullptr) clip = find(names[1], stride);
+    if (clip == nullptr) clip = find(names[2], stride);
+  }
+  return clip != nullptr ? *clip : clips_->front();
+}
+
+}  // namespace throng::skinning

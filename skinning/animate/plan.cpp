@@ -1,0 +1,217 @@
+#include "skinning/animate/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "skinning/animate/footsteps.h"
+#include "skinning/animate/rest.h"
+#include "skinning/animate/standing.h"
+
+namespace throng::skinning {
+
+namespace {
+
+// Share of a stride over which one gait blends into another.
+constexpr double kChangeStrides = 0.15;
+
+double half(Side side) { return side == Side::left ? 0.0 : 0.5; }
+
+// Lays the pieces of walking, in order.
+class WalkLayer {
+ public:
+  WalkLayer(const Trajectory& trajectory, const Stretch& stretch, const ClipSet& clips,
+            const Walk& walk, std::vector<Piece>& pieces)
+      : trajectory_(trajectory), stretch_(stretch), clips_(clips), walk_(walk), pieces_(pieces) {}
+
+  void lay() {
+    for (std::size_t i = 0; i < walk_.steps.size(); ++i) {
+      const Footstep& step = walk_.steps[i];
+      if (i == 0) {
+        begin(step);
+      } else if (step.clip != clip_) {
+        change(step);
+      }
+      const bool stops = walk_.to_rest && i + 1 == walk_.steps.size();
+      if (stops) {
+        stop(step);
+      } else {
+        continue_walk(step, switch_phase(*step.clip) + 0.5);
+      }
+    }
+  }
+
+ private:
+  // The frame, as a phase from the middle of the left foot's stance on, at which clips change.
+  static double switch_phase(const Clip& clip) {
+    return std::ceil(clip.middle * static_cast<float>(clip.frames)) /
+           static_cast<double>(clip.frames);
+  }
+
+  // Position along the path of a phase of a step's clip; the middle of the step is its beginning.
+  static double place_m(const Footstep& step, double phase) {
+    return step.begin_m + 2 * step.length_m * (phase - static_cast<double>(step.clip->middle));
+  }
+
+  void add(const Clip& clip, double to_frame, double to_m) {
+    const bool goes_on = !pieces_.empty() && pieces_.back().clip == &clip &&
+                         pieces_.back().by_distance && &clip == clip_ &&
+                         pieces_.back().to_frame == frame_ && clip.cyclic && laid_;
+    if (goes_on) {
+      Piece& last = pieces_.back();
+      // Only strides of one length: the frames stay in step with the path.
+      last.to_frame = to_frame;
+      last.to = to_m;
+    } else {
+      pieces_.push_back({trajectory_.step_at(at_m_, stretch_.first, stretch_.last), at_m_, to_m,
+                         frame_, to_frame, &clip, true});
+    }
+    laid_ = true;
+    clip_ = &clip;
+    frame_ = to_frame;
+    at_m_ = to_m;
+  }
+
+  void blend(std::uint32_t from, std::uint32_t to, double to_m) {
+    pieces_.push_back({trajectory_.step_at(at_m_, stretch_.first, stretch_.last), at_m_, to_m,
+                       static_cast<double>(from), static_cast<double>(to), nullptr, true});
+    at_m_ = to_m;
+  }
+
+  void begin(const Footstep& step) {
+    const Clip& clip = *step.clip;
+    const auto frames = static_cast<double>(clip.frames);
+    if (!walk_.from_rest) {
+      // In the middle of a step.
+      at_m_ = trajectory_.distance_m(static_cast<double>(stretch_.first));
+      const double done = (at_m_ - step.begin_m) / (2 * step.length_m);
+      clip_ = &clip;
+      frame_ = (clip.middle + half(step.side) + done) * frames;
+      return;
+    }
+    at_m_ = step.begin_m;
+    const Clip* start =
+        clips_.find(step.side == Side::left ? "start_left" : "start_right", clip.stride);
+    if (start != nullptr && start->stride == clip.stride) {
+      clip_ = start;
+      frame_ = 0;
+      add(*start, start->frames - 1, place_m(step, clip.middle + 0.25));
+      frame_ = (clip.middle + 0.25 + half(step.side)) * frames;
+    } else {
+      const double phase = switch_phase(clip) + after(clip, kChangeStrides);
+      frame_ = (phase + half(step.side)) * frames;
+      blend(clips_.nearest("idle").first, palette(clip, frame_), place_m(step, phase));
+    }
+    clip_ = &clip;
+    laid_ = false;
+  }
+
+  // A whole number of frames.
+  static double after(const Clip& clip, double strides) {
+    const auto frames = static_cast<double>(clip.frames);
+    return std::max(std::round(strides * frames), 1.0) / frames;
+  }
+
+  static std::uint32_t palette(const Clip& clip, double frame) {
+    return frame_of(clip, std::round(frame)).a;
+  }
+
+  void change(const Footstep& step) {
+    const Clip& clip = *step.clip;
+    const bool alike = clip.name == clip_->name;
+    const double phase =
+        switch_phase(clip) + (alike ? 1.0 / clip.frames : after(clip, kChangeStrides));
+    const std::uint32_t from = palette(*clip_, frame_);
+    frame_ = (phase + half(step.side)) * clip.frames;
+    blend(from, palette(clip, frame_), place_m(step, phase));
+    clip_ = &clip;
+    laid_ = false;
+  }
+
+  // On in the step's clip, to a phase of it.
+  void continue_walk(const Footstep& step, double phase) {
+    const double frame = (phase + half(step.side)) * step.clip->frames;
+    // Positions grow for ever within a piece: whole strides make no difference.
+    const double frames = step.clip->frames;
+    add(*step.clip, frame + frames * std::round((frame_ + 0.25 * frames - frame) / frames),
+        place_m(step, phase));
+  }
+
+  void stop(const Footstep& step) {
+    const Clip& clip = *step.clip;
+    const Side side = step.side == Side::left ? Side::right : Side::left;  // that stands at the end
+    const double phase = std::round((clip.middle + 0.5 - kStopStrides) * clip.frames) / clip.frames;
+    if (place_m(step, phase) > at_m_) continue_walk(step, phase);
+    const double end_m = step.begin_m + step.length_m;
+    const Clip* stop = clips_.find(side == Side::left ? "stop_left" : "stop_right", clip.stride);
+    if (stop != nullptr && stop->stride == clip.stride) {
+      laid_ = false;
+      frame_ = 0;
+      add(*stop, stop->frames - 1, end_m);
+    } else {
+      blend(palette(clip, frame_), clips_.nearest("idle").first, end_m);
+    }
+  }
+
+  const Trajectory& trajectory_;
+  const Stretch& stretch_;
+  const ClipSet& clips_;
+  const Walk& walk_;
+  std::vector<Piece>& pieces_;
+  const Clip* clip_ = nullptr;
+  double frame_ = 0;
+  double at_m_ = 0;
+  bool laid_ = false;  ///< whether the last piece is of this clip and ends here
+};
+
+}  // namespace
+
+MotionPlan::MotionPlan(const Population& population, const Appearance& appearance,
+                       std::uint64_t key, std::span<const Moment> moments, double dt_s) {
+  check(appearance.character < population.characters.size(), "the population has the character");
+  const Character& character = population.characters[appearance.character];
+  const ClipSet clips(population);
+  const Pedestrian pedestrian{character.stature_m, character.age_years,
+                              static_cast<double>(appearance.amplitude) / appearance.cadence,
+                              appearance.phase_offset};
+  Trajectory trajectory(moments, dt_s);
+  Random random(key, Stream::motion);
+  RestLayer rest(trajectory, clips, appearance.phase_offset, random, pieces_);
+  const std::vector<Stretch>& stretches = trajectory.stretches();
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const Stretch& stretch = stretches[i];
+    const bool first = i == 0;
+    const bool last = i + 1 == stretches.size();
+    if (stretch.activity == Activity::lying) {
+      rest.lie(stretch, first, last);
+    } else if (stretch.activity == Activity::standing) {
+      rest.stand(stretch, first, last);
+    } else {
+      const Walk walk = plan_walk(trajectory, stretch, !first, !last, clips, pedestrian);
+      if (walk.steps.empty()) {
+        rest.stand(stretch, first, last);
+      } else {
+        WalkLayer(trajectory, stretch, clips, walk, pieces_).lay();
+      }
+    }
+  }
+  distance_m_ = std::move(trajectory).take_distances();
+}
+
+PoseBlend MotionPlan::at(double step) const {
+  const auto next =
+      std::upper_bound(pieces_.begin(), pieces_.end(), step,
+                       [](double at, const Piece& piece) { return at < piece.begin; });
+  const Piece& piece = next == pieces_.begin() ? pieces_.front() : *(next - 1);
+  const double driver = piece.by_distance ? at_step(distance_m_, step) : step;
+  const double length = piece.to - piece.from;
+  const double share = length > 0 ? std::clamp((driver - piece.from) / length, 0.0, 1.0) : 1.0;
+  if (piece.clip == nullptr) {
+    return {static_cast<std::uint32_t>(piece.frame), static_cast<std::uint32_t>(piece.to_frame),
+            static_cast<float>(share)};
+  }
+  return frame_of(*piece.clip, piece.frame + share * (piece.to_frame - piece.frame));
+}
+
+}  // namespace throng::skinning

@@ -1,0 +1,43 @@
+// Lays the pieces of motion of people who stay where they are.
+#pragma once
+
+#include <vector>
+
+#include "base/random.h"
+#include "skinning/animate/motion.h"
+#include "skinning/animate/trajectory.h"
+
+namespace throng::skinning {
+
+struct Piece;
+
+class RestLayer {
+ public:
+  /// `phase_offset` in [0, 1): where in their swaying people are who stand from the first step on.
+  RestLayer(const Trajectory& trajectory, const ClipSet& clips, double phase_offset, Random random,
+            std::vector<Piece>& pieces);
+
+  /// Standing, looking around, at a phone or at the sky, turning when the body turns.
+  void stand(const Stretch& stretch, bool first, bool last);
+  /// Falling (unless already lying at the first step), lying, and getting up unless it is the last.
+  void lie(const Stretch& stretch, bool first, bool last);
+
+ private:
+  double steps(double seconds) const { return seconds / trajectory_.dt_s(); }
+  void add(const Clip& clip, double begin, double end, double frame, double to_frame);
+  void idle(double begin, double end);
+  double idle_once(double begin, double end);
+  void hold(const Clip& clip, double begin, double end, double raising_s);
+  void turn(std::size_t begin, std::size_t end);
+  double gaze_begins(double from, double to) const;
+  double gaze_ends(double from, double to) const;
+
+  const Trajectory& trajectory_;
+  const ClipSet& clips_;
+  double phase_offset_;
+  Random random_;
+  bool phones_;
+  std::vector<Piece>& pieces_;
+};
+
+}  // namespace throng::skinning

@@ -1,0 +1,37 @@
+// A person's silhouette and how far from it one is.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "skinning/bake/posed.h"
+#include "skinning/image.h"
+
+namespace throng::skinning {
+
+/// Seen by a camera at infinity, to a few millimeters.
+class Outline {
+ public:
+  /// The camera is at this yaw and elevation from the person.
+  Outline(std::span<const PosedSurface> surfaces, double yaw_rad, double elevation_rad);
+
+  /// How far a point appears outside of the silhouette, negative inside; kFarM at most.
+  float distance_m(const Eigen::Vector3f& point) const;
+
+  static constexpr float kFarM = 0.03F;
+
+ private:
+  void draw(const PosedSurface& posed, Mask& covered) const;
+  std::vector<int> chamfer(const Mask& mask, std::uint8_t of) const;
+  Mask grown(const Mask& mask, std::uint8_t value) const;
+  void measure(const Mask& covered);
+
+  Eigen::Matrix<float, 2, 3> to_picture_;
+  Eigen::Vector2f low_;
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<float> distance_m_;
+};
+
+}  // namespace throng::skinning

@@ -1,0 +1,28 @@
+// A dressed person's surfaces in the pose in which they are looked at.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "skinning/bake/surface.h"
+#include "skinning/image.h"
+
+namespace throng::skinning {
+
+struct PosedSurface {
+  const Surface* surface = nullptr;
+  std::vector<Eigen::Vector3f> points;  ///< per vertex, m
+  const Image* image = nullptr;
+};
+
+/// The texel of an image at texture coordinates in [0, 1].
+const std::uint8_t* texel_at(const Image& image, const Eigen::Vector2f& uv);
+
+/// Texture coordinates within the triangle whose first index is at `at`.
+Eigen::Vector2f uv_within(const Surface& surface, std::size_t at,
+                          const Eigen::Vector3f& barycentric);
+
+/// Whether a point of an alpha-tested surface is there; on others all are.
+bool is_there(const PosedSurface& posed, std::size_t at, const Eigen::Vector3f& barycentric);
+
+}  // namespace throng::skinning

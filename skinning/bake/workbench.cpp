@@ -1,0 +1,86 @@
+#include "skinning/bake/workbench.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/files.h"
+
+namespace throng::skinning {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kHashFile = "content_hash";
+constexpr const char* kMotionExtension = ".motion";
+
+// Files that a finished folder shares with the workbench are not written twice.
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (error) fs::copy_file(from, to, error);
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
+  }
+}
+
+}  // namespace
+
+Workbench::Workbench(fs::path output, const std::string& content_hash)
+    : output_(std::move(output)), folder_(output_.string() + ".part") {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  // The lock goes with the process, however it ends.
+  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) throw EnvironmentError(fmt::format("cannot write {}", folder_.string()));
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(lock_);
+    throw EnvironmentError(fmt::format("another build is writing {}", folder_.string()));
+  }
+  const fs::path hash_file = folder_ / kHashFile;
+  if (fs::exists(hash_file) && read_file(hash_file) == content_hash) return;
+  for (const auto& entry : fs::directory_iterator(folder_)) fs::remove_all(entry.path());
+  write_file_atomically(hash_file, content_hash);
+}
+
+Workbench::~Workbench() { ::close(lock_); }
+
+fs::path Workbench::file(const std::string& name, const char* extension) const {
+  return folder_ / (name + extension);
+}
+
+bool Workbench::has(const std::string& name) const {
+  return fs::exists(file(name, kCharacterExtension));  // written last
+}
+
+void Workbench::keep(const BakedPerson& person) const {
+  const std::string& name = person.character.name;
+  write_file_atomically(file(name, ".glb"), person.glb);
+  write_file_atomically(file(name, kMotionExtension), person.motion);
+  write_file_atomically(file(name, kCharacterExtension), encode_character(person.character));
+}
+
+void Workbench::keep_notice(const std::string& text) const {
+  write_file_atomically(folder_ / kNoticeFile, text);
+}
+
+void Workbench::finish(const std::vector<PersonSpec>& people, PopulationIndex index) {
+  StagingFolder staging(output_);
+  StagedFile palettes(staging.path() / kPalettesFile);
+  for (const PersonSpec& person : people) {
+    link_or_copy(file(person.name, ".glb"), staging.path() / (person.name + ".glb"));
+    palettes.write(read_file(file(person.name, kMotionExtension)));
+    index.characters.push_back(read_character(file(person.name, kCharacterExtension)));
+  }
+  palettes.commit();
+  link_or_copy(folder_ / kNoticeFile, staging.path() / kNoticeFile);
+  write_file_atomically(staging.path() / kIndexFile, encode_index(index));
+  staging.commit_replacing();
+  fs::remove_all(folder_);
+}
+
+}  // namespace throng::skinning

@@ -1,0 +1,410 @@
+#include "skinning/wardrobe/dress.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "skinning/bake/stance.h"
+
+namespace throng::skinning {
+
+namespace {
+
+std::vector<Eigen::Vector3f> fit(const Proxy& proxy, std::span<const Eigen::Vector3f> body) {
+  std::vector<Eigen::Vector3f> fitted;
+  fitted.reserve(proxy.anchors.size());
+  for (const Proxy::Anchor& anchor : proxy.anchors) {
+    Eigen::Vector3f position = anchor.offset;
+    for (std::size_t i = 0; i < 3; ++i) position += anchor.weight[i] * body[anchor.body_vertex[i]];
+    fitted.push_back(position);
+  }
+  return fitted;
+}
+
+float below_waist(const BoneWeights& weights) {
+  float sum = weights[index_of(Bone::hips)];
+  for (std::size_t bone = index_of(Bone::left_thigh); bone < kBoneCount; ++bone) {
+    sum += weights[bone];
+  }
+  return sum;
+}
+
+// Height at which a bottom ends in the A-pose, in which legs hang nearly straight down; far below
+// the feet when it is as long as it comes.
+float hem_of(const Outfit& outfit, const Joints& a_pose, float height_m) {
+  const float knee = a_pose[index_of(Bone::left_shin)].z();
+  const bool skirt = outfit.bottom == kSkirt;
+  if (outfit.hem == Hem::knee) return knee + (skirt ? -0.015F : 0.03F) * height_m;
+  if (outfit.hem == Hem::calf) return knee - 0.12F * height_m;
+  return std::numeric_limits<float>::lowest();
+}
+
+// Skin under clothes, per body vertex.
+struct CoveredSkin {
+  std::vector<bool> hidden;  // not rendered
+  std::vector<bool> tucked;  // rendered a little further in, or it might come through
+};
+
+// A garment covers the skin of its own half only: worn over something else's trousers, a shirt must
+// not hide the legs that its own trousers would have covered. Skin that shows below a bottom's hem
+// stays.
+CoveredSkin covered_skin(const MakeHuman& makehuman, const Wardrobe& wardrobe,
+                         const PersonSpec& person, std::span<const Eigen::Vector3f> body,
+                         float hem) {
+  const Proxy* top = wardrobe.top(person.outfit).proxy;
+  const Proxy* bottom = wardrobe.bottom(person.outfit).proxy;  // none with dresses and overalls
+  const Proxy* shoes = wardrobe.shoes(person.outfit).proxy;
+  const Proxy* hair = wardrobe.hair(person.outfit).proxy;
+  const Proxy* hat = wardrobe.hat(person.outfit).proxy;
+  constexpr float kInside_m = 0.1F;  // a look up from below the hem must find skin
+  CoveredSkin covered;
+  covered.hidden.resize(makehuman.weights().size());
+  covered.tucked.resize(makehuman.weights().size());
+  for (std::size_t vertex = 0; vertex < covered.hidden.size(); ++vertex) {
+    const bool lower_half = below_waist(makehuman.weights()[vertex]) > 0.5F;
+    const bool by_bottom = lower_half && bottom != nullptr;
+    const Proxy* over = by_bottom ? bottom : top;
+    const bool above_hem = !by_bottom || body[vertex].z() > hem;
+    const bool inside = !by_bottom || body[vertex].z() > hem + kInside_m;
+    covered.hidden[vertex] = shoes->hides[vertex] || (over->hides[vertex] && inside);
+    covered.tucked[vertex] = shoes->tucks[vertex] || (over->tucks[vertex] && above_hem) ||
+                             (hair != nullptr && hair->tucks[vertex]) ||
+                             (hat != nullptr && hat->tucks[vertex]);
+  }
+  return covered;
+}
+
+// Pushes a vertex inwards along its normal.
+void tuck_in(Surface& surface, std::size_t i, float tuck_m, const Palette& to_neutral) {
+  surface.positions[i] -= tuck_m * surface.normals[i];
+  // The A-pose differs by a rotation: that of the bones.
+  Eigen::Matrix3f turn = Eigen::Matrix3f::Zero();
+  for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
+    turn += surface.weights[i][bone] * to_neutral[bone].leftCols<3>();
+  }
+  surface.fitted[i] -= tuck_m * (turn.transpose() * surface.normals[i]).normalized();
+}
+
+bool all_corners(const Surface& surface, std::size_t at, const auto& holds) {
+  return holds(surface.indices[at]) && holds(surface.indices[at + 1]) &&
+         holds(surface.indices[at + 2]);
+}
+
+// Lowest point of what covers the shins, per leg side; large when the legs are bare.
+float lowest_on_shins(std::span<const Surface> bottoms) {
+  float hem = std::numeric_limits<float>::max();
+  for (const Surface& surface : bottoms) {
+    for (const std::uint32_t index : surface.indices) {
+      const BoneWeights& weights = surface.weights[index];
+      const float shin = weights[index_of(Bone::left_shin)] + weights[index_of(Bone::right_shin)];
+      if (shin > 0.5F) hem = std::min(hem, surface.positions[index].z());
+    }
+  }
+  return hem;
+}
+
+float trunk_of(const BoneWeights& weights) {
+  return weights[index_of(Bone::hips)] + weights[index_of(Bone::spine)] +
+         weights[index_of(Bone::chest)];
+}
+
+// Heights at which surfaces end on the trunk, in sectors all around it.
+class Rim {
+ public:
+  enum class End : std::uint8_t { lower, upper };
+  static constexpr std::size_t kSectors = 16;
+
+  Rim(std::span<const Surface> surfaces, const Joints& joints, End end) {
+    const float none = end == End::lower ? std::numeric_limits<float>::max()
+                                         : std::numeric_limits<float>::lowest();
+    height_m_.fill(none);
+    const Eigen::Vector3f& hips = joints[0];
+    for (const Surface& surface : surfaces) {
+      for (const std::uint32_t index : surface.indices) {
+        const BoneWeights& weights = surface.weights[index];
+        if (trunk_of(weights) < (end == End::lower ? 0.6F : 0.1F)) continue;
+        const Eigen::Vector3f& p = surface.positions[index];
+        float& here = height_m_[sector_of(p - hips)];
+        here = end == End::lower ? std::min(here, p.z()) : std::max(here, p.z());
+      }
+    }
+  }
+
+  float operator[](std::size_t sector) const { return height_m_[sector]; }
+  /// The highest around a direction.
+  float highest(const Eigen::Vector3f& from_hips) const {
+    const std::size_t here = sector_of(from_hips);
+    return std::max({height_m_[(here + kSectors - 1) % kSectors], height_m_[here],
+                     height_m_[(here + 1) % kSectors]});
+  }
+  static std::size_t sector_of(const Eigen::Vector3f& from_hips) {
+    const double turn = std::atan2(from_hips.y(), from_hips.x()) / (2 * std::numbers::pi) + 0.5;
+    return std::min(static_cast<std::size_t>(turn * kSectors), kSectors - 1);
+  }
+
+ private:
+  std::array<float, kSectors> height_m_{};
+};
+
+// Between a short top and a low waistband skin is visible that both would have covered with the
+// garments they were designed for.
+void bare_waist(const MakeHuman& makehuman, const DressedPerson& dressed,
+                std::span<const Surface> tops, std::span<const Surface> bottoms,
+                CoveredSkin& covered) {
+  constexpr float kInside_m = 0.04F;
+  constexpr float kNowhere_m = 10;
+  const Rim hem(tops, dressed.joints, Rim::End::lower);
+  const Rim waistband(bottoms, dressed.joints, Rim::End::upper);
+  std::array<bool, Rim::kSectors> bare{};
+  for (std::size_t sector = 0; sector < Rim::kSectors; ++sector) {
+    const bool both = hem[sector] < kNowhere_m && waistband[sector] > -kNowhere_m;
+    if (!both || waistband[sector] > hem[sector]) continue;
+    for (const std::size_t beside : {Rim::kSectors - 1, std::size_t{0}, std::size_t{1}}) {
+      bare[(sector + beside) % Rim::kSectors] = true;
+    }
+  }
+  for (std::size_t vertex = 0; vertex < covered.hidden.size(); ++vertex) {
+    const BoneWeights& weights = makehuman.weights()[vertex];
+    if (trunk_of(weights) < 0.5F) continue;
+    const Eigen::Vector3f point = move_point(dressed.body[vertex], weights, dressed.to_neutral);
+    const std::size_t sector = Rim::sector_of(point - dressed.joints[0]);
+    if (bare[sector] && point.z() > waistband[sector] - kInside_m &&
+        point.z() < hem[sector] + kInside_m) {
+      covered.hidden[vertex] = false;
+    }
+  }
+}
+
+Surface wear(const Garment& garment, const DressedPerson& dressed) {
+  const std::vector<Eigen::Vector3f> fitted = fit(*garment.proxy, dressed.body);
+  Surface surface = make_surface(garment.quads, garment.proxy->uvs, fitted, garment.proxy->weights,
+                                 dressed.to_neutral);
+  surface.texture = garment.texture;
+  surface.tint = garment.tint;
+  surface.alpha_tested = garment.alpha_tested;
+  return surface;
+}
+
+std::vector<Surface> wear_all(const Worn& worn, const DressedPerson& dressed) {
+  std::vector<Surface> surfaces;
+  surfaces.reserve(worn.pieces.size());
+  for (const Garment& garment : worn.pieces) surfaces.push_back(wear(garment, dressed));
+  return surfaces;
+}
+
+void cut_below(std::vector<Surface>& surfaces, float height_m) {
+  for (Surface& surface : surfaces) {
+    std::vector<float> above;
+    above.reserve(surface.fitted.size());
+    for (const Eigen::Vector3f& point : surface.fitted) above.push_back(point.z() - height_m);
+    cut_surface(surface, above);
+  }
+}
+
+// A waistband must not show through a shirt worn over it: what the shirt covers is rendered further
+// in, and what it covers well not at all. Hems are uneven, so that depends on the direction.
+void tuck_under(std::vector<Surface>& bottoms, const Rim& hem, const DressedPerson& dressed) {
+  constexpr float kOverlap_m = 0.03F;
+  constexpr float kSoft_m = 0.01F;
+  constexpr float kTuck_m = 0.01F;
+  const Eigen::Vector3f& hips = dressed.joints[0];
+  const auto above_hem = [&](const Eigen::Vector3f& point) {
+    return point.z() - hem.highest(point - hips);
+  };
+  for (Surface& surface : bottoms) {
+    keep_triangles(surface, [&](std::size_t at) {
+      return !all_corners(surface, at, [&](std::uint32_t vertex) {
+        return above_hem(surface.positions[vertex]) > kOverlap_m;
+      });
+    });
+    for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+      const float share = std::clamp(above_hem(surface.positions[i]) / kSoft_m, 0.0F, 1.0F);
+      if (share > 0) tuck_in(surface, i, share * kTuck_m, dressed.to_neutral);
+    }
+  }
+}
+
+// Nor a shoe through trousers, nor hair through a hat.
+void hide_above(std::vector<Surface>& surfaces, float height_m) {
+  for (Surface& surface : surfaces) {
+    std::vector<float> below;
+    below.reserve(surface.positions.size());
+    for (const Eigen::Vector3f& point : surface.positions) below.push_back(height_m - point.z());
+    cut_surface(surface, below);
+  }
+}
+
+float lowest_of(std::span<const Surface> surfaces) {
+  float lowest = std::numeric_limits<float>::max();
+  for (const Surface& surface : surfaces) {
+    for (const std::uint32_t index : surface.indices) {
+      lowest = std::min(lowest, surface.positions[index].z());
+    }
+  }
+  return lowest;
+}
+
+float highest_fitted(std::span<const Surface> surfaces) {
+  float highest = std::numeric_limits<float>::lowest();
+  for (const Surface& surface : surfaces) {
+    for (const std::uint32_t index : surface.indices) {
+      highest = std::max(highest, surface.fitted[index].z());
+    }
+  }
+  return highest;
+}
+
+float highest_of(std::span<const Surface> surfaces) {
+  float highest = std::numeric_limits<float>::lowest();
+  for (const Surface& surface : surfaces) {
+    for (const std::uint32_t index : surface.indices) {
+      highest = std::max(highest, surface.positions[index].z());
+    }
+  }
+  return highest;
+}
+
+Surface skin_of(const MakeHuman& makehuman, const PersonSpec& person, const DressedPerson& dressed,
+                const CoveredSkin& covered) {
+  Surface skin = make_surface(makehuman.skin(), makehuman.uvs(), dressed.body, makehuman.weights(),
+                              dressed.to_neutral);
+  constexpr float kTuck_m = 0.007F;
+  for (std::size_t i = 0; i < skin.source.size(); ++i) {
+    if (covered.tucked[skin.source[i]]) tuck_in(skin, i, kTuck_m, dressed.to_neutral);
+  }
+  keep_triangles(skin, [&](std::size_t at) {
+    return !all_corners(skin, at, [&](std::uint32_t vertex) -> bool {
+      return covered.hidden[skin.source[vertex]];
+    });
+  });
+  skin.texture = person.skin;
+  return skin;
+}
+
+// Cloth is one-sided: where it ends, the inside of its far side would be missing. Adds the back of
+// the triangles along its open borders.
+void add_linings(Surface& surface) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  const auto edge = [&](std::size_t at, std::size_t corner) {
+    const std::uint32_t a = surface.source[surface.indices[at + corner]];
+    const std::uint32_t b = surface.source[surface.indices[at + (corner + 1) % 3]];
+    return std::pair(std::min(a, b), std::max(a, b));  // std::minmax would return references
+  };
+  for (std::size_t at = 0; at < surface.indices.size(); at += 3) {
+    for (std::size_t corner = 0; corner < 3; ++corner) ++edges[edge(at, corner)];
+  }
+  std::set<std::uint32_t> border;
+  for (const auto& [ends, faces] : edges) {
+    if (faces == 1) border.insert({ends.first, ends.second});
+  }
+  std::map<std::uint32_t, std::uint32_t> back;
+  const std::size_t count = surface.indices.size();
+  for (std::size_t at = 0; at < count; at += 3) {
+    bool near_border = false;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      near_border = near_border || border.contains(surface.source[surface.indices[at + corner]]);
+    }
+    if (!near_border) continue;
+    for (const std::size_t corner : {0, 2, 1}) {
+      const std::uint32_t front = surface.indices[at + corner];
+      const auto [entry, is_new] = back.try_emplace(front, 0);
+      if (is_new) entry->second = add_turned(surface, front);
+      surface.indices.push_back(entry->second);
+    }
+  }
+}
+
+// Adds surfaces that together have about `triangles` triangles, each its share.
+enum class Lined : std::uint8_t { no, yes };
+void add_simplified(std::vector<Surface> more, std::size_t triangles, std::vector<Surface>& all,
+                    Lined lined = Lined::no) {
+  std::size_t indices = 0;
+  for (const Surface& surface : more) indices += surface.indices.size();
+  for (Surface& surface : more) {
+    if (surface.indices.empty()) continue;
+    simplify(surface, triangles * surface.indices.size() / indices, lined == Lined::yes);
+    if (lined == Lined::yes) add_linings(surface);
+    all.push_back(std::move(surface));
+  }
+}
+
+// Moves everything so that the soles stand on z = 0 with the hips above the origin.
+void put_on_ground(DressedPerson& dressed, float crown) {
+  float lowest = std::numeric_limits<float>::max();
+  for (const Surface& surface : dressed.surfaces) {
+    for (const std::uint32_t index : surface.indices) {
+      lowest = std::min(lowest, surface.positions[index].z());
+    }
+  }
+  const Eigen::Vector3f shift(-dressed.joints[0].x(), -dressed.joints[0].y(), -lowest);
+  for (Surface& surface : dressed.surfaces) {
+    for (Eigen::Vector3f& position : surface.positions) position += shift;
+  }
+  for (Eigen::Vector3f& joint : dressed.joints) joint += shift;
+  for (BoneMatrix& matrix : dressed.to_neutral) matrix.col(3) += shift;
+  dressed.stature_m = crown - lowest;
+}
+
+}  // namespace
+
+DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe,
+                    const PersonSpec& person) {
+  const Outfit& outfit = person.outfit;
+  DressedPerson dressed;
+  Stance stance = stand_at_height(makehuman, person.shape, person.height_m);
+  makehuman.curl_fingers(stance.body);
+  dressed.body = std::move(stance.body);
+  dressed.joints = stance.joints;
+  dressed.to_neutral = stance.to_neutral;
+  const float hem = hem_of(outfit, stance.a_pose, static_cast<float>(person.height_m));
+  CoveredSkin covered = covered_skin(makehuman, wardrobe, person, dressed.body, hem);
+
+  std::vector<Surface> tops = wear_all(wardrobe.top(outfit), dressed);
+  std::vector<Surface> bottoms = wear_all(wardrobe.bottom(outfit), dressed);
+  std::vector<Surface> shoes = wear_all(wardrobe.shoes(outfit), dressed);
+  std::vector<Surface> hat = wear_all(wardrobe.hat(outfit), dressed);
+  std::vector<Surface> hair = wear_all(wardrobe.hair(outfit), dressed);
+  constexpr float kWaistOverlap_m = 0.03F;
+  constexpr float kHemOverlap_m = 0.015F;
+  if (outfit.hem != Hem::foot) cut_below(bottoms, hem);
+  if (outfit.one_piece && outfit.bottom == kSkirt) {
+    std::erase_if(tops, [](const Surface& surface) { return surface.tint == Tint::none; });
+    cut_below(tops, highest_fitted(bottoms) - kWaistOverlap_m);
+  } else if (!bottoms.empty()) {
+    tuck_under(bottoms, Rim(tops, dressed.joints, Rim::End::lower), dressed);
+    bare_waist(makehuman, dressed, tops, bottoms, covered);
+  }
+  hide_above(shoes, lowest_on_shins(bottoms.empty() ? tops : bottoms) + kHemOverlap_m);
+  const float waist = stance.a_pose[index_of(Bone::spine)].z();
+  const float shoulders = stance.a_pose[index_of(Bone::left_upper_arm)].z();
+  cut_below(hair, waist + static_cast<float>(outfit.hair_cut) * (shoulders - waist));
+  if (!hat.empty()) {
+    constexpr float kBrimShare = 0.3F;
+    const float low = lowest_of(hat);
+    hide_above(hair, low + kBrimShare * (highest_of(hat) - low));
+  }
+
+  std::vector<Surface> face = wear_all(wardrobe.eyebrows(person.eyebrows), dressed);
+  const Proxy& eyes = wardrobe.eyes();
+  face.push_back(wear({&eyes, eyes.quads, Tint::none, false, person.eyes}, dressed));
+  for (Surface& surface : face) surface.painted = true;
+
+  // Triangles at full detail, below 8 000 in all: most where people look.
+  auto& all = dressed.surfaces;
+  add_simplified({skin_of(makehuman, person, dressed, covered)}, 2200, all);
+  add_simplified(std::move(tops), bottoms.empty() ? 2000 : 1300, all, Lined::yes);
+  add_simplified(std::move(bottoms), 800, all, Lined::yes);
+  add_simplified(std::move(shoes), 550, all);
+  add_simplified(std::move(hair), hat.empty() ? 1250 : 900, all);
+  add_simplified(std::move(hat), 350, all, Lined::yes);
+  add_simplified(std::move(face), 250, all);
+  put_on_ground(dressed, stance.highest);
+  return dressed;
+}
+
+}  // namespace throng::skinning

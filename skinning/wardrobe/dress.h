@@ -1,0 +1,25 @@
+// A sampled person becomes surfaces: body in the wanted height, clothes fitted, covered skin left
+// out, standing neutrally on the ground.
+#pragma once
+
+#include <vector>
+
+#include "skinning/bake/makehuman.h"
+#include "skinning/bake/person.h"
+#include "skinning/bake/surface.h"
+#include "skinning/skeleton.h"
+#include "skinning/wardrobe/wardrobe.h"
+
+namespace throng::skinning {
+
+struct DressedPerson {
+  std::vector<Surface> surfaces;      ///< the skin first
+  std::vector<Eigen::Vector3f> body;  ///< every body vertex in the A-pose
+  Joints joints;                      ///< standing neutrally
+  Palette to_neutral;                 ///< from the A-pose
+  float stature_m = 0;                ///< sole of the shoes to crown
+};
+
+DressedPerson dress(const MakeHuman& makehuman, const Wardrobe& wardrobe, const PersonSpec& person);
+
+}  // namespace throng::skinning
