@@ -390,9 +390,7 @@ void TraceWriter::add_drone(std::size_t drone, const DroneSample& sample) {
   writing(file_->temporary.final_path(), [&] { file_->drones[drone].add(sample); });
 }
 
-void TraceWriter::add_event(const TraceEvent& event) {
-  file_->waiting_events.push_back(event);
-}
+void TraceWriter::add_event(const TraceEvent& event) { file_->waiting_events.push_back(event); }
 
 void TraceWriter::finish() {
   writing(file_->temporary.final_path(), [&] { file_->close(); });
