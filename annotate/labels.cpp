@@ -140,7 +140,7 @@ class ColumnRuns {
     }
   }
 
-  // Where this row's runs and those above differ.
+  // Adds the differences of this row's runs and those above.
   void add_difference(int y) {
     if (above_.size() == 2 && here_.size() == 2 && above_[0] < here_[1] && here_[0] < above_[1]) {
       // Most often one run lies below one other.

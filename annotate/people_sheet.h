@@ -1,6 +1,6 @@
 // A sheet of a population, for people to judge it by: everybody from the front and from the side,
-// a crowd as drones see it, ways of moving, levels of detail, and how tall people are. All people
-// are drawn by the renderer that draws datasets.
+// a crowd as drones see it, gaits, levels of detail, and how tall people are. All people
+// are rendered by the renderer of datasets.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What is known of a run's people beside what the picture shows: what they do, where they want to
-// go, with whom, and what they look like.
+// Attributes of a run's people that do not depend on the image: activity, goal, companions
+// and appearance.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace throng::annotate {
 
-/// What somebody does, whatever the behavior file calls it.
+/// A person's activity, independent of the names in the behavior file.
 enum class Activity : std::uint8_t { waiting, walking, running, following, panicking, lying };
 std::string_view name_of(Activity activity);
 

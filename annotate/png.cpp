@@ -138,7 +138,7 @@ std::string flow_png(const render::Frame& frame) {
   for (std::size_t i = 0; i * 2 < frame.flow.size(); ++i) {
     const float x = std::round(frame.flow[i * 2] * kPerPixel + kZero);
     const float y = std::round(frame.flow[i * 2 + 1] * kPerPixel + kZero);
-    // What is unknown is no number: every comparison with it is false.
+    // Unknown values are NaN: every comparison with them is false.
     if (!(x >= 0 && y >= 0 && x <= kMaxValue && y <= kMaxValue)) continue;
     samples[i * 3] = static_cast<std::uint16_t>(x);
     samples[i * 3 + 1] = static_cast<std::uint16_t>(y);

@@ -1,4 +1,4 @@
-// What the pictures of a people's sheet show: cameras, and who stands before them how.
+// The images of a people's sheet: cameras, people before them and their poses.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs every place of the library for 60 s, everyday and emergency, with a picture every 10 s, validates each dataset
-# and prints a row of docs/places.md for it. What was run before is not run again.
+# and prints a row of docs/places.md for it. Finished runs are not repeated.
 #   bench/place_runs.sh FOLDER [PLACE...]
 # FOLDER/PLACE_VARIANT/ are the jobs' folders; THRONG names another program than build/release/cli/throng.
 set -euo pipefail

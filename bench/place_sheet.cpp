@@ -77,7 +77,8 @@ class Sheet {
   std::vector<std::uint8_t> rgb_;
 };
 
-/// What the scenario's first drone sees at 45 degrees below the horizon: (x, y) on the ground.
+/// The point that the scenario's first drone sees at 45 degrees below the horizon: (x, y) on the
+/// ground.
 Eigen::Vector2d focus(const world::Scenario& scenario) {
   const world::DroneStart& drone = scenario.drones.at(0);
   return drone.position.head<2>() +

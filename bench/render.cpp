@@ -94,7 +94,7 @@ render::Scene crowd(const skinning::Population& people, std::uint32_t count) {
   return scene;
 }
 
-/// What one process found.
+/// Figures of one process.
 struct Figures {
   double frames = 0;
   double wall_s = 0;

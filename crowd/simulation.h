@@ -33,7 +33,7 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// What was ignored while loading.
+  /// Parts of the files that were ignored while loading.
   const std::vector<Problem>& warnings() const;
 
   /// Advances by dt_s().

@@ -60,7 +60,7 @@ world::Scenario read_place(json document, const std::string& source, const std::
   return world::parse_scenario(document, source, id);
 }
 
-/// What a disaster changes about the exits, and the goals that fleeing people have.
+/// A disaster's changes to the exits, and the goals of fleeing people.
 void add_emergency(const world::Scenario& place, const People& people, json& document) {
   if (people.dangers.empty()) return;
   document["disasters"] = disasters_json(people);

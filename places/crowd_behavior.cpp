@@ -103,7 +103,7 @@ Node walk() { return describe::velocity("auto", {{"cell_size", "0.12"}}); }
 Node stay() { return describe::velocity("goal"); }
 Node lie() { return describe::velocity("zero"); }
 
-/// What people do when nothing happens.
+/// People's behavior without a disaster.
 class Everyday {
  public:
   Everyday(const Scenario& scenario, const People& people) : scenario_(&scenario) {
@@ -119,7 +119,7 @@ class Everyday {
     final_wait_ = people.dangers.empty();
   }
 
-  /// Those that a disaster can interrupt, separated by commas.
+  /// Names of states that a disaster can interrupt, separated by commas.
   std::string names() const {
     std::vector<std::string> names;
     for (const Doing doing : doing_) names.push_back(state_of(doing));
@@ -238,7 +238,7 @@ std::vector<Attribute> spread_of(const Danger& danger, double from_edge_m) {
   return spread;
 }
 
-/// Those who are caught by what happens.
+/// Transitions of people whom a disaster hurts.
 void add_hurting_transitions(const std::string& from, const People& people,
                              BehaviorBuilder& behavior) {
   constexpr double kAgentRadiusM = 0.3;  // of the danger's agent; the condition counts from there

@@ -121,7 +121,7 @@ Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits)
   return source;
 }
 
-/// What people know of a kind of disaster unless the blueprint says otherwise.
+/// Defaults of a kind of disaster, for values that the blueprint does not give.
 Danger usual_danger(const world::Disaster& seen) {
   switch (seen.kind) {
     case world::DisasterKind::explosion:

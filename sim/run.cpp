@@ -60,7 +60,7 @@ void check_goals(const std::vector<PlannedDrone>& drones, CrowdSource& crowd,
     } catch (const InputError&) {
       problems.push_back({"", fmt::format("/drones/{}/moves_goal", i),
                           fmt::format("[{}, {}]", set, goal),
-                          "a goal set and goal of the scenario's behaviour file"});
+                          "a goal set and goal of the scenario's behavior file"});
     }
   }
 }

@@ -188,7 +188,7 @@ std::vector<ConditionRegistry::Entry> general_conditions() {
         distribution("", "delay in s")},
        make_timer},
       {"goal_reached",
-       "the agent's centre is in its goal, or near it",
+       "the agent's center is in its goal, or near it",
        {optional(number("distance", "from the goal's region in m", 0), "0")},
        make_goal_reached},
       {"and", "both of two conditions", {}, make_binary<Both>},

@@ -22,7 +22,8 @@ std::optional<std::size_t> first_always(const MachineState& state) {
   return std::nullopt;
 }
 
-/// Where everybody goes at once from a state, if nothing else is due: per state, or nothing.
+/// The state that follows at once from a state if no other transition is due: per state, or
+/// nothing.
 std::vector<std::optional<std::uint8_t>> next_states(const Behavior& behavior) {
   std::vector<std::optional<std::uint8_t>> next(behavior.states.size());
   for (std::size_t i = 0; i < next.size(); ++i) {
@@ -45,7 +46,7 @@ void Diagnosis::note_transition(const Element& element, std::uint8_t from) {
 void Diagnosis::report(const Crowd& crowd, const Behavior& behavior,
                        const std::vector<std::string>& state_names,
                        const std::vector<std::uint8_t>& from_outside) const {
-  // What comes from outside may also take agents out of any state.
+  // Events from outside may also take agents out of any state.
   if (from_outside.empty()) report_dead_ends(behavior);
   report_unreachable(crowd, behavior, from_outside);
   report_transitions(behavior, state_names);

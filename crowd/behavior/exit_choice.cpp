@@ -25,7 +25,7 @@ struct ExitChoiceSpec {
 /// How many are on their way to each goal, by their distance to it: what a person sees of queues.
 class Queues {
  public:
-  /// Sorts everybody anew, once in a step.
+  /// Sorts all agents again, once in a step.
   void observe(const Crowd& crowd, const std::vector<int>& goals) {
     if (step_ == crowd.step && !distances_.empty()) return;
     step_ = crowd.step;

@@ -127,7 +127,7 @@ std::optional<std::string_view> read_kind(const Element& element, Reader& reader
   return *given;
 }
 
-/// What limits a distribution that has not the form `c` or `u`: those given, within those of what
+/// Limits of a distribution that has not the form `c` or `u`: those given, within those of what
 /// is drawn; a normal one, which Menge has too, goes on unlimited where none is given.
 void read_limits(const Element& element, Reader& reader, const AttributeSpec& spec,
                  Distribution& made) {

@@ -34,7 +34,7 @@ struct AttributeSpec {
   AttributeType type = AttributeType::number;
   std::string_view help;
   Presence presence = Presence::required;
-  /// What an optional attribute is when it is not given; "" means that the reader asks has().
+  /// Value of an optional attribute that is absent; "" means that the reader asks has().
   std::string_view default_text = {};
   double min = -kMaxCoordinate;
   double max = kMaxCoordinate;

@@ -75,7 +75,7 @@ struct Distribution2 {
   Eigen::Vector2f sample(MengeRandom& x, MengeRandom& y) const;
 };
 
-/// The random numbers of one element of the behavior file. What an agent gets depends on how
+/// The random numbers of one element of the behavior file. An agent's values depend on how
 /// often it has entered a state, so a decision holds until the agent enters another one.
 class Draws {
  public:

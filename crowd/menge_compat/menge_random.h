@@ -41,7 +41,8 @@ class MengeSequences {
   std::shared_ptr<MengeRandom> next(const Distribution& distribution);
   /// Null where runs are not compatible.
   std::shared_ptr<MengeRandom> next();
-  /// What an element has that is the copy of another one: its own sequence, with the seed + 1.
+  /// The generator of an element that is the copy of another one: its own sequence, with the seed
+  /// + 1.
   static std::shared_ptr<MengeRandom> copy(const std::shared_ptr<MengeRandom>& original);
 
   bool compatible() const { return compatible_; }

@@ -25,7 +25,7 @@ enum Constant : std::size_t {
   agent_force
 };
 
-/// The most urgent of the collisions that it is told, soonest first.
+/// The most urgent of the collisions added to it, soonest first.
 class Urgent {
  public:
   struct Collision {

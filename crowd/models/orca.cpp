@@ -13,7 +13,7 @@ namespace {
 
 enum Parameter : std::size_t { tau, tau_obstacles };
 
-/// What one thread works with; kept from step to step, so that a step allocates nothing.
+/// Buffers of one thread; kept from step to step, so that a step allocates nothing.
 struct Workspace {
   OrcaBatch batch;
   HalfPlanes walls;
@@ -96,7 +96,7 @@ class Orca : public Model {
                         workspace.walls, around.neighbors);
   }
 
-  /// Where everybody wants to go, in the grid's order: neighbors look at each other's.
+  /// Sorts preferred directions into the grid's order, because neighbors read each other's.
   void sort_directions(const Crowd& crowd, const Grid& grid) {
     constexpr std::size_t kDirectionGrain = 4096;
     if (directions_.size() < grid.size()) directions_.resize(grid.size());

@@ -36,7 +36,7 @@ Gait Pace::gait(const View& view, const Ahead& ahead) const {
     const float share = 1 - std::exp(-spec_.decline * (1 / ahead.along - 1 / spec_.jam_density));
     gait.share = std::clamp(share, spec_.min_value, 1.0F);
   }
-  // Who is slow need not look as far; and at a door nobody waits for those beside them.
+  // Slow agents need not look as far; and at a door no one waits for those beside them.
   gait.horizon_share = gait.share;
   gait.share = std::min(gait.share, view.file_share);
   if (ahead.against > 0) {

@@ -19,7 +19,7 @@ struct PaceSpec {
   float keep_right = 6;       ///< rad m^2: turn by the density of those who come towards one
 };
 
-/// What somebody does about those ahead.
+/// An agent's reaction to those ahead.
 struct Gait {
   float share = 1;            ///< of the free speed, at most 1
   float horizon_share = 1;    ///< of how far ahead one looks in time
@@ -40,7 +40,7 @@ class Pace {
  public:
   explicit Pace(const PaceSpec& spec) : spec_(spec) {}
 
-  /// What one agent knows of the others, besides the density ahead of it.
+  /// One agent's view of the others, besides the density ahead of it.
   struct View {
     Eigen::Vector2f direction;  ///< unit: where it wants to go
     float free_speed = 0;       ///< m/s

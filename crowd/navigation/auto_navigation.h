@@ -1,4 +1,4 @@
-// Ways around all obstacles, without a mesh or map by hand.
+// Paths around all obstacles, without a hand-made mesh or map.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -15,7 +15,7 @@
 
 namespace throng::crowd {
 
-/// The ways of all agents that find theirs by themselves, in whatever state. Agents that mind the
+/// The paths of all agents that navigate automatically, in any state. Agents that avoid the
 /// same obstacles and are of about the same size share a mesh, which is made when the first of them
 /// enters such a state (when the scene is loaded, that is, unless obstacles or sizes change).
 ///

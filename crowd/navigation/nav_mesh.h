@@ -1,4 +1,4 @@
-// Where one can walk, as convex polygons that meet at portals.
+// The walkable area as convex polygons that meet at portals.
 #pragma once
 
 #include <Eigen/Core>

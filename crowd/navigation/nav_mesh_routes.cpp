@@ -20,8 +20,8 @@ Eigen::Vector2f tangent(const Eigen::Vector2f& from, const Eigen::Vector2f& cent
   return {c * way.x() - s * way.y(), s * way.x() + c * way.y()};
 }
 
-/// The direction turned as far as need be to pass the corners of a gate at a distance. Where there
-/// is no room for that it stays, but in compatible runs.
+/// The direction turned as far as need be to pass the corners of a gate at a distance. If there
+/// is no room for that it stays, except in compatible runs.
 Eigen::Vector2f clear_of_corners(const Eigen::Vector2f& direction, const Gate& gate,
                                  const Eigen::Vector2f& from, float radius, Compat compat) {
   const float too_near = compat == Compat::none ? radius * radius : 0;

@@ -14,7 +14,7 @@ VelComponentRegistry::Entry vector_field_component();
 
 /// By the length of the way across a mesh.
 std::vector<GoalSelectorRegistry::Entry> navigation_goal_selectors();
-/// What the ground's slopes do.
+/// Modifiers of velocity for the ground's slopes.
 std::vector<VelModifierRegistry::Entry> slope_modifiers();
 
 }  // namespace throng::crowd

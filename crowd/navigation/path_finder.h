@@ -1,4 +1,4 @@
-// Ways across a navigation mesh.
+// Path planning on a navigation mesh.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,14 +20,14 @@ struct Gate {
   Eigen::Vector2f right_corner;
 };
 
-/// What A* takes for the length of a way from portal to portal.
+/// How A* measures the length of a path from portal to portal.
 enum class Lengths {
-  shortest,  ///< between points of the portals, chosen in several ways: the best result counts
-  centers    ///< between the polygons' centers, as Menge does; it may miss the shortest way
+  shortest,  ///< between points of the portals, chosen by several rules: the best result counts
+  centers    ///< between the polygons' centers, as Menge does; it may miss the shortest path
 };
 
-/// Finds ways. The polygons to pass are searched for with A* over the portals (Hart, Nilsson and
-/// Raphael 1968); the way through them is pulled tight with a funnel (Lee and Preparata 1984).
+/// Finds paths. The polygons to pass are searched for with A* over the portals (Hart, Nilsson and
+/// Raphael 1968); the path through them is pulled tight with a funnel (Lee and Preparata 1984).
 /// One for each thread: it keeps its memory, so that a search allocates nothing after the first.
 class PathFinder {
  public:
@@ -48,7 +48,7 @@ class PathFinder {
   float length_m() const { return length_m_; }
 
  private:
-  /// What a search knows of a portal.
+  /// A search's record of a portal.
   struct Node {
     unsigned search = 0;  // the last that reached it
     bool done = false;
@@ -72,7 +72,7 @@ class PathFinder {
     bool operator<(const Open& other) const { return key > other.key; }
   };
 
-  /// Where a way passes a portal, as long as nobody knows better.
+  /// The point where a path is assumed to pass a portal until it is planned.
   enum class Pass { near_line, near_start, middle, center_behind };
   struct Search {
     Eigen::Vector2f start;

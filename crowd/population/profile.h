@@ -14,7 +14,7 @@
 
 namespace throng::crowd {
 
-/// What an agent's property or parameter is drawn from.
+/// The distribution of an agent's property or parameter.
 struct ProfileValue {
   Distribution distribution;
   std::shared_ptr<MengeRandom> sequence;  ///< where compatible runs draw from it

@@ -1,4 +1,4 @@
-// What is known of a drone when one of its pictures is taken: the truth, and what its sensors say.
+// State of a drone when one of its images is captured: the truth, and its sensors' readings.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

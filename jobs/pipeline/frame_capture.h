@@ -38,7 +38,7 @@ class FrameCapture {
   void recycle(CapturedFrame&& captured);
 
  private:
-  /// What a camera sees at a time around that of one of its frames, in the scene of this index.
+  /// A camera's view at a time around that of one of its frames, in the scene of this index.
   render::ShutterMoment moment_at(std::size_t drone, std::int64_t frame, std::int64_t index,
                                   double time_s);
   sim::ViewAngles view_at(std::size_t drone, std::int64_t frame,

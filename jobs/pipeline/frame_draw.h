@@ -1,4 +1,4 @@
-// What differs between the frames of one camera: drawn for each from the run's seed.
+// Differences between the frames of one camera: sampled for each from the run's seed.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace throng::jobs {
 
-/// What is added to a camera of the run for one frame.
+/// Offsets of a camera of the run for one frame.
 struct FrameDraw {
   double yaw_deg = 0;
   double pitch_deg = 0;

@@ -1,4 +1,4 @@
-// Where a drone's camera is and what it sees.
+// Pose and view of a drone's camera.
 #pragma once
 
 #include "camera/camera.h"
@@ -16,10 +16,10 @@ camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec
 camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec,
                          const sim::ViewAngles& view);
 
-/// Where the camera of `spec` is told to look, from the drone's heading and the horizon.
+/// Commanded direction of the camera of `spec`, relative to the drone's heading and the horizon.
 sim::GimbalCommand command_of(const CameraSpec& spec);
 
-/// Where an ideal gimbal looks.
+/// Direction of an ideal gimbal.
 sim::ViewAngles ideal_view(const world::DroneSample& drone, const CameraSpec& spec);
 
 }  // namespace throng::jobs

@@ -21,7 +21,7 @@ using OnTaskProgress = std::function<void(const TaskProgress&)>;
 /// Whether the job asks for this kind of ground truth.
 bool wants(const JobSpec& job, annotate::GroundTruth kind);
 
-/// What the simulation is asked to do in a run of the job.
+/// Input of the simulation for a run of the job.
 sim::RunSpec run_spec(const JobSpec& job, int run);
 
 /// Simulates a run: work/run000/trace.h5. Progress in simulated seconds.

@@ -98,7 +98,7 @@ class ShardOutput {
   }
 
  private:
-  /// What was drawn for the run and for the frame, or "".
+  /// The values sampled for the run and for the frame, or "".
   std::string drawn_of(const CapturedFrame& captured) const {
     nlohmann::json drawn = drawn_;
     drawn.update(captured.drawn);

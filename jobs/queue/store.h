@@ -1,5 +1,5 @@
-// The durable queue: one SQLite file in the data folder, one server at a time. What a call has
-// returned survives the death of the process and of the machine.
+// The durable queue: one SQLite file in the data folder, one server at a time. Results
+// that a call has returned survive the death of the process and of the machine.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace throng::jobs {
 
-/// What a queued job is asked to make.
+/// Kind of a queued job's result.
 enum class JobKind { dataset, calibration };
 
 std::string_view name_of(JobKind kind);
@@ -41,14 +41,14 @@ struct JobRow {
   std::string waiting_for = {};  ///< not stored: why nobody works on it although it is its turn
 };
 
-/// What of a job may be changed at any time.
+/// Properties of a job that may be changed at any time.
 struct JobChange {
   int priority = 0;
   std::vector<std::string> labels = {};
   bool keep = false;
 };
 
-/// What is to be queued.
+/// A job to be queued.
 struct NewJob {
   std::string name;
   std::string spec_json = "{}";

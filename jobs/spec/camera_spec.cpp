@@ -31,7 +31,7 @@ const json& presets() {
 
 bool gives(const json& value, const char* name) { return value.contains(below(name)); }
 
-/// What contradicts itself in the object.
+/// Reports contradictions in the object.
 void check_choices(const json& value, const CameraSpec& spec, const std::string& pointer,
                    std::vector<Problem>& problems) {
   if (gives(value, "fx_px") && gives(value, "hfov_deg")) {

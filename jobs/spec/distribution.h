@@ -1,4 +1,4 @@
-// Values of a job that may be drawn anew for every run: a field holds one value, or
+// Values of a job that may be sampled again for every run: a field holds one value, or
 // {"choice": [a, b, ...]}, {"uniform": [low, high]}, {"log_uniform": [low, high]} (equally many in
 // every octave) or {"normal": [mean, standard deviation]}, whose values outside the field's range
 // are drawn again.

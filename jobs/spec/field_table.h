@@ -26,7 +26,7 @@ enum class Drawn : std::uint8_t {
   in_place,      ///< the field itself may hold a distribution (x-distribution)
 };
 
-/// What the schema says of a field.
+/// The schema's rules of a field.
 struct FieldRules {
   std::string path;  ///< below the object that the table describes: "sensor/iso"
   std::string title;
@@ -40,7 +40,7 @@ struct FieldRules {
   nlohmann::ordered_json default_value;  ///< null: none
 };
 
-/// Where something is read from, for messages and for files that it names.
+/// Source and pointer of a value that is read, for messages and for files that it names.
 struct FieldPlace {
   std::string pointer;        ///< JSON pointer
   const std::string& source;  ///< the job's file, or "" for a request
@@ -67,7 +67,7 @@ struct Field : FieldRules {
     default_value = nullptr;
     return *this;
   }
-  /// What the schema calls the default, where the job does not write it out.
+  /// The schema's default of a field that printed jobs leave out.
   Field& with_default(nlohmann::ordered_json value) {
     default_value = std::move(value);
     return *this;

@@ -50,7 +50,7 @@ Quantity word_quantity(const std::vector<std::string>& words) {
 ordered_json rules_of(const FieldRules& field) {
   ordered_json rules = {{"title", field.title}, {"description", field.help}};
   for (const auto& [key, value] : field.values.rules.items()) {
-    // Where an object's fields begin is too late for what is said of itself.
+    // An object's own default precedes its fields.
     if (key == "properties" && !field.default_value.is_null()) {
       rules["default"] = field.default_value;
     }

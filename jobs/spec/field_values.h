@@ -1,4 +1,4 @@
-// What the values of a job's fields may be, for the schema and for drawing them.
+// Permitted values of a job's fields, for the schema and for sampling them.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ Values lists(int min_value, int max_value, nlohmann::ordered_json items);
 Values coordinates(int count, bool is_random = false);
 /// Objects with the fields of a table: its schema().
 Values object_of(nlohmann::ordered_json fields);
-/// Whatever else the schema can say.
+/// Any other rules of the schema.
 Values raw(nlohmann::ordered_json rules, std::string expected = "");
 
 /// Some of words, as they are written in JSON.

@@ -89,7 +89,7 @@ bool is_there(const json& job, const std::vector<std::string>& words, bool in_pl
     } else if (node->contains(words[i])) {
       node = &node->at(words[i]);
     } else {
-      // What is left out has a default.
+      // A field that is left out has a default.
       return !in_place ||
              std::none_of(words.begin() + static_cast<std::ptrdiff_t>(i), words.end(), is_index);
     }

@@ -1,6 +1,6 @@
 // The block "randomize" of a job: fields by their dotted paths ("drones.0.camera.pitch_deg"), each
-// with a distribution that is drawn anew for every run. Which fields may be named there is what the
-// schema marks with x-distribution or x-randomize.
+// with a distribution that is sampled again for every run. Which fields may be named there is what
+// the schema marks with x-distribution or x-randomize.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct RandomField {
   Quantity quantity;
   Distribution distribution{0};
 
-  /// What the field is in a run.
+  /// The field's value in a run.
   nlohmann::json draw(std::uint64_t run_seed) const;
 };
 

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-// What the schema allows, as a job; absent fields keep the defaults of the structs.
+// Reads a value that the schema allows; absent fields keep the defaults of the structs.
 JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {
   JobSpec job;
   job_fields().read(value, job, {"", source, problems});
@@ -116,7 +116,7 @@ JobSpec job_of_run(const JobSpec& job, int run) {
 
 namespace {
 
-/// Adds what a run had where a distribution was asked for. What its models do not use was not had.
+/// Adds a run's values of the fields with a distribution, except those that its models do not use.
 void add_drawn(const json& asked, const json& had, const std::string& path, json& drawn) {
   for (const auto& [name, value] : asked.items()) {
     if (!value.is_object() || !had.contains(name)) continue;

@@ -1,6 +1,6 @@
 // The job: what a user asks for. Parsing checks it against one JSON Schema
-// (jobs/spec/job.schema.json) and against itself; it opens no file. What depends on the scenario,
-// and on the files that a job names, is checked by resolve() (jobs/pipeline/resolve.h).
+// (jobs/spec/job.schema.json) and against itself; it opens no file. Fields that depend on the
+// scenario, and on the files that a job names, are checked by resolve() (jobs/pipeline/resolve.h).
 #pragma once
 
 #include <cstdint>

@@ -29,17 +29,18 @@ const FieldTable<WindFields>& wind_fields() {
                     "Mean wind 10 m above the ground.");
     table.add_drawn("direction_deg", "Wind's direction", "degrees", numbers(-180, 360),
                     at(&WindFields::direction_deg),
-                    "Where the wind blows to, counter-clockwise from +x (east).");
+                    "Direction that the wind blows to, counterclockwise from +x (east).");
     table.add_drawn("profile", "Profile", "", drawn_words(kProfiles), at(&WindFields::profile),
-                    "How the mean grows with height: log (with the logarithm of height over "
-                    "roughness), power (with a power of height), uniform (not at all).");
-    table.add_drawn(
-        "roughness_m", "Roughness", "m", numbers(0.0001, 3), at(&WindFields::roughness_m),
-        "Of the ground, for the profile log: 0.03 grass, 0.4 suburbs, 1 and more cities.");
+                    "Mean wind over height: log (grows with the logarithm of height over "
+                    "roughness), power (with a power of height), uniform (constant).");
+    table.add_drawn("roughness_m", "Roughness", "m", numbers(0.0001, 3),
+                    at(&WindFields::roughness_m),
+                    "Roughness length of the ground, for the profile log: 0.03 grass, 0.4 suburbs, "
+                    "1 and more cities.");
     table.add_drawn("exponent", "Exponent", "", numbers(0, 1), at(&WindFields::exponent),
-                    "Of the profile power.");
+                    "Exponent of the profile power.");
     table.add_drawn("gusts", "Gusts", "", drawn_words(kGusts), at(&WindFields::gusts),
-                    "How each drone is shaken: dryden (turbulence of MIL-F-8785C at low altitude, "
+                    "Gust model of each drone: dryden (turbulence of MIL-F-8785C at low altitude, "
                     "which follows from wind and height), ou (Ornstein-Uhlenbeck, of a given "
                     "strength and duration), none.");
     table.add_drawn("intensity", "Intensity", "", numbers(0, 5), at(&WindFields::intensity),

@@ -13,7 +13,7 @@
 namespace throng::annotate {
 namespace {
 
-/// What libpng makes of a file: its format's bits and samples.
+/// A file as libpng decodes it: its format's bits and samples.
 struct Decoded {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

@@ -1,4 +1,4 @@
-// Ways around all obstacles without a mesh by hand.
+// Paths around all obstacles without a hand-made mesh.
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 

@@ -1,4 +1,4 @@
-// What is wrong in the files is said with its place, and nothing ever crashes.
+// Errors in the files are reported with their lines, and nothing ever crashes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Worlds with walls for the tests of ways around them.
+// Worlds with walls for the tests of paths around them.
 #pragma once
 
 #include <fmt/core.h>

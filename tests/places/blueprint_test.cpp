@@ -151,7 +151,7 @@ TEST_P(Disasters, MakePeopleFlee) {
 INSTANTIATE_TEST_SUITE_P(All, Disasters,
                          ::testing::Values("explosion", "fire", "attacker", "collapse", "gas"));
 
-/// Where those were last who have left after a time: x.
+/// Last x of the people who have left after a time.
 std::vector<float> last_seen_x(const world::Scenario& scenario, double from_s, double to_s) {
   crowd::LoadOptions options;
   options.model = "weidmann";

@@ -1,4 +1,4 @@
-// What holds of every disaster, on a small square with two doors.
+// Properties of every disaster, on a small square with two doors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ class Fleeing {
       if (passes(west_, from, last_[i])) ++by_west;
       if (!passes(east_, from, last_[i])) continue;
       ++by_east;
-      // Who is in the doorway when it is reached still gets out.
+      // People in the doorway when it is reached still get out.
       constexpr double kGraceS = 1.5;
       EXPECT_LT(before_s, east_.closes_at_s + kGraceS) << "agent " << i;
     }
@@ -119,8 +119,8 @@ class Fleeing {
   int by_west = 0;
 
  private:
-  /// Who has been well outside of a disc stays outside, but for a body's radius by which a crowd
-  /// may press somebody in. Who was within or at its edge when it came walks out.
+  /// People well outside of a disc stay outside, except for a body's radius by which a crowd
+  /// may press somebody in. People within or at its edge when it comes walk out.
   void keeps_out(std::size_t agent, const Eigen::Vector2d& at, double before_s) {
     constexpr double kPressedM = 0.2;
     constexpr double kWellM = 1.5;
@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(All, AnyDisaster,
                          ::testing::Values("explosion", "fire", "attacker", "collapse", "gas"),
                          [](const auto& each) { return std::string(each.param); });
 
-/// Who lies hurt, step by step.
+/// Casualties, step by step.
 struct Hurt {
   double time_s;
   std::size_t agent;

@@ -1,4 +1,4 @@
-// Where the time of a job's drawing goes, as workers write it and users read it.
+// Profile of a job's rendering, as workers write it and users read it.
 #include "jobs/queue/profile.h"
 
 #include <gtest/gtest.h>

@@ -72,7 +72,7 @@ TEST_F(SupervisorTest, ARunThatFailsLeavesTheOthersTheirDataset) {
   ASSERT_EQ(read_failed_runs(folder()).size(), 1U);
   EXPECT_EQ(read_failed_runs(folder())[0].run, 1);
 
-  // Again: what is missing is done, and the dataset made anew.
+  // Again: missing tasks are done, and the dataset is collected again.
   FakeExecutor second;
   EXPECT_TRUE(run_job(folder(), job, second).empty());
   EXPECT_THAT(second.done(), ElementsAre("run001/shard0002", "dataset"));

@@ -1,4 +1,4 @@
-// What follows from the tables of a job's fields: the schema's file, docs/job.md, drawn values.
+// Products of the tables of a job's fields: the schema's file, docs/job.md, sampled values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ TEST(JobFields, EveryPathIsUniqueAndHasTitleAndHelp) {
   EXPECT_GT(paths.size(), 80U);
 }
 
-// What the version before the tables made of 9 jobs, 8 of them random:
+// Results of the version before the tables for 9 jobs, 8 of them random:
 // tests/jobs/spec/recorded_jobs.jsonl. Fields that have come since may be there beside what was
 // recorded.
 void expect_holds(const json& found, const json& recorded, const std::string& place) {
