@@ -60,7 +60,7 @@ std::vector<RowRun> scan(const render::Frame& frame) {
       if (render::is_agent(id)) {
         const std::uint32_t agent = render::agent_of_id(id);
         check(agent < index.size() && index[agent] != kNobody,
-              "whoever shows in the id buffer is listed in the frame");
+              "all people in the id buffer are listed in the frame");
         runs.push_back({index[agent], y, x, end});
       }
       x = end;

@@ -25,7 +25,7 @@ Activity activity_of(std::string_view state, std::uint8_t flags, double speed_mp
 
 class PersonFacts {
  public:
-  /// The trace must outlive it; the population and the styling are those that the run is drawn
+  /// The trace must outlive it; the population and the styling are those that the run is rendered
   /// with.
   PersonFacts(const world::Trace& trace, const skinning::Population& population,
               const skinning::Styling& styling);

@@ -1,5 +1,5 @@
 // The crowd engine: agents, their state machine and their pedestrian model, stepped in time.
-// Knows nothing of drones, GL or HTTP; whoever owns it moves the goals that follow something.
+// Knows nothing of drones, GL or HTTP; its owner moves the goals that follow something.
 #pragma once
 
 #include <Eigen/Core>

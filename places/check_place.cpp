@@ -272,7 +272,7 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
     findings.error(scene, in_buildings.text(), "people outside of buildings", move);
   }
   if (in_props.any()) {
-    findings.error(scene, in_props.text(), "people beside the things that stand about",
+    findings.error(scene, in_props.text(), "people beside the props",
                    "move the prop or the people");
   }
   if (locked_in.any()) {

@@ -196,7 +196,7 @@ void add_obstacles(const Scenario& scenario, const People& people, const Solids&
   scene.add_obstacles(solids.outlines(), 1, kOutlineDecimals);
   const std::vector<BlockedDisc> discs = blocked_discs(people);
   if (!discs.empty()) {
-    scene.comment("What is in the way of those who have noticed it, at first and as it grows.");
+    scene.comment("Obstacles of those who have noticed the disaster, at first and as it grows.");
   }
   for (const BlockedDisc& disc : discs) {
     std::vector<std::vector<Vector2d>> outlines = {octagon(disc.middle, disc.radius_m)};

@@ -64,7 +64,7 @@ struct Danger {
   double notice_growth_mps = 1;  ///< how fast the news spreads
   double blocked_m = 0;          ///< nobody who has noticed it goes nearer than this
   bool panic = false;            ///< who flees panics, and others catch it
-  double hurts_m = 0;            ///< who is within this lies hurt and stays
+  double hurts_m = 0;            ///< people within this become casualties
   double hurts_after_s = 0;      ///< so long must one have been within, in all
 };
 

@@ -95,8 +95,8 @@ class JobTypes:
     def text(self) -> str:
         head = '''"""The parts of a job as dataclasses: a typed way to write docs/job.md's JSON.
 
-Made by python/generate_types.py from jobs/spec/job.schema.json; do not edit. Values that are None are left out, and then have the
-default of the schema. The service and the program check values; types are for editors and mypy.
+Made by python/generate_types.py from jobs/spec/job.schema.json; do not edit. Values that are None are left out and
+have the default of the schema. The service and the program check values; types are for editors and mypy.
 """
 
 from __future__ import annotations

@@ -209,7 +209,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
       {[&](std::size_t drone, const world::DroneSample& sample) { observer.drone(drone, sample); },
        [&](const world::TraceEvent& event) {
          observer.event(event);
-         hold.note(event);
+         hold.record(event);
        },
        [&](std::size_t agent, const Eigen::Vector2d& impulse_ns) {
          crowd.strike(agent, impulse_ns.cast<float>());

@@ -1,4 +1,4 @@
-// The way of a goal that moves.
+// The path of a goal that moves.
 #pragma once
 
 #include <Eigen/Core>

@@ -37,7 +37,7 @@ class MengeSequences {
   MengeSequences(Compat compat, std::uint64_t run_seed)
       : compatible_(compat != Compat::none), run_seed_(run_seed) {}
 
-  /// Null where runs are not compatible, or nothing is to be drawn.
+  /// Null where runs are not compatible, or nothing is to be sampled.
   std::shared_ptr<MengeRandom> next(const Distribution& distribution);
   /// Null where runs are not compatible.
   std::shared_ptr<MengeRandom> next();

@@ -110,10 +110,10 @@ class Orca : public Model {
   void slow_down(const Agents& agents, std::size_t id, std::size_t lane,
                  Workspace& workspace) const {
     const Pace::View& view = workspace.paces.view(lane);
-    const Gait gait = pace_->gait(view, workspace.paces.ahead(lane));
-    const float speed = std::min(agents.preferred_speed[id], gait.share * view.free_speed);
-    workspace.batch.set_wish(lane, agents.model_parameters[tau][id] * gait.horizon_share,
-                             speed * gait.direction);
+    const SpeedRegulation regulation = pace_->regulation(view, workspace.paces.ahead(lane));
+    const float speed = std::min(agents.preferred_speed[id], regulation.share * view.free_speed);
+    workspace.batch.set_wish(lane, agents.model_parameters[tau][id] * regulation.horizon_share,
+                             speed * regulation.direction);
   }
 
   std::optional<Pace> pace_;  // of those who slow down where it is crowded

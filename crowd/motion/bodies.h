@@ -13,9 +13,9 @@ namespace throng::crowd {
 
 /// People who cannot walk as fast as they want press on those right ahead of them with the force
 /// that would drive them, m (v_wanted - v) / tau (Helbing, Farkas & Vicsek 2000, eq. 1: m = 80 kg,
-/// tau = 0.5 s), and those hand on what they get to whoever is ahead of them in turn. Nobody ahead:
+/// tau = 0.5 s), and those pass the force on to the people ahead of them in turn. Nobody ahead:
 /// the push moves them. More than 1600 N per meter of somebody's girth and they fall (the same
-/// paper's limit for injuries), and so does whoever is struck with the impulse that the options
+/// paper's limit for injuries), and so do those struck with the impulse that the options
 /// give. People who have fallen lie for kLiesS as obstacles on which no pressure acts, and then get
 /// up.
 class Bodies {

@@ -227,7 +227,7 @@ std::unique_ptr<VelComponent> make_around_obstacles(const Element&, const Attrib
 
 VelComponentRegistry::Entry auto_component() {
   return {"auto",
-          "the shortest way around all obstacles that the agent minds; needs no file",
+          "the shortest path around all obstacles that the agent minds; needs no file",
           {optional(number("cell_size",
                            "how finely obstacles are drawn, in m; without it a third of the "
                            "agents' radius",

@@ -25,7 +25,7 @@ struct ObstacleEdge {
   int next = 0;  // obstacle edge
 };
 
-/// Reads one file, in the order in which things stand there.
+/// Reads one file in its order.
 class Reader {
  public:
   explicit Reader(const TextFile& source) : file_(source) {}

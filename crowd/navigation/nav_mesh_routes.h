@@ -23,7 +23,7 @@ class NavMeshRoutes {
 
   /// The agent has another goal. Throws InputError for one that starts outside of the mesh.
   void enter(const Crowd& crowd, std::size_t agent);
-  /// `heading_cos`: the cosine of how far an agent may turn from the heading of the way it found.
+  /// `heading_cos`: the cosine of how far an agent may turn from the heading of the path it found.
   void prefer(const Crowd& crowd, std::size_t agent, float heading_cos,
               PreferredVelocity& preferred);
 

@@ -10,12 +10,12 @@
 
 namespace throng::crowd {
 
-/// A portal of a way, without the ends that are too close to its corners for who goes through.
+/// A portal of a path, without the ends that are too close to its corners for the agent.
 struct Gate {
   int polygon = 0;  ///< behind it
   Eigen::Vector2f left;
   Eigen::Vector2f right;
-  Eigen::Vector2f crossing;  ///< where the way passes it
+  Eigen::Vector2f crossing;  ///< where the path passes it
   Eigen::Vector2f left_corner;
   Eigen::Vector2f right_corner;
 };
@@ -34,15 +34,15 @@ class PathFinder {
   /// The mesh must outlive this.
   explicit PathFinder(const NavMesh& mesh, Lengths lengths = Lengths::shortest);
 
-  /// Finds a way for a disc of this radius from one place of the mesh to another. Portals that are
+  /// Finds a path for a disc of this radius from one place of the mesh to another. Portals that are
   /// too narrow for it count only if there is no other way. Returns false if there is none at all.
   bool find(const NavMesh::Place& from, const NavMesh::Place& to, float radius);
 
-  /// The shortest way through portals that are known: finds where it passes and bends.
+  /// The shortest path through portals that are known: finds where it passes and bends.
   void find_through(std::span<const Gate> gates, const Eigen::Vector2f& start,
                     const Eigen::Vector2f& end);
 
-  /// The way found last: the portals passed; the points where it bends, then its end.
+  /// The path found last: the portals passed; the points where it bends, then its end.
   std::span<const Gate> gates() const { return gates_; }
   std::span<const Eigen::Vector2f> bends() const { return bends_; }
   float length_m() const { return length_m_; }

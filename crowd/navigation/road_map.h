@@ -27,14 +27,14 @@ struct RoadMap {
 /// (file, line, found, expected), EnvironmentError when the file cannot be read.
 RoadMap load_road_map(const TextFile& source);
 
-/// The shortest way between two places, by A* (Hart, Nilsson and Raphael 1968). One for each
+/// The shortest path between two way points, by A* (Hart, Nilsson and Raphael 1968). One for each
 /// thread: it keeps its memory.
 class RoadFinder {
  public:
   explicit RoadFinder(const RoadMap& map);
-  /// Finds a way; false if there is none. The map is the one given to the constructor.
+  /// Finds a path; false if there is none. The map is the one given to the constructor.
   bool find(const RoadMap& map, int from, int to);
-  /// The places of the way found last, from its beginning to its end.
+  /// The way points of the path found last, from its beginning to its end.
   const std::vector<int>& places() const { return places_; }
 
  private:
@@ -59,7 +59,7 @@ class RoadFinder {
 /// that it sees, goes on to the next as soon as it sees that, and plans a new path when it does
 /// not see the way point it heads for or its goal has moved. Walls hide points that an agent cannot
 /// reach straight. In compatible runs an agent that has lost sight of a way point goes back to
-/// where it last saw it from, and looks for a new way only when it does not see that either; and a
+/// where it last saw it from, and looks for a new path only when it does not see that either; and a
 /// goal's moves are noticed a step later, at the goal's very edge.
 class RoadMapRoutes {
  public:

@@ -146,9 +146,9 @@ class SocialGroupForces : public VelModifier {
     return -spec_.gaze * turn * agents.velocity[agent];
   }
 
-  /// Share of the cohesion: 1 for whoever gets ahead along the path, down to 0 for whoever does
-  /// not. Two members whose paths lead around an obstacle on different sides would hold each other
-  /// there for ever.
+  /// Share of the cohesion: 1 for members that get ahead along the path, down to 0 for those that
+  /// do not. Two members whose paths lead around an obstacle on different sides would hold each
+  /// other there for ever.
   static float progress(const Agents& agents, std::size_t agent,
                         const PreferredVelocity& preferred) {
     const float along = preferred.direction.dot(agents.velocity[agent]);

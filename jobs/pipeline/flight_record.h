@@ -26,7 +26,7 @@ struct FlightMoment {
   sim::ViewAngles gimbal_reading;
 };
 
-/// The rows (OpenCV's pixels, in the picture that the lens would make without distortion) in which
+/// The rows (OpenCV's pixels, in the image that the lens would make without distortion) in which
 /// the horizon of level ground crosses the first and the last column; null where it crosses no
 /// columns, since the camera looks straight down.
 nlohmann::json horizon_rows(const camera::Camera& camera);

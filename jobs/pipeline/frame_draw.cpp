@@ -10,7 +10,7 @@ namespace throng::jobs {
 FrameDraw draw_of_frame(const CameraSpec& run_camera, std::uint64_t run_seed, std::size_t drone,
                         std::int64_t frame) {
   constexpr unsigned kFrameBits = 40;
-  constexpr std::uint64_t kDraws = std::uint64_t{1} << 62;  // apart from the pictures' noise
+  constexpr std::uint64_t kDraws = std::uint64_t{1} << 62;  // apart from the images' noise
   Random random(run_seed, Stream::camera_noise,
                 kDraws + (static_cast<std::uint64_t>(drone) << kFrameBits) +
                     static_cast<std::uint64_t>(frame));

@@ -16,14 +16,14 @@ struct FrameDraw {
   double ev = 0;
 };
 
-/// Of `run_camera`, nothing is left to be drawn. Frames do not depend on each other.
+/// Of `run_camera`, nothing is left to be sampled. Frames do not depend on each other.
 FrameDraw draw_of_frame(const CameraSpec& run_camera, std::uint64_t run_seed, std::size_t drone,
                         std::int64_t frame);
 
 /// The camera of that frame.
 CameraSpec camera_of_frame(const CameraSpec& run_camera, const FrameDraw& draw);
 
-/// For an image's `drawn`: "frame.yaw_deg" and so on, as far as the camera has them drawn.
+/// For an image's `drawn`: "frame.yaw_deg" and so on, as far as the camera has them.
 nlohmann::json to_json(const CameraSpec& run_camera, const FrameDraw& draw);
 
 }  // namespace throng::jobs

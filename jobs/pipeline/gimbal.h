@@ -9,7 +9,7 @@
 namespace throng::jobs {
 
 /// A camera on a gimbal below a drone: it turns with the drone's heading but neither rolls nor
-/// pitches with it. Of `spec`, nothing is left to be drawn (camera_of_run).
+/// pitches with it. Of `spec`, nothing is left to be sampled (camera_of_run).
 camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec);
 
 /// The same, looking where its gimbal has turned it.

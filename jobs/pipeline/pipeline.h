@@ -33,7 +33,7 @@ void simulate_run(const JobFolder& folder, const JobSpec& job,
 void measure_run(const JobFolder& folder, const JobSpec& job,
                  const std::filesystem::path& scenarios, int run);
 
-/// Draws and labels the frames of a shard. Progress in images.
+/// Renders and labels the frames of a shard. Progress in images.
 void render_shard(const JobFolder& folder, const JobSpec& job,
                   const std::filesystem::path& scenarios, const Shard& shard,
                   const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});

@@ -67,7 +67,7 @@ void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
     const std::size_t before = problems.size();
     for (const RunPlan& run : plan_runs(job)) {
       check_lens(camera_of_run(camera, run.seed, pointer), pointer, problems);
-      if (camera.drawn.empty() || problems.size() > before) break;
+      if (camera.sampled.empty() || problems.size() > before) break;
     }
   }
 }

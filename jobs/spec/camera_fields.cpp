@@ -36,8 +36,8 @@ void add_number(FieldTable<CameraSpec>& table, const std::string& path, std::str
     // A calibrated camera says it; and of two that mean the same the focal length counts.
     if (spec.calibration && is_calibrated(path)) return {};
     if (path == "hfov_deg" && spec.fx_px) return {};
-    const auto drawn = spec.drawn.find(path);
-    if (drawn != spec.drawn.end()) return drawn->second.to_json(quantity);
+    const auto found = spec.sampled.find(path);
+    if (found != spec.sampled.end()) return found->second.to_json(quantity);
     return value_json(number(spec));
   };
   const auto set = [path, quantity, low, set_number](CameraSpec& spec, const json& value,
@@ -45,10 +45,10 @@ void add_number(FieldTable<CameraSpec>& table, const std::string& path, std::str
     const Distribution distribution =
         Distribution::read(value, quantity, place.pointer, place.problems);
     set_number(spec, value.is_number() ? value.get<double>() : low);
-    if (value.is_object()) spec.drawn.emplace(path, distribution);
+    if (value.is_object()) spec.sampled.emplace(path, distribution);
   };
   table.add(path, std::move(title), std::move(unit), std::move(values), get, set, std::move(help))
-      .drawn = Drawn::in_place;
+      .sampling = Sampling::in_place;
 }
 
 template <typename Access>

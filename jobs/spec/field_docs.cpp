@@ -105,6 +105,7 @@ std::string values_text(const ordered_json& rules) {
 void append_rows(const ordered_json& object, const std::string& path, std::string& rows) {
   const ordered_json required = object.value("required", ordered_json::array());
   for (const auto& [name, rules] : object.at("properties").items()) {
+    if (rules.value("deprecated", false)) continue;
     const std::string place = path + name;
     const bool has_fields = rules.contains("properties") && !rules["properties"].empty();
     if (has_fields) {

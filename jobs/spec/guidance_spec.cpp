@@ -183,9 +183,11 @@ FieldTable<DroneSpec> make_guidance_fields() {
             "all the time; default: false. The other policies decide themselves.");
   table.add("perception", "Perception", "", object_of(perception_fields().schema()),
             perception_json, set_perception, "A policy's information about people.");
-  table.add("centre", "Centre", "m", coordinates(2),
-            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::center),
-            "orbit: center of the circle, [x, y].");
+  table
+      .add("center", "Center", "m", coordinates(2),
+           at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::center),
+           "orbit: center of the circle, [x, y].")
+      .renamed_from("centre");
   table.add("radius_m", "Radius", "m", numbers(1, 10000),
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::radius_m),
             "orbit: radius of the circle.");

@@ -30,7 +30,7 @@ std::vector<RandomField> take_randomize(nlohmann::json& job, std::vector<Problem
 /// The block, as take_randomize() reads it back.
 nlohmann::json to_json(const std::vector<RandomField>& fields);
 
-/// Dotted paths of all fields that may be drawn, with "0" for the place in a list.
+/// Dotted paths of all fields that may be sampled, with "0" for the place in a list.
 std::vector<std::string> random_paths();
 
 /// "/drones/0/camera" as "drones.0.camera".

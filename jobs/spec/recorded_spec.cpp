@@ -92,9 +92,7 @@ void add_file_fields(FieldTable<RecordedSpec>& table) {
 }
 
 void add_column_fields(FieldTable<RecordedSpec>& table) {
-  table
-      .group("columns", "Columns",
-             "Names of the columns of a table (csv) in its first line.")
+  table.group("columns", "Columns", "Names of the columns of a table (csv) in its first line.")
       .without_default();
   table
       .add("columns/person", "Person", "", texts(1, 200),

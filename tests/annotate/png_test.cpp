@@ -54,7 +54,7 @@ Decoded decode(const std::string& bytes) {
     }
   }
   png_read_end(png, info);
-  EXPECT_EQ(source.at, bytes.size()) << "nothing follows the picture";
+  EXPECT_EQ(source.at, bytes.size()) << "nothing follows the image";
   png_destroy_read_struct(&png, &info, nullptr);
   return decoded;
 }

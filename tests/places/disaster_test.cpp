@@ -62,7 +62,7 @@ std::vector<bool> states_named(const crowd::Simulation& crowd, const std::set<st
 
 json disaster(const std::string& kind) {
   return {{"kind", kind},    {"position", {8, 3}},      {"start_s", kStartS},
-          {"radius_m", 2.5}, {"growth_mps", 0.8},       {"most_m", 12.4},
+          {"radius_m", 2.5}, {"growth_mps", 0.8},       {"max_radius_m", 12.4},
           {"noticed_m", 12}, {"notice_growth_mps", 0.5}};
 }
 
@@ -251,7 +251,7 @@ TEST(FireAndGas, HurtNobodyUnlessTheBlueprintSaysSo) {
 TEST(FireAndGas, FlamesHurtWhomTheyReachAsTheySpreadAndAsLongAsTheyBurn) {
   json fire = unnoticed("fire");
   fire["hurts_m"] = 2.5;
-  fire["most_m"] = 6;
+  fire["max_radius_m"] = 6;
   const std::vector<Hurt> hurt = hurt_by(fire, 40);
   ASSERT_GT(hurt.size(), 10U);
   for (const Hurt& one : hurt) {
@@ -347,7 +347,7 @@ TEST(ADisaster, ShutsADoorWhenItsDiscReachesIt) {
   gas["position"] = {12, 0};
   gas["radius_m"] = 2;
   gas["growth_mps"] = 0.5;
-  gas["most_m"] = 14;
+  gas["max_radius_m"] = 14;
   blueprint["disasters"] = json::array({gas});
   const Made made = make_of(blueprint);
   // The door is 8 m away: the first disc of more than that has 10 m, which the gas has 16 s later.

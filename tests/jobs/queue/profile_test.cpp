@@ -47,7 +47,7 @@ TEST_F(Profile, AddsUpAllWorkersDearestStageFirst) {
 }
 
 TEST_F(Profile, SaysSoWhenNothingWasDrawn) {
-  EXPECT_NE(profile_table(*folder_, job_).find("no frame was drawn"), std::string::npos);
+  EXPECT_NE(profile_table(*folder_, job_).find("no frame was rendered"), std::string::npos);
 }
 
 }  // namespace
