@@ -21,15 +21,15 @@ struct CocoImage {
   std::string camera_id;  ///< drone id
   std::int64_t frame_index = 0;
   double time_s = 0;
-  camera::Camera camera;     ///< K, R, t are written with the image
-  int run_index = 0;         ///< number of the run in the dataset: keeps track ids apart
-  std::string environment;   ///< a JSON object: light and weather; "" when not known
-  std::string drawn;         ///< a JSON object: what was drawn for the run; "" when nothing was
-  std::string sensor;        ///< a JSON object: sensor and exposure; "" when not known
-  std::string flight;        ///< a JSON object: the drone and its sensors; "" when not known
-  std::string exits;         ///< a JSON array: exits in the picture; "" when not known
-  std::string density_file;  ///< like file_name; "" when the frame has no density map
-  std::int64_t density_count = 0;      ///< heads that the density map sums to
+  camera::Camera camera;           ///< K, R, t are written with the image
+  int run_index = 0;               ///< number of the run in the dataset: keeps track ids apart
+  std::string environment;         ///< a JSON object: light and weather; "" when not known
+  std::string drawn;               ///< a JSON object: the samples of the run; "" without any
+  std::string sensor;              ///< a JSON object: sensor and exposure; "" when not known
+  std::string flight;              ///< a JSON object: the drone and its sensors; "" when not known
+  std::string exits;               ///< a JSON array: exits in the image; "" when not known
+  std::string density_file;        ///< like file_name; "" when the frame has no density map
+  std::int64_t density_count = 0;  ///< heads that the density map sums to
   const PersonFacts* facts = nullptr;  ///< of the run's people; null when not known
   /// Ids of the run's drones, by number; null when there are none to be seen.
   const std::vector<std::string>* drone_ids = nullptr;

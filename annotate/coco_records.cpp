@@ -118,7 +118,7 @@ void append_counts(std::string& text, const RunLengths& mask) {
   }
 }
 
-/// What the picture shows of somebody or something.
+/// The visible part of a person or drone in the image.
 struct Shown {
   int category;
   std::uint32_t number;  ///< agent, or number_of_drone()

@@ -18,7 +18,7 @@ std::int64_t track_id(const CocoImage& image, std::uint32_t agent);
 /// Appends what is true of a person all run long, and a line break.
 void append_track_record(std::string& text, const CocoImage& image, std::uint32_t agent);
 
-/// What stands for a drone where people have the number of their agent.
+/// A drone's number, in place of people's agent number.
 std::uint32_t number_of_drone(std::uint32_t drone);
 
 /// The like for a drone.

@@ -19,7 +19,7 @@ struct DensityMap {
 };
 
 /// Heads in box coordinates (pixel i covers [i, i + 1)); heads outside the image do not count.
-/// `sigma_px` > 0; the kernel is cut off at 4 sigma and renormalised at the borders.
+/// `sigma_px` > 0; the kernel is cut off at 4 sigma and renormalized at the borders.
 DensityMap density_map(std::span<const Eigen::Vector2d> heads, int width, int height,
                        double sigma_px);
 

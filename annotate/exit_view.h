@@ -1,4 +1,4 @@
-// Exits as a camera sees them: where their doorways and control zones are in the picture, and what
+// Exits as a camera sees them: where their doorways and control zones are in the image, and what
 // happens there.
 #pragma once
 

@@ -1,5 +1,5 @@
-// What each kind of ground truth adds to a frame's output: files, or values of its COCO record. One
-// table; what a whole run's output holds is written by jobs/pipeline/run_writers.h.
+// Contributions of each kind of ground truth to a frame's output: files, or values of its COCO
+// record. One table; those to a whole run's output are written by jobs/pipeline/run_writers.h.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ struct FrameOutput {
   double density_sigma_px = 0;
   /// Adds a file of the dataset.
   std::function<void(const std::string& path, std::string_view bytes)> add;
-  /// Where the time went since the last call (base/stage_clock.h).
+  /// Assigns the time since the last call to a stage (base/stage_clock.h).
   std::function<void(std::string_view stage)> lap;
 
   /// The frame's file of a kind.
@@ -36,7 +36,7 @@ struct FrameWriter {
   void (*write)(FrameOutput& output) = nullptr;
 };
 
-/// In the order of the kinds. Those that are not here have no part of their own in a frame.
+/// In the order of the kinds. Kinds that are not here have no part of their own in a frame.
 std::span<const FrameWriter> frame_writers();
 
 }  // namespace throng::annotate

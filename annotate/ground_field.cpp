@@ -27,7 +27,7 @@ std::size_t nearest_step(const world::Trace& trace, double time_s) {
   return time_s - trace.time_s[step - 1] < trace.time_s[step] - time_s ? step - 1 : step;
 }
 
-// Where a line of constant y enters and leaves rings, in order: pairs of these are inside.
+// Finds x where a line of constant y enters and leaves rings, in order: pairs of these are inside.
 void find_edges(const std::vector<metrics::Ring>& rings, double y, std::vector<double>& edges) {
   edges.clear();
   for (const metrics::Ring& ring : rings) {

@@ -56,12 +56,12 @@ double density(const std::vector<Adult>& adults, bool male, double height_m) {
 
 class Chart {
  public:
-  explicit Chart(cv::Mat picture)
-      : picture_(std::move(picture)),
-        scale_(picture_.rows / 320.0),
+  explicit Chart(cv::Mat image)
+      : image_(std::move(image)),
+        scale_(image_.rows / 320.0),
         left_(px(30)),
-        right_(picture_.cols - px(30)),
-        bottom_(picture_.rows - px(52)),
+        right_(image_.cols - px(30)),
+        bottom_(image_.rows - px(52)),
         top_(px(20)) {}
 
   int px(double size) const { return static_cast<int>(std::lround(size * scale_)); }
@@ -75,16 +75,16 @@ class Chart {
   }
 
   void text(const std::string& words, int x, int y, const cv::Scalar& color) {
-    cv::putText(picture_, words, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45 * scale_, color,
+    cv::putText(image_, words, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45 * scale_, color,
                 std::max(1, px(1)), cv::LINE_AA);
   }
 
   void axis() {
-    cv::line(picture_, {left_, bottom_}, {right_, bottom_}, {60, 60, 60}, std::max(1, px(1)));
+    cv::line(image_, {left_, bottom_}, {right_, bottom_}, {60, 60, 60}, std::max(1, px(1)));
     for (int cm = 140; cm <= 200; cm += 10) {
       const int x = x_of(0.01 * cm);
-      cv::line(picture_, {x, bottom_}, {x, bottom_ + px(5)}, {60, 60, 60}, std::max(1, px(1)));
-      text(fmt::format("{:.1f} m", 0.01 * cm), x - px(18), picture_.rows - px(10), {60, 60, 60});
+      cv::line(image_, {x, bottom_}, {x, bottom_ + px(5)}, {60, 60, 60}, std::max(1, px(1)));
+      text(fmt::format("{:.1f} m", 0.01 * cm), x - px(18), image_.rows - px(10), {60, 60, 60});
     }
   }
 
@@ -94,14 +94,14 @@ class Chart {
       const double bin = (adult.height_m - kMinHeightM) / kBinWidth;
       if (bin >= 0 && bin < kBins) ++count[static_cast<std::size_t>(bin)];
     }
-    cv::Mat filled = picture_.clone();
+    cv::Mat filled = image_.clone();
     for (std::size_t bin = 0; bin < kBins; ++bin) {
       const double per_m = count[bin] / (kBinWidth * static_cast<double>(adults.size()));
       const double from_m = kMinHeightM + kBinWidth * static_cast<double>(bin);
       cv::rectangle(filled, {x_of(from_m) + 1, y_of(per_m)},
                     {x_of(from_m + kBinWidth) - 1, bottom_}, kColors[male ? 1 : 0], cv::FILLED);
     }
-    cv::addWeighted(filled, 0.45, picture_, 0.55, 0, picture_);
+    cv::addWeighted(filled, 0.45, image_, 0.55, 0, image_);
   }
 
   void curve(const std::vector<Adult>& adults, bool male) {
@@ -111,13 +111,13 @@ class Chart {
       const double height_m = std::lerp(kMinHeightM, kMaxHeightM, i / (kPoints - 1.0));
       points.emplace_back(x_of(height_m), y_of(density(adults, male, height_m)));
     }
-    cv::polylines(picture_, points, false, kColors[male ? 1 : 0], std::max(1, px(2)), cv::LINE_AA);
+    cv::polylines(image_, points, false, kColors[male ? 1 : 0], std::max(1, px(2)), cv::LINE_AA);
   }
 
   void tick(double height_m, bool male) {
     if (height_m < kMinHeightM || height_m > kMaxHeightM) return;
     const int x = x_of(height_m);
-    cv::line(picture_, {x, bottom_ + px(8)}, {x, bottom_ + px(22)}, kColors[male ? 1 : 0],
+    cv::line(image_, {x, bottom_ + px(8)}, {x, bottom_ + px(22)}, kColors[male ? 1 : 0],
              std::max(1, px(1)));
   }
 
@@ -141,7 +141,7 @@ class Chart {
   }
 
  private:
-  cv::Mat picture_;
+  cv::Mat image_;
   double scale_;
   int left_;
   int right_;
@@ -151,11 +151,10 @@ class Chart {
 
 }  // namespace
 
-void draw_height_chart(cv::Mat picture, const skinning::Population& population,
-                       std::uint64_t seed) {
-  picture.setTo(cv::Scalar(250, 250, 248));
+void draw_height_chart(cv::Mat image, const skinning::Population& population, std::uint64_t seed) {
+  image.setTo(cv::Scalar(250, 250, 248));
   const std::array<std::vector<Adult>, 2> adults = sampled_adults(seed);
-  Chart chart(picture);
+  Chart chart(image);
   for (const bool male : {false, true}) chart.bars(adults[male ? 1 : 0], male);
   for (const bool male : {false, true}) {
     chart.curve(adults[male ? 1 : 0], male);

@@ -1,4 +1,4 @@
-// How tall the adults of a population are, against the distribution that they are drawn from.
+// How tall the adults of a population are, against the distribution that they are sampled from.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace throng::annotate {
 
-/// Fills an RGB picture: bars are the barefoot heights of people sampled with this seed, curves
+/// Fills an RGB image: bars are the barefoot heights of people sampled with this seed, curves
 /// the normal distributions less what age takes (skinning/bake/person.h), ticks below the axis the
 /// population's own adults as they stand in their shoes. Women and men in two colors.
-void draw_height_chart(cv::Mat picture, const skinning::Population& population, std::uint64_t seed);
+void draw_height_chart(cv::Mat image, const skinning::Population& population, std::uint64_t seed);
 
 }  // namespace throng::annotate

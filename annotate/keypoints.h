@@ -1,4 +1,4 @@
-// COCO's 17 keypoints of the people in a frame, with what the picture shows of them.
+// COCO's 17 keypoints of the people in a frame, with what the image shows of them.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ inline constexpr std::array<std::pair<int, int>, 19> kSkeleton = {{{16, 14},
                                                                    {5, 7}}};
 
 /// Sets the keypoints of everybody in `labels`, which are the frame's. A keypoint is visible if,
-/// within a pixel of its place, the picture shows the person at its depth: as deep inside the body
+/// within a pixel of its place, the image shows the person at its depth: as deep inside the body
 /// as the joint lies, and no deeper.
 void add_keypoints(const render::Frame& frame, FrameLabels& labels);
 

@@ -60,7 +60,7 @@ std::vector<RowRun> scan(const render::Frame& frame) {
       if (render::is_agent(id)) {
         const std::uint32_t agent = render::agent_of_id(id);
         check(agent < index.size() && index[agent] != kNobody,
-              "whoever shows in the id buffer is listed in the frame");
+              "all people in the id buffer are listed in the frame");
         runs.push_back({index[agent], y, x, end});
       }
       x = end;
@@ -140,7 +140,7 @@ class ColumnRuns {
     }
   }
 
-  // Where this row's runs and those above differ.
+  // Adds the differences of this row's runs and those above.
   void add_difference(int y) {
     if (above_.size() == 2 && here_.size() == 2 && above_[0] < here_[1] && here_[0] < above_[1]) {
       // Most often one run lies below one other.

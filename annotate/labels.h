@@ -22,7 +22,7 @@ struct PixelBox {
 /// Runs of a mask in COCO's order: down the columns, first run counts zeros.
 using RunLengths = std::vector<std::uint32_t>;
 
-/// One of COCO's keypoints in the picture.
+/// One of COCO's keypoints in the image.
 struct Keypoint {
   double x = 0;  ///< box coordinates, rounded to kPixelDecimals; 0 when not labeled
   double y = 0;
@@ -47,7 +47,7 @@ struct HiddenPerson {
   Eigen::AlignedBox2d amodal_box;  ///< box coordinates; reaches into the image
 };
 
-/// Another drone in the picture.
+/// Another drone in the image.
 struct DroneLabel {
   PixelBox box;               ///< tight bounds of the visible mask
   RunLengths mask;            ///< visible mask

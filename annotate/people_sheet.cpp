@@ -48,8 +48,8 @@ class Page {
     sheet_.height = height_;
     sheet_.rgb.resize(3U * static_cast<std::size_t>(sheet_.width) *
                       static_cast<std::size_t>(height_));
-    picture_ = cv::Mat(height_, sheet_.width, CV_8UC3, sheet_.rgb.data());
-    picture_.setTo(kPaper);
+    image_ = cv::Mat(height_, sheet_.width, CV_8UC3, sheet_.rgb.data());
+    image_.setTo(kPaper);
   }
 
   void title(const std::string& words) {
@@ -62,7 +62,7 @@ class Page {
     const cv::Rect place(x_, y_, frame.width(), frame.height());
     const cv::Mat drawn(frame.height(), frame.width(), CV_8UC3,
                         const_cast<std::uint8_t*>(frame.rgb.data()));  // only read
-    drawn.copyTo(picture_(place));
+    drawn.copyTo(image_(place));
     const auto shown = std::count_if(frame.id.begin(), frame.id.end(), render::is_agent);
     sheet_.cells.push_back(
         {label, x_, y_, frame.width(), frame.height(), static_cast<std::uint64_t>(shown)});
@@ -70,7 +70,7 @@ class Page {
   }
 
   void end_row(int height) {
-    // Last, since a label may reach into the next picture.
+    // Last, since a label may reach into the next image.
     for (const SheetCell& cell : sheet_.cells) {
       if (cell.y != y_ || cell.label.empty()) continue;
       write(cell.label, {cell.x + px(5), cell.y + px(16)}, 0.41, {255, 255, 255});
@@ -83,7 +83,7 @@ class Page {
   cv::Mat strip(int height) {
     const cv::Rect place(0, y_, sheet_.width, height);
     y_ += height;
-    return picture_(place);
+    return image_(place);
   }
 
   Sheet take() && { return std::move(sheet_); }
@@ -93,15 +93,14 @@ class Page {
     const double scale = size * unit_;
     const int thickness = px(size < 0.6 ? 1 : 2);
     if (color != kInk) {
-      cv::putText(picture_, words, at, cv::FONT_HERSHEY_SIMPLEX, scale, {30, 30, 30},
+      cv::putText(image_, words, at, cv::FONT_HERSHEY_SIMPLEX, scale, {30, 30, 30},
                   thickness + px(2), cv::LINE_AA);
     }
-    cv::putText(picture_, words, at, cv::FONT_HERSHEY_SIMPLEX, scale, color, thickness,
-                cv::LINE_AA);
+    cv::putText(image_, words, at, cv::FONT_HERSHEY_SIMPLEX, scale, color, thickness, cv::LINE_AA);
   }
 
   Sheet sheet_;
-  cv::Mat picture_;
+  cv::Mat image_;
   double unit_;
   int height_ = 0;
   int x_ = 0;
@@ -110,16 +109,15 @@ class Page {
 
 class Progress {
  public:
-  Progress(const SheetProgress& report, std::size_t pictures)
-      : report_(&report), pictures_(pictures) {}
+  Progress(const SheetProgress& report, std::size_t images) : report_(&report), images_(images) {}
   void next(std::string_view what) {
-    if (*report_) (*report_)(static_cast<double>(done_) / static_cast<double>(pictures_), what);
+    if (*report_) (*report_)(static_cast<double>(done_) / static_cast<double>(images_), what);
     ++done_;
   }
 
  private:
   const SheetProgress* report_;
-  std::size_t pictures_;
+  std::size_t images_;
   std::size_t done_ = 0;
 };
 

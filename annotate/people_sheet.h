@@ -1,6 +1,6 @@
 // A sheet of a population, for people to judge it by: everybody from the front and from the side,
-// a crowd as drones see it, ways of moving, levels of detail, and how tall people are. All people
-// are drawn by the renderer that draws datasets.
+// a crowd as drones see it, gaits, levels of detail, and how tall people are. All people
+// are rendered by the renderer of datasets.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct SheetOptions {
   render::DeviceChoice device;
 };
 
-/// One drawn picture of the sheet.
+/// One drawn image of the sheet.
 struct SheetCell {
   std::string label;
   int x = 0;  ///< of its upper left corner
@@ -39,10 +39,10 @@ struct Sheet {
   std::vector<SheetCell> cells;
 };
 
-/// Called between pictures with the share that is done; may throw to end the work.
+/// Called between images with the share that is done; may throw to end the work.
 using SheetProgress = std::function<void(double share, std::string_view what)>;
 
-/// Throws EnvironmentError when nothing can be drawn on this machine.
+/// Throws EnvironmentError when this machine cannot render.
 Sheet draw_people_sheet(const skinning::Population& population, const SheetOptions& options,
                         const SheetProgress& progress = {});
 

@@ -135,7 +135,7 @@ PersonFacts::PersonFacts(const world::Trace& trace, const skinning::Population& 
 
 std::size_t PersonFacts::step_at(double time_s) const {
   const std::vector<double>& times = trace_->time_s;
-  check(!times.empty(), "a trace that was drawn has steps");
+  check(!times.empty(), "a trace that is rendered has steps");
   const auto next = std::upper_bound(times.begin(), times.end(), time_s + world::kTimeSlackS);
   return next == times.begin() ? 0 : static_cast<std::size_t>(next - times.begin()) - 1;
 }

@@ -1,5 +1,5 @@
-// What is known of a run's people beside what the picture shows: what they do, where they want to
-// go, with whom, and what they look like.
+// Attributes of a run's people that do not depend on the image: activity, goal, companions
+// and appearance.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace throng::annotate {
 
-/// What somebody does, whatever the behavior file calls it.
+/// A person's activity, independent of the names in the behavior file.
 enum class Activity : std::uint8_t { waiting, walking, running, following, panicking, lying };
 std::string_view name_of(Activity activity);
 
@@ -25,7 +25,7 @@ Activity activity_of(std::string_view state, std::uint8_t flags, double speed_mp
 
 class PersonFacts {
  public:
-  /// The trace must outlive it; the population and the styling are those that the run is drawn
+  /// The trace must outlive it; the population and the styling are those that the run is rendered
   /// with.
   PersonFacts(const world::Trace& trace, const skinning::Population& population,
               const skinning::Styling& styling);

@@ -15,10 +15,10 @@ double truncation_of(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k
 /// A box with its corner and size rounded as records have them.
 Eigen::AlignedBox2d recorded_box(const Eigen::AlignedBox2d& box);
 
-/// What a record says of a box's truncation: that of the recorded box, rounded; 0: not truncated.
+/// The truncation in a record: that of the recorded box, rounded; 0: not truncated.
 double recorded_truncation(const Eigen::AlignedBox2d& box, const camera::Intrinsics& k);
 
-/// How something lies in the picture and in the world.
+/// How something lies in the image and in the world.
 struct Placed {
   Eigen::AlignedBox2d amodal_box;
   double yaw_rad = 0;

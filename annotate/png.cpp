@@ -72,20 +72,20 @@ std::string encoded(const Raster& raster, int bits, const std::uint8_t* bytes) {
 }
 
 std::size_t samples_of(const Raster& raster) {
-  check(raster.width > 0 && raster.height > 0, "a picture has pixels");
-  check(raster.channels == 1 || raster.channels == 3, "a picture is grey or RGB");
+  check(raster.width > 0 && raster.height > 0, "an image has pixels");
+  check(raster.channels == 1 || raster.channels == 3, "an image is gray or RGB");
   return static_cast<std::size_t>(raster.width) * raster.height * raster.channels;
 }
 
 }  // namespace
 
 std::string png_bytes(const Raster& raster, std::span<const std::uint8_t> samples) {
-  check(samples.size() == samples_of(raster), "a picture has all its samples");
+  check(samples.size() == samples_of(raster), "an image has all its samples");
   return encoded(raster, 8, samples.data());
 }
 
 std::string png_bytes(const Raster& raster, std::span<const std::uint16_t> samples) {
-  check(samples.size() == samples_of(raster), "a picture has all its samples");
+  check(samples.size() == samples_of(raster), "an image has all its samples");
   static_assert(std::endian::native == std::endian::little);
   thread_local std::vector<std::uint16_t> swapped;
   swapped.resize(samples.size());
@@ -111,12 +111,12 @@ std::string instance_png(const render::Frame& frame) {
   rgb.resize(frame.id.size() * 3);
   std::uint8_t* out = rgb.data();
   for (const std::uint32_t id : frame.id) {
-    const bool thing = id >= render::kIdBuilding;
+    const bool is_static = id >= render::kIdBuilding;
     const std::uint32_t umbrella = render::is_umbrella(id) ? 0x40U : 0U;
-    check(thing || (id & ~render::kIdUmbrella) >> 22U == 0, "agents have less than 22 bits");
+    check(is_static || (id & ~render::kIdUmbrella) >> 22U == 0, "agents have less than 22 bits");
     out[0] = static_cast<std::uint8_t>(id);
     out[1] = static_cast<std::uint8_t>(id >> 8U);
-    out[2] = static_cast<std::uint8_t>(thing ? id >> 24U : id >> 16U | umbrella);
+    out[2] = static_cast<std::uint8_t>(is_static ? id >> 24U : id >> 16U | umbrella);
     out += 3;
   }
   return png_bytes({frame.width(), frame.height(), 3}, rgb);
@@ -138,7 +138,7 @@ std::string flow_png(const render::Frame& frame) {
   for (std::size_t i = 0; i * 2 < frame.flow.size(); ++i) {
     const float x = std::round(frame.flow[i * 2] * kPerPixel + kZero);
     const float y = std::round(frame.flow[i * 2 + 1] * kPerPixel + kZero);
-    // What is unknown is no number: every comparison with it is false.
+    // Unknown values are NaN: every comparison with them is false.
     if (!(x >= 0 && y >= 0 && x <= kMaxValue && y <= kMaxValue)) continue;
     samples[i * 3] = static_cast<std::uint16_t>(x);
     samples[i * 3 + 1] = static_cast<std::uint16_t>(y);

@@ -10,7 +10,7 @@
 
 namespace throng::annotate {
 
-/// Samples of a picture, row by row from the top, channels interleaved.
+/// Samples of an image, row by row from the top, channels interleaved.
 struct Raster {
   int width = 0;
   int height = 0;
@@ -29,7 +29,7 @@ inline constexpr float kDepthPerMeter = 100;
 std::string depth_png(const render::Frame& frame);
 
 /// 8-bit RGB: red + 256 * green + 65536 * blue is the instance: 0 sky, agent + 1 for a person, and
-/// for things the id buffer's highest byte << 16 with its lowest 16 bits.
+/// for static objects the id buffer's highest byte << 16 with its lowest 16 bits.
 std::string instance_png(const render::Frame& frame);
 
 /// 8-bit gray: render::BodyPart. Checks that the frame has parts.

@@ -40,7 +40,7 @@ void draw_caption(cv::Mat& image, const std::string& caption) {
               {255, 255, 255}, thickness, cv::LINE_AA);
 }
 
-// One compressor per thread: setting one up costs more than a small picture.
+// One compressor per thread: setting one up costs more than a small image.
 tjhandle compressor() {
   using Handle = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
   thread_local const Handle handle(tjInitCompress(), &tjDestroy);
@@ -52,7 +52,7 @@ tjhandle compressor() {
 
 std::vector<std::uint8_t> draw_preview(const render::Frame& frame, const FrameLabels& labels) {
   const std::size_t bytes = 3U * static_cast<std::size_t>(frame.width()) * frame.height();
-  check(frame.rgb.size() == bytes, "the picture has the camera's size");
+  check(frame.rgb.size() == bytes, "the image has the camera's size");
   std::vector<std::uint8_t> rgb = frame.rgb;
   cv::Mat image(frame.height(), frame.width(), CV_8UC3, rgb.data());
   for (const PersonLabel& person : labels.people) {
@@ -74,7 +74,7 @@ std::string jpeg_bytes(const std::vector<std::uint8_t>& rgb, int width, int heig
   if (tjCompress2(compressor(), rgb.data(), width, 0, height, TJPF_RGB, &destination, &size,
                   TJSAMP_420, quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0) {
     throw EnvironmentError(
-        fmt::format("cannot compress a picture as JPEG: {}", tjGetErrorStr2(compressor())));
+        fmt::format("cannot compress an image as JPEG: {}", tjGetErrorStr2(compressor())));
   }
   return {reinterpret_cast<const char*>(buffer.data()), size};
 }

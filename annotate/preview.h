@@ -1,4 +1,4 @@
-// Pictures for people: the frame with boxes, ids and counts drawn on it.
+// Images for people: the frame with boxes, ids and counts drawn on it.
 #pragma once
 
 #include <cstdint>

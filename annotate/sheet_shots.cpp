@@ -155,7 +155,7 @@ std::vector<SheetRow> portrait_rows(const Population& population, const SheetOpt
 
 SheetRow drone_row(const Population& population, const SheetOptions& options) {
   constexpr std::array<double, 3> kHeights_m = {15, 30, 50};
-  // Of a camera with 1920 pixels across 78 degrees, of whose picture this is the middle.
+  // Of a camera with 1920 pixels across 78 degrees, of whose image this is the middle.
   constexpr double kFocal_px = 1185.5;
   const int width = options.width_px / static_cast<int>(kHeights_m.size());
   const int height = width * 3 / 4;
@@ -189,8 +189,7 @@ std::vector<SheetRow> motion_rows(const Population& population, const SheetOptio
       skinning::appearance_as(population, options.portraits.front(), options.seed);
   std::vector<SheetRow> rows;
   for (std::size_t way = 0; way < kWays.size(); ++way) {
-    if (way % 2 == 0)
-      rows.push_back({way == 0 ? "Ways of getting on, in eighths of a stride" : "", {}});
+    if (way % 2 == 0) rows.push_back({way == 0 ? "Gaits, in eighths of a stride" : "", {}});
     const Way& shown = kWays[way];
     for (int phase = 0; phase < kPhases; ++phase) {
       const Moment moment{shown.clip, shown.speed_mps, static_cast<double>(phase) / kPhases};

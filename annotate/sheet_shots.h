@@ -1,4 +1,4 @@
-// What the pictures of a people's sheet show: cameras, and who stands before them how.
+// The images of a people's sheet: cameras, people before them and their poses.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct SheetShot {
   std::vector<render::PersonInstance> people;
 };
 
-/// Pictures side by side, as wide together as the sheet, or less.
+/// Images side by side, as wide together as the sheet, or less.
 struct SheetRow {
   std::string title;  ///< empty where the row above goes on
   std::vector<SheetShot> shots;
@@ -30,7 +30,7 @@ std::vector<SheetRow> portrait_rows(const skinning::Population& population,
 /// A crowd as drones see it that fly 15, 30 and 50 m high and look down by 45 degrees.
 SheetRow drone_row(const skinning::Population& population, const SheetOptions& options);
 
-/// The first of the portraits' people in eight moments of each way of getting on, then in other
+/// The first of the portraits' people in eight moments of each gait, then in other
 /// poses.
 std::vector<SheetRow> motion_rows(const skinning::Population& population,
                                   const SheetOptions& options);

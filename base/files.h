@@ -55,8 +55,8 @@ class StagingFolder {
 
   const std::filesystem::path& path() const { return staging_; }
   void commit();
-  /// Like commit(), but puts the new folder in the place of one that is there: whoever opens it
-  /// sees the old folder or the new one.
+  /// Like commit(), but puts the new folder in the place of one that is there: a process that opens
+  /// it sees the old folder or the new one.
   void commit_replacing();
 
  private:

@@ -107,7 +107,7 @@ void keypoints(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 
-// Boxes, masks, visibility, density and the COCO records: all but the picture.
+// Boxes, masks, visibility, density and the COCO records: all but the image.
 void annotate_all(benchmark::State& state, bool with_keypoints) {
   const render::Frame& frame = frame_with(state.range(0));
   CocoImage image = image_of(frame);

@@ -68,7 +68,7 @@ void print(const Tables& tables) {
   }
 }
 
-/// What is fitted: shares and densities that Pace has, and the horizon of avoidance.
+/// The fitted parameters: shares and densities that Pace has, and the horizon of avoidance.
 constexpr std::array<std::string_view, 4> kNames = {"decline", "jam_density", "least", "tau"};
 using Values = std::array<double, kNames.size()>;
 

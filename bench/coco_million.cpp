@@ -1,6 +1,6 @@
 // A COCO file of a million annotations: written in shards, merged, and read again for an export.
 // Prints seconds and the process's peak memory after each. A person's record has what that of a job
-// with keypoints has, or, if "plain" is given, what a job's has unless told otherwise.
+// with keypoints has, or, if "plain" is given, what a job's has by default.
 #include <fmt/core.h>
 #include <sys/resource.h>
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What lenses, sensors, weather and props cost: CPU-milliseconds per picture of the city square by
+# Costs of lenses, sensors, weather and props: CPU-milliseconds per image of the city square by
 # `throng run --profile`, 1920 x 1080, a drone at 30 m that looks down 45 degrees, quality standard.
 #   bench/effects.sh [PROGRAM]
 set -euo pipefail

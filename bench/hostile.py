@@ -3,7 +3,7 @@
 
 usage: bench/hostile.py build/release/cli/throng [--clients 100] [--seconds 30]
 
-Prints, for each of both ways, what an honest client waited for GET /v1/version (ms), the server's memory before, at most
+Prints, for each of both routes, what an honest client waited for GET /v1/version (ms), the server's memory before, at most
 and after, and whether the job made the bytes that it makes undisturbed. tests/cli/test_front.py runs a small one.
 """
 import argparse
@@ -119,7 +119,7 @@ def nginx_program():
 
 @dataclasses.dataclass
 class Front:
-    """Where clients connect to: the bare port, or nginx's."""
+    """Address that clients connect to: the bare port, or nginx's."""
     port: int
     key: str
     context: ssl.SSLContext = None

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the service bears, beside nginx and an Express server on the same machine. Needs wrk; nginx and node where they are
+"""Load test of the service, beside nginx and an Express server on the same machine. Needs wrk; nginx and node where they are
 to be compared with. Run it with nothing else at work:
 
     bench/load.py [--throng build/release/cli/throng] [--minutes 10] [PART...]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs every place of the library for 60 s, everyday and emergency, with a picture every 10 s, validates each dataset
-# and prints a row of docs/places.md for it. What was run before is not run again.
+# Runs every place of the library for 60 s, everyday and emergency, with an image every 10 s, validates each dataset
+# and prints a row of docs/places.md for it. Finished runs are not repeated.
 #   bench/place_runs.sh FOLDER [PLACE...]
 # FOLDER/PLACE_VARIANT/ are the jobs' folders; THRONG names another program than build/release/cli/throng.
 set -euo pipefail
@@ -12,7 +12,7 @@ places=("$@")
 [ $# -gt 0 ] || mapfile -t places < <(cd "$root/scenarios" && dirname -- */everyday.json)
 mkdir -p "$folder"
 
-# job PLACE VARIANT: the shipped job with small, few pictures. The demo is every day, but for places with a job for that.
+# job PLACE VARIANT: the shipped job with small, few images. The demo is every day, but for places with a job for that.
 job() {
   local file="$2"
   [ -e "$root/scenarios/$1/$file.job.json" ] || file=demo

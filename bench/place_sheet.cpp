@@ -1,5 +1,5 @@
 // A place in everyday life and in its emergency, from several heights and in several weathers: the
-// pictures of docs/places.md. bench/contact_sheet.sh makes them all.
+// images of docs/places.md. bench/contact_sheet.sh makes them all.
 //
 //   place_sheet OUT.jpg WIDTH EVERYDAY TRACE [EMERGENCY TRACE]
 //
@@ -77,7 +77,8 @@ class Sheet {
   std::vector<std::uint8_t> rgb_;
 };
 
-/// What the scenario's first drone sees at 45 degrees below the horizon: (x, y) on the ground.
+/// The point that the scenario's first drone sees at 45 degrees below the horizon: (x, y) on the
+/// ground.
 Eigen::Vector2d focus(const world::Scenario& scenario) {
   const world::DroneStart& drone = scenario.drones.at(0);
   return drone.position.head<2>() +

@@ -1,9 +1,9 @@
 // Frames per second of this machine's cores on the whole way to a dataset: 1920 x 1080, a drone at
 // 30 m looking down 45 degrees with 70 degrees across; drawn by Mesa's software driver or a GPU
-// (--device gpu, with 4 samples a pixel), read back, labeled, and picture, boxes, masks and depth
+// (--device gpu, with 4 samples a pixel), read back, labeled, and image, boxes, masks and depth
 // written into a folder in memory. One process per core, as jobs do it. With --draw-only frames are
 // drawn and read back.
-//   bench_render [--stages] [--seconds S] [--pictures FOLDER] [--quality WORD] [--people COUNT]
+//   bench_render [--stages] [--seconds S] [--images FOLDER] [--quality WORD] [--people COUNT]
 //                [--device WORD] [--processes COUNT] [--draw-only]
 #include <fmt/core.h>
 #include <sys/resource.h>
@@ -39,8 +39,8 @@ namespace {
 struct Settings {
   bool stages = false;
   double seconds = 4;
-  std::string pictures;  ///< folder for one frame of each kind, or ""
-  std::string quality;   ///< only this one, or ""
+  std::string images;   ///< folder for one frame of each kind, or ""
+  std::string quality;  ///< only this one, or ""
   std::vector<std::uint32_t> people = {625, 5000};
   std::string device = "software";
   unsigned processes = std::max(1U, std::thread::hardware_concurrency());
@@ -94,7 +94,7 @@ render::Scene crowd(const skinning::Population& people, std::uint32_t count) {
   return scene;
 }
 
-/// What one process found.
+/// Figures of one process.
 struct Figures {
   double frames = 0;
   double wall_s = 0;
@@ -192,8 +192,8 @@ Figures measure(render::Quality quality, std::uint32_t count, bool first,
   }
   figures.cpu_s = cpu_s() - cpu_begin_s;
   if (first && clock) print_stages(*clock, figures.frames);
-  if (first && !settings.pictures.empty()) {
-    write_file_atomically(std::filesystem::path(settings.pictures) /
+  if (first && !settings.images.empty()) {
+    write_file_atomically(std::filesystem::path(settings.images) /
                               fmt::format("{}_{}.jpg", render::settings_of(quality).word, count),
                           worker.jpeg());
   }
@@ -206,8 +206,8 @@ void run(render::Quality quality, std::uint32_t count, const Settings& settings)
   for (unsigned i = 0; i < settings.processes; ++i) {
     if (::fork() != 0) continue;
     const Figures figures = measure(quality, count, i == 0, settings);
-    const bool told = ::write(pipe[1], &figures, sizeof(figures)) == sizeof(figures);
-    std::_Exit(told ? EXIT_SUCCESS : EXIT_FAILURE);
+    const bool is_sent = ::write(pipe[1], &figures, sizeof(figures)) == sizeof(figures);
+    std::_Exit(is_sent ? EXIT_SUCCESS : EXIT_FAILURE);
   }
   ::close(pipe[1]);
   double frames_per_s = 0;
@@ -239,7 +239,7 @@ int main(int count, char** arguments) {
     const char* value = i + 1 < count ? arguments[i + 1] : "";
     if (word == "--stages") settings.stages = true;
     if (word == "--seconds") settings.seconds = std::atof(value);
-    if (word == "--pictures") settings.pictures = value;
+    if (word == "--images") settings.images = value;
     if (word == "--quality") settings.quality = value;
     if (word == "--device") settings.device = value;
     if (word == "--processes")

@@ -1,4 +1,4 @@
-// The picture docs/weather.jpg: city_square at several hours and in several weathers.
+// The image docs/weather.jpg: city_square at several hours and in several weathers.
 //
 //   weather_sheet TRACE OUT.jpg [PANEL]
 //

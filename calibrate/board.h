@@ -58,7 +58,7 @@ std::vector<Eigen::Vector3d> board_points(const Board& board);
 
 /// Looks for the board in all images, several at once. Images of another size than most have,
 /// or without the board, are left out. Throws InputError with one problem per image when none can
-/// be used; Cancelled when `on_picture` (called after each) says false.
+/// be used; Cancelled when `on_image` (called after each) says false.
 Correspondences find_boards(const std::vector<std::filesystem::path>& images, const Board& board,
                             const std::function<bool(std::size_t done)>& on_image = {});
 

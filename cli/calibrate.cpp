@@ -38,7 +38,7 @@ struct CalibrateArguments {
   std::string output;
   std::string opencv;
   std::string ros;
-  std::string picture;
+  std::string plot;
 };
 
 double number_of(const std::string& text, const std::string& source, const std::string& whole) {
@@ -95,8 +95,8 @@ void write_results(const calibrate::Calibration& calibration, const CalibrateArg
     write_file_atomically(arguments.ros,
                           calibrate::ros_yaml(calibration, fs::path(arguments.ros).stem()));
   }
-  if (!arguments.picture.empty()) {
-    drawing::write_drawing(calibrate::residual_plot(calibration), arguments.picture);
+  if (!arguments.plot.empty()) {
+    drawing::write_drawing(calibrate::residual_plot(calibration), arguments.plot);
   }
 }
 
@@ -132,7 +132,7 @@ void add_results(CLI::App& command, CalibrateArguments& arguments) {
                      "Camera JSON to write; default: standard output");
   command.add_option("--opencv", arguments.opencv, "Also write OpenCV's YAML");
   command.add_option("--ros", arguments.ros, "Also write ROS' camera_info (YAML)");
-  command.add_option("--picture", arguments.picture,
+  command.add_option("--plot", arguments.plot,
                      "Also plot residuals and coverage (.svg, .png or .pdf)");
 }
 

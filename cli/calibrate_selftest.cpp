@@ -46,7 +46,7 @@ struct SelftestArguments {
   std::string people = skinning::population_folder().string();
   std::string images;
   std::string output;
-  std::string picture;
+  std::string plot;
 };
 
 /// A wide camera with clear barrel distortion and its axis off the middle.
@@ -207,8 +207,8 @@ void selftest(const SelftestArguments& arguments) {
                          {"device", photographs.device}};
     write_file_atomically(arguments.output, report.dump(2) + "\n");
   }
-  if (!arguments.picture.empty()) {
-    drawing::write_drawing(calibrate::residual_plot(found), arguments.picture);
+  if (!arguments.plot.empty()) {
+    drawing::write_drawing(calibrate::residual_plot(found), arguments.plot);
   }
   if (!all_hold) throw EnvironmentError("the calibration differs from the camera that rendered");
 }
@@ -234,7 +234,7 @@ void add_calibrate_selftest(CLI::App& calibrate) {
       ->capture_default_str();
   command->add_option("--images", arguments->images, "Folder to keep the images in (PNG)");
   command->add_option("-o,--output", arguments->output, "JSON report to write");
-  command->add_option("--picture", arguments->picture,
+  command->add_option("--plot", arguments->plot,
                       "Also plot residuals and coverage (.svg, .png or .pdf)");
   command->callback([arguments] { selftest(*arguments); });
 }

@@ -15,8 +15,11 @@ namespace throng::cli {
 namespace {
 
 /// Old names of options, which are kept for one version after 0.1.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kRenamedOptions = {
-    {{"--most-jobs", "--max-jobs"}, {"--most-gib", "--max-gib"}, {"--least-free", "--min-free"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kRenamedOptions = {
+    {{"--most-jobs", "--max-jobs"},
+     {"--most-gib", "--max-gib"},
+     {"--least-free", "--min-free"},
+     {"--picture", "--plot"}}};
 
 std::string with_new_name(std::string word) {
   for (const auto& [old, now] : kRenamedOptions) {

@@ -122,7 +122,7 @@ void add_export(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0));
   command
       ->add_option("--max-truncation", arguments->max_truncation,
-                   "Who is farther outside of the image becomes an ignore region")
+                   "People farther outside of the image become ignore regions")
       ->check(CLI::Range(0.0, 1.0));
   command
       ->add_option("--min-height", arguments->min_height_px,

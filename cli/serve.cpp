@@ -53,7 +53,7 @@ void add_serve(CLI::App& app) {
   command->add_flag("--log-json", options->log_json, "Log lines as JSON");
   command->add_flag(
       "--insecure", options->insecure,
-      "Listen on addresses that other machines can reach while there are no keys: whoever "
+      "Listen on addresses that other machines can reach while there are no keys: anyone who "
       "reaches them may do everything");
   command->callback([options] {
     options->scenarios = world::scenarios_folder();

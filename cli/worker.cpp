@@ -1,4 +1,4 @@
-// throng worker: one task of a job, for whoever supervises it.
+// throng worker: one task of a job, for its supervisor.
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <memory>

@@ -12,7 +12,7 @@
 
 namespace throng::crowd {
 
-/// What profiles give each agent and actions change.
+/// Properties that profiles set for each agent and actions change.
 enum class Property {
   max_speed,
   max_accel,
@@ -75,7 +75,7 @@ struct Agents {
   /// Unit: facing of an agent that stands where it began, see Facing; 0: along its path.
   std::vector<Eigen::Vector2f> facing;
 
-  /// Where each would go if alone: a unit vector and m/s.
+  /// Preferred velocity, without other agents: a unit vector and m/s.
   std::vector<Eigen::Vector2f> preferred_direction;
   std::vector<float> preferred_speed;
 

@@ -1,4 +1,4 @@
-// What a running crowd consists of; everything that plug-ins may look at.
+// The parts of a running crowd: all state that plug-ins may read.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@ struct Crowd {
   Agents agents;
   Goals goals;
   Obstacles obstacles;
-  /// What several elements of the files use, e.g. a mesh; who loads an element may add to it.
+  /// Resources that several elements of the files share, e.g. a mesh; loaders of elements add to
+  /// it.
   std::shared_ptr<SharedParts> parts = std::make_shared<SharedParts>();
   std::shared_ptr<const Elevation> elevation;  ///< none: level ground
   std::vector<float> model_constants;          ///< of the scene, in the order of the model's table

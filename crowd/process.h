@@ -1,4 +1,4 @@
-// What goes on beside the agents' own decisions: moving goals, events, stress, sources.
+// Processes beside the agents' own decisions: moving goals, events, stress, sources.
 #pragma once
 
 #include "crowd/crowd.h"

@@ -101,7 +101,7 @@ bool is_hard(std::string_view separation) {
 AttributeTable project_attributes() {
   return {
       optional(text("scene", "scene file")),
-      optional(text("behavior", "behaviour file")),
+      optional(text("behavior", "behavior file")),
       optional(text("model", "pedestrian model"), "orca"),
       optional(number("duration", "longest time to simulate, in s", 0, kMaxRunS), "400"),
       optional(number("timeStep", "in s; not above 0: as the scene says", -kMaxCoordinate, 10),
@@ -144,7 +144,7 @@ Project load_project(const fs::path& file) {
 
 Simulation load_simulation(const Project& project) {
   require_file(project.scene_file, "scene");
-  require_file(project.behavior_file, "behaviour");
+  require_file(project.behavior_file, "behavior");
   return {project.scene_file, project.behavior_file, project.options};
 }
 

@@ -38,7 +38,7 @@ constexpr std::uint64_t seed_or_default(std::uint64_t seed) { return seed != 0 ?
 /// The attributes of <Project>.
 AttributeTable project_attributes();
 
-/// Reads a <Project>. What it names is relative to its folder. Throws InputError, also when there
+/// Reads a <Project>. Paths in it are relative to its folder. Throws InputError, also when there
 /// is no such file, EnvironmentError when it cannot be read.
 Project load_project(const std::filesystem::path& file);
 

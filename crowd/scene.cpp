@@ -20,7 +20,7 @@ void load_spatial_query(const Element& element, Crowd& crowd) {
   crowd.test_visibility = attributes.boolean("test_visibility");
 }
 
-/// What a model's element in the scene says for all agents.
+/// Reads a model's element in the scene, which holds for all agents.
 void load_constants(const Element& element, const ModelEntry& model, std::vector<float>& values) {
   AttributeTable table;
   for (const ModelParameter& constant : model.constants) {
@@ -41,10 +41,9 @@ void mark(const Element& element, bool& seen) {
 }  // namespace
 
 AttributeTable spatial_query_attributes() {
-  return {
-      word("type", {"kd-tree", "nav_mesh"}, "how neighbours are found; not used: a grid serves"),
-      optional(text("file_name", "a .nav file; not used")),
-      optional(boolean("test_visibility", "1: walls hide neighbours"), "0")};
+  return {word("type", {"kd-tree", "nav_mesh"}, "neighbor search; not used: a grid serves"),
+          optional(text("file_name", "a .nav file; not used")),
+          optional(boolean("test_visibility", "1: walls hide neighbors"), "0")};
 }
 
 Scene load_scene(const Element& experiment, const std::vector<std::string>& state_names,

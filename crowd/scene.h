@@ -13,7 +13,7 @@
 
 namespace throng::crowd {
 
-/// What cannot be made before the behavior file is read.
+/// Parts that cannot be made before the behavior file is read.
 struct Scene {
   std::vector<std::vector<Element>> profile_modifiers;  ///< the <VelModifier>s of each profile
   std::vector<std::unique_ptr<Process>> processes;      ///< arrivals

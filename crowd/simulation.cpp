@@ -204,7 +204,7 @@ void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& center) {
   const int index = state_->crowd.goals.find_goal(set, goal);
   if (index < 0) {
     throw InputError(Problem{"", "moved goal", fmt::format("goal {} of goal set {}", goal, set),
-                             "a goal of the behaviour file"});
+                             "a goal of the behavior file"});
   }
   state_->crowd.goals[index].shape->move_to(center);
 }
@@ -212,7 +212,7 @@ void Simulation::move_goal(int set, int goal, const Eigen::Vector2f& center) {
 void Simulation::fire(const std::string& trigger) {
   if (state_->machine->fire(trigger)) return;
   throw InputError(Problem{"", "fired trigger", trigger,
-                           "the name of an external trigger of the behaviour file"});
+                           "the name of an external trigger of the behavior file"});
 }
 
 }  // namespace throng::crowd

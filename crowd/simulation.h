@@ -1,5 +1,5 @@
 // The crowd engine: agents, their state machine and their pedestrian model, stepped in time.
-// Knows nothing of drones, GL or HTTP; whoever owns it moves the goals that follow something.
+// Knows nothing of drones, GL or HTTP; its owner moves the goals that follow something.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +33,7 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// What was ignored while loading.
+  /// Parts of the files that were ignored while loading.
   const std::vector<Problem>& warnings() const;
 
   /// Advances by dt_s().

@@ -157,13 +157,13 @@ VocabularyKind distributions() {
     }
     if (form.has_limits) {
       entry.attributes.push_back(
-          {.name = "at_least", .type = "number", .help = "lower values are not drawn"});
+          {.name = "at_least", .type = "number", .help = "lower values are not sampled"});
       entry.attributes.push_back(
-          {.name = "at_most", .type = "number", .help = "higher values are not drawn"});
+          {.name = "at_most", .type = "number", .help = "higher values are not sampled"});
     }
     entry.attributes.push_back({.name = "seed",
                                 .type = "integer",
-                                .help = "fixes what is drawn whatever the run's seed is"});
+                                .help = "fixes the samples regardless of the run's seed"});
     kind.entries.push_back(std::move(entry));
   }
   return kind;

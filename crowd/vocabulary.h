@@ -22,7 +22,7 @@ struct VocabularyEntry {
   std::vector<VocabularyAttribute> attributes;
 };
 
-/// What one plug-in point offers.
+/// The elements of one plug-in point.
 struct VocabularyKind {
   std::string title;    ///< "Conditions"
   std::string element;  ///< where they stand: "<Condition> in <Transition>"

@@ -24,7 +24,8 @@ Points box(double min_x, double min_y, double max_x, double max_y) {
   return {{min_x, min_y}, {max_x, min_y}, {max_x, max_y}, {min_x, max_y}};
 }
 
-/// A hall of 12 m x 10 m with 100 people and a door of 1 m on the left, and perhaps on the right.
+/// A hall of 12 m x 10 m with 100 people and a door of 1 m on the left, optionally also on the
+/// right.
 crowd::SceneDescription hall(bool two_doors) {
   crowd::SceneBuilder scene;
   scene.add_profile(

@@ -239,7 +239,7 @@ class ExitObserver {
   PressureMeter pressure_;
   WaitPredictor wait_;
   std::vector<CrossingCounter> counters_;
-  std::vector<NearPerson> near_;     ///< whoever may matter for density and pressure in the zone
+  std::vector<NearPerson> near_;     ///< people who may matter for density and pressure in the zone
   std::vector<NearPerson> queuing_;  ///< who intends this exit, wherever they are
   double desired_speed_mps_ = 0;     ///< mean over the zone
   int demand_from_ = 1;

@@ -25,7 +25,7 @@ struct Departures {
 /// out. The maximum flow from people over the exits' slots of one second, in which people may wait
 /// (Ford and Fulkerson 1956). Slots open one after another, the earliest first, and who is out
 /// stays out, so that as many as can be are out at every time: an earliest-arrival flow (Gale
-/// 1959). A slot takes whoever comes before its end and lets them out at its beginning, so that no
+/// 1959). A slot takes those who come before its end and lets them out at its beginning, so that no
 /// time is too long.
 std::vector<double> earliest_out_s(const Departures& departures);
 

@@ -11,7 +11,8 @@ namespace throng::metrics {
 
 struct Queue {
   int people = 0;
-  double length_m = 0;  ///< from the exit's middle along the queue to whoever has farthest to go
+  double length_m =
+      0;  ///< from the exit's middle along the queue to the person who has farthest to go
 };
 
 /// People who intend the exit, are on its inner side, slower than half of their desired speed, and

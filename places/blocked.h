@@ -1,4 +1,4 @@
-// What disasters take of the ground as they grow, doors among it: discs that the crowd's files say,
+// Ground and doors that disasters block as they grow: discs that the crowd's files define,
 // one after another.
 #pragma once
 
@@ -27,7 +27,7 @@ struct BlockedDisc {
 std::vector<BlockedDisc> blocked_discs(const People& people);
 
 /// The earliest of the discs that reach a door; null if none does. From its time on the door is
-/// shut for all who flee.
+/// closed for all who flee.
 const BlockedDisc* first_to_reach(const world::Exit& exit, const std::vector<BlockedDisc>& discs);
 
 /// Whether anybody can ever flee by a door that this disc (null: none) is the first to reach.

@@ -34,7 +34,7 @@ json disasters_json(const People& people) {
                     {"start_s", seen.start_s},
                     {"radius_m", seen.radius_m},
                     {"growth_mps", seen.growth_mps},
-                    {"most_m", seen.max_radius_m}});
+                    {"max_radius_m", seen.max_radius_m}});
   }
   return list;
 }
@@ -60,7 +60,7 @@ world::Scenario read_place(json document, const std::string& source, const std::
   return world::parse_scenario(document, source, id);
 }
 
-/// What a disaster changes about the exits, and the goals that fleeing people have.
+/// A disaster's changes to the exits, and the goals of fleeing people.
 void add_emergency(const world::Scenario& place, const People& people, json& document) {
   if (people.dangers.empty()) return;
   document["disasters"] = disasters_json(people);
@@ -72,7 +72,7 @@ void add_emergency(const world::Scenario& place, const People& people, json& doc
     if (can_flee_by(disc)) written["goals"].push_back({kFleeingSet, i});
     if (disc == nullptr || !exit.is_open(disc->from_s)) continue;
     if (disc->from_s > 0) {
-      written["shuts_s"] = disc->from_s;
+      written["closes_at_s"] = disc->from_s;
     } else {
       written["open"] = false;
     }

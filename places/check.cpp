@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What to do about an error that a reader of files has found.
+/// The remedy of an error that a reader of files has found.
 std::string remedy_of(const Problem& problem) {
   if (problem.found.find("does not exist") != std::string::npos) {
     return "put the file beside the scenario, or correct its name";

@@ -24,7 +24,7 @@ std::string point_text(const Vector2d& point) {
 
 using Outline = std::vector<Vector2d>;
 
-/// What of an outline lies to the left of the line from a to b (Sutherland and Hodgman 1974).
+/// The part of an outline to the left of the line from a to b (Sutherland and Hodgman 1974).
 Outline left_of(const Outline& outline, const Vector2d& a, const Vector2d& b) {
   const Vector2d inward(a.y() - b.y(), b.x() - a.x());
   Outline kept;
@@ -103,9 +103,9 @@ void check_goals(const Exit& exit, const std::string& where, const crowd::Goals&
     if (goals.find_goal(goal.set, goal.goal) >= 0) continue;
     findings.error(
         fmt::format("{}/goals/{}", where, i),
-        fmt::format("[{}, {}], which the behaviour file does not have", goal.set, goal.goal),
-        "a goal set and goal of the behaviour file",
-        "add the <Goal> to the behaviour file, or correct the numbers");
+        fmt::format("[{}, {}], which the behavior file does not have", goal.set, goal.goal),
+        "a goal set and goal of the behavior file",
+        "add the <Goal> to the behavior file, or correct the numbers");
   }
 }
 
@@ -155,13 +155,13 @@ void check_sizes(const Scenario& scenario, Findings& findings) {
   if (inside.minCoeff() < kMinSizeM || inside.maxCoeff() > kMaxSizeM) {
     findings.error("/inside", fmt::format("{:.4g} m by {:.4g} m", inside.x(), inside.y()),
                    fmt::format("a place of {} m to {} m", kMinSizeM, kMaxSizeM),
-                   "give all lengths in metres; was this drawn in millimetres or kilometres?");
+                   "give all lengths in meters; was this exported in millimeters or kilometers?");
   }
   const Vector2d ground = scenario.ground.max - scenario.ground.min;
   if (ground.maxCoeff() > 2 * kMaxSizeM) {
     findings.error("/ground", fmt::format("{:.4g} m by {:.4g} m", ground.x(), ground.y()),
                    fmt::format("at most {} m", 2 * kMaxSizeM),
-                   "give all lengths in metres, and draw no more ground than a camera sees");
+                   "give all lengths in meters, and draw no more ground than a camera sees");
   }
   for (std::size_t i = 0; i < scenario.exits.size(); ++i) {
     if (scenario.exits[i].width_m() <= kMaxExitWidthM) continue;
@@ -169,13 +169,13 @@ void check_sizes(const Scenario& scenario, Findings& findings) {
         fmt::format("/exits/{}", i),
         fmt::format("exit \"{}\" {:.4g} m wide", scenario.exits[i].id, scenario.exits[i].width_m()),
         fmt::format("a door of at most {} m", kMaxExitWidthM),
-        "give all lengths in metres, or make several exits of it");
+        "give all lengths in meters, or make several exits of it");
   }
   for (std::size_t i = 0; i < scenario.buildings.size(); ++i) {
     if (scenario.buildings[i].height_m <= kMaxHeightM) continue;
     findings.warning(fmt::format("/buildings/{}/height_m", i),
                      fmt::format("{:.4g} m", scenario.buildings[i].height_m),
-                     fmt::format("at most {} m", kMaxHeightM), "give heights in metres");
+                     fmt::format("at most {} m", kMaxHeightM), "give heights in meters");
   }
 }
 
@@ -272,7 +272,7 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
     findings.error(scene, in_buildings.text(), "people outside of buildings", move);
   }
   if (in_props.any()) {
-    findings.error(scene, in_props.text(), "people beside the things that stand about",
+    findings.error(scene, in_props.text(), "people beside the props",
                    "move the prop or the people");
   }
   if (locked_in.any()) {
@@ -343,7 +343,7 @@ void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Rout
     if (exit.width_m() < kMinWidthM) {
       findings.error(where, fmt::format("exit \"{}\" {:.2g} m wide", exit.id, exit.width_m()),
                      fmt::format("at least {} m", kMinWidthM),
-                     "widen it, or give its ends in metres");
+                     "widen it, or give its ends in meters");
     } else if (!is_passable(exit, routes)) {
       findings.error(where, fmt::format("exit \"{}\" blocked by the scene's obstacles", exit.id),
                      "a way through", "open the obstacle, move the exit or say \"open\": false");
@@ -363,7 +363,7 @@ void check_exits(const Scenario& scenario, const LoadedCrowd& loaded, const Rout
     findings.error("/exits", "no open exit", "at least one", "add an exit, or open one");
   } else if (!any_demand) {
     findings.error("/exits", "no exit that anybody heads for", "at least one",
-                   "let a state of the behaviour file choose among the exits' goals");
+                   "let a state of the behavior file choose among the exits' goals");
   }
 }
 

@@ -69,7 +69,7 @@ void add_goals(const Scenario& scenario, const People& people, BehaviorBuilder& 
     for (const Vector2d& spot : people.spots) {
       spots.push_back(describe::circle_goal(static_cast<int>(spots.size()), spot, 0.6, 2));
     }
-    behavior.comment("Places to stroll to.").add_goal_set(kSpotsSet, std::move(spots));
+    behavior.comment("Destinations of strollers.").add_goal_set(kSpotsSet, std::move(spots));
   }
   std::vector<Node> away;
   std::vector<Node> leaving;
@@ -81,17 +81,17 @@ void add_goals(const Scenario& scenario, const People& people, BehaviorBuilder& 
     leaving.push_back(door_goal(exit, i));
     if (can_flee_by(first_to_reach(exit, discs))) fleeing.push_back(leaving.back());
   }
-  behavior.comment("Where one has left the place.").add_goal_set(kAwaySet, std::move(away));
+  behavior.comment("Destinations outside of the scenario.").add_goal_set(kAwaySet, std::move(away));
   behavior.comment("Just beyond the doors.").add_goal_set(kLeavingSet, std::move(leaving));
   if (people.dangers.empty()) return;
-  behavior.comment("The doors that the disasters leave.")
+  behavior.comment("The doors that no disaster closes.")
       .add_goal_set(kFleeingSet, std::move(fleeing));
   std::vector<Node> guides;
   for (std::size_t i = 0; i < std::max<std::size_t>(1, scenario.drones.size()); ++i) {
     const Vector2d far_away(90'000 + 20 * static_cast<double>(i), 90'000);
     guides.push_back(describe::circle_goal(static_cast<int>(i), far_away, 1, 0));
   }
-  behavior.comment("What leads people out, one per drone; far away until something moves it.")
+  behavior.comment("Guides, one per drone; far away until something moves them.")
       .add_goal_set(kGuidesSet, std::move(guides));
 }
 
@@ -103,7 +103,7 @@ Node walk() { return describe::velocity("auto", {{"cell_size", "0.12"}}); }
 Node stay() { return describe::velocity("goal"); }
 Node lie() { return describe::velocity("zero"); }
 
-/// What people do when nothing happens.
+/// People's behavior without a disaster.
 class Everyday {
  public:
   Everyday(const Scenario& scenario, const People& people) : scenario_(&scenario) {
@@ -119,7 +119,7 @@ class Everyday {
     final_wait_ = people.dangers.empty();
   }
 
-  /// Those that a disaster can interrupt, separated by commas.
+  /// Names of states that a disaster can interrupt, separated by commas.
   std::string names() const {
     std::vector<std::string> names;
     for (const Doing doing : doing_) names.push_back(state_of(doing));
@@ -186,7 +186,7 @@ class Everyday {
   bool final_wait_;
 };
 
-constexpr const char* kHurtState = "Casualty";  // one whose people are drawn lying
+constexpr const char* kHurtState = "Casualty";  // one whose people are rendered lying
 
 bool hurts_anybody(const People& people) {
   return std::any_of(people.dangers.begin(), people.dangers.end(),
@@ -238,7 +238,7 @@ std::vector<Attribute> spread_of(const Danger& danger, double from_edge_m) {
   return spread;
 }
 
-/// Those who are caught by what happens.
+/// Transitions of people whom a disaster hurts.
 void add_hurting_transitions(const std::string& from, const People& people,
                              BehaviorBuilder& behavior) {
   constexpr double kAgentRadiusM = 0.3;  // of the danger's agent; the condition counts from there

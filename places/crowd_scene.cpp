@@ -48,7 +48,7 @@ Node facing_element(const Facing& facing) {
   return describe::typed("Facing", "random");
 }
 
-/// Those who stand in line look to its head unless it says otherwise.
+/// People in a queue look to its head unless the blueprint says otherwise.
 Facing facing_of(const Line& line) {
   if (line.facing) return *line.facing;
   const Vector2d ahead = line.from - line.to;
@@ -181,7 +181,7 @@ std::vector<Vector2d> octagon(const Vector2d& middle, double disc_m) {
   return corners;
 }
 
-/// What shuts a door: from its line to beyond the place where those are bound who take it.
+/// The obstacle that closes a door: from its line to beyond the goal of those who take it.
 std::vector<Vector2d> shutter(const Exit& exit) {
   constexpr double kDeepM = 1.4;
   const Vector2d along = exit.to - exit.from;
@@ -196,7 +196,7 @@ void add_obstacles(const Scenario& scenario, const People& people, const Solids&
   scene.add_obstacles(solids.outlines(), 1, kOutlineDecimals);
   const std::vector<BlockedDisc> discs = blocked_discs(people);
   if (!discs.empty()) {
-    scene.comment("What is in the way of those who have noticed it, at first and as it grows.");
+    scene.comment("Obstacles of those who have noticed the disaster, at first and as it grows.");
   }
   for (const BlockedDisc& disc : discs) {
     std::vector<std::vector<Vector2d>> outlines = {octagon(disc.middle, disc.radius_m)};
@@ -252,7 +252,7 @@ void add_dangers(const People& people, SceneBuilder& scene) {
   }
 }
 
-/// Where strollers go where the blueprint does not say: some of the places where they start.
+/// Strollers' goals if the blueprint names none: some of the places where they start.
 std::vector<Vector2d> usual_spots(const People& people, const Solids& solids) {
   constexpr int kSpots = 24;
   std::vector<Vector2d> spots;

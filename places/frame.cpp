@@ -22,7 +22,7 @@ struct Stretch {
   double end_m;
 };
 
-/// What the gates leave of a side.
+/// The parts of a side that the gates leave.
 std::vector<Stretch> walls_of(const Frame& frame, Side side) {
   std::vector<const Gate*> gates;
   for (const Gate& gate : frame.gates) {

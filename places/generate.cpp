@@ -69,7 +69,7 @@ class Site {
                                    {"yaw_deg", yaw_deg},
                                    {"look", random_.below(1000)}});
   }
-  /// Things all over an area, `density` times as many as have room at full clutter.
+  /// Props all over an area, `density` times as many as have room at full clutter.
   void scatter(const std::vector<const char*>& kinds, const Vector2d& min, const Vector2d& max,
                double per_m2, double apart_m) {
     const Vector2d size = max - min;

@@ -121,7 +121,7 @@ Source read_source(const JsonValue& item, const std::vector<world::Exit>& exits)
   return source;
 }
 
-/// What people know of a kind of disaster unless the blueprint says otherwise.
+/// Defaults of a kind of disaster, for values that the blueprint does not give.
 Danger usual_danger(const world::Disaster& seen) {
   switch (seen.kind) {
     case world::DisasterKind::explosion:
@@ -141,8 +141,9 @@ Danger usual_danger(const world::Disaster& seen) {
 
 Danger read_danger(const JsonValue& item, int agent) {
   item.fields({"kind", "position"},
-              {"start_s", "radius_m", "growth_mps", "most_m", "noticed_m", "notice_growth_mps",
-               "blocked_m", "hurts_m", "hurts_after_s", "panic"});
+              {"start_s", "radius_m", "growth_mps", "max_radius_m", "noticed_m",
+               "notice_growth_mps", "blocked_m", "hurts_m", "hurts_after_s", "panic"},
+              {"most_m"});
   Danger danger = usual_danger(world::read_disaster(item, agent));
   const auto read = [&](std::string_view key, double& value) {
     if (item[key].exists()) value = item[key].number(0, 10'000);

@@ -1,4 +1,4 @@
-// Who is in a place and what happens to them, as a blueprint says it.
+// The people of a blueprint and the events that concern them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,15 +12,15 @@
 
 namespace throng::places {
 
-/// What people do.
+/// Activity of a group of people.
 enum class Doing {
   stroll,  ///< from spot to spot, pausing at each
   wait,    ///< stand, as an audience does
-  cross,   ///< go to an exit by chance, the wider the likelier, and out
+  cross,   ///< go out by an exit chosen with probability proportional to its width
   leave    ///< go out by the exit that looks fastest
 };
 
-/// Where people look who wait.
+/// Orientation of waiting people.
 struct Facing {
   enum class Kind { random, direction, towards };
   Kind kind = Kind::random;
@@ -64,7 +64,7 @@ struct Danger {
   double notice_growth_mps = 1;  ///< how fast the news spreads
   double blocked_m = 0;          ///< nobody who has noticed it goes nearer than this
   bool panic = false;            ///< who flees panics, and others catch it
-  double hurts_m = 0;            ///< who is within this lies hurt and stays
+  double hurts_m = 0;            ///< people within this become casualties
   double hurts_after_s = 0;      ///< so long must one have been within, in all
 };
 

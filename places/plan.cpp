@@ -53,7 +53,7 @@ void draw_ground(const Scenario& scenario, Sheet& sheet) {
                 drawing::kTransparent, kEdge);
 }
 
-void draw_things(const Scenario& scenario, Sheet& sheet) {
+void draw_props(const Scenario& scenario, Sheet& sheet) {
   for (const world::Building& building : scenario.buildings) {
     sheet.polygon(building.footprint, colors::kBuilding, colors::kInk);
   }
@@ -89,7 +89,7 @@ void draw_obstacles(const crowd::Obstacles& obstacles, Sheet& sheet) {
 void draw_exits(const Scenario& scenario, Sheet& sheet) {
   constexpr double kDoorPx = 5;
   for (const world::Exit& exit : scenario.exits) {
-    const Color& color = exit.open ? colors::kOpenExit : colors::kShutExit;
+    const Color& color = exit.open ? colors::kOpenExit : colors::kClosedExit;
     sheet.line(std::array{exit.from, exit.to}, color, kDoorPx);
     // Beyond the door, where nothing else is written.
     constexpr double kBesideM = 1.2;
@@ -192,7 +192,7 @@ void draw_flows(const Scenario& scenario, const LoadedCrowd& loaded, const Route
     const Vector2d to = scenario.exits[i].middle();
     if ((to - from).norm() < 1) continue;
     sheet.line(std::array{from, to}, colors::kFlow, 1 + kMaxWidthPx * flows[i].people / all, true);
-    sheet.label(0.5 * (from + to), {6, -4}, fmt::format("{} nearest here", flows[i].people),
+    sheet.label(0.5 * (from + to), {6, -4}, fmt::format("nearest exit for {}", flows[i].people),
                 colors::kOpenExit);
   }
 }
@@ -231,7 +231,7 @@ drawing::Drawing draw_plan(const Scenario& scenario, int size_px,
   const Routes routes = find_routes(scenario, loaded);
   Sheet sheet(scenario.ground, size_px);
   draw_ground(scenario, sheet);
-  draw_things(scenario, sheet);
+  draw_props(scenario, sheet);
   draw_obstacles(loaded.crowd.obstacles, sheet);
   name_buildings(scenario, sheet);
   draw_goals(scenario, loaded.crowd.goals, sheet);

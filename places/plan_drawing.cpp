@@ -27,15 +27,15 @@ struct Entry {
 };
 
 constexpr std::array<Entry, 10> kLegend = {{{"building", colors::kBuilding},
-                                            {"obstacle of the crowd", colors::kObstacle},
+                                            {"crowd obstacle", colors::kObstacle},
                                             {"prop", colors::kProp},
                                             {"open exit", colors::kOpenExit},
-                                            {"closed exit", colors::kShutExit},
+                                            {"closed exit", colors::kClosedExit},
                                             {"goal", colors::kGoal},
-                                            {"person at the start", colors::kPerson},
+                                            {"initial position", colors::kPerson},
                                             {"people enter here", colors::kSource},
                                             {"drone", colors::kDrone},
-                                            {"danger", colors::kDanger}}};
+                                            {"hazard", colors::kDanger}}};
 
 /// A length for the scale: 1, 2 or 5 times a power of ten, about this long.
 double round_length(double length_m) {

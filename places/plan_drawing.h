@@ -17,7 +17,7 @@ inline constexpr Color kBuilding{{176, 164, 150}};
 inline constexpr Color kObstacle{{150, 60, 60}};
 inline constexpr Color kProp{{110, 140, 90}};
 inline constexpr Color kOpenExit{{20, 140, 60}};
-inline constexpr Color kShutExit{{200, 40, 40}};
+inline constexpr Color kClosedExit{{200, 40, 40}};
 inline constexpr Color kGoal{{60, 110, 200}};
 inline constexpr Color kPerson{{70, 70, 70}, 0.6};
 inline constexpr Color kSource{{220, 130, 20}};

@@ -46,7 +46,7 @@ void expand_boxes(const JsonValue& said, json& items, const char* outline) {
   }
 }
 
-/// A row of one kind of thing from a point to another, both included.
+/// A row of one kind of prop from a point to another, both included.
 void add_row(const JsonValue& row, json& props) {
   row.fields({"kind", "from", "to", "apart_m"}, {"yaw_deg", "scale"});
   const Vector2d from = row["from"].vector2(kMaxOutsideM);

@@ -1,4 +1,4 @@
-// What a blueprint may say more briefly than a scenario file: boxes for outlines, rows of things.
+// Abbreviations of blueprints for parts of a scenario file: boxes for outlines, rows of props.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

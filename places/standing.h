@@ -1,4 +1,4 @@
-// Where people can stand when a run begins.
+// Positions where people can stand when a run begins.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace throng::places {
 
-/// What nobody walks through: buildings and the things that stand about.
+/// Impassable ground: buildings and props.
 class Solids {
  public:
   explicit Solids(const world::Scenario& scenario);
@@ -27,7 +27,7 @@ class Solids {
   crowd::Obstacles walls_;
 };
 
-/// How densely people can stand about in an area.
+/// How densely people can stand in an area.
 struct Standing {
   int count = 0;       ///< of those asked for
   double apart_m = 1;  ///< from each other, so that every draw of their places succeeds

@@ -1,4 +1,5 @@
-// What is seen around a generated place: nobody walks there, but drones look over the walls.
+// The visible surroundings of a generated scenario: nobody walks there, but drones look over the
+// walls.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,8 +13,8 @@ namespace throng::places {
 constexpr double kSurroundingsM = 45;
 
 /// Adds a street around the frame, `from_m` outside of its walls, with parked cars, and on its far
-/// side a row of houses or a lawn with trees on each side; houses are the likelier the denser
-/// (0 to 1) the place is built up.
+/// side a row of houses or a lawn with trees on each side; the probability of houses
+/// grows with the building density (0 to 1).
 void add_surroundings(const Frame& frame, double from_m, double density, Random& random,
                       nlohmann::json& blueprint);
 

@@ -1,5 +1,5 @@
-// A scenario and its crowd as they stand before the run begins: who is where, which ground people
-// can walk on and how far it is to the exits. What checking and drawing a scenario need to know.
+// A scenario and its crowd as they stand before the run begins: positions, walkable ground
+// and distances to the exits. Input of checks and plans.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,7 +36,7 @@ struct Routes {
   crowd::WalkableGrid grid;       ///< of `inside` and a margin around it
   std::vector<int> nearest_exit;  ///< per cell: index into the scenario's exits, or kNone
   std::vector<float> distance_m;  ///< per cell: to that exit, by steps to one of eight cells
-  std::vector<std::uint8_t> reached_from_exit;  ///< per exit: 0 where it is shut or walled up
+  std::vector<std::uint8_t> reached_from_exit;  ///< per exit: 0 where it is closed or walled up
 
   /// The cell of a point; kNone outside of the grid.
   int cell_at(const Eigen::Vector2d& point) const;

@@ -39,7 +39,7 @@ def literal(values: list[Any]) -> str:
 
 
 class JobTypes:
-    """Dataclasses of the job's objects: what is None is left out of the JSON."""
+    """Dataclasses of the job's objects: values that are None are left out of the JSON."""
 
     def __init__(self, schema: dict[str, Any]) -> None:
         self.classes: dict[str, list[str]] = {}
@@ -95,8 +95,8 @@ class JobTypes:
     def text(self) -> str:
         head = '''"""The parts of a job as dataclasses: a typed way to write docs/job.md's JSON.
 
-Made by python/generate_types.py from jobs/spec/job.schema.json; do not edit. What is None is left out, and then has the
-default of the schema. The service and the program check values; types are for editors and mypy.
+Made by python/generate_types.py from jobs/spec/job.schema.json; do not edit. Values that are None are left out and
+have the default of the schema. The service and the program check values; types are for editors and mypy.
 """
 
 from __future__ import annotations

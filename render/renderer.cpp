@@ -106,8 +106,8 @@ struct Renderer::State {
   State& operator=(const State&) = delete;
 
   void draw_shadows(const Scene& scene, const Eigen::AlignedBox2d& area);
-  void draw_picture(const Scene& scene, const camera::Camera& camera, bool truth,
-                    std::vector<Seen>& seen, Frame& frame);
+  void draw_image(const Scene& scene, const camera::Camera& camera, bool truth,
+                  std::vector<Seen>& seen, Frame& frame);
   void draw_smooth(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
                    Frame& frame);
   void draw_view(const Scene& scene, const camera::Camera& camera, const std::vector<Seen>& seen,
@@ -118,7 +118,7 @@ struct Renderer::State {
   void measure_coverage(const Scene& scene, const Frame& frame, const PixelWeights* weights,
                         std::vector<Seen>& seen);
 
-  /// The stage has ended, for whoever wants to know how long it took.
+  /// Reports the end of a stage, for profiles.
   void lap(std::string_view stage) const {
     if (options.clock == nullptr) return;
     glFinish();
@@ -236,8 +236,8 @@ void Renderer::State::place_silhouettes(const camera::Camera& camera, std::vecto
   silhouettes.bind();
 }
 
-void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& camera, bool truth,
-                                   std::vector<Seen>& seen, Frame& frame) {
+void Renderer::State::draw_image(const Scene& scene, const camera::Camera& camera, bool truth,
+                                 std::vector<Seen>& seen, Frame& frame) {
   const camera::Intrinsics& k = camera.intrinsics;
   const Eigen::AlignedBox2d area =
       shadow_area(clip_planes(camera), ground, tallest, shadow_slope(daylight));
@@ -255,7 +255,7 @@ void Renderer::State::draw_picture(const Scene& scene, const camera::Camera& cam
   using Purpose = PeoplePass::Purpose;
   if (truth) place_silhouettes(camera, seen);
   target->begin(Eigen::Vector3f::Zero());
-  draw_view(scene, camera, seen, truth ? Purpose::picture_and_silhouettes : Purpose::picture);
+  draw_view(scene, camera, seen, truth ? Purpose::image_and_silhouettes : Purpose::image);
   lap("draw");
 }
 
@@ -266,7 +266,7 @@ void Renderer::State::draw_smooth(const Scene& scene, const camera::Camera& came
     const camera::Camera fine = scaled(camera, quality.supersampling);
     resize(fine_target, fine.intrinsics.width, fine.intrinsics.height);
     fine_target->begin(Eigen::Vector3f::Zero());
-    draw_view(scene, fine, seen, PeoplePass::Purpose::picture);
+    draw_view(scene, fine, seen, PeoplePass::Purpose::image);
     lap("draw");
     fine_target->read_light(quality.supersampling, frame);
     lap("read back");
@@ -274,7 +274,7 @@ void Renderer::State::draw_smooth(const Scene& scene, const camera::Camera& came
   if (multisample) {
     resize(multisample_target, camera.intrinsics.width, camera.intrinsics.height, kSamples);
     multisample_target->begin();
-    draw_view(scene, camera, seen, PeoplePass::Purpose::picture);
+    draw_view(scene, camera, seen, PeoplePass::Purpose::image);
     lap("draw");
     multisample_target->read(frame);
     lap("read back");
@@ -386,7 +386,7 @@ Frame Renderer::draw(const Scene& scene, const camera::Camera& camera, const Nex
   frame.drones.clear();
   std::vector<Seen> seen = state.finder.find(scene, camera);
   state.lap("cull");
-  state.draw_picture(scene, camera, choice.truth, seen, frame);
+  state.draw_image(scene, camera, choice.truth, seen, frame);
   const bool wants_light = state.quality.supersampling == 1 && !state.multisample;
   state.target->read(wants_light, frame);
   state.lap("read back");

@@ -160,7 +160,7 @@ std::optional<Caller> caller_in(const Keys& keys, const Request& request) {
                                                     : std::string());
 }
 
-constexpr std::size_t kMaxPicturesBytes = 256 << 20;
+constexpr std::size_t kMaxImagesBytes = 256 << 20;
 constexpr std::size_t kMaxBundleBytes = 64 << 20;
 constexpr std::size_t kMaxTextBytes = 1 << 20;
 
@@ -211,7 +211,7 @@ std::size_t max_body_bytes(const Keys& keys, const Request& request, bool loopba
   if (route == nullptr) throw HttpError{404, ""};
   static_cast<void>(checked_caller(keys, request, *route, loopback));
   if (route->method != Method::post) return kMaxTextBytes;
-  if (request.path == kCalibrations) return kMaxPicturesBytes;
+  if (request.path == kCalibrations) return kMaxImagesBytes;
   const bool is_bundle =
       request.path == kScenarios || (request.path == kJobs && request.is_multipart_form_data());
   return is_bundle ? kMaxBundleBytes : kMaxTextBytes;

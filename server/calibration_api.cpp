@@ -29,7 +29,7 @@ struct Result {
 constexpr std::array kResults = {Result{"camera", calibrate::kCameraName, "application/json"},
                                  Result{"opencv", calibrate::kOpenCvName, "application/yaml"},
                                  Result{"ros", calibrate::kRosName, "application/yaml"},
-                                 Result{"residuals", calibrate::kPictureName, "image/svg+xml"}};
+                                 Result{"residuals", calibrate::kPlotName, "image/svg+xml"}};
 
 struct Sent {
   std::string request;

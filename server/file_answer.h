@@ -19,8 +19,8 @@ void forget_ranges(const httplib::Request& request);
 void settle_range(const httplib::Request& request, httplib::Response& response,
                   const std::string& etag, std::int64_t size);
 
-/// Answers with a file or the part of it that is asked for, in constant memory; 304 to whoever has
-/// it already. `etag` is with its quotes. Throws EnvironmentError when it cannot be read.
+/// Answers with a file or the part of it that is asked for, in constant memory; 304 to clients that
+/// have it already. `etag` is with its quotes. Throws EnvironmentError when it cannot be read.
 void answer_with_file(const httplib::Request& request, httplib::Response& response,
                       const std::filesystem::path& file, const std::string& type,
                       const std::string& etag);

@@ -17,7 +17,7 @@ namespace throng::server {
 
 struct HousekeepingOptions {
   Retention retention = {};
-  std::int64_t min_free_bytes = 512LL << 20;  ///< below this the queue rests
+  std::int64_t min_free_bytes = 512LL << 20;  ///< below this the queue is paused
   DiskWatch::FreeBytes free_bytes = {};       ///< default: of the data folder's disk
 };
 

@@ -63,7 +63,7 @@ class JobQueue {
       const std::string& id, const std::function<std::string(const jobs::JobRow&)>& write) const;
   std::vector<jobs::JobRow> list(const jobs::JobFilter& filter) const;
   std::map<jobs::JobState, std::int64_t> count() const { return store_.count(); }
-  /// Why the queue rests; "" when it does not.
+  /// Why the queue is paused; "" when it is not.
   std::string paused() const { return state_.paused(); }
 
   /// In any state of the job; nothing when there is none.

@@ -118,7 +118,7 @@ std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
     state_.set_progress(row, text_of(progress_json(progress)));
     if (const std::string now = text_of(stages_json(progress)); now != stages) {
       stages = now;
-      state_.note(row, "stage", stages);
+      state_.record_event(row, "stage", stages);
     }
     const auto now = std::chrono::steady_clock::now();
     if (now - last_save < kProgressInterval) return;
@@ -130,11 +130,11 @@ std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
 
 void JobRunner::make_calibration(const JobRow& row, const std::stop_token& stop) {
   const fs::path folder = folders_.calibration_folder(row.id);
-  const auto say = [&](double share, const std::string& what) {
+  const auto set_progress = [&](double share, const std::string& what) {
     state_.set_progress(row, text_of({{"share", share}, {"stage", what}}));
   };
-  calibrator_(folder, say, stop);
-  say(1, "finished");
+  calibrator_(folder, set_progress, stop);
+  set_progress(1, "finished");
 }
 
 // Progress is worth no job: when it cannot be saved now, it will be a second later.

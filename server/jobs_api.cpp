@@ -48,10 +48,10 @@ void check_labels(const std::vector<std::string>& labels, const std::string& poi
            std::any_of(label.begin(), label.end(),
                        [](unsigned char c) { return c < ' ' || c == 127; });
   };
-  const auto wrong = std::find_if(labels.begin(), labels.end(), is_wrong);
-  if (wrong == labels.end() && labels.size() <= kMaxLabels) return;
+  const auto invalid = std::find_if(labels.begin(), labels.end(), is_wrong);
+  if (invalid == labels.end() && labels.size() <= kMaxLabels) return;
   const std::string found =
-      wrong == labels.end() ? fmt::format("{} labels", labels.size()) : '"' + *wrong + '"';
+      invalid == labels.end() ? fmt::format("{} labels", labels.size()) : '"' + *invalid + '"';
   throw HttpError{400,
                   "labels are wrong",
                   {{"", pointer, found,
@@ -196,32 +196,32 @@ void change_job(const Call& call, const Request& request, Response& response) {
   require_json(request);
   const jobs::JobRow row = find_own(call, request);
   const json change = json_body_of(request);
-  const auto wrong = [](const std::string& pointer, const std::string& found,
-                        const std::string& expected) {
+  const auto invalid_field = [](const std::string& pointer, const std::string& found,
+                                const std::string& expected) {
     return HttpError{400, "the change is wrong", {{"", pointer, found, expected}}};
   };
   if (!change.is_object())
-    throw wrong("", "no JSON object", "priority, labels, keep or some of them");
+    throw invalid_field("", "no JSON object", "priority, labels, keep or some of them");
   jobs::JobChange wanted{row.priority, row.labels, row.keep};
   for (const auto& [name, value] : change.items()) {
     if (name == "priority") {
       if (!value.is_number_integer() || value < -kMaxPriority || value > kMaxPriority) {
-        throw wrong("/priority", value.dump(), "an integer from -100 to 100");
+        throw invalid_field("/priority", value.dump(), "an integer from -100 to 100");
       }
       wanted.priority = value;
     } else if (name == "labels") {
       const bool is_list =
           value.is_array() && std::all_of(value.begin(), value.end(),
                                           [](const json& label) { return label.is_string(); });
-      if (!is_list) throw wrong("/labels", value.dump(), "a list of texts");
+      if (!is_list) throw invalid_field("/labels", value.dump(), "a list of texts");
       wanted.labels = value.get<std::vector<std::string>>();
       check_labels(wanted.labels, "/labels");
     } else if (name == "keep") {
-      if (!value.is_boolean()) throw wrong("/keep", value.dump(), "true or false");
+      if (!value.is_boolean()) throw invalid_field("/keep", value.dump(), "true or false");
       wanted.keep = value;
     } else {
-      throw wrong("/" + name, fmt::format("unknown field \"{}\"", name),
-                  "one of: priority, labels, keep");
+      throw invalid_field("/" + name, fmt::format("unknown field \"{}\"", name),
+                          "one of: priority, labels, keep");
     }
   }
   const auto changed = call.queue.change(row.id, wanted);

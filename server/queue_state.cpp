@@ -33,9 +33,10 @@ std::optional<JobRow> QueueState::apply(const JobRow& row, JobEvent event,
   return changed;
 }
 
-void QueueState::note(const JobRow& row, const std::string& type, const std::string& data_json) {
+void QueueState::record_event(const JobRow& row, const std::string& type,
+                              const std::string& data_json) {
   try {
-    store_.note(row, type, data_json);
+    store_.record_event(row, type, data_json);
   } catch (const EnvironmentError& error) {
     spdlog::warn("job {}: {} not recorded: {}", row.id, type, error.what());
   }
@@ -127,7 +128,7 @@ void QueueState::pause(const std::string& reason) {
   } else {
     spdlog::warn("queue: paused, {}", reason);
   }
-  if (row && !reason.empty()) note(*row, "paused", text_of({{"reason", reason}}));
+  if (row && !reason.empty()) record_event(*row, "paused", text_of({{"reason", reason}}));
   changed_.notify_all();
   notify_event();
 }

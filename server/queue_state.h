@@ -29,7 +29,7 @@ class QueueState {
   std::optional<jobs::JobRow> apply(const jobs::JobRow& row, jobs::JobEvent event,
                                     const std::string& error_json = "");
   /// Records an event of a job. That it cannot be recorded is only logged.
-  void note(const jobs::JobRow& row, const std::string& type, const std::string& data_json);
+  void record_event(const jobs::JobRow& row, const std::string& type, const std::string& data_json);
   /// Wakes those who wait for events.
   void notify_event();
   /// Changes with every event and with progress.
@@ -39,8 +39,8 @@ class QueueState {
 
   // --- the job that is being worked on
 
-  /// Begins to work on the job that `start` returns, unless the queue rests. Nobody else looks at
-  /// the active job meanwhile. Nothing when there is none.
+  /// Begins to work on the job that `start` returns, unless the queue is paused. Nobody else looks
+  /// at the active job meanwhile. Nothing when there is none.
   std::optional<jobs::JobRow> begin(const std::function<std::optional<jobs::JobRow>()>& start,
                                     const std::stop_source& stop);
   void finish();
@@ -64,10 +64,10 @@ class QueueState {
   /// For so long, or until a stop is requested.
   void wait(const std::stop_token& stop, std::chrono::milliseconds time);
 
-  /// The queue rests for a reason, or goes on (""). The active job is stopped: what it has
+  /// Pauses the queue for a reason, or resumes it (""). The active job is stopped: what it has
   /// published stays.
   void pause(const std::string& reason);
-  /// Why the queue rests; "" when it does not.
+  /// Why the queue is paused; "" when it is not.
   std::string paused() const;
 
  private:

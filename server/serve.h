@@ -20,7 +20,7 @@ struct ServeOptions {
   std::int64_t keep_days = 0;  ///< after a job's end; 0: for good
   std::int64_t keep_gib = 0;   ///< that all jobs may take together; 0: any
   std::int64_t uploads_gib = 8;     ///< that all uploaded scenarios may take together
-  std::int64_t min_free_mib = 512;  ///< below this the queue rests
+  std::int64_t min_free_mib = 512;  ///< below this the queue is paused
   bool log_json = false;
 };
 

@@ -19,7 +19,7 @@ void send_openapi(const Call& call, const httplib::Request& request, httplib::Re
 void list_airframes(const Call& call, const httplib::Request& request, httplib::Response& response);
 void list_formats(const Call& call, const httplib::Request& request, httplib::Response& response);
 void list_policies(const Call& call, const httplib::Request& request, httplib::Response& response);
-/// The character library that frames are drawn with.
+/// The character library that frames are rendered with.
 void list_people(const Call& call, const httplib::Request& request, httplib::Response& response);
 
 }  // namespace throng::server

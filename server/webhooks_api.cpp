@@ -56,11 +56,12 @@ Webhook find_webhook(const Call& call, const Request& request) {
   return *webhook;
 }
 
-HttpError wrong(const std::string& pointer, const std::string& found, const std::string& expected) {
+HttpError invalid_field(const std::string& pointer, const std::string& found,
+                        const std::string& expected) {
   return {400, "the webhook is wrong", {{"", pointer, found, expected}}};
 }
 
-/// A host, perhaps a port and a path, no user or blank: what can be called.
+/// A host, optionally a port and a path, no user or blank: what can be called.
 bool is_url(const std::string& url) {
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (!url.starts_with(scheme) || url.size() > kMaxUrlLength) continue;
@@ -75,7 +76,8 @@ bool is_url(const std::string& url) {
 
 std::string text_at(const json& body, const char* name, const std::string& otherwise) {
   if (!body.contains(name)) return otherwise;
-  if (!body[name].is_string()) throw wrong(fmt::format("/{}", name), body[name].dump(), "a text");
+  if (!body[name].is_string())
+    throw invalid_field(fmt::format("/{}", name), body[name].dump(), "a text");
   return body[name];
 }
 
@@ -86,7 +88,7 @@ std::vector<std::string> events_of(const json& body) {
       list.is_array() && !list.empty() && list.size() <= kMaxEvents &&
       std::all_of(list.begin(), list.end(), [](const json& event) { return event.is_string(); });
   if (!is_list) {
-    throw wrong("/events", list.dump(), "a list of types of events, or [\"*\"] for all");
+    throw invalid_field("/events", list.dump(), "a list of types of events, or [\"*\"] for all");
   }
   return list.get<std::vector<std::string>>();
 }
@@ -96,8 +98,8 @@ json body_of(const Request& request, std::initializer_list<std::string_view> kno
   json body = json_body_of(request);
   for (const auto& [name, value] : body.items()) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw wrong("/" + name, fmt::format("unknown field \"{}\"", name),
-                  fmt::format("one of: {}", fmt::join(known, ", ")));
+      throw invalid_field("/" + name, fmt::format("unknown field \"{}\"", name),
+                          fmt::format("one of: {}", fmt::join(known, ", ")));
     }
   }
   return body;
@@ -109,12 +111,12 @@ void create_webhook(const Call& call, const Request& request, Response& response
   const json body = body_of(request, {"url", "events", "secret"});
   const std::string url = text_at(body, "url", "");
   if (!is_url(url)) {
-    throw wrong("/url", '"' + url + '"', "an address such as https://example.org/hook");
+    throw invalid_field("/url", '"' + url + '"', "an address such as https://example.org/hook");
   }
   const std::string secret = text_at(body, "secret", "");
   if (secret.size() > kMaxSecretLength) {
-    throw wrong("/secret", fmt::format("{} characters", secret.size()),
-                fmt::format("at most {}", kMaxSecretLength));
+    throw invalid_field("/secret", fmt::format("{} characters", secret.size()),
+                        fmt::format("at most {}", kMaxSecretLength));
   }
   Webhooks& webhooks = call.hooks.webhooks();
   if (webhooks.list().size() >= kMaxWebhooks) {
@@ -142,7 +144,7 @@ void change_webhook(const Call& call, const Request& request, Response& response
   const std::string id = find_webhook(call, request).id;
   const json body = body_of(request, {"enabled"});
   if (!body.contains("enabled") || !body["enabled"].is_boolean()) {
-    throw wrong("/enabled", body.value("enabled", json(nullptr)).dump(), "true or false");
+    throw invalid_field("/enabled", body.value("enabled", json(nullptr)).dump(), "true or false");
   }
   call.hooks.webhooks().enable(id, body["enabled"], call.queue.last_event());
   call.hooks.refresh();

@@ -60,7 +60,7 @@ void check_goals(const std::vector<PlannedDrone>& drones, CrowdSource& crowd,
     } catch (const InputError&) {
       problems.push_back({"", fmt::format("/drones/{}/moves_goal", i),
                           fmt::format("[{}, {}]", set, goal),
-                          "a goal set and goal of the scenario's behaviour file"});
+                          "a goal set and goal of the scenario's behavior file"});
     }
   }
 }
@@ -209,7 +209,7 @@ std::vector<Problem> simulate(const world::Scenario& scenario, const RunSpec& sp
       {[&](std::size_t drone, const world::DroneSample& sample) { observer.drone(drone, sample); },
        [&](const world::TraceEvent& event) {
          observer.event(event);
-         hold.note(event);
+         hold.record(event);
        },
        [&](std::size_t agent, const Eigen::Vector2d& impulse_ns) {
          crowd.strike(agent, impulse_ns.cast<float>());

@@ -103,7 +103,7 @@ std::vector<Place> cast_of(const Population& population, std::uint64_t seed,
 }
 
 // Selects the color of a character in a block: the next one each time, from a start of its own, and
-// the kinds of things drift against each other, so that equal outfits are far apart.
+// the kinds of items drift against each other, so that equal outfits are far apart.
 std::size_t color_number(std::uint64_t seed, std::uint32_t character, std::size_t tint,
                          std::uint32_t block, std::size_t colors) {
   Random random(seed, Stream::appearance, kColors + kTintCount * character + tint);

@@ -11,12 +11,12 @@
 
 namespace throng::skinning {
 
-/// Contents of one file. The parts' textures count into `pictures`.
+/// Contents of one file. The parts' textures count into `images`.
 struct CharacterAsset {
   std::string name;
-  Joints joints;                      ///< rest pose, model space
-  std::vector<Mesh> levels;           ///< nodes "level0", "level1", ...
-  std::vector<std::string> pictures;  ///< PNG files
+  Joints joints;                    ///< rest pose, model space
+  std::vector<Mesh> levels;         ///< nodes "level0", "level1", ...
+  std::vector<std::string> images;  ///< PNG files
 };
 
 std::string encode_glb(const CharacterAsset& asset);

@@ -21,13 +21,13 @@ class Reader {
   CharacterAsset read() {
     CharacterAsset asset;
     read_joints(asset);
-    read_pictures(asset);
+    read_images(asset);
     for (int level = 0;; ++level) {
       const aiNode* node = scene_->mRootNode->FindNode(fmt::format("level{}", level).c_str());
       if (node == nullptr) break;
       Mesh mesh;
       for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-        read_part(*scene_->mMeshes[node->mMeshes[i]], asset.pictures.size(), mesh);
+        read_part(*scene_->mMeshes[node->mMeshes[i]], asset.images.size(), mesh);
       }
       asset.levels.push_back(std::move(mesh));
     }
@@ -54,15 +54,15 @@ class Reader {
     }
   }
 
-  void read_pictures(CharacterAsset& asset) const {
+  void read_images(CharacterAsset& asset) const {
     for (unsigned i = 0; i < scene_->mNumTextures; ++i) {
       const aiTexture& texture = *scene_->mTextures[i];
       if (texture.mHeight != 0) fail(fmt::format("uncompressed texture {}", i), "embedded PNG");
-      asset.pictures.emplace_back(reinterpret_cast<const char*>(texture.pcData), texture.mWidth);
+      asset.images.emplace_back(reinterpret_cast<const char*>(texture.pcData), texture.mWidth);
     }
   }
 
-  void read_material(const aiMesh& mesh, std::size_t pictures, Part& part) const {
+  void read_material(const aiMesh& mesh, std::size_t images, Part& part) const {
     const aiMaterial& material = *scene_->mMaterials[mesh.mMaterialIndex];
     const std::string name = material.GetName().C_Str();
     const auto tint = std::find(kTintNames.begin(), kTintNames.end(), name);
@@ -73,25 +73,24 @@ class Reader {
     int two_sided = 0;
     material.Get(AI_MATKEY_TWOSIDED, two_sided);
     part.alpha_tested = two_sided != 0;
-    part.texture =
-        picture_of(material, pictures, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
-    part.shades = picture_of(material, pictures, {aiTextureType_EMISSIVE});
+    part.texture = image_of(material, images, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+    part.shades = image_of(material, images, {aiTextureType_EMISSIVE});
     if (part.tint == Tint::portrait && (part.texture < 0 || part.shades < 0)) {
       fail("a portrait with one image", "a base color texture and an emissive one");
     }
   }
 
   // The number of the first image that there is; -1 for none.
-  std::int32_t picture_of(const aiMaterial& material, std::size_t pictures,
-                          std::initializer_list<aiTextureType> types) const {
+  std::int32_t image_of(const aiMaterial& material, std::size_t images,
+                        std::initializer_list<aiTextureType> types) const {
     for (const aiTextureType type : types) {
-      aiString picture;
-      if (material.GetTexture(type, 0, &picture) != aiReturn_SUCCESS) continue;
-      const std::string reference = picture.C_Str();  // "*3" is embedded image 3
+      aiString image;
+      if (material.GetTexture(type, 0, &image) != aiReturn_SUCCESS) continue;
+      const std::string reference = image.C_Str();  // "*3" is embedded image 3
       const bool embedded = reference.size() > 1 && reference.front() == '*' &&
                             reference.find_first_not_of("0123456789", 1) == std::string::npos;
       const std::int32_t number = embedded ? std::stoi(reference.substr(1)) : -1;
-      if (!embedded || static_cast<std::size_t>(number) >= pictures) {
+      if (!embedded || static_cast<std::size_t>(number) >= images) {
         fail("texture \"" + reference + "\"", "an embedded image");
       }
       return number;
@@ -99,11 +98,11 @@ class Reader {
     return -1;
   }
 
-  void read_part(const aiMesh& source, std::size_t pictures, Mesh& mesh) const {
+  void read_part(const aiMesh& source, std::size_t images, Mesh& mesh) const {
     const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
     Part part;
     part.first_index = static_cast<std::uint32_t>(mesh.indices.size());
-    read_material(source, pictures, part);
+    read_material(source, images, part);
     if (!source.HasNormals() || !source.HasTextureCoords(0)) {
       fail("a mesh without normals or texture coordinates", "both");
     }

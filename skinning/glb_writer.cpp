@@ -30,7 +30,7 @@ class Writer {
     document_["asset"] = {{"version", "2.0"}, {"generator", "throng"}};
     document_["scene"] = 0;
     add_joints();
-    add_pictures();
+    add_images();
     json roots = json::array({0});
     for (std::size_t level = 0; level < asset_->levels.size(); ++level) {
       roots.push_back(document_["nodes"].size());
@@ -92,12 +92,12 @@ class Writer {
         json::array({{{"joints", joints}, {"skeleton", 0}, {"inverseBindMatrices", matrices}}});
   }
 
-  void add_pictures() {
-    if (asset_->pictures.empty()) return;
+  void add_images() {
+    if (asset_->images.empty()) return;
     document_["samplers"] = json::array({json::object()});
-    for (const std::string& picture : asset_->pictures) {
+    for (const std::string& image : asset_->images) {
       const std::size_t start = binary_.size();
-      binary_ += picture;
+      binary_ += image;
       const std::size_t view = add_view(start, 0);
       document_["textures"].push_back({{"sampler", 0}, {"source", document_["textures"].size()}});
       document_["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});

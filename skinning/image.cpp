@@ -49,7 +49,7 @@ Image read_png(const std::filesystem::path& path) {
   return decode_png(read_file(path), path.string());
 }
 
-Image decode_picture(std::string_view bytes, const std::string& what) {
+Image decode_image(std::string_view bytes, const std::string& what) {
   const bool jpeg = bytes.substr(0, 3) == "\xFF\xD8\xFF";
   if (!jpeg) {
     if (bytes.substr(1, 3) == "PNG") return decode_png(bytes, what);
@@ -75,8 +75,8 @@ Image decode_picture(std::string_view bytes, const std::string& what) {
   return image;
 }
 
-Image read_picture(const std::filesystem::path& path) {
-  return decode_picture(read_file(path), path.string());
+Image read_image(const std::filesystem::path& path) {
+  return decode_image(read_file(path), path.string());
 }
 
 Image resized(const Image& image, int size) {

@@ -37,8 +37,8 @@ std::string encode_png(const Image& image);
 Image read_png(const std::filesystem::path& path);
 
 /// As decode_png and read_png, but JPEG is understood too.
-Image decode_picture(std::string_view bytes, const std::string& what);
-Image read_picture(const std::filesystem::path& path);
+Image decode_image(std::string_view bytes, const std::string& what);
+Image read_image(const std::filesystem::path& path);
 
 /// Square copy by averaging the area under each new pixel; colors are weighted by alpha.
 Image resized(const Image& image, int size);

@@ -63,9 +63,9 @@ Population load_population(const fs::path& folder) {
     CharacterAsset asset = read_glb(file);
     for (Mesh& mesh : asset.levels) {
       for (Part& part : mesh.parts) {
-        for (std::int32_t* picture : {&part.texture, &part.shades}) {
-          if (*picture < 0) continue;
-          *picture = layers.layer_of(asset.pictures[static_cast<std::size_t>(*picture)], file);
+        for (std::int32_t* image : {&part.texture, &part.shades}) {
+          if (*image < 0) continue;
+          *image = layers.layer_of(asset.images[static_cast<std::size_t>(*image)], file);
         }
       }
     }

@@ -38,7 +38,7 @@ export function escapeOfRuns({ escape }) {
     }
   }
   series.push(line(several ? 'median' : runs[0].name, median, colors.blue, { z: 3, lineStyle: { color: colors.blue, width: 2.5 } }));
-  const told = ([point]) => {
+  const tooltipText = ([point]) => {
     const second = Math.round(point.axisValue);
     const at = (curve) => `${number(curve[Math.min(second, curve.length - 1)], 1)} %`;
     if (!several) return `${second} s: ${at(median)}`;
@@ -47,7 +47,7 @@ export function escapeOfRuns({ escape }) {
   const names = several ? ['median', 'quartiles', 'runs'] : [runs[0].name];
   return {
     layout: () => ({ height: 400 }),
-    option: { ...layout(names), tooltip: { trigger: 'axis', formatter: told }, series },
+    option: { ...layout(names), tooltip: { trigger: 'axis', formatter: tooltipText }, series },
   };
 }
 
@@ -58,14 +58,14 @@ export function escapeOfPolicies({ cases }, element) {
   const series = curves.map(({ name, share }, i) => line(name, share, colors[order[i % order.length]], {
     lineStyle: { color: colors[order[i % order.length]], width: 2, type: i < order.length ? 'solid' : 'dashed' },
   }));
-  const told = (points) => [`${Math.round(points[0].axisValue)} s`,
+  const tooltipText = (points) => [`${Math.round(points[0].axisValue)} s`,
     ...points.map((point) => `${point.marker}${escaped(point.seriesName)} ${number(point.value[1], 1)} %`)].join('<br>');
   return {
     layout: () => ({ height: 420 }),
     option: {
       ...layout(curves.map((curve) => curve.name)),
       xAxis: axis('time since the alarm (s)', { min: 0, max: 'dataMax' }),
-      tooltip: { trigger: 'axis', formatter: told },
+      tooltip: { trigger: 'axis', formatter: tooltipText },
       series,
     },
   };

@@ -27,7 +27,7 @@ export function timeline({ runs }, element) {
     name, type: 'custom', renderItem: bar, itemStyle: { color: shades[state] }, encode: { x: [0, 1], y: 2 },
     data: exits.flatMap((exit, row) => exit.states.filter((span) => span[2] === state).map((span) => [span[0], span[1], row])),
   }));
-  const told = ({ seriesName, value, marker }) =>
+  const tooltipText = ({ seriesName, value, marker }) =>
     `${marker}${escaped(exits[value[2]].id)} ${seriesName}<br>${number(value[0], 1)} to ${number(value[1], 1)} s`;
   const longest = exits.reduce((most, exit) => Math.max(most, exit.id.length), 0);
   return {
@@ -35,7 +35,7 @@ export function timeline({ runs }, element) {
     option: {
       grid: { left: Math.min(180, 30 + 7 * longest), right: 24, top: 56, bottom: 76 },
       legend: { top: 22, data: states },
-      tooltip: { formatter: told },
+      tooltip: { formatter: tooltipText },
       xAxis: axis('time (s)', { min: 0, max: end }),
       yAxis: { type: 'category', data: exits.map((exit) => exit.id), inverse: true },
       dataZoom: timeZoom(),

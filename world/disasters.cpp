@@ -41,15 +41,16 @@ Disaster read_disaster(const JsonValue& item, int agent) {
   if (item["start_s"].exists()) disaster.start_s = item["start_s"].number(0, kMaxTimeS);
   if (item["radius_m"].exists()) disaster.radius_m = item["radius_m"].number(0.1, kMaxReachM);
   if (item["growth_mps"].exists()) disaster.growth_mps = item["growth_mps"].number(0, 100);
-  disaster.max_radius_m =
-      item["most_m"].exists() ? item["most_m"].number(0.1, kMaxReachM) : kMaxReachM;
+  const JsonValue max_radius = item.renamed("max_radius_m", "most_m");
+  disaster.max_radius_m = max_radius.exists() ? max_radius.number(0.1, kMaxReachM) : kMaxReachM;
   return disaster;
 }
 
 std::vector<Disaster> read_disasters(const JsonValue& list) {
   std::vector<Disaster> disasters;
   for (const JsonValue& item : list.items()) {
-    item.fields({"kind", "agent", "position"}, {"start_s", "radius_m", "growth_mps", "most_m"});
+    item.fields({"kind", "agent", "position"},
+                {"start_s", "radius_m", "growth_mps", "max_radius_m"}, {"most_m"});
     const int agent = item["agent"].integer(0, kMaxAgentIds);
     const bool taken = std::any_of(disasters.begin(), disasters.end(),
                                    [&](const Disaster& other) { return other.agent == agent; });

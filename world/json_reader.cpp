@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/deprecation.h"
 #include "base/suggest.h"
 
 namespace throng::world {
@@ -57,7 +58,8 @@ void JsonValue::reject(std::string expected) const {
 }
 
 void JsonValue::fields(std::initializer_list<std::string_view> required,
-                       std::initializer_list<std::string_view> optional) const {
+                       std::initializer_list<std::string_view> optional,
+                       std::initializer_list<std::string_view> deprecated) const {
   if (value_ == nullptr) return;
   if (!value_->is_object()) return reject("an object");
   for (const std::string_view key : required) {
@@ -68,6 +70,7 @@ void JsonValue::fields(std::initializer_list<std::string_view> required,
   known.insert(known.end(), optional.begin(), optional.end());
   for (const auto& [key, child] : value_->items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    if (std::find(deprecated.begin(), deprecated.end(), key) != deprecated.end()) continue;
     problems_->push_back(
         unknown_name(*source_, pointer_ + "/" + escaped(key), "field", key, known));
   }
@@ -80,6 +83,19 @@ JsonValue JsonValue::operator[](std::string_view key) const {
     if (found != value_->end()) child = &*found;
   }
   return {child, pointer_ + "/" + escaped(key), source_, problems_};
+}
+
+JsonValue JsonValue::renamed(std::string_view key, std::string_view deprecated) const {
+  const JsonValue value = (*this)[key];
+  const JsonValue old = (*this)[deprecated];
+  if (!old.exists()) return value;
+  if (value.exists()) {
+    old.reject(fmt::format("both \"{}\" and \"{}\"", key, deprecated),
+               fmt::format("only \"{}\"", key));
+    return value;
+  }
+  warn_deprecated(*source_, old.pointer_, key);
+  return old;
 }
 
 double JsonValue::number(double low, double high) const {

@@ -27,11 +27,15 @@ class JsonValue {
             std::vector<Problem>& problems);
 
   /// Declares the required and optional fields of the object here; anything else is a problem.
+  /// `deprecated` are old names that are accepted, but not suggested: see renamed().
   void fields(std::initializer_list<std::string_view> required,
-              std::initializer_list<std::string_view> optional = {}) const;
+              std::initializer_list<std::string_view> optional = {},
+              std::initializer_list<std::string_view> deprecated = {}) const;
 
   /// The field of an object; a missing value when there is none.
   JsonValue operator[](std::string_view key) const;
+  /// The same, or, with a warning, the field with its deprecated name. Both at once are a problem.
+  JsonValue renamed(std::string_view key, std::string_view deprecated) const;
   bool exists() const { return value_ != nullptr; }
 
   double number(double low, double high) const;

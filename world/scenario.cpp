@@ -81,7 +81,7 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
   UniqueNames ids;
   std::set<std::pair<int, int>> claimed;
   for (const JsonValue& item : list.items()) {
-    item.fields({"id", "from", "to"}, {"goals", "outward", "open", "shuts_s"});
+    item.fields({"id", "from", "to"}, {"goals", "outward", "open", "closes_at_s"}, {"shuts_s"});
     Exit exit;
     exit.id = ids.read(item["id"]);
     exit.from = item["from"].vector2(kMaxCoordinateM);
@@ -92,9 +92,10 @@ std::vector<Exit> read_exits(const JsonValue& list, const Rectangle& inside) {
       exit.outward = read_outward(item["outward"], exit, inside);
     }
     if (item["open"].exists()) exit.open = item["open"].boolean();
-    if (item["shuts_s"].exists()) {
-      exit.closes_at_s = item["shuts_s"].number(0, kMaxClosingS);
-      if (!exit.open) item["shuts_s"].reject("a time, though the door is never open", "none");
+    const JsonValue closes_at = item.renamed("closes_at_s", "shuts_s");
+    if (closes_at.exists()) {
+      exit.closes_at_s = closes_at.number(0, kMaxClosingS);
+      if (!exit.open) closes_at.reject("a time, though the door is never open", "none");
     }
     // A place for recorded people has no goals to name.
     const auto goals = item["goals"].exists() ? item["goals"].items(1) : std::vector<JsonValue>();

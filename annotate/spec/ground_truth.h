@@ -30,14 +30,14 @@ enum class GroundTruth : std::uint8_t {
   sensors,
 };
 
-/// What a kind is made for; the job schema lists the kinds in these groups.
+/// The unit that a kind is made for; the job schema lists the kinds in these groups.
 enum class Extent : std::uint8_t {
   scene,  ///< a frame's people, or the whole run
   pixel,  ///< a raster for each frame
   drone,  ///< a table for each drone and run
 };
 
-/// What the renderer fills beside color, ids and depth (render::RenderOptions).
+/// Buffers that the renderer fills beside color, ids and depth (render::RenderOptions).
 struct RenderNeeds {
   bool normals = false;
   bool flow = false;
@@ -70,7 +70,7 @@ const GroundTruthKind* find_kind(std::string_view name);
 /// Whether a job's outputs.annotations hold the kind.
 bool holds(std::span<const std::string> names, GroundTruth kind);
 
-/// What the renderer must fill for a job's outputs.annotations.
+/// Buffers that a job's outputs.annotations need.
 RenderNeeds render_needs(std::span<const std::string> names);
 
 /// outputs.annotations of a job that does not say.

@@ -12,6 +12,6 @@ std::string_view request_schema();
 inline constexpr const char* kCameraName = "camera.json";
 inline constexpr const char* kOpenCvName = "opencv.yaml";
 inline constexpr const char* kRosName = "ros.yaml";
-inline constexpr const char* kPictureName = "residuals.svg";
+inline constexpr const char* kPlotName = "residuals.svg";
 
 }  // namespace throng::calibrate

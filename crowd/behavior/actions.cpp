@@ -117,7 +117,7 @@ AttributeSpec exit_reset_attribute() {
 
 std::vector<ActionRegistry::Entry> obstacle_actions() {
   return {
-      mask_entry<MaskChange::add>("add_obstacle", "obstacles of more classes are in the way"),
+      mask_entry<MaskChange::add>("add_obstacle", "agents avoid obstacles of more classes"),
       mask_entry<MaskChange::remove>("remove_obstacle", "obstacles of fewer classes"),
       mask_entry<MaskChange::set>("set_obstacle", "obstacles of these classes"),
       {"teleport", "puts the agent elsewhere", {distribution_2("place in m")}, make_teleport},

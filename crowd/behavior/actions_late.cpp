@@ -65,7 +65,7 @@ std::unique_ptr<Action> make_late_obstacles(const Element&, const Attributes& at
 
 std::vector<ActionRegistry::Entry> late_obstacle_actions() {
   return {{"add_obstacle_at",
-           "from a time on, obstacles of more classes are in the way of who is in the state",
+           "from a time on, agents in the state avoid obstacles of more classes",
            {integer("operand", "bits of obstacle classes", 0,
                     std::numeric_limits<std::uint32_t>::max()),
             number("time", "of the run in s", 0, 1e6)},

@@ -8,8 +8,8 @@ namespace throng::crowd {
 
 namespace {
 
-/// What every element with stress says: how much each property changes, and what happens when the
-/// state is left.
+/// Attributes of every element with stress: how much each property changes, and what happens when
+/// the state is left.
 class Response {
  public:
   Response(const Attributes& attributes, BehaviorContext& context);

@@ -285,7 +285,7 @@ std::vector<std::string> load_state_names(const Element& bfsm) {
   for (const Element& child : bfsm.children()) {
     if (child.name() != "State") continue;
     const std::string_view name = child.attribute("name").value_or("");
-    // What else there is to say of its attributes is said when the state is made.
+    // Other findings about its attributes are reported when the state is made.
     names.push_back(name.empty() ? Attributes(child, state_attributes()).text("name")
                                  : std::string(name));
     if (std::count(names.begin(), names.end(), names.back()) > 1) {

@@ -16,8 +16,8 @@
 
 namespace throng::crowd {
 
-/// Whether an agent leaves its state. What it needs to remember of an agent it draws or looks up
-/// when the agent enters the state; it may be asked as often and by as many threads as one likes.
+/// Whether an agent leaves its state. Values that belong to an agent are sampled or looked up when
+/// the agent enters the state; queries may be repeated and come from several threads.
 class Condition {
  public:
   virtual ~Condition() = default;
@@ -33,7 +33,7 @@ struct PreferredVelocity {
   float speed = 0;            ///< m/s
 };
 
-/// Where an agent would go if it were alone. What it does not set stays as it was.
+/// Computes an agent's preferred velocity. Fields that it does not set keep their values.
 class VelComponent {
  public:
   virtual ~VelComponent() = default;
@@ -102,7 +102,7 @@ struct Behavior {
 
 class Stress;
 
-/// What makers of plug-ins may need.
+/// Objects that factories of plug-ins may need.
 struct BehaviorContext {
   const Crowd& crowd;  ///< with its agents, obstacles and goals
   const Goals& goals;

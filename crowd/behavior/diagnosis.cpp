@@ -22,7 +22,8 @@ std::optional<std::size_t> first_always(const MachineState& state) {
   return std::nullopt;
 }
 
-/// Where everybody goes at once from a state, if nothing else is due: per state, or nothing.
+/// The state that follows at once from a state if no other transition is due: per state, or
+/// nothing.
 std::vector<std::optional<std::uint8_t>> next_states(const Behavior& behavior) {
   std::vector<std::optional<std::uint8_t>> next(behavior.states.size());
   for (std::size_t i = 0; i < next.size(); ++i) {
@@ -45,7 +46,7 @@ void Diagnosis::note_transition(const Element& element, std::uint8_t from) {
 void Diagnosis::report(const Crowd& crowd, const Behavior& behavior,
                        const std::vector<std::string>& state_names,
                        const std::vector<std::uint8_t>& from_outside) const {
-  // What comes from outside may also take agents out of any state.
+  // Events from outside may also take agents out of any state.
   if (from_outside.empty()) report_dead_ends(behavior);
   report_unreachable(crowd, behavior, from_outside);
   report_transitions(behavior, state_names);
@@ -85,7 +86,7 @@ void Diagnosis::report_unreachable(const Crowd& crowd, const Behavior& behavior,
 void Diagnosis::report_transitions(const Behavior& behavior,
                                    const std::vector<std::string>& state_names) const {
   const auto next = next_states(behavior);
-  std::vector<bool> told(next.size());
+  std::vector<bool> reported(next.size());
   for (std::size_t i = 0; i < next.size(); ++i) {
     const auto always = first_always(behavior.states[i]);
     if (!always) continue;
@@ -94,17 +95,17 @@ void Diagnosis::report_transitions(const Behavior& behavior,
           fmt::format("a transition from {} behind one that always holds", state_names[i]),
           "an order in which it may be taken");
     }
-    // Follows the way from here; back at the start it is a circle.
-    std::string way = state_names[i];
+    // Follows the path from here; back at the start it is a circle.
+    std::string path = state_names[i];
     std::size_t at = i;
-    for (std::size_t hops = 0; hops < next.size() && next[at] && !told[at]; ++hops) {
+    for (std::size_t hops = 0; hops < next.size() && next[at] && !reported[at]; ++hops) {
       at = *next[at];
-      way += " -> " + state_names[at];
+      path += " -> " + state_names[at];
       if (at != i) continue;
       transitions_[i][*always].warn(
-          fmt::format("transitions that always hold and lead in a circle: {}", way),
+          fmt::format("transitions that always hold and lead in a circle: {}", path),
           "a condition that may be false");
-      for (std::size_t j = i; !told[j]; j = *next[j]) told[j] = true;
+      for (std::size_t j = i; !reported[j]; j = *next[j]) reported[j] = true;
       break;
     }
   }

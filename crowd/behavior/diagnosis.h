@@ -1,4 +1,4 @@
-// What is odd in a behavior file though it can be run: each is warned of at load, with its place.
+// Suspicious but valid parts of a behavior file: each yields a warning at load, with its line.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace throng::crowd {
 
-/// Is told where things stand in the file, and looks at the whole in the end.
+/// Records the lines of elements while the file is read, and checks the whole in the end.
 class Diagnosis {
  public:
   /// The next state.

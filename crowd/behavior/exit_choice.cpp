@@ -25,7 +25,7 @@ struct ExitChoiceSpec {
 /// How many are on their way to each goal, by their distance to it: what a person sees of queues.
 class Queues {
  public:
-  /// Sorts everybody anew, once in a step.
+  /// Sorts all agents again, once in a step.
   void observe(const Crowd& crowd, const std::vector<int>& goals) {
     if (step_ == crowd.step && !distances_.empty()) return;
     step_ = crowd.step;
@@ -54,9 +54,9 @@ class Queues {
 };
 
 /// The expected time is that of the way there, or, when it takes longer, that of the queue:
-/// whoever is nearer has to pass first (in the manner of the best-response exit choice of FDS+Evac,
-/// Ehtamo, Heliovaara, Korhonen, Hostikka 2010). Only exits that somebody knows, or sees, count,
-/// and none that an obstacle covers.
+/// those who are nearer have to pass first (in the manner of the best-response exit choice of
+/// FDS+Evac, Ehtamo, Heliovaara, Korhonen, Hostikka 2010). Only exits that somebody knows, or sees,
+/// count, and none that an obstacle covers.
 class ExitChoice : public GoalSelector {
  public:
   ExitChoice(const ExitChoiceSpec& spec, std::uint64_t seed) : spec_(spec), seed_(seed) {}
@@ -170,7 +170,7 @@ std::unique_ptr<GoalSelector> make_exit_choice(const Element& element, const Att
 std::vector<GoalSelectorRegistry::Entry> evacuation_goal_selectors() {
   return {
       {"exit_choice",
-       "the exit of a set through which one expects to be out first, by way and queue",
+       "the exit of a set with the least expected time, by path and queue",
        {integer("goal_set", "id of a goal set; a goal's weight is its width", 0, kMaxId),
         optional(number("familiarity", "probability of knowing an exit beforehand", 0, 1), "1"),
         optional(number("sight", "exits nearer than this are known to all, in m", 0), "15"),

@@ -1,4 +1,4 @@
-// The way of a goal that moves.
+// The path of a goal that moves.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 namespace throng::crowd {
 
 /// From point to point at constant speed; from the last one on to the first (closed), or back the
-/// way it came (open). What is left of a step after a point is spent towards the next.
+/// way it came (open). The rest of a step after a point is spent towards the next.
 class GoalPath {
  public:
   /// At least two points, in m; they may coincide, and then it rests.

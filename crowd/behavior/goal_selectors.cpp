@@ -120,7 +120,7 @@ class Ranked : public GoalSelector {
   Rank rank_;
 };
 
-/// What the paper's authors took for the second nearest: the goal that was the nearest of those
+/// The second nearest goal as the paper's authors computed it: the nearest of those
 /// before the nearest one in the file; if that comes first, itself.
 class SecondNearestAsHuang : public GoalSelector {
  public:

@@ -54,9 +54,9 @@ std::vector<GoalSelectorRegistry::Entry> navigation_goal_selectors() {
   const AttributeTable table = {integer("goal_set", "id of a goal set", 0, kMaxId),
                                 text("file_name", "of a navigation mesh (.nav)")};
   return {
-      {"nearest_nav_mesh", "the nearest of a set, by the way across a mesh", table,
+      {"nearest_nav_mesh", "the nearest of a set, by the path across a mesh", table,
        make_by_way<true>},
-      {"farthest_nav_mesh", "the farthest of a set, by the way across a mesh", table,
+      {"farthest_nav_mesh", "the farthest of a set, by the path across a mesh", table,
        make_by_way<false>},
   };
 }

@@ -27,7 +27,7 @@ class GoalShape {
 
   /// 0 inside, m.
   float distance(const Eigen::Vector2f& p) const { return (nearest_point(p, 0) - p).norm(); }
-  /// What Menge takes for the distance: it measures to a circle's line also from within, and
+  /// Menge's distance: it measures to a circle's line also from within, and
   /// beside a box to a point whose coordinate along the side is 0.
   virtual float menge_distance(const Eigen::Vector2f& p) const { return distance(p); }
 };
@@ -88,7 +88,7 @@ class Goals {
   mutable std::vector<std::uint8_t> used_;  // per set; only for telling which are not
 };
 
-/// What a goal's element says beside its shape.
+/// Attributes of a goal's element beside its shape.
 struct GoalContext {
   std::unique_ptr<GoalPath> path = {};
 };

@@ -15,11 +15,11 @@ class Machine {
   /// Puts every agent that is there into its start state and makes it face where it wants to go.
   void start(Crowd& crowd);
 
-  /// Takes every transition that is due. What is due at first is seen by all in the same world;
-  /// then agents move on in the order of their ids, since they share goals' capacities. An agent
-  /// follows a chain of transitions, but enters no state twice in a step. In compatible runs agents
-  /// both look and move on in the order of their ids, since some of the elements that were added to
-  /// Menge change with every look.
+  /// Takes every transition that is due. The first conditions are evaluated by all in the same
+  /// world; then agents move on in the order of their ids, since they share goals' capacities. An
+  /// agent follows a chain of transitions, but enters no state twice in a step. In compatible runs
+  /// agents both look and move on in the order of their ids, since some of the elements that were
+  /// added to Menge change with every look.
   void take_transitions(Crowd& crowd);
 
   /// Puts an agent into a state from outside, as if a transition led there.
@@ -37,7 +37,7 @@ class Machine {
   /// Raises the signals of this name; whether there are any.
   bool fire(std::string_view name);
 
-  /// What goes on beside the agents' decisions, before them and after they have moved.
+  /// Runs the processes beside the agents' decisions, before them and after the agents have moved.
   void run_processes_before(Crowd& crowd);
   void run_processes_after(Crowd& crowd);
 

@@ -8,7 +8,7 @@
 
 namespace throng::crowd {
 
-/// What <Panic> in a behavior file says.
+/// Attributes of <Panic> in a behavior file.
 struct PanicSpec {
   float radius_m = 3;         ///< how far somebody's panic is noticed
   double rate_per_s = 0.2;    ///< chance in a second to catch it from each who panics nearby
@@ -23,7 +23,7 @@ PanicSpec load_panic(const Element& element);
 
 /// Spreads and calms panic once in a step, as a stochastic epidemic in space (susceptible,
 /// infected, susceptible again): with n in panic within the radius, somebody calm panics in a
-/// step with probability 1 - exp(-rate n dt). What happens to whom depends on the seed, the step
+/// step with probability 1 - exp(-rate n dt). Each agent's fate depends on the seed, the step
 /// and the id only.
 std::unique_ptr<Process> make_panic_contagion(const PanicSpec& spec, std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// What agents had before an action changed it.
+// Agents' values before an action changed them.
 #pragma once
 
 #include <cstddef>

@@ -23,8 +23,9 @@ class GoalSelector {
 };
 
 /// Gives agents goals as they enter a state, and takes them back as they leave it: a goal with a
-/// capacity is full while as many agents have it. Several states may share one. Who enters a state
-/// in which somebody of the same social group has a goal already goes there too, if there is room.
+/// capacity is full while as many agents have it. Several states may share one. An agent that
+/// enters a state in which a member of its social group has a goal already goes there too, if there
+/// is room.
 class StateGoal {
  public:
   /// Without a selector agents stay where they are.

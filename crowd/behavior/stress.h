@@ -10,7 +10,7 @@
 
 namespace throng::crowd {
 
-/// Where stress comes from.
+/// A source of stress.
 class Stressor {
  public:
   virtual ~Stressor() = default;
@@ -61,7 +61,7 @@ class Stress : public Process {
     std::array<Value, kAffectedCount> values{};
   };
 
-  /// Where an agent's value is; null for a model without a time horizon.
+  /// Address of an agent's value; null for a model without a time horizon.
   float* find_value(Crowd& crowd, std::size_t agent, int affected) const;
   void apply(Crowd& crowd, std::size_t agent, Patient& patient) const;
   void calm(Crowd& crowd, std::size_t agent, Patient& patient) const;

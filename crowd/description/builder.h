@@ -21,7 +21,7 @@
 
 namespace throng::crowd {
 
-/// What agents have in common (docs/crowd.md lists attributes and properties).
+/// Properties that agents have in common (docs/crowd.md lists attributes and properties).
 struct AgentProfile {
   std::string name;
   std::string inherits = {};           ///< the name of an earlier profile, or empty

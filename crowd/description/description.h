@@ -1,5 +1,5 @@
-// What a simulation is made from: a scene (Menge's <Experiment>: profiles, groups, obstacles) and a
-// behavior (<BFSM>: goals, states, transitions), each as a value. builder.h builds them in code,
+// The description of a simulation: a scene (Menge's <Experiment>: profiles, groups, obstacles) and
+// a behavior (<BFSM>: goals, states, transitions), each as a value. builder.h builds them in code,
 // menge_files/ reads and writes them.
 #pragma once
 

@@ -58,6 +58,18 @@ class Reader {
     return std::nullopt;
   }
 
+  /// The same of a deprecated name, which is not suggested; with a warning.
+  std::optional<std::string_view> find_deprecated(std::string_view deprecated,
+                                                  std::string_view name) {
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      if (given_[i].first != deprecated) continue;
+      used_[i] = true;
+      element_.warn_attribute(deprecated, "a deprecated name", std::string(name));
+      return given_[i].second;
+    }
+    return std::nullopt;
+  }
+
   std::string_view require(const std::string& name, const std::string& expected) {
     const auto found = find(name);
     if (!found) element_.fail_attribute(name, "nothing", expected);
@@ -127,8 +139,8 @@ std::optional<std::string_view> read_kind(const Element& element, Reader& reader
   return *given;
 }
 
-/// What limits a distribution that has not the form `c` or `u`: those given, within those of what
-/// is drawn; a normal one, which Menge has too, goes on unlimited where none is given.
+/// Limits of a distribution that has not the form `c` or `u`: those given, within those of what
+/// is sampled; a normal one, which Menge has too, goes on unlimited where none is given.
 void read_limits(const Element& element, Reader& reader, const AttributeSpec& spec,
                  Distribution& made) {
   const std::string prefix(spec.name);
@@ -266,6 +278,11 @@ AttributeSpec optional(AttributeSpec spec, std::string_view default_text) {
   return spec;
 }
 
+AttributeSpec renamed(AttributeSpec spec, std::string_view deprecated_name) {
+  spec.deprecated_name = deprecated_name;
+  return spec;
+}
+
 Attributes::Attributes(const Element& element, const AttributeTable& table) {
   Reader reader(element);
   for (const AttributeSpec& spec : table) {
@@ -278,8 +295,12 @@ Attributes::Attributes(const Element& element, const AttributeTable& table) {
       if (const auto made = read_distribution_2(element, reader, spec)) value = *made;
       continue;
     }
-    const std::string name(spec.name);
+    std::string name(spec.name);
     auto given = reader.find(name);
+    if (!given && !spec.deprecated_name.empty()) {
+      given = reader.find_deprecated(spec.deprecated_name, spec.name);
+      if (given) name = spec.deprecated_name;
+    }
     if (!given && spec.presence == Presence::required) {
       element.fail_attribute(name, "nothing", std::string(spec.help));
     }

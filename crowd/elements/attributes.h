@@ -34,12 +34,14 @@ struct AttributeSpec {
   AttributeType type = AttributeType::number;
   std::string_view help;
   Presence presence = Presence::required;
-  /// What an optional attribute is when it is not given; "" means that the reader asks has().
+  /// Value of an optional attribute that is absent; "" means that the reader asks has().
   std::string_view default_text = {};
   double min = -kMaxCoordinate;
   double max = kMaxCoordinate;
   /// For text: the words allowed; empty allows any.
   std::vector<std::string_view> words = {};
+  /// Name of an earlier version, which is still read, with a warning; or "". Not of distributions.
+  std::string_view deprecated_name = {};
 };
 
 /// Shorthands for tables.
@@ -55,6 +57,8 @@ AttributeSpec distribution(std::string_view prefix, std::string_view help,
 AttributeSpec distribution_2(std::string_view help);
 /// The same attribute, optional. Without a default the reader has to ask has().
 AttributeSpec optional(AttributeSpec spec, std::string_view default_text = "");
+/// The same attribute, which had another name in an earlier version.
+AttributeSpec renamed(AttributeSpec spec, std::string_view deprecated_name);
 
 using AttributeTable = std::vector<AttributeSpec>;
 

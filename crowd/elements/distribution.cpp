@@ -41,7 +41,7 @@ double with(const Distribution& of, const Use& use) {
     default:
       break;
   }
-  check(false, "constant and uniform values are drawn without Boost.Math");
+  check(false, "constant and uniform values are sampled without Boost.Math");
   return 0;
 }
 
@@ -126,7 +126,7 @@ std::span<const DistributionForm> distribution_forms() {
       {"u", Kind::uniform, "all alike between two values", kUniform, false},
       {"n", Kind::normal,
        "normal; values farther than three standard deviations from the mean are moved there, or "
-       "not drawn at all where there are limits",
+       "not sampled at all where there are limits",
        kNormal, true},
       {"lognormal", Kind::lognormal, "the logarithm is normal", kLognormal, true},
       {"weibull", Kind::weibull, "Weibull's", kWeibull, true},

@@ -16,14 +16,14 @@
 namespace throng::crowd {
 
 /// A distribution of numbers. Normal values are moved to within three standard deviations, unless
-/// limits are given: then, as with the kinds that follow, only values between those are drawn.
+/// limits are given: then, as with the kinds that follow, only values between those are sampled.
 struct Distribution {
   enum class Kind { constant, uniform, normal, lognormal, weibull, gamma, exponential };
 
   Kind kind = Kind::constant;
   double first = 0;   ///< value, lowest value, mean (of the logarithm) or shape
   double second = 0;  ///< highest value, standard deviation (of the logarithm) or scale
-  /// Fixes what is drawn whatever the run's seed.
+  /// Fixes the samples regardless of the run's seed.
   std::optional<std::uint64_t> seed;
   double at_least = -std::numeric_limits<double>::infinity();
   double at_most = std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ struct Distribution {
 struct DistributionForm {
   struct Parameter {
     std::string_view name;
-    /// Its limits: those of what is drawn, or these.
+    /// Its limits: those of the property, or these.
     bool is_a_value = true;
     double min = 0;
     double max = 0;
@@ -75,7 +75,7 @@ struct Distribution2 {
   Eigen::Vector2f sample(MengeRandom& x, MengeRandom& y) const;
 };
 
-/// The random numbers of one element of the behavior file. What an agent gets depends on how
+/// The random numbers of one element of the behavior file. An agent's values depend on how
 /// often it has entered a state, so a decision holds until the agent enters another one.
 class Draws {
  public:

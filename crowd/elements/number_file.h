@@ -23,7 +23,7 @@ class NumberFile {
     return static_cast<float>(number(what, min, max));
   }
   int integer(std::string_view what, int min, int max);
-  /// How many things follow, each of `numbers_each` numbers or more: no more than the rest of the
+  /// How many records follow, each of `numbers_each` numbers or more: no more than the rest of the
   /// file can hold, so that one may make room for them.
   int count(std::string_view what, int min, int numbers_each);
   /// The rest of the next line that is not empty.

@@ -41,7 +41,7 @@ TurnedBox read_turned_box(const Attributes& attributes, std::string_view x, std:
 }
 
 AttributeTable circle_attributes(std::string_view x, std::string_view y) {
-  return {number(x, "centre in m"), number(y, "centre in m"),
+  return {number(x, "center in m"), number(y, "center in m"),
           number("radius", "in m", 0, kMaxCoordinate)};
 }
 

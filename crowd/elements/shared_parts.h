@@ -1,4 +1,4 @@
-// Things that several elements of the files have in common and that are made once.
+// Resources that several elements of the files share and that are made once.
 #pragma once
 
 #include <map>

@@ -6,7 +6,7 @@ namespace throng::crowd {
 
 namespace {
 
-/// Those who are in a state, or who are not.
+/// The agents that are in a state, or that are not.
 class StateMembers : public EventTarget {
  public:
   StateMembers(std::uint8_t state, bool members) : state_(state), members_(members) {}

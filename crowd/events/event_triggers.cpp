@@ -30,7 +30,7 @@ class StatePopulation : public EventTrigger {
 
   bool fires(const Crowd& crowd) override {
     const std::size_t now = population(crowd);
-    // What the crowd starts with is no change.
+    // The initial number is no change.
     const std::size_t before = before_.value_or(now);
     before_ = now;
     switch (watch_) {

@@ -15,14 +15,14 @@ class EventTrigger {
   virtual bool fires(const Crowd& crowd) = 0;
 };
 
-/// Whom it concerns.
+/// The agents that an event concerns.
 class EventTarget {
  public:
   virtual ~EventTarget() = default;
   virtual bool includes(const Crowd& crowd, std::size_t agent) const = 0;
 };
 
-/// What is done to each of them.
+/// The effect on each of them.
 class EventEffect {
  public:
   virtual ~EventEffect() = default;

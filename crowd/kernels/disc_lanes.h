@@ -68,7 +68,7 @@ PlaneLanes<Float> avoid_disc_lanes(const DiscLanes<Float>& self, const DiscLanes
           round ? -outward_x : leg_y};
 }
 
-/// What the grid knows of those in kWidth slots.
+/// The grid's values of the agents in kWidth slots.
 template <int kWidth>
 DiscLanes<typename Vectors<kWidth>::Float> discs_in(const Grid& grid, const std::uint32_t* slots) {
   DiscLanes<typename Vectors<kWidth>::Float> discs;

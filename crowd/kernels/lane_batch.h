@@ -11,8 +11,8 @@
 
 namespace throng::crowd {
 
-/// Kept from batch to batch, so that nothing is allocated. What is computed for an agent must not
-/// depend on who else is in the batch.
+/// Kept from batch to batch, so that nothing is allocated. Results for an agent must not
+/// depend on the other agents of the batch.
 class LaneBatch {
  public:
   static constexpr std::size_t kAgents = 8;

@@ -30,7 +30,7 @@ class OrcaBatch {
   /// Adds one of at most kAgents; `walls` are half-planes that it has to keep.
   void add(const Agent& agent, const HalfPlanes& walls, std::span<const Grid::Neighbor> neighbors);
 
-  /// Whom the agents see, in the order in which they were added; lanes without one are filled.
+  /// The agents seen, in the order in which they were added; lanes without one are filled.
   const LaneBatch& seen() {
     agents_.fill();
     return agents_;

@@ -56,7 +56,7 @@ struct PaceKernel {
       against += opposed;
       along += weight - opposed;
     }
-    // What the weights would be in a crowd of density 1.
+    // The weights in a crowd of density 1.
     const Float<kWidth> inverse = reach_sq > 0 ? 2 / (reach_sq * reach_sq) : none;
     store(along * inverse, &batch.along_[first]);
     store(against * inverse, &batch.against_[first]);

@@ -204,8 +204,8 @@ class PlaneSolver {
         same ? Float{} : x / length, same ? Float{} : y / length};
   }
 
-  /// What planes[index] is for making the violation of planes[of] small: itself where it is hard,
-  /// else its bisector if it comes before.
+  /// The constraint of planes[index] while the violation of planes[of] is minimized: itself where
+  /// hard, else its bisector if it comes before.
   static PlaneLanes<Float> bound(const PlaneRows& planes, std::size_t index, const Float& hard,
                                  std::size_t of) {
     const auto plane = planes.at<Float>(index);

@@ -37,11 +37,12 @@ class MengeSequences {
   MengeSequences(Compat compat, std::uint64_t run_seed)
       : compatible_(compat != Compat::none), run_seed_(run_seed) {}
 
-  /// Null where runs are not compatible, or nothing is to be drawn.
+  /// Null where runs are not compatible, or nothing is to be sampled.
   std::shared_ptr<MengeRandom> next(const Distribution& distribution);
   /// Null where runs are not compatible.
   std::shared_ptr<MengeRandom> next();
-  /// What an element has that is the copy of another one: its own sequence, with the seed + 1.
+  /// The generator of an element that is the copy of another one: its own sequence, with the seed
+  /// + 1.
   static std::shared_ptr<MengeRandom> copy(const std::shared_ptr<MengeRandom>& original);
 
   bool compatible() const { return compatible_; }

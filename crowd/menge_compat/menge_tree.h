@@ -17,13 +17,13 @@ namespace throng::crowd {
 /// of earlier steps brought them into; the nearer box is looked at first.
 class MengeTree {
  public:
-  /// What a search works with; kept from one to the next, so that it allocates nothing.
+  /// Memory of a search; kept from one to the next, so that it allocates nothing.
   struct Search {
     std::vector<Grid::Neighbor> found;
     std::vector<std::pair<float, std::uint32_t>> waiting;  // square distance in m^2, node
   };
 
-  /// Sorts the agents in the grid anew. Not for several threads at once.
+  /// Sorts the agents in the grid again. Not for several threads at once.
   void build(const Grid& grid, std::size_t agent_count);
 
   /// The same agents as Grid::nearest, ties in the tree's order.

@@ -27,7 +27,7 @@ class Printer : public tinyxml2::XMLPrinter {
   void PrintSpace(int depth) override { Print("%*s", 2 * depth, ""); }
 };
 
-/// What tinyxml2 reads as a name (XML 1.0, production 5, for ASCII).
+/// Whether tinyxml2 reads it as a name (XML 1.0, production 5, for ASCII).
 bool is_name(const std::string& name) {
   const auto begins = [](unsigned char c) {
     return std::isalpha(c) != 0 || c >= 0x80 || c == '_' || c == ':';

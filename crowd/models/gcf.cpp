@@ -30,10 +30,10 @@ float hermite(float x, float x0, float y0, float slope0, float x1, float y1, flo
 }
 
 /// Generalized centrifugal force model: repulsion between ellipses that grow with speed (Chraibi,
-/// Seyfried and Schadschneider 2010). What the brief description of Menge's leaves open is fitted
-/// to its series: cross is met to 0.1 mm, bottleneck to 1 mm in the first seconds if the distance
-/// is the one of closest approach, what divides the closing speed is that distance too, and the
-/// ends of the response are blended over 5/3 of the interpolation width.
+/// Seyfried and Schadschneider 2010). Parameters that the brief description of Menge's leaves open
+/// are fitted to its series: cross is met to 0.1 mm, bottleneck to 1 mm in the first seconds if the
+/// distance is the one of closest approach, what divides the closing speed is that distance too,
+/// and the ends of the response are blended over 5/3 of the interpolation width.
 class Gcf : public LocalModel {
  public:
   explicit Gcf(const Crowd& crowd)

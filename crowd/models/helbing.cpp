@@ -22,7 +22,7 @@ enum Constant : std::size_t {
 
 constexpr float kStrongest = 1e15F;  // N
 
-/// What one thread works with.
+/// Buffers of one thread.
 struct Workspace {
   LaneBatch agents{0};
   LaneBatch::Lanes force_x{};  // between bodies, N
@@ -45,7 +45,7 @@ ForceLanes<Float> contact_force(const Float& overlap, const Float& tangential, f
   return {push < kStrongest ? push : Float{} + kStrongest, friction_k * touching * tangential};
 }
 
-/// What the forces need to know of the step.
+/// Values of the step that the forces depend on.
 struct Setting {
   const Crowd& crowd;
   const Grid& grid;
@@ -123,8 +123,8 @@ struct CrowdForceKernel {
     }
   }
 
-  /// Who has to give way to somebody notices them from further away, and is pushed more to the
-  /// side of where they want to go (Curtis et al. 2013).
+  /// An agent that has to yield to another notices it from farther away, and is pushed more to the
+  /// side of its preferred direction (Curtis et al. 2013).
   template <int kWidth>
   static void give_way(const Setting& setting, const std::uint32_t* slots,
                        const std::uint32_t* others, Normals<kWidth>& normals) {
@@ -156,7 +156,7 @@ struct CrowdForceKernel {
   }
 };
 
-/// Whoever stands beyond a wall's end is pushed by the next wall, which begins there.
+/// An agent beyond a wall's end is pushed by the next wall, which begins there.
 bool nearest_to_end(const Segment& wall, const Eigen::Vector2f& position) {
   return wall.direction.dot(position - wall.end) >= 0;
 }

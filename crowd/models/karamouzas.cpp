@@ -25,7 +25,7 @@ enum Constant : std::size_t {
   agent_force
 };
 
-/// The most urgent of the collisions that it is told, soonest first.
+/// The most urgent of the collisions added to it, soonest first.
 class Urgent {
  public:
   struct Collision {
@@ -174,9 +174,9 @@ ModelEntry karamouzas_model() {
        {"wall_steepness", 2, 0, 10, "exponent of the walls' push"},
        {"wall_distance", 2, 0, 100, "from how far walls push, in m"},
        {"colliding_count", 5, 0, kMaxColliding, "how many coming collisions are evaded at once"},
-       {"d_min", 1, 0, 1000, "below this way to a collision, the force grows, in m"},
-       {"d_mid", 8, 0, 1000, "above this way to a collision, the force falls, in m"},
-       {"d_max", 10, 0, 1000, "from this way to a collision, there is no force, in m"},
+       {"d_min", 1, 0, 1000, "below this distance to a collision, the force grows, in m"},
+       {"d_mid", 8, 0, 1000, "above this distance to a collision, the force falls, in m"},
+       {"d_max", 10, 0, 1000, "from this distance to a collision, there is no force, in m"},
        {"agent_force", 3, 0, 1e4F, "strength of the push by others, in m/s^2"}},
       make_karamouzas};
 }

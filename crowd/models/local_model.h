@@ -1,4 +1,4 @@
-// What the pedestrian models have in common in which everybody decides alone, from what they see.
+// Common parts of the pedestrian models in which each agent decides alone, from what it sees.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace throng::crowd {
 
-/// What comes of a velocity that forces ask for: at most max_speed, and what is not finite leaves
-/// the velocity as it is.
+/// Limits a velocity that forces ask for to max_speed; one that is not finite leaves the velocity
+/// as it is.
 Eigen::Vector2f possible_velocity(const Crowd& crowd, std::size_t agent,
                                   const Eigen::Vector2f& velocity);
 
@@ -44,7 +44,7 @@ struct Walker {
   Eigen::Vector2f preferred_velocity() const { return preferred_speed * preferred_direction; }
 };
 
-/// Where another is, seen from a walker.
+/// Position of another agent, seen from a walker.
 struct Separation {
   Separation(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position);
   Separation(const Walker& self, const Segment& wall);
@@ -80,8 +80,8 @@ class LocalModel : public Model {
   void step(const Crowd& crowd, const Grid& grid, std::span<Eigen::Vector2f> new_velocity) final;
 
  protected:
-  /// The new velocity of around.agent, m/s. Called for different agents at once. What is not
-  /// finite leaves the velocity as it is.
+  /// The new velocity of around.agent, m/s. Called for different agents at once. A result that
+  /// is not finite leaves the velocity as it is.
   virtual Eigen::Vector2f velocity(const Crowd& crowd, const Grid& grid,
                                    const AgentView& around) = 0;
   /// Before the agents of a step, by the thread that starts it.

@@ -13,7 +13,7 @@ namespace {
 
 enum Parameter : std::size_t { tau, tau_obstacles };
 
-/// What one thread works with; kept from step to step, so that a step allocates nothing.
+/// Buffers of one thread; kept from step to step, so that a step allocates nothing.
 struct Workspace {
   OrcaBatch batch;
   HalfPlanes walls;
@@ -96,7 +96,7 @@ class Orca : public Model {
                         workspace.walls, around.neighbors);
   }
 
-  /// Where everybody wants to go, in the grid's order: neighbors look at each other's.
+  /// Sorts preferred directions into the grid's order, because neighbors read each other's.
   void sort_directions(const Crowd& crowd, const Grid& grid) {
     constexpr std::size_t kDirectionGrain = 4096;
     if (directions_.size() < grid.size()) directions_.resize(grid.size());
@@ -110,10 +110,10 @@ class Orca : public Model {
   void slow_down(const Agents& agents, std::size_t id, std::size_t lane,
                  Workspace& workspace) const {
     const Pace::View& view = workspace.paces.view(lane);
-    const Gait gait = pace_->gait(view, workspace.paces.ahead(lane));
-    const float speed = std::min(agents.preferred_speed[id], gait.share * view.free_speed);
-    workspace.batch.set_wish(lane, agents.model_parameters[tau][id] * gait.horizon_share,
-                             speed * gait.direction);
+    const SpeedRegulation regulation = pace_->regulation(view, workspace.paces.ahead(lane));
+    const float speed = std::min(agents.preferred_speed[id], regulation.share * view.free_speed);
+    workspace.batch.set_wish(lane, agents.model_parameters[tau][id] * regulation.horizon_share,
+                             speed * regulation.direction);
   }
 
   std::optional<Pace> pace_;  // of those who slow down where it is crowded

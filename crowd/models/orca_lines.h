@@ -12,7 +12,7 @@
 
 namespace throng::crowd {
 
-/// What is nothing beside a speed (m/s) or a sine.
+/// Negligible beside a speed (m/s) or a sine.
 inline constexpr float kOrcaEpsilon = 1e-5F;
 
 /// v turned by 90 degrees counter-clockwise.

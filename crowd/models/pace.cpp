@@ -29,22 +29,22 @@ Pace::View Pace::view(const Crowd& crowd, const Grid& grid, const AgentView& aro
   return view;
 }
 
-Gait Pace::gait(const View& view, const Ahead& ahead) const {
+SpeedRegulation Pace::regulation(const View& view, const Ahead& ahead) const {
   const Eigen::Vector2f& direction = view.direction;
-  Gait gait{1, 1, direction};
+  SpeedRegulation regulation{1, 1, direction};
   if (ahead.along > 0) {
     const float share = 1 - std::exp(-spec_.decline * (1 / ahead.along - 1 / spec_.jam_density));
-    gait.share = std::clamp(share, spec_.min_value, 1.0F);
+    regulation.share = std::clamp(share, spec_.min_value, 1.0F);
   }
-  // Who is slow need not look as far; and at a door nobody waits for those beside them.
-  gait.horizon_share = gait.share;
-  gait.share = std::min(gait.share, view.file_share);
+  // Slow agents need not look as far; and at a door no one waits for those beside them.
+  regulation.horizon_share = regulation.share;
+  regulation.share = std::min(regulation.share, view.file_share);
   if (ahead.against > 0) {
     const float farther = 2 * ahead.against / std::max(ahead.along, ahead.against);
-    gait.horizon_share = std::max(gait.horizon_share, std::min(1.0F, farther));
-    gait.direction = turned_right(direction, spec_.keep_right, ahead.against);
+    regulation.horizon_share = std::max(regulation.horizon_share, std::min(1.0F, farther));
+    regulation.direction = turned_right(direction, spec_.keep_right, ahead.against);
   }
-  return gait;
+  return regulation;
 }
 
 }  // namespace throng::crowd

@@ -19,8 +19,8 @@ struct PaceSpec {
   float keep_right = 6;       ///< rad m^2: turn by the density of those who come towards one
 };
 
-/// What somebody does about those ahead.
-struct Gait {
+/// An agent's reaction to those ahead.
+struct SpeedRegulation {
   float share = 1;            ///< of the free speed, at most 1
   float horizon_share = 1;    ///< of how far ahead one looks in time
   Eigen::Vector2f direction;  ///< unit: where to go instead of straight to the goal
@@ -40,7 +40,7 @@ class Pace {
  public:
   explicit Pace(const PaceSpec& spec) : spec_(spec) {}
 
-  /// What one agent knows of the others, besides the density ahead of it.
+  /// One agent's view of the others, besides the density ahead of it.
   struct View {
     Eigen::Vector2f direction;  ///< unit: where it wants to go
     float free_speed = 0;       ///< m/s
@@ -57,7 +57,7 @@ class Pace {
     float against = 0;  ///< those who do, 1/m^2
   };
 
-  Gait gait(const View& view, const Ahead& ahead) const;
+  SpeedRegulation regulation(const View& view, const Ahead& ahead) const;
 
  private:
   PaceSpec spec_;
@@ -71,7 +71,7 @@ class PaceBatch {
   /// Once a kernel has run.
   Pace::Ahead ahead(std::size_t lane) const { return {along_[lane], against_[lane]}; }
 
-  /// `directions`: where whoever is in a slot of the grid wants to go. `agents`: whom those of the
+  /// `directions`: preferred directions by the grid's slots. `agents`: neighbors of those of the
   /// batch see, filled. An agent's figures do not depend on who else is in the batch.
   using Kernel = void(const Grid& grid, std::span<const Eigen::Vector2f> directions,
                       const LaneBatch& agents, PaceBatch& batch);

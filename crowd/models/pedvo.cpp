@@ -11,7 +11,7 @@ namespace {
 
 enum Parameter : std::size_t { tau, tau_obstacles, turning_bias, factor, buffer, density_aware };
 
-/// What one thread works with; kept from step to step, so that a step allocates nothing.
+/// Buffers of one thread; kept from step to step, so that a step allocates nothing.
 struct Workspace {
   HalfPlanes planes;
   HalfPlanes scratch;
@@ -98,9 +98,9 @@ class PedVo : public LocalModel {
                         density, {parameter(crowd, factor, self), parameter(crowd, buffer, self)}));
   }
 
-  /// Makes anew the planes, from `first` on, of those who have another priority. Who has no right
-  /// of way does more than half of what is needed, and takes the other for going as it prefers, but
-  /// for kTolerance.
+  /// Recomputes the planes, from `first` on, of neighbors with another priority. An agent without
+  /// right of way does more than half of what is needed, and assumes that the other keeps its
+  /// preferred velocity, except for kTolerance.
   static void apply_right_of_way(const Crowd& crowd, const Grid& grid, const AgentView& around,
                                  const Disc& self, std::size_t first, HalfPlanes& planes) {
     const Agents& agents = crowd.agents;

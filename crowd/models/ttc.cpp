@@ -64,7 +64,7 @@ struct Other {
   float weight;  ///< of the force between the two if the other is in view
 };
 
-/// What one agent sees, and what its velocity is computed with; kept, so that a step allocates
+/// One agent's view and the buffers for its velocity; kept, so that a step allocates
 /// nothing.
 struct Seen {
   std::vector<Other> others;
@@ -168,8 +168,8 @@ class TimeToCollision : public LocalModel {
     }
     seen.density = {};
     if (weights > 0) {
-      // Where people cross or meet, gaps open and close: the diagram is one of people who walk the
-      // same way.
+      // In crossing and opposite flows gaps open and close: the diagram is one of people who walk
+      // the same way.
       const float order = aligned / weights;
       const float unit =
           4 / (std::numbers::pi_v<float> * reach_sq * reach_sq);  // of the weights at 1 /m^2

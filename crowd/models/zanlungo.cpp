@@ -12,7 +12,7 @@ enum Constant : std::size_t { agent_scale, obstacle_scale, reaction_time, force_
 
 constexpr float kStrongest = 1e15F;  // N
 
-/// The first of the times that it is told.
+/// The first of the times added to it.
 class Earliest {
  public:
   void add(float time_s) { time_s_ = time_s_ ? std::min(*time_s_, time_s) : time_s; }
@@ -92,7 +92,7 @@ class Zanlungo : public LocalModel {
       const std::vector<float>& priority = crowd.agents[Property::priority];
       const float advantage = priority[self.id] - priority[grid.id(slot)];
       if (advantage == 0) return;
-      // Who has the right of way goes as it prefers, and yields the less.
+      // An agent with right of way keeps its preferred velocity, and yields less.
       const float right = std::sqrt(std::min(1.0F, std::abs(advantage)));
       weight = advantage > 0 ? 1 - right : 1 + right;
       if (advantage > 0) {

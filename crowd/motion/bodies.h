@@ -11,12 +11,12 @@
 
 namespace throng::crowd {
 
-/// Who cannot go as fast as they want presses on those right ahead of them with the force that
-/// would drive them, m (v_wanted - v) / tau (Helbing, Farkas & Vicsek 2000, eq. 1: m = 80 kg,
-/// tau = 0.5 s), and those hand on what they get to whoever is ahead of them in turn. Nobody ahead:
+/// People who cannot walk as fast as they want press on those right ahead of them with the force
+/// that would drive them, m (v_wanted - v) / tau (Helbing, Farkas & Vicsek 2000, eq. 1: m = 80 kg,
+/// tau = 0.5 s), and those pass the force on to the people ahead of them in turn. Nobody ahead:
 /// the push moves them. More than 1600 N per meter of somebody's girth and they fall (the same
-/// paper's limit for injuries), and so does whoever is struck with the impulse that the options
-/// give. Who has fallen lies for kLiesS, in everybody's way but pressed by nobody, and then gets
+/// paper's limit for injuries), and so do those struck with the impulse that the options
+/// give. People who have fallen lie for kLiesS as obstacles on which no pressure acts, and then get
 /// up.
 class Bodies {
  public:
@@ -30,12 +30,12 @@ class Bodies {
   /// A blow from outside (N s), which is felt in the next step.
   void strike(std::size_t agent, const Eigen::Vector2f& impulse_ns);
 
-  /// Those who lie want nothing: to be called when all have made up their minds.
+  /// Sets the preferred speed of lying people to 0; call after all preferred velocities are set.
   void lie(Crowd& crowd) const;
   /// Changes the velocities that the model has chosen. `grid` holds everybody as they are.
   void react(Crowd& crowd, const Grid& grid, std::vector<Eigen::Vector2f>& velocity);
 
-  /// Who fell in the last step.
+  /// People who fell in the last step.
   std::span<const Fall> falls() const { return falls_; }
 
  private:
@@ -62,7 +62,7 @@ class Bodies {
   std::vector<Touch> touches_;
   std::vector<Eigen::Vector2f> drive_;   // own force, N
   std::vector<Eigen::Vector2f> given_;   // by others, N
-  std::vector<Eigen::Vector2f> handed_;  // while that is worked out anew
+  std::vector<Eigen::Vector2f> handed_;  // the next iteration of it
   std::vector<float> pressure_;          // sum of others' forces, N
   std::vector<bool> hands_on_;           // somebody is ahead
 };

@@ -1,4 +1,4 @@
-// Where people look who stand: at a stage, along a platform, anywhere.
+// Orientation of standing people: towards a stage, along a platform, any.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace throng::crowd {
 
-/// What a <Facing> of an <AgentGroup> says. It holds for those who stand when they begin, until
+/// The <Facing> of an <AgentGroup>. It holds for those who stand when they begin, until
 /// their state changes; walking agents face along their path.
 class Facing {
  public:
@@ -19,7 +19,7 @@ class Facing {
   virtual Eigen::Vector2f direction(std::size_t agent, const Eigen::Vector2f& place) const = 0;
 };
 
-/// What a Facing needs to be made.
+/// Inputs of a Facing's factory.
 struct FacingContext {
   std::uint64_t seed = 1;
 };

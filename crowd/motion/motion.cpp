@@ -58,7 +58,8 @@ Vector<Float> approach(const Vector<Float>& v, const Vector<Float>& wanted,
   return select(size > max_value, v + (max_value / size) * change, wanted);
 }
 
-/// Where an agent turns to: its velocity, mixed with where it wants to go when it is slow.
+/// The direction that an agent turns to: its velocity, mixed with the preferred one when it is
+/// slow.
 template <typename Float>
 Vector<Float> facing(const Vector<Float>& velocity, const Vector<Float>& preferred,
                      const Vector<Float>& orientation, const Float& pref_speed) {
@@ -128,7 +129,7 @@ Float angle_rad(const Vector<Float>& v) {
   return v.y < 0 ? -half : half;
 }
 
-/// What is known of agents before a step, or of several.
+/// State of one agent or of several before a step.
 template <typename Float>
 struct Mover {
   Vector<Float> position;

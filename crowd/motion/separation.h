@@ -13,9 +13,9 @@ namespace throng::crowd {
 /// Keeps the bodies of those who are present from overlapping by more than kTolerance, for any
 /// time step. Overlapping pairs are moved apart, all at once and again until nobody overlaps any
 /// more; nobody is moved nearer to a wall than their radius, or than they were before the step.
-/// Where there is no room for that, those who would overlap stay where they were: if nobody
-/// overlapped before a step, nobody does after it. Who overlapped in the beginning, or was put
-/// there, is moved apart as fast as room allows. Velocities become what was actually walked.
+/// If there is no room for that, those who would overlap stay where they were: if nobody
+/// overlapped before a step, nobody does after it. Agents that overlap in the beginning, or were
+/// moved there, are moved apart as fast as room allows. Velocities become those actually walked.
 class Separation {
  public:
   static constexpr float kTolerance = 0.01F;  // m
@@ -45,7 +45,7 @@ class Separation {
   Eigen::Vector2f kept_off_walls(const Crowd& crowd, std::size_t slot,
                                  const Eigen::Vector2f& wanted,
                                  std::vector<Obstacles::Near>& walls) const;
-  /// Those who still overlap to where they were; false when they all are.
+  /// Returns agents that still overlap to where they were; false when all of them are.
   bool send_back();
 
   Grid grid_;        // where everybody was moved to at first

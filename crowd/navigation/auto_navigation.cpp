@@ -98,7 +98,7 @@ NavMesh::Place AutoNavigation::place_on(const NavMesh& mesh, const Eigen::Vector
   return polygon >= 0 ? NavMesh::Place{polygon, point} : mesh.nearest(point);
 }
 
-/// Checks the way, goes on to the next bend if that is in sight, and plans anew if need be.
+/// Checks the path, goes on to the next bend if that is in sight, and plans again if necessary.
 void AutoNavigation::look(const Crowd& crowd, std::size_t agent, Route& route) {
   const NavMesh& mesh = grounds_[static_cast<std::size_t>(route.ground)]->mesh;
   const Eigen::Vector2f& p = crowd.agents.position[agent];
@@ -227,7 +227,7 @@ std::unique_ptr<VelComponent> make_around_obstacles(const Element&, const Attrib
 
 VelComponentRegistry::Entry auto_component() {
   return {"auto",
-          "the shortest way around all obstacles that the agent minds; needs no file",
+          "the shortest path around all obstacles that the agent minds; needs no file",
           {optional(number("cell_size",
                            "how finely obstacles are drawn, in m; without it a third of the "
                            "agents' radius",

@@ -1,4 +1,4 @@
-// Ways around all obstacles, without a mesh or map by hand.
+// Paths around all obstacles, without a hand-made mesh or map.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -15,13 +15,13 @@
 
 namespace throng::crowd {
 
-/// The ways of all agents that find theirs by themselves, in whatever state. Agents that mind the
+/// The paths of all agents that navigate automatically, in any state. Agents that avoid the
 /// same obstacles and are of about the same size share a mesh, which is made when the first of them
 /// enters such a state (when the scene is loaded, that is, unless obstacles or sizes change).
 ///
-/// An agent walks from bend to bend of the shortest way. Twice a second it looks whether it can go
+/// An agent walks from bend to bend of the shortest path. Twice a second it looks whether it can go
 /// straight to the bend after the next, whether it still can go straight to the next, and whether
-/// its goal has moved; if need be it looks for a new way. A goal that cannot be reached is
+/// its goal has moved; if need be it looks for a new path. A goal that cannot be reached is
 /// approached as far as possible; who stands inside of an obstacle walks out.
 class AutoNavigation {
  public:
@@ -52,8 +52,8 @@ class AutoNavigation {
   struct Route {
     int ground = -1;
     bool known = false;
-    bool reaches = false;  ///< the way leads to the goal, not just as near as one gets
-    bool whole = false;    ///< the last bend is the way's end
+    bool reaches = false;  ///< the path leads to the goal, not just as near as one gets
+    bool whole = false;    ///< the last bend is the path's end
     int polygon = -1;      ///< where the agent was last
     int next = 0;          ///< bend
     int count = 0;

@@ -14,7 +14,7 @@ class Elevation {
  public:
   virtual ~Elevation() = default;
   virtual float height_m(const Eigen::Vector2f& point) const = 0;
-  /// Uphill, m of height per m of way.
+  /// Uphill, m of height per m of path.
   virtual Eigen::Vector2f gradient(const Eigen::Vector2f& point) const = 0;
 };
 

@@ -23,8 +23,8 @@ class Formation {
   std::vector<Eigen::Vector2f> places_;
 };
 
-/// Who walks in a formation, where everybody's place is now, and how fast all go. They agree on
-/// the mean of where each would go alone; the formation's middle is the members' own.
+/// The members of a formation, their current places in it and their common speed. They take the
+/// mean of their preferred velocities; the formation's center is that of its members.
 class FormationGroup : public Process {
  public:
   FormationGroup(Formation formation, std::size_t agent_count);

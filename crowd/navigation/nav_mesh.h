@@ -1,4 +1,4 @@
-// Where one can walk, as convex polygons that meet at portals.
+// The walkable area as convex polygons that meet at portals.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,7 +49,7 @@ class NavMesh {
   int find(const Eigen::Vector2f& point, int hint = -1) const;
   /// The place of the mesh that is nearest to the point and, unless island is -1, on that island.
   Place nearest(const Eigen::Vector2f& point, int island = -1) const;
-  /// Whether the straight way from a place to a point stays on the mesh.
+  /// Whether the straight segment from a place to a point stays on the mesh.
   bool is_clear(const Place& from, const Eigen::Vector2f& to) const;
 
  private:

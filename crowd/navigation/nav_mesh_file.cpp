@@ -25,7 +25,7 @@ struct ObstacleEdge {
   int next = 0;  // obstacle edge
 };
 
-/// Reads one file, in the order in which things stand there.
+/// Reads one file in its order.
 class Reader {
  public:
   explicit Reader(const TextFile& source) : file_(source) {}
@@ -88,8 +88,8 @@ class Reader {
   void read_polygon() {
     NavPolygon polygon;
     polygon.group = static_cast<int>(groups_.size()) - 1;
-    polygon.center.x() = file_.real("a polygon's centre");
-    polygon.center.y() = file_.real("a polygon's centre");
+    polygon.center.x() = file_.real("a polygon's center");
+    polygon.center.y() = file_.real("a polygon's center");
     const int corners = file_.count("the number of a polygon's corners", 3, 1);
     double area = 0;
     for (int i = 0; i < corners; ++i) {

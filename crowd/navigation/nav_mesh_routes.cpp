@@ -20,8 +20,8 @@ Eigen::Vector2f tangent(const Eigen::Vector2f& from, const Eigen::Vector2f& cent
   return {c * way.x() - s * way.y(), s * way.x() + c * way.y()};
 }
 
-/// The direction turned as far as need be to pass the corners of a gate at a distance. Where there
-/// is no room for that it stays, but in compatible runs.
+/// The direction turned as far as need be to pass the corners of a gate at a distance. If there
+/// is no room for that it stays, except in compatible runs.
 Eigen::Vector2f clear_of_corners(const Eigen::Vector2f& direction, const Gate& gate,
                                  const Eigen::Vector2f& from, float radius, Compat compat) {
   const float too_near = compat == Compat::none ? radius * radius : 0;
@@ -128,7 +128,7 @@ void NavMeshRoutes::plan(const Crowd& crowd, std::size_t agent, Route& route) {
   }
 }
 
-/// The shortest way through the gates that are left. If those do not lead to the goal, the last
+/// The shortest path through the gates that are left. If those do not lead to the goal, the last
 /// one's crossing stays where it is.
 void NavMeshRoutes::straighten(const Eigen::Vector2f& position, Route& route) {
   const auto next = static_cast<std::size_t>(route.next);
@@ -192,15 +192,17 @@ std::unique_ptr<VelComponent> make_across_mesh(const Element& element, const Att
 }  // namespace
 
 VelComponentRegistry::Entry nav_mesh_component() {
-  return {"nav_mesh",
-          "the shortest way across a navigation mesh",
-          {text("file_name", "of the mesh (.nav)"),
-           optional(number("heading_threshold",
-                           "how far others may push one off the way's heading before a new way is "
-                           "looked for, in degrees",
-                           0, 180),
-                    "180")},
-          make_across_mesh};
+  return {
+      "nav_mesh",
+      "the shortest path across a navigation mesh",
+      {text("file_name", "of the mesh (.nav)"),
+       optional(
+           number("heading_threshold",
+                  "how far others may push an agent off the path's heading before a new path is "
+                  "looked for, in degrees",
+                  0, 180),
+           "180")},
+      make_across_mesh};
 }
 
 }  // namespace throng::crowd

@@ -1,4 +1,4 @@
-// Agents' ways across a hand-made navigation mesh.
+// Agents' paths across a hand-made navigation mesh.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -14,8 +14,8 @@
 
 namespace throng::crowd {
 
-/// The ways of all agents that use one mesh, in whatever state. An agent heads for the point where
-/// its way passes the next portal. It looks for a new way when it has left the polygons of the old
+/// The paths of all agents that use one mesh, in any state. An agent heads for the point where
+/// its path passes the next portal. It plans a new path when it has left the polygons of the old
 /// one or its goal has moved, and straightens what is left of it when pushed off its heading.
 class NavMeshRoutes {
  public:
@@ -23,7 +23,7 @@ class NavMeshRoutes {
 
   /// The agent has another goal. Throws InputError for one that starts outside of the mesh.
   void enter(const Crowd& crowd, std::size_t agent);
-  /// `heading_cos`: the cosine of how far an agent may turn from the heading of the way it found.
+  /// `heading_cos`: the cosine of how far an agent may turn from the heading of the path it found.
   void prefer(const Crowd& crowd, std::size_t agent, float heading_cos,
               PreferredVelocity& preferred);
 

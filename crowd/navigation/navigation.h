@@ -1,4 +1,4 @@
-// Plug-ins that know the way around walls, one file each.
+// Plug-ins for path planning around walls, one file each.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@ VelComponentRegistry::Entry nav_mesh_component();
 VelComponentRegistry::Entry road_map_component();
 VelComponentRegistry::Entry vector_field_component();
 
-/// By the length of the way across a mesh.
+/// By the length of the path across a mesh.
 std::vector<GoalSelectorRegistry::Entry> navigation_goal_selectors();
-/// What the ground's slopes do.
+/// Modifiers of velocity for the ground's slopes.
 std::vector<VelModifierRegistry::Entry> slope_modifiers();
 
 }  // namespace throng::crowd

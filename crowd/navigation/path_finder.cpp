@@ -26,7 +26,8 @@ Gate make_gate(const Portal& portal, float radius) {
           portal.left, portal.left,         portal.right};
 }
 
-/// Where the straight line from a to b passes a gate, or the gate's end nearest to the line.
+/// The point where the straight line from a to b passes a gate, or the gate's end nearest to the
+/// line.
 Eigen::Vector2f pass(const Gate& gate, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
   if (a == gate.left || a == gate.right) return a;
   const float left = cross(b - a, gate.left - a);

@@ -1,4 +1,4 @@
-// Ways across a navigation mesh.
+// Path planning on a navigation mesh.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,45 +10,45 @@
 
 namespace throng::crowd {
 
-/// A portal of a way, without the ends that are too close to its corners for who goes through.
+/// A portal of a path, without the ends that are too close to its corners for the agent.
 struct Gate {
   int polygon = 0;  ///< behind it
   Eigen::Vector2f left;
   Eigen::Vector2f right;
-  Eigen::Vector2f crossing;  ///< where the way passes it
+  Eigen::Vector2f crossing;  ///< where the path passes it
   Eigen::Vector2f left_corner;
   Eigen::Vector2f right_corner;
 };
 
-/// What A* takes for the length of a way from portal to portal.
+/// How A* measures the length of a path from portal to portal.
 enum class Lengths {
-  shortest,  ///< between points of the portals, chosen in several ways: the best result counts
-  centers    ///< between the polygons' centers, as Menge does; it may miss the shortest way
+  shortest,  ///< between points of the portals, chosen by several rules: the best result counts
+  centers    ///< between the polygons' centers, as Menge does; it may miss the shortest path
 };
 
-/// Finds ways. The polygons to pass are searched for with A* over the portals (Hart, Nilsson and
-/// Raphael 1968); the way through them is pulled tight with a funnel (Lee and Preparata 1984).
+/// Finds paths. The polygons to pass are searched for with A* over the portals (Hart, Nilsson and
+/// Raphael 1968); the path through them is pulled tight with a funnel (Lee and Preparata 1984).
 /// One for each thread: it keeps its memory, so that a search allocates nothing after the first.
 class PathFinder {
  public:
   /// The mesh must outlive this.
   explicit PathFinder(const NavMesh& mesh, Lengths lengths = Lengths::shortest);
 
-  /// Finds a way for a disc of this radius from one place of the mesh to another. Portals that are
+  /// Finds a path for a disc of this radius from one place of the mesh to another. Portals that are
   /// too narrow for it count only if there is no other way. Returns false if there is none at all.
   bool find(const NavMesh::Place& from, const NavMesh::Place& to, float radius);
 
-  /// The shortest way through portals that are known: finds where it passes and bends.
+  /// The shortest path through portals that are known: finds where it passes and bends.
   void find_through(std::span<const Gate> gates, const Eigen::Vector2f& start,
                     const Eigen::Vector2f& end);
 
-  /// The way found last: the portals passed; the points where it bends, then its end.
+  /// The path found last: the portals passed; the points where it bends, then its end.
   std::span<const Gate> gates() const { return gates_; }
   std::span<const Eigen::Vector2f> bends() const { return bends_; }
   float length_m() const { return length_m_; }
 
  private:
-  /// What a search knows of a portal.
+  /// A search's record of a portal.
   struct Node {
     unsigned search = 0;  // the last that reached it
     bool done = false;
@@ -72,7 +72,7 @@ class PathFinder {
     bool operator<(const Open& other) const { return key > other.key; }
   };
 
-  /// Where a way passes a portal, as long as nobody knows better.
+  /// The point where a path is assumed to pass a portal until it is planned.
   enum class Pass { near_line, near_start, middle, center_behind };
   struct Search {
     Eigen::Vector2f start;

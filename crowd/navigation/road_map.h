@@ -1,4 +1,4 @@
-// A graph of places from a file, and agents' ways along it.
+// A graph of way points from a file, and agents' paths along it.
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
@@ -12,7 +12,7 @@
 
 namespace throng::crowd {
 
-/// Places and the ways between them, to be walked either way.
+/// Way points and the edges between them, which are walked in both directions.
 struct RoadMap {
   struct Road {
     int to = 0;
@@ -27,14 +27,14 @@ struct RoadMap {
 /// (file, line, found, expected), EnvironmentError when the file cannot be read.
 RoadMap load_road_map(const TextFile& source);
 
-/// The shortest way between two places, by A* (Hart, Nilsson and Raphael 1968). One for each
+/// The shortest path between two way points, by A* (Hart, Nilsson and Raphael 1968). One for each
 /// thread: it keeps its memory.
 class RoadFinder {
  public:
   explicit RoadFinder(const RoadMap& map);
-  /// Finds a way; false if there is none. The map is the one given to the constructor.
+  /// Finds a path; false if there is none. The map is the one given to the constructor.
   bool find(const RoadMap& map, int from, int to);
-  /// The places of the way found last, from its beginning to its end.
+  /// The way points of the path found last, from its beginning to its end.
   const std::vector<int>& places() const { return places_; }
 
  private:
@@ -55,12 +55,12 @@ class RoadFinder {
   unsigned search_ = 0;
 };
 
-/// The ways of all agents that use one map, in whatever state. An agent begins at the nearest place
-/// that it sees, goes on to the next as soon as it sees that, and looks for a new way when it does
-/// not see the place it heads for or its goal has moved. Walls hide what an agent cannot get to
-/// straight. In compatible runs who has lost sight of a place goes back to where it was last seen
-/// from, and looks for a new way only when it does not see that either; and a goal's moves are
-/// noticed a step later, at the goal's very edge.
+/// The paths of all agents that use one map, in any state. An agent begins at the nearest way point
+/// that it sees, goes on to the next as soon as it sees that, and plans a new path when it does
+/// not see the way point it heads for or its goal has moved. Walls hide points that an agent cannot
+/// reach straight. In compatible runs an agent that has lost sight of a way point goes back to
+/// where it last saw it from, and looks for a new path only when it does not see that either; and a
+/// goal's moves are noticed a step later, at the goal's very edge.
 class RoadMapRoutes {
  public:
   explicit RoadMapRoutes(RoadMap map);

@@ -1,4 +1,4 @@
-// What velocity components have in common: the goal's place, and going straight to a place.
+// Common parts of velocity components: the goal's position, and walking straight to a point.
 #pragma once
 
 #include "crowd/behavior/behavior.h"

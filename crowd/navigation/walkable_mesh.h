@@ -14,7 +14,7 @@ struct WalkableMeshOptions {
   float margin_m = 1;                ///< around the obstacles in which the grid lies
 };
 
-/// Where a disc of this radius can walk among the obstacles of these classes, as convex polygons
+/// The free space of a disc of this radius among the obstacles of these classes, as convex polygons
 /// for its center: their outlines are the obstacles' grown by the radius, exact to about a cell.
 /// The mesh also covers the open ground around, to some hundred meters beyond the obstacles and
 /// `everyone`. Cells grow where millions would be needed. The polygons are made with Recast

@@ -1,5 +1,5 @@
-// Where everybody is at some moments of a run, as a table (CSV): time, agent, class, state, place,
-// orientation, preferred and actual velocity. Agents that do not take part are left out.
+// Agents' positions at some moments of a run, as a table (CSV): time, agent, class, state,
+// position, orientation, preferred and actual velocity. Agents that do not take part are left out.
 #pragma once
 
 #include <filesystem>

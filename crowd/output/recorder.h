@@ -1,4 +1,4 @@
-// Whoever writes down a run while it goes on.
+// Interface of recorders, which write a run while it proceeds.
 #pragma once
 
 #include "crowd/simulation.h"

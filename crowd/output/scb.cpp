@@ -42,7 +42,7 @@ std::size_t index_of(std::string_view version) {
   return static_cast<std::size_t>(found - kScbVersions.begin());
 }
 
-/// What a version says of an agent; as many as kFloats are used.
+/// A version's values of an agent; as many as kFloats are used.
 std::array<float, kMaxRecordValues> values_of(std::size_t version, const Simulation& crowd,
                                               std::size_t agent) {
   const Eigen::Vector2f& p = crowd.positions()[agent];

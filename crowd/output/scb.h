@@ -55,7 +55,7 @@ class ScbWriter : public Recorder {
   void record(const Simulation& crowd) override;
   void finish(const Simulation& crowd) override;
 
-  /// Where the frames so far are, complete after flush().
+  /// File of the frames so far, complete after flush().
   const std::filesystem::path& path() const { return file_.path(); }
   void flush() { file_.flush(); }
 

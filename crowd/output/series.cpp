@@ -40,7 +40,7 @@ struct Speeds {
 
   void add(double speed) {
     sum += speed;
-    // What is not a number stays.
+    // A value that is not a number stays.
     if (!(speed <= highest) && !std::isnan(highest)) highest = speed;
   }
 };

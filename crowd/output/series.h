@@ -1,4 +1,4 @@
-// What a crowd does as a whole, second by second, as a table (CSV): time, shares of agents in final
+// Statistics of a whole crowd, second by second, as a table (CSV): time, shares of agents in final
 // states and in states that no transition leads out of, mean and highest speed, distance of the
 // nearest pair, pairs that overlap, mean and (population) standard deviation of places, agents per
 // state. Units are seconds and meters. Agents that do not take part are left out.

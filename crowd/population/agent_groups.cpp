@@ -136,7 +136,7 @@ Element only(const Element& group, std::string_view name) {
   return *found;
 }
 
-/// Where a group's agents face while they stand; nothing: the way, as Menge has it.
+/// Orientation of a group's standing agents; null: their heading, as in Menge.
 std::unique_ptr<Facing> facing_of(const Element& group, const GroupContext& context,
                                   const Crowd& crowd) {
   FacingContext facing{context.seed};

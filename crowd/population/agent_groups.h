@@ -16,7 +16,7 @@
 
 namespace throng::crowd {
 
-/// What the elements of a group refer to.
+/// Objects that the elements of a group refer to.
 struct GroupContext {
   const std::vector<Profile>& profiles;
   const std::vector<std::string>& state_names;

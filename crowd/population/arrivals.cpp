@@ -140,9 +140,10 @@ class Arrivals : public Process {
 
 const ArrivalRegistry& arrival_registry() {
   static const AttributeTable kCommon = {
-      optional(
-          integer("most_alive", "nobody comes while as many agents are present", 1, kMaxAgents),
-          "4000000"),
+      renamed(optional(integer("max_present", "nobody comes while as many agents are present", 1,
+                               kMaxAgents),
+                       "4000000"),
+              "most_alive"),
       optional(
           number("closed_from", "agents that have not arrived by then never do, in s", 0, kMaxTime),
           "1e7")};
@@ -169,7 +170,7 @@ ArrivalPlan load_arrivals(const Element& element, std::vector<Eigen::Vector2f> p
   const Attributes attributes(element, arrival_registry().find(element).attributes);
   check_count(element, static_cast<double>(first_agent + times->time_s.size()));
   return {first_agent, std::move(times->time_s), std::move(places),
-          static_cast<std::size_t>(attributes.integer("most_alive")),
+          static_cast<std::size_t>(attributes.integer("max_present")),
           attributes.number("closed_from")};
 }
 

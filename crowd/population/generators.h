@@ -1,4 +1,4 @@
-// Where a group's agents start.
+// Initial positions of a group's agents.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ namespace throng::crowd {
 /// Agents in a scene; more is taken for a mistake.
 constexpr std::size_t kMaxAgents = 4'000'000;
 
-/// What a <Generator> makes: places, each with its noise still to be added.
+/// A <Generator>: initial positions, before their noise is added.
 class Generator {
  public:
   virtual ~Generator() = default;
@@ -22,7 +22,7 @@ class Generator {
   virtual Eigen::Vector2f place(std::size_t index, const Eigen::Vector2f& noise) const = 0;
 };
 
-/// What is there before a generator makes places.
+/// Objects that exist before a generator makes positions.
 struct GeneratorContext {
   const Crowd& crowd;  ///< its walls, and the people who have places already
   std::uint64_t seed = 1;

@@ -154,7 +154,8 @@ int sample_integer(const ProfileValue& value, Random random) {
 
 AttributeTable fixed_common_attributes() {
   return {
-      optional(integer("obstacleSet", "bits of the obstacle classes in the way; all", 0, kMaxMask)),
+      optional(integer("obstacleSet", "bits of the obstacle classes that the agent avoids; all", 0,
+                       kMaxMask)),
       optional(integer("class", "a number for reports and clear_AABB; 0", 0, kMaxId)),
   };
 }

@@ -14,7 +14,7 @@
 
 namespace throng::crowd {
 
-/// What an agent's property or parameter is drawn from.
+/// The distribution of an agent's property or parameter.
 struct ProfileValue {
   Distribution distribution;
   std::shared_ptr<MengeRandom> sequence;  ///< where compatible runs draw from it
@@ -33,7 +33,7 @@ struct Profile {
 Profile load_profile(const Element& element, const std::vector<Profile>& earlier,
                      const ModelEntry& model, MengeSequences& sequences);
 
-/// Gives agent `agent` what its profile says, drawn with the run's seed.
+/// Sets the properties of agent `agent` from its profile, sampled with the run's seed.
 void apply_profile(const Profile& profile, std::uint64_t seed, std::size_t agent, Agents& agents);
 
 /// Those of <Common> that a <Property> cannot give.

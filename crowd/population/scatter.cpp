@@ -45,8 +45,8 @@ class Places {
   std::unordered_map<std::int64_t, std::vector<Vector2f>> cells_;
 };
 
-/// Neighbors on the ground become neighbors in memory, which is where their ways and each other
-/// are looked for: strip by strip, along each.
+/// Makes neighbors on the ground neighbors in memory, for locality of planning and neighbor search:
+/// strip by strip, along each.
 void sort_by_strips(std::vector<Vector2f>& places) {
   constexpr float kStripM = 4;
   std::sort(places.begin(), places.end(), [](const Vector2f& a, const Vector2f& b) {

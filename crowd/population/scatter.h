@@ -1,4 +1,5 @@
-// People strewn over an area, as a crowd stands before it moves.
+// People placed at random in an area, as a crowd stands before it moves (random sequential
+// addition).
 #pragma once
 
 #include <Eigen/Core>

@@ -16,7 +16,7 @@ constexpr std::size_t kMinGroupSize = 2;  // members of a group
 constexpr float kMaxGroupDistance = 5;    // m, between those who are put into one group
 constexpr float kRelaxationS = 0.5F;      // of the social force model (Helbing, Molnar 1995)
 
-/// Who is still alone, by square cells as wide as a group may be.
+/// Agents without a group, by square cells as wide as a group may be.
 class Loners {
  public:
   Loners(const Agents& agents, std::size_t first, std::size_t count) : agents_(agents) {
@@ -122,7 +122,7 @@ class SocialGroupForces : public VelModifier {
     if (along < min_value) wanted += (min_value - along) * preferred.direction;
     const float speed = wanted.norm();
     preferred.direction = wanted / speed;
-    // Who has fallen behind may hurry a little.
+    // Members that have fallen behind may hurry a little.
     constexpr float kHurry = 1.3F;
     preferred.speed = std::min(speed, kHurry * preferred.speed);
   }
@@ -130,7 +130,7 @@ class SocialGroupForces : public VelModifier {
  private:
   static constexpr float kMinProgress = 0.3F;  // of the preferred speed, along the path
 
-  /// Those who are elsewhere, or do something else, are not waited for.
+  /// Members that are elsewhere, or in another state, are not waited for.
   static bool walks_along(const Agents& agents, std::size_t agent, std::uint32_t member) {
     constexpr float kLost = 15;  // m
     return agents.present[member] != 0 && agents.state[member] == agents.state[agent] &&
@@ -146,9 +146,9 @@ class SocialGroupForces : public VelModifier {
     return -spec_.gaze * turn * agents.velocity[agent];
   }
 
-  /// Share of the cohesion: 1 for whoever gets ahead along the path, down to 0 for whoever does
-  /// not. Two members whose paths lead around an obstacle on different sides would hold each other
-  /// there for ever.
+  /// Share of the cohesion: 1 for members that get ahead along the path, down to 0 for those that
+  /// do not. Two members whose paths lead around an obstacle on different sides would hold each
+  /// other there for ever.
   static float progress(const Agents& agents, std::size_t agent,
                         const PreferredVelocity& preferred) {
     const float along = preferred.direction.dot(agents.velocity[agent]);

@@ -10,7 +10,7 @@
 
 namespace throng::crowd {
 
-/// What <SocialGroups> in a scene says.
+/// Attributes of <SocialGroups> in a scene.
 struct SocialGroupsSpec {
   double share = 0.6;               ///< of the people who walk in groups
   std::array<double, 3> weights{};  ///< of groups of two, three and four
@@ -25,8 +25,8 @@ AttributeTable social_groups_attributes();
 SocialGroupsSpec load_social_groups(const Element& element);
 
 /// Puts `share` of the agents first, ..., first + count - 1 into groups of near neighbors with
-/// one start state, and has each group walk as fast as its slowest member would. What is drawn
-/// depends on the seed and the ids only.
+/// one start state, and has each group walk as fast as its slowest member would. The samples
+/// depend on the seed and the ids only.
 void form_social_groups(const SocialGroupsSpec& spec, std::size_t first, std::size_t count,
                         std::uint64_t seed, Crowd& crowd);
 

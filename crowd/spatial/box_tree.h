@@ -1,4 +1,4 @@
-// A tree of bounding boxes over things that stay where they are: walls, polygons of a mesh.
+// A tree of bounding boxes over static objects: walls, polygons of a mesh.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@ namespace throng::crowd {
 
 class BoxTree {
  public:
-  /// Over the boxes of things 0, 1, ...
+  /// Over the boxes of objects 0, 1, ...
   void build(const std::vector<Box>& boxes);
 
-  /// The things in the order of the leaves; who stores them in this order finds neighbors
+  /// The objects in the order of the leaves; storing them in this order puts neighbors
   /// together.
   const std::vector<int>& order() const { return order_; }
 
@@ -35,7 +35,7 @@ class BoxTree {
     int end = 0;
     int second = 0;  // the other child; the first follows the node; 0: a leaf
   };
-  static constexpr std::size_t kDeepest = 64;  // halving 2^31 things takes fewer levels
+  static constexpr std::size_t kDeepest = 64;  // halving 2^31 objects takes fewer levels
 
   void build_node(const std::vector<Box>& boxes, int begin, int end);
   static float distance_sq(const Box& box, const Eigen::Vector2f& point) {

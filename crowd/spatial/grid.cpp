@@ -100,7 +100,7 @@ void Grid::lay_out(const Agents& agents) {
   by_part_.resize(count);
 }
 
-// Who belongs to which bucket, how many to each part, and where each run's agents go.
+// Assigns agents to buckets, counts those of each part, and finds where each run's agents go.
 void Grid::count_parts(const Agents& agents) {
   const std::size_t runs = runs_of(agents.count());
   place_.assign(runs * parts_, 0);

@@ -1,4 +1,4 @@
-// Who is near whom: agents sorted by the cell of a uniform grid without bounds.
+// Neighbor search: agents sorted by the cell of a uniform grid without bounds.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ namespace throng::crowd {
 
 /// A copy of what neighbors may know of the agents that are present, sorted by cell, so that those
 /// who are near in space are near in memory. Cells are hashed into buckets such that a row's
-/// neighboring cells stay neighbors: a query scans one run of slots per row. Where the crowd
+/// neighboring cells stay neighbors: a query scans one run of slots per row. If the crowd
 /// fills its area, rows follow each other as they do in space.
 class Grid {
  public:
@@ -24,13 +24,13 @@ class Grid {
     std::uint32_t slot = 0;
   };
 
-  /// Where someone is and how fast they go; kernels load it as four floats.
+  /// Position and velocity of an agent; kernels load it as four floats.
   struct Body {
     Eigen::Vector2f position;
     Eigen::Vector2f velocity;
   };
 
-  /// What searches work with; kept from one to the next, so that they allocate nothing.
+  /// Memory of searches; kept from one to the next, so that they allocate nothing.
   class Candidates {
    public:
     /// For searches for at most `most` neighbors.
@@ -48,7 +48,7 @@ class Grid {
 
   explicit Grid(InstructionSet set = best_instruction_set());
 
-  /// Sorts the agents anew, on all threads; allocates only when their number has grown.
+  /// Sorts the agents again, on all threads; allocates only when their number has grown.
   void build(const Agents& agents);
 
   std::size_t size() const { return size_; }

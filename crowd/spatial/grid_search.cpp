@@ -25,7 +25,7 @@ struct NearestKernel {
   using Candidates = Grid::Candidates;
   using Neighbor = Grid::Neighbor;
 
-  /// Where to look.
+  /// A place to search.
   struct Place {
     float x = 0;
     float y = 0;

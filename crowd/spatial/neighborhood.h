@@ -1,4 +1,4 @@
-// What each agent sees of the others and of the walls; pedestrian models are functions of it.
+// Each agent's view of the others and of the walls; pedestrian models are functions of it.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace throng::crowd {
 
-/// What one agent sees.
+/// One agent's view.
 struct AgentView {
   std::size_t agent = 0;                      ///< its id
   std::size_t slot = 0;                       ///< its place in the grid
@@ -40,7 +40,7 @@ class Neighborhood {
     if (crowd.compat != Compat::none) tree_.build(grid, crowd.agents.count());
     if (reach_.size() < crowd.agents.count()) reach_.resize(crowd.agents.count(), kFirstReach);
   }
-  /// What one agent sees; valid until this thread looks at another.
+  /// One agent's view; valid until this thread looks at another.
   AgentView look(const Crowd& crowd, const Grid& grid, std::size_t slot) {
     return look(crowd, grid, slot, found_.local());
   }
@@ -49,7 +49,7 @@ class Neighborhood {
   static constexpr std::size_t kGrain = 64;  // agents per task
   static constexpr float kFirstReach = 2;    // m
 
-  /// What one thread works with.
+  /// Buffers of one thread.
   struct Found {
     Grid::Candidates candidates;
     MengeTree::Search search;

@@ -85,7 +85,7 @@ class Obstacles {
   bool encloses(const Polygon& polygon, const Eigen::Vector2f& point) const;
 
  private:
-  /// What a search looks at, in the order of the tree's leaves.
+  /// A segment that searches test, in the order of the tree's leaves.
   struct Wall {
     Eigen::Vector2f begin;
     Eigen::Vector2f edge;

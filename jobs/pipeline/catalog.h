@@ -1,4 +1,4 @@
-// What jobs may name: airframes, formats, policies, and the people who are rendered.
+// Catalog of names that jobs may use: airframes, formats, policies, and the people rendered.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,7 +8,7 @@ namespace throng::jobs {
 /// {"airframes": [...], "formats": [...], "policies": [...]}, as the service lists them.
 nlohmann::json catalog();
 
-/// The baked people, {"content_hash", "license", "people": [...]}; null when none have been baked.
+/// The character library, {"content_hash", "license", "people": [...]}; null when there is none.
 /// Throws InputError when their index is damaged.
 nlohmann::json people_catalog();
 

@@ -51,7 +51,7 @@ class Collector {
       metrics.back().update(measured.at("metrics"));
       runs.push_back(take_frames(run.index));
       runs.back()["seed"] = measured.at("seed");
-      runs.back()["drawn"] = drawn_of_run(job_, run.index);
+      runs.back()["drawn"] = samples_of_run(job_, run.index);
       runs.back()["environment"] = to_json(environment_of_run(job_.environment, run.seed));
     }
     add("metrics.json", json{{"runs", metrics}}.dump(kJsonIndent) + "\n");

@@ -1,4 +1,4 @@
-// What the service has its confined child processes do (jobs/queue/confined_task.h): everything
+// Work of the service's confined child processes (jobs/queue/confined_task.h): everything
 // that loads a scenario, or needs the engine.
 #pragma once
 
@@ -12,8 +12,8 @@ namespace throng::jobs {
 ///   scenario_plan  draws the floor plan of the scenario "id" in "scenarios": {"svg": ...}
 ///   job_plan       likewise of the resolved job "job", with the paths of its drones: {"svg": ...}
 ///   calibration    checks the calibration "request", whose files lie in "files": {}
-///   catalog        what jobs may name (jobs/pipeline/catalog.h)
-///   people         the baked people, or null
+///   catalog        names that jobs may use (jobs/pipeline/catalog.h)
+///   people         the character library, or null
 /// Throws InputError and EnvironmentError.
 nlohmann::json do_confined_work(const nlohmann::json& request);
 

@@ -1,4 +1,4 @@
-// What is known of a drone when one of its pictures is taken: the truth, and what its sensors say.
+// State of a drone when one of its images is captured: the truth, and its sensors' readings.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -26,7 +26,7 @@ struct FlightMoment {
   sim::ViewAngles gimbal_reading;
 };
 
-/// The rows (OpenCV's pixels, in the picture that the lens would make without distortion) in which
+/// The rows (OpenCV's pixels, in the image that the lens would make without distortion) in which
 /// the horizon of level ground crosses the first and the last column; null where it crosses no
 /// columns, since the camera looks straight down.
 nlohmann::json horizon_rows(const camera::Camera& camera);

@@ -1,4 +1,4 @@
-// Takes a run's pictures: each camera of the job at any of its frames.
+// Takes a run's images: each camera of the job at any of its frames.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ struct CapturedFrame {
   render::Frame frame;
   std::string sensor;    ///< a JSON object: what sensor and shutter did
   std::string flight;    ///< a JSON object: the drone then, and what its sensors say
-  nlohmann::json drawn;  ///< an object: what was drawn for this frame alone
+  nlohmann::json drawn;  ///< an object: the samples of this frame alone
 };
 
-/// Everything given must outlive it. Pictures do not depend on which were taken before.
+/// Everything given must outlive it. Images do not depend on which were taken before.
 class FrameCapture {
  public:
   FrameCapture(const JobSpec& job, std::uint64_t run_seed, const world::Trace& trace,
@@ -34,11 +34,11 @@ class FrameCapture {
 
   CapturedFrame take(std::size_t drone, std::int64_t frame);
 
-  /// Takes a picture that is not needed any more, for its memory.
+  /// Takes an image that is not needed any more, for its memory.
   void recycle(CapturedFrame&& captured);
 
  private:
-  /// What a camera sees at a time around that of one of its frames, in the scene of this index.
+  /// A camera's view at a time around that of one of its frames, in the scene of this index.
   render::ShutterMoment moment_at(std::size_t drone, std::int64_t frame, std::int64_t index,
                                   double time_s);
   sim::ViewAngles view_at(std::size_t drone, std::int64_t frame,

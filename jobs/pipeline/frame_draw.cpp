@@ -10,7 +10,7 @@ namespace throng::jobs {
 FrameDraw draw_of_frame(const CameraSpec& run_camera, std::uint64_t run_seed, std::size_t drone,
                         std::int64_t frame) {
   constexpr unsigned kFrameBits = 40;
-  constexpr std::uint64_t kDraws = std::uint64_t{1} << 62;  // apart from the pictures' noise
+  constexpr std::uint64_t kDraws = std::uint64_t{1} << 62;  // apart from the images' noise
   Random random(run_seed, Stream::camera_noise,
                 kDraws + (static_cast<std::uint64_t>(drone) << kFrameBits) +
                     static_cast<std::uint64_t>(frame));
@@ -19,7 +19,7 @@ FrameDraw draw_of_frame(const CameraSpec& run_camera, std::uint64_t run_seed, st
   draw.yaw_deg = random.normal(0, 1) * run_camera.per_frame.yaw_deg;
   draw.pitch_deg = random.normal(0, 1) * run_camera.per_frame.pitch_deg;
   draw.ev = random.normal(0, 1) * run_camera.per_frame.ev;
-  // What is recorded is what was added.
+  // The recorded value is the sum, not the sample.
   draw.pitch_deg =
       std::clamp(run_camera.pitch_deg + draw.pitch_deg, -90.0, 90.0) - run_camera.pitch_deg;
   return draw;

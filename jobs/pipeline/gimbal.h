@@ -1,4 +1,4 @@
-// Where a drone's camera is and what it sees.
+// Pose and view of a drone's camera.
 #pragma once
 
 #include "camera/camera.h"
@@ -9,17 +9,17 @@
 namespace throng::jobs {
 
 /// A camera on a gimbal below a drone: it turns with the drone's heading but neither rolls nor
-/// pitches with it. Of `spec`, nothing is left to be drawn (camera_of_run).
+/// pitches with it. Of `spec`, nothing is left to be sampled (camera_of_run).
 camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec);
 
 /// The same, looking where its gimbal has turned it.
 camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec,
                          const sim::ViewAngles& view);
 
-/// Where the camera of `spec` is told to look, from the drone's heading and the horizon.
+/// Commanded direction of the camera of `spec`, relative to the drone's heading and the horizon.
 sim::GimbalCommand command_of(const CameraSpec& spec);
 
-/// Where an ideal gimbal looks.
+/// Direction of an ideal gimbal.
 sim::ViewAngles ideal_view(const world::DroneSample& drone, const CameraSpec& spec);
 
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// Where a job takes place.
+// The scenario of a job.
 #pragma once
 
 #include <filesystem>

@@ -25,7 +25,7 @@ void check_lens(const CameraSpec& run_camera, const std::string& pointer,
   } else if (k->distortion && size.maxCoeff() > kMaxImagePx) {
     problems.push_back(
         {"", at,
-         fmt::format("a lens that a flat picture of {} x {} pixels covers", size.x(), size.y()),
+         fmt::format("a lens that a flat image of {} x {} pixels covers", size.x(), size.y()),
          fmt::format("one of at most {0} x {0}", kMaxImagePx)});
   }
 }

@@ -10,7 +10,7 @@
 namespace throng::jobs {
 
 /// Adds a problem if the lens does not show what the image needs: its model folds or ends within
-/// the image, or it is so wide that no flat picture covers it. `pointer` is the camera's place in
+/// the image, or it is so wide that no flat image covers it. `pointer` is the camera's place in
 /// the job.
 void check_lens(const CameraSpec& run_camera, const std::string& pointer,
                 std::vector<Problem>& problems);

@@ -21,7 +21,7 @@ using OnTaskProgress = std::function<void(const TaskProgress&)>;
 /// Whether the job asks for this kind of ground truth.
 bool wants(const JobSpec& job, annotate::GroundTruth kind);
 
-/// What the simulation is asked to do in a run of the job.
+/// Input of the simulation for a run of the job.
 sim::RunSpec run_spec(const JobSpec& job, int run);
 
 /// Simulates a run: work/run000/trace.h5. Progress in simulated seconds.
@@ -33,7 +33,7 @@ void simulate_run(const JobFolder& folder, const JobSpec& job,
 void measure_run(const JobFolder& folder, const JobSpec& job,
                  const std::filesystem::path& scenarios, int run);
 
-/// Draws and labels the frames of a shard. Progress in images.
+/// Renders and labels the frames of a shard. Progress in images.
 void render_shard(const JobFolder& folder, const JobSpec& job,
                   const std::filesystem::path& scenarios, const Shard& shard,
                   const OnTaskProgress& on_progress = {}, const std::stop_token& stop = {});

@@ -98,7 +98,7 @@ class ShardOutput {
   }
 
  private:
-  /// What was drawn for the run and for the frame, or "".
+  /// The values sampled for the run and for the frame, or "".
   std::string drawn_of(const CapturedFrame& captured) const {
     nlohmann::json drawn = drawn_;
     drawn.update(captured.drawn);
@@ -169,7 +169,7 @@ void render_shard(const JobFolder& folder, const JobSpec& whole_job,
   FrameCapture frame_capture(job, seed, trace, population, renderer, options.clock);
 
   const Task task{Task::Kind::render, shard.run, shard.index};
-  const nlohmann::json drawn = drawn_of_run(whole_job, shard.run);
+  const nlohmann::json drawn = samples_of_run(whole_job, shard.run);
   const annotate::PersonFacts facts(trace, population, job.styling);
   std::optional<annotate::ExitView> exits;
   if (wants(job, annotate::GroundTruth::exits) && wants(job, annotate::GroundTruth::coco)) {

@@ -42,7 +42,7 @@ void read_pilot_log(const std::string& pointer, DroneSpec& drone, std::vector<Pr
   }
 }
 
-// What lies in files beside the job becomes part of it.
+// Reads the files beside the job into it.
 void read_files(JobSpec& job, std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     if (job.drones[i].pilot_log.empty()) continue;
@@ -67,7 +67,7 @@ void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
     const std::size_t before = problems.size();
     for (const RunPlan& run : plan_runs(job)) {
       check_lens(camera_of_run(camera, run.seed, pointer), pointer, problems);
-      if (camera.drawn.empty() || problems.size() > before) break;
+      if (camera.sampled.empty() || problems.size() > before) break;
     }
   }
 }
@@ -116,7 +116,7 @@ void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
   }
 }
 
-// What only the simulation knows: whether the drones can fly and whether there are people enough.
+// Checks that need the simulation: whether the drones can fly and whether there are people enough.
 void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
                            std::vector<Problem>& problems) {
   if (job.drones.empty()) {
@@ -141,14 +141,14 @@ void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
   }
 }
 
-// What is wrong with an airframe would only be found again.
+// Errors of the airframe would only be found again.
 bool has_own_airframe(const JobSpec& job) {
   return std::any_of(job.drones.begin(), job.drones.end(),
                      [](const DroneSpec& drone) { return drone.mission.own_airframe.has_value(); });
 }
 
-// What may differ between runs, in each of them; of their crowds the largest. Problems are named
-// where the job says what is drawn.
+// Checks the fields that may differ between runs in each of them, and the largest of their crowds.
+// Problems are reported at the distributions.
 void check_runs(const JobSpec& job, const world::Scenario& scenario,
                 std::vector<Problem>& problems) {
   JobSpec largest = job;

@@ -1,4 +1,4 @@
-// What each kind of ground truth adds to a run's output. One table; what it adds to each frame is
+// Contributions of each kind of ground truth to a run's output. One table; those to each frame are
 // written by annotate/frame_writers.h.
 #pragma once
 
@@ -29,7 +29,7 @@ struct RunWriter {
   void (*write)(RunOutput& output) = nullptr;
 };
 
-/// In the order of the kinds. Those that are not here have no part in a run's output.
+/// In the order of the kinds. Kinds that are not here have no part in a run's output.
 std::span<const RunWriter> run_writers();
 
 }  // namespace throng::jobs

@@ -1,4 +1,4 @@
-// What an image's record says of its camera's sensor.
+// The sensor's part of an image's record.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -56,7 +56,7 @@ void Archive::choose(const Manifest& manifest, const Selection& selection) {
   }
 }
 
-// Other formats hold the same pictures under other names.
+// Other formats hold the same images under other names.
 void Archive::link_equal_files() {
   constexpr std::size_t kMaxLinkLength = 100;
   std::unordered_map<std::string, std::string> first_of;

@@ -1,4 +1,4 @@
-// What a check of uploaded scenarios has found.
+// Result of a check of uploaded scenarios.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ struct ScenarioFinding {
 struct CheckedScenarios {
   std::vector<std::string> ids;                ///< below the folder
   std::vector<ScenarioFinding> findings = {};  ///< of all
-  /// What clients are told of each (jobs/spec/scenario_summary.h), in the order of the ids.
+  /// Summary of each for clients (jobs/spec/scenario_summary.h), in the order of the ids.
   std::vector<nlohmann::json> summaries = {};
 };
 

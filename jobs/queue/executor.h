@@ -1,5 +1,5 @@
-// Who runs tasks: the plug-in point between a job and the machines. Local processes now; a cluster
-// scheduler implements the same interface.
+// Executor of tasks: the plug-in point between a job and the machines. Local processes now; a
+// cluster scheduler implements the same interface.
 #pragma once
 
 #include <cstdint>

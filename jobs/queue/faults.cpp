@@ -23,13 +23,14 @@ constexpr std::array kKinds = {
     KindName{"hang", Fault::Kind::hang}, KindName{"slow", Fault::Kind::slow}};
 
 Fault parse_fault(std::string_view text) {
-  const auto wrong = [&] {
-    return InputError(Problem{"", kFaultsVariable, fmt::format("\"{}\"", text),
-                              "die, fail, hang or slow, a colon, a task's name or *, and perhaps a "
-                              "colon and a number, as in die:run000/shard0001:2"});
+  const auto malformed = [&] {
+    return InputError(
+        Problem{"", kFaultsVariable, fmt::format("\"{}\"", text),
+                "die, fail, hang or slow, a colon, a task's name or *, and optionally a "
+                "colon and a number, as in die:run000/shard0001:2"});
   };
   const std::size_t first = text.find(':');
-  if (first == std::string_view::npos) throw wrong();
+  if (first == std::string_view::npos) throw malformed();
   Fault fault;
   bool is_known = false;
   for (const auto& [name, kind] : kKinds) {
@@ -45,11 +46,11 @@ Fault parse_fault(std::string_view text) {
     double amount = 0;
     const auto end = std::from_chars(number.data(), number.data() + number.size(), amount);
     if (end.ec != std::errc() || end.ptr != number.data() + number.size() || !(amount >= 0)) {
-      throw wrong();
+      throw malformed();
     }
     fault.amount = amount;
   }
-  if (!is_known || fault.place.empty()) throw wrong();
+  if (!is_known || fault.place.empty()) throw malformed();
   return fault;
 }
 

@@ -25,6 +25,18 @@ bool is_as_good_as_empty(const fs::path& folder, const fs::path& file) {
   });
 }
 
+/// Whether the text of a job file is this job. The file may be of an earlier version, whose names
+/// of fields are deprecated now.
+bool is_same_job(const std::string& written, const std::string& text, const fs::path& file) {
+  if (written == text) return true;
+  try {
+    const ResolvedJob job = read_resolved_job(written, file.string());
+    return to_json(job.spec()).dump(kJsonIndent) + "\n" == text;
+  } catch (const std::exception&) {
+    return false;  // damaged, or of another version: another job
+  }
+}
+
 void keep_recording(const RecordedSpec& recorded, const fs::path& job_folder) {
   const fs::path kept = kept_recording(recorded, job_folder);
   if (!fs::exists(kept)) write_file_atomically(kept, read_file(recorded.file));
@@ -42,7 +54,7 @@ JobFolder JobFolder::create(fs::path path, const ResolvedJob& resolved) {
                                "a new or empty folder, or one of the same job"});
     }
     write_file_atomically(folder.job_file(), text);
-  } else if (read_file(folder.job_file()) != text) {
+  } else if (!is_same_job(read_file(folder.job_file()), text, folder.job_file())) {
     throw InputError(Problem{"", folder.path().string(), "a folder with another job in it",
                              "a new or empty folder, or one of the same job"});
   }

@@ -37,7 +37,7 @@ class JobFolder {
   void remove_leftovers() const;
 
   const std::filesystem::path& path() const { return path_; }
-  /// What the task publishes: a file for a simulation, else a folder.
+  /// Output of the task: a file for a simulation, else a folder.
   std::filesystem::path output_of(const Task& task) const;
   std::filesystem::path log_of(const Task& task) const;
   std::filesystem::path job_file() const { return path_ / "job.json"; }

@@ -184,7 +184,7 @@ void ForkServer::stop() {
 
 namespace {
 
-/// What the forked child does; does not return.
+/// Main function of the forked child; does not return.
 [[noreturn]] void do_in_child(const fs::path& folder, int signals,
                               const std::function<int(const fs::path&)>& work) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -1,5 +1,5 @@
 // A fork server: a process that has loaded the program and its libraries once, and forks a child
-// for every piece of work. Starting the program anew takes a hundred times as long as a fork.
+// for every piece of work. A new start of the program takes a hundred times as long as a fork.
 #pragma once
 
 #include <condition_variable>
@@ -27,7 +27,7 @@ class ForkServer {
   ForkServer(const ForkServer&) = delete;
   ForkServer& operator=(const ForkServer&) = delete;
 
-  /// Has a child do the work in a folder, and waits for its end. What the child writes to stderr is
+  /// Has a child do the work in a folder, and waits for its end. The child's stderr is
   /// in the folder's log.txt. Throws EnvironmentError when there is no server to be had.
   ExitStatus run(const std::filesystem::path& work);
 

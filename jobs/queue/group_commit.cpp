@@ -8,7 +8,8 @@ void GroupCommit::run(const std::function<void()>& change) {
   Waiting mine{&change};
   std::unique_lock lock(mutex_);
   queue_.push_back(&mine);
-  // Whoever finds nobody at it commits for all that wait; the others' turn comes with the next.
+  // The first thread that finds no commit in progress commits for all that wait; later ones join
+  // the next.
   done_.wait(lock, [&] { return mine.is_done || !is_committing_; });
   if (!mine.is_done) {
     is_committing_ = true;

@@ -17,9 +17,9 @@ class GroupCommit {
  public:
   explicit GroupCommit(SQLite::Database& database) : database_(database) {}
 
-  /// Runs the change and returns when it is durable. What it throws is thrown here, and then none
-  /// of it has happened; others' changes are not touched by that. When the commit itself fails,
-  /// all that were in it throw.
+  /// Runs the change and returns when it is durable. Its exceptions are rethrown here, and then
+  /// none of it has happened; others' changes are not touched by that. When the commit itself
+  /// fails, all that were in it throw.
   void run(const std::function<void()>& change);
 
  private:

@@ -31,7 +31,7 @@ void pin_people(const JobFolder& folder, const std::string& content_hash) {
   if (pinned == content_hash) return;
   throw EnvironmentError(
       fmt::format("the people have changed since the job began: it was begun with {} ({}), and the "
-                  "baked people are {}; bake the former again or submit the job anew",
+                  "character library is {}; build the former again or submit the job again",
                   pinned, note.string(), content_hash));
 }
 

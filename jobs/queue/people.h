@@ -1,4 +1,4 @@
-// Which people a job is drawn with: one population from its first frame to its last.
+// The character library that a job is rendered with: the same from its first frame to its last.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 namespace throng::jobs {
 
 /// Notes the population's content hash in the job's folder (work/people), or checks that it is the
-/// one that is noted there: people that are baked anew while a job runs must not mix with the old
-/// ones. Safe to be called by several workers at once. Throws EnvironmentError naming both.
+/// one that is noted there: a library that is rebuilt while a job runs must not mix with the old
+/// one. Safe to be called by several workers at once. Throws EnvironmentError naming both.
 void pin_people(const JobFolder& folder, const std::string& content_hash);
 
-/// The hash that was noted; empty when no frame has been drawn.
+/// The hash that was noted; empty when no frame has been rendered.
 std::string pinned_people(const JobFolder& folder);
 
 }  // namespace throng::jobs

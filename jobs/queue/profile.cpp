@@ -52,7 +52,7 @@ std::string profile_table(const JobFolder& folder, const JobSpec& job) {
       }
     }
   }
-  if (images == 0) return "no frame was drawn with --profile: the work was done before\n";
+  if (images == 0) return "no frame was rendered with --profile: the work was done before\n";
   std::vector<std::pair<std::string, StageTime>> rows(times.begin(), times.end());
   std::sort(rows.begin(), rows.end(),
             [](const auto& a, const auto& b) { return a.second.cpu_s > b.second.cpu_s; });

@@ -1,5 +1,5 @@
-// Where the time of a job's drawing goes: every worker writes its own clock beside its log, and
-// whoever asked adds them up. Nothing of it is part of the dataset.
+// Profile of a job's rendering: every worker writes its own clock beside its log, and the caller
+// adds them up. Nothing of it is part of the dataset.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What one task publishes: files of the dataset, and a record of them for whoever collects them.
+// Output of one task: files of the dataset, and a record of them for the collecting task.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +53,7 @@ class Publication {
 /// The record of a published output. Throws EnvironmentError when it cannot be read.
 nlohmann::json read_record(const std::filesystem::path& output);
 
-/// Where published output keeps a file of the dataset.
+/// Path of a file of the dataset in published output.
 std::filesystem::path published_file(const std::filesystem::path& output, const std::string& path);
 
 }  // namespace throng::jobs

@@ -61,7 +61,7 @@ bool Selection::holds(std::string_view path) const {
 }
 
 std::vector<int> parse_runs(const std::string& text, int runs, const std::string& pointer) {
-  const auto wrong = [&] {
+  const auto malformed = [&] {
     return InputError(Problem{"", pointer, '"' + text + '"',
                               fmt::format("runs from 0 to {}, such as 0-3,7", runs - 1)});
   };
@@ -71,7 +71,7 @@ std::vector<int> parse_runs(const std::string& text, int runs, const std::string
   const auto number = [&] {
     int value = -1;
     const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || value < 0 || value >= runs) throw wrong();
+    if (error != std::errc() || value < 0 || value >= runs) throw malformed();
     at = next;
     return value;
   };
@@ -82,10 +82,10 @@ std::vector<int> parse_runs(const std::string& text, int runs, const std::string
       ++at;
       last = number();
     }
-    if (last < first) throw wrong();
+    if (last < first) throw malformed();
     for (int run = first; run <= last; ++run) chosen.insert(run);
     if (at == end) break;
-    if (*at++ != ',') throw wrong();
+    if (*at++ != ',') throw malformed();
   }
   return {chosen.begin(), chosen.end()};
 }

@@ -42,7 +42,7 @@ bool is_active(JobState state);
 bool has_dataset(JobState state);
 
 std::string_view name_of(JobState state);
-/// What has happened, as a word: "started", "failed".
+/// Name of the event: "started", "failed".
 std::string_view name_of(JobEvent event);
 /// The state of this name; nothing for any other word.
 std::optional<JobState> job_state_named(std::string_view name);

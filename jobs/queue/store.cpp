@@ -325,7 +325,7 @@ void Store::save_progress(const JobRow& row, const std::string& progress_json) {
   });
 }
 
-void Store::note(const JobRow& row, const std::string& type, const std::string& data_json) {
+void Store::record_event(const JobRow& row, const std::string& type, const std::string& data_json) {
   connections_->write([&] {
     const auto now = connections_->find(row.id);
     if (!now || now->state != row.state || now->attempt != row.attempt) return;

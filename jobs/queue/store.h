@@ -1,5 +1,5 @@
-// The durable queue: one SQLite file in the data folder, one server at a time. What a call has
-// returned survives the death of the process and of the machine.
+// The durable queue: one SQLite file in the data folder, one server at a time. Results
+// that a call has returned survive the death of the process and of the machine.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace throng::jobs {
 
-/// What a queued job is asked to make.
+/// Kind of a queued job's result.
 enum class JobKind { dataset, calibration };
 
 std::string_view name_of(JobKind kind);
@@ -33,7 +33,7 @@ struct JobRow {
   std::int64_t created_ms = 0;  ///< Unix time
   std::int64_t started_ms = 0;  ///< 0: not yet
   std::int64_t ended_ms = 0;    ///< 0: not yet
-  int priority = 0;             ///< higher ones are begun first
+  int priority = 0;             ///< higher values start first
   std::vector<std::string> labels = {};
   std::string owner = {};        ///< of whom it is; "" for nobody in particular
   std::int64_t bytes = 0;        ///< that its files take on disk, as last measured
@@ -41,14 +41,14 @@ struct JobRow {
   std::string waiting_for = {};  ///< not stored: why nobody works on it although it is its turn
 };
 
-/// What of a job may be changed at any time.
+/// Properties of a job that may be changed at any time.
 struct JobChange {
   int priority = 0;
   std::vector<std::string> labels = {};
   bool keep = false;
 };
 
-/// What is to be queued.
+/// A job to be queued.
 struct NewJob {
   std::string name;
   std::string spec_json = "{}";
@@ -87,7 +87,7 @@ struct EventRow {
   std::int64_t seq = 0;
   std::string job;
   std::int64_t at_ms = 0;  ///< Unix time
-  std::string type;        ///< "submitted", name_of(JobEvent), "changed", "removed" or note()'s
+  std::string type;  ///< "submitted", name_of(JobEvent), "changed", "removed" or record_event()'s
   std::string data_json;
 };
 
@@ -138,7 +138,7 @@ class Store {
   void save_progress(const JobRow& row, const std::string& progress_json);
 
   /// Records that something happened to a running attempt, likewise.
-  void note(const JobRow& row, const std::string& type, const std::string& data_json);
+  void record_event(const JobRow& row, const std::string& type, const std::string& data_json);
 
   /// At most `limit` events after number `after`, in their order: of one job, or of all ("").
   std::vector<EventRow> events(const std::string& job, std::int64_t after, int limit) const;

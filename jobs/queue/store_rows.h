@@ -11,7 +11,7 @@
 
 namespace throng::jobs {
 
-/// What a query has to select for row_of().
+/// Columns that a query has to select for row_of().
 inline constexpr const char* kColumns =
     "id, name, state, attempt, spec, progress, error, created_ms, started_ms, ended_ms, kind, "
     "priority, labels, owner, bytes, keep";

@@ -118,7 +118,7 @@ class Supervision {
     report();
     if (open.empty()) return;
     const auto on_progress = [&](const Task& task, const TaskProgress& progress) {
-      note(task, progress);
+      record_progress(task, progress);
     };
     const std::vector<TaskResult> results = execute(open, on_progress);
     for (std::size_t i = 0; i < open.size(); ++i) take_failure(open[i], results[i]);
@@ -189,7 +189,7 @@ class Supervision {
     write_failed_runs(folder_, runs);
   }
 
-  void note(const Task& task, const TaskProgress& progress) {
+  void record_progress(const Task& task, const TaskProgress& progress) {
     if (task.kind == Task::Kind::simulate) {
       at(task).simulated_s = progress.done;
     } else if (task.kind == Task::Kind::render) {

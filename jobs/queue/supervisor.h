@@ -16,7 +16,7 @@
 
 namespace throng::jobs {
 
-/// What a run is at.
+/// Progress of a run.
 enum class Stage { waiting, simulating, rendering, rendered, finished, failed };
 
 std::string_view name_of(Stage stage);

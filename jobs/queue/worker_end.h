@@ -1,4 +1,4 @@
-// Why a worker ended, told from what it said and how it died.
+// Why a worker ended, from its messages and its exit status.
 #pragma once
 
 #include <filesystem>

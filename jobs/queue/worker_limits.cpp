@@ -37,18 +37,18 @@ int refuse_network() {
 
 std::string limit_this_process() {
   std::string refused;
-  const auto note = [&](const char* what, int error) {
+  const auto add_refused = [&](const char* what, int error) {
     refused += fmt::format("{}{}: {}", refused.empty() ? "" : "; ", what, std::strerror(error));
   };
   const rlimit no_core{0, 0};
-  if (::setrlimit(RLIMIT_CORE, &no_core) != 0) note("core dumps", errno);
+  if (::setrlimit(RLIMIT_CORE, &no_core) != 0) add_refused("core dumps", errno);
   if (const char* text = std::getenv(kMemoryVariable)) {
     constexpr rlim_t kMib = 1 << 20;
     const rlim_t bytes = std::strtoull(text, nullptr, 10) * kMib;
     const rlimit memory{bytes, bytes};
-    if (bytes > 0 && ::setrlimit(RLIMIT_AS, &memory) != 0) note("memory", errno);
+    if (bytes > 0 && ::setrlimit(RLIMIT_AS, &memory) != 0) add_refused("memory", errno);
   }
-  if (const int error = refuse_network(); error != 0) note("the network", error);
+  if (const int error = refuse_network(); error != 0) add_refused("the network", error);
   return refused;
 }
 

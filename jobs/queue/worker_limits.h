@@ -1,4 +1,4 @@
-// What a worker process may not do: it reads scenarios and meshes that strangers may have sent.
+// Confinement of a worker process: it reads scenarios and meshes that strangers may have sent.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a worker tells its supervisor: one JSON object per line of its stdout.
+// Messages of a worker to its supervisor: one JSON object per line of its stdout.
 #pragma once
 
 #include <optional>

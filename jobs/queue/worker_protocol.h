@@ -1,4 +1,4 @@
-// What a supervisor and its worker processes agree on besides the lines of
+// Protocol between a supervisor and its worker processes besides the lines of
 // jobs/queue/worker_messages.h: exit codes and environment variables.
 #pragma once
 

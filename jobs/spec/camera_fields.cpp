@@ -36,8 +36,8 @@ void add_number(FieldTable<CameraSpec>& table, const std::string& path, std::str
     // A calibrated camera says it; and of two that mean the same the focal length counts.
     if (spec.calibration && is_calibrated(path)) return {};
     if (path == "hfov_deg" && spec.fx_px) return {};
-    const auto drawn = spec.drawn.find(path);
-    if (drawn != spec.drawn.end()) return drawn->second.to_json(quantity);
+    const auto found = spec.sampled.find(path);
+    if (found != spec.sampled.end()) return found->second.to_json(quantity);
     return value_json(number(spec));
   };
   const auto set = [path, quantity, low, set_number](CameraSpec& spec, const json& value,
@@ -45,10 +45,10 @@ void add_number(FieldTable<CameraSpec>& table, const std::string& path, std::str
     const Distribution distribution =
         Distribution::read(value, quantity, place.pointer, place.problems);
     set_number(spec, value.is_number() ? value.get<double>() : low);
-    if (value.is_object()) spec.drawn.emplace(path, distribution);
+    if (value.is_object()) spec.sampled.emplace(path, distribution);
   };
   table.add(path, std::move(title), std::move(unit), std::move(values), get, set, std::move(help))
-      .drawn = Drawn::in_place;
+      .sampling = Sampling::in_place;
 }
 
 template <typename Access>
@@ -127,7 +127,7 @@ void set_calibration(CameraSpec& spec, const json& value, const FieldPlace& plac
 
 void add_lens_fields(FieldTable<CameraSpec>& table) {
   table.add("preset", "Preset", "", one_of(camera_presets()), at(&CameraSpec::preset),
-            "A known camera, for what is left out here: its image size and field of view "
+            "A known camera, whose image size and field of view are defaults of the fields below "
             "(jobs/spec/cameras.json, with sources).");
   table.add("calibration", "Calibration", "",
             raw({{"type", {"string", "object"}}, {"maxLength", 1000}},
@@ -146,12 +146,12 @@ void add_lens_fields(FieldTable<CameraSpec>& table) {
   add_number(table, "fx_px", "Focal length", "px", 1, 100000, at(&CameraSpec::fx_px),
              "Of a calibrated camera, instead of hfov_deg.");
   add_number(table, "fy_px", "Vertical focal length", "px", 1, 100000, at(&CameraSpec::fy_px),
-             "Of a calibrated camera; without it, fx_px.");
+             "Of a calibrated camera; default: fx_px.");
   add_number(table, "cx_px", "Principal point, x", "px", -20000, 20000, at(&CameraSpec::cx_px),
-             "Of a calibrated camera, 0 being the middle of the first column; without it, the "
+             "Of a calibrated camera, 0 being the middle of the first column; default: the "
              "image's middle.");
   add_number(table, "cy_px", "Principal point, y", "px", -20000, 20000, at(&CameraSpec::cy_px),
-             "Of a calibrated camera, 0 being the middle of the first row; without it, the image's "
+             "Of a calibrated camera, 0 being the middle of the first row; default: the image's "
              "middle.");
   table.add("model", "Lens model", "", one_of(kModels), model_json, set_model,
             "pinhole: straight lines stay straight; brown_conrady and fisheye (Kannala and Brandt) "
@@ -193,46 +193,47 @@ void add_view_fields(FieldTable<CameraSpec>& table) {
   add_number(table, "yaw_deg", "Yaw", "degrees", -180, 180, at(&CameraSpec::yaw_deg),
              "Angle to the left of the drone's heading.");
   table.group("per_frame", "Per frame",
-              "What differs from frame to frame: standard deviations of normal numbers that are "
-              "drawn for each.");
+              "Differences from frame to frame: standard deviations of normal numbers that are "
+              "sampled for each.");
   add_number(table, "per_frame/yaw_deg", "Yaw", "degrees", 0, 45,
              at(&CameraSpec::per_frame, &PerFrame::yaw_deg),
-             "Standard deviation of what each frame adds to yaw_deg.");
-  add_number(
-      table, "per_frame/pitch_deg", "Pitch", "degrees", 0, 45,
-      at(&CameraSpec::per_frame, &PerFrame::pitch_deg),
-      "Standard deviation of what each frame adds to pitch_deg, which stays between -90 and 90.");
+             "Standard deviation of each frame's offset from yaw_deg.");
+  add_number(table, "per_frame/pitch_deg", "Pitch", "degrees", 0, 45,
+             at(&CameraSpec::per_frame, &PerFrame::pitch_deg),
+             "Standard deviation of each frame's offset from pitch_deg; their sum stays between "
+             "-90 and 90.");
   add_number(table, "per_frame/ev", "Exposure", "EV", 0, 3,
              at(&CameraSpec::per_frame, &PerFrame::ev),
-             "Standard deviation of what each frame adds to sensor.ev.");
+             "Standard deviation of each frame's offset from sensor.ev.");
 }
 
 void add_body_fields(FieldTable<CameraSpec>& table) {
-  table.group("gimbal", "Gimbal", "What holds the camera.");
+  table.group("gimbal", "Gimbal", "The stabilized mount of the camera.");
   table.add("gimbal/model", "Model", "", one_of(kGimbals), gimbal_json, set_gimbal,
-            "ideal: looks exactly where it is told; second_order: follows the heading like a "
-            "spring with damping, shakes and is mounted slightly askew.");
-  add_number(table, "gimbal/natural_rad_s", "Quickness", "rad/s", 1, 100,
+            "ideal: exact direction; second_order: follows the heading as a damped second-order "
+            "system, with jitter and a misaligned mount.");
+  add_number(table, "gimbal/natural_rad_s", "Natural frequency", "rad/s", 1, 100,
              at(&CameraSpec::gimbal, &sim::GimbalSpec::natural_rad_s),
-             "Natural frequency of the answer.");
+             "Natural frequency of the response.");
   add_number(table, "gimbal/damping", "Damping", "", 0.1, 2,
-             at(&CameraSpec::gimbal, &sim::GimbalSpec::damping), "Of the answer; 1: no overshoot.");
+             at(&CameraSpec::gimbal, &sim::GimbalSpec::damping),
+             "Damping ratio of the response; 1: no overshoot.");
   add_number(table, "gimbal/jitter_deg", "Jitter", "degrees", 0, 5,
              angle_of(&sim::GimbalSpec::jitter_rad), set_angle_of(&sim::GimbalSpec::jitter_rad),
-             "Standard deviation of what shakes on, about each axis.");
+             "Standard deviation of the remaining vibration about each axis.");
   add_number(table, "gimbal/bias_deg", "Misalignment", "degrees", 0, 5,
              angle_of(&sim::GimbalSpec::bias_rad), set_angle_of(&sim::GimbalSpec::bias_rad),
-             "The camera's mounting is off by up to so much about each axis, drawn per run.");
+             "Maximum error of the camera's mounting about each axis, sampled per run.");
   add_number(table, "gimbal/reading_deg", "Noise of the encoders", "degrees", 0, 5,
              angle_of(&sim::GimbalSpec::reading_rad), set_angle_of(&sim::GimbalSpec::reading_rad),
              "Standard deviation of the angles that the gimbal reports.");
   table.group("sensor", "Sensor",
-              "What sensor and shutter do to the pictures; all of it is off unless asked for.");
+              "Effects of sensor and shutter on the images; all are off by default.");
   add_number(table, "sensor/ev", "Exposure compensation", "EV", -6, 6,
-             at(&CameraSpec::sensor, &render::Sensor::ev), "Light is doubled by each 1.");
+             at(&CameraSpec::sensor, &render::Sensor::ev), "Each 1 EV doubles the light.");
   add_number(table, "sensor/white_balance_k", "White balance", "K", 1667, 25000,
              at(&CameraSpec::sensor, &render::Sensor::white_balance_k),
-             "Colour temperature that the camera takes for white: below 6500 pictures turn blue, "
+             "Color temperature that the camera assumes for white: below 6500 images turn blue, "
              "above yellow.");
   add_number(table, "sensor/vignette", "Vignetting", "", 0, 1,
              at(&CameraSpec::sensor, &render::Sensor::vignette),
@@ -249,12 +250,12 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
              "Standard deviation of each reading.");
   add_number(table, "sensor/exposure_s", "Exposure time", "s", 0, 0.5,
              at(&CameraSpec::exposure, &render::Exposure::exposure_s),
-             "How long each row gathers light, around the frame's time: what moves is blurred. 0: "
-             "an instant.");
+             "Duration for which each row gathers light, around the frame's time: moving objects "
+             "are blurred. 0: an instant.");
   add_number(table, "sensor/readout_s", "Readout time", "s", 0, 0.5,
              at(&CameraSpec::exposure, &render::Exposure::readout_s),
-             "From the first row to the last, the middle one at the frame's time: what moves "
-             "leans. 0: all rows at once.");
+             "From the first row to the last, the middle one at the frame's time: moving objects "
+             "are skewed. 0: all rows at once (global shutter).");
 }
 
 FieldTable<CameraSpec> make_camera_fields() {

@@ -7,7 +7,7 @@
 namespace throng::jobs {
 
 /// In the order of the schema. Every number but the image's size may be a distribution, kept in
-/// CameraSpec::drawn under the field's path.
+/// CameraSpec::sampled under the field's path.
 const FieldTable<CameraSpec>& camera_fields();
 
 /// The word of a lens model: "fisheye".

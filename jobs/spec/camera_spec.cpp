@@ -31,7 +31,7 @@ const json& presets() {
 
 bool gives(const json& value, const char* name) { return value.contains(below(name)); }
 
-/// What contradicts itself in the object.
+/// Reports contradictions in the object.
 void check_choices(const json& value, const CameraSpec& spec, const std::string& pointer,
                    std::vector<Problem>& problems) {
   if (gives(value, "fx_px") && gives(value, "hfov_deg")) {
@@ -114,10 +114,10 @@ json to_json(const CameraSpec& spec) { return camera_fields().print(spec); }
 CameraSpec camera_of_run(const CameraSpec& spec, std::uint64_t run_seed,
                          const std::string& pointer) {
   CameraSpec run_camera = spec;
-  run_camera.drawn.clear();
+  run_camera.sampled.clear();
   const std::string no_source;
   std::vector<Problem> problems;
-  for (const auto& [path, distribution] : spec.drawn) {
+  for (const auto& [path, distribution] : spec.sampled) {
     const std::string place = pointer + "/" + path;
     camera_fields().find(path)->set(run_camera, distribution.draw(run_seed, place),
                                     {place, no_source, problems});

@@ -32,7 +32,7 @@ struct LensCoefficients {
   double p2 = 0;
 };
 
-/// Standard deviations of what is drawn for each frame (jobs/pipeline/frame_draw.h).
+/// Standard deviations of what is sampled for each frame (jobs/pipeline/frame_draw.h).
 struct PerFrame {
   double yaw_deg = 0;
   double pitch_deg = 0;
@@ -60,9 +60,9 @@ struct CameraSpec {
   render::Exposure exposure;
   sim::GimbalSpec gimbal;
   PerFrame per_frame;
-  /// Fields that are drawn for each run, by their pointer below the camera ("sensor/iso"); what the
-  /// other members say of these does not count.
-  std::map<std::string, Distribution> drawn;
+  /// Fields that are sampled for each run, by their pointer below the camera ("sensor/iso"); what
+  /// the other members say of these does not count.
+  std::map<std::string, Distribution> sampled;
 };
 
 /// Reads the object at `pointer`; what it leaves out comes from its preset or has its default.
@@ -72,7 +72,7 @@ CameraSpec read_camera(const nlohmann::json& value, const std::string& pointer,
 
 nlohmann::json to_json(const CameraSpec& spec);
 
-/// The camera of a run: nothing is left to be drawn. `pointer` is the camera's place in the job.
+/// The camera of a run: nothing is left to be sampled. `pointer` is the camera's place in the job.
 CameraSpec camera_of_run(const CameraSpec& spec, std::uint64_t run_seed,
                          const std::string& pointer);
 

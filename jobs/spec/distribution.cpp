@@ -112,7 +112,7 @@ void Distribution::read_values(const json& list, const Quantity& quantity, const
 }
 
 json Distribution::to_json(const Quantity& quantity) const {
-  if (!is_drawn()) return quantity.json(values_.front());
+  if (!is_random()) return quantity.json(values_.front());
   json list = json::array();
   for (const double value : values_) list.push_back(quantity.json(value));
   // A deviation may be finer than the field's own values.

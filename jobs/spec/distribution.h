@@ -1,7 +1,7 @@
-// Values of a job that may be drawn anew for every run: a field holds one value, or
+// Values of a job that may be sampled again for every run: a field holds one value, or
 // {"choice": [a, b, ...]}, {"uniform": [low, high]}, {"log_uniform": [low, high]} (equally many in
 // every octave) or {"normal": [mean, standard deviation]}, whose values outside the field's range
-// are drawn again.
+// are sampled again.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ class Distribution {
   nlohmann::json to_json(const Quantity& quantity) const;
 
   /// Whether runs may differ.
-  bool is_drawn() const { return kind_ != Kind::choice || values_.size() > 1; }
+  bool is_random() const { return kind_ != Kind::choice || values_.size() > 1; }
 
   /// The value that this field has in a run. `pointer` names the field, so that fields do not
   /// depend on each other.

@@ -37,29 +37,29 @@ FieldTable<DroneSpec> make_drone_fields() {
   FieldTable<DroneSpec> table;
   table
       .add("id", "Id", "", identifiers(), at(&DroneSpec::mission, &sim::DroneMission::id),
-           "Unique name: letters, digits, '_' and '-'; also the name of folders. A drone of the "
-           "scenario lends its start and goal to the one of the same id.")
+           "Unique name: letters, digits, '_' and '-'; also the name of folders. The scenario's "
+           "drone of this id gives the defaults of start and moves_goal.")
       .required();
   table.add("airframe", "Airframe", "",
             raw({{"type", {"string", "object"}}, {"pattern", identifiers().rules["pattern"]}},
                 "the name of an airframe, or an object that describes one"),
             airframe_json, set_airframe,
-            "Which quadcopter flies: one that throng airframes lists, or an object with the fields "
+            "The quadcopter: a name that throng airframes lists, or an object with the fields "
             "that it prints for one.");
-  table.group("battery", "Battery", "Whether flying ends.");
+  table.group("battery", "Battery", "Limited flight time.");
   table.add("battery/charge", "Charge", "", numbers(0.01, 1),
             at(&DroneSpec::mission, &sim::DroneMission::battery_charge),
             "Share of a full battery at the run's start; the drone lands where it is when 15 % are "
-            "left. Without it, the battery lasts.");
-  table.add(
-      "start", "Start", "m", coordinates(3, true),
-      at(&DroneSpec::mission, &sim::DroneMission::start),
-      "Where the drone hovers when the run begins; without it, the scenario's start for this id.");
+            "left. Without it, the battery is not limited.");
+  table.add("start", "Start", "m", coordinates(3, true),
+            at(&DroneSpec::mission, &sim::DroneMission::start),
+            "Position where the drone hovers when the run begins; default: the scenario's start "
+            "for this id.");
   table.add("moves_goal", "Moved goal", "", lists(2, 2, integers(0, 1'000'000'000).rules),
             goal_json, set_goal,
-            "The goal of the behaviour file, [goal set, goal], that follows the drone over the "
-            "ground; without it, the scenario's for this id.");
-  table.group("guidance", "Guidance", "Where the drone flies.");
+            "The goal of the behavior file, [goal set, goal], that follows the drone over the "
+            "ground; default: the scenario's for this id.");
+  table.group("guidance", "Guidance", "The policy that flies the drone.");
   table.add_all(
       "guidance", guidance_fields(), [](auto& drone) -> auto& { return drone; });
   table
@@ -69,8 +69,8 @@ FieldTable<DroneSpec> make_drone_fields() {
           [](DroneSpec& drone, const json& value, const FieldPlace& place) {
             drone.camera = read_camera(value, place.pointer, place.problems);
           },
-          "A camera on a gimbal that cancels the drone's roll and pitch. Every number but the "
-          "image's size may be a distribution, drawn anew for every run.")
+          "A camera on a gimbal that cancels the drone's roll and pitch. Every number except the "
+          "image's size may be a distribution, sampled again for every run.")
       .with_default(ordered_json::object());
   return table;
 }

@@ -72,31 +72,31 @@ double usual_visibility_m(render::Weather weather) {
 const FieldTable<EnvironmentSpec>& environment_fields() {
   static const FieldTable<EnvironmentSpec> fields = [] {
     FieldTable<EnvironmentSpec> table;
-    table.add_drawn("time_of_day", "Time of day", "HH:MM", times(),
-                    at(&EnvironmentSpec::time_of_day_h),
-                    "Solar time at the run's start; sets the sun, which then stands still. Street "
-                    "lamps and windows are lit while it is below the horizon.");
-    table.add_drawn("latitude_deg", "Latitude", "degrees", numbers(-90, 90),
-                    at(&EnvironmentSpec::latitude_deg),
-                    "Where on Earth the sun is seen from; north is positive.");
-    table.add_drawn("day_of_year", "Day of the year", "days", integers(1, kDaysPerYear),
-                    at(&EnvironmentSpec::day_of_year), "1 is 1 January; 225 is mid-August.");
-    table.add_drawn(
-        "weather", "Weather", "", drawn_words(kWeathers), at(&EnvironmentSpec::weather),
-        "clear: sun and shadows; overcast: grey light without hard shadows; fog: contrast falls "
+    table.add_sampled("time_of_day", "Time of day", "HH:MM", times(),
+                      at(&EnvironmentSpec::time_of_day_h),
+                      "Solar time at the run's start; sets the sun for the whole run. Street "
+                      "lamps and windows are lit while it is below the horizon.");
+    table.add_sampled("latitude_deg", "Latitude", "degrees", numbers(-90, 90),
+                      at(&EnvironmentSpec::latitude_deg),
+                      "Latitude for the sun's position; north is positive.");
+    table.add_sampled("day_of_year", "Day of the year", "days", integers(1, kDaysPerYear),
+                      at(&EnvironmentSpec::day_of_year), "1 is 1 January; 225 is mid-August.");
+    table.add_sampled(
+        "weather", "Weather", "", sampled_words(kWeathers), at(&EnvironmentSpec::weather),
+        "clear: sun and shadows; overcast: diffuse light without hard shadows; fog: contrast falls "
         "with distance; rain: overcast, streaks, a wet ground with puddles.");
-    table.add_drawn("visibility_m", "Visibility", "m", numbers(20, 100000),
-                    at(&EnvironmentSpec::visibility_m),
-                    "Distance at which 2 % of a contrast is left; without it, by the weather: 3500 "
-                    "(clear), 8000 (overcast), 800 (fog), 3000 (rain).");
-    table.add_drawn(
+    table.add_sampled("visibility_m", "Visibility", "m", numbers(20, 100000),
+                      at(&EnvironmentSpec::visibility_m),
+                      "Distance at which 2 % of a contrast is left; default, by the weather: 3500 "
+                      "(clear), 8000 (overcast), 800 (fog), 3000 (rain).");
+    table.add_sampled(
         "smoke", "Smoke", "", numbers(0, 1), at(&EnvironmentSpec::smoke),
-        "How much smoke and dust there is where the scenario's dangers (disaster_agents) are; it "
-        "hides what is behind it from the eye, not from the ground truth.");
-    table.add_drawn("rain_mm_per_h", "Rain", "mm/h", numbers(0, 200),
-                    at(&EnvironmentSpec::rain_mm_per_h),
-                    "Intensity of the rain, where the weather is rain.");
-    table.group("wind", "Wind", "What the drones fly in.");
+        "Density of smoke and dust around the scenario's hazards (disaster_agents); it "
+        "hides objects in the image, not in the ground truth.");
+    table.add_sampled("rain_mm_per_h", "Rain", "mm/h", numbers(0, 200),
+                      at(&EnvironmentSpec::rain_mm_per_h),
+                      "Intensity of the rain if the weather is rain.");
+    table.group("wind", "Wind", "The wind that acts on the drones.");
     table.add_all("wind", wind_fields(), at(&EnvironmentSpec::wind));
     return table;
   }();

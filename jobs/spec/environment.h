@@ -33,7 +33,7 @@ EnvironmentSpec read_environment(const nlohmann::json& value, std::vector<Proble
 
 nlohmann::json to_json(const EnvironmentSpec& spec);
 
-/// What was drawn for a run; the sun follows from it.
+/// Values sampled for a run; the sun follows from them.
 struct RunEnvironment {
   double time_of_day_h = 0;
   double latitude_deg = 0;
@@ -53,7 +53,7 @@ struct Sun {
   double elevation_rad = 0;  ///< negative below the horizon
 };
 
-/// Where the sun stands at a solar time (hours from midnight): sin(elevation) = sin(lat) sin(dec) +
+/// Position of the sun at a solar time (hours from midnight): sin(elevation) = sin(lat) sin(dec) +
 /// cos(lat) cos(dec) cos(hour angle). The declination is Spencer's Fourier series of the day of the
 /// year (Spencer 1971, Search 2(5), p. 172; within 0.05 degrees).
 Sun sun_at(double time_of_day_h, double latitude_deg, int day_of_year);

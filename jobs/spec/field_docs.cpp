@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr std::string_view kHead =
-    "| field | what it may be | unit | default | meaning |\n|---|---|---|---|---|\n";
+    "| field | values | unit | default | meaning |\n|---|---|---|---|---|\n";
 
 /// Lists as a person writes them: ["coco", "density"].
 std::string json_text(const ordered_json& value) {
@@ -49,7 +49,7 @@ std::string range_in(const ordered_json& rules) {
                      rules.at("maximum").dump());
 }
 
-/// What the elements of a list are.
+/// Description of the elements of a list.
 std::string items_text(const ordered_json& rules) {
   if (rules.contains("enum")) return words_text(rules["enum"]);
   if (rules.contains("title")) {
@@ -105,6 +105,7 @@ std::string values_text(const ordered_json& rules) {
 void append_rows(const ordered_json& object, const std::string& path, std::string& rows) {
   const ordered_json required = object.value("required", ordered_json::array());
   for (const auto& [name, rules] : object.at("properties").items()) {
+    if (rules.value("deprecated", false)) continue;
     const std::string place = path + name;
     const bool has_fields = rules.contains("properties") && !rules["properties"].empty();
     if (has_fields) {

@@ -1,6 +1,6 @@
 // A job's fields in tables. A line of a table says everything that is known of a field: where it
 // stands, title and help, unit, what values it may have, whether runs may differ in it, and where
-// the program keeps it. Reading, printing, setting drawn values, the job schema and the table of
+// the program keeps it. Reading, printing, setting sampled values, the job schema and the table of
 // docs/job.md follow from it. The defaults are those of the structs.
 #pragma once
 
@@ -19,28 +19,33 @@
 
 namespace throng::jobs {
 
-/// Whether and how a field may differ between runs.
-enum class Drawn : std::uint8_t {
+/// Whether and how a field may be sampled for each run.
+enum class Sampling : std::uint8_t {
   never,
   by_randomize,  ///< by the block "randomize" of the job (x-randomize)
   in_place,      ///< the field itself may hold a distribution (x-distribution)
 };
 
-/// What the schema says of a field.
+/// The schema's rules of a field.
 struct FieldRules {
   std::string path;  ///< below the object that the table describes: "sensor/iso"
   std::string title;
   std::string unit;  ///< or ""
   std::string help;
   Values values;
-  Drawn drawn = Drawn::never;
+  Sampling sampling = Sampling::never;
   bool is_required = false;
   /// An object whose fields follow in the table with its path before theirs.
   bool is_group = false;
   nlohmann::ordered_json default_value;  ///< null: none
+  /// The field's name of an earlier version, which is still read, with a warning; or "".
+  std::string deprecated_name;
 };
 
-/// Where something is read from, for messages and for files that it names.
+/// Path of the field's deprecated name: "sensor/old" for "sensor/new".
+std::string deprecated_path(const FieldRules& field);
+
+/// Source and pointer of a value that is read, for messages and for files that it names.
 struct FieldPlace {
   std::string pointer;        ///< JSON pointer
   const std::string& source;  ///< the job's file, or "" for a request
@@ -49,6 +54,9 @@ struct FieldPlace {
   FieldPlace below(const std::string& path) const {
     return {pointer + "/" + path, source, problems};
   }
+  /// Warns that this is the deprecated name of a field; adds a problem and returns false if the
+  /// field is also given by its name.
+  bool allows_deprecated(const FieldRules& field, bool is_also_given) const;
 };
 
 template <typename Object>
@@ -59,7 +67,7 @@ struct Field : FieldRules {
   std::function<void(Object&, const nlohmann::json& value, const FieldPlace&)> set;
 
   Field& randomized() {
-    drawn = Drawn::by_randomize;
+    sampling = Sampling::by_randomize;
     return *this;
   }
   Field& required() {
@@ -67,9 +75,14 @@ struct Field : FieldRules {
     default_value = nullptr;
     return *this;
   }
-  /// What the schema calls the default, where the job does not write it out.
+  /// The schema's default of a field that printed jobs leave out.
   Field& with_default(nlohmann::ordered_json value) {
     default_value = std::move(value);
+    return *this;
+  }
+  /// The field was called `name` in an earlier version. Not for fields that may be sampled.
+  Field& renamed_from(std::string name) {
+    deprecated_name = std::move(name);
     return *this;
   }
   /// Of objects that are there only if they are given: help says what happens without.
@@ -184,17 +197,17 @@ class FieldTable {
 
   /// A field that may be a distribution itself; `member` is a Distribution.
   template <typename Access>
-  Field<Object>& add_drawn(std::string path, std::string title, std::string unit, Values values,
-                           Access access, std::string help) {
+  Field<Object>& add_sampled(std::string path, std::string title, std::string unit, Values values,
+                             Access access, std::string help) {
     Quantity quantity = *values.quantity;
     Field<Object>& field = add(
         std::move(path), std::move(title), std::move(unit), std::move(values),
-        [access, quantity](const Object& object) { return drawn_json(access(object), quantity); },
+        [access, quantity](const Object& object) { return sampled_json(access(object), quantity); },
         [access, quantity](Object& object, const nlohmann::json& value, const FieldPlace& place) {
           access(object) = Distribution::read(value, quantity, place.pointer, place.problems);
         },
         std::move(help));
-    field.drawn = Drawn::in_place;
+    field.sampling = Sampling::in_place;
     return field;
   }
 
@@ -228,9 +241,13 @@ class FieldTable {
   void read(const nlohmann::json& value, Object& object, const FieldPlace& place) const {
     for (const Field<Object>& field : fields_) {
       if (field.is_group) continue;
-      if (const nlohmann::json* found = value_at(value, field.path)) {
-        field.set(object, *found, place.below(field.path));
-      }
+      const nlohmann::json* found = value_at(value, field.path);
+      if (found != nullptr) field.set(object, *found, place.below(field.path));
+      if (field.deprecated_name.empty()) continue;
+      const FieldPlace old = place.below(deprecated_path(field));
+      const nlohmann::json* found_old = value_at(value, deprecated_path(field));
+      if (found_old == nullptr || !old.allows_deprecated(field, found != nullptr)) continue;
+      field.set(object, *found_old, old);
     }
   }
 

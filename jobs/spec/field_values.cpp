@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/deprecation.h"
 #include "base/error.h"
 #include "jobs/spec/field_table.h"
 
@@ -50,13 +51,13 @@ Quantity word_quantity(const std::vector<std::string>& words) {
 ordered_json rules_of(const FieldRules& field) {
   ordered_json rules = {{"title", field.title}, {"description", field.help}};
   for (const auto& [key, value] : field.values.rules.items()) {
-    // Where an object's fields begin is too late for what is said of itself.
+    // An object's own default precedes its fields.
     if (key == "properties" && !field.default_value.is_null()) {
       rules["default"] = field.default_value;
     }
     rules[key] = value;
   }
-  const bool in_place = field.drawn == Drawn::in_place;
+  const bool in_place = field.sampling == Sampling::in_place;
   if (in_place) rules["type"] = {field.values.rules.at("type"), "object"};
   const std::string expected = !field.values.expected.empty() ? field.values.expected
                                : in_place                     ? field.values.quantity->expected
@@ -68,7 +69,7 @@ ordered_json rules_of(const FieldRules& field) {
       rules["x-distribution"] = {"choice", "uniform", "log_uniform", "normal"};
     }
   }
-  if (field.drawn == Drawn::by_randomize) rules["x-randomize"] = true;
+  if (field.sampling == Sampling::by_randomize) rules["x-randomize"] = true;
   if (!field.default_value.is_null()) rules["default"] = field.default_value;
   if (!field.unit.empty()) rules["unit"] = field.unit;
   return rules;
@@ -178,7 +179,7 @@ Values one_of(std::span<const std::string> words) {
   return {{{"type", "string"}, {"enum", std::move(list)}}};
 }
 
-Values drawn_words(std::span<const std::string> words) {
+Values sampled_words(std::span<const std::string> words) {
   return {{{"type", "string"}, {"pattern", fmt::format("^({})$", fmt::join(words, "|"))}},
           "",
           word_quantity({words.begin(), words.end()})};
@@ -189,11 +190,11 @@ ordered_json plain_numbers(const json& value) {
   return value;
 }
 
-json drawn_json(const Distribution& distribution, const Quantity& quantity) {
+json sampled_json(const Distribution& distribution, const Quantity& quantity) {
   return distribution.to_json(quantity);
 }
 
-json drawn_json(const std::optional<Distribution>& distribution, const Quantity& quantity) {
+json sampled_json(const std::optional<Distribution>& distribution, const Quantity& quantity) {
   return distribution ? distribution->to_json(quantity) : json();
 }
 
@@ -207,6 +208,22 @@ const json* value_at(const json& object, std::string_view path) {
     if (end == std::string_view::npos) return value;
     path.remove_prefix(end + 1);
   }
+}
+
+std::string deprecated_path(const FieldRules& field) {
+  return field.path.substr(0, field.path.rfind('/') + 1) + field.deprecated_name;
+}
+
+bool FieldPlace::allows_deprecated(const FieldRules& field, bool is_also_given) const {
+  const std::string name = field.path.substr(field.path.rfind('/') + 1);
+  if (is_also_given) {
+    problems.push_back({"", pointer,
+                        fmt::format("both \"{}\" and \"{}\"", name, field.deprecated_name),
+                        fmt::format("only \"{}\"", name)});
+    return false;
+  }
+  warn_deprecated(source, pointer, name);
+  return true;
 }
 
 json::json_pointer pointer_below(const std::string& path) { return json::json_pointer("/" + path); }
@@ -229,6 +246,13 @@ ordered_json schema_of(std::span<const FieldRules* const> fields) {
       path.remove_prefix(end + 1);
     }
     (*parent)[std::string(path)] = field->is_group ? rules_of_group(*field) : rules_of(*field);
+    if (field->deprecated_name.empty()) continue;
+    check(!field->is_required && field->sampling == Sampling::never,
+          "a renamed field is a plain one");
+    ordered_json old = rules_of(*field);
+    old["description"] = fmt::format("Deprecated: use {}.", path);
+    old["deprecated"] = true;
+    (*parent)[field->deprecated_name] = std::move(old);
   }
   return schema;
 }

@@ -1,4 +1,4 @@
-// What the values of a job's fields may be, for the schema and for drawing them.
+// Permitted values of a job's fields, for the schema and for sampling them.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct FieldRules;
 struct Values {
   nlohmann::ordered_json rules;  ///< in JSON Schema's words, "type" first
   std::string expected = {};     ///< for messages, where the rules do not say it (x-expected)
-  std::optional<Quantity> quantity = std::nullopt;  ///< how values are drawn, if they may be
+  std::optional<Quantity> quantity = std::nullopt;  ///< how values are sampled, if they may be
 };
 
 Values integers(std::int64_t low, std::int64_t high);
@@ -39,13 +39,13 @@ Values lists(int min_value, int max_value, nlohmann::ordered_json items);
 Values coordinates(int count, bool is_random = false);
 /// Objects with the fields of a table: its schema().
 Values object_of(nlohmann::ordered_json fields);
-/// Whatever else the schema can say.
+/// Any other rules of the schema.
 Values raw(nlohmann::ordered_json rules, std::string expected = "");
 
 /// Some of words, as they are written in JSON.
 Values one_of(std::span<const std::string> words);
 /// One of these words, or a choice of them for each run.
-Values drawn_words(std::span<const std::string> words);
+Values sampled_words(std::span<const std::string> words);
 
 template <typename Words>
 std::vector<std::string> texts_of(const Words& words) {
@@ -57,18 +57,18 @@ Values one_of(const Words& words) {
   return one_of(std::span<const std::string>(texts));
 }
 template <typename Words>
-Values drawn_words(const Words& words) {
+Values sampled_words(const Words& words) {
   const std::vector<std::string> texts = texts_of(words);
-  return drawn_words(std::span<const std::string>(texts));
+  return sampled_words(std::span<const std::string>(texts));
 }
 
 /// The value as the schema writes it: whole numbers without a point.
 nlohmann::ordered_json plain_numbers(const nlohmann::json& value);
 
-/// A field that is drawn, as a job writes it; null if it is not there.
-nlohmann::json drawn_json(const Distribution& distribution, const Quantity& quantity);
-nlohmann::json drawn_json(const std::optional<Distribution>& distribution,
-                          const Quantity& quantity);
+/// A field that is sampled, as a job writes it; null if it is not there.
+nlohmann::json sampled_json(const Distribution& distribution, const Quantity& quantity);
+nlohmann::json sampled_json(const std::optional<Distribution>& distribution,
+                            const Quantity& quantity);
 
 /// The value at a path like "sensor/iso"; null if it is not there.
 const nlohmann::json* value_at(const nlohmann::json& object, std::string_view path);

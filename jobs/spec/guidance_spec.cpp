@@ -28,22 +28,23 @@ const FieldTable<sim::PerceptionSpec>& perception_fields() {
     FieldTable<sim::PerceptionSpec> table;
     table
         .add_word("kind", "Kind", kPerceptionWords, at(&sim::PerceptionSpec::kind),
-                  "truth: everybody's place and aim; camera: what a camera that looks straight "
-                  "down from the drone would count. Without it, truth.")
+                  "truth: all people's positions and goals; camera: the count of a camera that "
+                  "looks straight "
+                  "down from the drone. Default: truth.")
         .without_default();
     table
         .add("fov_deg", "Field of view", "degrees", numbers(10, 170), fov_json, set_fov,
-             "camera: the angle of the cone that it sees; without it, 90.")
+             "camera: opening angle of its cone of view; default: 90.")
         .without_default();
     table
         .add("delay_s", "Delay", "s", numbers(0, 60), at(&sim::PerceptionSpec::delay_s),
-             "camera: from the picture to the estimate; without it, 1.")
+             "camera: delay from the image to the estimate; default: 1.")
         .without_default();
     table
         .add("count_noise", "Count noise", "", numbers(0, 0.5),
              at(&sim::PerceptionSpec::count_noise),
              "camera: share of the people that it misses, and of those that it counts twice; "
-             "without it, 0.1.")
+             "default: 0.1.")
         .without_default();
     return table;
   }();
@@ -53,9 +54,9 @@ const FieldTable<sim::PerceptionSpec>& perception_fields() {
 const FieldTable<world::Rectangle>& area_fields() {
   static const FieldTable<world::Rectangle> fields = [] {
     FieldTable<world::Rectangle> table;
-    table.add("min", "Least corner", "m", coordinates(2), at(&world::Rectangle::min), "[x, y].")
+    table.add("min", "Min corner", "m", coordinates(2), at(&world::Rectangle::min), "[x, y].")
         .required();
-    table.add("max", "Greatest corner", "m", coordinates(2), at(&world::Rectangle::max), "[x, y].")
+    table.add("max", "Max corner", "m", coordinates(2), at(&world::Rectangle::max), "[x, y].")
         .required();
     return table;
   }();
@@ -153,9 +154,9 @@ FieldTable<DroneSpec> make_guidance_fields() {
             at(&DroneSpec::mission, &sim::DroneMission::policy),
             "hover: stay at the start; waypoints: fly from point to point and hover at the last; "
             "orbit: circle a point and look at it; survey: lanes over an area; follow_density: "
-            "keep the camera on the densest crowd; zigzag: sweep and lead like a tele-operator; "
+            "keep the camera on the densest crowd; zigzag: sweep and lead as a human pilot; "
             "pilot_log: repeat recorded set-points; balance: lead people from long queues to short "
-            "ones; signage: hover before the exit that is best and call people there.");
+            "ones; signage: hover before the best exit and attract people.");
   table
       .add("waypoints", "Waypoints", "m", lists(0, 1000, waypoint_rules()), waypoints_json,
            set_waypoints, R"(The points of the policy "waypoints", in order.)")
@@ -167,32 +168,34 @@ FieldTable<DroneSpec> make_guidance_fields() {
   table.add(
       "lead_speed_mps", "Speed with followers", "m/s", numbers(0.1, 10),
       at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::lead_speed_mps),
-      "balance: how fast it leads people; without it, 1.6.");
+      "balance: speed at which it leads people; default: 1.6.");
   table.add("batch", "Batch", "people", integers(1, 10000),
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::batch),
-            "balance: most people that it fetches at once; without it, 50.");
+            "balance: max people that it leads at once; default: 50.");
   table
       .add("exits", "Exits", "", lists(0, 127, texts(1, 200).rules), exits_json, set_exits,
-           "zigzag, balance, signage: ids of the scenario's exits that it may lead to; without it, "
-           "all that are open.")
+           "zigzag, balance, signage: ids of the scenario's exits that it may lead to; default: "
+           "all open ones.")
       .with_default(ordered_json::array());
   table.add("beacon", "Beacon", "", booleans(),
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::beacon),
             "hover, waypoints, orbit, survey, follow_density: whether people may follow the drone, "
-            "all the time; without it, false. The other policies decide themselves.");
+            "all the time; default: false. The other policies decide themselves.");
   table.add("perception", "Perception", "", object_of(perception_fields().schema()),
-            perception_json, set_perception, "What a policy knows of people.");
-  table.add("centre", "Centre", "m", coordinates(2),
-            at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::center),
-            "orbit: [x, y] that it circles.");
+            perception_json, set_perception, "A policy's information about people.");
+  table
+      .add("center", "Center", "m", coordinates(2),
+           at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::center),
+           "orbit: center of the circle, [x, y].")
+      .renamed_from("centre");
   table.add("radius_m", "Radius", "m", numbers(1, 10000),
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::radius_m),
-            "orbit: distance from the centre.");
+            "orbit: radius of the circle.");
   table.add("area", "Area", "", object_of(area_fields().schema()), area_json, set_area,
-            "survey: the rectangle that it covers; without it, the one that people must leave.");
+            "survey: the rectangle that it covers; default: the one that people must leave.");
   table.add("overlap", "Overlap", "", numbers(0, 0.95),
             at(&DroneSpec::mission, &sim::DroneMission::guidance, &sim::GuidanceSpec::overlap),
-            "survey: share of the camera's view that neighbouring lanes have in common; without "
+            "survey: share of the camera's view that neighboring lanes have in common; without "
             "it, 0.3.");
   table.add("log", "Pilot log", "", texts(1, 1000), log_json, set_log,
             "pilot_log: a file of set-points in the job's folder, as throng simulate --pilot-logs "

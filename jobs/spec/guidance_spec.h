@@ -1,4 +1,4 @@
-// What a job says of a drone's guidance: the policy and its parameters.
+// A job's specification of a drone's guidance: the policy and its parameters.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

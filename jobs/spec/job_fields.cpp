@@ -60,38 +60,40 @@ std::vector<std::string> quality_words() {
 }
 
 void add_crowd_fields(FieldTable<JobSpec>& table) {
-  table.group("crowd", "Crowd", "Who takes part, and how they move.");
+  table.group("crowd", "Crowd", "The people of a run and their movement.");
   table
       .add("crowd/agents", "Agents", "people", integers(1, 1000000), at(&JobSpec::agents),
-           "How many of the scenario's people take part, drawn by the seed; without it, all.")
+           "Number of the scenario's people that take part, sampled by the seed; default: all.")
       .randomized();
   table.add(
       "crowd/model", "Pedestrian model", "", identifiers(),
       at(&JobSpec::crowd, &sim::CrowdSpec::model),
-      "How people keep clear of each other: a model that throng crowd --list names, for example "
-      "orca or helbing. Without it the one that the scenario names, else ttc, whose speeds and "
-      "flows are those of real crowds (orca where compat asks for the results of Menge).");
-  table.add_word("crowd/compat", "Compatibility", crowd::kCompatWords,
-                 at(&JobSpec::crowd, &sim::CrowdSpec::compat),
-                 "Whose results are wanted where the scenario's files leave a choice: the sensible "
-                 "ones (none), Menge's with its quirks (menge), or also those of the elements that "
-                 "Huang's group added to it (huang2016).");
+      "The pedestrian model (collision avoidance): a name that throng crowd --list prints, for "
+      "example orca or helbing. Default: the scenario's, else ttc, whose speeds and "
+      "flows are those of real crowds (orca if compat asks for the results of Menge).");
+  table.add_word(
+      "crowd/compat", "Compatibility", crowd::kCompatWords,
+      at(&JobSpec::crowd, &sim::CrowdSpec::compat),
+      "Program whose results are reproduced where the scenario's files leave a choice: none, "
+      "Menge with its quirks (menge), or also the elements that "
+      "Huang's group added to it (huang2016).");
   table
       .add_word("crowd/separation", "Separation", crowd::kSeparationWords,
                 at(&JobSpec::crowd, &sim::CrowdSpec::hard_separation),
-                "soft: as the model has it; hard: no two people ever overlap by more than 1 cm.")
+                "soft: as the model gives it; hard: no two people ever overlap by more than 1 cm.")
       .randomized();
   table.add("crowd/compliance", "Compliance", "", numbers(0, 1),
             at(&JobSpec::crowd, &sim::CrowdSpec::compliance),
-            "Probability that somebody who is near a guide follows it; multiplies that of the "
-            "behaviour file.");
-  table.add("crowd/physical", "Physical", "", booleans(),
-            at(&JobSpec::crowd, &sim::CrowdSpec::physical, &crowd::Physical::on),
-            "Whether bodies give way: people whom a drone hits or a crowd presses are pushed, and "
-            "fall where it is too much.");
+            "Probability that a person near a guide follows it; multiplies that of the "
+            "behavior file.");
+  table.add(
+      "crowd/physical", "Physical", "", booleans(),
+      at(&JobSpec::crowd, &sim::CrowdSpec::physical, &crowd::Physical::on),
+      "Physical contact: people whom a drone hits or a crowd presses are pushed, and fall above "
+      "a limit of the force.");
   table.add("crowd/fall_impulse_ns", "Impulse of a fall", "N s", numbers(0.1, 1000),
             at(&JobSpec::crowd, &sim::CrowdSpec::physical, &crowd::Physical::fall_impulse_ns),
-            "A blow that throws somebody over, where bodies are physical.");
+            "Impulse that knocks a person down; needs crowd.physical.");
   table.add(
       "crowd/recorded", "Recorded people", "", object_of(recorded_fields().schema()),
       [](const JobSpec& job) { return job.recorded ? to_json(*job.recorded) : json(); },
@@ -104,66 +106,67 @@ void add_crowd_fields(FieldTable<JobSpec>& table) {
 
 void add_appearance_fields(FieldTable<JobSpec>& table) {
   table.group("appearance", "Appearance",
-              "Which people take part, and what they wear against the colours of their wardrobes.");
+              "Which characters take part, and adjustments of their clothes' colors.");
   table
       .add("appearance/brightness", "Brightness", "", numbers(0.3, 2),
            at(&JobSpec::styling, &skinning::Styling::brightness),
-           "Of dyed clothes: their colours' lightness is multiplied by it.")
+           "Factor on the lightness of dyed clothes' colors.")
       .randomized();
   table
       .add("appearance/saturation", "Saturation", "", numbers(0, 2),
            at(&JobSpec::styling, &skinning::Styling::saturation),
-           "Of dyed clothes: 0 makes them grey, 2 twice as colourful.")
+           "Factor on the saturation of dyed clothes' colors: 0 makes them gray, 2 twice as "
+           "colorful.")
       .randomized();
   table
       .add("appearance/variety", "Variety", "", numbers(0.01, 1),
            at(&JobSpec::styling, &skinning::Styling::variety),
-           "Share of the people (docs/people.md) that take part in a run, chosen by its seed.")
+           "Share of the characters (docs/people.md) that take part in a run, chosen by its seed.")
       .randomized();
   table
       .add("appearance/youngest_years", "Youngest", "years", numbers(0, 150),
            at(&JobSpec::styling, &skinning::Styling::youngest_years),
-           "Who is younger does not take part.")
+           "Minimum age of the characters that take part.")
       .randomized();
   table
       .add("appearance/oldest_years", "Oldest", "years", numbers(0, 150),
            at(&JobSpec::styling, &skinning::Styling::oldest_years),
-           "Who is older does not take part.")
+           "Maximum age of the characters that take part.")
       .randomized();
   table
       .add("appearance/umbrellas", "Umbrellas", "", numbers(0, 1),
            at(&JobSpec::styling, &skinning::Styling::umbrellas),
-           "Share of people under an umbrella when it rains; in dry weather nobody is.")
+           "Share of people under an umbrella when it rains; none in dry weather.")
       .randomized();
-  table.group("props", "Props", "What stands about in the place.");
+  table.group("props", "Props", "The props of the scenario.");
   table
       .add("props/density", "Density", "", numbers(0, 1), at(&JobSpec::props_density),
-           "Share of the scenario's scattered props that are there in a run, chosen by its seed.")
+           "Share of the scenario's scattered props that are present in a run, chosen by its seed.")
       .randomized();
 }
 
 FieldTable<JobSpec> make_job_fields() {
   FieldTable<JobSpec> table;
   table.add("name", "Name", "", texts(1, 120), at(&JobSpec::name),
-            "What people call the dataset; names the archive and its folder.");
+            "Name of the dataset; also of the archive and its folder.");
   table
       .add(
           "scenario", "Scenario", "",
           raw({{"type", {"string", "object"}}, {"minLength", 1}, {"maxLength", 200}},
               R"(the id of a scenario, or {"generate": ...})"),
           scenario_json, set_scenario,
-          R"(Id of a scenario: its path below the scenarios folder, without suffix, for example city_square/nearest_exit. Or {"generate": {"kind": "plaza", "seed": 5}}, a place from a seed; docs/blueprint.md lists its parameters.)")
+          R"(Id of a scenario: its path below the scenarios folder, without suffix, for example city_square/nearest_exit. Or {"generate": {"kind": "plaza", "seed": 5}}, a scenario generated from a seed; docs/blueprint.md lists its parameters.)")
       .required();
   table.add("seed", "Seed", "", integers(0, 9007199254740991), at(&JobSpec::seed),
             "All randomness comes from it: equal jobs with equal seeds give equal bytes.");
   table.add("runs", "Runs", "runs", integers(1, 1000), at(&JobSpec::runs),
-            "How many times the scenario is simulated, each time with a seed of its own.");
+            "Number of simulations of the scenario, each with its own seed.");
   add_crowd_fields(table);
   table.add("drones", "Drones", "", lists(1, 16, drone_rules()), drones_json, set_drones,
-            "The drones in the air, one camera each; without it, the scenario's drones, hovering "
+            "The drones, one camera each; default: the scenario's drones, hovering "
             "at their starts.");
   table.group("capture", "Capture",
-              "When pictures are taken, in every run, by every camera: at from_s, then every 1 / "
+              "Times of the frames of every run and camera: from_s, then every 1 / "
               "rate_hz, up to to_s. The run lasts until to_s.");
   table.add("capture/rate_hz", "Rate", "Hz", numbers(0.01, 60),
             at(&JobSpec::capture, &CaptureSpec::rate_hz), "Frames per simulated second.");
@@ -171,14 +174,15 @@ FieldTable<JobSpec> make_job_fields() {
             at(&JobSpec::capture, &CaptureSpec::from_s),
             "Time of the first frame, from the run's start.");
   table.add("capture/to_s", "To", "s", numbers_above(0, 7200),
-            at(&JobSpec::capture, &CaptureSpec::to_s), "No frame is later than this.");
+            at(&JobSpec::capture, &CaptureSpec::to_s),
+            "Maximum time of a frame; the run's duration.");
   table
       .add_word("quality", "Quality", quality_words(), at(&JobSpec::quality),
-                "Of the pictures: draft (quick: flat colours, no shadows, coarse people), "
-                "standard, high (soft shadows, finer people, four samples of colour per pixel).")
+                "Image quality: draft (quick: flat colors, no shadows, coarse people), "
+                "standard, high (soft shadows, finer people, four color samples per pixel).")
       .randomized();
   table.group("environment", "Environment",
-              "Light and weather. Any field may be a distribution, drawn anew for every run.");
+              "Light and weather. Any field may be a distribution, sampled again for every run.");
   table.add_all("environment", environment_fields(), at(&JobSpec::environment));
   add_appearance_fields(table);
   table.add(
@@ -188,14 +192,14 @@ FieldTable<JobSpec> make_job_fields() {
            {"properties", ordered_json::object()}}),
       [](const JobSpec& job) { return job.randomize.empty() ? json() : to_json(job.randomize); },
       [](JobSpec&, const json&, const FieldPlace&) {},
-      R"(Fields that are drawn anew for every run, by their dotted paths, each with a distribution: {"drones.0.camera.pitch_deg": {"uniform": [-80, -35]}}.)");
+      R"(Fields that are sampled again for every run, by their dotted paths, each with a distribution: {"drones.0.camera.pitch_deg": {"uniform": [-80, -35]}}.)");
   add_output_fields(table);
   return table;
 }
 
-/// What the block "randomize" names, but the job and its scenario do not have.
+/// Refuses a field that the block "randomize" names, but the job and its scenario do not have.
 [[noreturn]] void refuse_place(const std::string& pointer) {
-  throw InputError({"", "/randomize/" + dotted(pointer), "a place that the job does not have",
+  throw InputError({"", "/randomize/" + dotted(pointer), "a path that the job does not have",
                     "a field of a drone of the job, and a start only where it is given"});
 }
 
@@ -219,7 +223,7 @@ void set_at(const FieldTable<Object>& table, Object& object, const std::string& 
     whole[index] = value;
     list->set(object, whole, place);
   }
-  check(problems.empty(), "what is drawn for a job is what the job may say");
+  check(problems.empty(), "a sampled value is a permitted value");
 }
 
 }  // namespace
@@ -237,8 +241,8 @@ ordered_json make_job_schema() {
       {"$id", "urn:throng:job:1"},
       {"title", "Job"},
       {"description",
-       "A dataset to make: a scenario, how often it is run, from which drones it is seen and what "
-       "is written. Everything but \"scenario\" has a default."},
+       "Request for a dataset: a scenario, number of runs, drones with cameras, and outputs. "
+       "All fields except \"scenario\" have a default."},
       {"type", "object"}};
   schema.update(job_fields().schema());
   return schema;

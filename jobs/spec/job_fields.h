@@ -16,7 +16,8 @@ void add_output_fields(FieldTable<JobSpec>& table);
 /// The JSON Schema that follows from the tables, in their order.
 const nlohmann::ordered_json& ordered_job_schema();
 
-/// Sets what was drawn for a run: a field that the block "randomize" may name, by its JSON pointer.
+/// Sets what was sampled for a run: a field that the block "randomize" may name, by its JSON
+/// pointer.
 void set_field(JobSpec& job, const std::string& pointer, const nlohmann::json& value);
 
 }  // namespace throng::jobs

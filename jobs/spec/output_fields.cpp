@@ -85,10 +85,10 @@ void set_class_names(JobSpec& job, const json& value, const FieldPlace& place) {
 }
 
 void add_export_fields(FieldTable<JobSpec>& table) {
-  table.group("outputs/splits", "Splits", "How runs are shared out in other formats.");
+  table.group("outputs/splits", "Splits", "Assignment of runs to splits in other formats.");
   table.add("outputs/splits/train", "Training", "", numbers(0, 1), share_of(Split::train),
-            "Share of the runs for training; whole runs, in their order. Where it is left out, "
-            "what the other two leave. The three sum to at most 1.");
+            "Share of the runs for training; whole runs, in their order. Default: the rest that "
+            "the other two leave. The three sum to at most 1.");
   table.add("outputs/splits/val", "Validation", "", numbers(0, 1), share_of(Split::val),
             "Share of the runs for validation.");
   table.add("outputs/splits/test", "Test", "", numbers(0, 1), share_of(Split::test),
@@ -96,39 +96,39 @@ void add_export_fields(FieldTable<JobSpec>& table) {
   table.add("outputs/splits/train_runs", "Training runs by number", "",
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
             runs_of(Split::train), set_runs_of(Split::train),
-            "Runs that are in train whatever the shares say.");
+            "Runs that are in train regardless of the shares.");
   table.add("outputs/splits/val_runs", "Validation runs by number", "",
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
             runs_of(Split::val), set_runs_of(Split::val),
-            "Runs that are in val whatever the shares say.");
+            "Runs that are in val regardless of the shares.");
   table.add("outputs/splits/test_runs", "Test runs by number", "",
             raw({{"type", "array"}, {"maxItems", 1000}, {"items", integers(0, 999).rules}}),
             runs_of(Split::test), set_runs_of(Split::test),
-            "Runs that are in test whatever the shares say.");
+            "Runs that are in test regardless of the shares.");
   table.group("outputs/filters", "Filters",
-              "Who is worth a label in other formats; the rest become ignore regions where a "
+              "Limits for a label in other formats; people beyond them become ignore regions if a "
               "format has them.");
-  table.add("outputs/filters/min_visibility", "Least visibility", "", numbers(0, 1),
+  table.add("outputs/filters/min_visibility", "Min visibility", "", numbers(0, 1),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
                &FilterOptions::min_visibility),
-            "Share of a person that must be visible.");
-  table.add("outputs/filters/min_height_px", "Least height", "px", numbers(0, 10000),
+            "Minimum visible share of a person.");
+  table.add("outputs/filters/min_height_px", "Min height", "px", numbers(0, 10000),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
                &FilterOptions::min_height_px),
-            "Height that the whole person must have in the picture.");
-  table.add("outputs/filters/max_truncation", "Most truncation", "", numbers(0, 1),
+            "Minimum height of the whole person in the image.");
+  table.add("outputs/filters/max_truncation", "Max truncation", "", numbers(0, 1),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::filters,
                &FilterOptions::max_truncation),
-            "Share of a person that may lie outside of the image; without it, any.");
-  table.group("outputs/webdataset", "WebDataset", "How the webdataset format is cut.");
+            "Maximum share of a person outside of the image; without it, any.");
+  table.group("outputs/webdataset", "WebDataset", "Options of the webdataset format.");
   table.add("outputs/webdataset/shard_mb", "Size of a shard", "MB", numbers(1, 100000),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::webdataset,
                &WebDatasetOptions::shard_mb),
-            "What a tar file of WebDataset may reach before the next is begun, in 10^6 bytes.");
-  table.group("outputs/classes", "Classes", "What COCO's and YOLO's classes tell apart.");
+            "Maximum size of a tar file of WebDataset before the next is begun, in 10^6 bytes.");
+  table.group("outputs/classes", "Classes", "Classes of COCO and YOLO.");
   table.add("outputs/classes/by", "Property", "", one_of(formats::class_properties()),
             at(&JobSpec::outputs, &OutputSpec::exports, &ExportOptions::classes, &ClassOptions::by),
-            "Everybody is a person (none), or a class for each value of this.");
+            "none: all people are one class; else a class for each value of this property.");
   table.add("outputs/classes/names", "Names", "",
             raw({{"type", "array"}, {"maxItems", 20}, {"items", texts(3, 60).rules}}),
             class_names_json, set_class_names, "Other names for values: female=woman.");
@@ -137,8 +137,8 @@ void add_export_fields(FieldTable<JobSpec>& table) {
 }  // namespace
 
 void add_output_fields(FieldTable<JobSpec>& table) {
-  table.group("outputs", "Outputs", "What the dataset holds.");
-  table.group("outputs/image", "Images", "How frames are stored.");
+  table.group("outputs", "Outputs", "Contents of the dataset.");
+  table.group("outputs/image", "Images", "Storage of frames.");
   table.add("outputs/image/format", "Format", "", one_of(std::array{"jpeg"}),
             at(&JobSpec::outputs, &OutputSpec::image_format), "File format.");
   table
@@ -147,20 +147,21 @@ void add_output_fields(FieldTable<JobSpec>& table) {
       .randomized();
   table.add("outputs/annotations", "Annotations", "", ground_truth_values(),
             at(&JobSpec::outputs, &OutputSpec::annotations), annotate::ground_truth_help());
-  table.group("outputs/density", "Density maps", "How heads are spread.");
+  table.group("outputs/density", "Density maps", "Kernel of the heads.");
   table
       .add("outputs/density/sigma_px", "Sigma", "px", numbers(0.5, 64),
            at(&JobSpec::outputs, &OutputSpec::density_sigma_px),
            "Standard deviation of the Gaussian of one head.")
       .randomized();
-  table.add("outputs/previews", "Previews", "pictures", integers(0, 100),
+  table.add("outputs/previews", "Previews", "images", integers(0, 100),
             at(&JobSpec::outputs, &OutputSpec::previews),
-            "Pictures with drawn annotations per run and camera, evenly spread over the frames.");
+            "Images with the annotations drawn on them per run and camera, evenly spread over the "
+            "frames.");
   table.add("outputs/formats", "Formats", "",
             raw({{"type", "array"}, {"maxItems", 40}, {"items", texts(1, 40).rules}}),
             at(&JobSpec::outputs, &OutputSpec::formats),
-            "Other formats that the dataset holds as well, below formats/: those that throng "
-            "export --list names.");
+            "Additional formats of the dataset, below formats/: names that throng "
+            "export --list prints.");
   add_export_fields(table);
 }
 

@@ -38,7 +38,7 @@ std::int64_t image_id(const JobSpec& job, int run, std::size_t camera, std::int6
 /// Whether a preview is drawn of this frame: JobSpec::outputs.previews of them, evenly spread.
 bool has_preview(const JobSpec& job, std::int64_t frame);
 
-/// What one worker does in one go.
+/// Unit of work of one worker.
 struct Task {
   enum class Kind { simulate, measure, render, collect };
   Kind kind = Kind::collect;

@@ -35,7 +35,7 @@ std::vector<std::string> words_of(const std::string& path) {
   return words;
 }
 
-/// The schema of the field, or null if there is none or it may not be drawn.
+/// The schema of the field, or null if there is none or it may not be sampled.
 const json* rules_at(const std::vector<std::string>& words) {
   const json* node = &job_schema();
   for (const std::string& word : words) {
@@ -89,7 +89,7 @@ bool is_there(const json& job, const std::vector<std::string>& words, bool in_pl
     } else if (node->contains(words[i])) {
       node = &node->at(words[i]);
     } else {
-      // What is left out has a default.
+      // A field that is left out has a default.
       return !in_place ||
              std::none_of(words.begin() + static_cast<std::ptrdiff_t>(i), words.end(), is_index);
     }
@@ -125,7 +125,7 @@ std::vector<RandomField> take_randomize(json& job, std::vector<Problem>& problem
     const json* rules = rules_at(words);
     if (rules == nullptr) {
       problems.push_back({"", place, fmt::format("\"{}\"", path),
-                          "the dotted path of a field that may be drawn, for example "
+                          "the dotted path of a field that may be sampled, for example "
                           "\"environment.time_of_day\" or \"drones.0.camera.pitch_deg\""});
       continue;
     }

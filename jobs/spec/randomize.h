@@ -1,6 +1,6 @@
 // The block "randomize" of a job: fields by their dotted paths ("drones.0.camera.pitch_deg"), each
-// with a distribution that is drawn anew for every run. Which fields may be named there is what the
-// schema marks with x-distribution or x-randomize.
+// with a distribution that is sampled again for every run. Which fields may be named there is what
+// the schema marks with x-distribution or x-randomize.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct RandomField {
   Quantity quantity;
   Distribution distribution{0};
 
-  /// What the field is in a run.
+  /// The field's value in a run.
   nlohmann::json draw(std::uint64_t run_seed) const;
 };
 
@@ -30,7 +30,7 @@ std::vector<RandomField> take_randomize(nlohmann::json& job, std::vector<Problem
 /// The block, as take_randomize() reads it back.
 nlohmann::json to_json(const std::vector<RandomField>& fields);
 
-/// Dotted paths of all fields that may be drawn, with "0" for the place in a list.
+/// Dotted paths of all fields that may be sampled, with "0" for the place in a list.
 std::vector<std::string> random_paths();
 
 /// "/drones/0/camera" as "drones.0.camera".

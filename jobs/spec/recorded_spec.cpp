@@ -82,30 +82,29 @@ void add_file_fields(FieldTable<RecordedSpec>& table) {
                 "text of JuPedSim and PedPy, JuPedSim's sqlite, Menge's scb, or csv, a table whose "
                 "columns are named below; without it (any), by suffix and content.")
       .without_default();
-  table.add("frame_rate_hz", "Frame rate", "Hz", numbers(0.01, 10000),
-            at(&RecordedSpec::format, &metrics::TrajectoryFormat::frames_per_s),
-            "Frames per second of the file, where it does not say or is wrong; with a column of "
-            "times, the rate to interpolate to.");
+  table.add(
+      "frame_rate_hz", "Frame rate", "Hz", numbers(0.01, 10000),
+      at(&RecordedSpec::format, &metrics::TrajectoryFormat::frames_per_s),
+      "Frames per second, if the file does not contain the rate or is wrong; with a column of "
+      "times, the rate to interpolate to.");
   table.add("unit", "Unit", "", one_of(unit_words()), unit_json, set_unit,
-            "Of lengths in the file; without it, as the file says, else m.");
+            "Unit of lengths in the file; default: the file's, else m.");
 }
 
 void add_column_fields(FieldTable<RecordedSpec>& table) {
-  table
-      .group("columns", "Columns",
-             "What the columns of a table (csv) are called in its first line.")
+  table.group("columns", "Columns", "Names of the columns of a table (csv) in its first line.")
       .without_default();
   table
       .add("columns/person", "Person", "", texts(1, 200),
            at(&RecordedSpec::format, &metrics::TrajectoryFormat::columns,
               &metrics::TrajectoryColumns::person),
-           "Name or number of the person; without it, id.")
+           "Name or number of the person; default: id.")
       .without_default();
   table
       .add("columns/frame", "Frame", "", texts(1, 200),
            at(&RecordedSpec::format, &metrics::TrajectoryFormat::columns,
               &metrics::TrajectoryColumns::frame),
-           "Number of the frame; without it, frame.")
+           "Number of the frame; default: frame.")
       .without_default();
   table
       .add(
@@ -117,13 +116,13 @@ void add_column_fields(FieldTable<RecordedSpec>& table) {
       .add("columns/x", "x", "", texts(1, 200),
            at(&RecordedSpec::format, &metrics::TrajectoryFormat::columns,
               &metrics::TrajectoryColumns::x),
-           "Place along x; without it, x.")
+           "Position along x; default: x.")
       .without_default();
   table
       .add("columns/y", "y", "", texts(1, 200),
            at(&RecordedSpec::format, &metrics::TrajectoryFormat::columns,
               &metrics::TrajectoryColumns::y),
-           "Place along y; without it, y.")
+           "Position along y; default: y.")
       .without_default();
 }
 
@@ -131,12 +130,12 @@ void add_walker_fields(FieldTable<RecordedSpec>& table) {
   table
       .add("radius_m", "Radius", "m", numbers(0.05, 2),
            at(&RecordedSpec::walkers, &metrics::WalkerDefaults::radius_m),
-           "Of everybody's body, which files do not say; without it, 0.2.")
+           "Radius of all bodies, which files do not contain; default: 0.2.")
       .without_default();
   table
       .add("desired_speed_mps", "Desired speed", "m/s", numbers(0.1, 20),
            at(&RecordedSpec::walkers, &metrics::WalkerDefaults::desired_speed_mps),
-           "Of everybody, for the metrics; without it, 1.34.")
+           "Preferred speed of all people, for the metrics; default: 1.34.")
       .without_default();
 }
 

@@ -10,7 +10,7 @@
 namespace throng::jobs {
 
 /// Made by resolve() (jobs/pipeline/resolve.h), once per job. Its JSON, to_json(job.spec()), is
-/// what is queued and what lies in the job's folder; whoever reads it does not check it again.
+/// what is queued and what lies in the job's folder; its readers do not check it again.
 class ResolvedJob {
  public:
   /// The caller vouches for the job.

@@ -94,7 +94,9 @@ std::string expectation(const json& schema) {
 void add_field_problems(const json& object, const json& schema, const json::json_pointer& place,
                         const std::string& source, std::vector<Problem>& problems) {
   std::vector<std::string_view> known;
-  for (const auto& field : schema["properties"].items()) known.emplace_back(field.key());
+  for (const auto& field : schema["properties"].items()) {
+    if (!field.value().value("deprecated", false)) known.emplace_back(field.key());
+  }
   for (const auto& field : object.items()) {
     if (schema["properties"].contains(field.key())) continue;
     problems.push_back(

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-// What the schema allows, as a job; absent fields keep the defaults of the structs.
+// Reads a value that the schema allows; absent fields keep the defaults of the structs.
 JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {
   JobSpec job;
   job_fields().read(value, job, {"", source, problems});
@@ -116,12 +116,12 @@ JobSpec job_of_run(const JobSpec& job, int run) {
 
 namespace {
 
-/// Adds what a run had where a distribution was asked for. What its models do not use was not had.
-void add_drawn(const json& asked, const json& had, const std::string& path, json& drawn) {
+/// Adds a run's values of the fields with a distribution, except those that its models do not use.
+void add_sampled(const json& asked, const json& had, const std::string& path, json& drawn) {
   for (const auto& [name, value] : asked.items()) {
     if (!value.is_object() || !had.contains(name)) continue;
     if (had[name].is_object()) {
-      add_drawn(value, had[name], path + name + ".", drawn);
+      add_sampled(value, had[name], path + name + ".", drawn);
     } else {
       drawn[path + name] = had[name];
     }
@@ -130,17 +130,17 @@ void add_drawn(const json& asked, const json& had, const std::string& path, json
 
 }  // namespace
 
-json drawn_of_run(const JobSpec& job, int run) {
+json samples_of_run(const JobSpec& job, int run) {
   const std::uint64_t seed = plan_runs(job).at(static_cast<std::size_t>(run)).seed;
   json drawn = json::object();
   for (const RandomField& field : job.randomize) drawn[field.path] = field.draw(seed);
   const json asked = to_json(job.environment);
   const json had = to_json(environment_of_run(job.environment, seed));
-  add_drawn(asked, had, "environment.", drawn);
+  add_sampled(asked, had, "environment.", drawn);
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     const std::string pointer = camera_pointer(i);
     const json camera = to_json(camera_of_run(job.drones[i].camera, seed, pointer));
-    for (const auto& [name, distribution] : job.drones[i].camera.drawn) {
+    for (const auto& [name, distribution] : job.drones[i].camera.sampled) {
       drawn[dotted(pointer + "/" + name)] = camera.at(json::json_pointer("/" + name));
     }
   }

@@ -1,6 +1,6 @@
 // The job: what a user asks for. Parsing checks it against one JSON Schema
-// (jobs/spec/job.schema.json) and against itself; it opens no file. What depends on the scenario,
-// and on the files that a job names, is checked by resolve() (jobs/pipeline/resolve.h).
+// (jobs/spec/job.schema.json) and against itself; it opens no file. Fields that depend on the
+// scenario, and on the files that a job names, are checked by resolve() (jobs/pipeline/resolve.h).
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ struct JobSpec {
   skinning::Styling styling{.umbrellas = 0.05};  ///< of people; umbrellas when it rains
   double props_density = 1;  ///< share of the scenario's scattered props that are there
   OutputSpec outputs;
-  std::vector<RandomField> randomize;  ///< drawn for each run by job_of_run()
+  std::vector<RandomField> randomize;  ///< sampled for each run by job_of_run()
 
   /// Frames of one camera in one run, at from_s, from_s + 1/rate_hz, ... up to to_s (included).
   std::int64_t frames_per_camera() const;
@@ -88,12 +88,12 @@ nlohmann::json to_json(const JobSpec& job);
 /// How people look in this weather: umbrellas are up when it rains.
 skinning::Styling styling_in(const JobSpec& job, render::Weather weather);
 
-/// The job as one of its runs has it: the fields of `randomize` have their drawn values there.
+/// The job as one of its runs has it: the fields of `randomize` have their sampled values there.
 JobSpec job_of_run(const JobSpec& job, int run);
 
-/// Everything that was drawn for a run, by dotted path: fields of `randomize`, of the environment
+/// Everything that was sampled for a run, by dotted path: fields of `randomize`, of the environment
 /// and of the cameras.
-nlohmann::json drawn_of_run(const JobSpec& job, int run);
+nlohmann::json samples_of_run(const JobSpec& job, int run);
 
 /// The JSON Schema of a job.
 const nlohmann::json& job_schema();

@@ -25,29 +25,32 @@ std::string wind_pointer(const char* name) { return fmt::format("/environment/wi
 const FieldTable<WindFields>& wind_fields() {
   static const FieldTable<WindFields> fields = [] {
     FieldTable<WindFields> table;
-    table.add_drawn("speed_mps", "Wind", "m/s", numbers(0, 40), at(&WindFields::speed_mps),
-                    "Mean wind 10 m above the ground.");
-    table.add_drawn("direction_deg", "Wind's direction", "degrees", numbers(-180, 360),
-                    at(&WindFields::direction_deg),
-                    "Where the wind blows to, counter-clockwise from +x (east).");
-    table.add_drawn("profile", "Profile", "", drawn_words(kProfiles), at(&WindFields::profile),
-                    "How the mean grows with height: log (with the logarithm of height over "
-                    "roughness), power (with a power of height), uniform (not at all).");
-    table.add_drawn(
+    table.add_sampled("speed_mps", "Wind", "m/s", numbers(0, 40), at(&WindFields::speed_mps),
+                      "Mean wind 10 m above the ground.");
+    table.add_sampled("direction_deg", "Wind's direction", "degrees", numbers(-180, 360),
+                      at(&WindFields::direction_deg),
+                      "Direction that the wind blows to, counterclockwise from +x (east).");
+    table.add_sampled("profile", "Profile", "", sampled_words(kProfiles), at(&WindFields::profile),
+                      "Mean wind over height: log (grows with the logarithm of height over "
+                      "roughness), power (with a power of height), uniform (constant).");
+    table.add_sampled(
         "roughness_m", "Roughness", "m", numbers(0.0001, 3), at(&WindFields::roughness_m),
-        "Of the ground, for the profile log: 0.03 grass, 0.4 suburbs, 1 and more cities.");
-    table.add_drawn("exponent", "Exponent", "", numbers(0, 1), at(&WindFields::exponent),
-                    "Of the profile power.");
-    table.add_drawn("gusts", "Gusts", "", drawn_words(kGusts), at(&WindFields::gusts),
-                    "How each drone is shaken: dryden (turbulence of MIL-F-8785C at low altitude, "
-                    "which follows from wind and height), ou (Ornstein-Uhlenbeck, of a given "
-                    "strength and duration), none.");
-    table.add_drawn("intensity", "Intensity", "", numbers(0, 5), at(&WindFields::intensity),
-                    "Factor on the strength of dryden's gusts.");
-    table.add_drawn("gust_mps", "Strength of gusts", "m/s", numbers(0, 15),
-                    at(&WindFields::gust_mps), "Standard deviation of ou's gusts along each axis.");
-    table.add_drawn("gust_time_s", "Duration of gusts", "s", numbers(0.1, 60),
-                    at(&WindFields::gust_time_s), "Correlation time of ou's gusts.");
+        "Roughness length of the ground, for the profile log: 0.03 grass, 0.4 suburbs, "
+        "1 and more cities.");
+    table.add_sampled("exponent", "Exponent", "", numbers(0, 1), at(&WindFields::exponent),
+                      "Exponent of the profile power.");
+    table.add_sampled(
+        "gusts", "Gusts", "", sampled_words(kGusts), at(&WindFields::gusts),
+        "Gust model of each drone: dryden (turbulence of MIL-F-8785C at low altitude, "
+        "which follows from wind and height), ou (Ornstein-Uhlenbeck, of a given "
+        "strength and duration), none.");
+    table.add_sampled("intensity", "Intensity", "", numbers(0, 5), at(&WindFields::intensity),
+                      "Factor on the strength of dryden's gusts.");
+    table.add_sampled("gust_mps", "Strength of gusts", "m/s", numbers(0, 15),
+                      at(&WindFields::gust_mps),
+                      "Standard deviation of ou's gusts along each axis.");
+    table.add_sampled("gust_time_s", "Duration of gusts", "s", numbers(0.1, 60),
+                      at(&WindFields::gust_time_s), "Correlation time of ou's gusts.");
     return table;
   }();
   return fields;

@@ -27,7 +27,7 @@ struct WindFields {
 /// In the order of the schema.
 const FieldTable<WindFields>& wind_fields();
 
-/// What was drawn for a run.
+/// The wind sampled for a run.
 sim::WindSpec wind_of_run(const WindFields& fields, std::uint64_t run_seed);
 
 /// The record of a run's wind: only what matters for its models.

@@ -1,4 +1,4 @@
-// What a place from a seed is to be like, as jobs and command lines say it.
+// Parameters of a scenario generated from a seed, as jobs and command lines give them.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@ namespace throng::places {
 
 constexpr std::array<std::string_view, 4> kPlaceKinds = {"plaza", "street", "campus", "block"};
 
-/// What a generated place is to be like. Whatever is not given is drawn from the seed.
+/// Parameters of a generated scenario. Absent ones are sampled from the seed.
 struct PlaceSpec {
   std::string kind = "plaza";  ///< "plaza", "street", "campus" or "block"
   std::uint64_t seed = 1;
-  double size_m = 0;              ///< of its longer side, 30 to 200; 0: drawn
-  int exits = 0;                  ///< 2 to 8; 0: drawn
-  double exit_width_m = 0;        ///< 2 to 12; 0: drawn for each
+  double size_m = 0;              ///< of its longer side, 30 to 200; 0: sampled
+  int exits = 0;                  ///< 2 to 8; 0: sampled
+  double exit_width_m = 0;        ///< 2 to 12; 0: sampled for each
   double building_density = 0.5;  ///< 0 to 1: how many of the sites for buildings are built up
-  double clutter = 0.5;           ///< 0 to 1: how many things stand about
+  double clutter = 0.5;           ///< 0 to 1: density of props
   double demand_per_minute = 20;  ///< people who come in by each exit, above 0
   int people = 0;                 ///< who are there from the start; 0: as many as suit the size
 };

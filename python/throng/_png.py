@@ -1,7 +1,7 @@
-"""A reader of PNG pictures for label values: gray and RGB of 8 or 16 bits, not interlaced.
+"""A reader of PNG images for label values: gray and RGB of 8 or 16 bits, not interlaced.
 
 Pillow reduces RGB of 16 bits, as flow has it, to 8. Label files of throng use the filter "up" only, which NumPy undoes
-for the whole picture at once; other filters are undone row by row.
+for the whole image at once; other filters are undone row by row.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def decode(data: bytes, where: str, size: tuple[int, int]) -> NDArray[Any]:
 
 def _chunks(data: bytes, where: str) -> tuple[tuple[int, ...], bytes]:
     if data[:8] != _SIGNATURE or len(data) < 33 or data[12:16] != b"IHDR":
-        raise DatasetError(f"{where}: found no PNG picture, expected one")
+        raise DatasetError(f"{where}: found no PNG image, expected one")
     header = struct.unpack(">IIBBBBB", data[16:29])
     parts: list[bytes] = []
     at = 8

@@ -129,7 +129,7 @@ class Lens:
         with np.errstate(all="ignore"):
             valid = np.hypot(xy[..., 0], xy[..., 1]) <= self.limit
             if self.model == "brown_conrady" and (self._k[2] or self._k[3]):
-                # Tangential terms fold the picture before the radial ones do, on one side.
+                # Tangential terms fold the image before the radial ones do, on one side.
                 valid &= _determinant(self._jacobian(xy)) > 1e-9
             return np.where(valid[..., None], self._apply(xy), np.nan)
 
@@ -252,7 +252,7 @@ class Camera:
             return np.where((distance > 0)[..., None], self.center + ray * distance[..., None], np.nan)
 
     def pinhole(self) -> Camera:
-        """The same camera without its lens's distortion: that of undistorted pictures and points."""
+        """The same camera without its lens's distortion: that of undistorted images and points."""
         return Camera(self.width, self.height, self.K, self.R, self.t)
 
     def undistort_points(self, pixels: ArrayLike, *, origin: Origin = "center") -> FloatArray:
@@ -260,7 +260,7 @@ class Camera:
         return self._pixels_of(self.directions(pixels, origin=origin)) + _shift(origin)
 
     def undistort(self, image: NDArray[Any], *, interpolate: bool = True) -> NDArray[Any]:
-        """The picture (height, width, ...) as pinhole() takes it, 0 where the lens shows nothing.
+        """The image (height, width, ...) as pinhole() takes it, 0 where the lens shows nothing.
 
         Use interpolate=False for labels, whose values must not be mixed.
         """
@@ -283,7 +283,7 @@ def _shift(origin: Origin) -> float:
 
 
 def _sample(image: NDArray[Any], at: FloatArray, interpolate: bool) -> NDArray[Any]:
-    """The picture at pixels (height, width, 2), 0 outside."""
+    """The image at pixels (height, width, 2), 0 outside."""
     height, width = image.shape[:2]
     with np.errstate(invalid="ignore"):
         inside = (at[..., 0] > -0.5) & (at[..., 1] > -0.5) & (at[..., 0] < width - 0.5) & (at[..., 1] < height - 0.5)

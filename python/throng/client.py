@@ -33,7 +33,7 @@ class Client(CatalogClient):
     >>> dataset = throng.Dataset(client.download(job["id"], "datasets/"))
 
     Without url and key, $THRONG_URL and $THRONG_KEY are used. patience_s is how long a broken connection, or a service
-    that restarts, is waited for; ssl_context is for certificates of one's own.
+    that restarts, is waited for; ssl_context is for custom certificates.
     """
 
     # Jobs.
@@ -49,7 +49,7 @@ class Client(CatalogClient):
     ) -> Job:
         """Queues a job: a dict as docs/job.md says, or a throng.job.Job.
 
-        scenario is a folder, .zip or .tar with scenarios of one's own, which the job names bundle/NAME. The submission
+        scenario is a folder, .zip or .tar with custom scenarios, which the job names bundle/NAME. The submission
         is repeated when the connection breaks, and makes one job at most.
         """
         return self._submit(
@@ -280,7 +280,7 @@ class Client(CatalogClient):
         return self._bytes(f"/v1/jobs/{part(job_id)}/logs/{part(name)}").decode("utf-8", "replace")
 
     def previews(self, job_id: str) -> PreviewList:
-        """Pictures with drawn annotations, also while the job runs."""
+        """Images with drawn annotations, also while the job runs."""
         return self._get(f"/v1/jobs/{part(job_id)}/previews")
 
     def preview(self, job_id: str, name: str, *, clean: bool = False) -> bytes:

@@ -42,7 +42,7 @@ class MissingPackageError(ThrongError, ImportError):
 
 @dataclass(frozen=True)
 class Mistake:
-    """One thing that is wrong with what was sent: JSON pointer, what was found there, what was expected."""
+    """One error of a request: JSON pointer, the value found, the value expected."""
 
     pointer: str
     found: str

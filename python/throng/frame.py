@@ -1,4 +1,4 @@
-"""One annotated picture of a dataset."""
+"""One annotated image of a dataset."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _BYTES_PER_PIXEL = 7
 
 
 class Frame:
-    """A picture with its labels. Pictures and label files are read when they are asked for, never kept."""
+    """An image with its labels. Images and label files are read when they are asked for, never kept."""
 
     def __init__(self, source: Source, record: Mapping[str, Any], keep: AnnotationFilter | None) -> None:
         self._source = source
@@ -57,7 +57,7 @@ class Frame:
 
     @property
     def camera_id(self) -> str:
-        """The drone that took the picture."""
+        """The drone that took the image."""
         return str(self.record.get("camera_id") or "")
 
     @property
@@ -144,7 +144,7 @@ class Frame:
                 size = picture.size
                 pixels = np.array(picture.convert("RGB")) if size == (self.width, self.height) else None
         except (OSError, SyntaxError, ValueError, pil.DecompressionBombError) as error:
-            raise DatasetError(f"{storage.where(self.file_name)}: found no whole picture ({error})") from error
+            raise DatasetError(f"{storage.where(self.file_name)}: found no whole image ({error})") from error
         if pixels is None:
             raise DatasetError(
                 f"{storage.where(self.file_name)}: found {size[0]} x {size[1]} pixels, expected "

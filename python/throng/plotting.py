@@ -1,4 +1,4 @@
-"""Pictures with their labels, and animated trajectories. Needs matplotlib."""
+"""Images with their labels, and animated trajectories. Needs matplotlib."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def color_of(track_id: int) -> tuple[float, float, float]:
 
 
 def overlay(frame: Frame, *, opacity: float = 0.5) -> NDArray[np.uint8]:
-    """(height, width, 3): the picture with everybody's mask in their color."""
+    """(height, width, 3): the image with everybody's mask in their color."""
     picture = frame.image().astype(np.float32)
     annotations = frame.annotations
     for i, track in enumerate(annotations.track_ids):
@@ -118,7 +118,7 @@ def _draw_keypoints(ax: Any, frame: Frame) -> None:
 def animate(trace: Trace, *, every_s: float = 0.2, speed: float = 1.0, obstacles: Any = (), ax: Any = None) -> Any:
     """A matplotlib FuncAnimation of everybody's place; in a notebook show it with HTML(animation.to_jshtml()).
 
-    every_s is simulated time from picture to picture, speed how much faster than real time it plays. obstacles are
+    every_s is simulated time from image to image, speed how much faster than real time it plays. obstacles are
     polygons, lists of (x, y).
     """
     if not (every_s > 0 and speed > 0):

@@ -11,9 +11,9 @@ namespace {
 /// How 1 / z changes from a pixel to the one a step away, if that shows the same surface.
 class Slopes {
  public:
-  Slopes(const Frame& picture, const Eigen::Vector2i& at) : picture_(picture), at_(at) {
-    id_ = picture.id[index_of(at)];
-    inverse_ = 1 / picture.depth_m[index_of(at)];
+  Slopes(const Frame& image, const Eigen::Vector2i& at) : image_(image), at_(at) {
+    id_ = image.id[index_of(at)];
+    inverse_ = 1 / image.depth_m[index_of(at)];
   }
 
   float inverse() const { return inverse_; }
@@ -30,16 +30,16 @@ class Slopes {
 
  private:
   std::size_t index_of(const Eigen::Vector2i& at) const {
-    return static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(picture_.width()) +
+    return static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(image_.width()) +
            static_cast<std::size_t>(at.x());
   }
 
   std::optional<float> towards(const Eigen::Vector2i& step) const {
     const Eigen::Vector2i next = at_ + step;
-    const bool is_inside = next.x() >= 0 && next.y() >= 0 && next.x() < picture_.width() &&
-                           next.y() < picture_.height();
-    if (!is_inside || picture_.id[index_of(next)] != id_) return std::nullopt;
-    const float change = 1 / picture_.depth_m[index_of(next)] - inverse_;
+    const bool is_inside =
+        next.x() >= 0 && next.y() >= 0 && next.x() < image_.width() && next.y() < image_.height();
+    if (!is_inside || image_.id[index_of(next)] != id_) return std::nullopt;
+    const float change = 1 / image_.depth_m[index_of(next)] - inverse_;
     // A body's or prop's other part behind its edge. The ground and buildings have one surface in a
     // pixel and its neighbors, however steeply they lead away.
     constexpr float kOneSurface = 0.02F;
@@ -48,7 +48,7 @@ class Slopes {
     return change;
   }
 
-  const Frame& picture_;
+  const Frame& image_;
   Eigen::Vector2i at_;
   std::uint32_t id_;
   float inverse_;
@@ -56,13 +56,13 @@ class Slopes {
 
 }  // namespace
 
-float depth_between(const Frame& picture, const Eigen::Vector2i& near, const Eigen::Vector2f& off) {
+float depth_between(const Frame& image, const Eigen::Vector2i& near, const Eigen::Vector2f& off) {
   const std::size_t pixel =
-      static_cast<std::size_t>(near.y()) * static_cast<std::size_t>(picture.width()) +
+      static_cast<std::size_t>(near.y()) * static_cast<std::size_t>(image.width()) +
       static_cast<std::size_t>(near.x());
-  const float here = picture.depth_m[pixel];
+  const float here = image.depth_m[pixel];
   if (!std::isfinite(here)) return here;
-  const Slopes slopes(picture, near);
+  const Slopes slopes(image, near);
   const float inverse =
       slopes.inverse() + off.x() * slopes.along({1, 0}) + off.y() * slopes.along({0, 1});
   return inverse > 0 ? 1 / inverse : here;

@@ -131,8 +131,8 @@ PeoplePass::PeoplePass(const skinning::Population& population, const QualitySett
   load_textures(population);
   array_ = make_person_array(meshes_, instances_);
   const bool shadowed = quality.shadow_texels > 0;
-  picture_ = make_picture_programs(words, shadowed, "");
-  picture_and_silhouettes_ = make_picture_programs(words, shadowed, kSilhouettes);
+  image_ = make_image_programs(words, shadowed, "");
+  image_and_silhouettes_ = make_image_programs(words, shadowed, kSilhouettes);
   const auto coverage_program = [&](std::string_view alpha) {
     return make_program({kCoverage, shader_view, shader_person_vert},
                         {alpha, embedded::shader_coverage_frag});
@@ -150,8 +150,8 @@ PeoplePass::PeoplePass(const skinning::Population& population, const QualitySett
   check_gl("loading people");
 }
 
-PeoplePass::PicturePrograms PeoplePass::make_picture_programs(std::string_view words, bool shadowed,
-                                                              std::string_view silhouettes) {
+PeoplePass::ImagePrograms PeoplePass::make_image_programs(std::string_view words, bool shadowed,
+                                                          std::string_view silhouettes) {
   const std::string_view shadows = shadowed ? kShadowed : "";
   const auto textured = [&](std::string_view lit, std::string_view alpha) {
     return make_program(
@@ -242,7 +242,7 @@ void PeoplePass::draw_batches(const std::vector<Batch>& batches, Range PeopleLev
   for (const Batch& batch : batches) draw_batch(batch, range);
 }
 
-void PeoplePass::draw_picture(const std::vector<Batch>& batches, const PicturePrograms& programs) {
+void PeoplePass::draw_image(const std::vector<Batch>& batches, const ImagePrograms& programs) {
   glEnable(GL_CULL_FACE);
   for (const Shading shading : {Shading::textured, Shading::lit_by_corners, Shading::by_corners}) {
     glUseProgram(programs.opaque[static_cast<std::size_t>(shading)].name());
@@ -334,9 +334,9 @@ void PeoplePass::draw(Purpose purpose, std::span<const PersonInstance> people,
     draw_batches(batches, &PeopleLevel::alpha_tested);
     return;
   }
-  if (purpose == Purpose::picture) return draw_picture(batches, picture_);
-  if (purpose == Purpose::picture_and_silhouettes) {
-    return draw_picture(batches, picture_and_silhouettes_);
+  if (purpose == Purpose::image) return draw_image(batches, image_);
+  if (purpose == Purpose::image_and_silhouettes) {
+    return draw_image(batches, image_and_silhouettes_);
   }
   glEnable(GL_CULL_FACE);
   glUseProgram(coverage_.name());

@@ -46,7 +46,7 @@ class PeoplePass {
 
   /// With silhouettes an image's people also leave their whole outlines, hidden or not, in the
   /// image that is bound at unit 0 (render/truth/silhouettes.h).
-  enum class Purpose { picture, picture_and_silhouettes, shadow, coverage };
+  enum class Purpose { image, image_and_silhouettes, shadow, coverage };
 
   /// Renders level by level, near to far within a character. The order is a function of `draws`'
   /// values, so equal scenes give equal pixels.
@@ -74,13 +74,13 @@ class PeoplePass {
                             const std::vector<PersonDraw>& draws);
   static void draw_batch(const Batch& batch, Range PeopleLevel::*range);
   static void draw_batches(const std::vector<Batch>& batches, Range PeopleLevel::*range);
-  struct PicturePrograms {
+  struct ImagePrograms {
     std::array<Program, 3> opaque;  ///< by Shading
     Program alpha_tested;
   };
-  static PicturePrograms make_picture_programs(std::string_view words, bool shadowed,
-                                               std::string_view silhouettes);
-  static void draw_picture(const std::vector<Batch>& batches, const PicturePrograms& programs);
+  static ImagePrograms make_image_programs(std::string_view words, bool shadowed,
+                                           std::string_view silhouettes);
+  static void draw_image(const std::vector<Batch>& batches, const ImagePrograms& programs);
   void bind(const VertexArray& array) const;
 
   std::uint32_t palettes_per_character_;
@@ -92,8 +92,8 @@ class PeoplePass {
   VertexArray array_;
   VertexArray surface_array_;
   Texture textures_;
-  PicturePrograms picture_;
-  PicturePrograms picture_and_silhouettes_;
+  ImagePrograms image_;
+  ImagePrograms image_and_silhouettes_;
   Program shadow_;
   Program coverage_;
   Program coverage_alpha_;

@@ -48,17 +48,17 @@ std::vector<Look> looks(int cuts) {
   return looks;
 }
 
-Eigen::Array4f texel_at(const skinning::Texture& picture, int size, const Eigen::Array2f& uv) {
+Eigen::Array4f texel_at(const skinning::Texture& image, int size, const Eigen::Array2f& uv) {
   const Eigen::Array2i at =
       (uv * static_cast<float>(size)).floor().cast<int>().max(0).min(size - 1);
   const auto first = 4 * (static_cast<std::size_t>(at.y()) * static_cast<std::size_t>(size) +
                           static_cast<std::size_t>(at.x()));
   Eigen::Array4f texel;
-  for (int c = 0; c < 4; ++c) texel[c] = picture.rgba[first + static_cast<std::size_t>(c)];
+  for (int c = 0; c < 4; ++c) texel[c] = image.rgba[first + static_cast<std::size_t>(c)];
   return texel;
 }
 
-Eigen::Array2f mixed(const PicturedTriangle& triangle, const Eigen::Array3f& shares) {
+Eigen::Array2f mixed(const TexturedTriangle& triangle, const Eigen::Array3f& shares) {
   Eigen::Array2f uv = Eigen::Array2f::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
     uv +=
@@ -69,20 +69,20 @@ Eigen::Array2f mixed(const PicturedTriangle& triangle, const Eigen::Array3f& sha
 
 }  // namespace
 
-std::vector<Rgba> corner_colors(const skinning::Texture& picture, int size,
-                                std::span<const PicturedTriangle> triangles, std::size_t count) {
+std::vector<Rgba> corner_colors(const skinning::Texture& image, int size,
+                                std::span<const TexturedTriangle> triangles, std::size_t count) {
   const Effort effort = effort_for(triangles.size());
   const std::vector<Look> all_looks = looks(effort.cuts);
   Colors seen;
   seen.reserve(triangles.size() * all_looks.size());
   std::vector<float> weights(count, 0);
-  for (const PicturedTriangle& triangle : triangles) {
+  for (const TexturedTriangle& triangle : triangles) {
     for (const std::uint32_t corner : triangle.corners) {
       check(corner < count, "a triangle's corners have colors");
       weights[corner] += triangle.weight / 3;
     }
     for (const Look& look : all_looks) {
-      seen.push_back(texel_at(picture, size, mixed(triangle, look.shares)));
+      seen.push_back(texel_at(image, size, mixed(triangle, look.shares)));
     }
   }
   Colors colors(count, Eigen::Array4f::Zero());
@@ -90,7 +90,7 @@ std::vector<Rgba> corner_colors(const skinning::Texture& picture, int size,
   for (int round = 0; round < effort.rounds; ++round) {
     Colors change(count, Eigen::Array4f::Zero());
     auto wanted = seen.begin();
-    for (const PicturedTriangle& triangle : triangles) {
+    for (const TexturedTriangle& triangle : triangles) {
       const auto& [a, b, c] = triangle.corners;
       for (const Look& look : all_looks) {
         const Eigen::Array3f& s = look.shares;

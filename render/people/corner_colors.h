@@ -16,7 +16,7 @@ namespace throng::render {
 using Rgba = std::array<std::uint8_t, 4>;
 
 /// A triangle of the mesh and of the image.
-struct PicturedTriangle {
+struct TexturedTriangle {
   std::array<std::uint32_t, 3> corners{};    ///< which of the colors are at its corners
   std::array<std::array<float, 2>, 3> uv{};  ///< where they are in the image, 0 to 1
   float weight = 0;                          ///< its area
@@ -25,7 +25,7 @@ struct PicturedTriangle {
 /// `count` colors, mixed between corners as the device mixes them, with the least squared
 /// difference to an image of `size` x `size` texels over the triangles' area. Values are taken as
 /// they are, so they should be sRGB; corners of no triangle stay black.
-std::vector<Rgba> corner_colors(const skinning::Texture& picture, int size,
-                                std::span<const PicturedTriangle> triangles, std::size_t count);
+std::vector<Rgba> corner_colors(const skinning::Texture& image, int size,
+                                std::span<const TexturedTriangle> triangles, std::size_t count);
 
 }  // namespace throng::render

@@ -144,7 +144,7 @@ class Packer {
   void color_corners(const skinning::Mesh& mesh, const skinning::Part& part, std::size_t first) {
     const std::size_t count = vertices_.size() - first;
     const std::size_t first_index = indices_.size() - part.index_count;
-    std::vector<PicturedTriangle> triangles(part.index_count / 3);
+    std::vector<TexturedTriangle> triangles(part.index_count / 3);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       std::array<Eigen::Vector3f, 3> at;
       for (std::size_t k = 0; k < 3; ++k) {

@@ -48,14 +48,14 @@ void PropWatch::look(std::span<const Eigen::Vector2f> positions,
     for (const std::size_t i : cell->second) {
       const world::Prop& prop = scenario_->props[i];
       if (!noted_.contains(i) && world::distance_to(core_of(prop), at) <= 0) {
-        note(i, agent, at, time_s);
+        record(i, agent, at, time_s);
       }
     }
   }
 }
 
-void PropWatch::note(std::size_t number, std::size_t agent, const Eigen::Vector2d& at,
-                     double time_s) {
+void PropWatch::record(std::size_t number, std::size_t agent, const Eigen::Vector2d& at,
+                       double time_s) {
   noted_.insert(number);
   const world::Prop& prop = scenario_->props[number];
   const bool placed = number < scenario_->placed_props;

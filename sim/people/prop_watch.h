@@ -31,7 +31,7 @@ class PropWatch {
  private:
   using Cell = std::pair<int, int>;  ///< of 1 m
   static Cell cell_of(const Eigen::Vector2d& point);
-  void note(std::size_t number, std::size_t agent, const Eigen::Vector2d& at, double time_s);
+  void record(std::size_t number, std::size_t agent, const Eigen::Vector2d& at, double time_s);
 
   const world::Scenario* scenario_;
   std::map<Cell, std::vector<std::size_t>> props_in_;

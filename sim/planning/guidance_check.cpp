@@ -20,7 +20,7 @@ struct Field {
 constexpr std::array kFields{
     Field{kFieldWaypoints, "waypoints", "at least one point",
           [](const DroneMission& m) { return !m.waypoints.empty(); }},
-    Field{kFieldCenter, "centre", "a point [x, y]",
+    Field{kFieldCenter, "center", "a point [x, y]",
           [](const DroneMission& m) { return m.guidance.center.has_value(); }},
     Field{kFieldRadius, "radius_m", "a radius",
           [](const DroneMission& m) { return m.guidance.radius_m.has_value(); }},

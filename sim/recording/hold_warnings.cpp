@@ -40,7 +40,7 @@ struct Describe {
 
 }  // namespace
 
-void HoldWarnings::note(const world::TraceEvent& event) {
+void HoldWarnings::record(const world::TraceEvent& event) {
   const std::string found = std::visit(Describe{}, event.kind);
   if (found.empty()) return;
   const std::int32_t drone = world::drone_of(event.kind).value_or(-1);

@@ -14,7 +14,7 @@ namespace throng::sim {
 /// hit something.
 class HoldWarnings {
  public:
-  void note(const world::TraceEvent& event);
+  void record(const world::TraceEvent& event);
 
   /// One per kind and drone, with the drone's place in the job.
   const std::vector<Problem>& warnings() const { return warnings_; }

@@ -11,7 +11,7 @@ constexpr double kSameContactS = 0.5;
 
 }  // namespace
 
-void ContactLog::note(const Touch& touch) {
+void ContactLog::record(const Touch& touch) {
   const auto is_same = [&](const Contact& contact) {
     return contact.impact.vehicle == touch.vehicle && contact.impact.obstacle == touch.obstacle &&
            contact.impact.index == touch.index;

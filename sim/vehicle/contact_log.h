@@ -43,7 +43,7 @@ struct Touch {
 class ContactLog {
  public:
   /// Call once per step and pair that pushes each other.
-  void note(const Touch& touch);
+  void record(const Touch& touch);
 
   /// Ends a step of `dt_s`.
   void advance(double dt_s);

@@ -199,7 +199,7 @@ void Flight::damage(const Impact& impact) {
   pilots_[impact.vehicle].damaged(damage, world_.state(impact.vehicle));
 }
 
-// Only whoever is near a fall is looked at, once, when it begins.
+// Only people near a fall are checked, once, when it begins.
 void Flight::watch_falls() {
   for (std::size_t i = 0; i < pilots_.size(); ++i) {
     falls_[i].update(time_s_,

@@ -206,7 +206,7 @@ struct FlightWorld::Bodies {
     // Bodies that are near but do not push yet do not touch.
     if (touch.impulse_ns <= 0) return;
     touch.speed_mps = (velocity_before(vehicle) - velocity_before(other)).norm();
-    contacts.note(touch);
+    contacts.record(touch);
   }
 
   Vector3d velocity_before(const btCollisionObject& body) const {

@@ -20,7 +20,7 @@ class Pilot {
   /// `index` is the drone's number in events.
   Pilot(const PlannedDrone& drone, std::int32_t index, const FlightLimits& limits);
 
-  /// Has got used to a steady wind (m/s).
+  /// Starts trimmed for a steady wind (m/s).
   void trim(const Eigen::Vector3d& wind) { controller_.trim(wind); }
 
   /// Rotor speeds (rad/s) for the next `dt_s`. A drone whose battery is low lands where it is; one

@@ -132,7 +132,7 @@ class Bakery {
         texture_size_(options.texture_size),
         clips_(standard_clips()) {
     for (const auto& [key, image] : wardrobe_.textures()) pngs_[key] = encode_png(image);
-    pngs_[std::string(kItemTexture)] = encode_png(item_picture(texture_size_));
+    pngs_[std::string(kItemTexture)] = encode_png(item_image(texture_size_));
   }
 
   const std::vector<Clip>& clips() const { return clips_; }
@@ -148,15 +148,15 @@ class Bakery {
     CharacterAsset asset;
     asset.name = person.name;
     asset.joints = dressed.joints;
-    asset.pictures.resize(textures.size());
+    asset.images.resize(textures.size());
     for (const auto& [key, number] : textures) {
-      asset.pictures[static_cast<std::size_t>(number)] = pngs_.at(key);
+      asset.images[static_cast<std::size_t>(number)] = pngs_.at(key);
     }
     asset.levels.push_back(assemble(dressed.surfaces, textures));
     const Hull hull(dressed, wardrobe_.textures(), texture_size_);
-    const auto picture = static_cast<int>(asset.pictures.size());
-    asset.pictures.push_back(encode_png(hull.portrait().colors()));
-    asset.pictures.push_back(encode_png(hull.portrait().shades()));
+    const auto image = static_cast<int>(asset.images.size());
+    asset.images.push_back(encode_png(hull.portrait().colors()));
+    asset.images.push_back(encode_png(hull.portrait().shades()));
 
     BakedPerson baked;
     baked.character.name = person.name;
@@ -173,7 +173,7 @@ class Bakery {
       const auto item = make_item(carries, dressed, static_cast<int>(level));
       if (level > 0) {
         const std::size_t carried = item ? item->indices.size() / 3 : 0;
-        asset.levels.push_back(hull.level(kDetailLevels[level].triangles - carried, picture));
+        asset.levels.push_back(hull.level(kDetailLevels[level].triangles - carried, image));
       }
       if (item) append(asset.levels[level], assemble({&*item, 1}, textures));
     }

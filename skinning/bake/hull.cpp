@@ -93,11 +93,11 @@ ClosedSurface simplified(const ClosedSurface& fine, std::size_t triangles) {
 }  // namespace
 
 Hull::Hull(const DressedPerson& person, const std::map<std::string, Image>& textures,
-           int picture_size)
+           int image_size)
     : person_(&person),
       apart_(legs_apart(person)),
       posed_(posed_by(apart_, person, textures)),
-      portrait_(posed_, picture_size),
+      portrait_(posed_, image_size),
       carving_(posed_),
       fine_(carving_.surface()) {}
 
@@ -170,7 +170,7 @@ void Hull::fit(ClosedSurface& coarse) const {
   }
 }
 
-Mesh Hull::level(std::size_t triangles, int picture) const {
+Mesh Hull::level(std::size_t triangles, int image) const {
   ClosedSurface coarse = simplified(fine_, triangles);
   fit(coarse);
   std::vector<Eigen::Vector3f> standing;
@@ -203,8 +203,8 @@ Mesh Hull::level(std::size_t triangles, int picture) const {
       mesh.vertices.push_back(vertex);
     }
   }
-  mesh.parts.push_back({0, static_cast<std::uint32_t>(mesh.indices.size()), picture, Tint::portrait,
-                        false, picture + 1});
+  mesh.parts.push_back({0, static_cast<std::uint32_t>(mesh.indices.size()), image, Tint::portrait,
+                        false, image + 1});
   return mesh;
 }
 

@@ -22,15 +22,15 @@ namespace throng::skinning {
 
 class Hull {
  public:
-  /// `textures` holds those of the person's surfaces; the images will have `picture_size` pixels
+  /// `textures` holds those of the person's surfaces; the images will have `image_size` pixels
   /// a side.
-  Hull(const DressedPerson& person, const std::map<std::string, Image>& textures, int picture_size);
+  Hull(const DressedPerson& person, const std::map<std::string, Image>& textures, int image_size);
 
   const Portrait& portrait() const { return portrait_; }
 
-  /// With about this many triangles, and never more; `picture` is the number of the first of the
+  /// With about this many triangles, and never more; `image` is the number of the first of the
   /// portrait's two images.
-  Mesh level(std::size_t triangles, int picture) const;
+  Mesh level(std::size_t triangles, int image) const;
 
  private:
   /// Skinning weights of a surface point: the mean of those of the nearest worn points.

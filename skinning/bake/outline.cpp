@@ -21,12 +21,12 @@ Outline::Outline(std::span<const PosedSurface> surfaces, double yaw_rad, double 
   const Eigen::Vector3d back =
       turn * Eigen::Vector3d(std::cos(elevation_rad), 0, std::sin(elevation_rad));
   const Eigen::Vector3d right = turn * Eigen::Vector3d::UnitY();
-  to_picture_.row(0) = right.cast<float>() / kPixelM;
-  to_picture_.row(1) = back.cross(right).cast<float>() / kPixelM;
+  to_image_.row(0) = right.cast<float>() / kPixelM;
+  to_image_.row(1) = back.cross(right).cast<float>() / kPixelM;
   Eigen::AlignedBox2f bounds;
   for (const PosedSurface& posed : surfaces) {
     for (const std::uint32_t index : posed.surface->indices) {
-      bounds.extend(Eigen::Vector2f(to_picture_ * posed.points[index]));
+      bounds.extend(Eigen::Vector2f(to_image_ * posed.points[index]));
     }
   }
   low_ = bounds.min().array() - kMarginPixels;
@@ -57,7 +57,7 @@ Mask Outline::grown(const Mask& mask, std::uint8_t value) const {
 
 // Bilinear between the pixels' centers.
 float Outline::distance_m(const Eigen::Vector3f& point) const {
-  const Eigen::Vector2f at = (to_picture_ * point - low_).array() - 0.5F;
+  const Eigen::Vector2f at = (to_image_ * point - low_).array() - 0.5F;
   const auto x = static_cast<int>(std::floor(at.x()));
   const auto y = static_cast<int>(std::floor(at.y()));
   if (x < 0 || y < 0 || x + 1 >= width_ || y + 1 >= height_) return kFarM;
@@ -73,7 +73,7 @@ void Outline::draw(const PosedSurface& posed, Mask& covered) const {
   std::array<Eigen::Vector2f, 3> corner;
   for (std::size_t at = 0; at < indices.size(); at += 3) {
     for (std::size_t i = 0; i < 3; ++i) {
-      corner[i] = to_picture_ * posed.points[indices[at + i]] - low_;
+      corner[i] = to_image_ * posed.points[indices[at + i]] - low_;
     }
     for_each_pixel(corner[0], corner[1], corner[2], width_, height_,
                    [&](int x, int y, const Eigen::Vector3f& barycentric) {

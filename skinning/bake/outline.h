@@ -27,7 +27,7 @@ class Outline {
   Mask grown(const Mask& mask, std::uint8_t value) const;
   void measure(const Mask& covered);
 
-  Eigen::Matrix<float, 2, 3> to_picture_;
+  Eigen::Matrix<float, 2, 3> to_image_;
   Eigen::Vector2f low_;
   int width_ = 0;
   int height_ = 0;

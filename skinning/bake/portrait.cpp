@@ -27,7 +27,7 @@ Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {
 }  // namespace
 
 Portrait::Portrait(std::span<const PosedSurface> surfaces, int size)
-    : size_(size), picture_(size, size), depth_(static_cast<std::size_t>(size) * size, kUnseen) {
+    : size_(size), image_(size, size), depth_(static_cast<std::size_t>(size) * size, kUnseen) {
   Eigen::AlignedBox2f bounds;
   for (const PosedSurface& posed : surfaces) {
     for (const std::uint32_t index : posed.surface->indices) {
@@ -44,7 +44,7 @@ Portrait::Portrait(std::span<const PosedSurface> surfaces, int size)
   }
   Mask seen(depth_.size(), 0);
   for (std::size_t at = 0; at < depth_.size(); ++at) seen[at] = depth_[at] > kUnseen ? 1 : 0;
-  fill_from_nearest(picture_, std::move(seen), 4);
+  fill_from_nearest(image_, std::move(seen), 4);
 }
 
 void Portrait::draw(const PosedSurface& posed, bool front) {
@@ -64,7 +64,7 @@ void Portrait::draw(const PosedSurface& posed, bool front) {
                      const float here = depth.dot(barycentric);
                      if (here <= nearest || !is_there(posed, at, barycentric)) return;
                      nearest = here;
-                     std::uint8_t* pixel = picture_.pixel(x, y);
+                     std::uint8_t* pixel = image_.pixel(x, y);
                      std::copy_n(texel_at(*posed.image, uv_within(surface, at, barycentric)), 3,
                                  pixel);
                      pixel[3] = static_cast<std::uint8_t>(surface.tint);
@@ -82,7 +82,7 @@ Eigen::Vector2f Portrait::uv_of(const Eigen::Vector3f& point, bool front) const 
 }
 
 Image Portrait::colors() const {
-  Image colors = picture_;
+  Image colors = image_;
   for (std::size_t at = 0; at < colors.rgba.size(); at += 4) {
     std::uint8_t* pixel = &colors.rgba[at];
     if (static_cast<Tint>(pixel[3]) != Tint::none) std::fill_n(pixel, 3, std::uint8_t{0});
@@ -94,7 +94,7 @@ Image Portrait::colors() const {
 Image Portrait::shades() const {
   Image shades(size_, size_);
   for (std::size_t at = 0; at < shades.rgba.size(); at += 4) {
-    const std::uint8_t* from = &picture_.rgba[at];
+    const std::uint8_t* from = &image_.rgba[at];
     const auto tint = static_cast<Tint>(from[3]);
     if (tint == Tint::none) continue;
     const float shade =

@@ -32,7 +32,7 @@ class Portrait {
   int size_;
   Eigen::Vector2f low_;  ///< corner of the view, the same for both sides
   Eigen::Vector2f extent_;
-  Image picture_;  ///< filled to its borders; alpha is a Tint
+  Image image_;  ///< filled to its borders; alpha is a Tint
   std::vector<float> depth_;
 };
 

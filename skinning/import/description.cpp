@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/deprecation.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
@@ -30,16 +31,17 @@ class DescriptionReader {
   explicit DescriptionReader(const fs::path& file) : file_(file) {}
 
   CharacterDescription read() {
-    const json document = parse_json_or_discard(read_file(file_));
+    json document = parse_json_or_discard(read_file(file_));
     if (!document.is_object()) {
       throw InputError({file_.string(), "", document.is_discarded() ? "no JSON" : "no object",
                         R"(an object such as {"name": "guide", "model": "guide.glb", )"
-                        R"("height_m": 1.75, "licence": "CC0-1.0"})"});
+                        R"("height_m": 1.75, "license": "CC0-1.0"})"});
     }
+    rename(document, "licence", "license");
     CharacterDescription description;
     description.file = file_;
     known(document, "",
-          {"name", "model", "height_m", "licence", "author", "wears", "sex", "age_years", "bones",
+          {"name", "model", "height_m", "license", "author", "wears", "sex", "age_years", "bones",
            "clips"});
     description.name = text(document, "", "name", true);
     check_name(description.name);
@@ -49,7 +51,7 @@ class DescriptionReader {
                "in meters, from the soles to the top of the head; the model may have "
                "any unit, it is scaled to this height")
             .value_or(description.height_m);
-    description.license = text(document, "", "licence", true);
+    description.license = text(document, "", "license", true);
     description.author = text(document, "", "author", false);
     description.wears = text(document, "", "wears", false);
     read_sex(document, description);
@@ -64,7 +66,16 @@ class DescriptionReader {
   }
 
  private:
-  void wrong(const std::string& where, const std::string& found, const std::string& expected) {
+  /// Replaces a deprecated name; if both are given, the old one stays as an unknown field.
+  void rename(json& document, const char* deprecated, const char* name) const {
+    if (!document.contains(deprecated) || document.contains(name)) return;
+    warn_deprecated(file_.string(), std::string("/") + deprecated, name);
+    document[name] = document[deprecated];
+    document.erase(deprecated);
+  }
+
+  void add_problem(const std::string& where, const std::string& found,
+                   const std::string& expected) {
     problems_.push_back({file_.string(), where, found, expected});
   }
 
@@ -83,11 +94,11 @@ class DescriptionReader {
   std::string text(const json& object, const std::string& where, const char* key, bool needed) {
     const std::string place = where + "/" + key;
     if (!object.contains(key)) {
-      if (needed) wrong(place, "nothing", "a string");
+      if (needed) add_problem(place, "nothing", "a string");
       return {};
     }
     if (!object[key].is_string() || (needed && object[key].get<std::string>().empty())) {
-      wrong(place, object[key].dump(), "a string that is not empty");
+      add_problem(place, object[key].dump(), "a string that is not empty");
       return {};
     }
     return object[key].get<std::string>();
@@ -97,12 +108,12 @@ class DescriptionReader {
                                Range range, const char* meaning) {
     const std::string expected = fmt::format("{:g} to {:g} ({})", range.low, range.high, meaning);
     if (!object.contains(key)) {
-      wrong(where + "/" + key, "nothing", expected);
+      add_problem(where + "/" + key, "nothing", expected);
       return {};
     }
     const json& value = object[key];
     if (value.is_number() && value >= range.low && value <= range.high) return value.get<double>();
-    wrong(where + "/" + key, value.dump(), expected);
+    add_problem(where + "/" + key, value.dump(), expected);
     return {};
   }
 
@@ -112,28 +123,29 @@ class DescriptionReader {
       return std::isalnum(c) != 0 || c == '_' || c == '-';
     });
     if (!sound || name.size() > kMaxNameLength) {
-      wrong("/name", "\"" + name + "\"", "at most 40 letters, digits, - and _");
+      add_problem("/name", "\"" + name + "\"", "at most 40 letters, digits, - and _");
     }
   }
 
   void read_sex(const json& document, CharacterDescription& description) {
     if (!document.contains("sex")) return;
     const json& sex = document["sex"];
-    if (sex != "male" && sex != "female") wrong("/sex", sex.dump(), "\"male\" or \"female\"");
+    if (sex != "male" && sex != "female") add_problem("/sex", sex.dump(), "\"male\" or \"female\"");
     description.male = sex == "male";
   }
 
   void read_bones(const json& document, CharacterDescription& description) {
     if (!document.contains("bones")) return;
     if (!document["bones"].is_object()) {
-      wrong("/bones", document["bones"].dump(), R"(an object such as {"left_thigh": "Leg1.L"})");
+      add_problem("/bones", document["bones"].dump(),
+                  R"(an object such as {"left_thigh": "Leg1.L"})");
       return;
     }
     for (const auto& [ours, theirs] : document["bones"].items()) {
       if (theirs.is_string()) {
         description.bones[ours] = theirs.get<std::string>();
       } else {
-        wrong("/bones/" + ours, theirs.dump(), "the name of a bone of the model");
+        add_problem("/bones/" + ours, theirs.dump(), "the name of a bone of the model");
       }
     }
   }
@@ -142,8 +154,8 @@ class DescriptionReader {
     if (!document.contains("clips")) return;
     const json& clips = document["clips"];
     if (!clips.is_object()) {
-      wrong("/clips", clips.dump(),
-            R"(an object such as {"walk": {"name": "Walk", "speed_mps": 1.4}})");
+      add_problem("/clips", clips.dump(),
+                  R"(an object such as {"walk": {"name": "Walk", "speed_mps": 1.4}})");
       return;
     }
     known(clips, "/clips", {"idle", "walk", "run"});
@@ -158,7 +170,7 @@ class DescriptionReader {
     const json& clip = clips[key];
     const std::string where = std::string("/clips/") + key;
     if (!clip.is_object()) {
-      wrong(where, clip.dump(), R"(an object such as {"name": "Walk", "speed_mps": 1.4})");
+      add_problem(where, clip.dump(), R"(an object such as {"name": "Walk", "speed_mps": 1.4})");
       return {};
     }
     known(clip, where, {"name", "file", "speed_mps"});

@@ -47,7 +47,7 @@ class Import {
     Mesh mesh = neutral_mesh();
     scale(mesh, asset);
     asset.levels = simplified_levels(mesh);
-    add_pictures(asset);
+    add_images(asset);
 
     BakedPerson baked;
     Character& character = baked.character;
@@ -190,15 +190,15 @@ class Import {
   }
 
   // Parts' textures are numbers of materials until here.
-  void add_pictures(CharacterAsset& asset) const {
+  void add_images(CharacterAsset& asset) const {
     std::map<std::int32_t, std::int32_t> numbers;
     for (Mesh& level : asset.levels) {
       for (Part& part : level.parts) {
         const auto [entry, is_new] =
-            numbers.try_emplace(part.texture, static_cast<std::int32_t>(asset.pictures.size()));
+            numbers.try_emplace(part.texture, static_cast<std::int32_t>(asset.images.size()));
         if (is_new) {
-          const Image& picture = model_.materials[static_cast<std::size_t>(part.texture)].picture;
-          asset.pictures.push_back(encode_png(resized(picture, texture_size_)));
+          const Image& image = model_.materials[static_cast<std::size_t>(part.texture)].image;
+          asset.images.push_back(encode_png(resized(image, texture_size_)));
         }
         part.texture = entry->second;
       }

@@ -296,7 +296,7 @@ class Mapper {
       const ModelNode& node = model_->nodes[i];
       if (!taken_[i] && (node.deforms || !any_deforms())) unknown.push_back(node.name);
     }
-    std::string listed = "; not recognised: " + listed_names(unknown);  // once is enough
+    std::string listed = "; not recognized: " + listed_names(unknown);  // once is enough
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
       if (nodes_[bone] >= 0 || !is_needed(static_cast<Bone>(bone))) continue;
       const std::string ours(kBoneNames[bone]);

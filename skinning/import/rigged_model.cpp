@@ -124,9 +124,9 @@ class ModelReader {
     aiString name;
     if (source.GetTexture(aiTextureType_BASE_COLOR, 0, &name) == aiReturn_SUCCESS ||
         source.GetTexture(aiTextureType_DIFFUSE, 0, &name) == aiReturn_SUCCESS) {
-      material.picture = picture_of(name.C_Str());
+      material.image = image_of(name.C_Str());
     } else {
-      material.picture =
+      material.image =
           colored({srgb_of_linear(color.r), srgb_of_linear(color.g), srgb_of_linear(color.b)});
     }
     int two_sided = 0;
@@ -137,8 +137,8 @@ class ModelReader {
     const bool masked = std::string(alpha.C_Str()) != "OPAQUE" ||
                         source.GetTexture(aiTextureType_OPACITY, 0, &opacity) == aiReturn_SUCCESS;
     if (!masked) {
-      for (std::size_t at = 3; at < material.picture.rgba.size(); at += 4) {
-        material.picture.rgba[at] = 255;
+      for (std::size_t at = 3; at < material.image.rgba.size(); at += 4) {
+        material.image.rgba[at] = 255;
       }
     }
     material.alpha_tested = masked || two_sided != 0;
@@ -154,12 +154,12 @@ class ModelReader {
     return image;
   }
 
-  Image picture_of(std::string name) const {
+  Image image_of(std::string name) const {
     const aiTexture* embedded = scene_->GetEmbeddedTexture(name.c_str());
-    if (embedded == nullptr) return read_picture(file_of(std::move(name)));
+    if (embedded == nullptr) return read_image(file_of(std::move(name)));
     if (embedded->mHeight == 0) {
-      return decode_picture({reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
-                            fmt::format("{}, image {}", path_.string(), name));
+      return decode_image({reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
+                          fmt::format("{}, image {}", path_.string(), name));
     }
     Image image(static_cast<int>(embedded->mWidth), static_cast<int>(embedded->mHeight));
     for (std::size_t i = 0; 4 * i < image.rgba.size(); ++i) {

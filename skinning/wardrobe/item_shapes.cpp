@@ -350,7 +350,7 @@ double shade_at(double u, double v, int x, int y) {
 
 }  // namespace
 
-Image item_picture(int size) {
+Image item_image(int size) {
   Image image(size, size);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {

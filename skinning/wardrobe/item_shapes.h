@@ -14,7 +14,7 @@ namespace throng::skinning {
 /// Key of the texture that all carried items share, and the image: light and shade of cloth with
 /// seams, to be tinted.
 inline constexpr std::string_view kItemTexture = "items";
-Image item_picture(int size);
+Image item_image(int size);
 
 /// The carried item in the neutral pose, as part of one level of detail: 0 is the finest, 3 and
 /// above the coarsest. Nothing for Carry::nothing. Its `fitted` positions are the neutral ones.

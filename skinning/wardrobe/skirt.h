@@ -7,8 +7,8 @@
 
 namespace throng::skinning {
 
-/// The skirt down to the ankles, as a garment that hangs on the helper's own vertices; whoever
-/// wears it cuts it at a hem. It follows the thighs and, below the knees, half the shins. Its
+/// The skirt down to the ankles, as a garment that hangs on the helper's own vertices; those who
+/// wear it cut it at a hem. It follows the thighs and, below the knees, half the shins. Its
 /// texture coordinates go once around and from the waist to the ankles.
 Proxy make_skirt(const MakeHuman& makehuman);
 

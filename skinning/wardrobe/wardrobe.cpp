@@ -80,8 +80,8 @@ bool is_part_of_suit(Slot slot) { return slot == Slot::top || slot == Slot::bott
 
 }  // namespace
 
-fs::path skin_picture(const fs::path& package, const std::string& skin) {
-  return diffuse_picture(package / "public/data/skins" / skin);
+fs::path skin_image(const fs::path& package, const std::string& skin) {
+  return diffuse_image(package / "public/data/skins" / skin);
 }
 
 std::set<fs::path> folders_used(const fs::path& package, const std::vector<PersonSpec>& people) {
@@ -127,9 +127,9 @@ Wardrobe::Wardrobe(const MakeHuman& makehuman, const std::vector<PersonSpec>& pe
     if (!outfit.hat.empty()) add({outfit.hat, Slot::hat});
     if (!outfit.hair.empty()) add({outfit.hair, Slot::hair});
     add({person.eyebrows, Slot::hair});
-    add_picture(person.skin, skin_picture(makehuman.folder(), person.skin), tone_skin);
-    add_picture(person.eyes, proxy_folder(makehuman.folder(), "eyes", "Low-Poly") / "textures" /
-                                 (person.eyes + ".png"));
+    add_image(person.skin, skin_image(makehuman.folder(), person.skin), tone_skin);
+    add_image(person.eyes, proxy_folder(makehuman.folder(), "eyes", "Low-Poly") / "textures" /
+                               (person.eyes + ".png"));
   }
 }
 
@@ -246,7 +246,7 @@ void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::pat
   if (!textures_.contains(garment.texture)) {
     const bool skirt = garment.proxy->name == kSkirt;
     constexpr int kSkirtTexels = 512;  // as the package's images
-    Image image = skirt ? skirt_cloth(kSkirtTexels) : read_png(diffuse_picture(folder));
+    Image image = skirt ? skirt_cloth(kSkirtTexels) : read_png(diffuse_image(folder));
     Mask covered = covered_by(faces, image);
     if (skirt) {
     } else if (cloth == Cloth::print) {
@@ -270,10 +270,10 @@ void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::pat
   worn.pieces.push_back(std::move(garment));
 }
 
-void Wardrobe::add_picture(const std::string& key, const fs::path& picture,
-                           const std::function<void(Image&)>& mend) {
+void Wardrobe::add_image(const std::string& key, const fs::path& file,
+                         const std::function<void(Image&)>& mend) {
   if (textures_.contains(key)) return;
-  Image image = read_png(picture);
+  Image image = read_png(file);
   for (std::size_t at = 3; at < image.rgba.size(); at += 4) image.rgba[at] = 255;
   image = resized(image, texture_size_);
   if (mend) mend(image);

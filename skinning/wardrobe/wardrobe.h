@@ -72,8 +72,8 @@ class Wardrobe {
   void add_head(const Key& key, Worn& worn);
   const Proxy& load(const std::string& kind, const std::string& name);
   void add_piece(Worn& worn, Garment garment, Cloth cloth, const std::filesystem::path& folder);
-  void add_picture(const std::string& key, const std::filesystem::path& picture,
-                   const std::function<void(Image&)>& mend = {});
+  void add_image(const std::string& key, const std::filesystem::path& file,
+                 const std::function<void(Image&)>& mend = {});
 
   const MakeHuman* makehuman_;
   int texture_size_;
@@ -84,7 +84,7 @@ class Wardrobe {
 };
 
 /// The image of a skin, e.g. "old_asian_male". Throws InputError when the package has none.
-std::filesystem::path skin_picture(const std::filesystem::path& package, const std::string& skin);
+std::filesystem::path skin_image(const std::filesystem::path& package, const std::string& skin);
 
 /// The package's folders that hold what these people are made of besides their bodies.
 std::set<std::filesystem::path> folders_used(const std::filesystem::path& package,

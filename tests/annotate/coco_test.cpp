@@ -186,7 +186,7 @@ TEST_F(Coco, EachAnnotationIsItsLabel) {
   }
 }
 
-// A reader with K, R, t and position alone finds the person's place in the picture.
+// A reader with K, R, t and position alone finds the person's place in the image.
 TEST_F(Coco, PositionsProjectFromTheFileAlone) {
   const json coco = json::parse(merge({write_shard("all", 0, kFrames)}));
   const auto number = [](const json& value) { return value.get<double>(); };

@@ -57,7 +57,7 @@ TEST(ExitView, OutlinesAreWhereTheCameraSeesThem) {
     }
     EXPECT_LT(nearest, 0.01);
   }
-  // The zone is a half disc of 3 m on the inner side: nearer, and so lower in the picture.
+  // The zone is a half disc of 3 m on the inner side: nearer, and so lower in the image.
   const double inner = camera.project({0, 7, 0}).pixel.y() + 0.5;
   double lowest = 0;
   for (const json& point : exit.at("zone")) lowest = std::max(lowest, point[1].get<double>());

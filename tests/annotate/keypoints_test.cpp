@@ -38,7 +38,7 @@ std::vector<render::PersonInstance> scattered(const render::Stage& stage, std::u
   return people;
 }
 
-TEST(Keypoints, LieInTheBoxesOfPictureAndWorldFromAnySide) {
+TEST(Keypoints, LieInTheBoxesOfImageAndWorldFromAnySide) {
   render::Stage stage(render::open_ground());
   const auto crowd = scattered(stage, 40);
   for (const double pitch_deg : {-89.0, -50.0, -20.0}) {
@@ -73,7 +73,7 @@ TEST(Keypoints, LeftIsThePersonsOwn) {
   EXPECT_LT(turned[left_shoulder].x, turned[right_shoulder].x - 20);
 }
 
-TEST(Keypoints, AreVisibleWhereThePictureShowsThem) {
+TEST(Keypoints, AreVisibleWhereTheImageShowsThem) {
   render::Stage stage(render::open_ground({render::block(1, 1.4, -3, 3, 1.0)}));
   const render::Frame frame = stage.draw(
       render::camera_at({6, 0, 1.7}, 180, -5),

@@ -16,7 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// What the labels must say, pixel by pixel.
+// The expected labels, pixel by pixel.
 struct Expected {
   std::vector<bool> mask;
   int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;

@@ -31,7 +31,7 @@ int brightness(const Sheet& sheet, int x, int y) {
   return sheet.rgb[at] + sheet.rgb[at + 1] + sheet.rgb[at + 2];
 }
 
-TEST_F(PeopleSheetTest, ShowsSomebodyInEveryPicture) {
+TEST_F(PeopleSheetTest, ShowsSomebodyInEveryImage) {
   const Sheet sheet = draw_people_sheet(people, options);
   EXPECT_EQ(sheet.width, 800);
   ASSERT_EQ(sheet.rgb.size(), 3U * 800U * static_cast<std::size_t>(sheet.height));
@@ -52,7 +52,7 @@ TEST_F(PeopleSheetTest, ShowsSomebodyInEveryPicture) {
   }
 }
 
-TEST_F(PeopleSheetTest, PicturesDoNotOverlap) {
+TEST_F(PeopleSheetTest, ImagesDoNotOverlap) {
   const Sheet sheet = draw_people_sheet(people, options);
   for (std::size_t i = 0; i < sheet.cells.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {

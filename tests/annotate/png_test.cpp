@@ -13,7 +13,7 @@
 namespace throng::annotate {
 namespace {
 
-/// What libpng makes of a file: its format's bits and samples.
+/// A file as libpng decodes it: its format's bits and samples.
 struct Decoded {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -54,7 +54,7 @@ Decoded decode(const std::string& bytes) {
     }
   }
   png_read_end(png, info);
-  EXPECT_EQ(source.at, bytes.size()) << "nothing follows the picture";
+  EXPECT_EQ(source.at, bytes.size()) << "nothing follows the image";
   png_destroy_read_struct(&png, &info, nullptr);
   return decoded;
 }

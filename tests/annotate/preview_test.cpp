@@ -52,12 +52,12 @@ TEST(Preview, IsTheSameEveryTime) {
   EXPECT_EQ(draw_preview(frame, labels), draw_preview(frame, labels));
 }
 
-TEST(Preview, FitsIntoTinyPictures) {
+TEST(Preview, FitsIntoTinyImages) {
   const render::Frame frame = empty_frame(5, 3);
   EXPECT_EQ(draw_preview(frame, label_people(frame)).size(), 45U);
 }
 
-TEST(JpegBytes, DecodeToThePicture) {
+TEST(JpegBytes, DecodeToTheImage) {
   const render::Frame frame = empty_frame(321, 123);
   const std::string jpeg = jpeg_bytes(frame.rgb, 321, 123, 95);
   EXPECT_EQ(jpeg, jpeg_bytes(frame.rgb, 321, 123, 95));

@@ -79,38 +79,38 @@ const View& view_in(const std::variant<View, Problem>& found) {
 TEST(Board, ChessboardsAreFoundToATenthOfAPixel) {
   for (const int square : {20, 40}) {  // small ones, too, where a wide window would be wrong
     const cv::Mat flat = flat_chessboard(9, 6, square);
-    const Askew picture = askew(flat);
+    const Askew photo = askew(flat);
     Board board;
     board.square = 0.025;
-    const auto found = find_board(picture.image, board, "drawn");
+    const auto found = find_board(photo.image, board, "drawn");
     const View& view = view_in(found);
     ASSERT_EQ(view.pixels.size(), 54U);
     EXPECT_NEAR(view.points[10].x(), 0.025, 1e-12);
     EXPECT_NEAR(view.points[10].y(), 0.025, 1e-12);
     // OpenCV may count from either end.
-    const bool turned = (view.pixels[0] - seen(picture, 2 * square, 2 * square)).norm() > 30;
+    const bool turned = (view.pixels[0] - seen(photo, 2 * square, 2 * square)).norm() > 30;
     for (std::size_t i = 0; i < view.pixels.size(); ++i) {
       const auto at = turned ? 53 - i : i;
       const double x = (2 + static_cast<double>(at % 9)) * square;
       const double y = (2 + static_cast<double>(at / 9)) * square;
-      EXPECT_LT((view.pixels[i] - seen(picture, x, y)).norm(), 0.1) << i;
+      EXPECT_LT((view.pixels[i] - seen(photo, x, y)).norm(), 0.1) << i;
     }
   }
 }
 
 TEST(Board, AWrongSizeIsNamed) {
-  const Askew picture = askew(flat_chessboard(9, 6, 40));
+  const Askew photo = askew(flat_chessboard(9, 6, 40));
   for (const auto& [columns, rows] : {std::pair(7, 5), std::pair(8, 6), std::pair(11, 8)}) {
     Board board;
     board.columns = columns;
     board.rows = rows;
-    const auto found = find_board(picture.image, board, "drawn");
+    const auto found = find_board(photo.image, board, "drawn");
     ASSERT_TRUE(std::holds_alternative<Problem>(found)) << columns;
     EXPECT_THAT(std::get<Problem>(found).text(), HasSubstr("9 x 6 inner corners")) << columns;
   }
 }
 
-TEST(Board, PicturesOfAnotherSizeThanMostAreLeftOut) {
+TEST(Board, ImagesOfAnotherSizeThanMostAreLeftOut) {
   const fs::path folder = fs::temp_directory_path() / "throng_board_sizes";
   fs::create_directories(folder);
   Board board;
@@ -133,7 +133,7 @@ TEST(Board, PicturesOfAnotherSizeThanMostAreLeftOut) {
               HasSubstr(fmt::format("{} x {}", smaller.cols, smaller.rows)));
 }
 
-TEST(Board, AnEmptyPictureHasNone) {
+TEST(Board, AnEmptyImageHasNone) {
   const GrayImage empty{640, 480, std::vector<std::uint8_t>(640 * 480, 128)};
   for (const auto kind : {Board::Kind::chessboard, Board::Kind::charuco, Board::Kind::circles}) {
     Board board;
@@ -153,15 +153,15 @@ TEST(Board, CharucoBoardsAreFoundByTheirCornersNames) {
       7, 5, 0.04F, 0.03F, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50));
   cv::Mat flat;
   drawn->draw(cv::Size(700, 500), flat, 0);
-  const Askew picture = askew(flat);
-  const auto found = find_board(picture.image, board, "drawn");
+  const Askew photo = askew(flat);
+  const auto found = find_board(photo.image, board, "drawn");
   const View& view = view_in(found);
   ASSERT_EQ(view.pixels.size(), 24U);
   double worst = 0;
   for (std::size_t i = 0; i < view.pixels.size(); ++i) {
     const double x = view.points[i].x() / 0.04 * 100;
     const double y = view.points[i].y() / 0.04 * 100;
-    worst = std::max(worst, (view.pixels[i] - seen(picture, x, y)).norm());
+    worst = std::max(worst, (view.pixels[i] - seen(photo, x, y)).norm());
   }
   EXPECT_LT(worst, 0.3);
 }
@@ -179,8 +179,8 @@ TEST(Board, CirclesAreFound) {
                          static_cast<int>(90 + point.y() / 0.02 * 60)),
                20, cv::Scalar(0), cv::FILLED, cv::LINE_AA);
   }
-  const Askew picture = askew(flat);
-  const auto found = find_board(picture.image, board, "drawn");
+  const Askew photo = askew(flat);
+  const auto found = find_board(photo.image, board, "drawn");
   EXPECT_EQ(view_in(found).pixels.size(), 44U);
 }
 
@@ -201,9 +201,9 @@ TEST(Board, ImpossibleOnesAreRefused) {
 class RealBoards : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(folder())) GTEST_SKIP() << "no pictures beside the sources";
-    for (const auto& entry : fs::directory_iterator(folder())) pictures_.push_back(entry.path());
-    std::sort(pictures_.begin(), pictures_.end());
+    if (!fs::exists(folder())) GTEST_SKIP() << "no images beside the sources";
+    for (const auto& entry : fs::directory_iterator(folder())) images_.push_back(entry.path());
+    std::sort(images_.begin(), images_.end());
     base_ = fs::temp_directory_path() / ("throng_boards_" + std::to_string(::getpid()));
     fs::create_directories(base_);
   }
@@ -216,12 +216,12 @@ class RealBoards : public ::testing::Test {
         shared != nullptr ? fs::path(shared) : fs::path(THRONG_SOURCE_DIR).parent_path() / "shared";
     return root / "data" / "calib" / "chess";
   }
-  std::vector<fs::path> pictures_;
+  std::vector<fs::path> images_;
   fs::path base_;
 };
 
 TEST_F(RealBoards, CornersAreThoseOfTheReference) {
-  const Correspondences found = find_boards(pictures_, {});
+  const Correspondences found = find_boards(images_, {});
   const Correspondences wanted =
       read_correspondences(folder().parent_path() / "corners_left.csv", {640, 480});
   EXPECT_EQ(found.size, wanted.size);
@@ -239,10 +239,10 @@ TEST_F(RealBoards, CornersAreThoseOfTheReference) {
   EXPECT_NEAR(camera.rms_px, 0.24497, 1e-3);
 }
 
-TEST_F(RealBoards, BadPicturesAreLeftOutOneByOne) {
-  write_file_atomically(base_ / "broken.jpg", "no picture at all");
+TEST_F(RealBoards, BadImagesAreLeftOutOneByOne) {
+  write_file_atomically(base_ / "broken.jpg", "no image at all");
   std::ofstream(base_ / "empty.png");
-  const std::vector<fs::path> few = {pictures_[0],         pictures_[1],        pictures_[2],
+  const std::vector<fs::path> few = {images_[0],           images_[1],          images_[2],
                                      base_ / "broken.jpg", base_ / "empty.png", base_ / "gone.jpg"};
   const Correspondences found = find_boards(few, {});
   EXPECT_EQ(found.views.size(), 3U);
@@ -251,11 +251,11 @@ TEST_F(RealBoards, BadPicturesAreLeftOutOneByOne) {
   EXPECT_THAT(found.left_out[2].text(), HasSubstr("gone.jpg"));
 }
 
-TEST_F(RealBoards, AWrongBoardIsNamedForEveryPicture) {
+TEST_F(RealBoards, AWrongBoardIsNamedForEveryImage) {
   Board board;
   board.columns = 7;
   try {
-    find_boards({pictures_[0], pictures_[3]}, board);
+    find_boards({images_[0], images_[3]}, board);
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems().size(), 2U);
@@ -264,7 +264,7 @@ TEST_F(RealBoards, AWrongBoardIsNamedForEveryPicture) {
 }
 
 TEST_F(RealBoards, TheSearchCanBeCancelled) {
-  EXPECT_THROW(find_boards(pictures_, {}, [](std::size_t) { return false; }), Cancelled);
+  EXPECT_THROW(find_boards(images_, {}, [](std::size_t) { return false; }), Cancelled);
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(Distortion, FollowsTheFormulas) {
                   ->isApprox(Vector2d(0.613274063564209, -0.45995554767315666), 1e-13));
 }
 
-TEST(Distortion, EndsWhereThePictureWouldFold) {
+TEST(Distortion, EndsWhereTheImageWouldFold) {
   // r (1 - 0.3 r^2) turns back where 1 - 0.9 r^2 = 0.
   const Distortion lens(Model::brown_conrady, {-0.3});
   const double limit = std::sqrt(1 / 0.9);

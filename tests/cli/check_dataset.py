@@ -1,5 +1,5 @@
 """Checks a throng dataset with code that shares nothing with throng: JSON from the standard library,
-arrays from NumPy, pictures from Pillow, and a mask decoder written from COCO's description."""
+arrays from NumPy, images from Pillow, and a mask decoder written from COCO's description."""
 import hashlib
 import json
 import pathlib
@@ -76,7 +76,7 @@ def check_annotation(annotation, image):
 
 
 def check_dataset(folder):
-    """Raises AssertionError at the first thing wrong; returns (frames, annotations)."""
+    """Raises AssertionError at the first error; returns (frames, annotations)."""
     folder = pathlib.Path(folder)
     check_manifest(folder)
     coco = json.loads((folder / "annotations/instances.json").read_text(), parse_constant=lambda word: 1 / 0)

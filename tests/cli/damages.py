@@ -259,7 +259,7 @@ def segmentation_of(mask):
     return {"size": list(mask.shape), "counts": encode(runs)}
 
 
-# --- pictures ---------------------------------------------------------------------------------------------------------
+# --- images ---------------------------------------------------------------------------------------------------------
 
 
 @damage
@@ -686,7 +686,7 @@ def hidden_people_exchanged(d):
 
 @damage
 def somebody_erased(d):
-    """From records, instances and parts; the picture still shows them."""
+    """From records, instances and parts; the image still shows them."""
     image = d.image()
     person = d.largest(image)
     number = person["track_id"] % 1000000
@@ -811,7 +811,7 @@ def exits_of_people_exchanged(d):
 
 @damage
 def labels_of_the_frame_before(d):
-    """Records and rasters of one picture are those of the frame before; the picture is right."""
+    """Records and rasters of one image are those of the frame before; the image is right."""
     image, before = d.image(-1, 3), d.image(-1, 2)
     old = d.people(image)
     d.coco["annotations"] = [p for p in d.coco["annotations"] if p not in old]
@@ -1416,7 +1416,7 @@ def exits_of_the_other_run(d):
 
 
 def busy_columns(d, change, picture_key=None):
-    """Table and pictures alike, where the demand is there."""
+    """Table and images alike, where the demand is there."""
     for run in range(len(d.runs)):
         name = exits_name(d, run)
         head, rows = d.table(name)

@@ -54,7 +54,7 @@ class Calibrate(unittest.TestCase):
     def test_points_give_a_camera_and_all_files(self):
         files = [self.base / name for name in ("cv.yaml", "ros.yaml", "residuals.svg")]
         camera, said = self.calibrate("--lens", "pinhole", "--opencv", files[0], "--ros", files[1],
-                                      "--picture", files[2])
+                                      "--plot", files[2])
         self.assertAlmostEqual(camera["fx"], 800, places=4)
         self.assertAlmostEqual(camera["cx"], 321, places=4)
         self.assertAlmostEqual(camera["cy"], 238, places=4)

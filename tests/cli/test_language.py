@@ -27,6 +27,10 @@ class Language(unittest.TestCase):
             ['"Colour": use color', '"neighbour": use neighbor', '"grey": use gray'],
         )
         self.assertEqual(
+            self.check("a.h", "int picture_count, told;\n"),
+            ['"told": use given, reported, notified', '"picture_count": use image, texture, plot'],
+        )
+        self.assertEqual(
             self.check("a.h", "int kMaxAgents, most_similar, at_most, color, gray; bool normalized;\n"), []
         )
 
@@ -46,6 +50,14 @@ class Language(unittest.TestCase):
 
     def test_strings_are_public_names(self):
         self.assertEqual(self.check("a.cpp", 'auto a = json["colour"]; auto b = R"(// ways)"; char c = \'"\';\n'), [])
+
+    def test_messages(self):
+        self.assertEqual(
+            self.check("a.cpp", 'auto a = "the colour of pictures";\n'),
+            ['"colour": use color', '"pictures": use images'],
+        )
+        [finding] = self.check("a.cpp", 'auto a = "Who is younger is left out.";\n')
+        self.assertIn("Who ...", finding)
 
     def test_documentation(self):
         self.assertEqual(

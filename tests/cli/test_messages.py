@@ -104,6 +104,8 @@ class Messages(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("--most-jobs is deprecated, use --max-jobs", done.stderr)
         self.assertIn("--most-gib is deprecated, use --max-gib", done.stderr)
+        done = throng("calibrate", "intrinsics", "--picture=plot.svg")
+        self.assertIn("--picture is deprecated, use --plot", done.stderr)
         self.assertEqual(throng("keys", "create", "bob", "--data", data, "--max-jobs", "3").stderr, "")
         self.assertEqual(throng("keys", "create", "eve", "--data", data, "--most-jobs", "-3").returncode, 2)
 

@@ -80,7 +80,7 @@ class WithFolder(unittest.TestCase):
         return sorted(p.name for p in self.base.iterdir())
 
     def describe(self, name, **more):
-        description = {"name": name, "model": "man.gltf", "height_m": 1.7, "licence": "CC0-1.0", **more}
+        description = {"name": name, "model": "man.gltf", "height_m": 1.7, "license": "CC0-1.0", **more}
         file = self.base / f"{name}.json"
         file.write_text(json.dumps(description))
         return file

@@ -31,14 +31,14 @@ JOB = {
         {
             "id": "d2",
             "start": [4, 12, 15],
-            "guidance": {"policy": "orbit", "centre": [-4, 0], "radius_m": 14, "speed_mps": 2},
+            "guidance": {"policy": "orbit", "center": [-4, 0], "radius_m": 14, "speed_mps": 2},
             "camera": camera(yaw_deg=180, pitch_deg=-42),
         },
     ],
     "outputs": {"annotations": ANNOTATIONS, "previews": 1, "formats": ["mot", "yolo-detect", "kitti", "table"]},
 }
 # Of two people with all that belongs to them, and of places that little else depends on, nothing else tells.
-# Flow is taken over 4 s, and these pictures span 2 s.
+# Flow is taken over 4 s, and these images span 2 s.
 NOT_FOUND = {"attributes of two people exchanged", "exits of people exchanged", "field one cell off",
              "doors and zones exchanged", "flow of exits doubled"}
 

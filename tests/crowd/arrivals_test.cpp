@@ -73,10 +73,29 @@ TEST(Arrivals, WaitForRoom) {
   }
 }
 
+TEST(Arrivals, TheNameMostAliveIsReadWithAWarning) {
+  const std::string old_name =
+      scene_with_arrivals(R"(<Arrivals type="rate" per_second="1" end="20" most_alive="3"/>)");
+  const std::string name =
+      scene_with_arrivals(R"(<Arrivals type="rate" per_second="1" end="20" max_present="3"/>)");
+  Simulation crowd = test::load(old_name, kToTheSink);
+  Simulation same = test::load(name, kToTheSink);
+  const auto is_about_it = [](const Problem& warning) {
+    return warning.text().find("most_alive") != std::string::npos &&
+           warning.found.find("a deprecated name") != std::string::npos &&
+           warning.expected.find("max_present") != std::string::npos;
+  };
+  EXPECT_TRUE(std::any_of(crowd.warnings().begin(), crowd.warnings().end(), is_about_it));
+  EXPECT_FALSE(std::any_of(same.warnings().begin(), same.warnings().end(), is_about_it));
+  for (Simulation* one : {&crowd, &same}) run_until(*one, 10);
+  EXPECT_EQ(present(crowd), present(same));
+  EXPECT_LE(present(crowd), 3);
+}
+
 TEST(Arrivals, WaitWhileTooManyAreThere) {
   Simulation crowd = test::load(
       scene_with_arrivals(
-          R"(<Arrivals type="rate" per_second="1" end="20" process="regular" most_alive="3"/>)"),
+          R"(<Arrivals type="rate" per_second="1" end="20" process="regular" max_present="3"/>)"),
       kToTheSink);
   long max_value = 0;
   while (crowd.time_s() < 80 && !crowd.all_final()) {

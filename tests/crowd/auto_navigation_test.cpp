@@ -1,4 +1,4 @@
-// Ways around all obstacles without a mesh by hand.
+// Paths around all obstacles without a hand-made mesh.
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -78,7 +78,7 @@ TEST(AutoNavigation, WaysAreShortAndNeverCrossWalls) {
       const Eigen::Vector2f from(draw(), draw());
       const Eigen::Vector2f to(draw(), draw());
       // Boxes a bit bigger than where an agent's center may be: the way may be a little longer.
-      const float length = test::shortest_way(wide, from, to);
+      const float length = test::shortest_path(wide, from, to);
       if (!std::isfinite(length) || mesh.find(from) < 0 || mesh.find(to) < 0) continue;
       ASSERT_TRUE(finder.find({mesh.find(from), from}, {mesh.find(to), to}, 0));
       EXPECT_LE(finder.length_m(), 1.03F * length + 0.2F) << "seed " << seed << ", way " << i;

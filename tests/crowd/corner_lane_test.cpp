@@ -1,4 +1,4 @@
-// Where people pass a corner.
+// The lane in which people pass a corner.
 #include "crowd/navigation/corner_lane.h"
 
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ using namespace describe;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What reading the written text gives.
+/// Writes a description and reads the text.
 Description rewritten(const Description& description, const test::TemporaryFolder& folder) {
   return read_description(folder.write("written.xml", to_xml(description)), "Root");
 }

@@ -1,4 +1,4 @@
-// What is odd in a behavior file is warned of, with its place.
+// Warnings about suspicious parts of a behavior file, with their lines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What is wrong in the files is said with its place, and nothing ever crashes.
+// Errors in the files are reported with their lines, and nothing ever crashes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -200,7 +200,7 @@ std::string file_text(const std::string& name) {
   return text.str();
 }
 
-/// The text with a few things changed, cut or doubled.
+/// The text with a few parts changed, cut or doubled.
 std::string mutated(std::string text, Random& random) {
   static const std::vector<std::string> kPieces = {
       "\"",  "<",      ">",    "/>", "&#0;", "-1",        "1e99",  "nan", "99999999999", "", "\0x",

@@ -1,4 +1,4 @@
-// Where people look who stand.
+// Orientation of standing people.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -51,7 +51,7 @@ TEST(GoalPath, RestsWhereAllPointsCoincide) {
   EXPECT_TRUE(is_at(path, 1, 2));
 }
 
-/// Where an agent is after `time_s` of following the goal.
+/// Position of an agent after `time_s` of following the goal.
 Eigen::Vector2f follower(const std::string& goal, double time_s) {
   Simulation crowd =
       load(scene_with(agent_at(0, 0), R"(pref_speed="4" max_speed="4" max_accel="100")"),

@@ -75,7 +75,7 @@ std::string text_of(const std::filesystem::path& file) {
 
 /// A behavior file whose first `prob` target has its states in this order.
 std::string with_target_order(std::string text, const std::vector<std::string>& order) {
-  // What is commented out may hold a target, too.
+  // XML comments may hold a target, too.
   for (std::size_t at = text.find("<!--"); at != std::string::npos; at = text.find("<!--")) {
     text.erase(at, text.find("-->", at) + 3 - at);
   }

@@ -86,7 +86,7 @@ TEST_P(ModelReference, AgreesForSeconds) {
   }
 }
 
-// What grows from differences in the last digits ends the agreement sooner or later; Karamouzas'
+// Growing differences of the last digits end the agreement sooner or later; Karamouzas'
 // own noise, and Zanlungo's flips between two sides that repel each other, at once.
 INSTANTIATE_TEST_SUITE_P(Core, ModelReference,
                          testing::Values(Case{"cross", "pedvo", 0, 12, 0.001, 0.001},

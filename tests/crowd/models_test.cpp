@@ -1,4 +1,4 @@
-// What every pedestrian model has to do, and what is particular to some.
+// Properties of every pedestrian model, and those particular to some.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 

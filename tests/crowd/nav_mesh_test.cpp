@@ -1,4 +1,4 @@
-// Navigation meshes from files, and ways across them.
+// Navigation meshes from files, and paths across them.
 #include "crowd/navigation/nav_mesh.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Worlds with walls for the tests of ways around them.
+// Worlds with walls for the tests of paths around them.
 #pragma once
 
 #include <fmt/core.h>
@@ -73,10 +73,10 @@ inline bool sees(const std::vector<Box>& boxes, const Eigen::Vector2f& a,
                       [&](const Box& box) { return blocks(box, a, b); });
 }
 
-/// The length of the shortest way around boxes, by Dijkstra's algorithm on their corners; infinite
+/// The length of the shortest path around boxes, by Dijkstra's algorithm on their corners; infinite
 /// when there is none.
-inline float shortest_way(const std::vector<Box>& boxes, const Eigen::Vector2f& from,
-                          const Eigen::Vector2f& to) {
+inline float shortest_path(const std::vector<Box>& boxes, const Eigen::Vector2f& from,
+                           const Eigen::Vector2f& to) {
   std::vector<Eigen::Vector2f> places = {from};
   for (const Box& box : boxes) {
     for (const Eigen::Vector2f& corner : corners_of(box)) places.push_back(corner);

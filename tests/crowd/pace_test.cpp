@@ -33,11 +33,11 @@ class PaceOf {
   float density(InstructionSet set = best_instruction_set()) { return look(set).along; }
   /// Has somebody's way be along -x.
   void turn_round(std::size_t other) { crowd_.agents.preferred_direction[other] = {-1, 0}; }
-  Gait gait() {
+  SpeedRegulation regulation() {
     const Pace::Ahead ahead = look(best_instruction_set());
-    return pace_.gait(batch_.view(0), ahead);
+    return pace_.regulation(batch_.view(0), ahead);
   }
-  float share() { return gait().share; }
+  float share() { return regulation().share; }
 
  private:
   Pace::Ahead look(InstructionSet set) {
@@ -113,16 +113,16 @@ TEST(Pace, LeavesALittleInAJam) {
 
 TEST(Pace, KeepsRightOfThoseWhoComeAndLooksFartherAhead) {
   PaceOf meeting({{1, 0}});
-  const Gait behind = meeting.gait();
+  const SpeedRegulation behind = meeting.regulation();
   EXPECT_EQ(behind.direction.y(), 0);
   EXPECT_LT(behind.horizon_share, 1);
   meeting.turn_round(1);
-  const Gait gait = meeting.gait();
-  EXPECT_EQ(gait.share, 1) << "nobody goes the same way";
-  EXPECT_EQ(gait.horizon_share, 1);
-  EXPECT_LT(gait.direction.y(), -0.1F);
-  EXPECT_NEAR(gait.direction.norm(), 1, 1e-6);
-  EXPECT_GE(gait.direction.x(), std::cos(1.0F) - 1e-3F);
+  const SpeedRegulation regulation = meeting.regulation();
+  EXPECT_EQ(regulation.share, 1) << "nobody goes the same way";
+  EXPECT_EQ(regulation.horizon_share, 1);
+  EXPECT_LT(regulation.direction.y(), -0.1F);
+  EXPECT_NEAR(regulation.direction.norm(), 1, 1e-6);
+  EXPECT_GE(regulation.direction.x(), std::cos(1.0F) - 1e-3F);
 }
 
 TEST(Pace, KeepsItsHeadwayInSingleFileOnly) {

@@ -1,4 +1,4 @@
-// Road maps from files, and ways along them.
+// Road maps from files, and paths along them.
 #include "crowd/navigation/road_map.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// People strewn at random: where they may stand, and that every seed strews them anew.
+// People placed at random: where they may stand, and that every seed places them differently.
 #include "crowd/population/scatter.h"
 
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// What a scene file may say, through the crowd that it makes.
+// Elements of a scene file, through the crowd that it makes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

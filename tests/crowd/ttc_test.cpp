@@ -73,7 +73,7 @@ TEST(Ttc, AcceleratesByTheGradientOfTheEnergy) {
     Vector2d expected = velocity + kDt * ((wanted - velocity) / kRelaxationS + force);
     const double limit = std::max({1.34, velocity.norm()});
     if (expected.norm() > limit) expected *= limit / expected.norm();
-    // Where the discs would nearly pass each other, the gradient grows without limit, and the model
+    // If the discs would nearly pass each other, the gradient grows without limit, and the model
     // smooths it.
     const double speed_sq = relative.squaredNorm();
     const double toward = -offset.dot(relative);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What has come into being in a folder: regular files' bytes; aborts at anything but files and
+/// Bytes of the regular files in a folder; aborts at anything but files and
 /// folders.
 std::uintmax_t bytes_below(const fs::path& folder) {
   std::uintmax_t bytes = 0;

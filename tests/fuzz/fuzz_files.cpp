@@ -36,7 +36,7 @@ constexpr const char* kNearest = R"(<GoalSelector type="nearest" goal_set="0"/>)
 constexpr const char* kKdTree = R"(<SpatialQuery type="kd-tree"/>)";
 constexpr const char* kToGoal = R"(<VelComponent type="goal"/>)";
 
-/// Where a kind of resource stands in the scene and the behavior.
+/// Elements of the scene and the behavior that name a kind of resource.
 using Places = std::map<std::string, std::string>;
 
 std::string filled(std::string text, const Places& places, const Places& otherwise) {

@@ -1,5 +1,5 @@
 // Worlds, maps and trajectories of others. The first line of an input names the kind (sdf, osm,
-// text, csv, times, sqlite, scb); the rest is the file. What can be read becomes a scenario.
+// text, csv, times, sqlite, scb); the rest is the file. Readable input becomes a scenario.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const throng::InputError&) {
     return 0;
   }
-  // What was accepted must be accepted again.
+  // An accepted job must be accepted again.
   if (to_json(throng::jobs::parse_job(written, "")).dump() != written) std::abort();
   return 0;
 }

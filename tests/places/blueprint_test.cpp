@@ -140,7 +140,7 @@ TEST_P(Disasters, MakePeopleFlee) {
                              {"start_s", 10},
                              {"radius_m", 3},
                              {"growth_mps", 1},
-                             {"most_m", 15}}};
+                             {"max_radius_m", 15}}};
   const world::Scenario scenario = make();
   EXPECT_EQ(faults(), "");
   ASSERT_EQ(scenario.disasters.size(), 1U);
@@ -151,7 +151,7 @@ TEST_P(Disasters, MakePeopleFlee) {
 INSTANTIATE_TEST_SUITE_P(All, Disasters,
                          ::testing::Values("explosion", "fire", "attacker", "collapse", "gas"));
 
-/// Where those were last who have left after a time: x.
+/// Last x of the people who have left after a time.
 std::vector<float> last_seen_x(const world::Scenario& scenario, double from_s, double to_s) {
   crowd::LoadOptions options;
   options.model = "weidmann";
@@ -175,7 +175,7 @@ TEST_F(Blueprint, NobodyFleesThroughADoorThatADisasterHasGrownOver) {
                              {"start_s", 1},
                              {"radius_m", 2},
                              {"growth_mps", 0.5},
-                             {"most_m", 10},
+                             {"max_radius_m", 10},
                              {"noticed_m", 3},
                              {"notice_growth_mps", 1}}};
   const world::Scenario scenario = make();

@@ -51,8 +51,8 @@ TEST_F(CheckYard, SeesWallsAcrossAnExit) {
   EXPECT_THAT(found[1].problem.found, HasSubstr("no way to any open exit"));
 }
 
-// On so large a ground the cells of ways are 0.8 m wide, and the free one next to people beside a
-// wall is farther off than on a small one.
+// On so large a ground the cells of the path search are 0.8 m wide, and the free one next to people
+// beside a wall is farther off than on a small one.
 TEST_F(CheckYard, LetsPeopleStandBesideWallsOnLargeGround) {
   yard.scenario["ground"] = {
       {"min", {-1300, -1300}}, {"max", {1300, 1300}}, {"material", "pavers"}};

@@ -1,4 +1,4 @@
-// What holds of every disaster, on a small square with two doors.
+// Properties of every disaster, on a small square with two doors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,7 +62,7 @@ std::vector<bool> states_named(const crowd::Simulation& crowd, const std::set<st
 
 json disaster(const std::string& kind) {
   return {{"kind", kind},    {"position", {8, 3}},      {"start_s", kStartS},
-          {"radius_m", 2.5}, {"growth_mps", 0.8},       {"most_m", 12.4},
+          {"radius_m", 2.5}, {"growth_mps", 0.8},       {"max_radius_m", 12.4},
           {"noticed_m", 12}, {"notice_growth_mps", 0.5}};
 }
 
@@ -108,7 +108,7 @@ class Fleeing {
       if (passes(west_, from, last_[i])) ++by_west;
       if (!passes(east_, from, last_[i])) continue;
       ++by_east;
-      // Who is in the doorway when it is reached still gets out.
+      // People in the doorway when it is reached still get out.
       constexpr double kGraceS = 1.5;
       EXPECT_LT(before_s, east_.closes_at_s + kGraceS) << "agent " << i;
     }
@@ -119,8 +119,8 @@ class Fleeing {
   int by_west = 0;
 
  private:
-  /// Who has been well outside of a disc stays outside, but for a body's radius by which a crowd
-  /// may press somebody in. Who was within or at its edge when it came walks out.
+  /// People well outside of a disc stay outside, except for a body's radius by which a crowd
+  /// may press somebody in. People within or at its edge when it comes walk out.
   void keeps_out(std::size_t agent, const Eigen::Vector2d& at, double before_s) {
     constexpr double kPressedM = 0.2;
     constexpr double kWellM = 1.5;
@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(All, AnyDisaster,
                          ::testing::Values("explosion", "fire", "attacker", "collapse", "gas"),
                          [](const auto& each) { return std::string(each.param); });
 
-/// Who lies hurt, step by step.
+/// Casualties, step by step.
 struct Hurt {
   double time_s;
   std::size_t agent;
@@ -251,7 +251,7 @@ TEST(FireAndGas, HurtNobodyUnlessTheBlueprintSaysSo) {
 TEST(FireAndGas, FlamesHurtWhomTheyReachAsTheySpreadAndAsLongAsTheyBurn) {
   json fire = unnoticed("fire");
   fire["hurts_m"] = 2.5;
-  fire["most_m"] = 6;
+  fire["max_radius_m"] = 6;
   const std::vector<Hurt> hurt = hurt_by(fire, 40);
   ASSERT_GT(hurt.size(), 10U);
   for (const Hurt& one : hurt) {
@@ -347,7 +347,7 @@ TEST(ADisaster, ShutsADoorWhenItsDiscReachesIt) {
   gas["position"] = {12, 0};
   gas["radius_m"] = 2;
   gas["growth_mps"] = 0.5;
-  gas["most_m"] = 14;
+  gas["max_radius_m"] = 14;
   blueprint["disasters"] = json::array({gas});
   const Made made = make_of(blueprint);
   // The door is 8 m away: the first disc of more than that has 10 m, which the gas has 16 s later.

@@ -30,7 +30,7 @@ std::vector<fs::path> blueprints() {
 TEST(Library, HasEightPlacesEachWithAnEmergency) { EXPECT_EQ(blueprints().size(), 16U); }
 
 TEST(Library, IsMadeFromItsBlueprints) {
-  // What is made must not be changed by hand: scripts/make_scenarios.sh makes it anew.
+  // Generated files must not be changed by hand: scripts/make_scenarios.sh generates them again.
   for (const fs::path& blueprint : blueprints()) {
     const TemporaryFolder folder;
     const std::string id = blueprint.stem().stem().string();

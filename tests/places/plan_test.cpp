@@ -39,7 +39,7 @@ class PlanOfYard : public ::testing::Test {
 
 TEST_F(PlanOfYard, SaysExitsWidthsFlowsAndDrones) {
   EXPECT_THAT(labels(draw()),
-              IsSupersetOf({"gate 3 m", "16 nearest here", "d1, 20 m up", "hut", "10 m"}));
+              IsSupersetOf({"gate 3 m", "nearest exit for 16", "d1, 20 m up", "hut", "10 m"}));
 }
 
 TEST_F(PlanOfYard, SaysHowManyComeWhere) {
@@ -49,7 +49,7 @@ TEST_F(PlanOfYard, SaysHowManyComeWhere) {
     <Generator type="explicit"><Agent p_x="-9" p_y="-8"/><Agent p_x="-8" p_y="-8"/></Generator>
     <Arrivals type="table"><At time="5" count="7"/><At time="9" count="4"/></Arrivals>)";
   EXPECT_THAT(labels(draw()), Contains("11 enter"));
-  EXPECT_THAT(labels(draw()), Contains("16 nearest here")) << "of the people present";
+  EXPECT_THAT(labels(draw()), Contains("nearest exit for 16")) << "of the people present";
 }
 
 TEST_F(PlanOfYard, ShowsTheWaysOfDronesInsteadOfTheScenariosStarts) {

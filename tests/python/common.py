@@ -21,7 +21,7 @@ _DATA = pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else None
 _own = None
 
 _CAMERA = {"width": 320, "height": 200}
-# Two runs, so that there are splits; a camera of each lens, one of which ends within the picture.
+# Two runs, so that there are splits; a camera of each lens, one of which ends within the image.
 JOB = {
     "name": "reader test",
     "scenario": "city_square/nearest_exit",

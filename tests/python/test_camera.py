@@ -56,7 +56,7 @@ class Formulas(unittest.TestCase):
             camera = camera_of(name, skew=2.5)
             pixels = rng.uniform((0, 0), (640, 480), (50, 2))
             points = camera.unproject(pixels, rng.uniform(2, 60, 50))
-            shown = np.isfinite(points).all(axis=1)  # the wide angle's range ends within the picture
+            shown = np.isfinite(points).all(axis=1)  # the wide angle's range ends within the image
             self.assertGreater(shown.sum(), 25)
             pixels, points = pixels[shown], points[shown]
             for pixel, point in zip(pixels, points):
@@ -113,7 +113,7 @@ class Formulas(unittest.TestCase):
         interior[1:-1, 1:-1] = 1
         for name in LENSES:
             camera = camera_of(name)
-            # A picture whose values say where in the undistorted picture they belong.
+            # An image whose values say where in the undistorted image they belong.
             straight = camera.undistort_points(np.stack((columns, rows), axis=-1))
             flat = camera.undistort(straight)
             seen = (flat[..., 0] > 30) & (flat[..., 0] < 600) & (flat[..., 1] > 30) & (flat[..., 1] < 440)

@@ -213,9 +213,9 @@ class WithService(unittest.TestCase):
         self.assertFalse(Client("http://127.0.0.1:9").is_alive())
 
     def test_dry_run(self):
-        told = self.client.dry_run(JOB)
-        self.assertEqual((told["valid"], told["runs"], told["frames"]), (True, 1, 4))
-        self.assertEqual(told["job"]["capture"]["to_s"], 4)
+        answer = self.client.dry_run(JOB)
+        self.assertEqual((answer["valid"], answer["runs"], answer["frames"]), (True, 1, 4))
+        self.assertEqual(answer["job"]["capture"]["to_s"], 4)
 
     def test_cancel_retry_clone_remove(self):
         slow = self.client.clone(self.done["id"], {"name": "slow", "capture": {"rate_hz": 20, "to_s": 60}})
@@ -275,8 +275,8 @@ class WithService(unittest.TestCase):
         with self.assertRaises(throng.ConflictError):
             self.client.upload_scenario(folder / "mine", "yards")
         self.client.remove_scenario("yards")
-        told = self.client.dry_run({"scenario": "bundle/yard", "capture": {"to_s": 2}}, scenario=folder / "mine")
-        self.assertEqual(told["frames"], 3)
+        answer = self.client.dry_run({"scenario": "bundle/yard", "capture": {"to_s": 2}}, scenario=folder / "mine")
+        self.assertEqual(answer["frames"], 3)
         with self.assertRaises(FileNotFoundError):
             self.client.submit(JOB, scenario=folder / "nowhere")
 

@@ -92,7 +92,7 @@ class Package(unittest.TestCase):
         )
         self.assertEqual(done.returncode, 0, done.stdout)
         (self.folder / "consumer.py").write_text(CONSUMER)
-        told = subprocess.run(
+        answer = subprocess.run(
             ["mypy", "--strict", "consumer.py"],
             env=environment,
             capture_output=True,
@@ -101,8 +101,8 @@ class Package(unittest.TestCase):
             check=False,
         ).stdout
         for line, words in ((7, "Dataset"), (9, "ndarray"), (12, "queued"), (13, "quality"), (14, "sed"), (15, "stat")):
-            self.assertRegex(told, rf"consumer.py:{line}: .*{words}")
-        self.assertEqual(len(re.findall(": error:", told)), 4, told)
+            self.assertRegex(answer, rf"consumer.py:{line}: .*{words}")
+        self.assertEqual(len(re.findall(": error:", answer)), 4, answer)
 
     def test_all_names(self):
         import throng

@@ -204,7 +204,7 @@ class Simulated(unittest.TestCase):
     def test_a_study(self):
         with tempfile.TemporaryDirectory() as folder:
             self.bottleneck(2).drone("d1", (10, 5, 30)).write(folder)
-            told = throng.study(
+            answer = throng.study(
                 {
                     "name": "doors",
                     "seed": 1,
@@ -217,7 +217,7 @@ class Simulated(unittest.TestCase):
                 scenarios=folder,
                 quiet=True,
             )
-            self.assertEqual(told, json.loads((pathlib.Path(folder) / "out/summary.json").read_text()))
+            self.assertEqual(answer, json.loads((pathlib.Path(folder) / "out/summary.json").read_text()))
 
     def test_what_the_program_refuses(self):
         with self.assertRaisesRegex(ProgramError, "doing") as caught:

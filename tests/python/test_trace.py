@@ -72,10 +72,10 @@ class Traces(unittest.TestCase):
 
     def test_evacuation(self):
         times, escaped = self.trace.evacuation()
-        told = sorted(t for t in self.metrics["by_person"]["escaped_s"] if t is not None)
-        np.testing.assert_allclose(times, told, atol=1e-9)
-        self.assertEqual(escaped[-1], len(told))
-        self.assertGreater(len(told), 30)
+        expected = sorted(t for t in self.metrics["by_person"]["escaped_s"] if t is not None)
+        np.testing.assert_allclose(times, expected, atol=1e-9)
+        self.assertEqual(escaped[-1], len(expected))
+        self.assertGreater(len(expected), 30)
 
     @unittest.skipUnless(common.has("pandas"), "pandas is not installed")
     def test_to_pandas(self):

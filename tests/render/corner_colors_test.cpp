@@ -8,30 +8,30 @@
 namespace throng::render {
 namespace {
 
-constexpr int kPictureSize = 64;
+constexpr int kImageSize = 64;
 
 /// Values by column and row, the same in all channels.
 template <typename Value>
-skinning::Texture picture_of(Value value) {
-  skinning::Texture picture;
-  for (int y = 0; y < kPictureSize; ++y) {
-    for (int x = 0; x < kPictureSize; ++x) {
-      for (int c = 0; c < 4; ++c) picture.rgba.push_back(static_cast<std::uint8_t>(value(x, y)));
+skinning::Texture image_of(Value value) {
+  skinning::Texture image;
+  for (int y = 0; y < kImageSize; ++y) {
+    for (int x = 0; x < kImageSize; ++x) {
+      for (int c = 0; c < 4; ++c) image.rgba.push_back(static_cast<std::uint8_t>(value(x, y)));
     }
   }
-  return picture;
+  return image;
 }
 
 /// The image as `cells` x `cells` squares of two triangles each.
 struct Grid {
-  std::vector<PicturedTriangle> triangles;
+  std::vector<TexturedTriangle> triangles;
   std::size_t corners;
 };
 
 Grid grid_of(std::uint32_t cells) {
   Grid grid{{}, (cells + 1) * (cells + 1)};
   const auto add = [&](std::array<std::array<std::uint32_t, 2>, 3> at) {
-    PicturedTriangle& triangle = grid.triangles.emplace_back();
+    TexturedTriangle& triangle = grid.triangles.emplace_back();
     triangle.weight = 1;
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.corners[k] = at[k][1] * (cells + 1) + at[k][0];
@@ -49,9 +49,9 @@ Grid grid_of(std::uint32_t cells) {
 }
 
 TEST(CornerColors, ShowASlopeAsItIs) {
-  const skinning::Texture slope = picture_of([](int x, int y) { return 20 + 2 * x + y; });
+  const skinning::Texture slope = image_of([](int x, int y) { return 20 + 2 * x + y; });
   const Grid grid = grid_of(4);
-  const std::vector<Rgba> colors = corner_colors(slope, kPictureSize, grid.triangles, grid.corners);
+  const std::vector<Rgba> colors = corner_colors(slope, kImageSize, grid.triangles, grid.corners);
   ASSERT_EQ(colors.size(), 25U);
   for (int y = 0; y <= 4; ++y) {
     for (int x = 0; x <= 4; ++x) {
@@ -65,9 +65,9 @@ TEST(CornerColors, ShowASlopeAsItIs) {
 TEST(CornerColors, KeepTheTwoSidesOfAnEdgeApart) {
   // The edge lies in the middle of a cell: corners to its left stay dark, those to its right
   // bright.
-  const skinning::Texture edge = picture_of([](int x, int) { return x < 24 ? 60 : 180; });
+  const skinning::Texture edge = image_of([](int x, int) { return x < 24 ? 60 : 180; });
   const Grid grid = grid_of(4);
-  const std::vector<Rgba> colors = corner_colors(edge, kPictureSize, grid.triangles, grid.corners);
+  const std::vector<Rgba> colors = corner_colors(edge, kImageSize, grid.triangles, grid.corners);
   double error = 0;
   for (std::size_t i = 0; i < colors.size(); ++i) {
     const std::size_t column = i % 5;
@@ -79,17 +79,17 @@ TEST(CornerColors, KeepTheTwoSidesOfAnEdgeApart) {
 TEST(CornerColors, ASmallSpotDoesNotColorAllAround) {
   // A corner that happens to lie on a spot of one texel has its surroundings' color.
   const skinning::Texture spot =
-      picture_of([](int x, int y) { return x == 32 && y == 32 ? 255 : 90; });
+      image_of([](int x, int y) { return x == 32 && y == 32 ? 255 : 90; });
   const Grid grid = grid_of(2);
-  const std::vector<Rgba> colors = corner_colors(spot, kPictureSize, grid.triangles, grid.corners);
+  const std::vector<Rgba> colors = corner_colors(spot, kImageSize, grid.triangles, grid.corners);
   EXPECT_NEAR(colors[4][0], 90, 12);
 }
 
 TEST(CornerColors, CornersOfNothingAreBlack) {
-  const skinning::Texture white = picture_of([](int, int) { return 255; });
+  const skinning::Texture white = image_of([](int, int) { return 255; });
   const Grid grid = grid_of(1);
   const std::vector<Rgba> colors =
-      corner_colors(white, kPictureSize, grid.triangles, grid.corners + 1);
+      corner_colors(white, kImageSize, grid.triangles, grid.corners + 1);
   EXPECT_GT(colors[0][1], 245);
   EXPECT_EQ(colors[4], (Rgba{0, 0, 0, 0}));
 }

@@ -50,7 +50,7 @@ TEST(Exposure, NothingThatMovesCostsOneDraw) {
   EXPECT_EQ(exposed.frame.index, 4);
 }
 
-TEST(Exposure, AnInstantIsAStillPicture) {
+TEST(Exposure, AnInstantIsAStillImage) {
   Street street;
   const Exposed exposed = street.expose(street.walking(3, 5), {});
   EXPECT_EQ(exposed.samples, 1);
@@ -124,9 +124,9 @@ TEST(Exposure, EachRowShowsItsOwnTime) {
   int rows = 0;
   for (int y = 0; y < 240; y += 7) {
     const Frame still = street.still(flight, readout_s * (y + 0.5 - 120) / 240);
-    const auto left_edge = [&](const Frame& picture) {
+    const auto left_edge = [&](const Frame& image) {
       for (int x = 0; x < 320; ++x) {
-        if (picture.id[index_of(picture, x, y)] == id_of_agent(3)) return x;
+        if (image.id[index_of(image, x, y)] == id_of_agent(3)) return x;
       }
       return -1;
     };

@@ -58,7 +58,7 @@ std::vector<PersonInstance> crowd_of(const Stage& stage, std::uint32_t count, do
   return crowd;
 }
 
-TEST(Lens, WithoutDistortionThePictureIsThePinholes) {
+TEST(Lens, WithoutDistortionTheImageIsThePinholes) {
   Set set(open_ground({block(2, 5, -2, 1, 2)}));
   const Camera pinhole = camera_at({-9, 2, 6}, -10, -30);
   const std::vector<PersonInstance> crowd = crowd_of(set.stage, 30, 5);

@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Views, BlockView,
                                          camera_at({10, 0, 25}, 77, -90, 320, 200),
                                          camera_at({-20, -1, 1.7}, 3, 4, 200, 240, 40)));
 
-TEST(Picture, SkyIsInfinitelyFarAndNobody) {
+TEST(Image, SkyIsInfinitelyFarAndNobody) {
   Stage stage(open_ground());
   const Frame frame = stage.draw(camera_at({0, 0, 5}, 0, 20));
   const std::size_t top = index_of(frame, 160, 0);
@@ -95,13 +95,13 @@ TEST(Picture, SkyIsInfinitelyFarAndNobody) {
   EXPECT_EQ(frame.depth_m[top], std::numeric_limits<float>::infinity());
 }
 
-TEST(Picture, GroundReachesTheHorizonWithoutGaps) {
+TEST(Image, GroundReachesTheHorizonWithoutGaps) {
   Stage stage(open_ground());
   const Frame frame = stage.draw(camera_at({3, 2, 25}, 30, -40));
   EXPECT_THAT(frame.id, testing::Each(kIdGround));
 }
 
-TEST(Picture, UnprojectedGroundPixelsLieOnTheGround) {
+TEST(Image, UnprojectedGroundPixelsLieOnTheGround) {
   Stage stage(open_ground({block(6, 14, -4, 3, 5)}));
   const camera::Camera camera = camera_at({-5, 3, 18}, -15, -40);
   const Frame frame = stage.draw(camera);
@@ -115,7 +115,7 @@ TEST(Picture, UnprojectedGroundPixelsLieOnTheGround) {
   }
 }
 
-TEST(Picture, IsNeitherFlippedNorMirrored) {
+TEST(Image, IsNeitherFlippedNorMirrored) {
   Stage stage(open_ground());
   // Looking along +x, left is +y.
   const Frame frame =
@@ -132,7 +132,7 @@ TEST(Picture, IsNeitherFlippedNorMirrored) {
   EXPECT_LT(head_v, left.box.center().y()) << "the head is the upper end";
 }
 
-TEST(Picture, IdsTellEveryoneAndEveryBuildingApart) {
+TEST(Image, IdsTellEveryoneAndEveryBuildingApart) {
   Stage stage(open_ground({block(20, 25, -9, -1, 4), block(20, 25, 1, 9, 4)}));
   std::vector<PersonInstance> crowd;
   for (std::uint32_t i = 0; i < 30; ++i) {
@@ -147,7 +147,7 @@ TEST(Picture, IdsTellEveryoneAndEveryBuildingApart) {
   }
 }
 
-TEST(Picture, ShadowsFallAwayFromTheSun) {
+TEST(Image, ShadowsFallAwayFromTheSun) {
   Environment lighting;
   lighting.sun_azimuth_rad = 30 * kDegree;
   lighting.sun_elevation_rad = 45 * kDegree;
@@ -167,7 +167,7 @@ TEST(Picture, ShadowsFallAwayFromTheSun) {
   EXPECT_GT(ground_brightness(7), 0.9 * lit) << "the shadow of 4 m at 45 degrees ends before 7 m";
 }
 
-TEST(Picture, ShadowsTurnAndShortenWithTheHours) {
+TEST(Image, ShadowsTurnAndShortenWithTheHours) {
   // From a low sun in the east over a high one in the south to a low one in the west.
   const camera::Camera camera = camera_at({0, 0, 30}, 0, -90, 480, 480);
   for (const auto& [azimuth_deg, elevation_deg] :
@@ -203,7 +203,7 @@ TEST(Picture, ShadowsTurnAndShortenWithTheHours) {
   }
 }
 
-TEST(Picture, PeopleCastShadowsOnTheGround) {
+TEST(Image, PeopleCastShadowsOnTheGround) {
   Environment lighting;
   lighting.sun_azimuth_rad = 0;
   lighting.sun_elevation_rad = 45 * kDegree;
@@ -221,7 +221,7 @@ TEST(Picture, PeopleCastShadowsOnTheGround) {
   EXPECT_NEAR(change(1.2), 0, 2) << "towards the sun nothing changes";
 }
 
-TEST(Picture, IsIndependentOfTheFramesDrawnBefore) {
+TEST(Image, IsIndependentOfTheFramesDrawnBefore) {
   Stage stage(open_ground({block(6, 14, -4, 3, 5)}));
   const camera::Camera first = camera_at({-8, 1, 9}, 5, -30);
   const camera::Camera second = camera_at({3, 12, 20}, -70, -50, 200, 300);
@@ -244,7 +244,7 @@ TEST(Picture, IsIndependentOfTheFramesDrawnBefore) {
   }
 }
 
-TEST(Picture, TwoRenderersGiveTheSameBytes) {
+TEST(Image, TwoRenderersGiveTheSameBytes) {
   Stage one(open_ground({block(6, 14, -4, 3, 5)}));
   Stage two(open_ground({block(6, 14, -4, 3, 5)}));
   const camera::Camera camera = camera_at({-8, 1, 9}, 5, -30);
@@ -252,7 +252,7 @@ TEST(Picture, TwoRenderersGiveTheSameBytes) {
             two.draw(camera, {two.standing(3, 1, 1)}).rgb);
 }
 
-TEST(Picture, TintColorsClothesAndNotSkin) {
+TEST(Image, TintColorsClothesAndNotSkin) {
   Stage stage(open_ground());
   PersonInstance red = stage.standing(0, 0, 0);
   PersonInstance blue = stage.standing(0, 0, 0);
@@ -274,7 +274,7 @@ TEST(Picture, TintColorsClothesAndNotSkin) {
 
 // Every color at once, as the lower levels of detail have them: where a portrait defines that all
 // of a texel is of one tint, it looks like a part of that tint.
-TEST(Picture, PortraitsAreTintedTexelByTexel) {
+TEST(Image, PortraitsAreTintedTexelByTexel) {
   using skinning::Tint;
   const skinning::Population people = synthetic_people(1);
   skinning::Population portraits = people;
@@ -318,22 +318,22 @@ TEST(Picture, PortraitsAreTintedTexelByTexel) {
   EXPECT_LE(max_value, 2);
 }
 
-TEST(Picture, EveryGroundMaterialDrawsAndUnknownOnesAreNamed) {
-  std::set<std::string> pictures;
+TEST(Image, EveryGroundMaterialDrawsAndUnknownOnesAreNamed) {
+  std::set<std::string> images;
   for (const char* material : {"pavers", "asphalt", "grass", "concrete"}) {
     world::Scenario scenario = open_ground();
     scenario.ground_material = material;
     Stage stage(scenario);
     const Frame frame = stage.draw(camera_at({0, 0, 10}, 0, -50));
-    pictures.emplace(frame.rgb.begin(), frame.rgb.end());
+    images.emplace(frame.rgb.begin(), frame.rgb.end());
   }
-  EXPECT_EQ(pictures.size(), 4U);
+  EXPECT_EQ(images.size(), 4U);
   world::Scenario lava = open_ground();
   lava.ground_material = "lava";
   EXPECT_THROW(Stage{lava}, InputError);
 }
 
-TEST(Picture, AnImageTooLargeForTheDeviceIsRefused) {
+TEST(Image, AnImageTooLargeForTheDeviceIsRefused) {
   Stage stage(open_ground());
   EXPECT_THROW(stage.draw(camera_at({0, 0, 10}, 0, -50, 100000, 10)), EnvironmentError);
   EXPECT_NO_THROW(stage.draw(camera_at({0, 0, 10}, 0, -50, 17, 5)));

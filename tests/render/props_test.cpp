@@ -231,15 +231,15 @@ TEST_F(MeshFile, BadFilesAreNamed) {
 }
 
 TEST(Facades, LookDifferent) {
-  std::set<std::string> pictures;
+  std::set<std::string> images;
   for (const auto facade : {world::Facade::plaster, world::Facade::brick, world::Facade::glass}) {
     world::Building building = block(12, 20, -10, 10, 10);
     building.facade = facade;
     Stage stage(open_ground({building}));
     const Frame frame = stage.draw(camera_at({0, 0, 5}, 0, 0));
-    pictures.emplace(frame.rgb.begin(), frame.rgb.end());
+    images.emplace(frame.rgb.begin(), frame.rgb.end());
   }
-  EXPECT_EQ(pictures.size(), 3U);
+  EXPECT_EQ(images.size(), 3U);
 }
 
 TEST(GroundLayers, LieOnTheGroundAndShowTheirMaterials) {

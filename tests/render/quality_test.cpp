@@ -46,12 +46,12 @@ TEST(Quality, DraftsShowTheSamePeopleInTheSamePlacesAndTheirColors) {
 }
 
 TEST(Quality, SeveralSamplesChangeEdgesAlone) {
-  const auto picture = [](bool multisample) {
+  const auto image = [](bool multisample) {
     Stage stage(open_ground({block(3, 5, -2, 2, 4)}), {}, {.multisample = multisample});
     return stage.draw(camera_at({-6, 0, 3}, 0, -12), {stage.standing(1, 0, 0)});
   };
-  const Frame sampled = picture(true);
-  const Frame smoothed = picture(false);
+  const Frame sampled = image(true);
+  const Frame smoothed = image(false);
   EXPECT_EQ(sampled.id, smoothed.id);
   EXPECT_EQ(sampled.depth_m, smoothed.depth_m);
   int inner = 0;

@@ -31,7 +31,7 @@ TEST(Rubble, LiesWhereTheCollapseHasReached) {
   EXPECT_TRUE(rubble_of(fire, kIdProp).empty());
 }
 
-TEST(Rubble, IsInThePictureAndItsIdsOnceItHasFallen) {
+TEST(Rubble, IsInTheImageAndItsIdsOnceItHasFallen) {
   world::Scenario scenario = open_ground();
   scenario.disasters = {falling_wall()};
   Stage stage(scenario);

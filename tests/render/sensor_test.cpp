@@ -52,7 +52,7 @@ TEST(Sensor, ExposureDoublesLight) {
   EXPECT_NEAR(frame.rgb[0], 100, 1);
 }
 
-TEST(Sensor, WhiteBalanceTintsPictures) {
+TEST(Sensor, WhiteBalanceTintsImages) {
   EXPECT_TRUE(white_balance_gains(6500).isApprox(Eigen::Vector3d::Ones(), 1e-12));
   for (const double k : {1700.0, 2500.0, 3999.0, 4001.0, 5000.0}) {
     EXPECT_LT(white_balance_gains(k).x(), 1) << "a camera for warm light makes daylight blue";

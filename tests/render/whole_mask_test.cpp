@@ -101,7 +101,7 @@ TEST(WholeMasks, AreThoseOfTheDistortedImage) {
 TEST(WholeMasks, ArePutTogetherFromStrips) {
   Queue queue;
   queue.expect_exact([&](bool is_alone, const std::vector<PersonInstance>& people) {
-    // The camera turns while the rows are read, whoever is there.
+    // The camera turns while the rows are read.
     const MomentAt turning = [&](double time_s) {
       ShutterMoment moment;
       auto scene = std::make_shared<Scene>(scene_of(people));

@@ -93,9 +93,9 @@ TEST_F(CalibrationApi, FromUploadToCameraToDataset) {
   EXPECT_NEAR(done["camera"]["cx"].get<double>(), 322, 1e-3);
   EXPECT_EQ(done["progress"]["share"], 1);
   EXPECT_EQ(get_json(done["links"]["camera"])["fx"], done["camera"]["fx"]);
-  const auto picture = client().Get(done["links"]["residuals"].get<std::string>());
-  EXPECT_EQ(picture->get_header_value("Content-Type"), "image/svg+xml");
-  EXPECT_THAT(picture->body, HasSubstr("<svg"));
+  const auto plot = client().Get(done["links"]["residuals"].get<std::string>());
+  EXPECT_EQ(plot->get_header_value("Content-Type"), "image/svg+xml");
+  EXPECT_THAT(plot->body, HasSubstr("<svg"));
   EXPECT_THAT(client().Get(done["links"]["opencv"].get<std::string>())->body,
               HasSubstr("camera_matrix"));
   EXPECT_EQ(client().Get(self + "/shoe")->status, 404);

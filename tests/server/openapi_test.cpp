@@ -133,7 +133,7 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   write_file_atomically(service.folders().dataset_of(id) / "metrics/run000.json", "{}");
   write_file_atomically(service.folders().dataset_of(id) / "exits/run000.csv", "frame\n");
   write_file_atomically(service.folders().dataset_of(id) / "previews/run000/d1/000000.jpg",
-                        "picture");
+                        "image");
   write_file_atomically(service.folders().job_folder(id) / "logs/run000_trace.log", "hello\n");
   for (const auto& [path, tail] : std::map<std::string, std::string>{
            {"/v1/jobs/{id}", ""},

@@ -10,12 +10,12 @@ using ::testing::HasSubstr;
 
 TEST(HoldWarnings, NameEachKindOnceForEachDrone) {
   HoldWarnings hold;
-  hold.note({1, "agent_escaped", 4, -1, 0});
-  hold.note({2, "near_miss", 4, 0, 0.5, "person"});
-  hold.note({12.3, "blown_away", -1, 1, 7.25});
-  hold.note({40, "blown_away", -1, 1, 9});
-  hold.note({41, "blown_away", -1, 0, 6});
-  hold.note({42, "collision", 3, 0, 4.5, "person", -1, 6});
+  hold.record({1, "agent_escaped", 4, -1, 0});
+  hold.record({2, "near_miss", 4, 0, 0.5, "person"});
+  hold.record({12.3, "blown_away", -1, 1, 7.25});
+  hold.record({40, "blown_away", -1, 1, 9});
+  hold.record({41, "blown_away", -1, 0, 6});
+  hold.record({42, "collision", 3, 0, 4.5, "person", -1, 6});
   ASSERT_EQ(hold.warnings().size(), 3U);
   EXPECT_EQ(hold.warnings()[0].where, "/drones/1");
   EXPECT_THAT(hold.warnings()[0].text(), HasSubstr("blown 7.2 m off its place"));

@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
                   m[1].policy = "orbit";
                   m[1].guidance.radius_m = 5;
                 },
-                "/drones/1/guidance/centre", "a point [x, y] for the policy \"orbit\""},
+                "/drones/1/guidance/center", "a point [x, y] for the policy \"orbit\""},
         BadCase{"no_setpoints", [](Missions& m) { m[1].policy = "pilot_log"; },
                 "/drones/1/guidance/setpoints", "at least one set-point"},
         BadCase{"time_going_backwards",

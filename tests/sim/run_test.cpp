@@ -88,8 +88,8 @@ TEST(Run, SameSpecGivesTheSameBytesOnAnyNumberOfThreads) {
 }
 
 /// The events of a run of a shipped scenario, and its header.
-struct Told : public RunObserver {
-  void begin(const world::TraceHeader& told) override { header = told; }
+struct RecordingObserver : public RunObserver {
+  void begin(const world::TraceHeader& recorded) override { header = recorded; }
   void step(const world::CrowdStep& step) override { steps.push_back(step); }
   void event(const world::TraceEvent& event) override { events.push_back(event); }
 
@@ -98,10 +98,10 @@ struct Told : public RunObserver {
   std::vector<world::TraceEvent> events;
 };
 
-void watch(const world::Scenario& scenario, double duration_s, Told& told) {
+void watch(const world::Scenario& scenario, double duration_s, RecordingObserver& recorded) {
   RunSpec spec;
   spec.duration_s = duration_s;
-  simulate(scenario, spec, told);
+  simulate(scenario, spec, recorded);
 }
 
 TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
@@ -109,15 +109,15 @@ TEST(Run, AnAttackerIsDrawnWalksAndEscapesInNoFigure) {
       world::find_scenario(fs::path(THRONG_SOURCE_DIR) / "scenarios", "shopping_street/emergency");
   // So small that he is outside of it as soon as he walks.
   street.inside = {{4, -1}, {6, 1}};
-  Told told;
-  watch(street, 6, told);
-  ASSERT_EQ(told.header.role.at(0), AgentRole::attacker);
-  EXPECT_EQ(std::count(told.header.role.begin(), told.header.role.end(), AgentRole::person),
-            static_cast<std::ptrdiff_t>(told.header.role.size()) - 1);
-  EXPECT_EQ(told.steps.back().flags.at(0) & world::kPresent, world::kPresent);
-  EXPECT_FALSE(street.inside.contains(told.steps.back().position.at(0).cast<double>()));
+  RecordingObserver recorded;
+  watch(street, 6, recorded);
+  ASSERT_EQ(recorded.header.role.at(0), AgentRole::attacker);
+  EXPECT_EQ(std::count(recorded.header.role.begin(), recorded.header.role.end(), AgentRole::person),
+            static_cast<std::ptrdiff_t>(recorded.header.role.size()) - 1);
+  EXPECT_EQ(recorded.steps.back().flags.at(0) & world::kPresent, world::kPresent);
+  EXPECT_FALSE(street.inside.contains(recorded.steps.back().position.at(0).cast<double>()));
   int others = 0;
-  for (const world::TraceEvent& event : told.events) {
+  for (const world::TraceEvent& event : recorded.events) {
     const auto* escaped = std::get_if<world::AgentEscaped>(&event.kind);
     if (escaped == nullptr) continue;
     EXPECT_NE(escaped->agent, 0);
@@ -131,10 +131,10 @@ TEST(Run, TellsWhenADisasterReachesADoor) {
   square.exits[1].closes_at_s = 1.25;
   square.exits[2].open = false;
   square.exits[3].closes_at_s = 2;
-  Told told;
-  watch(square, 3, told);
+  RecordingObserver recorded;
+  watch(square, 3, recorded);
   std::vector<std::pair<double, std::int32_t>> closed;
-  for (const world::TraceEvent& event : told.events) {
+  for (const world::TraceEvent& event : recorded.events) {
     const auto* exit = std::get_if<world::ExitClosed>(&event.kind);
     if (exit != nullptr) closed.emplace_back(event.time_s, exit->exit);
   }

@@ -34,7 +34,7 @@ TEST_F(GlbTest, WhatIsWrittenIsReadBackThroughAssimp) {
   const CharacterAsset read = read_glb(write(encode_glb(asset)));
 
   EXPECT_EQ(read.name, "made_up");
-  EXPECT_EQ(read.pictures, asset.pictures);
+  EXPECT_EQ(read.images, asset.images);
   for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
     EXPECT_LT((read.joints[bone] - asset.joints[bone]).norm(), 1e-5F) << kBoneNames[bone];
   }
@@ -59,19 +59,19 @@ TEST_F(GlbTest, WhatIsWrittenIsReadBackThroughAssimp) {
   }
 }
 
-TEST_F(GlbTest, APortraitKeepsBothOfItsPictures) {
+TEST_F(GlbTest, APortraitKeepsBothOfItsImages) {
   CharacterAsset asset = made_up_asset();
   asset.levels[1].parts = {{0, 63, 1, Tint::portrait, false, 0}};
   const CharacterAsset read = read_glb(write(encode_glb(asset)));
   ASSERT_EQ(read.levels[1].parts.size(), 1U);
   const Part& part = read.levels[1].parts.front();
   EXPECT_EQ(part.tint, Tint::portrait);
-  EXPECT_EQ(read.pictures.at(static_cast<std::size_t>(part.texture)), asset.pictures[1]);
-  EXPECT_EQ(read.pictures.at(static_cast<std::size_t>(part.shades)), asset.pictures[0]);
+  EXPECT_EQ(read.images.at(static_cast<std::size_t>(part.texture)), asset.images[1]);
+  EXPECT_EQ(read.images.at(static_cast<std::size_t>(part.shades)), asset.images[0]);
   EXPECT_EQ(read.levels[0].parts.front().shades, -1);
 }
 
-TEST_F(GlbTest, APortraitWithOnePictureIsRefused) {
+TEST_F(GlbTest, APortraitWithOneImageIsRefused) {
   CharacterAsset asset = made_up_asset();
   asset.levels[1].parts = {{0, 63, 1, Tint::portrait, false, -1}};
   EXPECT_THROW(read_glb(write(encode_glb(asset))), InputError);

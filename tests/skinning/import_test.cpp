@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "rigged_scene.h"
+#include "skinning/description.h"
 #include "skinning/image.h"
 #include "skinning/levels.h"
 #include "skinning/population.h"
@@ -39,7 +40,7 @@ class ImportTest : public testing::Test {
                     const std::string& model = "model.glb", const std::string& name = "guide") {
     const fs::path file = folder / (name + ".json");
     write_file_atomically(file, R"({"name": ")" + name + R"(", "model": ")" + model +
-                                    R"(", "licence": "CC0-1.0", "height_m": )" + height + more +
+                                    R"(", "license": "CC0-1.0", "height_m": )" + height + more +
                                     "}");
     return file;
   }
@@ -282,8 +283,8 @@ TEST_F(ImportTest, ManyTrianglesAreSimplifiedToLevels) {
   }
 }
 
-TEST_F(ImportTest, PicturesGetThePopulationsSize) {
-  rig.picture = "cloth.png";
+TEST_F(ImportTest, ImagesGetThePopulationsSize) {
+  rig.image = "cloth.png";
   write_file_atomically(folder / "cloth.png", encode_png(plain(48, {10, 200, 30})));
   write_model("gltf2", "model.gltf");
   ImportOptions options;
@@ -325,10 +326,10 @@ TEST_F(ImportTest, IsPutAmongOthersAndGivesTheSameTwice) {
 TEST_F(ImportTest, AModelWithoutBonesIsRefused) {
   rig.bones = false;
   write_model();
-  const std::string overrides = complaint(describe());
-  EXPECT_THAT(overrides, HasSubstr("model.glb"));
-  EXPECT_THAT(overrides, HasSubstr("without bones"));
-  EXPECT_THAT(overrides, HasSubstr("armature"));
+  const std::string message = complaint(describe());
+  EXPECT_THAT(message, HasSubstr("model.glb"));
+  EXPECT_THAT(message, HasSubstr("without bones"));
+  EXPECT_THAT(message, HasSubstr("armature"));
 }
 
 TEST_F(ImportTest, UnknownBonesAreListedWithTheNeededOnes) {
@@ -338,30 +339,30 @@ TEST_F(ImportTest, UnknownBonesAreListedWithTheNeededOnes) {
                                            : mixamo_name(bone);
   };
   write_model();
-  const std::string overrides = complaint(describe());
-  EXPECT_THAT(overrides, HasSubstr("guide.json"));
-  EXPECT_THAT(overrides, HasSubstr("/bones/left_thigh"));
-  EXPECT_THAT(overrides, HasSubstr("/bones/right_upper_arm"));
-  EXPECT_THAT(overrides, HasSubstr("not recognised: Oberarm.R, linker_tigh"));
-  EXPECT_THAT(overrides, HasSubstr(R"("left_thigh": "linker_tigh")"));
+  const std::string message = complaint(describe());
+  EXPECT_THAT(message, HasSubstr("guide.json"));
+  EXPECT_THAT(message, HasSubstr("/bones/left_thigh"));
+  EXPECT_THAT(message, HasSubstr("/bones/right_upper_arm"));
+  EXPECT_THAT(message, HasSubstr("not recognized: Oberarm.R, linker_tigh"));
+  EXPECT_THAT(message, HasSubstr(R"("left_thigh": "linker_tigh")"));
 }
 
 TEST_F(ImportTest, WrongNamesInTheDescriptionAreRefused) {
   write_model();
-  const std::string overrides = complaint(
+  const std::string message = complaint(
       describe(R"(, "bones": {"left_leg": "mixamorig:LeftUpLeg", "head": "mixamorig:Haed"})"));
-  EXPECT_THAT(overrides, HasSubstr("/bones/left_leg"));
-  EXPECT_THAT(overrides, HasSubstr("left_clavicle"));
-  EXPECT_THAT(overrides, HasSubstr("/bones/head"));
-  EXPECT_THAT(overrides, HasSubstr("\"mixamorig:Head\""));
+  EXPECT_THAT(message, HasSubstr("/bones/left_leg"));
+  EXPECT_THAT(message, HasSubstr("left_clavicle"));
+  EXPECT_THAT(message, HasSubstr("/bones/head"));
+  EXPECT_THAT(message, HasSubstr("\"mixamorig:Head\""));
 }
 
 TEST_F(ImportTest, AbsurdHeightsAreRefused) {
   write_model();
   for (const char* height : {"0.03", "300", "-1.7", "\"tall\"", "null"}) {
-    const std::string overrides = complaint(describe("", height));
-    EXPECT_THAT(overrides, HasSubstr("/height_m")) << height;
-    EXPECT_THAT(overrides, HasSubstr("0.5 to 2.5")) << height;
+    const std::string message = complaint(describe("", height));
+    EXPECT_THAT(message, HasSubstr("/height_m")) << height;
+    EXPECT_THAT(message, HasSubstr("0.5 to 2.5")) << height;
   }
 }
 
@@ -369,9 +370,9 @@ TEST_F(ImportTest, AMeshOfAnotherSizeThanItsSkeletonIsRefused) {
   for (const float scale : {0.01F, 100.0F}) {
     rig.mesh_scale = scale;
     write_model();
-    const std::string overrides = complaint(describe());
-    EXPECT_THAT(overrides, HasSubstr("on a skeleton from"));
-    EXPECT_THAT(overrides, HasSubstr("one unit"));
+    const std::string message = complaint(describe());
+    EXPECT_THAT(message, HasSubstr("on a skeleton from"));
+    EXPECT_THAT(message, HasSubstr("one unit"));
   }
 }
 
@@ -384,10 +385,10 @@ TEST_F(ImportTest, LeftAndRightMustNotBeSwapped) {
 TEST_F(ImportTest, ClipsThatAreNotThereAreRefusedWithThoseThatAre) {
   rig.walks = true;
   write_model();
-  const std::string overrides =
+  const std::string message =
       complaint(describe(R"(, "clips": {"walk": {"name": "Walk", "speed_mps": 1.1}})"));
-  EXPECT_THAT(overrides, HasSubstr("/clips/walk/name"));
-  EXPECT_THAT(overrides, HasSubstr("Stroll"));
+  EXPECT_THAT(message, HasSubstr("/clips/walk/name"));
+  EXPECT_THAT(message, HasSubstr("Stroll"));
   rig.walks = false;
   write_model();
   EXPECT_THAT(complaint(describe(kStroll)), HasSubstr("export it with its animations"));
@@ -396,10 +397,10 @@ TEST_F(ImportTest, ClipsThatAreNotThereAreRefusedWithThoseThatAre) {
 TEST_F(ImportTest, SpeedsAtWhichFeetSlideAreRefused) {
   rig.walks = true;
   write_model();
-  const std::string overrides =
+  const std::string message =
       complaint(describe(R"(, "clips": {"walk": {"name": "Stroll", "speed_mps": 3}})"));
-  EXPECT_THAT(overrides, HasSubstr("/clips/walk/speed_mps"));
-  EXPECT_THAT(overrides, HasSubstr("1.0"));  // what its feet do, in m/s
+  EXPECT_THAT(message, HasSubstr("/clips/walk/speed_mps"));
+  EXPECT_THAT(message, HasSubstr("1.0"));  // what its feet do, in m/s
   EXPECT_THAT(complaint(describe(R"(, "clips": {"walk": {"name": "Stroll", "speed_mps": 40}})")),
               HasSubstr("0.2 to 3"));
 }
@@ -411,22 +412,32 @@ TEST_F(ImportTest, FilesThatAreMissingOrOfAnotherKindAreNamed) {
   EXPECT_THAT(complaint(folder / "nobody.json"), HasSubstr("nobody.json"));
   write_file_atomically(folder / "list.json", "[1, 2]");
   EXPECT_THAT(complaint(folder / "list.json"), HasSubstr("height_m"));
-  rig.picture = "nowhere.png";
+  rig.image = "nowhere.png";
   write_model("gltf2", "model.gltf");
   EXPECT_THAT(complaint(describe("", "1.7", "model.gltf")), HasSubstr("nowhere.png"));
   write_file_atomically(folder / "nowhere.png", "GIF89a");
   EXPECT_THAT(complaint(describe("", "1.7", "model.gltf")), HasSubstr("PNG or JPEG"));
 }
 
+TEST_F(ImportTest, TheOldNameOfTheLicenseIsReadWithAWarning) {
+  const fs::path file = folder / "old.json";
+  write_file_atomically(
+      file, R"({"name": "a", "model": "a.glb", "height_m": 1.7, "licence": "CC0-1.0"})");
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(read_description(file).license, "CC0-1.0");
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("old.json: /licence is deprecated, use \"license\""));
+}
+
 TEST_F(ImportTest, EverythingThatIsWrongInADescriptionIsSaidAtOnce) {
   const fs::path file = folder / "bad.json";
   write_file_atomically(file, R"({"name": "a b", "modle": "x", "height_m": 17, "sex": "other",
       "age_years": -1, "bones": {"head": 7}, "clips": {"wlak": {}, "run": {"name": "Run"}}})");
-  const std::string overrides = complaint(file);
+  const std::string message = complaint(file);
   for (const char* where :
-       {"/name", "/modle", "\"model\"?", "/model", "/height_m", "/licence", "/sex", "/age_years",
+       {"/name", "/modle", "\"model\"?", "/model", "/height_m", "/license", "/sex", "/age_years",
         "/bones/head", "/clips/wlak", "/clips/run/speed_mps"}) {
-    EXPECT_THAT(overrides, HasSubstr(where));
+    EXPECT_THAT(message, HasSubstr(where));
   }
 }
 

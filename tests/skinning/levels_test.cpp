@@ -17,7 +17,7 @@ namespace throng::skinning {
 namespace {
 
 /// Pixels that somebody covers.
-struct Picture {
+struct Image {
   int size = 0;
   Mask covered;
 };
@@ -45,8 +45,8 @@ class Viewer {
     middle_ = {0, 0, 0.5F * character.stature_m};
   }
 
-  Picture see(const Mesh& mesh) const {
-    Picture picture{size_, Mask(static_cast<std::size_t>(size_) * size_, 0)};
+  Image see(const Mesh& mesh) const {
+    Image image{size_, Mask(static_cast<std::size_t>(size_) * size_, 0)};
     std::vector<Eigen::Vector2f> points;
     for (const Vertex& vertex : mesh.vertices) {
       const Eigen::Vector3f p = skin(vertex, *palette_, *palette_, 0) - middle_;
@@ -59,11 +59,11 @@ class Viewer {
         for_each_pixel(points[corner[0]], points[corner[1]], points[corner[2]], size_, size_,
                        [&](int x, int y, const Eigen::Vector3f& share) {
                          if (!is_there(mesh, part, corner, share)) return;
-                         picture.covered[static_cast<std::size_t>(y) * size_ + x] = 1;
+                         image.covered[static_cast<std::size_t>(y) * size_ + x] = 1;
                        });
       }
     }
-    return picture;
+    return image;
   }
 
  private:
@@ -94,7 +94,7 @@ class Viewer {
   Eigen::Vector3f middle_;
 };
 
-double overlap(const Picture& a, const Picture& b) {
+double overlap(const Image& a, const Image& b) {
   int both = 0;
   int either = 0;
   for (std::size_t i = 0; i < a.covered.size(); ++i) {

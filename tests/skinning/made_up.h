@@ -79,7 +79,7 @@ inline CharacterAsset made_up_asset() {
   mesh.parts = {
       {0, 30, 0, Tint::none, false}, {30, 15, 1, Tint::top, false}, {45, 18, 1, Tint::hair, true}};
   asset.levels = {mesh, mesh};
-  asset.pictures = {encode_png(plain(8, {10, 20, 30})), encode_png(plain(8, {200, 210, 220}))};
+  asset.images = {encode_png(plain(8, {10, 20, 30})), encode_png(plain(8, {200, 210, 220}))};
   return asset;
 }
 

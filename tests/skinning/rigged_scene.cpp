@@ -120,8 +120,8 @@ class SceneMaker {
     aiColor4D color(0.6F, 0.2F, 0.1F, 1);
     material->AddProperty(&color, 1, AI_MATKEY_COLOR_DIFFUSE);
     material->AddProperty(&color, 1, AI_MATKEY_BASE_COLOR);
-    if (!options_->picture.empty()) {
-      aiString file(options_->picture);
+    if (!options_->image.empty()) {
+      aiString file(options_->image);
       material->AddProperty(&file, AI_MATKEY_TEXTURE_DIFFUSE(0));
       material->AddProperty(&file, AI_MATKEY_TEXTURE(aiTextureType_BASE_COLOR, 0));
     }

@@ -25,7 +25,7 @@ struct RiggedOptions {
   bool walks = false;    ///< with a clip "Stroll": one stride of 1.2 m in 1 s, left arm up
   float mesh_scale = 1;  ///< of the mesh against its skeleton
   int cuts = 2;          ///< along each side of the boxes that limbs are made of
-  std::string picture;   ///< file of the color; empty for a plain one
+  std::string image;     ///< file of the color; empty for a plain one
 };
 
 inline constexpr double kStrollSpeedMps = 1.2;

@@ -16,6 +16,7 @@ namespace {
 using nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using throng::testing::TemporaryFolder;
 
 json valid_scenario() {
@@ -70,7 +71,7 @@ TEST_F(ScenarioFile, APlaceForRecordedPeopleNeedsNeitherCrowdNorGoals) {
 TEST_F(ScenarioFile, ReadsDisastersWhoseAgentsAreNotPeople) {
   json document = valid_scenario();
   document["disasters"] = json::parse(R"([{"kind": "gas", "agent": 3, "position": [1, 2],
-      "start_s": 10, "radius_m": 2, "growth_mps": 0.5, "most_m": 6}])");
+      "start_s": 10, "radius_m": 2, "growth_mps": 0.5, "max_radius_m": 6}])");
   const Scenario s = load(document);
   ASSERT_EQ(s.disasters.size(), 1U);
   EXPECT_THAT(s.disaster_agents, ElementsAre(7, 3));
@@ -106,16 +107,38 @@ TEST_F(ScenarioFile, ReadsEverything) {
   EXPECT_THAT(s.disaster_agents, ElementsAre(7));
 }
 
-TEST_F(ScenarioFile, ADoorMayShutAtATime) {
+TEST_F(ScenarioFile, ADoorMayCloseAtATime) {
   json document = valid_scenario();
-  document["exits"][0]["shuts_s"] = 12.5;
+  document["exits"][0]["closes_at_s"] = 12.5;
   const Scenario s = load(document);
   EXPECT_TRUE(s.exits[0].is_open(12.4));
   EXPECT_FALSE(s.exits[0].is_open(12.5));
   EXPECT_FALSE(s.exits[0].is_open(125 * 0.1)) << "the step's time, however it was summed up";
   EXPECT_TRUE(s.exits[1].is_open(1e9));
   document["exits"][0]["open"] = false;
-  EXPECT_EQ(problems_of(document.dump()).front().where, "/exits/0/shuts_s");
+  EXPECT_EQ(problems_of(document.dump()).front().where, "/exits/0/closes_at_s");
+}
+
+TEST_F(ScenarioFile, NamesOfVersion01AreReadWithAWarning) {
+  json document = valid_scenario();
+  document["exits"][0]["shuts_s"] = 12.5;
+  document["disasters"] = json::parse(R"([{"kind": "gas", "agent": 3, "position": [1, 2],
+      "radius_m": 2, "growth_mps": 0.5, "most_m": 6}])");
+  ::testing::internal::CaptureStderr();
+  const Scenario s = load(document);
+  const std::string warnings = ::testing::internal::GetCapturedStderr();
+  EXPECT_THAT(warnings, HasSubstr("/exits/0/shuts_s is deprecated, use \"closes_at_s\""));
+  EXPECT_THAT(warnings, HasSubstr("/disasters/0/most_m is deprecated, use \"max_radius_m\""));
+  EXPECT_TRUE(s.exits[0].is_open(12.4));
+  EXPECT_FALSE(s.exits[0].is_open(12.5));
+  EXPECT_EQ(s.disasters.at(0).reach_m(100), 6);
+  document["exits"][0]["closes_at_s"] = 20;
+  const Problem both = problems_of(document.dump()).front();
+  EXPECT_EQ(both.where, "/exits/0/shuts_s");
+  EXPECT_EQ(both.expected, "only \"closes_at_s\"");
+  document["exits"][0].erase("closes_at_s");
+  document["exits"][0]["shuts"] = 1;
+  EXPECT_THAT(problems_of(document.dump()).front().expected, Not(HasSubstr("shuts_s")));
 }
 
 TEST_F(ScenarioFile, OutwardIsAUnitNormalAsGivenOrAwayFromTheMiddle) {
@@ -203,7 +226,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"slanted_outward", "/exits/1/outward", {1, 1}, "/exits/1/outward", "right angles"},
         BadCase{"zero_outward", "/exits/1/outward", {0, 0}, "/exits/1/outward", "right angles"},
         BadCase{"word_as_open", "/exits/0/open", "no", "/exits/0/open", "true or false"},
-        BadCase{"shuts_in_the_past", "/exits/0/shuts_s", -1, "/exits/0/shuts_s", "a number"},
+        BadCase{"closes_in_the_past", "/exits/0/closes_at_s", -1, "/exits/0/closes_at_s",
+                "a number"},
         BadCase{"no_goals", "/exits/0/goals", json::array(), "/exits/0/goals", "at least 1"},
         BadCase{"fractional_goal", "/exits/0/goals/0/1", 0.5, "/exits/0/goals/0/1", "an integer"},
         BadCase{"huge_goal", "/exits/0/goals/0/1", 18446744073709551615U, "/exits/0/goals/0/1",

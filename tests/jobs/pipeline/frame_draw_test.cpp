@@ -1,4 +1,4 @@
-// What differs between a camera's frames.
+// Differences between a camera's frames.
 #include "jobs/pipeline/frame_draw.h"
 
 #include <gtest/gtest.h>

@@ -43,7 +43,7 @@ TEST(Gimbal, TheDronesTiltDoesNotReachTheCamera) {
 }
 
 TEST(Gimbal, RollTurnsTheCameraClockwise) {
-  // Then the picture turns the other way: what lies below the middle moves to the right of it.
+  // Then the image turns the other way: what lies below the middle moves to the right of it.
   CameraSpec spec;
   spec.pitch_deg = -45;
   const world::DroneSample drone = drone_heading(0, 0);

@@ -40,7 +40,7 @@ double width_deg(const camera::Intrinsics& k) {
   return (std::atan(right) - std::atan(left)) / kDegree;
 }
 
-TEST(Lens, OneThatFoldsInTheImageOrNeedsAnEnormousFlatPictureIsRefused) {
+TEST(Lens, OneThatFoldsInTheImageOrNeedsAnEnormousFlatImageIsRefused) {
   for (const char* text :
        {R"({"model": "brown_conrady", "distortion": {"k1": -0.9}})",
         R"({"model": "fisheye", "hfov_deg": 140, "width": 7680, "height": 64})"}) {

@@ -165,7 +165,7 @@ TEST_F(Resolve, TheSimulationGetsWhatWasDrawn) {
     "randomize": {"crowd.agents": {"choice": [1, 2]},
                   "drones.0.start.2": {"uniform": [10, 20]}}})");
   for (int run = 0; run < job.runs; ++run) {
-    const json drawn = drawn_of_run(job, run);
+    const json drawn = samples_of_run(job, run);
     const sim::RunSpec spec = run_spec(job, run);
     EXPECT_EQ(spec.people, drawn["crowd.agents"].get<int>());
     EXPECT_EQ(spec.drones[0].start->z(), drawn["drones.0.start.2"].get<double>());

@@ -89,16 +89,16 @@ TEST_F(ArchiveTest, ReadersFindEveryFileWithItsBytes) {
 }
 
 TEST_F(ArchiveTest, EqualFilesAreLinksToTheFirst) {
-  const std::string picture(20'000, 'p');
-  add("formats/yolo/000001.jpg", picture);
-  add("images/000001.jpg", picture);
+  const std::string image(20'000, 'p');
+  add("formats/yolo/000001.jpg", image);
+  add("images/000001.jpg", image);
   add("formats/small", "s");
   add("images/small", "s");
   write_manifest();
   const Archive archive(folder.path(), "square");
   const std::string tar = all_of(archive, 4096);
   EXPECT_EQ(static_cast<std::int64_t>(tar.size()), archive.size());
-  EXPECT_LT(tar.size(), 2 * picture.size());
+  EXPECT_LT(tar.size(), 2 * image.size());
   const std::unique_ptr<struct archive, decltype(&archive_read_free)> reader(archive_read_new(),
                                                                              &archive_read_free);
   archive_read_support_format_tar(reader.get());

@@ -1,4 +1,4 @@
-// Where the time of a job's drawing goes, as workers write it and users read it.
+// Profile of a job's rendering, as workers write it and users read it.
 #include "jobs/queue/profile.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ TEST_F(Profile, AddsUpAllWorkersDearestStageFirst) {
 }
 
 TEST_F(Profile, SaysSoWhenNothingWasDrawn) {
-  EXPECT_NE(profile_table(*folder_, job_).find("no frame was drawn"), std::string::npos);
+  EXPECT_NE(profile_table(*folder_, job_).find("no frame was rendered"), std::string::npos);
 }
 
 }  // namespace

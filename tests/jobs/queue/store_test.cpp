@@ -185,9 +185,9 @@ TEST_F(StoreTest, WhatHappensIsRecordedWithTheChangeItself) {
   const JobRow other = store.add({.name = "b"}).row;
   const JobRow running = store.apply(queued, JobEvent::start).value();
   EXPECT_FALSE(store.apply(queued, JobEvent::start)) << "too late: no event";
-  store.note(running, "stage", R"({"stage":"rendering"})");
+  store.record_event(running, "stage", R"({"stage":"rendering"})");
   const JobRow failed = store.apply(running, JobEvent::fail, "{}").value();
-  store.note(running, "stage", "{}");  // of an attempt that is over
+  store.record_event(running, "stage", "{}");  // of an attempt that is over
   const JobRow again = store.apply(failed, JobEvent::retry).value();
   EXPECT_EQ(again.state, JobState::queued);
   EXPECT_EQ(again.ended_ms, 0);

@@ -72,7 +72,7 @@ TEST_F(SupervisorTest, ARunThatFailsLeavesTheOthersTheirDataset) {
   ASSERT_EQ(read_failed_runs(folder()).size(), 1U);
   EXPECT_EQ(read_failed_runs(folder())[0].run, 1);
 
-  // Again: what is missing is done, and the dataset made anew.
+  // Again: missing tasks are done, and the dataset is collected again.
   FakeExecutor second;
   EXPECT_TRUE(run_job(folder(), job, second).empty());
   EXPECT_THAT(second.done(), ElementsAre("run001/shard0002", "dataset"));
@@ -214,6 +214,21 @@ TEST_F(SupervisorTest, AFolderThatWasBarelyBegunIsTaken) {
   EXPECT_TRUE(std::filesystem::exists(folder().dataset()));
   write_file_atomically(base.path() / "file", "x");
   EXPECT_THROW(JobFolder::create(base.path() / "file", job), InputError);
+}
+
+// A job file of version 0.1 has deprecated names; it is still the same job.
+TEST_F(SupervisorTest, AFolderOfAnEarlierVersionIsTakenUpAgain) {
+  JobSpec orbit = job.spec();
+  orbit.drones.at(0).mission.guidance.center = Eigen::Vector2d(4, 5);
+  const JobFolder made = JobFolder::create(base.path() / "orbit", ResolvedJob(orbit));
+  std::string text = read_file(made.job_file());
+  const std::size_t at = text.find("\"center\"");
+  ASSERT_NE(at, std::string::npos);
+  write_file_atomically(made.job_file(), text.replace(at, 8, "\"centre\""));
+  EXPECT_NO_THROW(JobFolder::create(made.path(), ResolvedJob(orbit)));
+  EXPECT_EQ(to_json(made.read_job().spec()), to_json(orbit));
+  orbit.drones.at(0).mission.guidance.center = Eigen::Vector2d(4, 6);
+  EXPECT_THROW(JobFolder::create(made.path(), ResolvedJob(orbit)), InputError);
 }
 
 TEST_F(SupervisorTest, AFolderBelongsToOneJob) {

@@ -11,7 +11,7 @@
 namespace throng::jobs {
 namespace {
 
-// What is limited stays so: each test limits a process of its own.
+// Limits are permanent: each test limits a process of its own.
 [[noreturn]] void leave(bool is_as_expected) { ::_exit(is_as_expected ? 0 : 1); }
 
 TEST(WorkerLimits, NoSocketLeadsOutOfTheMachine) {

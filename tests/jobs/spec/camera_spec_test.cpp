@@ -163,7 +163,7 @@ TEST(CameraSpec, DistributionsAreDrawnForEachRun) {
   std::set<double> isos;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const CameraSpec run = camera_of_run(spec, seed, kPlace);
-    EXPECT_TRUE(run.drawn.empty());
+    EXPECT_TRUE(run.sampled.empty());
     EXPECT_EQ(run.yaw_deg, 7);
     EXPECT_GE(run.pitch_deg, -80);
     EXPECT_LE(run.pitch_deg, -30);

@@ -1,4 +1,4 @@
-// What follows from the tables of a job's fields: the schema's file, docs/job.md, drawn values.
+// Products of the tables of a job's fields: the schema's file, docs/job.md, sampled values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -43,9 +43,9 @@ TEST(JobFields, EveryPathIsUniqueAndHasTitleAndHelp) {
   EXPECT_GT(paths.size(), 80U);
 }
 
-// What the version before the tables made of 9 jobs, 8 of them random:
-// tests/jobs/spec/recorded_jobs.jsonl. Fields that have come since may be there beside what was
-// recorded.
+// Results of the version before the tables for 9 jobs, 8 of them random:
+// tests/jobs/spec/recorded_jobs.jsonl. Fields that have come since may be there beside the
+// recorded ones; "centre" of guidance is printed by its new name.
 void expect_holds(const json& found, const json& recorded, const std::string& place) {
   if (recorded.is_object() && found.is_object()) {
     for (const auto& [key, value] : recorded.items()) {
@@ -68,7 +68,7 @@ TEST(JobFields, JobsAreReadPrintedAndDrawnAsBefore) {
     for (std::size_t run = 0; run < recorded["runs"].size(); ++run) {
       const int number = static_cast<int>(run);
       expect_holds(to_json(job_of_run(job, number)), recorded["runs"][run], "/run");
-      EXPECT_EQ(drawn_of_run(job, number), recorded["drawn"][run]);
+      EXPECT_EQ(samples_of_run(job, number), recorded["drawn"][run]);
     }
   }
   EXPECT_EQ(jobs, 9);

@@ -26,7 +26,7 @@ DroneSpec read_given(const json& guidance, const std::string& source,
 TEST(GuidanceSpec, EveryFieldSurvivesTheRoundTrip) {
   const json given = json::parse(R"({
     "policy": "balance", "speed_mps": 2.5, "waypoints": [[1, 2, 3]], "lead_speed_mps": 1.5,
-    "batch": 20, "exits": ["a", "b"], "centre": [4, 5], "radius_m": 6, "overlap": 0.5,
+    "batch": 20, "exits": ["a", "b"], "center": [4, 5], "radius_m": 6, "overlap": 0.5,
     "area": {"min": [-1, -2], "max": [3, 4]},
     "perception": {"kind": "camera", "fov_deg": 60, "delay_s": 0.5, "count_noise": 0.25},
     "setpoints": [[0, 1, 2, 3, 90, 1], [0.5, 1, 2, 3, -45, 0]]})");
@@ -43,6 +43,22 @@ TEST(GuidanceSpec, EveryFieldSurvivesTheRoundTrip) {
   EXPECT_EQ(guidance_json(read_given(written, "", problems)), written);
   EXPECT_EQ(written["exits"], given["exits"]);
   EXPECT_EQ(written["batch"], 20);
+}
+
+TEST(GuidanceSpec, TheOldNameOfTheCenterIsReadWithAWarning) {
+  std::vector<Problem> problems;
+  testing::internal::CaptureStderr();
+  const DroneSpec drone =
+      read_given({{"policy", "orbit"}, {"centre", {4, 5}}}, "old.json", problems);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("old.json: /drones/0/guidance/centre is deprecated, use \"center\""));
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(drone.mission.guidance.center, Eigen::Vector2d(4, 5));
+  EXPECT_EQ(guidance_json(drone)["center"], json::parse("[4.0, 5.0]"));
+  EXPECT_FALSE(guidance_json(drone).contains("centre"));
+  read_given({{"centre", {4, 5}}, {"center", {6, 7}}}, "both.json", problems);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].where, "/drones/0/guidance/centre");
 }
 
 TEST(GuidanceSpec, APilotLogIsNamedFromTheJobsFolderAndNotOpened) {

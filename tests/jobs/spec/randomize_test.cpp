@@ -1,4 +1,5 @@
-// The block "randomize": every field that the schema says may be drawn is drawn, used and recorded.
+// The block "randomize": every field that the schema says may be sampled is sampled, used and
+// recorded.
 #include "jobs/spec/randomize.h"
 
 #include <fmt/core.h>
@@ -26,7 +27,7 @@ class Randomize : public testing::Test {
  protected:
   static JobSpec parse(const json& job) { return parse_job(job.dump(), "test.job.json"); }
 
-  /// A job of so many runs in which this is drawn.
+  /// A job of so many runs in which this is sampled.
   static JobSpec drawing(const json& block, int runs = 1) {
     return parse({{"scenario", "yard"},
                   {"runs", runs},
@@ -94,7 +95,7 @@ TEST_F(Randomize, DrawsAndRecordsEveryFieldThatTheSchemaMarks) {
     std::set<json> drawn;
     std::set<std::string> jobs;
     for (int run = 0; run < spec.runs; ++run) {
-      const json record = drawn_of_run(spec, run);
+      const json record = samples_of_run(spec, run);
       ASSERT_EQ(record.size(), 1U) << path;
       ASSERT_TRUE(record.contains(path)) << record.dump();
       drawn.insert(record[path]);
