@@ -177,12 +177,12 @@ TEST_F(Files, ResultsSayHowSureTheyAre) {
   EXPECT_THAT(summary(found), HasSubstr("12 views"));
   const drawing::Drawing plot = residual_plot(found);
   EXPECT_THAT(drawing::to_svg(plot), HasSubstr("<svg"));
-  const auto outliers =
+  const auto red_dots =
       std::count_if(plot.shapes.begin(), plot.shapes.end(), [](const auto& shape) {
         return shape.fill.rgb == std::array<std::uint8_t, 3>{255, 0, 0};
       });
-  EXPECT_EQ(outliers, found.rejected);
-  EXPECT_GT(outliers, 0);
+  EXPECT_EQ(red_dots, found.rejected);
+  EXPECT_GT(red_dots, 0);
 }
 
 TEST_F(Files, RequestsAreCheckedFieldByField) {
