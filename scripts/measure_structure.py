@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures the structure of the source code: sizes, public headers, cycles, function lengths, words, tests.
 
-usage: scripts/measure_structure.py [FOLDER]    (default: this checkout)
+usage: scripts/measure_structure.py [FOLDER...]    (default: this checkout; two folders: before → after)
 
 Prints a Markdown table, a row per top-level folder with C++ sources. Columns:
   files       .cpp and .h, with their lines
@@ -9,7 +9,7 @@ Prints a Markdown table, a row per top-level folder with C++ sources. Columns:
   folders     that hold them, and the files of the largest
   cycles      #includes that close a cycle between files of the module (NAME.h and NAME.cpp are one file)
   functions   number, and lines of the median, the 90 % quantile and the longest
-  words       coined words found by scripts/check_language.py's table, per 1 000 lines
+  words       coined words, British spelling and clauses without antecedent that scripts/check_language.py finds
   tests       lines of tests per line of product code
 """
 import collections
@@ -18,13 +18,13 @@ import re
 import subprocess
 import sys
 
+import check_language
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 APART = {"tests", "bench", "examples"}
 SKIPPED = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'')
 FUNCTION = re.compile(r"\)\s*(?:const\s*)?(?:noexcept\s*)?(?:override\s*)?(?:final\s*)?(?:->\s*[\w:<>&*, ]+\s*)?"
                       r"(?::\s*[\w:]+[({].*)?\{\s*$")
-COINED = re.compile(r"\b(k?[Mm]ost[A-Z_]\w*|k?[Ll]ongest[A-Z_]\w*|k?[Ff]arthest[A-Z_]\w*|most_\w+|longest_\w+|strewn|"
-                    r"rooms?\b|whoever|wherever it)\b")
 
 
 def public_headers(root):
@@ -36,6 +36,13 @@ def public_headers(root):
         if declaration:
             headers |= {f"{declaration[1]}/{header}" for header in declaration[2].split()}
     return headers
+
+
+def language_findings(path, text):
+    """Number of findings of scripts/check_language.py."""
+    report = check_language.Report(path, text)
+    check_language.check_code(report)
+    return len(report.findings)
 
 
 def git_files(root):
@@ -93,18 +100,17 @@ def quantile(values, share):
     return ordered[min(len(ordered) - 1, int(share * len(ordered)))] if ordered else 0
 
 
-def main():
-    root = pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else ROOT
+HEAD = ["module", ".cpp, lines", ".h, lines", "public", "folders (largest)", "cycles", "functions", "median/p90/max", "words", "tests"]
+
+
+def measure(root):
+    """Rows of the table by module, and their sum."""
     texts = {path: (root / path).read_text(errors="replace") for path in git_files(root)}
     product = {path: text for path, text in texts.items() if path.split("/")[0] not in APART}
-    modules = sorted({path.split("/")[0] for path in product})
     includes = {path: re.findall(r'^#include "([^"]+)"', text, re.M) for path, text in product.items()}
     public = public_headers(root)
-    print("| module | .cpp n/lines | .h n/lines (public) | folders (largest) | cycles | functions n, median/p90/max | coined words | tests |")
-    print("|---|---|---|---|---|---|---|---|")
-    sums = [0] * 9
-    everything = []
-    for module in modules:
+    table, everything, sums = {}, [], [0] * 9
+    for module in sorted({path.split("/")[0] for path in product}):
         own = {path: text for path, text in product.items() if path.split("/")[0] == module}
         lines = {path: text.count("\n") for path, text in own.items()}
         sources = [path for path in own if path.endswith(".cpp")]
@@ -116,21 +122,31 @@ def main():
             edges.setdefault(name, set()).update(targets - {name})
         lengths = [length for path in sources for length in function_lengths(own[path])]
         everything += lengths
-        words = sum(len(COINED.findall(text)) for text in own.values())
-        tests = sum(text.count("\n") for path, text in texts.items() if path.startswith(f"tests/{module}/"))
-        size = sum(lines.values())
-        front = sum(path in public for path in headers)
+        counts = [len(sources), sum(lines[p] for p in sources), len(headers), sum(lines[p] for p in headers),
+                  sum(path in public for path in headers), cycle_edges(edges), len(lengths),
+                  sum(language_findings(path, text) for path, text in own.items()),
+                  sum(text.count("\n") for path, text in texts.items() if path.startswith(f"tests/{module}/"))]
+        sums = [a + b for a, b in zip(sums, counts)]
         folders = collections.Counter(path.rsplit("/", 1)[0] for path in own)
-        cycles = cycle_edges(edges)
-        row = [len(sources), sum(lines[p] for p in sources), len(headers), sum(lines[p] for p in headers), front, cycles,
-               len(lengths), words, tests]
-        sums = [a + b for a, b in zip(sums, row)]
-        print(f"| {module} | {row[0]}/{row[1]} | {row[2]}/{row[3]} ({front}) | "
-              f"{len(folders)} ({max(folders.values())}) | {cycles} | {len(lengths)}, "
-              f"{quantile(lengths, .5)}/{quantile(lengths, .9)}/{max(lengths, default=0)} | {words} | {tests / size:.2f} |")
-    print(f"| **all** | {sums[0]}/{sums[1]} | {sums[2]}/{sums[3]} ({sums[4]}) | | {sums[5]} | {sums[6]}, "
-          f"{quantile(everything, .5)}/{quantile(everything, .9)}/{max(everything)} | {sums[7]} | "
-          f"{sums[8] / (sums[1] + sums[3]):.2f} |")
+        table[module] = row_of(counts, lengths, f"{len(folders)} ({max(folders.values())})")
+    table["**all**"] = row_of(sums, everything, "")
+    return table
+
+
+def row_of(counts, lengths, folders):
+    sources, source_lines, headers, header_lines, public, cycles, functions, words, tests = counts
+    quantiles = f"{quantile(lengths, .5)}/{quantile(lengths, .9)}/{max(lengths, default=0)}"
+    return [f"{sources}, {source_lines}", f"{headers}, {header_lines}", str(public), folders, str(cycles), str(functions),
+            quantiles, str(words), f"{tests / (source_lines + header_lines):.2f}"]
+
+
+def main():
+    tables = [measure(pathlib.Path(folder).resolve()) for folder in sys.argv[1:]] or [measure(ROOT)]
+    print("| " + " | ".join(HEAD) + " |\n|" + "---|" * len(HEAD))
+    for module in tables[-1]:
+        rows = [table.get(module, ["-"] * (len(HEAD) - 1)) for table in tables]
+        cells = [values[0] if len(set(values)) == 1 else " → ".join(values) for values in zip(*rows)]
+        print(f"| {module} | " + " | ".join(cells) + " |")
 
 
 if __name__ == "__main__":
