@@ -4,7 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <numeric>
+#include <utility>
 
 namespace throng {
 
@@ -14,16 +15,17 @@ constexpr std::size_t kMaxWordLength = 40;  // letters; longer words are not tak
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Damerau-Levenshtein distance (optimal string alignment), by three rows of its table.
-std::size_t distance(std::string_view a, std::string_view b) {
-  using Row = std::array<std::size_t, kMaxWordLength + 1>;
-  Row before{};
-  Row last{};
-  Row row{};
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Three rows of the table of optimal string alignment.
+  std::vector<std::size_t> before(b.size() + 1);
+  std::vector<std::size_t> last(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    before = last;
-    last = row;
+    std::swap(before, last);
+    std::swap(last, row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const bool same = lower(a[i - 1]) == lower(b[j - 1]);
@@ -33,10 +35,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
       if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
-  return row[b.size()];
+  return row.back();
 }
-
-}  // namespace
 
 std::optional<std::string_view> closest(std::string_view word,
                                         std::span<const std::string_view> candidates) {
@@ -45,7 +45,7 @@ std::optional<std::string_view> closest(std::string_view word,
   std::size_t min_distance = 0;
   for (const std::string_view candidate : candidates) {
     if (candidate.empty() || candidate.size() > kMaxWordLength) continue;
-    const std::size_t differ = distance(word, candidate);
+    const std::size_t differ = edit_distance(word, candidate);
     if (3 * differ > std::max(word.size(), candidate.size())) continue;
     if (!best || differ < min_distance) {
       best = candidate;

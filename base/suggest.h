@@ -1,6 +1,7 @@
 // "Did you mean ...?": the known word that a misspelled one is nearest to.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,9 +12,12 @@
 
 namespace throng {
 
-/// The candidate with the smallest edit distance to `word` (letters inserted, omitted, replaced or
-/// swapped; case does not count), the first of equals. Nothing when more than a third of the
-/// letters differ.
+/// Letters to insert, omit, replace or swap with a neighbor to make one word of the other, whatever
+/// their case (Damerau-Levenshtein distance as optimal string alignment).
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate with the smallest edit_distance() to `word`, the first of equals. Nothing when
+/// more than a third of the letters differ.
 std::optional<std::string_view> closest(std::string_view word,
                                         std::span<const std::string_view> candidates);
 

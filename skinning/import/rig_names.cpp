@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 
 #include "base/error.h"
+#include "base/suggest.h"
 
 namespace throng::skinning {
 
@@ -321,24 +321,13 @@ class Mapper {
   std::vector<Problem> problems_;
 };
 
-// Levenshtein's distance between the words of two names, whatever their case and signs.
+// The edit distance between the words of two names, whatever their signs.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::string one;
   std::string other;
   for (const std::string& word : words_of(a)) one += word;
   for (const std::string& word : words_of(b)) other += word;
-  std::vector<std::size_t> row(other.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < other.size(); ++j) {
-      const std::size_t kept = diagonal + (one[i] == other[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({kept, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
+  return edit_distance(one, other);
 }
 
 }  // namespace

@@ -9,6 +9,16 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kFields = {"drones", "seed", "capture"};
 
+TEST(EditDistance, IsThatOfTheLiterature) {
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);  // Levenshtein's usual example
+  EXPECT_EQ(edit_distance("ca", "abc"), 3U) << "optimal string alignment; 2 without it";
+  EXPECT_EQ(edit_distance("hips", "hpis"), 1U) << "neighbors swapped";
+  EXPECT_EQ(edit_distance("", "four"), 4U);
+  EXPECT_EQ(edit_distance("four", ""), 4U);
+  EXPECT_EQ(edit_distance("LeftArm", "leftarm"), 0U);
+  EXPECT_EQ(edit_distance(std::string(500, 'a'), std::string(499, 'a')), 1U);
+}
+
 TEST(UnknownName, NamesTheNearestKnownOne) {
   const Problem problem = unknown_name("my.job.json", "/drone", "field", "drone", kFields);
   EXPECT_EQ(problem.text(),
