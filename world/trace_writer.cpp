@@ -239,6 +239,7 @@ void write_header(const hdf5::Handle& file, const TraceHeader& header) {
   if (!header.state_lying.empty()) {
     Column<std::uint8_t> lying(file, "state_lying", {}, 1024, "");
     for (const std::uint8_t lies : header.state_lying) lying.add(lies);
+    lying.flush();
   }
   hdf5::write_texts(file, "exit_ids", header.exit_ids);
   hdf5::write_texts(file, "drone_ids", header.drone_ids);
