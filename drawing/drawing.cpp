@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <regex>
 #include <string_view>
 #include <utility>
 
@@ -174,7 +175,14 @@ Color from_hsl(double hue_deg, double saturation, double lightness) {
 }
 
 std::string to_svg(const Drawing& drawing) {
-  return document(drawing, cairo_svg_surface_create_for_stream);
+  const std::string svg = document(drawing, [](auto... arguments) {
+    cairo_surface_t* surface = cairo_svg_surface_create_for_stream(arguments...);
+    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+    return surface;
+  });
+  // cairo numbers the surfaces of a process; equal drawings have equal bytes.
+  static const std::regex kId("id=\"surface[0-9]+\"");
+  return std::regex_replace(svg, kId, "id=\"drawing\"");
 }
 
 std::string to_pdf(const Drawing& drawing) {

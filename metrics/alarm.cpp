@@ -48,7 +48,12 @@ struct StateGraph {
   std::vector<Edge> ordinary;
   std::vector<Edge> informing;  ///< transitions by which people get to know of the alarm
   Names informed_by_events;
-  Names lying;  ///< states in which people lie on the ground
+  std::map<std::string, bool> lying;  ///< what states say of themselves; otherwise their names do
+
+  bool lies_in(const std::string& state) const {
+    const auto found = lying.find(state);
+    return found != lying.end() ? found->second : world::implies_lying(state);
+  }
   std::optional<double> first_proximity_s;
 
   Names reached_from(Names states, bool by_telling) const {
@@ -104,19 +109,15 @@ void read_transition(const Element& element, StateGraph& graph) {
   }
 }
 
-bool lies(const Element& state) {
-  const std::string said = text_of(state, "lying");
-  if (said.empty()) return world::implies_lying(text_of(state, "name"));
-  return said != "0" && said != "false";
-}
-
 void read_behavior(const Element& element, StateGraph& graph) {
   for (const Element& child : element.children()) {
     if (child.name() == "Transition") {
       read_transition(child, graph);
       continue;
     }
-    if (child.name() == "State" && lies(child)) graph.lying.insert(text_of(child, "name"));
+    if (const std::string lying = text_of(child, "lying"); !lying.empty()) {
+      graph.lying[text_of(child, "name")] = lying != "0" && lying != "false";
+    }
     const std::string type = text_of(child, "type");
     if (type == "change_state") graph.informed_by_events.insert(text_of(child, "state"));
     if (child.name() == "StateSelector") graph.informed_by_events.insert(text_of(child, "name"));
@@ -151,8 +152,7 @@ Alarm alarm_of(const world::Scenario& scenario) {
   Names informed = graph.informed_by_events;
   for (const StateGraph::Edge& edge : graph.informing) informed.insert(edge.to);
   for (const std::string& state : graph.reached_from(std::move(informed), true)) {
-    if (unaware.count(state) == 0 && graph.lying.count(state) == 0)
-      alarm.aware_states.push_back(state);
+    if (unaware.count(state) == 0 && !graph.lies_in(state)) alarm.aware_states.push_back(state);
   }
   return alarm;
 }

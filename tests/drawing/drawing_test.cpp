@@ -131,6 +131,7 @@ TEST(Drawing, IgnoresShapesWithoutPoints) {
 TEST(Drawing, EqualDrawingsHaveEqualBytes) {
   const Drawing drawing = drawing_of({square(10, 40, kRed)});
   EXPECT_EQ(to_svg(drawing), to_svg(drawing));
+  EXPECT_THAT(to_svg(drawing), HasSubstr("width=\"100px\" height=\"60px\""));
   EXPECT_EQ(to_png(drawing), to_png(drawing));
   EXPECT_EQ(to_pdf(drawing), to_pdf(drawing));
   EXPECT_THAT(to_pdf(drawing), HasSubstr("20000101")) << "not the time of the run";
