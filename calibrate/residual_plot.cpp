@@ -100,8 +100,8 @@ void draw_image(const Calibration& calibration, Panel panel) {
   const Vector2d cell(kImageWidth / kCoverageColumns, height / kCoverageRows);
   for (std::size_t i = 0; i < covered.size(); ++i) {
     if (covered.at(i)) continue;
-    const Vector2d place(static_cast<double>(i % kCoverageColumns),
-                         static_cast<double>(i / kCoverageColumns));
+    const std::size_t row = i / kCoverageColumns;
+    const Vector2d place(static_cast<double>(i % kCoverageColumns), static_cast<double>(row));
     panel.rectangle(place.cwiseProduct(cell), cell, kUncovered);
   }
   constexpr double kOutlierPx = 5;

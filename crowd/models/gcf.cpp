@@ -54,13 +54,13 @@ class Gcf : public LocalModel {
     for (const Grid::Neighbor& neighbor : around.neighbors) {
       const std::size_t id = grid.id(neighbor.slot);
       const Eigen::Vector2f& velocity = grid.velocity(neighbor.slot);
-      const Separation apart(self, id, grid.position(neighbor.slot));
+      const BodyOffset apart(self, id, grid.position(neighbor.slot));
       acceleration += push(self, body, apart, velocity, body_of(crowd, id, velocity)) * apart.away;
     }
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
       constexpr float kMinLength = 0.1F;  // m
       if ((wall.end - wall.begin).norm() < kMinLength) return;
-      const Separation apart(self, wall);
+      const BodyOffset apart(self, wall);
       acceleration += wall_push(self, body, apart) * apart.away;
     });
     return self.velocity + static_cast<float>(crowd.dt_s) * acceleration;
@@ -78,7 +78,7 @@ class Gcf : public LocalModel {
             crowd.agents.orientation[id]};
   }
 
-  float push(const Walker& self, const Ellipse& body, const Separation& apart,
+  float push(const Walker& self, const Ellipse& body, const BodyOffset& apart,
              const Eigen::Vector2f& other_velocity, const Ellipse& other_body) const {
     // Bodies are no longer than this, so that far ones need no closer look.
     const float reach =
@@ -111,7 +111,7 @@ class Gcf : public LocalModel {
   /// very near to the wall; its series are met (4square and pedModelSwap to 1 mm over 5 s,
   /// bottleneck to 1 cm over 18 s and in its duration to 4 %) if there is no push at all from
   /// walls that are nearer than a fifth of the body's extent.
-  float wall_push(const Walker& self, const Ellipse& body, const Separation& apart) const {
+  float wall_push(const Walker& self, const Ellipse& body, const BodyOffset& apart) const {
     const float extent = contact_distance(body, apart.away);
     const float gap = apart.distance - extent;
     if (quirks_) return gap < 0.2F * extent ? 0 : self.preferred_speed * extent / gap;

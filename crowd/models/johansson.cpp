@@ -32,12 +32,12 @@ class Johansson : public LocalModel {
     Eigen::Vector2f acceleration =
         (self.preferred_velocity() - self.velocity) / constants_[reaction_time];
     for (const Grid::Neighbor& neighbor : around.neighbors) {
-      const Separation apart(self, grid.id(neighbor.slot), grid.position(neighbor.slot));
+      const BodyOffset apart(self, grid.id(neighbor.slot), grid.position(neighbor.slot));
       acceleration += push(apart, grid.velocity(neighbor.slot)) *
                       attention(self, apart.away, behind_matters_, rear);
     }
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
-      const Separation apart(self, wall);
+      const BodyOffset apart(self, wall);
       acceleration += constants_[obstacle_scale] * attention(self, apart.away, false, rear) *
                       std::exp(-apart.distance / constants_[force_distance]) * apart.away;
     });
@@ -56,7 +56,7 @@ class Johansson : public LocalModel {
 
   /// The ellipse's foci are where the other is and where it will be after a stride; b is the
   /// semi-minor axis of the one through here.
-  Eigen::Vector2f push(const Separation& apart, const Eigen::Vector2f& other_velocity) const {
+  Eigen::Vector2f push(const BodyOffset& apart, const Eigen::Vector2f& other_velocity) const {
     constexpr float kThinnest = 1e-3F;  // m; between the foci b is 0 and the force without limit
     const Eigen::Vector2f stride = constants_[stride_time] * other_velocity;
     const Eigen::Vector2f later = apart.offset - stride;

@@ -81,7 +81,7 @@ class Karamouzas : public LocalModel {
     Eigen::Vector2f sum = (self.preferred_velocity() - self.velocity) / constants_[reaction_time];
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
       constexpr float kMinDistance = 0.01F;  // m
-      const Separation apart(self, wall);
+      const BodyOffset apart(self, wall);
       const float gap = apart.distance - self.radius;
       if (gap >= constants_[wall_distance]) return;
       sum += (constants_[wall_distance] - gap) /
@@ -125,7 +125,7 @@ class Karamouzas : public LocalModel {
   Eigen::Vector2f push(const Grid& grid, const Walker& self, const Eigen::Vector2f& desired,
                        const Urgent::Collision& collision) const {
     const std::uint32_t slot = collision.slot;
-    const Separation apart(self, grid.id(slot), grid.position(slot));
+    const BodyOffset apart(self, grid.id(slot), grid.position(slot));
     const Eigen::Vector2f later = apart.offset + collision.time_s * (desired - grid.velocity(slot));
     const float gap = std::max(0.0F, later.norm() - self.radius - grid.radius(slot));
     return strength(desired.norm() * collision.time_s + gap) * unit_or(later, apart.away);

@@ -61,13 +61,13 @@ Walker::Walker(const Crowd& crowd, const Grid& grid, std::size_t slot)
       preferred_direction(crowd.agents.preferred_direction[id]),
       orientation(crowd.agents.orientation[id]) {}
 
-Separation::Separation(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position)
+BodyOffset::BodyOffset(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position)
     : offset(self.position - other_position),
       distance(offset.norm()),
       away(distance > 0 ? Eigen::Vector2f(offset / distance)
                         : Eigen::Vector2f(self.id > other ? 1 : -1, 0)) {}
 
-Separation::Separation(const Walker& self, const Segment& wall)
+BodyOffset::BodyOffset(const Walker& self, const Segment& wall)
     : offset(self.position - nearest_on_segment(wall.begin, wall.end, self.position)),
       distance(offset.norm()),
       away(distance > 0 ? Eigen::Vector2f(offset / distance)

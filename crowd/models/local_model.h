@@ -45,9 +45,9 @@ struct Walker {
 };
 
 /// Position of another agent, seen from a walker.
-struct Separation {
-  Separation(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position);
-  Separation(const Walker& self, const Segment& wall);
+struct BodyOffset {
+  BodyOffset(const Walker& self, std::size_t other, const Eigen::Vector2f& other_position);
+  BodyOffset(const Walker& self, const Segment& wall);
 
   Eigen::Vector2f offset;  ///< from the other, or from the wall's nearest point, to the walker, m
   float distance;          ///< m

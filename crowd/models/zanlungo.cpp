@@ -103,7 +103,7 @@ class Zanlungo : public LocalModel {
       }
     }
 
-    Separation apart;
+    BodyOffset apart;
     Eigen::Vector2f velocity;  // relative, of oneself, m/s
     float radius;              // sum of both, m
     float weight = 1;
@@ -123,7 +123,7 @@ class Zanlungo : public LocalModel {
   }
 
   Eigen::Vector2f push(const Encounter& encounter, float time_s) const {
-    const Separation& apart = encounter.apart;
+    const BodyOffset& apart = encounter.apart;
     const bool approaching = apart.offset.dot(encounter.velocity) < 0 || apart.distance == 0;
     if (!approaching) return Eigen::Vector2f::Zero();
     const Eigen::Vector2f later = apart.offset + time_s * encounter.velocity;
@@ -136,11 +136,11 @@ class Zanlungo : public LocalModel {
   }
 
   Eigen::Vector2f push(const Walker& self, const Segment& wall, float time_s) const {
-    const Separation apart(self, wall);
+    const BodyOffset apart(self, wall);
     if (apart.offset.dot(self.velocity) >= 0) return Eigen::Vector2f::Zero();
     Walker later = self;
     later.position += time_s * self.velocity;
-    const Separation then(later, wall);
+    const BodyOffset then(later, wall);
     return strength(constants_[obstacle_scale], self.velocity.norm(), time_s,
                     then.distance - self.radius) *
            then.away;
