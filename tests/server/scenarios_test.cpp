@@ -73,7 +73,7 @@ TEST_F(Uploads, AreUsedLikeThoseThatComeWithThrong) {
   const httplib::Result plan_of_job = get("/v1/jobs/" + id + "/plan");
   ASSERT_EQ(plan_of_job->status, 200) << plan_of_job->body;
   EXPECT_EQ(plan_of_job->get_header_value("Content-Type"), "image/svg+xml");
-  EXPECT_THAT(plan_of_job->body, HasSubstr(">d1, "));
+  EXPECT_THAT(plan_of_job->body, HasSubstr("stroke:rgb(54.901961%")) << "the color of drones";
   expect_problem(get("/v1/jobs/nowhere/plan"), 404);
 }
 
