@@ -59,6 +59,9 @@ struct FieldPlace {
   bool allows_deprecated(const FieldRules& field, bool is_also_given) const;
 };
 
+// clang-tidy does not see that templates move their parameters.
+// NOLINTBEGIN(performance-unnecessary-value-param)
+
 template <typename Object>
 struct Field : FieldRules {
   /// The value as a job writes it; null: it is left out.
@@ -273,5 +276,7 @@ class FieldTable {
  private:
   Fields fields_;
 };
+
+// NOLINTEND(performance-unnecessary-value-param)
 
 }  // namespace throng::jobs
