@@ -75,6 +75,14 @@ def joined(sources, count):
     return units
 
 
+def included(path):
+    """The line that includes a source; each program's main() under a name of its own."""
+    line = f'#include "{path}"\n'
+    if "\nint main(" not in path.read_text():
+        return line
+    return f"#define main main_of_{path.stem}\n{line}#undef main\n"
+
+
 def main():
     count, build, folder = int(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]).absolute()
     listed = subprocess.run(["git", "ls-files", "*.cpp"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
@@ -90,7 +98,7 @@ def main():
     flags = macros_and_folders(build)
     for number, unit in enumerate(joined(sources, count)):
         file = folder / f"joined_{number}.cpp"
-        file.write_text("".join(f'#include "{ROOT / source.path}"\n' for source in unit))
+        file.write_text("".join(included(ROOT / source.path) for source in unit))
         entries.append({"directory": str(folder), "file": str(file),
                         "arguments": ["clang++", *flags, "-c", str(file), "-o", str(file.with_suffix(".o"))]})
     (folder / "compile_commands.json").write_text(json.dumps(entries, indent=1))

@@ -184,6 +184,7 @@ Verdict single_file(const Tested& tested, Effort effort) {
       effort == Effort::full ? std::vector<std::size_t>{10, 14, 18, 22, 26, 30, 35, 40}
                              : std::vector<std::size_t>{14, 22, 30};
   std::vector<criteria::FileSpeeds> files;
+  files.reserve(numbers.size());
   for (const std::size_t people : numbers) {
     files.push_back({people, file_speed(tested, people, Sampled::constant(1.34)),
                      file_speed(tested, people, Sampled::constant(0.8)),

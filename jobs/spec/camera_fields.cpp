@@ -28,8 +28,8 @@ using SetNumber = std::function<void(CameraSpec&, double)>;
 
 /// A number that may be a distribution.
 void add_number(FieldTable<CameraSpec>& table, const std::string& path, std::string title,
-                std::string unit, double low, double high, GetNumber number, SetNumber set_number,
-                std::string help) {
+                std::string unit, double low, double high, const GetNumber& number,
+                const SetNumber& set_number, std::string help) {
   Values values = numbers(low, high);
   const Quantity quantity = *values.quantity;
   const auto get = [path, quantity, number](const CameraSpec& spec) -> json {

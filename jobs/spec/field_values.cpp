@@ -163,7 +163,7 @@ Values coordinates(int count, bool is_random) {
   return lists(count, count, std::move(items));
 }
 
-Values object_of(ordered_json fields) {
+Values object_of(const ordered_json& fields) {
   ordered_json rules = {{"type", "object"}};
   rules.update(fields);
   return {std::move(rules)};

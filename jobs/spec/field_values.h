@@ -38,7 +38,7 @@ Values lists(int min_value, int max_value, nlohmann::ordered_json items);
 /// `count` coordinates in m; `is_random`: the block "randomize" may name each.
 Values coordinates(int count, bool is_random = false);
 /// Objects with the fields of a table: its schema().
-Values object_of(nlohmann::ordered_json fields);
+Values object_of(const nlohmann::ordered_json& fields);
 /// Any other rules of the schema.
 Values raw(nlohmann::ordered_json rules, std::string expected = "");
 

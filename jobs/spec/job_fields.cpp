@@ -55,6 +55,7 @@ ordered_json drone_rules() {
 
 std::vector<std::string> quality_words() {
   std::vector<std::string> words;
+  words.reserve(std::size(render::kQualities));
   for (const render::QualitySettings& row : render::kQualities) words.emplace_back(row.word);
   return words;
 }
