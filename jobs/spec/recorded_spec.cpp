@@ -24,6 +24,7 @@ constexpr std::array<LengthUnit, 4> kLengthUnits = {
 
 std::vector<std::string> unit_words() {
   std::vector<std::string> words;
+  words.reserve(kLengthUnits.size());
   for (const LengthUnit& unit : kLengthUnits) words.emplace_back(unit.word);
   return words;
 }
