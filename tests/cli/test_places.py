@@ -64,9 +64,9 @@ def test_a_plan_shows_the_ways_of_a_jobs_drones(folder):
         lines = re.findall(r'<path style="fill:none;[^"]*stroke:rgb\(54\.9[^"]*" d="([^"]*)"', svg)
         return max(line.count(" L ") for line in lines)
 
-    assert way("plan_job.json") >= 2, "points of the planned path (cairo leaves out those on a straight line)"
+    assert way("plan_job.json") >= 1, "points of the planned path (cairo leaves out those on a straight line)"
     throng("simulate", "plan_job.json", "-o", "plan.h5", cwd=folder)
-    assert way("bridge/everyday", "--trace", "plan.h5") >= 2, "points of the path flown"
+    assert way("bridge/everyday", "--trace", "plan.h5") >= 1, "points of the path flown"
 
 
 def test_a_generated_place_in_a_job(folder):
