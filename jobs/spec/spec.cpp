@@ -18,11 +18,22 @@ using nlohmann::json;
 
 namespace {
 
+constexpr int kLongestName = 120;  // as in the schema
+
+// The first `count` characters of UTF-8 text; its continuation bytes are 10xxxxxx.
+std::string first_characters(const std::string& text, int count) {
+  std::size_t end = 0;
+  for (int characters = 0; end < text.size(); ++end) {
+    if ((static_cast<unsigned char>(text[end]) & 0xC0U) != 0x80U && ++characters > count) break;
+  }
+  return text.substr(0, end);
+}
+
 // Reads a value that the schema allows; absent fields keep the defaults of the structs.
 JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {
   JobSpec job;
   job_fields().read(value, job, {"", source, problems});
-  if (job.name.empty()) job.name = job.scenario;
+  if (job.name.empty()) job.name = first_characters(job.scenario, kLongestName);
   formats::settle_shares(value_at(value, "outputs/splits/train") != nullptr, "/outputs/splits",
                          job.outputs.exports.splits, problems);
   return job;

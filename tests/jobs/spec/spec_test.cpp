@@ -60,6 +60,14 @@ TEST_F(Spec, ParsingOpensNoFileAndKnowsNoScenario) {
   EXPECT_EQ(job.drones[0].pilot_log, "/no/such/folder/no.csv");
 }
 
+TEST_F(Spec, AJobNamedAfterALongScenarioIsAcceptedAgain) {
+  std::string scenario;
+  for (int i = 0; i < 150; ++i) scenario += "\u00e9";  // two bytes each
+  const std::string written = to_json(parse(json{{"scenario", scenario}}.dump())).dump();
+  EXPECT_EQ(parse(written).name, scenario.substr(0, 240));
+  EXPECT_EQ(to_json(parse(written)).dump(), written);
+}
+
 TEST_F(Spec, AResolvedJobIsReadAsItWasWritten) {
   const json written = to_json(parse(R"({"scenario": "yard", "crowd": {"model": "orca"},
     "drones": [{"id": "d1", "camera": {"pitch_deg": {"uniform": [-80, -40]}}}],
