@@ -67,6 +67,17 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   file.commit();
 }
 
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(parent_of(to), error);
+  if (!error) fs::create_hard_link(from, to, error);
+  if (error) fs::copy_file(from, to, error);
+  if (error) {
+    throw EnvironmentError(
+        fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
+  }
+}
+
 StagedFile::StagedFile(fs::path final_path)
     : final_(std::move(final_path)), staging_(temporary_beside(final_)) {
   std::error_code error;

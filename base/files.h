@@ -15,6 +15,10 @@ std::string read_file(const std::filesystem::path& path);
 /// Creates the parent folder. Throws EnvironmentError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+/// Gives the file a second name, or copies it where the file system has no hard links. Creates the
+/// parent folder. Throws EnvironmentError naming both.
+void link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// A file under construction, for what is too big to be held in memory. commit() gives it its name
 /// (replacing an older file); otherwise the destructor removes it.
 class StagedFile {

@@ -4,7 +4,7 @@
 usage: scripts/measure_structure.py [FOLDER...]    (default: this checkout; two folders: before → after)
 
 Prints a Markdown table, a row per top-level folder with C++ sources. Columns:
-  files       .cpp and .h, with their lines
+  .cpp, .h    number of files, each with its lines in the next column
   public      headers that the modules in the folder declare as PUBLIC
   folders     that hold them, and the files of the largest
   cycles      #includes that close a cycle between files of the module (NAME.h and NAME.cpp are one file)

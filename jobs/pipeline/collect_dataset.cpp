@@ -6,6 +6,7 @@
 
 #include "annotate/coco.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "base/hash.h"
 #include "base/version.h"
 #include "formats/card.h"
@@ -25,17 +26,6 @@ using nlohmann::json;
 namespace {
 
 // The dataset shares the bytes with the work folder where the file system can.
-void link_or_copy(const fs::path& from, const fs::path& to) {
-  fs::create_directories(to.parent_path());
-  std::error_code error;
-  fs::create_hard_link(from, to, error);
-  if (error) fs::copy_file(from, to, error);
-  if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
-  }
-}
-
 class Collector {
  public:
   Collector(const JobFolder& folder, const JobSpec& job)

@@ -140,8 +140,8 @@ Values numbers_above(double low, double high) {
 
 Values booleans() { return {{{"type", "boolean"}}}; }
 
-Values texts(int shortest, int longest) {
-  return {{{"type", "string"}, {"minLength", shortest}, {"maxLength", longest}}};
+Values texts(int min_length, int max_length) {
+  return {{{"type", "string"}, {"minLength", min_length}, {"maxLength", max_length}}};
 }
 
 Values identifiers() { return texts_like(kIdentifier, "1 to 32 letters, digits, '_' or '-'"); }
@@ -150,10 +150,10 @@ Values texts_like(const std::string& pattern, const std::string& expected) {
   return {{{"type", "string"}, {"pattern", pattern}}, expected};
 }
 
-Values lists(int min_value, int max_value, ordered_json items) {
+Values lists(int min_items, int max_items, ordered_json items) {
   return {{{"type", "array"},
-           {"minItems", min_value},
-           {"maxItems", max_value},
+           {"minItems", min_items},
+           {"maxItems", max_items},
            {"items", std::move(items)}}};
 }
 

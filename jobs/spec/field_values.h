@@ -27,14 +27,14 @@ Values numbers(double low, double high);
 /// Numbers above `low`.
 Values numbers_above(double low, double high);
 Values booleans();
-/// Texts of `shortest` to `longest` characters.
-Values texts(int shortest, int longest);
+/// Texts of `min_length` to `max_length` characters.
+Values texts(int min_length, int max_length);
 /// Letters, digits, '_' and '-'.
 Values identifiers();
 /// Texts that match a regular expression of JSON Schema.
 Values texts_like(const std::string& pattern, const std::string& expected);
-/// Lists of `least` to `most` items.
-Values lists(int min_value, int max_value, nlohmann::ordered_json items);
+/// Lists of `min_items` to `max_items` items.
+Values lists(int min_items, int max_items, nlohmann::ordered_json items);
 /// `count` coordinates in m; `is_random`: the block "randomize" may name each.
 Values coordinates(int count, bool is_random = false);
 /// Objects with the fields of a table: its schema().

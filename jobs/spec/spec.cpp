@@ -18,7 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kLongestName = 120;  // as in the schema
+constexpr int kMaxNameLength = 120;  // as in the schema
 
 // The first `count` characters of UTF-8 text; its continuation bytes are 10xxxxxx.
 std::string first_characters(const std::string& text, int count) {
@@ -33,7 +33,7 @@ std::string first_characters(const std::string& text, int count) {
 JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {
   JobSpec job;
   job_fields().read(value, job, {"", source, problems});
-  if (job.name.empty()) job.name = first_characters(job.scenario, kLongestName);
+  if (job.name.empty()) job.name = first_characters(job.scenario, kMaxNameLength);
   formats::settle_shares(value_at(value, "outputs/splits/train") != nullptr, "/outputs/splits",
                          job.outputs.exports.splits, problems);
   return job;

@@ -17,17 +17,6 @@ namespace {
 constexpr const char* kHashFile = "content_hash";
 constexpr const char* kMotionExtension = ".motion";
 
-// Files that a finished folder shares with the workbench are not written twice.
-void link_or_copy(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::create_hard_link(from, to, error);
-  if (error) fs::copy_file(from, to, error);
-  if (error) {
-    throw EnvironmentError(
-        fmt::format("cannot copy {} to {}: {}", from.string(), to.string(), error.message()));
-  }
-}
-
 }  // namespace
 
 Workbench::Workbench(fs::path output, const std::string& content_hash)
@@ -72,6 +61,7 @@ void Workbench::finish(const std::vector<PersonSpec>& people, PopulationIndex in
   StagingFolder staging(output_);
   StagedFile palettes(staging.path() / kPalettesFile);
   for (const PersonSpec& person : people) {
+    // Not written twice: the finished folder shares them with the workbench.
     link_or_copy(file(person.name, ".glb"), staging.path() / (person.name + ".glb"));
     palettes.write(read_file(file(person.name, kMotionExtension)));
     index.characters.push_back(read_character(file(person.name, kCharacterExtension)));

@@ -22,6 +22,20 @@ TEST(Files, ReadsBackWhatWasWrittenByteForByte) {
   EXPECT_EQ(read_file(folder.path() / "deep" / "er" / "file"), "");
 }
 
+TEST(Files, LinkOrCopyGivesTheSameBytesAndNamesBothFilesOnFailure) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder.path() / "from", "bytes");
+  link_or_copy(folder.path() / "from", folder.path() / "deep" / "to");
+  EXPECT_EQ(read_file(folder.path() / "deep" / "to"), "bytes");
+  try {
+    link_or_copy(folder.path() / "nowhere", folder.path() / "to");
+    FAIL();
+  } catch (const EnvironmentError& error) {
+    EXPECT_NE(std::string(error.what()).find("nowhere"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find(folder.path() / "to"), std::string::npos);
+  }
+}
+
 TEST(Files, WhatCannotBeReadIsTheEnvironmentsFault) {
   const TemporaryFolder folder;
   EXPECT_THROW(read_file(folder.path() / "nowhere"), EnvironmentError);

@@ -74,6 +74,7 @@ TEST_F(Uploads, AreUsedLikeThoseThatComeWithThrong) {
   ASSERT_EQ(plan_of_job->status, 200) << plan_of_job->body;
   EXPECT_EQ(plan_of_job->get_header_value("Content-Type"), "image/svg+xml");
   EXPECT_THAT(plan_of_job->body, HasSubstr("stroke:rgb(54.901961%")) << "the color of drones";
+  EXPECT_NE(plan_of_job->body, plan->body) << "the scenario's plan, without the job's drones";
   expect_problem(get("/v1/jobs/nowhere/plan"), 404);
 }
 
