@@ -10,7 +10,6 @@
 #include <mutex>
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -29,7 +28,7 @@ constexpr std::array kDictionaries = {
 /// Images are searched at most this large; corners are refined in the whole image.
 constexpr int kSearchSide = 1400;
 
-cv::Mat wrapped(const GrayImage& image) {
+cv::Mat wrapped(const images::GrayImage& image) {
   // OpenCV has no view of constant pixels; nothing here writes to it.
   return {image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())};
 }
@@ -195,7 +194,7 @@ std::variant<View, Problem> find_charuco(const cv::Mat& image, const Board& boar
 std::variant<View, Problem> view_in(const std::filesystem::path& file, const Board& board,
                                     ImageSize& size) {
   try {
-    const GrayImage image = read_gray_image(file);
+    const images::GrayImage image = images::read_gray_image(file);
     size = {image.width, image.height};
     return find_board(image, board, file.string());
   } catch (const InputError& error) {
@@ -261,26 +260,6 @@ void check_board(const Board& board, const std::string& source) {
   }
 }
 
-GrayImage read_gray_image(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file);
-  cv::Mat image;
-  try {
-    image = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {
-    image.release();  // said below
-  }
-  if (image.empty()) {
-    throw InputError(Problem{file.string(), "",
-                             fmt::format("{} bytes that are not an image", bytes.size()),
-                             "an image, for example JPEG or PNG"});
-  }
-  GrayImage gray{image.cols, image.rows, {}};
-  for (int y = 0; y < image.rows; ++y) {
-    gray.pixels.insert(gray.pixels.end(), image.ptr(y), image.ptr(y) + image.cols);
-  }
-  return gray;
-}
-
 std::vector<Eigen::Vector3d> board_points(const Board& board) {
   std::vector<Eigen::Vector3d> points;
   const int less = board.kind == Board::Kind::charuco ? 1 : 0;
@@ -295,7 +274,7 @@ std::vector<Eigen::Vector3d> board_points(const Board& board) {
   return points;
 }
 
-std::variant<View, Problem> find_board(const GrayImage& image, const Board& board,
+std::variant<View, Problem> find_board(const images::GrayImage& image, const Board& board,
                                        const std::string& name) {
   try {
     const cv::Mat pixels = wrapped(image);

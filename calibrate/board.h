@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibrate/correspondences.h"
+#include "images/gray_image.h"
 
 namespace throng::calibrate {
 
@@ -35,22 +36,11 @@ Board::Kind board_kind_named(std::string_view name, const std::string& source);
 /// is not there.
 void check_board(const Board& board, const std::string& source);
 
-/// An image, gray.
-struct GrayImage {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> pixels;  ///< rows top-down
-};
-
-/// Reads any format that OpenCV reads. Throws InputError when it is no image, EnvironmentError
-/// when the file cannot be read.
-GrayImage read_gray_image(const std::filesystem::path& file);
-
 /// The board's points in an image, to a fraction of a pixel, or why there are none (also: which
 /// size of chessboard is there instead). The window that a corner is refined in is adapted to the
 /// board's size in the image: at most 11 pixels to each side, and 0.45 of the distance to the
 /// next corner.
-std::variant<View, Problem> find_board(const GrayImage& image, const Board& board,
+std::variant<View, Problem> find_board(const images::GrayImage& image, const Board& board,
                                        const std::string& name);
 
 /// The board's points in the plane z = 0, in the order in which they are found.

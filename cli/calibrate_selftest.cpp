@@ -21,6 +21,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "drawing/drawing.h"
+#include "images/gray_image.h"
 #include "render/lens/lens.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
@@ -74,8 +75,8 @@ class WorkFolder {
   fs::path path_;
 };
 
-calibrate::GrayImage gray_of(const render::Frame& frame) {
-  calibrate::GrayImage image{frame.width(), frame.camera.intrinsics.height, {}};
+images::GrayImage gray_of(const render::Frame& frame) {
+  images::GrayImage image{frame.width(), frame.camera.intrinsics.height, {}};
   constexpr double kRed = 0.299;  // as cameras' JPEG files weigh them
   constexpr double kGreen = 0.587;
   constexpr double kBlue = 0.114;
@@ -140,7 +141,7 @@ Photographs photograph(const SelftestArguments& arguments, const calibrate::Came
     const camera::Camera camera{truth.intrinsics(), poses[i]};
     const render::Frame frame = lens.draw({}, camera);
     const std::string name = fmt::format("view{:02}", i);
-    const calibrate::GrayImage gray = gray_of(frame);
+    const images::GrayImage gray = gray_of(frame);
     if (!arguments.images.empty()) {
       write_file_atomically(fs::path(arguments.images) / (name + ".png"),
                             annotate::png_bytes({gray.width, gray.height, 1}, gray.pixels));

@@ -2,6 +2,7 @@
 # any other module, or of a private header of one, stops the configuration (cmake/ModuleRules.cmake). A module may lie in
 # a folder of another ("jobs/spec"): its library is throng_jobs_spec. Other folders in a module are part of it.
 include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/Precompile.cmake")
 
 # With sanitizers most modules are compiled without optimization, which takes half the time; these would run too slowly.
 set(THRONG_OPTIMIZED_MODULES base crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
@@ -29,18 +30,24 @@ function(throng_module name)
   target_include_directories(throng_${target} ${links}
     "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:include/throng>")
   target_link_libraries(throng_${target} ${links} ${module_targets} ${ARG_LIBRARIES})
-  if(THRONG_SANITIZE AND ARG_SOURCES AND name IN_LIST THRONG_OPTIMIZED_MODULES)
-    target_compile_options(throng_${target} PRIVATE -O1)
-  endif()
-  if(THRONG_FUZZ AND ARG_SOURCES AND name IN_LIST THRONG_FUZZED_MODULES)
-    target_compile_options(throng_${target} PRIVATE -fsanitize=fuzzer-no-link)
+  if(ARG_SOURCES)
+    set(options "")
+    if(THRONG_SANITIZE AND name IN_LIST THRONG_OPTIMIZED_MODULES)
+      list(APPEND options -O1)
+    endif()
+    if(THRONG_FUZZ AND name IN_LIST THRONG_FUZZED_MODULES)
+      list(APPEND options -fsanitize=fuzzer-no-link)
+    endif()
+    target_compile_options(throng_${target} PRIVATE ${options})
+    throng_precompile(throng_${target} THRONG_PRECOMPILED_HEADERS ${options})
   endif()
 endfunction()
 
 # throng_kernels(file...): files with loops for several instruction sets (base/instruction_set.h). Square roots do not
 # report errors, so that they can be vectors; the vectors stay inside functions, so their calling convention is nobody's.
 function(throng_kernels)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-Wno-psabi" SKIP_UNITY_BUILD_INCLUSION ON)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-Wno-psabi"
+    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # throng_embed(TARGET SYMBOL FILE): makes the file's text available as `extern const std::string_view throng::embedded::SYMBOL`.
@@ -60,7 +67,7 @@ function(throng_embed target symbol file)
   file(CONFIGURE OUTPUT "${output}" CONTENT "#include <string_view>\nnamespace throng::embedded {\nextern const std::string_view ${symbol};  // NOLINT\nconst std::string_view ${symbol} =  // NOLINT\n@literal@;\n}  // namespace throng::embedded\n" @ONLY)
   target_sources(${target} PRIVATE "${output}")
   # Apart in joined builds: clang-tidy has nothing to say of it.
-  set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # throng_test(NAME SOURCES file... LIBRARIES target... SHARDS n): one GoogleTest program per module, test_NAME. Its tests run
@@ -72,7 +79,12 @@ function(throng_test name)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_compile_definitions(test_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # The tests' own code is compiled often and runs briefly.
-  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  set(options "")
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    set(options -O1)
+  endif()
+  target_compile_options(test_${name} PRIVATE ${options})
+  throng_precompile(test_${name} THRONG_PRECOMPILED_TEST_HEADERS ${options})
   add_dependencies(throng_tests test_${name})
   if(NOT ARG_SHARDS)
     set(ARG_SHARDS 1)

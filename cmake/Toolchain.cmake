@@ -6,10 +6,11 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 option(THRONG_BENCHMARKS "Build the programs in bench/" OFF)
 option(THRONG_FUZZ "Build the programs in tests/fuzz/ (clang only, preset asan)" OFF)
+option(THRONG_PRECOMPILE "Precompile the headers of libraries; OFF: use ccache if it is there" ON)
 set(THRONG_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address,undefined or thread")
 
 find_program(CCACHE_PROGRAM ccache)
-if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+if(CCACHE_PROGRAM AND NOT THRONG_PRECOMPILE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
 endif()
 
@@ -36,6 +37,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   target_compile_options(throng_flags INTERFACE -w)
 elseif(CMAKE_UNITY_BUILD)
   # Several files compiled as one: g++ then takes a file's own namespace for a header's, and its flow warnings see
-  # strings overlap themselves and function objects without value.
-  target_compile_options(throng_flags INTERFACE -Wno-subobject-linkage -Wno-restrict -Wno-maybe-uninitialized)
+  # strings overlap themselves or without end, and function objects without value.
+  target_compile_options(throng_flags INTERFACE -Wno-subobject-linkage -Wno-restrict -Wno-maybe-uninitialized
+    -Wno-stringop-overflow)
 endif()

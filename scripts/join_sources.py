@@ -5,8 +5,10 @@ usage: scripts/join_sources.py COUNT BUILD FOLDER
 
 Writes FOLDER/joined_N.cpp, which include the sources that git lists, and FOLDER/compile_commands.json with the flags of
 the build folder BUILD. Files of one module whose unnamed namespaces define the same name, or that use a constant which
-another one defines, go to different files; files for another version of C++ stay alone. There may be more than COUNT
-files when the names ask for it. Prints the paths.
+another one defines, go to different files; files for another version of C++ stay alone. Sources that include CLI11 have
+files of their own: performance-unnecessary-value-param searches a whole file for each of that header's 120 parameters
+that it would report, which takes two minutes. There may be more than COUNT files when the names ask for it. Prints the
+paths.
 """
 import json
 import pathlib
@@ -30,7 +32,9 @@ class Source:
     def __init__(self, path):
         self.path = path
         self.module = path.split("/")[0]
-        text = COMMENT.sub(" ", (ROOT / path).read_text())
+        text = (ROOT / path).read_text()
+        self.uses_cli11 = "#include <CLI/" in text
+        text = COMMENT.sub(" ", text)
         self.lines = text.count("\n")
         hidden = self.unnamed(text)
         self.defines = set(TYPE.findall(hidden)) | set(CONSTANT.findall(hidden)) | set(FUNCTION.findall(hidden))
@@ -96,7 +100,9 @@ def main():
         old.unlink()
     entries = list(alone)
     flags = macros_and_folders(build)
-    for number, unit in enumerate(joined(sources, count)):
+    with_cli11 = [source for source in sources if source.uses_cli11]
+    without = [source for source in sources if not source.uses_cli11]
+    for number, unit in enumerate(joined(with_cli11, 1) + joined(without, count)):
         file = folder / f"joined_{number}.cpp"
         file.write_text("".join(included(ROOT / source.path) for source in unit))
         entries.append({"directory": str(folder), "file": str(file),

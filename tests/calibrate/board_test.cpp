@@ -21,14 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-GrayImage gray_of(const cv::Mat& image) {
+images::GrayImage gray_of(const cv::Mat& image) {
   return {image.cols, image.rows, {image.datastart, image.dataend}};
 }
 
 /// A flat image seen askew: 900 x 700 pixels with noise of the lens's blur.
 struct Askew {
   cv::Mat homography;
-  GrayImage image;
+  images::GrayImage image;
 };
 
 Askew askew(const cv::Mat& flat, double shift = 0) {
@@ -134,7 +134,7 @@ TEST(Board, ImagesOfAnotherSizeThanMostAreLeftOut) {
 }
 
 TEST(Board, AnEmptyImageHasNone) {
-  const GrayImage empty{640, 480, std::vector<std::uint8_t>(640 * 480, 128)};
+  const images::GrayImage empty{640, 480, std::vector<std::uint8_t>(640 * 480, 128)};
   for (const auto kind : {Board::Kind::chessboard, Board::Kind::charuco, Board::Kind::circles}) {
     Board board;
     board.kind = kind;
