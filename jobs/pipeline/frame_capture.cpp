@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/angle.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "geometry/angle.h"
 #include "jobs/pipeline/flight_record.h"
 #include "jobs/pipeline/frame_draw.h"
 #include "jobs/pipeline/gimbal.h"

@@ -1,10 +1,9 @@
 #include "jobs/pipeline/gimbal.h"
 
 #include <cmath>
-#include <numbers>
 
-#include "base/angle.h"
 #include "base/error.h"
+#include "geometry/angle.h"
 
 namespace throng::jobs {
 

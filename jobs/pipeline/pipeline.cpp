@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "annotate/png.h"
 #include "base/error.h"
 #include "base/redact.h"
 #include "camera/files.h"
+#include "geometry/angle.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/recording.h"
 #include "jobs/pipeline/run_writers.h"
@@ -33,11 +33,9 @@ bool wants(const JobSpec& job, annotate::GroundTruth kind) {
 
 namespace {
 
-constexpr double kCameraDegree = std::numbers::pi / 180;
-
 double hfov_rad_of(const CameraSpec& camera) {
   if (camera.fx_px) return 2 * std::atan(0.5 * camera.width / *camera.fx_px);
-  return camera.hfov_deg * kCameraDegree;
+  return camera.hfov_deg * kDegree;
 }
 
 }  // namespace
@@ -56,8 +54,7 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     sim::DroneMission& mission = spec.drones.emplace_back(job.drones[i].mission);
     const CameraSpec camera = camera_of_run(job.drones[i].camera, spec.seed, camera_pointer(i));
-    mission.camera = {hfov_rad_of(camera), camera.pitch_deg * kCameraDegree,
-                      camera.yaw_deg * kCameraDegree};
+    mission.camera = {hfov_rad_of(camera), camera.pitch_deg * kDegree, camera.yaw_deg * kDegree};
   }
   return spec;
 }

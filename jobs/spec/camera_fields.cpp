@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::jobs {
 

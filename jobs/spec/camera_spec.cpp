@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "base/angle.h"
 #include "base/json_text.h"
+#include "geometry/angle.h"
 #include "jobs/spec/camera_fields.h"
 
 namespace throng::embedded {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "crowd/types.h"
+#include "geometry/angle.h"
 #include "sim/spec/airframe.h"
 #include "sim/spec/wind_spec.h"
 #include "world/scenario.h"
@@ -28,9 +29,9 @@ struct PilotSample {
 enum class PerceptionKind { truth, camera };
 struct PerceptionSpec {
   PerceptionKind kind = PerceptionKind::truth;
-  double fov_rad = 90 * EIGEN_PI / 180;  ///< of the camera that counts, which looks straight down
-  double delay_s = 1;                    ///< from the image to the estimate
-  double count_noise = 0.1;              ///< share of the people missed, and of those seen twice
+  double fov_rad = 90 * kDegree;  ///< of the camera that counts, which looks straight down
+  double delay_s = 1;             ///< from the image to the estimate
+  double count_noise = 0.1;       ///< share of the people missed, and of those seen twice
 };
 
 /// Parameters that only some policies have; which ones is in the table of policy.cpp.
@@ -50,9 +51,9 @@ struct GuidanceSpec {
 
 /// The drone's camera as far as policies need it.
 struct CameraGeometry {
-  double hfov_rad = 78 * EIGEN_PI / 180;
-  double pitch_rad = -50 * EIGEN_PI / 180;  ///< above the horizon
-  double yaw_rad = 0;                       ///< from the drone's heading
+  double hfov_rad = 78 * kDegree;
+  double pitch_rad = -50 * kDegree;  ///< above the horizon
+  double yaw_rad = 0;                ///< from the drone's heading
 };
 
 /// Mission of one drone.

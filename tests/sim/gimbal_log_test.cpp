@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::sim {
 namespace {

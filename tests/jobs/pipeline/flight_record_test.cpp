@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "jobs/pipeline/gimbal.h"
 
 namespace throng::jobs {

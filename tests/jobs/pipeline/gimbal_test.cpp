@@ -1,9 +1,7 @@
 #include "jobs/pipeline/gimbal.h"
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 #include <gtest/gtest.h>
-
-#include <numbers>
 
 namespace throng::jobs {
 namespace {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "jobs/spec/calibrations.h"
 #include "jobs/spec/spec.h"
 
