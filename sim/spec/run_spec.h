@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "camera/spec/camera_spec.h"
 #include "crowd/types.h"
 #include "geometry/angle.h"
 #include "sim/spec/airframe.h"
@@ -49,13 +50,6 @@ struct GuidanceSpec {
   std::optional<bool> beacon;
 };
 
-/// The drone's camera as far as policies need it.
-struct CameraGeometry {
-  double hfov_rad = 78 * kDegree;
-  double pitch_rad = -50 * kDegree;  ///< above the horizon
-  double yaw_rad = 0;                ///< from the drone's heading
-};
-
 /// Mission of one drone.
 struct DroneMission {
   std::string id;                            ///< as in the job; unique
@@ -68,7 +62,7 @@ struct DroneMission {
   std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
   std::optional<double> battery_charge;      ///< share of a full battery; without it, it lasts
   GuidanceSpec guidance;
-  CameraGeometry camera;
+  camera::CameraSpec camera;
 };
 
 /// How the crowd engine computes.

@@ -1,11 +1,9 @@
 // How exactly a camera's gimbal follows its commands (sim/sensors/gimbal.h).
 #pragma once
 
-#include <Eigen/Core>
-
 #include "geometry/angle.h"
 
-namespace throng::sim {
+namespace throng::camera {
 
 struct GimbalSpec {
   bool ideal = true;          ///< exactly as commanded, at once
@@ -16,4 +14,4 @@ struct GimbalSpec {
   double reading_rad = 0.02 * kDegree;  ///< noise of its encoders
 };
 
-}  // namespace throng::sim
+}  // namespace throng::camera
