@@ -31,7 +31,7 @@ struct LensSpec {
   std::optional<Distortion> distortion() const;
 };
 
-/// What a frame's camera differs by from its run's: a frame's own offsets, or their standard
+/// Differences of a frame's camera from its run's: the frame's own offsets, or their standard
 /// deviations.
 struct FrameOffsets {
   double yaw_deg = 0;
