@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/point_grid.h"
-#include "metrics/near_people.h"
 #include "metrics/pressure.h"
 #include "metrics/voronoi.h"
 #include "study/page.h"

@@ -14,6 +14,7 @@
 #include "jobs/pipeline/run_writers.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/environment.h"
+#include "jobs/spec/spec.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
 #include "render/lens/lens_map.h"

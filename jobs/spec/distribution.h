@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/field_values.h"
+#include "base/field_table.h"
 
 namespace throng::jobs {
 

@@ -12,10 +12,10 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "base/field_check.h"
+#include "base/field_table.h"
 #include "base/json_describe.h"
 #include "base/suggest.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/job_fields.h"
 
 namespace throng::jobs {
 
@@ -71,6 +71,16 @@ void add_field_problems(const json& object, const json& schema, const json::json
 }
 
 }  // namespace
+
+const json& job_schema() {
+  static const json schema = ordered_job_schema();
+  return schema;
+}
+
+std::string_view job_schema_text() {
+  static const std::string text = schema_text(ordered_job_schema());
+  return text;
+}
 
 std::vector<Problem> schema_problems(const json& job, const std::string& source) {
   static const CompiledSchema compiled;

@@ -6,8 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "camera/camera.h"
-#include "camera/spec/exposure.h"
+#include "camera/spec/camera_spec.h"
 #include "render/frame.h"
 #include "render/lens/lens.h"
 

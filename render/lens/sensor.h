@@ -4,8 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "camera/camera.h"
-#include "camera/spec/sensor.h"
+#include "camera/spec/camera_spec.h"
 #include "render/frame.h"
 
 namespace throng::render {

@@ -9,6 +9,7 @@
 #include "geometry/polygon.h"
 #include "sim/planning/guidance_check.h"
 #include "sim/planning/separation.h"
+#include "sim/policies/policy_table.h"
 
 namespace throng::sim {
 

@@ -35,7 +35,7 @@ struct PerceptionSpec {
   double count_noise = 0.1;       ///< share of the people missed, and of those seen twice
 };
 
-/// Parameters that only some policies have; which ones is in the table of policy.cpp.
+/// Parameters that only some policies have; which ones is in the table of policy_table.cpp.
 struct GuidanceSpec {
   std::optional<Eigen::Vector2d> center;  ///< orbit: what it circles, m
   std::optional<double> radius_m;         ///< orbit
@@ -55,7 +55,7 @@ struct DroneMission {
   std::string id;                            ///< as in the job; unique
   std::string airframe = "f450";             ///< a name in sim/spec/airframes.json
   std::optional<Airframe> own_airframe;      ///< flies instead of the named one
-  std::string policy = "hover";              ///< a name in the table of policy.cpp
+  std::string policy = "hover";              ///< a name in the table of policy_table.cpp
   std::optional<Eigen::Vector3d> start;      ///< m; default: the scenario's start for this id
   std::vector<Eigen::Vector3d> waypoints;    ///< m, in order; the drone hovers at the last one
   double speed_mps = 3;                      ///< along the path
