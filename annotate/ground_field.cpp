@@ -7,7 +7,7 @@
 
 #include "annotate/density.h"
 #include "base/error.h"
-#include "metrics/point_grid.h"
+#include "geometry/point_grid.h"
 
 namespace throng::annotate {
 
@@ -172,7 +172,7 @@ GroundField ground_field(const world::Trace& trace, const GroundGrid& grid, doub
   std::vector<double> y(grid.cells());
   FieldPainter painter(grid);
   constexpr double kNeighborGridM = 0.8;
-  const metrics::PointGrid neighbors(places, kNeighborGridM);
+  const geometry::PointGrid neighbors(places, kNeighborGridM);
   for (std::size_t i = 0; i < places.size(); ++i) {
     painter.add(places[i], velocities[i], weight, x, y);
     const metrics::VoronoiCell cell = painter.cutter().cell(neighbors, i);

@@ -8,8 +8,8 @@
 #include <map>
 #include <numbers>
 
-#include "base/angle.h"
 #include "base/random.h"
+#include "geometry/angle.h"
 #include "skinning/animate/motion.h"
 
 namespace throng::annotate {

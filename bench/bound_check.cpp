@@ -16,7 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "metrics/escape_times.h"
 #include "metrics/run_bound.h"
 #include "sim/run.h"
 

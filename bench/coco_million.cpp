@@ -11,7 +11,6 @@
 
 #include "annotate/coco.h"
 #include "annotate/keypoints.h"
-#include "annotate/person_facts.h"
 #include "base/files.h"
 #include "formats/exporter.h"
 #include "tests/annotate/synthetic_frame.h"

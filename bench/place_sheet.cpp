@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "annotate/preview.h"
-#include "base/angle.h"
 #include "base/files.h"
+#include "geometry/angle.h"
 #include "render/animator.h"
 #include "render/renderer.h"
 #include "skinning/population.h"

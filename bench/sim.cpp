@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "sim/planning/plan.h"
 #include "sim/run.h"
 #include "sim/vehicle/flight.h"
 #include "world/scenario.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "calibrate/spec/image_size.h"
+#include "calibrate/spec/camera_file.h"
 
 namespace throng::calibrate {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/random.h"
 #include "calibrate/pnp.h"
+#include "geometry/angle.h"
 
 namespace throng::calibrate {
 
@@ -101,7 +101,7 @@ std::optional<Vector3d> intersect(const std::vector<Ray>& rays, const camera::In
     right += across * ray.pose.center();
     directions.push_back(direction);
   }
-  constexpr double kMinWidth = std::numbers::pi / 180;
+  constexpr double kMinWidth = kDegree;
   double widest = 0;
   for (const Vector3d& a : directions) {
     for (const Vector3d& b : directions) widest = std::max(widest, a.cross(b).norm());

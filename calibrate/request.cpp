@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "base/field_table.h"
 #include "base/files.h"
+#include "base/json_describe.h"
 #include "base/json_text.h"
 #include "calibrate/pose.h"
 #include "calibrate/residual_plot.h"
@@ -22,84 +24,181 @@ namespace {
 
 constexpr std::array kRequestKinds = {"intrinsics", "pose", "bundle"};
 
-[[noreturn]] void refuse(const std::string& pointer, const json& found, std::string expected) {
-  throw InputError(Problem{"", pointer, found.dump(), std::move(expected)});
-}
+using fields::at;
+using fields::FieldPlace;
+using fields::FieldTable;
+using fields::raw;
 
-/// The member `name` of the object at `pointer`; `otherwise` when it is not there.
-template <typename T>
-T member(const json& object, const std::string& pointer, const char* name, T otherwise) {
-  const auto found = object.find(name);
-  if (found == object.end()) return otherwise;
-  try {
-    // A library that takes 1 for true and 0.5 for 0 has to be asked more strictly.
-    const bool fits = std::is_same_v<T, bool>       ? found->is_boolean()
-                      : std::is_same_v<T, int>      ? found->is_number_integer()
-                      : std::is_floating_point_v<T> ? found->is_number()
-                                                    : found->is_string();
-    if (fits) return found->get<T>();
-  } catch (const json::exception&) {
-    // said below
-  }
-  refuse(pointer + "/" + name, *found,
-         fmt::format("the input of {}: see docs/calibration.md", name));
-}
+/// A request, and where its files lie.
+struct ReadRequest {
+  Request request;
+  fs::path folder;
+};
 
 /// A file of the request, which must be one of those that came with it.
-fs::path file_of(const json& value, const std::string& pointer, const fs::path& folder) {
+fs::path file_of(const json& value, const fs::path& folder, const FieldPlace& place) {
   if (value.is_string()) {
     const fs::path name = value.get<std::string>();
     const bool plain = name == name.filename() && !name.empty() && name != "." && name != "..";
     if (plain && fs::is_regular_file(folder / name)) return folder / name;
   }
-  refuse(pointer, value, "the name of a file that was sent along");
+  place.problems.push_back(
+      {place.source, place.pointer, describe(value), "the name of a file that was sent along"});
+  return {};
 }
 
-fs::path file_member(const json& value, const char* name, const fs::path& folder) {
-  const auto found = value.find(name);
-  return found == value.end() ? fs::path() : file_of(*found, fmt::format("/{}", name), folder);
+/// Runs a reader that throws; its problems are the field's.
+template <typename Read>
+void collect(const FieldPlace& place, const Read& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    place.problems.insert(place.problems.end(), error.problems().begin(), error.problems().end());
+  }
 }
 
-Board board_of(const json& value) {
-  Board board;
-  const std::string at = "/board";
-  if (!value.is_object()) refuse(at, value, "an object: kind, columns, rows, square");
-  board.kind = board_kind_named(member<std::string>(value, at, "kind", "chessboard"), at);
-  board.columns = member(value, at, "columns", board.columns);
-  board.rows = member(value, at, "rows", board.rows);
-  board.square = member(value, at, "square", board.square);
-  board.marker = member(value, at, "marker", board.marker);
-  board.dictionary = member(value, at, "dictionary", board.dictionary);
-  check_board(board, at);
-  return board;
+/// A field that is read only.
+template <typename Object>
+fields::Field<Object>& add_read(FieldTable<Object>& table, const char* path, fields::Values values,
+                                typename FieldTable<Object>::Set set) {
+  return table.add(
+      path, "", "", std::move(values), [](const Object&) { return json(); }, std::move(set), "");
 }
 
-Wishes wishes_of(const json& value) {
-  Wishes wishes;
-  wishes.skew = member(value, "", "skew", false);
-  const auto object = [&](const char* name) {
-    const json found = value.value(name, json::object());
-    if (!found.is_object()) refuse(fmt::format("/{}", name), found, "an object by parameter");
-    return found;
+fields::Values text() { return raw({{"type", "string"}}); }
+fields::Values number() { return raw({{"type", "number"}}); }
+fields::Values number_above_0() { return raw({{"type", "number"}, {"exclusiveMinimum", 0}}); }
+fields::Values number_from_0() { return raw({{"type", "number"}, {"minimum", 0}}); }
+
+void add_file(FieldTable<ReadRequest>& table, const char* path, fs::path Request::*member) {
+  add_read(table, path, text(),
+           [member](ReadRequest& read, const json& value, const FieldPlace& place) {
+             read.request.*member = file_of(value, read.folder, place);
+           });
+}
+
+FieldTable<Board> make_board_fields() {
+  FieldTable<Board> table;
+  add_read(table, "kind", fields::one_of(std::array{"chessboard", "charuco", "circles"}),
+           [](Board& board, const json& value, const FieldPlace& place) {
+             board.kind = board_kind_named(value.get<std::string>(), place.pointer);
+           });
+  table.add("columns", "", "", fields::integers(3, 100), at(&Board::columns), "");
+  table.add("rows", "", "", fields::integers(3, 100), at(&Board::rows), "");
+  table.add("square", "", "", number_above_0(), at(&Board::square), "");
+  table.add("marker", "", "", number_from_0(), at(&Board::marker), "");
+  table.add("dictionary", "", "", text(), at(&Board::dictionary), "");
+  return table;
+}
+
+void set_board(ReadRequest& read, const json& value, const FieldPlace& place) {
+  static const FieldTable<Board> table = make_board_fields();
+  const std::size_t before = place.problems.size();
+  table.read_checked(value, read.request.board, place);
+  if (place.problems.size() > before) return;
+  collect(place, [&] { check_board(read.request.board, place.pointer); });
+}
+
+void set_images(ReadRequest& read, const json& value, const FieldPlace& place) {
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    read.request.images.push_back(file_of(value[i], read.folder, place.below(std::to_string(i))));
+  }
+}
+
+Wishes& wishes_in(ReadRequest& read) { return read.request.options.wishes; }
+
+void set_fixed(ReadRequest& read, const json& value, const FieldPlace& place) {
+  for (const auto& [name, fixed] : value.items()) {
+    if (fixed.is_null() || fixed.is_number()) {
+      wishes_in(read).fixed[name] =
+          fixed.is_null() ? std::nullopt : std::optional(fixed.get<double>());
+    } else {
+      place.problems.push_back(
+          {place.source, place.below(name).pointer, describe(fixed), "a number or null"});
+    }
+  }
+}
+
+void set_ties(ReadRequest& read, const json& value, const FieldPlace& place) {
+  static const FieldTable<Tie> table = [] {
+    FieldTable<Tie> fields;
+    fields.add("to", "", "", text(), at(&Tie::to), "").required();
+    fields.add("ratio", "", "", number(), at(&Tie::ratio), "");
+    return fields;
+  }();
+  for (const auto& [name, tie] : value.items()) {
+    table.read_checked(tie, wishes_in(read).tied[name], place.below(name));
+  }
+}
+
+void set_priors(ReadRequest& read, const json& value, const FieldPlace& place) {
+  static const FieldTable<Prior> table = [] {
+    FieldTable<Prior> fields;
+    fields.add("mean", "", "", number(), at(&Prior::mean), "").required();
+    fields.add("sd", "", "", number_above_0(), at(&Prior::sd), "").required();
+    return fields;
+  }();
+  for (const auto& [name, prior] : value.items()) {
+    table.read_checked(prior, wishes_in(read).priors[name], place.below(name));
+  }
+}
+
+void set_lens(ReadRequest& read, const json& value, const FieldPlace& place) {
+  IntrinsicsOptions& options = read.request.options;
+  options.choose_lens = value == "auto";
+  if (options.choose_lens) return;
+  options.lens = lens_named(value.get<std::string>(), place.pointer);
+}
+
+void add_inputs(FieldTable<ReadRequest>& table) {
+  add_read(table, "name", text(), [](ReadRequest&, const json&, const FieldPlace&) {});
+  table.add("kind", "", "", fields::one_of(kRequestKinds),
+            at(&ReadRequest::request, &Request::kind), "");
+  add_read(table, "images", raw({{"type", "array"}}, "a list of files"), set_images);
+  add_read(table, "board", raw({{"type", "object"}}, "an object: kind, columns, rows, square"),
+           set_board);
+  add_file(table, "points", &Request::points);
+  add_file(table, "observations", &Request::observations);
+  add_file(table, "gcp", &Request::control_points);
+  add_file(table, "camera", &Request::camera);
+  add_read(table, "size", text(),
+           [](ReadRequest& read, const json& value, const FieldPlace& place) {
+             collect(place, [&] {
+               read.request.size = image_size_of(value.get<std::string>(), place.pointer);
+             });
+           });
+}
+
+void add_options(FieldTable<ReadRequest>& table) {
+  const auto by_parameter = [] { return raw({{"type", "object"}}, "an object by parameter"); };
+  const auto fit = [](auto member) {
+    return at(&ReadRequest::request, &Request::options, &IntrinsicsOptions::fit, member);
   };
-  const json fixes = object("fix");
-  for (const auto& [name, fixed] : fixes.items()) {
-    if (!fixed.is_null() && !fixed.is_number()) refuse("/fix/" + name, fixed, "a number or null");
-    wishes.fixed[name] = fixed.is_null() ? std::nullopt : std::optional(fixed.get<double>());
-  }
-  const json ties = object("tie");
-  for (const auto& [name, tie] : ties.items()) {
-    const std::string at = "/tie/" + name;
-    if (!tie.is_object()) refuse(at, tie, "an object: to, ratio");
-    wishes.tied[name] = {member<std::string>(tie, at, "to", ""), member(tie, at, "ratio", 1.0)};
-  }
-  const json priors = object("prior");
-  for (const auto& [name, prior] : priors.items()) {
-    const std::string at = "/prior/" + name;
-    if (!prior.is_object()) refuse(at, prior, "an object: mean, sd");
-    wishes.priors[name] = {member(prior, at, "mean", 0.0), member(prior, at, "sd", 0.0)};
-  }
-  return wishes;
+  std::vector<std::string> lenses{"auto"};
+  for (const Lens lens : kLenses) lenses.emplace_back(name_of(lens));
+  add_read(table, "lens", fields::one_of(lenses), set_lens);
+  table.add("fix_lens", "", "", fields::booleans(), at(&ReadRequest::request, &Request::fix_lens),
+            "");
+  table.add("skew", "", "", fields::booleans(),
+            at(&ReadRequest::request, &Request::options, &IntrinsicsOptions::wishes, &Wishes::skew),
+            "");
+  add_read(table, "fix", by_parameter(), set_fixed);
+  add_read(table, "tie", by_parameter(), set_ties);
+  add_read(table, "prior", by_parameter(), set_priors);
+  table.add("reject", "", "", fields::booleans(), fit(&FitOptions::reject), "");
+  table.add("outlier_px", "", "px", number_from_0(), fit(&FitOptions::outlier_px), "");
+  table.add("loss_px", "", "px", number_from_0(), fit(&FitOptions::loss_px), "");
+  table.add("sigma_px", "", "px", number_above_0(), fit(&FitOptions::sigma_px), "");
+}
+
+const FieldTable<ReadRequest>& request_fields() {
+  static const FieldTable<ReadRequest> table = [] {
+    FieldTable<ReadRequest> fields;
+    add_inputs(fields);
+    add_options(fields);
+    return fields;
+  }();
+  return table;
 }
 
 /// Required fields of the kind that are missing.
@@ -142,48 +241,19 @@ Calibration carry_out_intrinsics(const Request& request, const OnProgress& on_pr
 }  // namespace
 
 Request request_from_json(const json& value, const fs::path& folder) {
-  if (!value.is_object()) refuse("", value, "an object");
-  static const json kFields = parse_own_json(request_schema(), "the schema").at("properties");
-  for (const auto& entry : value.items()) {
-    if (!kFields.contains(entry.key())) {
-      refuse("/" + entry.key(), entry.value(), "no such field: see docs/calibration.md");
-    }
-  }
-  member<std::string>(value, "", "name", "");
-  Request request;
-  request.kind = member<std::string>(value, "", "kind", "intrinsics");
-  if (std::find(kRequestKinds.begin(), kRequestKinds.end(), request.kind) == kRequestKinds.end()) {
-    refuse("/kind", request.kind, "intrinsics, pose or bundle");
-  }
-  const json images = value.value("images", json::array());
-  if (!images.is_array()) refuse("/images", images, "a list of files");
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    request.images.push_back(file_of(images[i], fmt::format("/images/{}", i), folder));
-  }
-  if (value.contains("board")) request.board = board_of(value["board"]);
-  request.points = file_member(value, "points", folder);
-  request.observations = file_member(value, "observations", folder);
-  request.control_points = file_member(value, "gcp", folder);
-  request.camera = file_member(value, "camera", folder);
-  if (value.contains("size")) {
-    request.size = image_size_of(member<std::string>(value, "", "size", ""), "/size");
-  }
-  request.fix_lens = member(value, "", "fix_lens", false);
-  IntrinsicsOptions& options = request.options;
+  ReadRequest read;
+  read.folder = folder;
+  IntrinsicsOptions& options = read.request.options;
   options.source = "request";
-  const std::string lens = member<std::string>(value, "", "lens", "brown5");
-  options.choose_lens = lens == "auto";
-  if (!options.choose_lens) options.lens = lens_named(lens, "/lens");
-  options.wishes = wishes_of(value);
-  options.fit.reject = member(value, "", "reject", true);
-  options.fit.loss_px = member(value, "", "loss_px", 0.0);
-  options.fit.outlier_px = member(value, "", "outlier_px", options.fit.outlier_px);
-  if (value.contains("sigma_px")) options.fit.sigma_px = member(value, "", "sigma_px", 0.0);
-  if (options.fit.sigma_px && !(*options.fit.sigma_px > 0)) {
-    refuse("/sigma_px", value["sigma_px"], "a number above 0");
-  }
-  require_inputs(request, "request");
-  return request;
+  options.lens = Lens::brown5;
+  options.fit.reject = true;
+  options.fit.loss_px = 0;
+  const std::string no_source;
+  std::vector<Problem> problems;
+  request_fields().read_checked(value, read, {"", no_source, problems});
+  if (!problems.empty()) throw InputError(std::move(problems));
+  require_inputs(read.request, "request");
+  return std::move(read.request);
 }
 
 Calibration carry_out(const Request& request, const OnProgress& on_progress) {

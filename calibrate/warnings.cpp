@@ -7,17 +7,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "calibrate/initialize.h"
 #include "calibrate/repeated_views.h"
+#include "geometry/angle.h"
 
 namespace throng::calibrate {
 
 namespace {
 
 constexpr std::size_t kEnoughViews = 10;
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 void warn(Calibration& calibration, std::string text) {
   calibration.warnings.push_back(std::move(text));
@@ -56,12 +55,12 @@ void warn_of_views(const Rules& rules, Calibration& calibration) {
   constexpr double kFlatDeg = 15;
   const bool focal_free = rules.free[kFx] || rules.free[kFy];
   const std::optional<double> tilts = spread_of_tilts(calibration);
-  if (focal_free && tilts && *tilts * kDegrees < kFlatDeg) {
+  if (focal_free && tilts && *tilts * (1 / kDegree) < kFlatDeg) {
     warn(calibration,
          fmt::format(
              "the boards' planes differ by at most {:.1f} degrees: focal lengths and distances "
              "cannot be separated; tilt the board by 30 to 45 degrees in several directions",
-             *tilts * kDegrees));
+             *tilts * (1 / kDegree)));
   }
   constexpr double kThin = 0.4;
   const double coverage = coverage_of(calibration);

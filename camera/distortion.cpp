@@ -3,7 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "geometry/angle.h"
 
 namespace throng::camera {
 
@@ -12,7 +13,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kMaxAngle = 80 * std::numbers::pi / 180;
+constexpr double kMaxAngle = 80 * kDegree;
 constexpr double kNearAxis = 1e-9;
 constexpr double kConverged = 1e-13;
 

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <vector>
 
 namespace throng::camera {
 
@@ -31,20 +29,6 @@ std::vector<double> matrix_of(const Intrinsics& k) {
   return {k.fx_px, k.skew_px, k.cx_px, 0, k.fy_px, k.cy_px, 0, 0, 1};
 }
 
-struct Lens {
-  const char* model;
-  std::vector<double> coefficients;
-};
-
-Lens lens_of(const Intrinsics& k) {
-  if (!k.distortion) return {"plumb_bob", std::vector<double>(5, 0)};
-  const auto& c = k.distortion->coefficients();
-  if (k.distortion->model() == Model::fisheye) return {"equidistant", {c.begin(), c.begin() + 4}};
-  const bool rational = std::any_of(c.begin() + 5, c.end(), [](double v) { return v != 0; });
-  if (rational) return {"rational_polynomial", {c.begin(), c.end()}};
-  return {"plumb_bob", {c.begin(), c.begin() + 5}};
-}
-
 std::string opencv_matrix(const char* name, int rows, int cols, const std::vector<double>& data) {
   return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {} ]\n",
                      name, rows, cols, list_of(data));
@@ -57,8 +41,17 @@ std::string ros_matrix(const char* name, int rows, int cols, const std::vector<d
 
 }  // namespace
 
+RosLens ros_lens(const Intrinsics& k) {
+  if (!k.distortion) return {"plumb_bob", std::vector<double>(5, 0)};
+  const auto& c = k.distortion->coefficients();
+  if (k.distortion->model() == Model::fisheye) return {"equidistant", {c.begin(), c.begin() + 4}};
+  const bool rational = std::any_of(c.begin() + 5, c.end(), [](double v) { return v != 0; });
+  if (rational) return {"rational_polynomial", {c.begin(), c.end()}};
+  return {"plumb_bob", {c.begin(), c.begin() + 5}};
+}
+
 std::string opencv_yaml(const Intrinsics& k) {
-  const Lens lens = lens_of(k);
+  const RosLens lens = ros_lens(k);
   const auto columns = static_cast<int>(lens.coefficients.size());
   return fmt::format("%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n", k.width, k.height) +
          opencv_matrix("camera_matrix", 3, 3, matrix_of(k)) +
@@ -67,7 +60,7 @@ std::string opencv_yaml(const Intrinsics& k) {
 }
 
 std::string ros_yaml(const Intrinsics& k, const std::string& camera_name) {
-  const Lens lens = lens_of(k);
+  const RosLens lens = ros_lens(k);
   const auto columns = static_cast<int>(lens.coefficients.size());
   return fmt::format("image_width: {}\nimage_height: {}\ncamera_name: {}\n", k.width, k.height,
                      camera_name) +

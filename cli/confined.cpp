@@ -9,7 +9,6 @@
 #include "cli/commands.h"
 #include "jobs/pipeline/confined_work.h"
 #include "jobs/queue/confined_task.h"
-#include "jobs/queue/fork_server.h"
 
 namespace throng::cli {
 

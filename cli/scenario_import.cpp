@@ -13,10 +13,7 @@
 
 #include "base/error.h"
 #include "cli/scenario_import.h"
-#include "imports/osm_map.h"
-#include "imports/place_writer.h"
-#include "imports/populate.h"
-#include "imports/sdf_world.h"
+#include "imports/imports.h"
 
 namespace throng::cli {
 

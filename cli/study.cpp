@@ -8,8 +8,6 @@
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "study/report.h"
-#include "study/study.h"
-#include "study/work.h"
 #include "world/scenario.h"
 
 namespace throng::cli {

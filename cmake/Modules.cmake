@@ -5,9 +5,9 @@ include("${CMAKE_CURRENT_LIST_DIR}/ModuleRules.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/Precompile.cmake")
 
 # With sanitizers most modules are compiled without optimization, which takes half the time; these would run too slowly.
-set(THRONG_OPTIMIZED_MODULES base crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
+set(THRONG_OPTIMIZED_MODULES base geometry crowd/description crowd/menge_files world crowd camera calibrate places sim metrics validation skinning render)
 # The modules that the fuzz targets (tests/fuzz) cover.
-set(THRONG_FUZZED_MODULES base crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
+set(THRONG_FUZZED_MODULES base geometry crowd/description crowd/menge_files world crowd imports metrics/spec metrics jobs/spec)
 
 # throng_module(NAME PUBLIC header... SOURCES file... MODULES module... LIBRARIES target... PRIVATE_LIBRARIES target...)
 # PUBLIC lists the headers that other modules, their tests, benchmarks and examples may include.

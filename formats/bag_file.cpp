@@ -10,6 +10,9 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "camera/files.h"
 
 namespace throng::formats {
 
@@ -72,19 +75,21 @@ void BagFile::add_picture(const std::string& topic, const std::string& frame, do
 }
 
 void BagFile::add_lens(const std::string& topic, const std::string& frame, double time_s,
-                       const BagLens& lens) {
+                       const camera::Intrinsics& lens) {
+  camera::RosLens ros = camera::ros_lens(lens);
+  const Eigen::Matrix3d matrix = lens.matrix();
   sensor_msgs::CameraInfo message;
   message.header = header_of(frame, time_s);
-  message.width = lens.width;
-  message.height = lens.height;
-  message.distortion_model = lens.model;
-  message.D = lens.coefficients;
+  message.width = static_cast<std::uint32_t>(lens.width);
+  message.height = static_cast<std::uint32_t>(lens.height);
+  message.distortion_model = std::move(ros.model);
+  message.D = std::move(ros.coefficients);
   constexpr std::size_t kSide = 3;
   for (std::size_t row = 0; row < kSide; ++row) {
     message.R[(kSide + 1) * row] = 1;
     for (std::size_t column = 0; column < kSide; ++column) {
       const double value =
-          lens.matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
+          matrix(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
       message.K[kSide * row + column] = value;
       message.P[(kSide + 1) * row + column] = value;
     }

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "camera/camera.h"
+
 namespace throng::formats {
 
 /// Pose of a frame in another: X_parent = rotation * X_child + position.
@@ -22,15 +24,6 @@ struct BagTransform {
   std::string parent;
   std::string child;
   BagPose pose;
-};
-
-/// sensor_msgs/CameraInfo of a camera that is not rectified.
-struct BagLens {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
-  std::string model;                 ///< plumb_bob, rational_polynomial or equidistant
-  std::vector<double> coefficients;  ///< in the model's order
 };
 
 /// A drone's motion: its pose in the world, and velocity and rates in its own axes.
@@ -61,7 +54,7 @@ class BagFile {
   void add_picture(const std::string& topic, const std::string& frame, double time_s,
                    const std::string& jpeg);
   void add_lens(const std::string& topic, const std::string& frame, double time_s,
-                const BagLens& lens);
+                const camera::Intrinsics& lens);
   /// tf2_msgs/TFMessage on /tf.
   void add_transforms(double time_s, const std::vector<BagTransform>& transforms);
   /// nav_msgs/Odometry of `child` in `frame`.

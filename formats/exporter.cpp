@@ -4,66 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "base/error.h"
-#include "formats/makers.h"
 
 namespace throng::formats {
 
 using annotate::GroundTruth;
-
-namespace {
-
-constexpr std::array kFormats = {
-    Format{"coco", "COCO instances: boxes and RLE masks", GroundTruth::coco, make_coco},
-    Format{"coco-keypoints", "COCO person keypoints", GroundTruth::keypoints, make_coco_keypoints},
-    Format{"coco-panoptic", "COCO panoptic: PNG and segments", GroundTruth::instances,
-           make_coco_panoptic},
-    Format{"yolo-detect", "YOLO boxes with data.yaml", GroundTruth::coco, make_yolo_detect},
-    Format{"yolo-segment", "YOLO polygons with data.yaml", GroundTruth::coco, make_yolo_segment},
-    Format{"yolo-pose", "YOLO boxes and keypoints with data.yaml", GroundTruth::keypoints,
-           make_yolo_pose},
-    Format{"mot", "MOT Challenge: tracks of whole bodies", GroundTruth::coco, make_mot},
-    Format{"mots", "MOTS: tracks of masks", GroundTruth::coco, make_mots},
-    Format{"visdrone-det", "VisDrone DET: a text file per image", GroundTruth::coco,
-           make_visdrone_det},
-    Format{"visdrone-mot", "VisDrone MOT: a text for each sequence", GroundTruth::coco,
-           make_visdrone_mot},
-    Format{"uavdt", "UAVDT: texts for each sequence", GroundTruth::coco, make_uavdt},
-    Format{"shanghaitech", "heads as .mat, density of sigma 4 as .h5 and .npy", GroundTruth::coco,
-           make_points},
-    Format{"shanghaitech-adaptive", "the same, sigma from the nearest heads", GroundTruth::coco,
-           make_points_adaptive},
-    Format{"shanghaitech-perspective", "the same, sigma from the distance to the camera",
-           GroundTruth::coco, make_points_perspective},
-    Format{"dronecrowd", "DroneCrowd: tracks of heads", GroundTruth::coco, make_dronecrowd},
-    Format{"kitti", "KITTI: boxes in the image and in the camera's frame", GroundTruth::coco,
-           make_kitti},
-    Format{"voc", "Pascal VOC: an XML file per image", GroundTruth::coco, make_voc},
-    Format{"cvat", "CVAT for images 1.1", GroundTruth::coco, make_cvat},
-    Format{"webdataset", "WebDataset: tar shards of images and JSON", GroundTruth::coco,
-           make_webdataset},
-    Format{"imagefolder", "Hugging Face ImageFolder with metadata.jsonl", GroundTruth::coco,
-           make_imagefolder},
-    Format{"depth-exr", "depth as OpenEXR, meters", GroundTruth::depth, make_depth_exr},
-    Format{"flow-flo", "flow as Middlebury's .flo", GroundTruth::flow, make_flow_flo},
-    Format{"rosbag", "ROS 1 bag per run: images, tf, odometry, IMU, people", GroundTruth::coco,
-           make_rosbag},
-    Format{"rosbag-lz4", "the same, compressed", GroundTruth::coco, make_rosbag_lz4},
-    Format{"table", "one CSV of all people in all images", GroundTruth::coco, make_table},
-};
-
-}  // namespace
-
-std::span<const Format> all_formats() { return kFormats; }
-
-const Format* find_format(std::string_view name) {
-  const auto found = std::find_if(kFormats.begin(), kFormats.end(),
-                                  [&](const Format& format) { return format.name == name; });
-  return found == kFormats.end() ? nullptr : &*found;
-}
 
 std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
                                           const std::vector<std::string>& annotations,
@@ -75,8 +22,8 @@ std::vector<const Format*> choose_formats(const std::vector<std::string>& names,
     const Format* format = find_format(names[i]);
     if (format == nullptr) {
       std::vector<std::string_view> known;
-      known.reserve(kFormats.size());
-      for (const Format& other : kFormats) known.push_back(other.name);
+      known.reserve(all_formats().size());
+      for (const Format& other : all_formats()) known.push_back(other.name);
       problems.push_back({"", place, names[i], fmt::format("one of: {}", fmt::join(known, ", "))});
       continue;
     }

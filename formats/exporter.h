@@ -33,7 +33,7 @@ struct Format {
   std::unique_ptr<Exporter> (*make)(const DatasetInfo& info, Output output);
 };
 
-/// All formats there are: the one table.
+/// All formats there are: the one table (format_table.cpp).
 std::span<const Format> all_formats();
 
 /// The format of this name; null if there is none.

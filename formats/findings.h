@@ -10,9 +10,9 @@
 
 #include "camera/camera.h"
 #include "formats/dataset.h"
+#include "formats/finding.h"
 #include "formats/image_camera.h"
 #include "formats/npy.h"
-#include "formats/validate.h"
 
 namespace throng::formats {
 

@@ -2,52 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
-#include "formats/flight_checks.h"
-#include "formats/run_checks.h"
-
 namespace throng::formats {
 
 namespace fs = std::filesystem;
-using annotate::GroundTruth;
-
-namespace {
-
-/// A check of one picture at a time.
-template <void (*check)(const DatasetInfo&, const Image&, const Pixels&, Findings&)>
-class PixelCheck : public GroundTruthCheck {
- public:
-  void add_pixels(const DatasetInfo& info, const Image& image, const Pixels& pixels,
-                  Findings& findings) override {
-    check(info, image, pixels, findings);
-  }
-};
-
-template <typename Check>
-std::unique_ptr<GroundTruthCheck> make() {
-  return std::make_unique<Check>();
-}
-
-constexpr std::array kCheckers = {
-    GroundTruthChecker{GroundTruth::density, make<PixelCheck<check_density>>},
-    GroundTruthChecker{GroundTruth::exits, make<ExitsCheck>},
-    GroundTruthChecker{GroundTruth::fields, make<FieldsCheck>},
-    GroundTruthChecker{GroundTruth::depth, make<PixelCheck<check_depth>>},
-    GroundTruthChecker{GroundTruth::instances, make<PixelCheck<check_instances>>},
-    GroundTruthChecker{GroundTruth::parts, make<PixelCheck<check_parts>>},
-    GroundTruthChecker{GroundTruth::normals, make<PixelCheck<check_normal_lengths>>},
-    GroundTruthChecker{GroundTruth::flow, make<PixelCheck<check_flow_values>>},
-    GroundTruthChecker{GroundTruth::semantic, make<PixelCheck<check_semantic>>},
-    GroundTruthChecker{GroundTruth::sensors, make<SensorTableCheck>},
-};
-
-}  // namespace
-
-std::span<const GroundTruthChecker> ground_truth_checkers() { return kCheckers; }
 
 GroundTruthChecks::GroundTruthChecks(const DatasetInfo& info) {
-  for (const GroundTruthChecker& checker : kCheckers) {
+  for (const GroundTruthChecker& checker : ground_truth_checkers()) {
     if (info.has(checker.kind)) checks_.push_back(checker.make());
   }
 }

@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <string>
 
 #include "formats/image_camera.h"
 #include "formats/makers.h"
+#include "geometry/angle.h"
 
 namespace throng::formats {
 
@@ -19,8 +19,6 @@ int kitti_occlusion(double visibility) {
   if (visibility >= kFully) return 0;
   return visibility >= 0.5 ? 1 : 2;
 }
-
-double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
 
 /// type truncated occluded alpha left top right bottom height width length x y z rotation_y
 void append_label(std::string& text, const Image& image, const Person& person) {
@@ -38,7 +36,7 @@ void append_label(std::string& text, const Image& image, const Person& person) {
   const Eigen::Vector3d ahead =
       image.R * Eigen::Vector3d(std::cos(person.heading_rad), std::sin(person.heading_rad), 0);
   const double rotation_y = std::atan2(-ahead.z(), ahead.x());
-  const double alpha = wrapped(rotation_y - std::atan2(at.x(), at.z()));
+  const double alpha = geometry::wrapped_rad(rotation_y - std::atan2(at.x(), at.z()));
   fmt::format_to(out,
                  "Pedestrian {:.2f} {} {:.4f} {:.2f} {:.2f} {:.2f} {:.2f} {:.3f} {:.3f} {:.3f} "
                  "{:.3f} {:.3f} {:.3f} {:.4f}\n",

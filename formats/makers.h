@@ -1,4 +1,4 @@
-// The exporters, one file each; exporter.cpp lists them in one table.
+// The exporters, one file each; format_table.cpp lists them in one table.
 #pragma once
 
 #include <memory>

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "formats/bag_file.h"
+#include "formats/image_camera.h"
 #include "formats/makers.h"
 
 namespace throng::formats {
@@ -107,30 +108,6 @@ class SensorTable {
   std::optional<InertialReading> next_;
   std::size_t number_ = 1;
 };
-
-/// ROS' name of a lens with these coefficients.
-BagLens lens_of(const Image& image) {
-  BagLens lens{static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height),
-               image.camera_matrix, "plumb_bob", std::vector<double>(5, 0)};
-  const json& camera = image.record.at("camera");
-  const auto found = camera.find("distortion");
-  if (found == camera.end()) return lens;
-  const auto take = [&](std::initializer_list<const char*> names) {
-    lens.coefficients.clear();
-    for (const char* name : names) lens.coefficients.push_back(found->at(name).get<double>());
-  };
-  const auto is_used = [&](const char* name) { return found->value(name, 0.0) != 0; };
-  if (camera.at("model") == "fisheye") {
-    lens.model = "equidistant";
-    take({"k1", "k2", "k3", "k4"});
-  } else if (is_used("k4") || is_used("k5") || is_used("k6")) {
-    lens.model = "rational_polynomial";
-    take({"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"});
-  } else {
-    take({"k1", "k2", "p1", "p2", "k3"});
-  }
-  return lens;
-}
 
 BagMotion motion_of(const json& truth) {
   BagMotion motion;
@@ -236,7 +213,8 @@ class RosbagExporter : public Exporter {
     const std::string root = "/" + name;
     const double time_s = image.time_s;
     add_flight(image, root, body_frame, optical_frame);
-    bag_->add_lens(root + "/camera/camera_info", optical_frame, time_s, lens_of(image));
+    bag_->add_lens(root + "/camera/camera_info", optical_frame, time_s,
+                   camera_of(image).intrinsics);
     bag_->add_picture(root + "/camera/image_color/compressed", optical_frame, time_s,
                       read_file(info_.root / image.file));
     bag_->add_boxes(root + "/ground_truth/boxes", kWorldFrame, time_s, boxes_of(image));

@@ -8,14 +8,13 @@
 
 #include "formats/json_vectors.h"
 #include "formats/run_checks.h"
+#include "geometry/angle.h"
 
 namespace throng::formats {
 
 using nlohmann::json;
 
 namespace {
-
-constexpr double kRadPerDegree = EIGEN_PI / 180;
 
 /// Pairs of COCO's keypoints on one bone, and by how much their distance may vary (m): bones are
 /// blended between poses, so that limbs in fast motion shrink.
@@ -46,15 +45,14 @@ SunPlace sun_of(double hours, double latitude_deg, double day_of_year) {
   const double declination = 0.006918 - 0.399912 * std::cos(day) + 0.070257 * std::sin(day) -
                              0.006758 * std::cos(2 * day) + 0.000907 * std::sin(2 * day) -
                              0.002697 * std::cos(3 * day) + 0.00148 * std::sin(3 * day);
-  const double latitude = latitude_deg * kRadPerDegree;
-  const double angle = (hours - 12) * 15 * kRadPerDegree;
+  const double latitude = latitude_deg * kDegree;
+  const double angle = (hours - 12) * 15 * kDegree;
   const double east = -std::cos(declination) * std::sin(angle);
   const double north = std::cos(latitude) * std::sin(declination) -
                        std::sin(latitude) * std::cos(declination) * std::cos(angle);
   const double up = std::sin(latitude) * std::sin(declination) +
                     std::cos(latitude) * std::cos(declination) * std::cos(angle);
-  return {std::atan2(north, east) / kRadPerDegree,
-          std::asin(std::clamp(up, -1.0, 1.0)) / kRadPerDegree};
+  return {std::atan2(north, east) / kDegree, std::asin(std::clamp(up, -1.0, 1.0)) / kDegree};
 }
 
 const char* age_band_of(double years) {

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"
 #include "formats/image_camera.h"
 #include "formats/run_checks.h"
+#include "geometry/polygon.h"
 
 namespace throng::formats {
 
@@ -208,7 +208,7 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
       const Vector2d to = person.position.head<2>() - zone[i];
       if (side.norm() < 1e-6) continue;
       constexpr double kMarginM = 0.4;
-      is_inside = is_inside && (side.x() * to.y() - side.y() * to.x()) / side.norm() > kMarginM;
+      is_inside = is_inside && geometry::cross(side, to) / side.norm() > kMarginM;
     }
     if (!is_inside) continue;
     const int found = ++run.in_zone[image.frame][id];

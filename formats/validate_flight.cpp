@@ -8,6 +8,7 @@
 
 #include "formats/flight_checks.h"
 #include "formats/json_vectors.h"
+#include "geometry/angle.h"
 
 namespace throng::formats {
 
@@ -16,8 +17,6 @@ using Eigen::Vector3d;
 using nlohmann::json;
 
 namespace {
-
-constexpr double kDegree = EIGEN_PI / 180;
 
 // The sensors' errors, standard deviations: docs/drones.md.
 constexpr double kGyroTurnOnRadS = 0.5 * kDegree;

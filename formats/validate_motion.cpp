@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "formats/shot.h"
+#include "geometry/angle.h"
 
 namespace throng::formats {
 
@@ -20,8 +21,8 @@ double median_of(std::vector<double>& values) {
 }
 
 double angle_off(const Person& person) {
-  return std::abs(std::remainder(
-      std::atan2(person.velocity.y(), person.velocity.x()) - person.heading_rad, 2 * EIGEN_PI));
+  return std::abs(
+      geometry::turn_rad(person.heading_rad, std::atan2(person.velocity.y(), person.velocity.x())));
 }
 
 /// Velocities of people who go on as they do are their displacements.

@@ -8,6 +8,7 @@
 
 #include "formats/json_vectors.h"
 #include "formats/shot.h"
+#include "geometry/angle.h"
 
 namespace throng::formats {
 
@@ -29,7 +30,7 @@ Eigen::Vector3d keypoint_at(const Person& person, std::size_t i) {
 }
 
 double angle_between(double a_rad, double b_rad) {
-  return std::abs(std::remainder(a_rad - b_rad, 2 * EIGEN_PI));
+  return std::abs(geometry::turn_rad(b_rad, a_rad));
 }
 
 /// Facing direction of a body, from its left side to its right one.

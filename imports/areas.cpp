@@ -11,8 +11,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 #include "imports/loops.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 
@@ -59,7 +60,7 @@ bool is_needless(const Vector2d& before, const Vector2d& corner, const Vector2d&
   if (out.norm() < kSamePlaceM || in.norm() < kSamePlaceM) return true;
   const Vector2d span = after - before;
   if (span.norm() < kSamePlaceM) return true;
-  return std::abs(in.x() * span.y() - in.y() * span.x()) / span.norm() < kStraightM;
+  return std::abs(geometry::cross(in, span)) / span.norm() < kStraightM;
 }
 
 Corners thinned(Corners corners) {
@@ -175,22 +176,9 @@ double shared_m2(const Area& a, const Area& b) {
   return bg::area(both);
 }
 
-Bounds bounds_of(const Corners& corners) {
-  Bounds bounds{corners.front(), corners.front()};
-  for (const Vector2d& corner : corners) {
-    bounds.low = bounds.low.cwiseMin(corner);
-    bounds.high = bounds.high.cwiseMax(corner);
-  }
-  return bounds;
-}
-
-bool meet(const Bounds& a, const Bounds& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-}
-
 double size_m2(const Area& area) {
-  double size = std::abs(world::signed_area(area.outline));
-  for (const Corners& hole : area.holes) size -= std::abs(world::signed_area(hole));
+  double size = std::abs(geometry::signed_area(area.outline));
+  for (const Corners& hole : area.holes) size -= std::abs(geometry::signed_area(hole));
   return size;
 }
 
@@ -202,21 +190,16 @@ std::vector<Corners> simple_parts(const Area& area, double min_area_m2) {
     left.pop_back();
     if (size_m2(next) < min_area_m2) continue;
     if (next.holes.empty()) {
-      if (world::is_simple(next.outline) && world::signed_area(next.outline) > 0) {
+      if (geometry::is_simple(next.outline) && geometry::signed_area(next.outline) > 0) {
         parts.push_back(next.outline);
       } else {  // touches itself
         for (Corners& loop : simple_loops(next.outline)) {
-          if (world::is_simple(loop)) parts.push_back(std::move(loop));
+          if (geometry::is_simple(loop)) parts.push_back(std::move(loop));
         }
       }
       continue;
     }
-    Vector2d low = next.outline.front();
-    Vector2d high = low;
-    for (const Vector2d& corner : next.outline) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
+    const auto [low, high] = geometry::bounds_of(next.outline);
     Vector2d middle = Vector2d::Zero();
     for (const Vector2d& corner : next.holes.front()) middle += corner;
     middle /= static_cast<double>(next.holes.front().size());

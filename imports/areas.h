@@ -37,13 +37,6 @@ std::vector<Area> along(const std::vector<Eigen::Vector2d>& line, double width_m
 double size_m2(const Area& area);
 double shared_m2(const Area& a, const Area& b);
 
-struct Bounds {
-  Eigen::Vector2d low;
-  Eigen::Vector2d high;
-};
-Bounds bounds_of(const Corners& corners);
-bool meet(const Bounds& a, const Bounds& b);
-
 /// Simple polygons that cover the area: where there are holes it is cut through them. Pieces
 /// smaller than `min_area_m2` are left out.
 std::vector<Corners> simple_parts(const Area& area, double min_area_m2 = 0.01);

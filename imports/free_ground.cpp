@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 
 namespace throng::imports {
 
@@ -65,9 +66,9 @@ Vector2d FreeGround::middle_of(std::size_t cell) const {
 void FreeGround::block(const Corners& obstacle) {
   const auto row_of = [&](double y) { return cell_at(y - area_.min.y(), rows_); };
   const auto column_of = [&](double x) { return cell_at(x - area_.min.x(), columns_); };
-  const Bounds bounds = bounds_of(obstacle);
-  const std::size_t first = row_of(bounds.low.y());
-  const std::size_t last = row_of(bounds.high.y() + kCellM);
+  const geometry::Rectangle bounds = geometry::bounds_of(obstacle);
+  const std::size_t first = row_of(bounds.min.y());
+  const std::size_t last = row_of(bounds.max.y() + kCellM);
   std::vector<std::vector<double>> crossings(last - first);
   for (std::size_t i = 0; i < obstacle.size(); ++i) {
     const Vector2d& a = obstacle[i];
@@ -82,7 +83,7 @@ void FreeGround::block(const Corners& obstacle) {
       const auto [from, to] = reach_in_band(a, b, y);
       for (std::size_t column = column_of(from); column < column_of(to + kCellM); ++column) {
         const std::size_t cell = row * columns_ + column;
-        if (world::distance_to_segment(a, b, middle_of(cell)) < kBodyM) region_[cell] = kBlocked;
+        if (geometry::distance_to_segment(a, b, middle_of(cell)) < kBodyM) region_[cell] = kBlocked;
       }
     }
   }

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
 
 namespace throng::imports {
 
@@ -17,8 +17,6 @@ namespace {
 constexpr std::size_t kMaxCorners = 5'000;
 constexpr double kSamePlaceM = 1e-3;
 constexpr double kMinAreaM2 = 0.01;
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// A place to the millimeter.
 using Key = std::pair<std::int64_t, std::int64_t>;
@@ -32,17 +30,17 @@ double share_of(const Vector2d& a, const Vector2d& b, const Vector2d& corner) {
   const double length = way.norm();
   if (length < kSamePlaceM) return -1;
   const double along = (corner - a).dot(way) / length;
-  const bool on =
-      along > 0 && along < length && std::abs(cross(way, corner - a)) / length < kSamePlaceM;
+  const bool on = along > 0 && along < length &&
+                  std::abs(geometry::cross(way, corner - a)) / length < kSamePlaceM;
   return on ? along / length : -1;
 }
 
 // The same for the place where c - d crosses a - b.
 double crossing_of(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
-  const double turn = cross(b - a, d - c);
+  const double turn = geometry::cross(b - a, d - c);
   if (std::abs(turn) < 1e-12) return -1;
-  const double share = cross(c - a, d - c) / turn;
-  const double other = cross(c - a, b - a) / turn;
+  const double share = geometry::cross(c - a, d - c) / turn;
+  const double other = geometry::cross(c - a, b - a) / turn;
   return share > 0 && share < 1 && other > 0 && other < 1 ? share : -1;
 }
 
@@ -77,7 +75,7 @@ Corners with_crossings(const Corners& ring) {
 
 void keep(Corners loop, std::vector<Corners>& loops) {
   if (loop.size() < 3) return;
-  const double size = world::signed_area(loop);
+  const double size = geometry::signed_area(loop);
   if (std::abs(size) < kMinAreaM2) return;
   if (size < 0) std::reverse(loop.begin(), loop.end());
   loops.push_back(std::move(loop));

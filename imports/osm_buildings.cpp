@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/rectangle.h"
 #include "imports/osm_tags.h"
 #include "imports/solids.h"
 
@@ -17,7 +18,7 @@ constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
 struct Outline {
   const OsmArea* area;
-  Bounds bounds;
+  geometry::Rectangle bounds;
   std::vector<const OsmArea*> parts;
 };
 
@@ -46,10 +47,10 @@ Tags inherited(const Tags& part, const Tags& building) {
 
 // The building that most of a part lies in.
 std::size_t building_around(const OsmArea& part, const std::vector<Outline>& outlines) {
-  const Bounds bounds = bounds_of(part.area.outline);
+  const geometry::Rectangle bounds = geometry::bounds_of(part.area.outline);
   const double half_m2 = 0.5 * size_m2(part.area);
   for (std::size_t i = 0; i < outlines.size(); ++i) {
-    if (!meet(bounds, outlines[i].bounds)) continue;
+    if (!bounds.meets(outlines[i].bounds)) continue;
     if (shared_m2(part.area, outlines[i].area->area) >= half_m2) return i;
   }
   return kNone;
@@ -100,7 +101,7 @@ MapBuildings buildings_of(const std::vector<OsmArea>& areas, const std::string& 
     if (is_underground(area.tags)) {
       result.skipped.push_back({file, 0, area.name, "is underground"});
     } else {
-      outlines.push_back({&area, bounds_of(area.area.outline), {}});
+      outlines.push_back({&area, geometry::bounds_of(area.area.outline), {}});
     }
   }
   std::vector<const OsmArea*> alone;

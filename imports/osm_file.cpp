@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <osmium/area/assembler.hpp>
 #include <osmium/io/xml_input.hpp>
 #include <osmium/osm.hpp>
@@ -15,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/angle.h"
 #include "imports/osm_rings.h"
 #include "imports/osm_text.h"
 
@@ -28,7 +28,6 @@ namespace {
 constexpr std::uintmax_t kMaxFileBytes = 256U << 20U;
 constexpr std::size_t kMaxNodes = 2'000'000;
 constexpr double kMaxSizeM = 5'000;
-constexpr double kRadian = std::numbers::pi / 180;
 
 /// Meters east and north of a point on the WGS 84 ellipsoid, by its radii of curvature there
 /// (Torge, Geodesy, 2001, section 4.1.3).
@@ -37,10 +36,10 @@ class Projection {
   explicit Projection(const GeoPoint& origin) : origin_(origin) {
     constexpr double kEquatorM = 6'378'137;
     constexpr double kEccentricity2 = 6.69437999014e-3;
-    const double sine = std::sin(origin.latitude_deg * kRadian);
+    const double sine = std::sin(origin.latitude_deg * kDegree);
     const double w = std::sqrt(1 - kEccentricity2 * sine * sine);
-    north_m_ = kEquatorM * (1 - kEccentricity2) / (w * w * w) * kRadian;
-    east_m_ = kEquatorM / w * std::cos(origin.latitude_deg * kRadian) * kRadian;
+    north_m_ = kEquatorM * (1 - kEccentricity2) / (w * w * w) * kDegree;
+    east_m_ = kEquatorM / w * std::cos(origin.latitude_deg * kDegree) * kDegree;
   }
 
   Vector2d at(const osmium::Location& location) const {

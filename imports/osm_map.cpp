@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "geometry/angle.h"
+#include "geometry/rectangle.h"
 #include "imports/osm_buildings.h"
 #include "imports/osm_gates.h"
 #include "imports/osm_tags.h"
@@ -65,7 +67,7 @@ class MapReader {
   std::string source_;
   world::Rectangle ground_;
   Place place_;
-  std::vector<Bounds> building_bounds_;
+  std::vector<geometry::Rectangle> building_bounds_;
   std::vector<Area> openings_;        // in barriers
   std::set<std::int64_t> crossings_;  // nodes
   std::vector<world::GroundArea> green_;
@@ -102,15 +104,15 @@ void MapReader::add_hanging(const BuildingPiece& piece) {
 void MapReader::add_standing(const BuildingPiece& piece) {
   for (const Area& part : clipped(piece.area, ground_)) {
     std::vector<Area> others;
-    const Bounds bounds = bounds_of(part.outline);
+    const geometry::Rectangle bounds = geometry::bounds_of(part.outline);
     for (std::size_t i = 0; i < place_.buildings.size(); ++i) {
-      if (meet(bounds, building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
+      if (bounds.meets(building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
     }
     double kept_m2 = 0;
     for (const Area& rest : without(part, others)) {
       kept_m2 += size_m2(rest);
       for (Corners& corners : simple_parts(rest, kMinBuildingM2)) {
-        building_bounds_.push_back(bounds_of(corners));
+        building_bounds_.push_back(geometry::bounds_of(corners));
         if (!piece.part) place_.obstacles.push_back(corners);
         place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1),
                                     std::move(corners), piece.to_m, world::Facade::by_id});
@@ -204,10 +206,10 @@ void MapReader::add_way(const OsmLine& line, const WayKind& kind) {
 }
 
 std::vector<Area> MapReader::openings_near(const Area& area) const {
-  const Bounds bounds = bounds_of(area.outline);
+  const geometry::Rectangle bounds = geometry::bounds_of(area.outline);
   std::vector<Area> near;
   for (const Area& opening : openings_) {
-    if (meet(bounds, bounds_of(opening.outline))) near.push_back(opening);
+    if (bounds.meets(geometry::bounds_of(opening.outline))) near.push_back(opening);
   }
   return near;
 }
@@ -283,7 +285,7 @@ void MapReader::add_prop(world::PropKind kind, const Vector2d& at, const Tags& t
   }
   // A bench looks to its right, seen along its heading; directions are clockwise from north.
   if (const auto towards = length_in(value_of(tags, "direction"))) {
-    prop.yaw_rad = std::remainder(EIGEN_PI - *towards * EIGEN_PI / 180, 2 * EIGEN_PI);
+    prop.yaw_rad = geometry::wrapped_rad(std::numbers::pi - *towards * kDegree);
   }
   place_.props.push_back(prop);
 }

@@ -62,9 +62,6 @@ struct Place {
 /// How far the drawn ground reaches beyond Place::inside (m).
 inline constexpr double kGroundBeyondM = 12;
 
-/// The ground that a prop covers.
-Corners footprint_of(const world::Prop& prop);
-
 /// The ground that is drawn.
 world::Rectangle ground_of(const Place& place);
 

@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "crowd/description/builder.h"
 #include "crowd/menge_files/write.h"
+#include "geometry/angle.h"
 #include "imports/mesh_text.h"
 
 namespace throng::imports {
@@ -26,7 +27,6 @@ namespace {
 constexpr double kUsualSpeedMps = 1.34;  // Weidmann 1993
 constexpr double kGoalBeyondM = 2;
 constexpr int kDecimals = 3;  // millimeters are enough, and short
-constexpr double kDegrees = 180 / EIGEN_PI;
 
 double rounded(double value) { return std::round(value * 1000) / 1000; }
 json point(const Vector2d& p) { return {rounded(p.x()), rounded(p.y())}; }
@@ -74,7 +74,7 @@ json props_json(const Place& place) {
   for (const world::Prop& prop : place.props) {
     props.push_back({{"kind", world::prop_types().at(static_cast<std::size_t>(prop.kind)).name},
                      {"position", point(prop.position)},
-                     {"yaw_deg", rounded(prop.yaw_rad * kDegrees)},
+                     {"yaw_deg", rounded(prop.yaw_rad / kDegree)},
                      {"scale", rounded(prop.scale)},
                      {"look", prop.look}});
   }
@@ -183,7 +183,10 @@ crowd::SceneDescription scene_of(const Place& place, const Population& populatio
   }
   if (place.people_come) add_arrivals(place, population, scene);
   std::vector<Corners> obstacles = place.obstacles;
-  for (const world::Prop& prop : place.props) obstacles.push_back(footprint_of(prop));
+  for (const world::Prop& prop : place.props) {
+    const auto corners = world::footprint_of(prop);
+    obstacles.emplace_back(corners.begin(), corners.end());
+  }
   scene.add_obstacles(obstacles, 1, kDecimals);
   return scene.build();
 }

@@ -12,8 +12,9 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 #include "imports/free_ground.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 
@@ -96,14 +97,14 @@ int main_region(const std::vector<Gate>& gates, const world::Rectangle& inside,
   return best;
 }
 
-bool is_in_the_way(const world::Prop& prop, const Place& place, const std::vector<Bounds>& bounds,
-                   const std::vector<Gate>& gates) {
+bool is_in_the_way(const world::Prop& prop, const Place& place,
+                   const std::vector<geometry::Rectangle>& bounds, const std::vector<Gate>& gates) {
   constexpr double kSlackM = 0.1;
-  const Bounds around{prop.position - Vector2d::Constant(kSlackM),
-                      prop.position + Vector2d::Constant(kSlackM)};
+  const geometry::Rectangle around{prop.position - Vector2d::Constant(kSlackM),
+                                   prop.position + Vector2d::Constant(kSlackM)};
   for (std::size_t i = 0; i < place.buildings.size(); ++i) {
-    if (!meet(around, bounds[i])) continue;
-    if (world::distance_to(place.buildings[i].footprint, prop.position) < kSlackM) return true;
+    if (!around.meets(bounds[i])) continue;
+    if (geometry::distance_to(place.buildings[i].footprint, prop.position) < kSlackM) return true;
   }
   const double clear_m = world::kClearOfExitsM + kSlackM + prop.scale;
   for (const Gate& gate : gates) {
@@ -117,9 +118,9 @@ bool is_in_the_way(const world::Prop& prop, const Place& place, const std::vecto
 }
 
 void take_props_away(Place& place, const std::vector<Gate>& gates) {
-  std::vector<Bounds> bounds;
+  std::vector<geometry::Rectangle> bounds;
   for (const world::Building& building : place.buildings) {
-    bounds.push_back(bounds_of(building.footprint));
+    bounds.push_back(geometry::bounds_of(building.footprint));
   }
   std::erase_if(place.props, [&](const world::Prop& prop) {
     if (!is_in_the_way(prop, place, bounds, gates)) return false;
@@ -135,7 +136,10 @@ void take_props_away(Place& place, const std::vector<Gate>& gates) {
 
 std::vector<Corners> obstacles_with_props(const Place& place) {
   std::vector<Corners> obstacles = place.obstacles;
-  for (const world::Prop& prop : place.props) obstacles.push_back(footprint_of(prop));
+  for (const world::Prop& prop : place.props) {
+    const auto corners = world::footprint_of(prop);
+    obstacles.emplace_back(corners.begin(), corners.end());
+  }
   return obstacles;
 }
 
@@ -192,19 +196,6 @@ std::vector<Vector2d> draw_starts(std::vector<Vector2d> cells, const PopulateOpt
 world::Rectangle ground_of(const Place& place) {
   const Vector2d beyond = Vector2d::Constant(kGroundBeyondM);
   return {place.inside.min - beyond, place.inside.max + beyond};
-}
-
-Corners footprint_of(const world::Prop& prop) {
-  const Vector2d half =
-      prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
-  const Vector2d ahead(std::cos(prop.yaw_rad), std::sin(prop.yaw_rad));
-  const Vector2d left(-ahead.y(), ahead.x());
-  Corners corners;
-  for (const auto& [a, b] :
-       {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
-    corners.push_back(prop.position + a * half.x() * ahead + b * half.y() * left);
-  }
-  return corners;
 }
 
 Vector2d outward_of(const Gate& gate, const world::Rectangle& inside) {

@@ -7,9 +7,9 @@
 #include <sdf/sdf.hh>
 
 #include "base/error.h"
+#include "geometry/polygon.h"
 #include "imports/gazebo_colors.h"
 #include "imports/mesh_reader.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 
@@ -140,7 +140,7 @@ Body polylines(const sdf::ElementPtr& geometry, const Isometry3d& pose) {
   std::vector<Area> whole;
   for (const Area& area : areas) {
     const auto around = std::find_if(whole.begin(), whole.end(), [&](const Area& other) {
-      return world::distance_to(other.outline, area.outline.front()) == 0;
+      return geometry::distance_to(other.outline, area.outline.front()) == 0;
     });
     if (around == whole.end()) {
       whole.push_back(area);

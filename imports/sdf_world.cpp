@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "geometry/rectangle.h"
 #include "imports/local_files.h"
 #include "imports/place_writer.h"
 #include "imports/populate.h"
@@ -95,7 +96,7 @@ class SdfReader {
   LocalFiles files_;
   std::optional<SdfText> text_;
   Place place_;
-  std::vector<Bounds> building_bounds_;
+  std::vector<geometry::Rectangle> building_bounds_;
   std::vector<FlatArea> flat_;
   Vector2d low_ = Vector2d::Constant(std::numeric_limits<double>::infinity());
   Vector2d high_ = -low_;
@@ -188,13 +189,13 @@ void SdfReader::reach(const Corners& corners) {
 // Buildings that are there already are cut out, so that no two buildings overlap.
 void SdfReader::add_building(const Body& body) {
   std::vector<Area> others;
-  const Bounds bounds = bounds_of(*body.footprint);
+  const geometry::Rectangle bounds = geometry::bounds_of(*body.footprint);
   for (std::size_t i = 0; i < place_.buildings.size(); ++i) {
-    if (meet(bounds, building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
+    if (bounds.meets(building_bounds_[i])) others.push_back({place_.buildings[i].footprint, {}});
   }
   for (const Area& rest : without({*body.footprint, {}}, others)) {
     for (Corners& part : simple_parts(rest, kMinBuildingM2)) {
-      building_bounds_.push_back(bounds_of(part));
+      building_bounds_.push_back(geometry::bounds_of(part));
       place_.buildings.push_back({fmt::format("b{}", place_.buildings.size() + 1), std::move(part),
                                   std::min(body.to_z, 900.0), world::Facade::by_id});
     }

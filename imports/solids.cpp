@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
+#include "geometry/triangulate.h"
 
 namespace throng::imports {
 
@@ -23,17 +25,7 @@ void add_quad(Triangles& triangles, const Vector3d& a, const Vector3d& b, const 
 
 // The part of a polygon on one side of a height.
 std::vector<Vector3d> cut(const std::vector<Vector3d>& polygon, double z, double side) {
-  std::vector<Vector3d> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector3d& a = polygon[i];
-    const Vector3d& b = polygon[(i + 1) % polygon.size()];
-    const double from = side * (a.z() - z);
-    const double to = side * (b.z() - z);
-    if (from >= 0) kept.push_back(a);
-    if ((from > 0 && to < 0) || (from < 0 && to > 0))
-      kept.push_back(a + (b - a) * from / (from - to));
-  }
-  return kept;
+  return geometry::clipped(polygon, [&](const Vector3d& p) { return side * (z - p.z()); });
 }
 
 // Cells of the ground, marked where something is.
@@ -52,18 +44,13 @@ class Raster {
     std::vector<Vector2d> flat;
     flat.reserve(polygon.size());
     for (const Vector3d& p : polygon) flat.emplace_back(p.head<2>());
-    Vector2d low = flat.front();
-    Vector2d high = low;
-    for (const Vector2d& p : flat) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
+    const auto [low, high] = geometry::bounds_of(flat);
     for (int row = row_of(low.y()); row <= row_of(high.y()); ++row) {
       for (int column = column_of(low.x()); column <= column_of(high.x()); ++column) {
         const Vector2d middle = low_ + cell_ * Vector2d(column + 0.5, row + 0.5);
         // Upright faces on the line between two cells, as at both ends of the raster, count.
         constexpr double kRoundingM = 1e-6;
-        if (world::distance_to(flat, middle) <= 0.5 * cell_ + kRoundingM) {
+        if (geometry::distance_to(flat, middle) <= 0.5 * cell_ + kRoundingM) {
           marked_[at(column, row)] = true;
         }
       }
@@ -161,7 +148,7 @@ Triangles ball_triangles(const Vector3d& radii, double stretch) {
 Triangles prism_triangles(const Corners& footprint, double from_z, double to_z) {
   const auto at = [](const Vector2d& p, double z) { return Vector3d(p.x(), p.y(), z); };
   Triangles triangles;
-  for (const auto& [a, b, c] : world::triangulate(footprint)) {
+  for (const auto& [a, b, c] : geometry::triangulate(footprint)) {
     triangles.push_back({at(footprint[a], to_z), at(footprint[b], to_z), at(footprint[c], to_z)});
     triangles.push_back(
         {at(footprint[a], from_z), at(footprint[c], from_z), at(footprint[b], from_z)});

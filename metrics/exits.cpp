@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "geometry/point_grid.h"
 #include "metrics/clogs.h"
 #include "metrics/control_zone.h"
 #include "metrics/crossings.h"
@@ -182,7 +183,7 @@ class ExitObserver {
   double voronoi_density() const {
     std::vector<Eigen::Vector2d> places;
     for (const NearPerson& person : near_) places.push_back(person.place);
-    const PointGrid grid(places, kCellGridM);
+    const geometry::PointGrid grid(places, kCellGridM);
     const double reach_m = zone_.radius_m() + 1.01 * kCellRadiusM;
     double people = 0;
     VoronoiCell cell;

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/point_grid.h"
+#include "geometry/rectangle.h"
 #include "metrics/ground_pressure.h"
 #include "metrics/voronoi.h"
 
@@ -33,12 +35,7 @@ class SquareMeter {
 
   /// Spreads somebody over the squares that their cell covers.
   void add(const VoronoiCell& cell) {
-    Vector2d min = cell.rings.front().front();
-    Vector2d max = min;
-    for (const Vector2d& corner : cell.rings.front()) {
-      min = min.cwiseMin(corner);
-      max = max.cwiseMax(corner);
-    }
+    const auto [min, max] = geometry::bounds_of(cell.rings.front());
     const Corner low = corner_of(min);
     const Corner high = corner_of(max);
     if (low.column == high.column && low.row == high.row) return add_to(low, 1);
@@ -147,7 +144,7 @@ Exposure exposure_of(const world::Trace& trace, const world::Scenario& scenario,
     }
     // The pressure about each person is needed, so it comes first.
     exposure.max_pressure_per_s2 = std::max(exposure.max_pressure_per_s2, pressure.finish_step());
-    const PointGrid grid(places, kGridM);
+    const geometry::PointGrid grid(places, kGridM);
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!scenario.inside.contains(places[i])) continue;
       cutter.cut(grid, i, cell);

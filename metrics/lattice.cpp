@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 
 namespace throng::metrics {
 
@@ -25,12 +26,7 @@ std::vector<bool> covered_by(std::span<const world::Building> buildings, const L
     return static_cast<int>(std::clamp(std::floor(offset_m / lattice.pitch_m), -1.0, 1.0 * count));
   };
   for (const world::Building& building : buildings) {
-    Vector2d min = building.footprint.front();
-    Vector2d max = min;
-    for (const Vector2d& corner : building.footprint) {
-      min = min.cwiseMin(corner);
-      max = max.cwiseMax(corner);
-    }
+    auto [min, max] = geometry::bounds_of(building.footprint);
     min -= lattice.first;
     max -= lattice.first;
     const int last_row = std::min(lattice.rows - 1, cell_of(max.y(), lattice.rows) + 1);
@@ -38,7 +34,7 @@ std::vector<bool> covered_by(std::span<const world::Building> buildings, const L
     for (int row = std::max(0, cell_of(min.y(), lattice.rows)); row <= last_row; ++row) {
       for (int column = std::max(0, cell_of(min.x(), lattice.columns)); column <= last_column;
            ++column) {
-        if (world::distance_to(building.footprint, lattice.place(column, row)) <= 0) {
+        if (geometry::distance_to(building.footprint, lattice.place(column, row)) <= 0) {
           covered[lattice.index(column, row)] = true;
         }
       }

@@ -7,7 +7,8 @@
 #include <queue>
 #include <utility>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 
 namespace throng::metrics {
 
@@ -18,32 +19,22 @@ namespace {
 constexpr double kNoPath = std::numeric_limits<double>::infinity();
 constexpr double kTouchingM = 1e-6;
 
-Vector2d closest_on(const Vector2d& from, const Vector2d& to, const Vector2d& point) {
-  const Vector2d along = to - from;
-  const double length2 = along.squaredNorm();
-  const double share =
-      length2 > 0 ? std::clamp((point - from).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return from + share * along;
-}
-
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // Whether two points lie on different sides of a line, each farther from it than touching.
 bool on_both_sides(const Vector2d& line_from, const Vector2d& line_to, const Vector2d& one,
                    const Vector2d& other) {
   const Vector2d along = line_to - line_from;
   const double touching = kTouchingM * along.norm();
-  const double a = cross(along, one - line_from);
-  const double b = cross(along, other - line_from);
+  const double a = geometry::cross(along, one - line_from);
+  const double b = geometry::cross(along, other - line_from);
   return (a > touching && b < -touching) || (a < -touching && b > touching);
 }
 
 // Inside a polygon and not on its outline.
 bool is_deep_inside(const std::vector<Vector2d>& corners, const Vector2d& place) {
-  if (world::distance_to(corners, place) > 0) return false;
+  if (geometry::distance_to(corners, place) > 0) return false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector2d& next = corners[(i + 1) % corners.size()];
-    if (world::distance_to_segment(corners[i], next, place) < kTouchingM) return false;
+    if (geometry::distance_to_segment(corners[i], next, place) < kTouchingM) return false;
   }
   return true;
 }
@@ -52,15 +43,13 @@ bool is_deep_inside(const std::vector<Vector2d>& corners, const Vector2d& place)
 
 PathBound::PathBound(const world::Scenario& scenario, double margin_m) {
   for (const world::Building& building : scenario.buildings) {
-    Outline outline{building.footprint, building.footprint.front(), building.footprint.front()};
+    Outline outline{building.footprint, geometry::bounds_of(building.footprint)};
     for (std::size_t i = 0; i < outline.corners.size(); ++i) {
       const std::size_t count = outline.corners.size();
       const Vector2d& corner = outline.corners[i];
-      outline.min = outline.min.cwiseMin(corner);
-      outline.max = outline.max.cwiseMax(corner);
       const Vector2d before = corner - outline.corners[(i + count - 1) % count];
       const Vector2d after = outline.corners[(i + 1) % count] - corner;
-      if (cross(before, after) > 0) corners_.push_back(corner);
+      if (geometry::cross(before, after) > 0) corners_.push_back(corner);
     }
     outlines_.push_back(std::move(outline));
   }
@@ -106,12 +95,13 @@ void PathBound::find_corner_paths(const std::vector<std::vector<double>>& betwee
 }
 
 double PathBound::straight_m(const Door& door, const Vector2d& place) const {
-  return (place - closest_on(door.wide_from, door.wide_to, place)).norm();
+  return (place - geometry::nearest_on_segment(door.wide_from, door.wide_to, place)).norm();
 }
 
 double PathBound::seen_m(const Door& door, const Vector2d& place) const {
-  const bool seen = is_free(place, closest_on(door.wide_from, door.wide_to, place)) ||
-                    is_free(place, closest_on(door.from, door.to, place));
+  const bool seen =
+      is_free(place, geometry::nearest_on_segment(door.wide_from, door.wide_to, place)) ||
+      is_free(place, geometry::nearest_on_segment(door.from, door.to, place));
   return seen ? straight_m(door, place) : kNoPath;
 }
 
@@ -131,25 +121,17 @@ double PathBound::to_door_m(std::size_t exit, const Vector2d& place) const {
   return straight;
 }
 
-bool PathBound::is_within_box(const Outline& outline, const Vector2d& place) {
-  return (place.array() >= outline.min.array()).all() &&
-         (place.array() <= outline.max.array()).all();
-}
-
 bool PathBound::is_inside_building(const Vector2d& place) const {
   return std::any_of(outlines_.begin(), outlines_.end(), [&](const Outline& outline) {
-    return is_within_box(outline, place) && is_deep_inside(outline.corners, place);
+    return outline.bounds.contains(place) && is_deep_inside(outline.corners, place);
   });
 }
 
 bool PathBound::is_free(const Vector2d& from, const Vector2d& to) const {
-  const Vector2d min = from.cwiseMin(to);
-  const Vector2d max = from.cwiseMax(to);
+  const geometry::Rectangle reach{from.cwiseMin(to), from.cwiseMax(to)};
   const Vector2d middle = 0.5 * (from + to);
   return std::none_of(outlines_.begin(), outlines_.end(), [&](const Outline& outline) {
-    const bool apart =
-        (min.array() > outline.max.array()).any() || (max.array() < outline.min.array()).any();
-    if (apart) return false;
+    if (!reach.meets(outline.bounds)) return false;
     const std::size_t count = outline.corners.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Vector2d& corner = outline.corners[i];
@@ -159,7 +141,7 @@ bool PathBound::is_free(const Vector2d& from, const Vector2d& to) const {
       }
     }
     // From corner to corner through a building no edge is crossed.
-    return is_within_box(outline, middle) && is_deep_inside(outline.corners, middle);
+    return outline.bounds.contains(middle) && is_deep_inside(outline.corners, middle);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "geometry/rectangle.h"
 #include "world/scenario.h"
 
 namespace throng::metrics {
@@ -25,7 +26,7 @@ class PathBound {
  private:
   struct Outline {
     std::vector<Eigen::Vector2d> corners;
-    Eigen::Vector2d min, max;
+    geometry::Rectangle bounds;
   };
   struct Door {
     Eigen::Vector2d from, to;            ///< as it is
@@ -33,7 +34,6 @@ class PathBound {
     std::vector<double> from_corner_m;   ///< per corner; infinite: no path
   };
 
-  static bool is_within_box(const Outline& outline, const Eigen::Vector2d& place);
   bool is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
   bool is_inside_building(const Eigen::Vector2d& place) const;
   double straight_m(const Door& door, const Eigen::Vector2d& place) const;

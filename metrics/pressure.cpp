@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/point_grid.h"
+
 namespace throng::metrics {
 
 using Eigen::Vector2d;
@@ -24,7 +26,7 @@ double pressure_of(double weights, const Vector2d& velocities, double squares) {
   return weights / mass * std::max(0.0, variance);
 }
 
-double pressure_at(const Vector2d& place, const PointGrid& grid,
+double pressure_at(const Vector2d& place, const geometry::PointGrid& grid,
                    std::span<const NearPerson> people) {
   double weights = 0;
   Vector2d velocity = Vector2d::Zero();
@@ -55,7 +57,7 @@ PressureMeter::PressureMeter(const ControlZone& zone, double dt_s)
 double PressureMeter::step(std::span<const NearPerson> people) {
   std::vector<Vector2d> places;
   for (const NearPerson& person : people) places.push_back(person.place);
-  const PointGrid grid(places, kPressureRadiusM);
+  const geometry::PointGrid grid(places, kPressureRadiusM);
   std::vector<double>& now = last_[steps_ % window_];
   ++steps_;
   double greatest = 0;

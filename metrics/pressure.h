@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "geometry/point_grid.h"
 #include "metrics/control_zone.h"
 #include "metrics/near_people.h"
-#include "metrics/point_grid.h"
 
 namespace throng::metrics {
 
@@ -22,7 +22,7 @@ inline constexpr double kPressureReachM = 2 * kPressureRadiusM;
 double pressure_of(double weights, const Eigen::Vector2d& velocities, double squares);
 
 /// Pressure at one place and instant (1/s²). `grid` holds the places of `people`, in that order.
-double pressure_at(const Eigen::Vector2d& place, const PointGrid& grid,
+double pressure_at(const Eigen::Vector2d& place, const geometry::PointGrid& grid,
                    std::span<const NearPerson> people);
 
 /// Pressure in a control zone, on a lattice of 0.5 m, averaged over the last second.

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "metrics/point_grid.h"
+#include "geometry/point_grid.h"
 
 namespace throng::metrics {
 
@@ -81,7 +81,7 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
     }
   }
   if (slow.empty()) return {};
-  const PointGrid grid(slow, kLinkM);
+  const geometry::PointGrid grid(slow, kLinkM);
   PathsBack paths(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Vector2d& place = grid.stored(i);

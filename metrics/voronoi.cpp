@@ -16,7 +16,9 @@
 #include <numbers>
 #include <utility>
 
-#include "world/polygon.h"
+#include "geometry/point_grid.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 
 namespace throng::metrics {
 
@@ -83,25 +85,12 @@ bool clip(Ring& ring, const Vector2d& point, const Vector2d& normal, Scratch& sc
     all_inside &= beyond[i] <= 0;
   }
   if (all_inside) return false;
-  Ring& kept = scratch.kept;
-  kept.resize(2 * corners);  // as many as there can be
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const std::size_t j = i + 1 < corners ? i + 1 : 0;
-    const bool stays = beyond[i] <= 0;
-    kept[count] = ring[i];
-    count += stays ? 1 : 0;
-    if (stays != (beyond[j] <= 0)) {
-      kept[count++] = ring[i] + beyond[i] / (beyond[i] - beyond[j]) * (ring[j] - ring[i]);
-    }
-  }
-  kept.resize(count);
-  std::swap(ring, kept);
+  geometry::clip<Vector2d>(ring, beyond, scratch.kept);
+  std::swap(ring, scratch.kept);
   return true;
 }
 
-// Cuts a ring to a convex region (Sutherland and Hodgman 1974). A ring that is not convex may get
-// edges that lie on each other, which its signed area does not notice.
+// Cuts a ring to a convex region.
 void clip_to(Ring& ring, std::span<const Vector2d> region) {
   thread_local Scratch scratch;
   for (std::size_t i = 0; i < region.size() && !ring.empty(); ++i) {
@@ -111,14 +100,9 @@ void clip_to(Ring& ring, std::span<const Vector2d> region) {
 }
 
 // Whether the ring lies on one side of a box.
-bool beside(const Ring& ring, const Vector2d& min, const Vector2d& max) {
-  Vector2d low = ring.front();
-  Vector2d high = low;
-  for (const Vector2d& corner : ring) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  }
-  return (low.array() >= max.array()).any() || (high.array() <= min.array()).any();
+bool beside(const Ring& ring, const geometry::Rectangle& box) {
+  const auto [low, high] = geometry::bounds_of(ring);
+  return (low.array() >= box.max.array()).any() || (high.array() <= box.min.array()).any();
 }
 
 double max_distance_sq(const Ring& ring, const Vector2d& from) {
@@ -156,19 +140,14 @@ double area_in(const VoronoiCell& cell, std::span<const Vector2d> convex_region)
   for (const Ring& whole : cell.rings) {
     ring = whole;
     clip_to(ring, convex_region);
-    area += world::signed_area(ring);
+    area += geometry::signed_area(ring);
   }
   return area;
 }
 
 VoronoiCutter::VoronoiCutter(std::span<const world::Building> buildings) {
   for (const world::Building& building : buildings) {
-    Footprint& footprint = footprints_.emplace_back(
-        Footprint{building.footprint, building.footprint.front(), building.footprint.front()});
-    for (const Vector2d& corner : footprint.ring) {
-      footprint.min = footprint.min.cwiseMin(corner);
-      footprint.max = footprint.max.cwiseMax(corner);
-    }
+    footprints_.push_back({building.footprint, geometry::bounds_of(building.footprint)});
   }
   const double step = 2 * std::numbers::pi / kDiscCorners;
   const double radius = kCellRadiusM * std::sqrt(step / std::sin(step));
@@ -177,13 +156,14 @@ VoronoiCutter::VoronoiCutter(std::span<const world::Building> buildings) {
   }
 }
 
-VoronoiCell VoronoiCutter::cell(const PointGrid& people, std::size_t index) const {
+VoronoiCell VoronoiCutter::cell(const geometry::PointGrid& people, std::size_t index) const {
   VoronoiCell cell;
   cut(people, index, cell);
   return cell;
 }
 
-void VoronoiCutter::cut(const PointGrid& people, std::size_t index, VoronoiCell& cell) const {
+void VoronoiCutter::cut(const geometry::PointGrid& people, std::size_t index,
+                        VoronoiCell& cell) const {
   thread_local Scratch scratch;
   Scratch& memory = scratch;
   const Vector2d& person = people[index];
@@ -232,20 +212,21 @@ void VoronoiCutter::cut(const PointGrid& people, std::size_t index, VoronoiCell&
     for (Vector2d& corner : disc) corner += person;
     clip_to(ring, disc);
   }
-  cell.area_m2 = world::signed_area(ring);
+  cell.area_m2 = geometry::signed_area(ring);
   take_away_buildings(person, cell);
 }
 
 void VoronoiCutter::take_away_buildings(const Vector2d& person, VoronoiCell& cell) const {
   CellPolygons ground;
   for (const Footprint& footprint : footprints_) {
-    const Eigen::Array2d gap = (footprint.min - person).cwiseMax(person - footprint.max).array();
+    const Eigen::Array2d gap =
+        (footprint.bounds.min - person).cwiseMax(person - footprint.bounds.max).array();
     if ((gap > 1.01 * kCellRadiusM).any()) continue;
     // Most footprints near are not reached by the cell.
-    if (beside(cell.rings.front(), footprint.min, footprint.max)) continue;
+    if (beside(cell.rings.front(), footprint.bounds)) continue;
     Ring common = footprint.ring;
     clip_to(common, cell.rings.front());
-    if (world::signed_area(common) < kNoAreaM2) continue;
+    if (geometry::signed_area(common) < kNoAreaM2) continue;
     if (ground.empty()) ground.push_back(polygon_from(cell.rings.front()));
     CellPolygons rest;
     bg::difference(ground, polygon_from(footprint.ring), rest);

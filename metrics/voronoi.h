@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "metrics/point_grid.h"
+#include "geometry/point_grid.h"
+#include "geometry/rectangle.h"
 #include "world/scenario.h"
 
 namespace throng::metrics {
@@ -32,14 +33,14 @@ class VoronoiCutter {
   /// Region nearer to the point `index` than to any other, within kCellRadiusM (a polygon of 32
   /// corners with the disc's area), outside of buildings and connected to the point. People at one
   /// place share one cell.
-  VoronoiCell cell(const PointGrid& people, std::size_t index) const;
+  VoronoiCell cell(const geometry::PointGrid& people, std::size_t index) const;
   /// The same into a cell that was used before: quicker where there are many.
-  void cut(const PointGrid& people, std::size_t index, VoronoiCell& cell) const;
+  void cut(const geometry::PointGrid& people, std::size_t index, VoronoiCell& cell) const;
 
  private:
   struct Footprint {
     Ring ring;
-    Eigen::Vector2d min, max;
+    geometry::Rectangle bounds;
   };
 
   void take_away_buildings(const Eigen::Vector2d& person, VoronoiCell& cell) const;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
 
 namespace throng::metrics {
 
@@ -16,22 +16,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFinestM = 0.25;
 constexpr double kMaxCells = 1e6;
 constexpr double kSameM = 1e-9;
-
-Vector2d nearest_on_segment(const Vector2d& point, const Vector2d& from, const Vector2d& to) {
-  const Vector2d along = to - from;
-  const double share = std::clamp((point - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return from + share * along;
-}
-
-// Twice the area of the triangle, positive counter-clockwise.
-double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
-}
-
-// Whether each segment has its ends on both sides of the other; touching is not crossing.
-bool cross_each_other(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
-  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
-}
 
 }  // namespace
 
@@ -48,7 +32,8 @@ WalkingDistance::WalkingDistance(const world::Rectangle& ground,
   for (int row = 0; row < lattice_.rows; ++row) {
     for (int column = 0; column < lattice_.columns; ++column) {
       const Vector2d place = lattice_.place(column, row);
-      const double to_door = (place - nearest_on_segment(place, door_from_, door_to_)).norm();
+      const double to_door =
+          (place - geometry::nearest_on_segment(door_from_, door_to_, place)).norm();
       if (to_door <= lattice_.pitch_m && !blocked_[lattice_.index(column, row)]) {
         at(column, row) = to_door;
       }
@@ -108,7 +93,7 @@ std::optional<double> WalkingDistance::from(const Vector2d& place) const {
     }
   }
   if (weights <= 0) return std::nullopt;
-  const Vector2d door = nearest_on_segment(place, door_from_, door_to_);
+  const Vector2d door = geometry::nearest_on_segment(door_from_, door_to_, place);
   return straight_path_is_free(place, door) ? (place - door).norm() : sum / weights;
 }
 
@@ -116,18 +101,18 @@ bool WalkingDistance::straight_path_is_free(const Vector2d& from, const Vector2d
   return std::none_of(footprints_.begin(), footprints_.end(), [&](const auto& footprint) {
     for (std::size_t i = 0; i < footprint.size(); ++i) {
       const Vector2d& next = footprint[i + 1 < footprint.size() ? i + 1 : 0];
-      if (cross_each_other(from, to, footprint[i], next)) return true;
+      if (geometry::segments_cross(from, to, footprint[i], next)) return true;
     }
     // Exactly through two corners it crosses no edge.
-    return world::distance_to(footprint, 0.5 * (from + to)) <= 0;
+    return geometry::distance_to(footprint, 0.5 * (from + to)) <= 0;
   });
 }
 
 std::vector<WalkingDistance> walking_distances(const world::Scenario& scenario) {
   world::Rectangle ground = scenario.inside;
   for (const world::Exit& exit : scenario.exits) {
-    ground.min = ground.min.cwiseMin(exit.from).cwiseMin(exit.to);
-    ground.max = ground.max.cwiseMax(exit.from).cwiseMax(exit.to);
+    ground.extend(exit.from);
+    ground.extend(exit.to);
   }
   std::vector<WalkingDistance> distances;
   distances.reserve(scenario.exits.size());

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
 
 namespace throng::places {
 
@@ -75,7 +75,7 @@ std::vector<BlockedDisc> blocked_discs(const People& people) {
 const BlockedDisc* first_to_reach(const world::Exit& exit, const std::vector<BlockedDisc>& discs) {
   const BlockedDisc* first = nullptr;
   for (const BlockedDisc& disc : discs) {
-    if (world::distance_to_segment(exit.from, exit.to, disc.middle) >= disc.radius_m) continue;
+    if (geometry::distance_to_segment(exit.from, exit.to, disc.middle) >= disc.radius_m) continue;
     if (first == nullptr || disc.from_s < first->from_s) first = &disc;
   }
   return first;

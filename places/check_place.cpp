@@ -7,7 +7,9 @@
 #include <functional>
 #include <optional>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
+#include "geometry/triangulate.h"
 
 namespace throng::places {
 
@@ -24,48 +26,24 @@ std::string point_text(const Vector2d& point) {
 
 using Outline = std::vector<Vector2d>;
 
-/// The part of an outline to the left of the line from a to b (Sutherland and Hodgman 1974).
+/// The part of an outline to the left of the line from a to b.
 Outline left_of(const Outline& outline, const Vector2d& a, const Vector2d& b) {
-  const Vector2d inward(a.y() - b.y(), b.x() - a.x());
-  Outline kept;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vector2d& p = outline[i];
-    const Vector2d& q = outline[(i + 1) % outline.size()];
-    const double height_p = inward.dot(p - a);
-    const double height_q = inward.dot(q - a);
-    if (height_p >= 0) kept.push_back(p);
-    if ((height_p > 0 && height_q < 0) || (height_p < 0 && height_q > 0)) {
-      kept.push_back(p + height_p / (height_p - height_q) * (q - p));
-    }
-  }
-  return kept;
+  return geometry::clipped(outline,
+                           [&](const Vector2d& p) { return -geometry::cross(b - a, p - a); });
 }
 
 double overlap_m2(const Building& a, const Building& b) {
   double area = 0;
-  for (const auto& one : world::triangulate(a.footprint)) {
-    for (const auto& other : world::triangulate(b.footprint)) {
+  for (const auto& one : geometry::triangulate(a.footprint)) {
+    for (const auto& other : geometry::triangulate(b.footprint)) {
       Outline shared = {a.footprint[one[0]], a.footprint[one[1]], a.footprint[one[2]]};
       for (std::size_t i = 0; i < other.size() && !shared.empty(); ++i) {
         shared = left_of(shared, b.footprint[other[i]], b.footprint[other[(i + 1) % 3]]);
       }
-      if (shared.size() >= 3) area += world::signed_area(shared);
+      if (shared.size() >= 3) area += geometry::signed_area(shared);
     }
   }
   return area;
-}
-
-world::Rectangle bounds_of(const Building& building) {
-  world::Rectangle bounds{building.footprint.front(), building.footprint.front()};
-  for (const Vector2d& corner : building.footprint) {
-    bounds.min = bounds.min.cwiseMin(corner);
-    bounds.max = bounds.max.cwiseMax(corner);
-  }
-  return bounds;
-}
-
-bool bounds_meet(const world::Rectangle& a, const world::Rectangle& b) {
-  return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
 }
 
 /// The first of those who have the same trouble, and how many more there are.
@@ -183,10 +161,11 @@ void check_buildings(const Scenario& scenario, Findings& findings) {
   constexpr double kTouchM2 = 0.01;  // walls that meet
   std::vector<world::Rectangle> bounds;
   bounds.reserve(scenario.buildings.size());
-  for (const Building& building : scenario.buildings) bounds.push_back(bounds_of(building));
+  for (const Building& building : scenario.buildings)
+    bounds.push_back(geometry::bounds_of(building.footprint));
   for (std::size_t i = 0; i < scenario.buildings.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!bounds_meet(bounds[i], bounds[j])) continue;
+      if (!bounds[i].meets(bounds[j])) continue;
       const double area = overlap_m2(scenario.buildings[i], scenario.buildings[j]);
       if (area <= kTouchM2) continue;
       findings.error(fmt::format("/buildings/{}", i),
@@ -205,7 +184,7 @@ void check_drones(const Scenario& scenario, Findings& findings) {
     const std::string where = fmt::format("/drones/{}/start", i);
     for (const Building& building : scenario.buildings) {
       if (drone.position.z() > building.height_m + kClearM ||
-          world::distance_to(building.footprint, drone.position.head<2>()) > kClearM) {
+          geometry::distance_to(building.footprint, drone.position.head<2>()) > kClearM) {
         continue;
       }
       findings.error(
@@ -233,7 +212,8 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
   Sufferers locked_in;
   std::size_t people = 0;
   std::vector<world::Rectangle> bounds;
-  for (const Building& building : scenario.buildings) bounds.push_back(bounds_of(building));
+  for (const Building& building : scenario.buildings)
+    bounds.push_back(geometry::bounds_of(building.footprint));
   for (std::size_t agent = 0; agent < loaded.count(); ++agent) {
     if (!is_to_arrive_or_there(loaded, agent)) continue;
     ++people;
@@ -244,7 +224,8 @@ void check_people(const Scenario& scenario, const LoadedCrowd& loaded, const Rou
       continue;
     }
     for (std::size_t i = 0; i < scenario.buildings.size(); ++i) {
-      if (bounds[i].contains(at) && world::distance_to(scenario.buildings[i].footprint, at) == 0) {
+      if (bounds[i].contains(at) &&
+          geometry::distance_to(scenario.buildings[i].footprint, at) == 0) {
         in_buildings.add(agent, at, fmt::format("in building \"{}\"", scenario.buildings[i].id));
       }
     }
@@ -286,7 +267,7 @@ void check_walls(const Scenario& scenario, const Routes& routes, Findings& findi
     const Building& building = scenario.buildings[i];
     std::size_t free = 0;
     std::size_t all = 0;
-    for (const auto& triangle : world::triangulate(building.footprint)) {
+    for (const auto& triangle : geometry::triangulate(building.footprint)) {
       const Vector2d middle = (building.footprint[triangle[0]] + building.footprint[triangle[1]] +
                                building.footprint[triangle[2]]) /
                               3;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "crowd/description/builder.h"
+#include "geometry/angle.h"
 #include "places/blocked.h"
 #include "places/crowd_behavior.h"
 
@@ -53,8 +54,7 @@ Facing facing_of(const Line& line) {
   if (line.facing) return *line.facing;
   const Vector2d ahead = line.from - line.to;
   if (ahead.norm() == 0) return {};
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  return {Facing::Kind::direction, {}, kDegrees * std::atan2(ahead.y(), ahead.x())};
+  return {Facing::Kind::direction, {}, 1 / kDegree * std::atan2(ahead.y(), ahead.x())};
 }
 
 Node agents_at(const std::vector<Vector2d>& places) {

@@ -7,8 +7,8 @@
 #include <array>
 #include <string_view>
 
+#include "geometry/polygon.h"
 #include "world/json_reader.h"
-#include "world/polygon.h"
 
 namespace throng::places {
 
@@ -33,7 +33,7 @@ Doing read_doing(const JsonValue& value) {
 std::vector<Eigen::Vector2d> read_outline(const JsonValue& value) {
   std::vector<Eigen::Vector2d> outline;
   for (const JsonValue& corner : value.items(3)) outline.push_back(corner.vector2(kFarM));
-  if (outline.size() >= 3 && !world::is_simple(outline)) {
+  if (outline.size() >= 3 && !geometry::is_simple(outline)) {
     value.reject("edges that touch each other", "a polygon whose edges do not cross");
   }
   return outline;

@@ -58,15 +58,7 @@ void draw_props(const Scenario& scenario, Sheet& sheet) {
     sheet.polygon(building.footprint, colors::kBuilding, colors::kInk);
   }
   for (const world::Prop& prop : scenario.props) {
-    const Vector2d half =
-        prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
-    const Vector2d along(std::cos(prop.yaw_rad), std::sin(prop.yaw_rad));
-    const Vector2d across(-along.y(), along.x());
-    const auto corner = [&](double x, double y) -> Vector2d {
-      return prop.position + x * half.x() * along + y * half.y() * across;
-    };
-    sheet.polygon(std::array{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)},
-                  colors::kProp, drawing::kTransparent);
+    sheet.polygon(world::footprint_of(prop), colors::kProp, drawing::kTransparent);
   }
 }
 

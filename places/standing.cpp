@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "crowd/population/scatter.h"
-#include "world/polygon.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 
 namespace throng::places {
 
@@ -23,12 +24,8 @@ std::vector<Vector2d> outline_of(const world::Prop& prop) {
   const Vector2d half =
       (prop.scale * world::prop_types().at(static_cast<std::size_t>(prop.kind)).half_size)
           .cwiseMax(kThinnestM);
-  const Vector2d along(std::cos(prop.yaw_rad), std::sin(prop.yaw_rad));
-  const Vector2d across(-along.y(), along.x());
-  const auto corner = [&](double x, double y) -> Vector2d {
-    return prop.position + x * half.x() * along + y * half.y() * across;
-  };
-  return {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+  const auto corners = geometry::turned_rectangle(prop.position, half, prop.yaw_rad);
+  return {corners.begin(), corners.end()};
 }
 
 std::vector<Eigen::Vector2f> in_floats(std::span<const Vector2d> points) {
@@ -58,7 +55,7 @@ Standing stand(std::span<const Vector2d> area, int count, const Solids& solids, 
   // Other seeds draw other places: they get 15 % of the ground more than this one needs.
   constexpr double kSpare = 0.93;
   const std::vector<Eigen::Vector2f> others = in_floats(taken);
-  const double own_m = std::sqrt(std::abs(world::signed_area(area)) / count);
+  const double own_m = std::sqrt(std::abs(geometry::signed_area(area)) / count);
   crowd::ScatterSpec spec;
   spec.area = in_floats(area);
   spec.count = static_cast<std::size_t>(count);

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::places {
 

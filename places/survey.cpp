@@ -6,7 +6,6 @@
 #include <queue>
 #include <utility>
 
-#include "crowd/behavior/behavior.h"
 #include "crowd/elements/element.h"
 #include "crowd/model.h"
 #include "crowd/scene.h"

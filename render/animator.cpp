@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string>
 
-#include "base/angle.h"
 #include "base/random.h"
+#include "geometry/angle.h"
 
 namespace throng::render {
 
@@ -30,12 +29,6 @@ Between find(const std::vector<double>& times, double time_s) {
   if (next == times.end()) return {before, before, 0};
   return {before, before + 1,
           static_cast<float>((time_s - times[before]) / (*next - times[before]))};
-}
-
-/// From a to b along the shorter arc.
-float turned(float a, float b, float share) {
-  constexpr float kTurn = 2 * std::numbers::pi_v<float>;
-  return a + share * std::remainder(b - a, kTurn);
 }
 
 /// When somebody looks at drones: now and then, if at all.
@@ -64,7 +57,7 @@ Gaze gaze_at(const Eigen::Vector3d& drone, const Eigen::Vector2f& from, float ya
   const double away = to.norm();
   if (away > kFar_m || std::atan2(drone.z() - kEyes_m, away) < kMinElevationRad) return Gaze::none;
   const double bearing =
-      std::remainder(std::atan2(to.y(), to.x()) - static_cast<double>(yaw_rad), 360 * kDegree);
+      geometry::turn_rad(static_cast<double>(yaw_rad), std::atan2(to.y(), to.x()));
   if (std::abs(bearing) < kAhead) return Gaze::ahead;
   if (std::abs(bearing) > kBehind) return Gaze::none;
   return bearing > 0 ? Gaze::left : Gaze::right;
@@ -155,7 +148,7 @@ Scene Animator::scene_at(double time_s, std::int64_t frame_index) const {
     person.appearance = appearance_[agent];
     person.position.head<2>() = trace.position[a] + share * (trace.position[b] - trace.position[a]);
     person.velocity = trace.velocity[a] + share * (trace.velocity[b] - trace.velocity[a]);
-    person.yaw_rad = turned(trace.yaw_rad[a], trace.yaw_rad[b], share);
+    person.yaw_rad = geometry::interpolated_rad(trace.yaw_rad[a], trace.yaw_rad[b], share);
     const std::vector<Stay>& stays = stays_[agent];
     const auto stay =
         std::upper_bound(stays.begin(), stays.end(), at.before,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/polygon.h"
 #include "skinning/levels.h"
 
 namespace throng::render {
@@ -10,24 +11,6 @@ namespace {
 
 std::array<float, 4> four(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
-}
-
-/// Cuts a convex polygon at height z by one half-space (Sutherland and Hodgman).
-std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon, double z,
-                                     const Eigen::Vector4d& plane) {
-  const auto distance = [&](const Eigen::Vector2d& p) {
-    return plane.x() * p.x() + plane.y() * p.y() + plane.z() * z + plane.w();
-  };
-  std::vector<Eigen::Vector2d> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d& from = polygon[i];
-    const Eigen::Vector2d& to = polygon[(i + 1) % polygon.size()];
-    const double a = distance(from);
-    const double b = distance(to);
-    if (a >= 0) kept.push_back(from);
-    if ((a >= 0) != (b >= 0)) kept.emplace_back(from + (to - from) * (a / (a - b)));
-  }
-  return kept;
 }
 
 }  // namespace
@@ -81,7 +64,11 @@ Eigen::AlignedBox2d visible_part(const ClipPlanes& planes, const Eigen::AlignedB
                                  double z) {
   std::vector<Eigen::Vector2d> polygon = {
       area.min(), {area.max().x(), area.min().y()}, area.max(), {area.min().x(), area.max().y()}};
-  for (const Eigen::Vector4d& plane : planes) polygon = clipped(polygon, z, plane);
+  for (const Eigen::Vector4d& plane : planes) {
+    polygon = geometry::clipped(polygon, [&](const Eigen::Vector2d& p) {
+      return -(plane.x() * p.x() + plane.y() * p.y() + plane.z() * z + plane.w());
+    });
+  }
   Eigen::AlignedBox2d bounds;
   for (const Eigen::Vector2d& corner : polygon) bounds.extend(corner);
   return bounds;

@@ -9,6 +9,7 @@
 #include "jobs/queue/job_id.h"
 #include "jobs/spec/plan.h"
 #include "jobs/spec/resolved_job.h"
+#include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/http.h"
 #include "server/requests.h"

@@ -6,9 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "metrics/alarm.h"
-#include "metrics/escape_times.h"
-#include "metrics/people.h"
 #include "metrics/run_bound.h"
 #include "sim/run.h"
 #include "world/scenario.h"

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "metrics/near_people.h"
-#include "metrics/point_grid.h"
+#include "geometry/point_grid.h"
 #include "metrics/pressure.h"
 #include "metrics/voronoi.h"
 #include "study/page.h"
@@ -165,7 +164,7 @@ GroundFigures ground_figures(const MeasuredRun& run, const world::Scenario& scen
     std::vector<Vector2d> places;
     places.reserve(people.size());
     for (const auto& person : people) places.push_back(person.place);
-    const metrics::PointGrid grid(places, metrics::kPressureRadiusM);
+    const geometry::PointGrid grid(places, metrics::kPressureRadiusM);
     for (std::size_t i = 0; i < places.size(); ++i) {
       figures.density.at(places[i]) += 1;
       figures.density_and_speed.emplace_back(cutter.cell(grid, i).density_per_m2(),

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "jobs/spec/spec.h"
-#include "metrics/alarm.h"
 #include "metrics/run_bound.h"
 #include "world/scenario.h"
 

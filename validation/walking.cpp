@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/angle.h"
 #include "validation/flow.h"
 #include "validation/run.h"
 
@@ -260,8 +261,7 @@ QueueRun stand_in_queue(const Tested& tested, std::uint64_t seed) {
     for (std::size_t i = 0; i < heading.size(); ++i) {
       if (crowd.present()[i] == 0 || crowd.positions()[i].x() > 0) continue;
       seconds += crowd.dt_s();
-      const float turn =
-          std::remainder(crowd.yaws_rad()[i] - heading[i], 2 * static_cast<float>(M_PI));
+      const float turn = geometry::turn_rad(heading[i], crowd.yaws_rad()[i]);
       if (std::abs(turn) > 1.5708F) {
         ++flips;
         heading[i] = crowd.yaws_rad()[i];

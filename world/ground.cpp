@@ -7,8 +7,8 @@
 #include <array>
 #include <string_view>
 
+#include "geometry/polygon.h"
 #include "world/json_reader.h"
-#include "world/polygon.h"
 
 namespace throng::world {
 
@@ -42,10 +42,10 @@ std::vector<GroundArea> read_ground_areas(const JsonValue& list) {
       area.corners.push_back(corner.vector2(kMaxCoordinateM));
     }
     if (area.corners.size() >= 3) {
-      if (!is_simple(area.corners)) {
+      if (!geometry::is_simple(area.corners)) {
         item["corners"].reject("edges that touch each other",
                                "a polygon whose corners all differ and whose edges do not cross");
-      } else if (signed_area(area.corners) < 0) {
+      } else if (geometry::signed_area(area.corners) < 0) {
         std::reverse(area.corners.begin(), area.corners.end());
       }
     }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/deprecation.h"
+#include "base/json_describe.h"
 #include "base/suggest.h"
 
 namespace throng::world {
@@ -30,15 +31,6 @@ std::string escaped(std::string_view key) {
 }
 
 }  // namespace
-
-std::string describe(const json& value) {
-  if (value.is_object()) return "an object";
-  if (value.is_array()) return fmt::format("an array of {}", value.size());
-  constexpr std::size_t kMaxShownBytes = 60;
-  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  if (text.size() > kMaxShownBytes) text = text.substr(0, kMaxShownBytes) + "...";
-  return text;
-}
 
 JsonValue::JsonValue(const json& document, const std::string& source,
                      std::vector<Problem>& problems)

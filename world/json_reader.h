@@ -14,9 +14,6 @@
 
 namespace throng::world {
 
-/// A JSON value, short enough for a message: "an array of 3", "-1", "\"red\"".
-std::string describe(const nlohmann::json& value);
-
 /// A value of a document and its place. Reading something of the wrong kind records a problem and
 /// returns a harmless value, so that reading goes on; reading below a value that is missing
 /// records nothing more.

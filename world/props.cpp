@@ -10,10 +10,12 @@
 #include <optional>
 #include <string>
 
-#include "base/angle.h"
 #include "base/random.h"
+#include "geometry/angle.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
+#include "geometry/triangulate.h"
 #include "world/json_reader.h"
-#include "world/polygon.h"
 #include "world/scenario.h"
 
 namespace throng::world {
@@ -25,17 +27,6 @@ constexpr double kMinScale = 0.2;
 constexpr double kMaxScale = 5;
 constexpr int kMaxScattered = 2000;
 constexpr std::uint64_t kThinning = std::uint64_t{1} << 42;  // apart from other uses of the stream
-
-std::array<Eigen::Vector2d, 4> corners_of(const Prop& prop) {
-  const Eigen::Vector2d half =
-      prop.scale * prop_types().at(static_cast<std::size_t>(prop.kind)).half_size;
-  const Eigen::Vector2d along(std::cos(prop.yaw_rad), std::sin(prop.yaw_rad));
-  const Eigen::Vector2d across(-along.y(), along.x());
-  const auto corner = [&](double x, double y) -> Eigen::Vector2d {
-    return prop.position + x * half.x() * along + y * half.y() * across;
-  };
-  return {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
-}
 
 /// Whether the convex outlines share a point (separating axes).
 bool overlap(std::span<const Eigen::Vector2d> a, std::span<const Eigen::Vector2d> b) {
@@ -55,11 +46,11 @@ bool overlap(std::span<const Eigen::Vector2d> a, std::span<const Eigen::Vector2d
 }
 
 bool stands_in(const Building& building, const std::array<Eigen::Vector2d, 4>& corners) {
-  for (const auto& triangle : triangulate(building.footprint)) {
+  for (const auto& triangle : geometry::triangulate(building.footprint)) {
     const std::array<Eigen::Vector2d, 3> part = {building.footprint[triangle[0]],
                                                  building.footprint[triangle[1]],
                                                  building.footprint[triangle[2]]};
-    if (signed_area(part) > 1e-9 && overlap(part, corners)) return true;
+    if (geometry::signed_area(part) > 1e-9 && overlap(part, corners)) return true;
   }
   return false;
 }
@@ -68,7 +59,7 @@ bool blocks(const Exit& exit, const std::array<Eigen::Vector2d, 4>& corners) {
   const Eigen::Vector2d depth = kClearOfExitsM * exit.outward;
   std::array<Eigen::Vector2d, 4> clear = {exit.from - depth, exit.to - depth, exit.to + depth,
                                           exit.from + depth};
-  if (signed_area(clear) < 0) std::reverse(clear.begin(), clear.end());
+  if (geometry::signed_area(clear) < 0) std::reverse(clear.begin(), clear.end());
   return overlap(clear, corners);
 }
 
@@ -79,7 +70,7 @@ struct Refusal {
 
 /// Why a prop may not stand where it does.
 std::optional<Refusal> refusal_of(const Prop& prop, const Scenario& scenario) {
-  const auto corners = corners_of(prop);
+  const auto corners = footprint_of(prop);
   for (const Building& building : scenario.buildings) {
     if (building.footprint.size() < 3 || !stands_in(building, corners)) continue;
     return Refusal{fmt::format("a place in building \"{}\"", building.id),
@@ -127,7 +118,7 @@ Prop read_prop(const JsonValue& item, std::uint64_t index) {
 std::vector<Eigen::Vector2d> read_area(const JsonValue& value) {
   std::vector<Eigen::Vector2d> area;
   for (const JsonValue& corner : value.items(3)) area.push_back(corner.vector2(kMaxCoordinateM));
-  if (area.size() >= 3 && !is_simple(area)) {
+  if (area.size() >= 3 && !geometry::is_simple(area)) {
     value.reject("edges that touch each other", "a polygon whose edges do not cross");
     area.clear();
   }
@@ -147,12 +138,7 @@ void scatter_over(const JsonValue& item, const Scenario& scenario, std::vector<P
   const int seed = item["seed"].integer(0, 1'000'000'000);
   const double apart_m = item["apart_m"].exists() ? item["apart_m"].number(0, 1000) : 3;
   if (kinds.empty() || area.size() < 3) return;
-  Eigen::Vector2d low = area.front();
-  Eigen::Vector2d high = area.front();
-  for (const Eigen::Vector2d& corner : area) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  }
+  const auto [low, high] = geometry::bounds_of(area);
   constexpr int kDartsPerProp = 30;
   int placed = 0;
   for (int dart = 0; dart < kDartsPerProp * count && placed < count; ++dart) {
@@ -168,7 +154,7 @@ void scatter_over(const JsonValue& item, const Scenario& scenario, std::vector<P
     const bool close = std::any_of(props.begin(), props.end(), [&](const Prop& other) {
       return (other.position - prop.position).norm() < apart_m;
     });
-    if (close || distance_to(area, prop.position) > 0 || refusal_of(prop, scenario)) continue;
+    if (close || geometry::distance_to(area, prop.position) > 0 || refusal_of(prop, scenario)) continue;
     props.push_back(prop);
     ++placed;
   }
@@ -194,8 +180,13 @@ const std::array<PropType, kPropKinds>& prop_types() {
   return types;
 }
 
+std::array<Eigen::Vector2d, 4> footprint_of(const Prop& prop) {
+  const PropType& type = prop_types().at(static_cast<std::size_t>(prop.kind));
+  return geometry::turned_rectangle(prop.position, prop.scale * type.half_size, prop.yaw_rad);
+}
+
 double distance_to(const Prop& prop, const Eigen::Vector2d& point) {
-  return distance_to(corners_of(prop), point);
+  return geometry::distance_to(footprint_of(prop), point);
 }
 
 std::vector<Prop> read_props(const JsonValue& props, const JsonValue& scatter,

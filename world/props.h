@@ -46,6 +46,9 @@ struct Prop {
   std::uint32_t look = 0;  ///< which of a kind's colors and shapes it has
 };
 
+/// Corners of the ground that a prop covers, counter-clockwise (m).
+std::array<Eigen::Vector2d, 4> footprint_of(const Prop& prop);
+
 /// Distance from a point to the ground that a prop covers: 0 inside (m).
 double distance_to(const Prop& prop, const Eigen::Vector2d& point);
 

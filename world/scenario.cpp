@@ -18,8 +18,8 @@
 #include "base/json_text.h"
 #include "base/resources.h"
 #include "base/suggest.h"
+#include "geometry/polygon.h"
 #include "world/json_reader.h"
-#include "world/polygon.h"
 
 namespace throng::world {
 
@@ -133,10 +133,10 @@ std::vector<Building> read_buildings(const JsonValue& list) {
       building.footprint.push_back(corner.vector2(kMaxCoordinateM));
     }
     if (!corners.empty()) {
-      if (!is_simple(building.footprint)) {
+      if (!geometry::is_simple(building.footprint)) {
         item["footprint"].reject("edges that do not touch each other",
                                  "a polygon whose corners all differ and whose edges do not cross");
-      } else if (signed_area(building.footprint) <= 0) {
+      } else if (geometry::signed_area(building.footprint) <= 0) {
         item["footprint"].reject("corners in clockwise order",
                                  "counter-clockwise order, seen from above");
       }
@@ -159,7 +159,7 @@ std::vector<DroneStart> read_drones(const JsonValue& list, const std::vector<Bui
     }
     for (const Building& building : buildings) {
       if (building.footprint.size() >= 3 && drone.position.z() <= building.height_m &&
-          distance_to(building.footprint, drone.position.head<2>()) == 0) {
+          geometry::distance_to(building.footprint, drone.position.head<2>()) == 0) {
         item["start"].reject(fmt::format("a point in building \"{}\"", building.id),
                              "a point outside every building");
       }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/rectangle.h"
 #include "world/disasters.h"
 #include "world/ground.h"
 #include "world/props.h"
@@ -76,13 +77,7 @@ struct DroneStart {
   std::optional<GoalRef> moves_goal;  ///< the goal that this drone's (x, y) moves, if any
 };
 
-struct Rectangle {
-  Eigen::Vector2d min = Eigen::Vector2d::Zero();
-  Eigen::Vector2d max = Eigen::Vector2d::Zero();
-  bool contains(const Eigen::Vector2d& p) const {
-    return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
-  }
-};
+using Rectangle = geometry::Rectangle;
 
 struct Scenario {
   std::string id;  ///< "city_square/nearest_exit": path below the scenarios folder, no suffix

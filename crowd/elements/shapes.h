@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
+
 namespace throng::crowd {
 
 struct Circle {
@@ -21,19 +24,7 @@ struct Circle {
   }
 };
 
-struct Box {
-  Eigen::Vector2f min = Eigen::Vector2f::Zero();
-  Eigen::Vector2f max = Eigen::Vector2f::Zero();
-
-  Eigen::Vector2f center() const { return 0.5F * (min + max); }
-  bool contains(const Eigen::Vector2f& p) const {
-    return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
-  }
-  Eigen::Vector2f nearest_point(const Eigen::Vector2f& p, float margin) const {
-    const Eigen::Vector2f inset = Eigen::Vector2f::Constant(margin).cwiseMin(0.5F * (max - min));
-    return p.cwiseMax(min + inset).cwiseMin(max - inset);
-  }
-};
+using Box = geometry::BasicRectangle<float>;
 
 /// A box turned about its lower left corner.
 struct TurnedBox {
@@ -43,7 +34,7 @@ struct TurnedBox {
 
   Eigen::Vector2f to_box(const Eigen::Vector2f& p) const {
     const Eigen::Vector2f d = p - pivot;
-    return {d.dot(axis), axis.x() * d.y() - axis.y() * d.x()};
+    return {d.dot(axis), geometry::cross(axis, d)};
   }
   Eigen::Vector2f to_world(const Eigen::Vector2f& q) const {
     return pivot + q.x() * axis + q.y() * Eigen::Vector2f(-axis.y(), axis.x());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "crowd/models/local_model.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -28,14 +29,14 @@ float density_ahead(const Crowd& crowd, const Grid& grid, const AgentView& aroun
   for (const Grid::Neighbor& neighbor : around.neighbors) {
     const Eigen::Vector2f offset = grid.position(neighbor.slot) - place;
     const float along = direction.dot(offset);
-    const float aside = kAsideStretch * cross(direction, offset);
+    const float aside = kAsideStretch * geometry::cross(direction, offset);
     sum += bell(along * along + aside * aside, kernel.agents);
   }
   const std::vector<Segment>& segments = crowd.obstacles.segments();
   for (const Obstacles::Near& near : around.walls) {
     const Segment& wall = segments[near.segment];
     if (is_shared_corner(segments, wall, place)) continue;
-    const Eigen::Vector2f nearest = nearest_on_segment(wall.begin, wall.end, place);
+    const Eigen::Vector2f nearest = geometry::nearest_on_segment(wall.begin, wall.end, place);
     if (direction.dot(nearest - position) <= 0) continue;
     sum += bell((nearest - place).squaredNorm(), kernel.walls);
   }

@@ -5,6 +5,7 @@
 #include "crowd/kernels/lane_batch.h"
 #include "crowd/model.h"
 #include "crowd/models/local_model.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -149,7 +150,7 @@ struct CrowdForceKernel {
                                       const Eigen::Vector2f& direction, float share) {
     const Eigen::Vector2f left(-direction.y(), direction.x());
     const Eigen::Vector2f aside = normal.dot(left) >= 0 ? left : Eigen::Vector2f(-left);
-    const float angle = share * std::atan2(cross(normal, aside), normal.dot(aside));
+    const float angle = share * std::atan2(geometry::cross(normal, aside), normal.dot(aside));
     const float c = std::cos(angle);
     const float s = std::sin(angle);
     return {c * normal.x() - s * normal.y(), s * normal.x() + c * normal.y()};
@@ -230,7 +231,8 @@ class Helbing : public Model {
     const Eigen::Vector2f& position = setting.grid.position(slot);
     if (nearest_to_end(wall, position)) return Eigen::Vector2f::Zero();
     const std::vector<float>& constants = setting.crowd.model_constants;
-    const Eigen::Vector2f offset = position - nearest_on_segment(wall.begin, wall.end, position);
+    const Eigen::Vector2f offset =
+        position - geometry::nearest_on_segment(wall.begin, wall.end, position);
     const float distance = offset.norm();
     const Eigen::Vector2f normal =
         unit_or(offset, Eigen::Vector2f(wall.direction.y(), -wall.direction.x()));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/polygon.h"
+
 namespace throng::crowd {
 
 namespace {
@@ -68,7 +70,7 @@ BodyOffset::BodyOffset(const Walker& self, std::size_t other, const Eigen::Vecto
                         : Eigen::Vector2f(self.id > other ? 1 : -1, 0)) {}
 
 BodyOffset::BodyOffset(const Walker& self, const Segment& wall)
-    : offset(self.position - nearest_on_segment(wall.begin, wall.end, self.position)),
+    : offset(self.position - geometry::nearest_on_segment(wall.begin, wall.end, self.position)),
       distance(offset.norm()),
       away(distance > 0 ? Eigen::Vector2f(offset / distance)
                         : Eigen::Vector2f(wall.direction.y(), -wall.direction.x())) {}
@@ -76,7 +78,7 @@ BodyOffset::BodyOffset(const Walker& self, const Segment& wall)
 bool is_shared_corner(const std::vector<Segment>& segments, const Segment& wall,
                       const Eigen::Vector2f& p) {
   if (wall.direction.dot(p - wall.end) < 0) return false;
-  return cross(segments[wall.next].direction, p - wall.end) < 0;
+  return geometry::cross(segments[wall.next].direction, p - wall.end) < 0;
 }
 
 void LocalModel::step(const Crowd& crowd, const Grid& grid,

@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/polygon.h"
+
 namespace throng::crowd {
 
 namespace {
@@ -100,8 +102,8 @@ class WallAvoidance {
     const Eigen::Vector2f end = rate_ * (wall.end - self_.position);
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const HalfPlane plane = planes[i];
-      if (cross(begin - plane.point, plane.direction) - radius >= -kOrcaEpsilon &&
-          cross(end - plane.point, plane.direction) - radius >= -kOrcaEpsilon) {
+      if (geometry::cross(begin - plane.point, plane.direction) - radius >= -kOrcaEpsilon &&
+          geometry::cross(end - plane.point, plane.direction) - radius >= -kOrcaEpsilon) {
         return true;
       }
     }
@@ -115,7 +117,7 @@ class WallAvoidance {
     const float length = (wall.end - wall.begin).norm();
     const float radius_sq = self_.radius * self_.radius;
     const Segment& next = segments_[wall.next];
-    const bool line_near = std::abs(cross(wall.direction, to_begin)) <= self_.radius;
+    const bool line_near = std::abs(geometry::cross(wall.direction, to_begin)) <= self_.radius;
 
     if (along < 0 && to_begin.squaredNorm() <= radius_sq) {
       if (!wall.convex) return std::nullopt;
@@ -123,7 +125,7 @@ class WallAvoidance {
     }
     if (along > length && to_end.squaredNorm() <= radius_sq) {
       // The next wall deals with a corner that it also faces.
-      if (!next.convex || cross(to_end, next.direction) < 0) return std::nullopt;
+      if (!next.convex || geometry::cross(to_end, next.direction) < 0) return std::nullopt;
       return stop_at(to_end);
     }
     if (along >= 0 && along <= length && line_near) {
@@ -162,11 +164,11 @@ class WallAvoidance {
     vo.right_leg = right.convex ? tangents(to_right, self_.radius).right : left.direction;
     // A leg that would cut into the neighboring wall runs along it instead.
     const Eigen::Vector2f before = -segments_[left.previous].direction;
-    if (left.convex && cross(vo.left_leg, before) >= 0) {
+    if (left.convex && geometry::cross(vo.left_leg, before) >= 0) {
       vo.left_leg = before;
       vo.left_leg_is_wall = true;
     }
-    if (right.convex && cross(vo.right_leg, right.direction) <= 0) {
+    if (right.convex && geometry::cross(vo.right_leg, right.direction) <= 0) {
       vo.right_leg = right.direction;
       vo.right_leg_is_wall = true;
     }

@@ -4,6 +4,7 @@
 #include "crowd/models/fundamental_diagram.h"
 #include "crowd/models/local_model.h"
 #include "crowd/models/orca_lines.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -41,7 +42,8 @@ class Bias {
 
  private:
   Eigen::Vector2f scale_aside(const Eigen::Vector2f& v, float scale) const {
-    return direction_.dot(v) * direction_ + scale * cross(direction_, v) * left_of(direction_);
+    return direction_.dot(v) * direction_ +
+           scale * geometry::cross(direction_, v) * left_of(direction_);
   }
 
   Eigen::Vector2f direction_;

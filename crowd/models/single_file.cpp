@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "crowd/models/oncoming.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -22,9 +23,10 @@ float singleness(const Crowd& crowd, const Grid& grid, const AgentView& around) 
   for (const Obstacles::Near& near : around.walls) {
     if (near.distance_sq >= far_sq) break;
     const Segment& wall = segments[near.segment];
-    const Eigen::Vector2f offset = nearest_on_segment(wall.begin, wall.end, position) - position;
+    const Eigen::Vector2f offset =
+        geometry::nearest_on_segment(wall.begin, wall.end, position) - position;
     const float distance = std::sqrt(near.distance_sq);
-    const float side = cross(direction, offset);
+    const float side = geometry::cross(direction, offset);
     if (std::abs(side) < kBeside * distance) continue;
     float& beside = side > 0 ? left : right;
     beside = std::min(beside, distance);
@@ -40,7 +42,7 @@ float gap_ahead_m(const Crowd& crowd, const Grid& grid, const AgentView& around)
   for (const Grid::Neighbor& other : around.neighbors) {
     const Eigen::Vector2f offset = grid.position(other.slot) - position;
     const float along = direction.dot(offset);
-    const float aside = cross(direction, offset);
+    const float aside = geometry::cross(direction, offset);
     const float touch = grid.radius(around.slot) + grid.radius(other.slot);
     if (along <= 0 || std::abs(aside) >= kLane * touch) continue;
     if (crowd.agents.preferred_direction[grid.id(other.slot)].dot(direction) < kOncoming) continue;

@@ -10,6 +10,7 @@
 #include "crowd/models/oncoming.h"
 #include "crowd/models/orca_lines.h"
 #include "crowd/models/single_file.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -179,7 +180,8 @@ class TimeToCollision : public LocalModel {
     }
     seen.walls.clear();
     for_each_wall(crowd, grid, around, [&](const Segment& wall) {
-      const Eigen::Vector2f nearest = nearest_on_segment(wall.begin, wall.end, position) - position;
+      const Eigen::Vector2f nearest =
+          geometry::nearest_on_segment(wall.begin, wall.end, position) - position;
       const float distance = radius + kWallReachM;
       if (nearest.squaredNorm() < distance * distance) seen.walls.push_back(nearest);
     });

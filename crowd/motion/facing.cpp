@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "geometry/angle.h"
 
 namespace throng::crowd {
 
@@ -12,7 +13,6 @@ using Eigen::Vector2f;
 namespace {
 
 constexpr std::uint64_t kFacingPart = 0x666163696e67;  // apart from other draws of the stream
-constexpr double kRadian = std::numbers::pi / 180;     // of a degree
 
 Random random_of(std::uint64_t seed, std::size_t agent) {
   return {derive_seed(seed, Stream::crowd_generator, kFacingPart), Stream::crowd_generator, agent};
@@ -83,8 +83,8 @@ std::unique_ptr<Facing> make_any(const Element& element, const Attributes&,
 std::unique_ptr<Facing> make_direction(const Element& element, const Attributes& attributes,
                                        FacingContext& context) {
   element.require_no_children();
-  return std::make_unique<OneDirection>(context.seed, kRadian * attributes.number("angle"),
-                                        kRadian * attributes.number("spread"));
+  return std::make_unique<OneDirection>(context.seed, kDegree * attributes.number("angle"),
+                                        kDegree * attributes.number("spread"));
 }
 
 std::unique_ptr<Facing> make_towards(const Element& element, const Attributes& attributes,
@@ -92,7 +92,7 @@ std::unique_ptr<Facing> make_towards(const Element& element, const Attributes& a
   element.require_no_children();
   return std::make_unique<TowardsPoint>(context.seed,
                                         Vector2f(attributes.real("x"), attributes.real("y")),
-                                        kRadian * attributes.number("spread"));
+                                        kDegree * attributes.number("spread"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "crowd/navigation/navigation.h"
+#include "geometry/rectangle.h"
 
 namespace throng::crowd {
 
@@ -17,11 +18,7 @@ AutoNavigation::AutoNavigation(const Crowd& crowd, const WalkableMeshOptions& op
       }) {
   walls_.local();  // this thread's, so that no step has to make it
   const std::vector<Eigen::Vector2f>& positions = crowd.agents.position;
-  if (!positions.empty()) everyone_ = {positions.front(), positions.front()};
-  for (const Eigen::Vector2f& p : positions) {
-    everyone_.min = everyone_.min.cwiseMin(p);
-    everyone_.max = everyone_.max.cwiseMax(p);
-  }
+  if (!positions.empty()) everyone_ = geometry::bounds_of(positions);
   for (const Polygon& polygon : crowd.obstacles.polygons()) all_classes_ |= polygon.obstacle_class;
 }
 

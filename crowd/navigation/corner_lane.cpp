@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/polygon.h"
+
 namespace throng::crowd {
 
 namespace {
@@ -38,8 +40,8 @@ std::optional<CornerLane> corner_lane(const Obstacles& obstacles, std::uint32_t 
       const float size = across.norm();
       if (size < kMinTurn) continue;
       const Eigen::Vector2f come = bend - from;
-      const bool is_first =
-          std::abs(cross(first.direction, come)) < std::abs(cross(second.direction, come));
+      const bool is_first = std::abs(geometry::cross(first.direction, come)) <
+                            std::abs(geometry::cross(second.direction, come));
       return CornerLane{second.begin, across / size, outward(is_first ? first : second)};
     }
   }

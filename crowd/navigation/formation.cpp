@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "crowd/elements/number_file.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -49,7 +50,7 @@ Formation::Formation(const TextFile& source) {
   std::vector<WeightedPlace> all;
   for (std::size_t i = 0; i < points; ++i) {
     const Eigen::Vector2f p(numbers[3 * i], numbers[3 * i + 1]);
-    all.push_back({{ahead.dot(p), cross(ahead, p)}, numbers[3 * i + 2]});
+    all.push_back({{ahead.dot(p), geometry::cross(ahead, p)}, numbers[3 * i + 2]});
   }
   std::stable_sort(all.begin(), all.end(), [](const WeightedPlace& a, const WeightedPlace& b) {
     return a.weight > b.weight;

@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "crowd/spatial/obstacles.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 
 namespace throng::crowd {
 
@@ -12,22 +14,13 @@ namespace {
 /// has the points on their common edge.
 constexpr float kTolerance = 1e-4F;
 
-Box bounds_of(const NavPolygon& polygon) {
-  Box box{polygon.corners.front(), polygon.corners.front()};
-  for (const Eigen::Vector2f& corner : polygon.corners) {
-    box.min = box.min.cwiseMin(corner);
-    box.max = box.max.cwiseMax(corner);
-  }
-  return box;
-}
-
 Eigen::Vector2f nearest_on(const NavPolygon& polygon, const Eigen::Vector2f& point) {
   Eigen::Vector2f best = point;
   float best_sq = std::numeric_limits<float>::infinity();
   const std::size_t count = polygon.corners.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector2f on_edge =
-        nearest_on_segment(polygon.corners[i], polygon.corners[(i + 1) % count], point);
+        geometry::nearest_on_segment(polygon.corners[i], polygon.corners[(i + 1) % count], point);
     const float distance_sq = (on_edge - point).squaredNorm();
     if (distance_sq >= best_sq) continue;
     best_sq = distance_sq;
@@ -41,11 +34,9 @@ Eigen::Vector2f nearest_on(const NavPolygon& polygon, const Eigen::Vector2f& poi
 NavMesh::NavMesh(std::vector<NavPolygon> polygons) : polygons_(std::move(polygons)) {
   std::vector<Box> boxes;
   boxes.reserve(polygons_.size());
-  for (const NavPolygon& polygon : polygons_) boxes.push_back(bounds_of(polygon));
+  for (const NavPolygon& polygon : polygons_) boxes.push_back(geometry::bounds_of(polygon.corners));
   if (!boxes.empty()) bounds_ = boxes.front();
-  for (const Box& box : boxes) {
-    bounds_ = {bounds_.min.cwiseMin(box.min), bounds_.max.cwiseMax(box.max)};
-  }
+  for (const Box& box : boxes) bounds_.extend(box);
   tree_.build(boxes);
   find_islands();
 }
@@ -77,7 +68,7 @@ bool NavMesh::contains(int polygon, const Eigen::Vector2f& point) const {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2f& a = corners[i];
     const Eigen::Vector2f edge = corners[i + 1 < corners.size() ? i + 1 : 0] - a;
-    const float side = cross(edge, point - a);
+    const float side = geometry::cross(edge, point - a);
     if (side < 0 && side * side > kTolerance * kTolerance * edge.squaredNorm()) return false;
   }
   return true;
@@ -126,9 +117,9 @@ bool NavMesh::is_clear(const Place& from, const Eigen::Vector2f& to) const {
     int next = -1;
     for (const Portal& portal : (*this)[polygon].portals) {
       if (portal.to == before) continue;
-      const bool between = cross(way, portal.left - from.point) >= -slack &&
-                           cross(way, portal.right - from.point) <= slack;
-      const bool leaves = cross(way, portal.left - portal.right) > 0;
+      const bool between = geometry::cross(way, portal.left - from.point) >= -slack &&
+                           geometry::cross(way, portal.right - from.point) <= slack;
+      const bool leaves = geometry::cross(way, portal.left - portal.right) > 0;
       if (between && leaves) next = portal.to;
     }
     before = polygon;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "crowd/elements/number_file.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -95,8 +96,8 @@ class Reader {
     for (int i = 0; i < corners; ++i) {
       polygon.corners.push_back(vertex(file_.integer("a polygon's corner", 0, last_vertex())));
       if (i >= 2) {
-        area += cross(polygon.corners[i - 1] - polygon.corners[0],
-                      polygon.corners[i] - polygon.corners[0]);
+        area += geometry::cross(polygon.corners[i - 1] - polygon.corners[0],
+                                polygon.corners[i] - polygon.corners[0]);
       }
     }
     if (area < 0) std::reverse(polygon.corners.begin(), polygon.corners.end());
@@ -124,7 +125,7 @@ class Reader {
       const Eigen::Vector2f after =
           polygon.corners[(i + 2) % count] - polygon.corners[(i + 1) % count];
       constexpr float kNoise = 1e-3F;  // files have a few digits
-      if (cross(edge, after) < -kNoise * edge.norm() * after.norm()) {
+      if (geometry::cross(edge, after) < -kNoise * edge.norm() * after.norm()) {
         const Eigen::Vector2f& corner = polygon.corners[(i + 1) % count];
         file_.fail(fmt::format("a polygon with a dent at ({}, {})", corner.x(), corner.y()),
                    "convex polygons");
@@ -141,7 +142,7 @@ class Reader {
     made.to = edge.first == polygon ? edge.second : edge.first;
     made.left = vertex(edge.begin);
     made.right = vertex(edge.end);
-    if (cross(made.right - from.center, made.left - from.center) < 0) {
+    if (geometry::cross(made.right - from.center, made.left - from.center) < 0) {
       std::swap(made.left, made.right);
     }
     return made;
@@ -176,7 +177,8 @@ class Reader {
         const Eigen::Vector2f& begin = vertex(edge.begin);
         const Eigen::Vector2f& center = polygons_[static_cast<std::size_t>(edge.polygon)].center;
         outline.push_back(begin);
-        walkable_on_the_left += cross(vertex(edge.end) - begin, center - begin) > 0 ? 1 : -1;
+        walkable_on_the_left +=
+            geometry::cross(vertex(edge.end) - begin, center - begin) > 0 ? 1 : -1;
       }
       if (i != first || outline.size() < 3) {
         file_.fail(fmt::format("an obstacle of {} edges that does not close", outline.size()),

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "crowd/navigation/navigation.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -30,10 +31,10 @@ Eigen::Vector2f clear_of_corners(const Eigen::Vector2f& direction, const Gate& g
   if (near_left || near_right) return direction;
   const Eigen::Vector2f leftmost = tangent(from, gate.left_corner, radius, -1);
   const Eigen::Vector2f rightmost = tangent(from, gate.right_corner, radius, 1);
-  const bool narrow = cross(rightmost, leftmost) <= 0;
+  const bool narrow = geometry::cross(rightmost, leftmost) <= 0;
   if (narrow && compat == Compat::none) return direction;
-  if (cross(direction, leftmost) < 0) return leftmost;
-  if (cross(rightmost, direction) < 0) return rightmost;
+  if (geometry::cross(direction, leftmost) < 0) return leftmost;
+  if (geometry::cross(rightmost, direction) < 0) return rightmost;
   return direction;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "crowd/spatial/obstacles.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -30,8 +31,8 @@ Gate make_gate(const Portal& portal, float radius) {
 /// line.
 Eigen::Vector2f pass(const Gate& gate, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
   if (a == gate.left || a == gate.right) return a;
-  const float left = cross(b - a, gate.left - a);
-  const float right = cross(b - a, gate.right - a);
+  const float left = geometry::cross(b - a, gate.left - a);
+  const float right = geometry::cross(b - a, gate.right - a);
   if (left <= 0) return gate.left;
   if (right >= 0) return gate.right;
   // Rounds alike seen in a mirror, so that a symmetric scene stays symmetric.
@@ -40,7 +41,7 @@ Eigen::Vector2f pass(const Gate& gate, const Eigen::Vector2f& a, const Eigen::Ve
 
 /// Twice the area of a triangle, positive when c is to the right of a -> b.
 float right_turn(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Eigen::Vector2f& c) {
-  return cross(c - a, b - a);
+  return geometry::cross(c - a, b - a);
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ Eigen::Vector2f PathFinder::passing_point(const Search& how, const Gate& gate,
     case Pass::near_line:
       return pass(gate, start, how.end);
     case Pass::near_start:
-      return nearest_on_segment(gate.left, gate.right, start);
+      return geometry::nearest_on_segment(gate.left, gate.right, start);
     case Pass::middle:
       return 0.5F * (gate.left + gate.right);
     case Pass::center_behind:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/polygon.h"
+
 namespace throng::crowd {
 
 namespace {
@@ -47,7 +49,7 @@ void block_beside_wall(const Segment& wall, float clearance, WalkableGrid& grid)
     for (int column = columns.begin; column < columns.end; ++column) {
       const Eigen::Vector2f center = grid.center(column, row);
       const float distance_sq =
-          (nearest_on_segment(wall.begin, wall.end, center) - center).squaredNorm();
+          (geometry::nearest_on_segment(wall.begin, wall.end, center) - center).squaredNorm();
       if (distance_sq < clearance * clearance) grid.walkable[grid.index(column, row)] = 0;
     }
   }

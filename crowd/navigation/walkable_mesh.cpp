@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "crowd/navigation/walkable_grid.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -105,7 +106,7 @@ int add_rectangle(const Box& box, std::vector<NavPolygon>& mesh) {
 void add_portal(int from, int to, const Eigen::Vector2f& a, const Eigen::Vector2f& b,
                 std::vector<NavPolygon>& mesh) {
   const Eigen::Vector2f& center = mesh[static_cast<std::size_t>(from)].center;
-  const bool a_is_left = cross(b - center, a - center) > 0;
+  const bool a_is_left = geometry::cross(b - center, a - center) > 0;
   mesh[static_cast<std::size_t>(from)].portals.push_back(
       {to, a_is_left ? a : b, a_is_left ? b : a});
 }
@@ -173,7 +174,7 @@ NavMesh join_polygons(const rcPolyMesh& polygons, const WalkableGrid& grid, cons
     for (int c = 0; c < count; ++c) {
       polygon.corners.push_back(place(c));
       polygon.center += place(c) / static_cast<float>(count);
-      area += cross(place(c) - place(0), place(c + 1) - place(0));
+      area += geometry::cross(place(c) - place(0), place(c + 1) - place(0));
     }
     if (area < 0) std::reverse(polygon.corners.begin(), polygon.corners.end());
     for (int c = 0; c < count; ++c) {
@@ -197,8 +198,7 @@ NavMesh make_walkable_mesh(const Obstacles& obstacles, std::uint32_t class_mask,
     if ((wall.obstacle_class & class_mask) == 0) continue;
     if (!any) box = {wall.begin, wall.begin};
     any = true;
-    box.min = box.min.cwiseMin(wall.begin);
-    box.max = box.max.cwiseMax(wall.begin);
+    box.extend(wall.begin);
   }
   if (!any) return NavMesh(std::vector<NavPolygon>());
 

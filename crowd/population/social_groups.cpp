@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "base/random.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
@@ -140,8 +141,8 @@ class SocialGroupForces : public VelModifier {
   /// Slows who would have to turn the head by more than 90 degrees to see the others.
   Eigen::Vector2f gaze(const Agents& agents, std::size_t agent, const PreferredVelocity& preferred,
                        const Eigen::Vector2f& to_others) const {
-    const float angle = std::abs(
-        std::atan2(cross(preferred.direction, to_others), preferred.direction.dot(to_others)));
+    const float angle = std::abs(std::atan2(geometry::cross(preferred.direction, to_others),
+                                            preferred.direction.dot(to_others)));
     const float turn = std::max(0.0F, angle - 0.5F * std::numbers::pi_v<float>);
     return -spec_.gaze * turn * agents.velocity[agent];
   }

@@ -3,29 +3,17 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 
-Eigen::Vector2f nearest_on_segment(const Eigen::Vector2f& a, const Eigen::Vector2f& b,
-                                   const Eigen::Vector2f& p) {
-  const Eigen::Vector2f edge = b - a;
-  const float length_sq = edge.squaredNorm();
-  if (length_sq == 0) return a;
-  const float t = std::clamp((p - a).dot(edge) / length_sq, 0.0F, 1.0F);
-  return a + t * edge;
-}
-
 float segment_distance_sq(const Eigen::Vector2f& a, const Eigen::Vector2f& b,
                           const Eigen::Vector2f& c, const Eigen::Vector2f& d) {
-  const float c_side = cross(b - a, c - a);
-  const float d_side = cross(b - a, d - a);
-  const float a_side = cross(d - c, a - c);
-  const float b_side = cross(d - c, b - c);
-  if (c_side * d_side < 0 && a_side * b_side < 0) return 0;
-  return std::min({(nearest_on_segment(a, b, c) - c).squaredNorm(),
-                   (nearest_on_segment(a, b, d) - d).squaredNorm(),
-                   (nearest_on_segment(c, d, a) - a).squaredNorm(),
-                   (nearest_on_segment(c, d, b) - b).squaredNorm()});
+  if (geometry::segments_cross(a, b, c, d)) return 0;
+  return std::min({(geometry::nearest_on_segment(a, b, c) - c).squaredNorm(),
+                   (geometry::nearest_on_segment(a, b, d) - d).squaredNorm(),
+                   (geometry::nearest_on_segment(c, d, a) - a).squaredNorm(),
+                   (geometry::nearest_on_segment(c, d, b) - b).squaredNorm()});
 }
 
 void Obstacles::add_polygon(std::span<const Eigen::Vector2f> corners,
@@ -44,11 +32,12 @@ void Obstacles::add_polygon(std::span<const Eigen::Vector2f> corners,
     segment.direction = (segment.end - segment.begin).normalized();
     segment.previous = first + previous;
     segment.next = first + next;
-    segment.convex = cross(corners[i] - corners[previous], corners[next] - corners[i]) >= 0;
+    segment.convex =
+        geometry::cross(corners[i] - corners[previous], corners[next] - corners[i]) >= 0;
     segment.obstacle_class = obstacle_class;
     segments_.push_back(segment);
-    bounds = {bounds.min.cwiseMin(corners[i]), bounds.max.cwiseMax(corners[i])};
-    area += cross(corners[i] - corners[0], corners[next] - corners[0]);
+    bounds.extend(corners[i]);
+    area += geometry::cross(corners[i] - corners[0], corners[next] - corners[0]);
   }
   polygons_.push_back({first, count, area >= 0, obstacle_class, bounds});
 }
@@ -78,7 +67,7 @@ void Obstacles::near(const Eigen::Vector2f& point, float range, std::uint32_t cl
     const Wall& wall = walls_[i];
     if ((wall.obstacle_class & class_mask) == 0) return;
     const Eigen::Vector2f from_begin = point - wall.begin;
-    if (cross(wall.edge, from_begin) >= 0) return;
+    if (geometry::cross(wall.edge, from_begin) >= 0) return;
     const float t = std::clamp(from_begin.dot(wall.edge) * wall.inverse_length_sq, 0.0F, 1.0F);
     const float distance_sq = (from_begin - t * wall.edge).squaredNorm();
     if (distance_sq < range_sq) found.push_back({distance_sq, tree_.order()[i]});
@@ -93,8 +82,8 @@ bool Obstacles::visible(const Eigen::Vector2f& from, const Eigen::Vector2f& to, 
   return !tree_.any_along(from, to, radius, [&](int i) {
     const Wall& wall = walls_[i];
     if ((wall.obstacle_class & class_mask) == 0) return false;
-    const float from_side = cross(wall.edge, from - wall.begin);
-    const float to_side = cross(wall.edge, to - wall.begin);
+    const float from_side = geometry::cross(wall.edge, from - wall.begin);
+    const float to_side = geometry::cross(wall.edge, to - wall.begin);
     if (from_side >= 0 || to_side <= 0) return false;
     const Eigen::Vector2f end = wall.begin + wall.edge;
     const float distance_sq = segment_distance_sq(from, to, wall.begin, end);

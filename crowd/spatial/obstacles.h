@@ -22,15 +22,6 @@ struct Segment {
   std::uint32_t obstacle_class = 1;
 };
 
-/// z of the cross product; positive when b is to the left of a.
-inline float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// The point of the segment from a to b that is nearest to p.
-Eigen::Vector2f nearest_on_segment(const Eigen::Vector2f& a, const Eigen::Vector2f& b,
-                                   const Eigen::Vector2f& p);
-
 /// The smallest square distance between the segments from a to b and from c to d; 0 where they
 /// cross or touch.
 float segment_distance_sq(const Eigen::Vector2f& a, const Eigen::Vector2f& b,

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/exporter.h"
-#include "sim/policies/policy.h"
+#include "sim/policies/policy_table.h"
 #include "sim/spec/airframe.h"
 #include "sim/vehicle/battery.h"
 #include "skinning/items.h"

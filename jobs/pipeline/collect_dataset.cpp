@@ -17,6 +17,7 @@
 #include "jobs/queue/people.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/environment.h"
+#include "jobs/spec/spec.h"
 
 namespace throng::jobs {
 

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "base/angle.h"
 #include "base/error.h"
+#include "geometry/angle.h"
 #include "jobs/spec/environment.h"
 
 namespace throng::jobs {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/angle.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "geometry/angle.h"
 #include "jobs/pipeline/flight_record.h"
 #include "jobs/pipeline/frame_draw.h"
 #include "jobs/pipeline/gimbal.h"
@@ -56,7 +56,7 @@ FrameCapture::FrameCapture(const JobSpec& job, std::uint64_t run_seed, const wor
     drones_.push_back(drone_index(trace, job.drones[i].mission.id));
     shapes_.push_back(shape_of(job.drones[i].mission));
     const std::vector<world::DroneSample>& samples = trace.drones[drones_[i]];
-    gimbals_.emplace_back(samples, command_of(cameras_[i]), cameras_[i].gimbal, run_seed, i);
+    gimbals_.emplace_back(samples, cameras_[i], run_seed, i);
     sensors_.push_back(sensors_of(job, run_seed, samples, i));
   }
 }
@@ -89,10 +89,10 @@ std::vector<render::DroneInstance> FrameCapture::drones_at(double time_s) const 
 
 sim::ViewAngles FrameCapture::view_at(std::size_t drone, std::int64_t frame,
                                       const world::DroneSample& sample) const {
-  const CameraSpec& camera = cameras_[drone];
-  sim::ViewAngles view =
-      camera.gimbal.ideal ? ideal_view(sample, camera) : gimbals_[drone].view_at(sample.time_s);
-  const FrameDraw draw = draw_of_frame(camera, run_seed_, drone, frame);
+  const camera::CameraSpec& camera = cameras_[drone];
+  sim::ViewAngles view = camera.gimbal.ideal ? sim::ideal_view(sample.orientation, camera)
+                                             : gimbals_[drone].view_at(sample.time_s);
+  const camera::FrameOffsets draw = draw_of_frame(camera, run_seed_, drone, frame);
   view.yaw += draw.yaw_deg * kDegree;
   view.pitch += draw.pitch_deg * kDegree;
   return view;
@@ -109,8 +109,8 @@ std::string FrameCapture::flight_at(std::size_t drone, std::int64_t frame) const
 
 CapturedFrame FrameCapture::take(std::size_t drone, std::int64_t frame) {
   if (clock_ != nullptr) clock_->skip();
-  const FrameDraw draw = draw_of_frame(cameras_.at(drone), run_seed_, drone, frame);
-  const CameraSpec camera = camera_of_frame(cameras_[drone], draw);
+  const camera::FrameOffsets draw = draw_of_frame(cameras_.at(drone), run_seed_, drone, frame);
+  const camera::CameraSpec camera = camera_of_frame(cameras_[drone], draw);
   const double time_s = job_->frame_time_s(frame);
   std::optional<double> next_s;
   if (annotate::render_needs(job_->outputs.annotations).flow &&

@@ -53,7 +53,7 @@ class FrameCapture {
   StageClock* clock_;  ///< of how long stages take; may be null
   render::Animator animator_;
   render::Lens lens_;
-  std::vector<CameraSpec> cameras_;             ///< this run's
+  std::vector<camera::CameraSpec> cameras_;     ///< this run's
   std::vector<sim::GimbalLog> gimbals_;         ///< one per camera
   std::vector<sim::SensorLog> sensors_;         ///< one per camera: its drone's
   std::vector<std::size_t> drones_;             ///< index in the trace

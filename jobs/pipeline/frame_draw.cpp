@@ -7,15 +7,15 @@
 
 namespace throng::jobs {
 
-FrameDraw draw_of_frame(const CameraSpec& run_camera, std::uint64_t run_seed, std::size_t drone,
-                        std::int64_t frame) {
+camera::FrameOffsets draw_of_frame(const camera::CameraSpec& run_camera, std::uint64_t run_seed,
+                                   std::size_t drone, std::int64_t frame) {
   constexpr unsigned kFrameBits = 40;
   constexpr std::uint64_t kDraws = std::uint64_t{1} << 62;  // apart from the images' noise
   Random random(run_seed, Stream::camera_noise,
                 kDraws + (static_cast<std::uint64_t>(drone) << kFrameBits) +
                     static_cast<std::uint64_t>(frame));
   // Always three numbers, so that one field does not depend on another.
-  FrameDraw draw;
+  camera::FrameOffsets draw;
   draw.yaw_deg = random.normal(0, 1) * run_camera.per_frame.yaw_deg;
   draw.pitch_deg = random.normal(0, 1) * run_camera.per_frame.pitch_deg;
   draw.ev = random.normal(0, 1) * run_camera.per_frame.ev;
@@ -25,15 +25,16 @@ FrameDraw draw_of_frame(const CameraSpec& run_camera, std::uint64_t run_seed, st
   return draw;
 }
 
-CameraSpec camera_of_frame(const CameraSpec& run_camera, const FrameDraw& draw) {
-  CameraSpec camera = run_camera;
+camera::CameraSpec camera_of_frame(const camera::CameraSpec& run_camera,
+                                   const camera::FrameOffsets& draw) {
+  camera::CameraSpec camera = run_camera;
   camera.yaw_deg += draw.yaw_deg;
   camera.pitch_deg += draw.pitch_deg;
   camera.sensor.ev += draw.ev;
   return camera;
 }
 
-nlohmann::json to_json(const CameraSpec& run_camera, const FrameDraw& draw) {
+nlohmann::json to_json(const camera::CameraSpec& run_camera, const camera::FrameOffsets& draw) {
   nlohmann::json drawn = nlohmann::json::object();
   if (run_camera.per_frame.yaw_deg > 0) drawn["frame.yaw_deg"] = draw.yaw_deg;
   if (run_camera.per_frame.pitch_deg > 0) drawn["frame.pitch_deg"] = draw.pitch_deg;

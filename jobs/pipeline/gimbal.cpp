@@ -1,20 +1,18 @@
 #include "jobs/pipeline/gimbal.h"
 
 #include <cmath>
-#include <numbers>
 
-#include "base/angle.h"
 #include "base/error.h"
 
 namespace throng::jobs {
 
-camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec) {
-  return camera_on(drone, spec, ideal_view(drone, spec));
+camera::Camera camera_on(const world::DroneSample& drone, const camera::CameraSpec& spec) {
+  return camera_on(drone, spec, sim::ideal_view(drone.orientation, spec));
 }
 
-camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec,
+camera::Camera camera_on(const world::DroneSample& drone, const camera::CameraSpec& spec,
                          const sim::ViewAngles& view) {
-  const std::optional<camera::Intrinsics> intrinsics = intrinsics_of(spec);
+  const std::optional<camera::Intrinsics> intrinsics = spec.intrinsics();
   check(intrinsics.has_value(), "a job's lenses are checked when it is read");
   camera::Pose pose = camera::pose_looking(drone.position, view.yaw, view.pitch);
   if (view.roll != 0) {
@@ -26,15 +24,6 @@ camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec
     pose.t = -pose.R * drone.position;
   }
   return {*intrinsics, pose};
-}
-
-sim::GimbalCommand command_of(const CameraSpec& spec) {
-  return {spec.yaw_deg * kDegree, spec.pitch_deg * kDegree};
-}
-
-sim::ViewAngles ideal_view(const world::DroneSample& drone, const CameraSpec& spec) {
-  const sim::GimbalCommand command = command_of(spec);
-  return {sim::heading_of(drone.orientation) + command.yaw_rad, command.pitch_rad, 0};
 }
 
 }  // namespace throng::jobs

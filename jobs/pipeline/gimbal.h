@@ -2,7 +2,7 @@
 #pragma once
 
 #include "camera/camera.h"
-#include "jobs/spec/camera_spec.h"
+#include "camera/spec/camera_spec.h"
 #include "sim/sensors/gimbal.h"
 #include "world/trace.h"
 
@@ -10,16 +10,10 @@ namespace throng::jobs {
 
 /// A camera on a gimbal below a drone: it turns with the drone's heading but neither rolls nor
 /// pitches with it. Of `spec`, nothing is left to be sampled (camera_of_run).
-camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec);
+camera::Camera camera_on(const world::DroneSample& drone, const camera::CameraSpec& spec);
 
 /// The same, looking where its gimbal has turned it.
-camera::Camera camera_on(const world::DroneSample& drone, const CameraSpec& spec,
+camera::Camera camera_on(const world::DroneSample& drone, const camera::CameraSpec& spec,
                          const sim::ViewAngles& view);
-
-/// Commanded direction of the camera of `spec`, relative to the drone's heading and the horizon.
-sim::GimbalCommand command_of(const CameraSpec& spec);
-
-/// Direction of an ideal gimbal.
-sim::ViewAngles ideal_view(const world::DroneSample& drone, const CameraSpec& spec);
 
 }  // namespace throng::jobs

@@ -6,11 +6,11 @@
 
 namespace throng::jobs {
 
-void check_lens(const CameraSpec& run_camera, const std::string& pointer,
+void check_lens(const camera::CameraSpec& run_camera, const std::string& pointer,
                 std::vector<Problem>& problems) {
   constexpr int kMaxImagePx = 12000;  // px; what software GL draws with room around it
   const std::string at = pointer + "/distortion";
-  const std::optional<camera::Intrinsics> k = intrinsics_of(run_camera);
+  const std::optional<camera::Intrinsics> k = run_camera.intrinsics();
   const Eigen::Vector2i size = k ? render::wide_size(*k) : Eigen::Vector2i::Zero();
   if (!k) {
     problems.push_back({"", at,

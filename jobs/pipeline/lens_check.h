@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "base/error.h"
-#include "jobs/spec/camera_spec.h"
+#include "camera/spec/camera_spec.h"
 
 namespace throng::jobs {
 
 /// Adds a problem if the lens does not show what the image needs: its model folds or ends within
 /// the image, or it is so wide that no flat image covers it. `pointer` is the camera's place in
 /// the job.
-void check_lens(const CameraSpec& run_camera, const std::string& pointer,
+void check_lens(const camera::CameraSpec& run_camera, const std::string& pointer,
                 std::vector<Problem>& problems);
 
 }  // namespace throng::jobs

@@ -2,10 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "annotate/png.h"
 #include "base/error.h"
@@ -16,6 +14,7 @@
 #include "jobs/pipeline/run_writers.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/environment.h"
+#include "jobs/spec/spec.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
 #include "render/lens/lens_map.h"
@@ -31,17 +30,6 @@ bool wants(const JobSpec& job, annotate::GroundTruth kind) {
   return annotate::holds(job.outputs.annotations, kind);
 }
 
-namespace {
-
-constexpr double kCameraDegree = std::numbers::pi / 180;
-
-double hfov_rad_of(const CameraSpec& camera) {
-  if (camera.fx_px) return 2 * std::atan(0.5 * camera.width / *camera.fx_px);
-  return camera.hfov_deg * kCameraDegree;
-}
-
-}  // namespace
-
 sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
   const JobSpec job = job_of_run(whole_job, run);
   sim::RunSpec spec;
@@ -55,9 +43,7 @@ sim::RunSpec run_spec(const JobSpec& whole_job, int run) {
   spec.wind = environment_of_run(job.environment, spec.seed).wind;
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     sim::DroneMission& mission = spec.drones.emplace_back(job.drones[i].mission);
-    const CameraSpec camera = camera_of_run(job.drones[i].camera, spec.seed, camera_pointer(i));
-    mission.camera = {hfov_rad_of(camera), camera.pitch_deg * kCameraDegree,
-                      camera.yaw_deg * kCameraDegree};
+    mission.camera = camera_of_run(job.drones[i].camera, spec.seed, camera_pointer(i));
   }
   return spec;
 }
@@ -85,7 +71,7 @@ void add_cameras(const JobSpec& job, int run, Publication& output) {
   const std::uint64_t seed = plan_runs(job)[static_cast<std::size_t>(run)].seed;
   for (std::size_t i = 0; i < job.drones.size(); ++i) {
     const std::string& id = job.drones[i].mission.id;
-    const auto lens = intrinsics_of(camera_of_run(job.drones[i].camera, seed, camera_pointer(i)));
+    const auto lens = camera_of_run(job.drones[i].camera, seed, camera_pointer(i)).intrinsics();
     check(lens.has_value(), "a job's lenses are checked when it is read");
     const std::string place = fmt::format("{}/{}", run_name(run), id);
     output.add("cameras/" + place + ".opencv.yaml", camera::opencv_yaml(*lens));

@@ -5,10 +5,8 @@
 #include <set>
 
 #include "annotate/coco.h"
-#include "annotate/exit_view.h"
 #include "annotate/frame_writers.h"
 #include "annotate/labels.h"
-#include "annotate/person_facts.h"
 #include "annotate/preview.h"
 #include "base/error.h"
 #include "camera/camera.h"
@@ -19,6 +17,7 @@
 #include "jobs/queue/profile.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/environment.h"
+#include "jobs/spec/spec.h"
 #include "render/renderer.h"
 #include "skinning/population.h"
 #include "world/scenario.h"

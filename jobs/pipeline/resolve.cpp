@@ -14,6 +14,7 @@
 #include "jobs/pipeline/lens_check.h"
 #include "jobs/pipeline/recording.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/spec.h"
 #include "sim/people/participants.h"
 #include "sim/planning/plan.h"
 #include "sim/recording/pilot_log.h"

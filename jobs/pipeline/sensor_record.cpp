@@ -6,8 +6,9 @@ namespace throng::jobs {
 
 using nlohmann::json;
 
-json sensor_record(const CameraSpec& run_camera, const render::Exposed& exposed, int jpeg_quality) {
-  const render::Sensor& sensor = run_camera.sensor;
+json sensor_record(const camera::CameraSpec& run_camera, const render::Exposed& exposed,
+                   int jpeg_quality) {
+  const camera::Sensor& sensor = run_camera.sensor;
   return {{"ev", sensor.ev},
           {"white_balance_k", sensor.white_balance_k},
           {"vignette", sensor.vignette},

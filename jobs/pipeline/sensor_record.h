@@ -3,13 +3,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "jobs/spec/camera_spec.h"
+#include "camera/spec/camera_spec.h"
 #include "render/lens/exposure.h"
 
 namespace throng::jobs {
 
 /// The object `sensor` of an image: what its camera's sensor did, and how it was exposed.
-nlohmann::json sensor_record(const CameraSpec& run_camera, const render::Exposed& exposed,
+nlohmann::json sensor_record(const camera::CameraSpec& run_camera, const render::Exposed& exposed,
                              int jpeg_quality);
 
 }  // namespace throng::jobs

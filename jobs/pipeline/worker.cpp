@@ -21,9 +21,7 @@
 #include "base/redact.h"
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/queue/faults.h"
-#include "jobs/queue/worker_limits.h"
-#include "jobs/queue/worker_messages.h"
-#include "jobs/queue/worker_protocol.h"
+#include "jobs/queue/worker_side.h"
 #include "render/allocator.h"
 #include "world/scenario.h"
 

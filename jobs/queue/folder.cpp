@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "jobs/queue/publication.h"
+#include "jobs/spec/spec.h"
 
 namespace throng::jobs {
 

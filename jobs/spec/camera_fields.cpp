@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::jobs {
 
@@ -61,7 +61,7 @@ void add_number(FieldTable<CameraSpec>& table, const std::string& path, std::str
 }
 
 /// In degrees, of an angle that is kept in radians.
-GetNumber angle_of(double sim::GimbalSpec::*member) {
+GetNumber angle_of(double camera::GimbalSpec::*member) {
   // Digits that degrees need beyond these are those of the conversion.
   constexpr double kDigits = 1e12;
   return [member](const CameraSpec& spec) {
@@ -69,7 +69,7 @@ GetNumber angle_of(double sim::GimbalSpec::*member) {
   };
 }
 
-SetNumber set_angle_of(double sim::GimbalSpec::*member) {
+SetNumber set_angle_of(double camera::GimbalSpec::*member) {
   return [member](CameraSpec& spec, double value) { spec.gimbal.*member = value * kDegree; };
 }
 
@@ -85,12 +85,12 @@ FieldTable<CameraSpec>::Set set_size(int CameraSpec::*member) {
 }
 
 json model_json(const CameraSpec& spec) {
-  return spec.calibration ? json() : json(name_of(spec.model));
+  return spec.calibration ? json() : json(name_of(spec.lens.model));
 }
 
 void set_model(CameraSpec& spec, const json& value, const FieldPlace& /*place*/) {
-  spec.model =
-      static_cast<LensModel>(std::find(kModels.begin(), kModels.end(), value) - kModels.begin());
+  spec.lens.model = static_cast<camera::LensModel>(
+      std::find(kModels.begin(), kModels.end(), value) - kModels.begin());
 }
 
 json gimbal_json(const CameraSpec& spec) { return kGimbals.at(spec.gimbal.ideal ? 0 : 1); }
@@ -119,6 +119,7 @@ void set_calibration(CameraSpec& spec, const json& value, const FieldPlace& plac
     return;
   }
   const calibrate::CameraFile& camera = *spec.calibration;
+  spec.calibrated = camera.intrinsics();
   spec.width = camera.size.width;
   spec.height = camera.size.height;
   spec.fx_px = camera.parameters[calibrate::kFx];
@@ -162,28 +163,25 @@ void add_distortion_fields(FieldTable<CameraSpec>& table) {
   table.group("distortion", "Distortion",
               "Coefficients of the lens model, by their names in OpenCV.");
   add_number(table, "distortion/k1", "k1", "", -100, 100,
-             at(&CameraSpec::distortion, &LensCoefficients::k1),
-             "Radial term of r² (fisheye: of θ³).");
+             at(&CameraSpec::lens, &camera::LensSpec::k1), "Radial term of r² (fisheye: of θ³).");
   add_number(table, "distortion/k2", "k2", "", -100, 100,
-             at(&CameraSpec::distortion, &LensCoefficients::k2),
-             "Radial term of r⁴ (fisheye: of θ⁵).");
+             at(&CameraSpec::lens, &camera::LensSpec::k2), "Radial term of r⁴ (fisheye: of θ⁵).");
   add_number(table, "distortion/k3", "k3", "", -100, 100,
-             at(&CameraSpec::distortion, &LensCoefficients::k3),
-             "Radial term of r⁶ (fisheye: of θ⁷).");
+             at(&CameraSpec::lens, &camera::LensSpec::k3), "Radial term of r⁶ (fisheye: of θ⁷).");
   add_number(table, "distortion/k4", "k4", "", -100, 100,
-             at(&CameraSpec::distortion, &LensCoefficients::k4),
+             at(&CameraSpec::lens, &camera::LensSpec::k4),
              "Term of r² of the rational model's denominator (fisheye: of θ⁹).");
   add_number(table, "distortion/k5", "k5", "", -100, 100,
-             at(&CameraSpec::distortion, &LensCoefficients::k5),
+             at(&CameraSpec::lens, &camera::LensSpec::k5),
              "Term of r⁴ of the denominator; brown_conrady only.");
   add_number(table, "distortion/k6", "k6", "", -100, 100,
-             at(&CameraSpec::distortion, &LensCoefficients::k6),
+             at(&CameraSpec::lens, &camera::LensSpec::k6),
              "Term of r⁶ of the denominator; brown_conrady only.");
   add_number(table, "distortion/p1", "p1", "", -100, 100,
-             at(&CameraSpec::distortion, &LensCoefficients::p1),
+             at(&CameraSpec::lens, &camera::LensSpec::p1),
              "First tangential term; brown_conrady only.");
   add_number(table, "distortion/p2", "p2", "", -100, 100,
-             at(&CameraSpec::distortion, &LensCoefficients::p2),
+             at(&CameraSpec::lens, &camera::LensSpec::p2),
              "Second tangential term; brown_conrady only.");
 }
 
@@ -196,14 +194,14 @@ void add_view_fields(FieldTable<CameraSpec>& table) {
               "Differences from frame to frame: standard deviations of normal numbers that are "
               "sampled for each.");
   add_number(table, "per_frame/yaw_deg", "Yaw", "degrees", 0, 45,
-             at(&CameraSpec::per_frame, &PerFrame::yaw_deg),
+             at(&CameraSpec::per_frame, &camera::FrameOffsets::yaw_deg),
              "Standard deviation of each frame's offset from yaw_deg.");
   add_number(table, "per_frame/pitch_deg", "Pitch", "degrees", 0, 45,
-             at(&CameraSpec::per_frame, &PerFrame::pitch_deg),
+             at(&CameraSpec::per_frame, &camera::FrameOffsets::pitch_deg),
              "Standard deviation of each frame's offset from pitch_deg; their sum stays between "
              "-90 and 90.");
   add_number(table, "per_frame/ev", "Exposure", "EV", 0, 3,
-             at(&CameraSpec::per_frame, &PerFrame::ev),
+             at(&CameraSpec::per_frame, &camera::FrameOffsets::ev),
              "Standard deviation of each frame's offset from sensor.ev.");
 }
 
@@ -213,47 +211,49 @@ void add_body_fields(FieldTable<CameraSpec>& table) {
             "ideal: exact direction; second_order: follows the heading as a damped second-order "
             "system, with jitter and a misaligned mount.");
   add_number(table, "gimbal/natural_rad_s", "Natural frequency", "rad/s", 1, 100,
-             at(&CameraSpec::gimbal, &sim::GimbalSpec::natural_rad_s),
+             at(&CameraSpec::gimbal, &camera::GimbalSpec::natural_rad_s),
              "Natural frequency of the response.");
   add_number(table, "gimbal/damping", "Damping", "", 0.1, 2,
-             at(&CameraSpec::gimbal, &sim::GimbalSpec::damping),
+             at(&CameraSpec::gimbal, &camera::GimbalSpec::damping),
              "Damping ratio of the response; 1: no overshoot.");
   add_number(table, "gimbal/jitter_deg", "Jitter", "degrees", 0, 5,
-             angle_of(&sim::GimbalSpec::jitter_rad), set_angle_of(&sim::GimbalSpec::jitter_rad),
+             angle_of(&camera::GimbalSpec::jitter_rad),
+             set_angle_of(&camera::GimbalSpec::jitter_rad),
              "Standard deviation of the remaining vibration about each axis.");
   add_number(table, "gimbal/bias_deg", "Misalignment", "degrees", 0, 5,
-             angle_of(&sim::GimbalSpec::bias_rad), set_angle_of(&sim::GimbalSpec::bias_rad),
+             angle_of(&camera::GimbalSpec::bias_rad), set_angle_of(&camera::GimbalSpec::bias_rad),
              "Maximum error of the camera's mounting about each axis, sampled per run.");
   add_number(table, "gimbal/reading_deg", "Noise of the encoders", "degrees", 0, 5,
-             angle_of(&sim::GimbalSpec::reading_rad), set_angle_of(&sim::GimbalSpec::reading_rad),
+             angle_of(&camera::GimbalSpec::reading_rad),
+             set_angle_of(&camera::GimbalSpec::reading_rad),
              "Standard deviation of the angles that the gimbal reports.");
   table.group("sensor", "Sensor",
               "Effects of sensor and shutter on the images; all are off by default.");
   add_number(table, "sensor/ev", "Exposure compensation", "EV", -6, 6,
-             at(&CameraSpec::sensor, &render::Sensor::ev), "Each 1 EV doubles the light.");
+             at(&CameraSpec::sensor, &camera::Sensor::ev), "Each 1 EV doubles the light.");
   add_number(table, "sensor/white_balance_k", "White balance", "K", 1667, 25000,
-             at(&CameraSpec::sensor, &render::Sensor::white_balance_k),
+             at(&CameraSpec::sensor, &camera::Sensor::white_balance_k),
              "Color temperature that the camera assumes for white: below 6500 images turn blue, "
              "above yellow.");
   add_number(table, "sensor/vignette", "Vignetting", "", 0, 1,
-             at(&CameraSpec::sensor, &render::Sensor::vignette),
+             at(&CameraSpec::sensor, &camera::Sensor::vignette),
              "Share of the natural fall of light towards the corners, which is cos⁴ of the angle "
              "from the axis.");
   add_number(table, "sensor/iso", "ISO", "", 0, 409600,
-             at(&CameraSpec::sensor, &render::Sensor::iso),
+             at(&CameraSpec::sensor, &camera::Sensor::iso),
              "Sets the noise: full_well_e · 100 / iso electrons make white. 0: no noise.");
   add_number(table, "sensor/full_well_e", "Full well", "electrons", 100, 1000000,
-             at(&CameraSpec::sensor, &render::Sensor::full_well_e),
+             at(&CameraSpec::sensor, &camera::Sensor::full_well_e),
              "Electrons that fill a pixel at ISO 100.");
   add_number(table, "sensor/read_noise_e", "Read noise", "electrons", 0, 1000,
-             at(&CameraSpec::sensor, &render::Sensor::read_noise_e),
+             at(&CameraSpec::sensor, &camera::Sensor::read_noise_e),
              "Standard deviation of each reading.");
   add_number(table, "sensor/exposure_s", "Exposure time", "s", 0, 0.5,
-             at(&CameraSpec::exposure, &render::Exposure::exposure_s),
+             at(&CameraSpec::exposure, &camera::Exposure::exposure_s),
              "Duration for which each row gathers light, around the frame's time: moving objects "
              "are blurred. 0: an instant.");
   add_number(table, "sensor/readout_s", "Readout time", "s", 0, 0.5,
-             at(&CameraSpec::exposure, &render::Exposure::readout_s),
+             at(&CameraSpec::exposure, &camera::Exposure::readout_s),
              "From the first row to the last, the middle one at the frame's time: moving objects "
              "are skewed. 0: all rows at once (global shutter).");
 }
@@ -274,7 +274,7 @@ const FieldTable<CameraSpec>& camera_fields() {
   return table;
 }
 
-const char* name_of(LensModel model) { return kModels.at(static_cast<std::size_t>(model)); }
+const char* name_of(camera::LensModel model) { return kModels.at(static_cast<std::size_t>(model)); }
 
 std::span<const char* const> calibrated_fields() { return kCalibrated; }
 

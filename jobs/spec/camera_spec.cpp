@@ -4,11 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "base/angle.h"
 #include "base/json_text.h"
 #include "jobs/spec/camera_fields.h"
 
@@ -45,12 +43,13 @@ void check_choices(const json& value, const CameraSpec& spec, const std::string&
     return value.contains(at) && value.at(at) != 0;
   };
   std::vector<const char*> unused;
-  if (spec.model == LensModel::fisheye) unused = {"k5", "k6", "p1", "p2"};
-  if (spec.model == LensModel::pinhole) unused = {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"};
+  if (spec.lens.model == camera::LensModel::fisheye) unused = {"k5", "k6", "p1", "p2"};
+  if (spec.lens.model == camera::LensModel::pinhole)
+    unused = {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"};
   for (const char* name : unused) {
     if (!differs_from_zero(name)) continue;
     problems.push_back({"", fmt::format("{}/distortion/{}", pointer, name), "a coefficient",
-                        fmt::format("none, since the model is \"{}\"", name_of(spec.model))});
+                        fmt::format("none, since the model is \"{}\"", name_of(spec.lens.model))});
   }
   if (!value.contains("calibration") || value["calibration"].is_string()) return;
   for (const char* field : calibrated_fields()) {
@@ -59,19 +58,6 @@ void check_choices(const json& value, const CameraSpec& spec, const std::string&
           {"", fmt::format("{}/{}", pointer, field), "also a calibration", "one of the two"});
     }
   }
-}
-
-std::optional<camera::Distortion> distortion_of(const CameraSpec& spec) {
-  const LensCoefficients& c = spec.distortion;
-  using Model = camera::Distortion::Model;
-  if (spec.model == LensModel::brown_conrady) {
-    return camera::Distortion(Model::brown_conrady,
-                              {c.k1, c.k2, c.p1, c.p2, c.k3, c.k4, c.k5, c.k6});
-  }
-  if (spec.model == LensModel::fisheye) {
-    return camera::Distortion(Model::fisheye, {c.k1, c.k2, c.k3, c.k4});
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -123,26 +109,6 @@ CameraSpec camera_of_run(const CameraSpec& spec, std::uint64_t run_seed,
                                     {place, no_source, problems});
   }
   return run_camera;
-}
-
-std::optional<camera::Intrinsics> intrinsics_of(const CameraSpec& run_camera) {
-  if (run_camera.calibration) return run_camera.calibration->intrinsics();
-  camera::Intrinsics k = camera::intrinsics_from_hfov(run_camera.width, run_camera.height,
-                                                      run_camera.hfov_deg * kDegree);
-  k.distortion = distortion_of(run_camera);
-  if (run_camera.fx_px) {
-    k.fx_px = *run_camera.fx_px;
-    k.fy_px = run_camera.fy_px.value_or(k.fx_px);
-  } else if (k.distortion) {
-    // The focal length with which the lens shows half the angle at the image's edge.
-    const auto edge = k.distortion->distort({std::tan(0.5 * run_camera.hfov_deg * kDegree), 0});
-    if (!edge || !(edge->x() > 0)) return std::nullopt;
-    k.fx_px = 0.5 * run_camera.width / edge->x();
-    k.fy_px = k.fx_px;
-  }
-  k.cx_px = run_camera.cx_px.value_or(k.cx_px);
-  k.cy_px = run_camera.cy_px.value_or(k.cy_px);
-  return k;
 }
 
 }  // namespace throng::jobs

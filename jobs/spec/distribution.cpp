@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_describe.h"
 #include "base/random.h"
-#include "world/json_reader.h"
 
 namespace throng::jobs {
 
@@ -43,19 +43,6 @@ std::optional<double> deviation_of(const json& value, const Quantity& quantity) 
 
 }  // namespace
 
-Quantity number_quantity(double low, double high) {
-  return {fmt::format("a number from {} to {}", low, high),
-          [low, high](const json& value) -> std::optional<double> {
-            if (!value.is_number()) return std::nullopt;
-            const auto number = value.get<double>();
-            return number >= low && number <= high ? std::optional(number) : std::nullopt;
-          },
-          [](double number) { return json(number); },
-          low,
-          high,
-          true};
-}
-
 Distribution Distribution::read(const json& value, const Quantity& quantity,
                                 const std::string& pointer, std::vector<Problem>& problems) {
   Distribution result(0);
@@ -69,7 +56,7 @@ Distribution Distribution::read(const json& value, const Quantity& quantity,
   const std::size_t kinds = quantity.continuous ? kKinds.size() : 1;
   while (kind < kinds && !value.contains(kKinds.at(kind))) ++kind;
   if (value.size() != 1 || kind == kinds) {
-    problems.push_back({"", pointer, world::describe(value), forms(quantity)});
+    problems.push_back({"", pointer, describe(value), forms(quantity)});
     return result;
   }
   result.kind_ = static_cast<Kind>(kind);
@@ -79,8 +66,7 @@ Distribution Distribution::read(const json& value, const Quantity& quantity,
   const bool choice = result.kind_ == Kind::choice;
   if (!list.is_array() || (choice ? list.empty() : list.size() != 2)) {
     const char* pair = result.kind_ == Kind::normal ? "[mean, standard deviation]" : "[low, high]";
-    problems.push_back(
-        {"", place, world::describe(list), choice ? "a list of at least one value" : pair});
+    problems.push_back({"", place, describe(list), choice ? "a list of at least one value" : pair});
     return result;
   }
   result.read_values(list, quantity, place, problems);
@@ -97,17 +83,16 @@ void Distribution::read_values(const json& list, const Quantity& quantity, const
         deviation ? deviation_of(list[i], quantity) : quantity.number(list[i]);
     if (!number) {
       const bool alone = kind_ == Kind::choice && !place.ends_with("/choice");
-      problems.push_back({"", alone ? place : fmt::format("{}/{}", place, i),
-                          world::describe(list[i]),
+      problems.push_back({"", alone ? place : fmt::format("{}/{}", place, i), describe(list[i]),
                           deviation ? "a standard deviation above 0" : quantity.expected});
     }
     values_.push_back(number.value_or(deviation ? 1 : 0));
   }
   if (problems.size() > before || kind_ == Kind::choice || kind_ == Kind::normal) return;
   if (values_[0] > values_[1]) {
-    problems.push_back({"", place + "/1", world::describe(list[1]), "a value not below the first"});
+    problems.push_back({"", place + "/1", describe(list[1]), "a value not below the first"});
   } else if (kind_ == Kind::log_uniform && !(values_[0] > 0)) {
-    problems.push_back({"", place + "/0", world::describe(list[0]), "a value above 0"});
+    problems.push_back({"", place + "/0", describe(list[0]), "a value above 0"});
   }
 }
 

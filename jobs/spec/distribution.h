@@ -13,23 +13,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/field_table.h"
 
 namespace throng::jobs {
 
-/// How one field writes its values: as numbers, times, words.
-struct Quantity {
-  std::string expected;  ///< what a single value must be, for messages: "a number from 0 to 90"
-  /// The value as a number; nothing when it is not one of the field's.
-  std::function<std::optional<double>(const nlohmann::json&)> number;
-  /// The reverse.
-  std::function<nlohmann::json(double)> json;
-  double low = 0;  ///< of all values
-  double high = 0;
-  bool continuous = true;  ///< else only "choice" makes sense
-};
-
-/// Numbers from `low` to `high`.
-Quantity number_quantity(double low, double high);
+using fields::Quantity;
 
 class Distribution {
  public:

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::jobs {
 
@@ -72,30 +72,29 @@ double usual_visibility_m(render::Weather weather) {
 const FieldTable<EnvironmentSpec>& environment_fields() {
   static const FieldTable<EnvironmentSpec> fields = [] {
     FieldTable<EnvironmentSpec> table;
-    table.add_sampled("time_of_day", "Time of day", "HH:MM", times(),
-                      at(&EnvironmentSpec::time_of_day_h),
-                      "Solar time at the run's start; sets the sun for the whole run. Street "
-                      "lamps and windows are lit while it is below the horizon.");
-    table.add_sampled("latitude_deg", "Latitude", "degrees", numbers(-90, 90),
-                      at(&EnvironmentSpec::latitude_deg),
-                      "Latitude for the sun's position; north is positive.");
-    table.add_sampled("day_of_year", "Day of the year", "days", integers(1, kDaysPerYear),
-                      at(&EnvironmentSpec::day_of_year), "1 is 1 January; 225 is mid-August.");
-    table.add_sampled(
-        "weather", "Weather", "", sampled_words(kWeathers), at(&EnvironmentSpec::weather),
+    add_sampled(table, "time_of_day", "Time of day", "HH:MM", times(),
+                at(&EnvironmentSpec::time_of_day_h),
+                "Solar time at the run's start; sets the sun for the whole run. Street "
+                "lamps and windows are lit while it is below the horizon.");
+    add_sampled(table, "latitude_deg", "Latitude", "degrees", numbers(-90, 90),
+                at(&EnvironmentSpec::latitude_deg),
+                "Latitude for the sun's position; north is positive.");
+    add_sampled(table, "day_of_year", "Day of the year", "days", integers(1, kDaysPerYear),
+                at(&EnvironmentSpec::day_of_year), "1 is 1 January; 225 is mid-August.");
+    add_sampled(
+        table, "weather", "Weather", "", sampled_words(kWeathers), at(&EnvironmentSpec::weather),
         "clear: sun and shadows; overcast: diffuse light without hard shadows; fog: contrast falls "
         "with distance; rain: overcast, streaks, a wet ground with puddles.");
-    table.add_sampled("visibility_m", "Visibility", "m", numbers(20, 100000),
-                      at(&EnvironmentSpec::visibility_m),
-                      "Distance at which 2 % of a contrast is left; default, by the weather: 3500 "
-                      "(clear), 8000 (overcast), 800 (fog), 3000 (rain).");
-    table.add_sampled(
-        "smoke", "Smoke", "", numbers(0, 1), at(&EnvironmentSpec::smoke),
-        "Density of smoke and dust around the scenario's hazards (disaster_agents); it "
-        "hides objects in the image, not in the ground truth.");
-    table.add_sampled("rain_mm_per_h", "Rain", "mm/h", numbers(0, 200),
-                      at(&EnvironmentSpec::rain_mm_per_h),
-                      "Intensity of the rain if the weather is rain.");
+    add_sampled(table, "visibility_m", "Visibility", "m", numbers(20, 100000),
+                at(&EnvironmentSpec::visibility_m),
+                "Distance at which 2 % of a contrast is left; default, by the weather: 3500 "
+                "(clear), 8000 (overcast), 800 (fog), 3000 (rain).");
+    add_sampled(table, "smoke", "Smoke", "", numbers(0, 1), at(&EnvironmentSpec::smoke),
+                "Density of smoke and dust around the scenario's hazards (disaster_agents); it "
+                "hides objects in the image, not in the ground truth.");
+    add_sampled(table, "rain_mm_per_h", "Rain", "mm/h", numbers(0, 200),
+                at(&EnvironmentSpec::rain_mm_per_h),
+                "Intensity of the rain if the weather is rain.");
     table.group("wind", "Wind", "The wind that acts on the drones.");
     table.add_all("wind", wind_fields(), at(&EnvironmentSpec::wind));
     return table;

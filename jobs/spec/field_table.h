@@ -1,282 +1,73 @@
-// A job's fields in tables. A line of a table says everything that is known of a field: where it
-// stands, title and help, unit, what values it may have, whether runs may differ in it, and where
-// the program keeps it. Reading, printing, setting sampled values, the job schema and the table of
-// docs/job.md follow from it. The defaults are those of the structs.
+// Fields of a job (base/field_table.h), some of which may be distributions.
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
-#include "jobs/spec/field_values.h"
+#include "base/field_table.h"
+#include "jobs/spec/distribution.h"
 
 namespace throng::jobs {
 
-/// Whether and how a field may be sampled for each run.
-enum class Sampling : std::uint8_t {
-  never,
-  by_randomize,  ///< by the block "randomize" of the job (x-randomize)
-  in_place,      ///< the field itself may hold a distribution (x-distribution)
-};
+using fields::at;
+using fields::booleans;
+using fields::Field;
+using fields::FieldPlace;
+using fields::FieldRules;
+using fields::FieldTable;
+using fields::identifiers;
+using fields::integers;
+using fields::lists;
+using fields::number_quantity;
+using fields::numbers;
+using fields::numbers_above;
+using fields::object_of;
+using fields::one_of;
+using fields::plain_numbers;
+using fields::pointer_below;
+using fields::raw;
+using fields::Sampling;
+using fields::schema_text;
+using fields::set_value;
+using fields::texts;
+using fields::texts_like;
+using fields::value_at;
+using fields::value_json;
+using fields::Values;
 
-/// The schema's rules of a field.
-struct FieldRules {
-  std::string path;  ///< below the object that the table describes: "sensor/iso"
-  std::string title;
-  std::string unit;  ///< or ""
-  std::string help;
-  Values values;
-  Sampling sampling = Sampling::never;
-  bool is_required = false;
-  /// An object whose fields follow in the table with its path before theirs.
-  bool is_group = false;
-  nlohmann::ordered_json default_value;  ///< null: none
-  /// The field's name of an earlier version, which is still read, with a warning; or "".
-  std::string deprecated_name;
-};
+/// `count` coordinates in m; `is_random`: the block "randomize" may name each.
+Values coordinates(int count, bool is_random = false);
 
-/// Path of the field's deprecated name: "sensor/old" for "sensor/new".
-std::string deprecated_path(const FieldRules& field);
-
-/// Source and pointer of a value that is read, for messages and for files that it names.
-struct FieldPlace {
-  std::string pointer;        ///< JSON pointer
-  const std::string& source;  ///< the job's file, or "" for a request
-  std::vector<Problem>& problems;
-
-  FieldPlace below(const std::string& path) const {
-    return {pointer + "/" + path, source, problems};
-  }
-  /// Warns that this is the deprecated name of a field; adds a problem and returns false if the
-  /// field is also given by its name.
-  bool allows_deprecated(const FieldRules& field, bool is_also_given) const;
-};
-
-// clang-tidy does not see that templates move their parameters.
-// NOLINTBEGIN(performance-unnecessary-value-param)
-
-template <typename Object>
-struct Field : FieldRules {
-  /// The value as a job writes it; null: it is left out.
-  std::function<nlohmann::json(const Object&)> get;
-  /// `value` is what the schema allows.
-  std::function<void(Object&, const nlohmann::json& value, const FieldPlace&)> set;
-
-  Field& randomized() {
-    sampling = Sampling::by_randomize;
-    return *this;
-  }
-  Field& required() {
-    is_required = true;
-    default_value = nullptr;
-    return *this;
-  }
-  /// The schema's default of a field that printed jobs leave out.
-  Field& with_default(nlohmann::ordered_json value) {
-    default_value = std::move(value);
-    return *this;
-  }
-  /// The field was called `name` in an earlier version. Not for fields that may be sampled.
-  Field& renamed_from(std::string name) {
-    deprecated_name = std::move(name);
-    return *this;
-  }
-  /// Of objects that are there only if they are given: help says what happens without.
-  Field& without_default() {
-    default_value = nullptr;
-    return *this;
-  }
-};
-
-/// The member of a member: at(&JobSpec::capture, &CaptureSpec::rate_hz).
-template <typename... Members>
-constexpr auto at(Members... members) {
-  return [members...](auto& object) -> auto& { return (object.*....*members); };
+/// One of these words, or a choice of them for each run.
+Values sampled_words(std::span<const std::string> words);
+template <typename Words>
+Values sampled_words(const Words& words) {
+  const std::vector<std::string> texts(words.begin(), words.end());
+  return sampled_words(std::span<const std::string>(texts));
 }
 
-/// Values as a job writes them.
-template <typename Value>
-nlohmann::json value_json(const Value& value) {
-  return value;
+/// A field that is sampled, as a job writes it; null if it is not there.
+nlohmann::json sampled_json(const Distribution& distribution, const Quantity& quantity);
+nlohmann::json sampled_json(const std::optional<Distribution>& distribution,
+                            const Quantity& quantity);
+
+/// Adds a field that may be a distribution itself; `access` gives its Distribution.
+template <typename Object, typename Access>
+Field<Object>& add_sampled(FieldTable<Object>& table, std::string path, std::string title,
+                           std::string unit, Values values, Access access, std::string help) {
+  Quantity quantity = *values.quantity;
+  Field<Object>& field = table.add(
+      std::move(path), std::move(title), std::move(unit), std::move(values),
+      [access, quantity](const Object& object) { return sampled_json(access(object), quantity); },
+      [access, quantity](Object& object, const nlohmann::json& value, const FieldPlace& place) {
+        access(object) = Distribution::read(value, quantity, place.pointer, place.problems);
+      },
+      std::move(help));
+  field.sampling = Sampling::in_place;
+  return field;
 }
-inline nlohmann::json value_json(const std::string& value) {
-  return value.empty() ? nlohmann::json() : nlohmann::json(value);
-}
-template <int size>
-nlohmann::json value_json(const Eigen::Matrix<double, size, 1>& value) {
-  nlohmann::json list = nlohmann::json::array();
-  for (int i = 0; i < size; ++i) list.push_back(value[i]);
-  return list;
-}
-template <typename Value>
-nlohmann::json value_json(const std::optional<Value>& value) {
-  return value ? value_json(*value) : nlohmann::json();
-}
-template <typename Value>
-void set_value(const nlohmann::json& given, Value& value) {
-  given.get_to(value);
-}
-template <int size>
-void set_value(const nlohmann::json& given, Eigen::Matrix<double, size, 1>& value) {
-  for (int i = 0; i < size; ++i) value[i] = given.at(static_cast<std::size_t>(i)).get<double>();
-}
-template <typename Value>
-void set_value(const nlohmann::json& given, std::optional<Value>& value) {
-  set_value(given, value.emplace());
-}
-
-/// The fields of one kind of object, in the order of the schema.
-template <typename Object>
-class FieldTable {
- public:
-  using Fields = std::vector<Field<Object>>;
-  using Get = std::function<nlohmann::json(const Object&)>;
-  using Set = std::function<void(Object&, const nlohmann::json&, const FieldPlace&)>;
-
-  /// Begins an object that has its defaults when it is left out.
-  Field<Object>& group(std::string path, std::string title, std::string help) {
-    Field<Object>& field = fields_.emplace_back();
-    field.path = std::move(path);
-    field.title = std::move(title);
-    field.help = std::move(help);
-    field.is_group = true;
-    field.default_value = nlohmann::ordered_json::object();
-    return field;
-  }
-
-  /// A field that is kept where `access` says (at()).
-  template <typename Access>
-  Field<Object>& add(std::string path, std::string title, std::string unit, Values values,
-                     Access access, std::string help) {
-    return add(
-        std::move(path), std::move(title), std::move(unit), std::move(values),
-        [access](const Object& object) { return value_json(access(object)); },
-        [access](Object& object, const nlohmann::json& value, const FieldPlace&) {
-          set_value(value, access(object));
-        },
-        std::move(help));
-  }
-
-  /// A field that is converted.
-  Field<Object>& add(std::string path, std::string title, std::string unit, Values values, Get get,
-                     Set set, std::string help) {
-    Field<Object>& field = fields_.emplace_back();
-    field.path = std::move(path);
-    field.title = std::move(title);
-    field.unit = std::move(unit);
-    field.values = std::move(values);
-    field.help = std::move(help);
-    field.get = std::move(get);
-    field.set = std::move(set);
-    field.default_value = plain_numbers(field.get(Object{}));
-    return field;
-  }
-
-  /// An enumerator that is written as one of `words`.
-  template <typename Words, typename Access>
-  Field<Object>& add_word(std::string path, std::string title, const Words& words, Access access,
-                          std::string help) {
-    return add(
-        std::move(path), std::move(title), "", one_of(words),
-        [words, access](const Object& object) -> nlohmann::json {
-          return words.at(static_cast<std::size_t>(access(object)));
-        },
-        [words, access](Object& object, const nlohmann::json& value, const FieldPlace&) {
-          using Enum = std::remove_cvref_t<decltype(access(object))>;
-          const auto& word = value.get_ref<const std::string&>();
-          for (std::size_t i = 0; i < words.size(); ++i) {
-            if (word == words.at(i)) access(object) = static_cast<Enum>(i);
-          }
-        },
-        std::move(help));
-  }
-
-  /// A field that may be a distribution itself; `member` is a Distribution.
-  template <typename Access>
-  Field<Object>& add_sampled(std::string path, std::string title, std::string unit, Values values,
-                             Access access, std::string help) {
-    Quantity quantity = *values.quantity;
-    Field<Object>& field = add(
-        std::move(path), std::move(title), std::move(unit), std::move(values),
-        [access, quantity](const Object& object) { return sampled_json(access(object), quantity); },
-        [access, quantity](Object& object, const nlohmann::json& value, const FieldPlace& place) {
-          access(object) = Distribution::read(value, quantity, place.pointer, place.problems);
-        },
-        std::move(help));
-    field.sampling = Sampling::in_place;
-    return field;
-  }
-
-  /// The fields of a part of the object, with `path` before theirs.
-  template <typename Part, typename Access>
-  void add_all(const std::string& path, const FieldTable<Part>& part, Access access) {
-    for (const Field<Part>& other : part.fields()) {
-      Field<Object>& field = fields_.emplace_back();
-      static_cast<FieldRules&>(field) = other;
-      field.path = path + "/" + other.path;
-      if (other.is_group) continue;
-      field.get = [access, get = other.get](const Object& object) { return get(access(object)); };
-      field.set = [access, set = other.set](Object& object, const nlohmann::json& value,
-                                            const FieldPlace& place) {
-        set(access(object), value, place);
-      };
-    }
-  }
-
-  const Fields& fields() const { return fields_; }
-
-  /// Null if there is none of this path.
-  const Field<Object>* find(std::string_view path) const {
-    for (const Field<Object>& field : fields_) {
-      if (field.path == path) return &field;
-    }
-    return nullptr;
-  }
-
-  /// Reads what an object says; what it leaves out stays as it is. `place` is the object's.
-  void read(const nlohmann::json& value, Object& object, const FieldPlace& place) const {
-    for (const Field<Object>& field : fields_) {
-      if (field.is_group) continue;
-      const nlohmann::json* found = value_at(value, field.path);
-      if (found != nullptr) field.set(object, *found, place.below(field.path));
-      if (field.deprecated_name.empty()) continue;
-      const FieldPlace old = place.below(deprecated_path(field));
-      const nlohmann::json* found_old = value_at(value, deprecated_path(field));
-      if (found_old == nullptr || !old.allows_deprecated(field, found != nullptr)) continue;
-      field.set(object, *found_old, old);
-    }
-  }
-
-  nlohmann::json print(const Object& object) const {
-    nlohmann::json value = nlohmann::json::object();
-    for (const Field<Object>& field : fields_) {
-      if (field.is_group) continue;
-      nlohmann::json printed = field.get(object);
-      if (!printed.is_null()) value[pointer_below(field.path)] = std::move(printed);
-    }
-    return value;
-  }
-
-  /// "required", if there are such fields, and "properties", of the object that the table
-  /// describes.
-  nlohmann::ordered_json schema() const {
-    std::vector<const FieldRules*> rules;
-    rules.reserve(fields_.size());
-    for (const Field<Object>& field : fields_) rules.push_back(&field);
-    return schema_of(rules);
-  }
-
- private:
-  Fields fields_;
-};
-
-// NOLINTEND(performance-unnecessary-value-param)
 
 }  // namespace throng::jobs

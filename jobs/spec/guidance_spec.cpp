@@ -2,7 +2,8 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "geometry/angle.h"
 
 namespace throng::jobs {
 
@@ -11,16 +12,15 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr double kGuidanceDegree = std::numbers::pi / 180;
 constexpr std::array kPerceptionWords{"truth", "camera"};
 /// Those of the table of sim/policies/policy.cpp.
 constexpr std::array kPolicies{"hover",  "waypoints", "orbit",   "survey", "follow_density",
                                "zigzag", "pilot_log", "balance", "signage"};
 
-json fov_json(const sim::PerceptionSpec& spec) { return spec.fov_rad / kGuidanceDegree; }
+json fov_json(const sim::PerceptionSpec& spec) { return spec.fov_rad / kDegree; }
 
 void set_fov(sim::PerceptionSpec& spec, const json& value, const FieldPlace& /*place*/) {
-  spec.fov_rad = value.get<double>() * kGuidanceDegree;
+  spec.fov_rad = value.get<double>() * kDegree;
 }
 
 const FieldTable<sim::PerceptionSpec>& perception_fields() {
@@ -132,7 +132,7 @@ json setpoints_json(const DroneSpec& drone) {
   json list;
   for (const sim::PilotSample& sample : drone.mission.guidance.setpoints) {
     list.push_back({sample.time_s, sample.position.x(), sample.position.y(), sample.position.z(),
-                    sample.yaw_rad / kGuidanceDegree, sample.beacon ? 1 : 0});
+                    sample.yaw_rad / kDegree, sample.beacon ? 1 : 0});
   }
   return list;
 }
@@ -143,7 +143,7 @@ void set_setpoints(DroneSpec& drone, const json& value, const FieldPlace& /*plac
   for (const json& row : value) {
     setpoints.push_back({row[0].get<double>(),
                          {row[1].get<double>(), row[2].get<double>(), row[3].get<double>()},
-                         row[4].get<double>() * kGuidanceDegree,
+                         row[4].get<double>() * kDegree,
                          row[5].get<double>() != 0});
   }
 }

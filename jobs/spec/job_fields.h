@@ -2,7 +2,7 @@
 #pragma once
 
 #include "jobs/spec/field_table.h"
-#include "jobs/spec/spec.h"
+#include "jobs/spec/job_spec.h"
 
 namespace throng::jobs {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "jobs/spec/spec.h"
+#include "jobs/spec/job_spec.h"
 
 namespace throng::jobs {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "jobs/spec/spec.h"
+#include "jobs/spec/schema.h"
 #include "world/json_reader.h"
 
 namespace throng::jobs {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "jobs/spec/spec.h"
+#include "jobs/spec/job_spec.h"
 
 namespace throng::jobs {
 

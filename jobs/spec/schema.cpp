@@ -12,12 +12,14 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "base/field_table.h"
+#include "base/json_describe.h"
 #include "base/suggest.h"
-#include "jobs/spec/spec.h"
-#include "world/json_reader.h"
+#include "jobs/spec/job_fields.h"
 
 namespace throng::jobs {
 
+using fields::expectation;
 using nlohmann::json;
 
 namespace {
@@ -49,48 +51,6 @@ const json& schema_at(const std::vector<std::string>& context) {
   return *node;
 }
 
-// Numbers as a person writes them: 60, not 60.0.
-std::string number_text(const json& value) {
-  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
-}
-
-std::string range_text(const json& schema) {
-  if (schema.contains("exclusiveMinimum")) {
-    return fmt::format(" above {} and at most {}", number_text(schema["exclusiveMinimum"]),
-                       number_text(schema["maximum"]));
-  }
-  if (!schema.contains("minimum")) return "";
-  return fmt::format(" from {} to {}", number_text(schema["minimum"]),
-                     number_text(schema["maximum"]));
-}
-
-std::string array_text(const json& schema) {
-  const auto min_value = schema.value("minItems", 0);
-  const auto max_value = schema.value("maxItems", 0);
-  return fmt::format("an array of {}{}",
-                     schema.value("uniqueItems", false) ? "different items, " : "",
-                     min_value == max_value ? fmt::format("{} items", max_value)
-                                            : fmt::format("{} to {} items", min_value, max_value));
-}
-
-std::string expectation(const json& schema) {
-  if (schema.contains("x-expected")) return schema["x-expected"];
-  if (schema.contains("enum")) {
-    std::vector<std::string> words;
-    for (const json& word : schema["enum"]) words.push_back(word.dump());
-    return (words.size() > 1 ? "one of " : "") + fmt::format("{}", fmt::join(words, ", "));
-  }
-  const std::string type = schema.at("type");
-  if (type == "object") return "an object";
-  if (type == "array") return array_text(schema);
-  if (type == "integer") return "an integer" + range_text(schema);
-  if (type == "number") return "a number" + range_text(schema);
-  return schema.contains("maxLength")
-             ? fmt::format("a text of {} to {} characters", schema.value("minLength", 0),
-                           schema["maxLength"].get<int>())
-             : "a text";
-}
-
 void add_field_problems(const json& object, const json& schema, const json::json_pointer& place,
                         const std::string& source, std::vector<Problem>& problems) {
   std::vector<std::string_view> known;
@@ -111,6 +71,16 @@ void add_field_problems(const json& object, const json& schema, const json::json
 }
 
 }  // namespace
+
+const json& job_schema() {
+  static const json schema = ordered_job_schema();
+  return schema;
+}
+
+std::string_view job_schema_text() {
+  static const std::string text = schema_text(ordered_job_schema());
+  return text;
+}
 
 std::vector<Problem> schema_problems(const json& job, const std::string& source) {
   static const CompiledSchema compiled;
@@ -138,7 +108,7 @@ std::vector<Problem> schema_problems(const json& job, const std::string& source)
       add_field_problems(value, rules, place, source, problems);
     }
     if (innermost && problems.size() == before) {
-      problems.push_back({source, place.to_string(), world::describe(value), expectation(rules)});
+      problems.push_back({source, place.to_string(), describe(value), expectation(rules)});
     }
   }
   check(!problems.empty(), "a job that breaks the schema has a problem");

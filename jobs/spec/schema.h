@@ -3,11 +3,17 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
 
 namespace throng::jobs {
+
+/// The JSON Schema of a job.
+const nlohmann::json& job_schema();
+/// The same as text, whose fields are in the order of docs/job.md.
+std::string_view job_schema_text();
 
 /// Everything in which `job` breaks the schema: one problem per place, with its JSON pointer, what
 /// stands there and what should. Empty when it is valid. `source` names the text in the problems.

@@ -158,14 +158,4 @@ json samples_of_run(const JobSpec& job, int run) {
   return drawn;
 }
 
-const json& job_schema() {
-  static const json schema = ordered_job_schema();
-  return schema;
-}
-
-std::string_view job_schema_text() {
-  static const std::string text = schema_text(ordered_job_schema());
-  return text;
-}
-
 }  // namespace throng::jobs

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::jobs {
 
@@ -25,32 +25,30 @@ std::string wind_pointer(const char* name) { return fmt::format("/environment/wi
 const FieldTable<WindFields>& wind_fields() {
   static const FieldTable<WindFields> fields = [] {
     FieldTable<WindFields> table;
-    table.add_sampled("speed_mps", "Wind", "m/s", numbers(0, 40), at(&WindFields::speed_mps),
-                      "Mean wind 10 m above the ground.");
-    table.add_sampled("direction_deg", "Wind's direction", "degrees", numbers(-180, 360),
-                      at(&WindFields::direction_deg),
-                      "Direction that the wind blows to, counterclockwise from +x (east).");
-    table.add_sampled("profile", "Profile", "", sampled_words(kProfiles), at(&WindFields::profile),
-                      "Mean wind over height: log (grows with the logarithm of height over "
-                      "roughness), power (with a power of height), uniform (constant).");
-    table.add_sampled(
-        "roughness_m", "Roughness", "m", numbers(0.0001, 3), at(&WindFields::roughness_m),
-        "Roughness length of the ground, for the profile log: 0.03 grass, 0.4 suburbs, "
-        "1 and more cities.");
-    table.add_sampled("exponent", "Exponent", "", numbers(0, 1), at(&WindFields::exponent),
-                      "Exponent of the profile power.");
-    table.add_sampled(
-        "gusts", "Gusts", "", sampled_words(kGusts), at(&WindFields::gusts),
-        "Gust model of each drone: dryden (turbulence of MIL-F-8785C at low altitude, "
-        "which follows from wind and height), ou (Ornstein-Uhlenbeck, of a given "
-        "strength and duration), none.");
-    table.add_sampled("intensity", "Intensity", "", numbers(0, 5), at(&WindFields::intensity),
-                      "Factor on the strength of dryden's gusts.");
-    table.add_sampled("gust_mps", "Strength of gusts", "m/s", numbers(0, 15),
-                      at(&WindFields::gust_mps),
-                      "Standard deviation of ou's gusts along each axis.");
-    table.add_sampled("gust_time_s", "Duration of gusts", "s", numbers(0.1, 60),
-                      at(&WindFields::gust_time_s), "Correlation time of ou's gusts.");
+    add_sampled(table, "speed_mps", "Wind", "m/s", numbers(0, 40), at(&WindFields::speed_mps),
+                "Mean wind 10 m above the ground.");
+    add_sampled(table, "direction_deg", "Wind's direction", "degrees", numbers(-180, 360),
+                at(&WindFields::direction_deg),
+                "Direction that the wind blows to, counterclockwise from +x (east).");
+    add_sampled(table, "profile", "Profile", "", sampled_words(kProfiles), at(&WindFields::profile),
+                "Mean wind over height: log (grows with the logarithm of height over "
+                "roughness), power (with a power of height), uniform (constant).");
+    add_sampled(table, "roughness_m", "Roughness", "m", numbers(0.0001, 3),
+                at(&WindFields::roughness_m),
+                "Roughness length of the ground, for the profile log: 0.03 grass, 0.4 suburbs, "
+                "1 and more cities.");
+    add_sampled(table, "exponent", "Exponent", "", numbers(0, 1), at(&WindFields::exponent),
+                "Exponent of the profile power.");
+    add_sampled(table, "gusts", "Gusts", "", sampled_words(kGusts), at(&WindFields::gusts),
+                "Gust model of each drone: dryden (turbulence of MIL-F-8785C at low altitude, "
+                "which follows from wind and height), ou (Ornstein-Uhlenbeck, of a given "
+                "strength and duration), none.");
+    add_sampled(table, "intensity", "Intensity", "", numbers(0, 5), at(&WindFields::intensity),
+                "Factor on the strength of dryden's gusts.");
+    add_sampled(table, "gust_mps", "Strength of gusts", "m/s", numbers(0, 15),
+                at(&WindFields::gust_mps), "Standard deviation of ou's gusts along each axis.");
+    add_sampled(table, "gust_time_s", "Duration of gusts", "s", numbers(0.1, 60),
+                at(&WindFields::gust_time_s), "Correlation time of ou's gusts.");
     return table;
   }();
   return fields;

@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "base/suggest.h"
+#include "base/field_table.h"
 
 namespace throng::places {
 
@@ -13,28 +13,50 @@ using nlohmann::json;
 
 namespace {
 
-void read_number(const json& value, const char* key, double low, double high,
-                 const std::string& where, std::vector<Problem>& problems, double& number) {
-  if (!value.contains(key)) return;
-  const json& found = value[key];
-  if (!found.is_number() || found < low || found > high) {
-    problems.push_back({"", where + "/" + key, found.dump(),
-                        fmt::format("a number from {:g} to {:g}", low, high)});
-    return;
-  }
-  found.get_to(number);
+/// Left out when printed as long as it is 0: sampled.
+template <typename Number>
+void add_sampled_number(fields::FieldTable<PlaceSpec>& table, const char* path, const char* title,
+                        const char* unit, fields::Values values, Number PlaceSpec::*member,
+                        const char* help) {
+  table.add(
+      path, title, unit, std::move(values),
+      [member](const PlaceSpec& spec) { return spec.*member > 0 ? json(spec.*member) : json(); },
+      [member](PlaceSpec& spec, const json& value, const fields::FieldPlace& /*place*/) {
+        value.get_to(spec.*member);
+      },
+      help);
 }
 
-void read_integer(const json& value, const char* key, int low, int high, const std::string& where,
-                  std::vector<Problem>& problems, int& number) {
-  if (!value.contains(key)) return;
-  const json& found = value[key];
-  if (!found.is_number_integer() || found < low || found > high) {
-    problems.push_back(
-        {"", where + "/" + key, found.dump(), fmt::format("an integer from {} to {}", low, high)});
-    return;
-  }
-  found.get_to(number);
+fields::FieldTable<PlaceSpec> make_place_fields() {
+  using fields::at;
+  using fields::integers;
+  using fields::numbers;
+  fields::FieldTable<PlaceSpec> table;
+  fields::Values kinds = fields::one_of(kPlaceKinds);
+  kinds.expected = "plaza, street, campus or block";
+  table.add("kind", "Kind", "", std::move(kinds), at(&PlaceSpec::kind), "Layout of the place.")
+      .required();
+  table.add("seed", "Seed", "", integers(0, 1'000'000'000), at(&PlaceSpec::seed),
+            "Seed of all that is not given.");
+  add_sampled_number(table, "size_m", "Size", "m", numbers(30, 200), &PlaceSpec::size_m,
+                     "Length of the longer side.");
+  add_sampled_number(table, "exits", "Exits", "", integers(2, 8), &PlaceSpec::exits,
+                     "Number of exits.");
+  add_sampled_number(table, "exit_width_m", "Width of exits", "m", numbers(2, 12),
+                     &PlaceSpec::exit_width_m, "Width of each exit.");
+  table.add("building_density", "Density of buildings", "", numbers(0, 1),
+            at(&PlaceSpec::building_density), "Share of the building sites that are built up.");
+  table.add("clutter", "Clutter", "", numbers(0, 1), at(&PlaceSpec::clutter), "Density of props.");
+  table.add("demand_per_minute", "Demand", "people/min", numbers(0.1, 600),
+            at(&PlaceSpec::demand_per_minute), "People who come in by each exit.");
+  add_sampled_number(table, "people", "People", "people", integers(1, 5000), &PlaceSpec::people,
+                     "People present at the start.");
+  return table;
+}
+
+const fields::FieldTable<PlaceSpec>& place_fields() {
+  static const fields::FieldTable<PlaceSpec> table = make_place_fields();
+  return table;
 }
 
 }  // namespace
@@ -42,52 +64,12 @@ void read_integer(const json& value, const char* key, int low, int high, const s
 PlaceSpec read_place_spec(const json& value, const std::string& where,
                           std::vector<Problem>& problems) {
   PlaceSpec spec;
-  if (!value.is_object()) {
-    problems.push_back({"", where, value.dump(), "an object"});
-    return spec;
-  }
-  constexpr std::array<std::string_view, 9> kFields = {"kind",         "seed",
-                                                       "size_m",       "exits",
-                                                       "exit_width_m", "building_density",
-                                                       "clutter",      "demand_per_minute",
-                                                       "people"};
-  for (const auto& [key, field] : value.items()) {
-    if (std::find(kFields.begin(), kFields.end(), key) != kFields.end()) continue;
-    problems.push_back(unknown_name("", where + "/" + key, "field", key, kFields));
-  }
-  const json kind = value.value("kind", json());
-  const auto* const known = std::find(kPlaceKinds.begin(), kPlaceKinds.end(),
-                                      kind.is_string() ? kind.get<std::string>() : "");
-  if (known == kPlaceKinds.end()) {
-    problems.push_back({"", where + "/kind", kind.dump(), "plaza, street, campus or block"});
-  } else {
-    spec.kind = *known;
-  }
-  int seed = 1;
-  read_integer(value, "seed", 0, 1'000'000'000, where, problems, seed);
-  spec.seed = static_cast<std::uint64_t>(seed);
-  read_number(value, "size_m", 30, 200, where, problems, spec.size_m);
-  read_integer(value, "exits", 2, 8, where, problems, spec.exits);
-  read_number(value, "exit_width_m", 2, 12, where, problems, spec.exit_width_m);
-  read_number(value, "building_density", 0, 1, where, problems, spec.building_density);
-  read_number(value, "clutter", 0, 1, where, problems, spec.clutter);
-  read_number(value, "demand_per_minute", 0.1, 600, where, problems, spec.demand_per_minute);
-  read_integer(value, "people", 1, 5000, where, problems, spec.people);
+  const std::string no_source;
+  place_fields().read_checked(value, spec, {where, no_source, problems});
   return spec;
 }
 
-json to_json(const PlaceSpec& spec) {
-  json value = {{"kind", spec.kind},
-                {"seed", spec.seed},
-                {"building_density", spec.building_density},
-                {"clutter", spec.clutter},
-                {"demand_per_minute", spec.demand_per_minute}};
-  if (spec.size_m > 0) value["size_m"] = spec.size_m;
-  if (spec.exits > 0) value["exits"] = spec.exits;
-  if (spec.exit_width_m > 0) value["exit_width_m"] = spec.exit_width_m;
-  if (spec.people > 0) value["people"] = spec.people;
-  return value;
-}
+json to_json(const PlaceSpec& spec) { return place_fields().print(spec); }
 
 std::string id_of(const PlaceSpec& spec) {
   // FNV-1a (Fowler, Noll, Vo): only to tell specs apart.

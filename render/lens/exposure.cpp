@@ -254,8 +254,8 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to) {
   return max_value;
 }
 
-Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Exposure& exposure,
-               std::optional<double> next_s) {
+Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
+               const camera::Exposure& exposure, std::optional<double> next_s) {
   check(exposure.exposure_s >= 0 && exposure.readout_s >= 0, "time runs forwards");
   Exposed exposed;
   exposed.blur_px = motion_during(moment_at, time_s, exposure.exposure_s);

@@ -6,10 +6,9 @@
 #include <memory>
 #include <optional>
 
-#include "camera/camera.h"
+#include "camera/spec/camera_spec.h"
 #include "render/frame.h"
 #include "render/lens/lens.h"
-#include "render/spec/exposure.h"
 
 namespace throng::render {
 
@@ -41,7 +40,7 @@ double image_motion_px(const ShutterMoment& from, const ShutterMoment& to);
 ///
 /// `next_s` is when the next frame is taken, if flow is wanted: flow goes from each row's time to
 /// as long after it.
-Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s, const Exposure& exposure,
-               std::optional<double> next_s = std::nullopt);
+Exposed expose(Lens& lens, const MomentAt& moment_at, double time_s,
+               const camera::Exposure& exposure, std::optional<double> next_s = std::nullopt);
 
 }  // namespace throng::render

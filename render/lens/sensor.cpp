@@ -119,7 +119,7 @@ Eigen::Vector3d white_balance_gains(double temperature_k) {
   return gains / gains.y();
 }
 
-void apply_sensor(const Sensor& sensor, std::uint64_t seed, Frame& frame) {
+void apply_sensor(const camera::Sensor& sensor, std::uint64_t seed, Frame& frame) {
   if (sensor.is_neutral()) return;
   const Eigen::Vector3f gains =
       (white_balance_gains(sensor.white_balance_k) * std::exp2(sensor.ev)).cast<float>();

@@ -4,9 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "camera/camera.h"
+#include "camera/spec/camera_spec.h"
 #include "render/frame.h"
-#include "render/spec/sensor.h"
 
 namespace throng::render {
 
@@ -18,6 +17,6 @@ Eigen::Vector3d white_balance_gains(double temperature_k);
 /// Changes the frame's colors, in linear light. The noise, of photons (its variance is the light
 /// in electrons) and of reading, is independent in all pixels and channels and a function of `seed`
 /// only.
-void apply_sensor(const Sensor& sensor, std::uint64_t seed, Frame& frame);
+void apply_sensor(const camera::Sensor& sensor, std::uint64_t seed, Frame& frame);
 
 }  // namespace throng::render

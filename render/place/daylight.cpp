@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
+#include "geometry/smoothstep.h"
 
 namespace throng::render {
 
@@ -14,11 +15,6 @@ using Eigen::Array3d;
 
 constexpr double kMinShadowRad = 0.05;
 constexpr double kTownGlow = 1e-4;  // the darkest sky, as a share of a high sun's
-
-double smooth(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 Array3d mixed(const Array3d& a, const Array3d& b, double share) {
   return a * (1 - share) + b * share;
@@ -47,14 +43,14 @@ Array3d sky_hue(double elevation_rad) {
   const double degrees = elevation_rad / kDegree;
   const Array3d day(0.34, 0.395, 0.475);
   const Array3d twilight(0.27, 0.37, 0.60);
-  return mixed(twilight, day, smooth(-4, 8, degrees));
+  return mixed(twilight, day, geometry::smoothstep(-4, 8, degrees));
 }
 
 /// A lower sun shines through more air: weaker and warmer (optical depths for clear air).
 Array3d clear_sun(double elevation_rad) {
   const double sine = std::sin(std::max(elevation_rad, kMinShadowRad));
   const Array3d through_air = (-Array3d(0.08, 0.14, 0.24) / (sine + 0.05)).exp();
-  return 1.85 * through_air * smooth(-0.8 * kDegree, 2 * kDegree, elevation_rad);
+  return 1.85 * through_air * geometry::smoothstep(-0.8 * kDegree, 2 * kDegree, elevation_rad);
 }
 
 /// Share of a clear sky's light that reaches level ground under this weather's clouds. A closed
@@ -141,7 +137,8 @@ void color_the_air(const Environment& environment, Daylight& light) {
     if (environment.weather == Weather::fog) light.haze *= kAfternoon / 0.60;
     return;
   }
-  const double setting = smooth(-5, 0.5, degrees) * (1 - smooth(3, 14, degrees));
+  const double setting =
+      geometry::smoothstep(-5, 0.5, degrees) * (1 - geometry::smoothstep(3, 14, degrees));
   const Array3d day(0.62, 0.70, 0.80);
   light.haze =
       mixed(day, Array3d(0.95, 0.62, 0.40), 0.75 * setting) * std::max(level, 0.5 * setting);

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/polygon.h"
+#include "geometry/triangulate.h"
 #include "render/frame.h"
-#include "render/place/triangulate.h"
 
 namespace throng::render {
 
@@ -21,16 +22,7 @@ constexpr double kPaintHeightM = 0.0017;
 
 /// The part of a convex polygon on the side of a line where normal . p <= limit.
 Polygon cut(const Polygon& polygon, const Vector2d& normal, double limit) {
-  Polygon kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector2d& from = polygon[i];
-    const Vector2d& to = polygon[(i + 1) % polygon.size()];
-    const double a = limit - normal.dot(from);
-    const double b = limit - normal.dot(to);
-    if (a >= 0) kept.push_back(from);
-    if ((a >= 0) != (b >= 0)) kept.emplace_back(from + (to - from) * (a / (a - b)));
-  }
-  return kept;
+  return geometry::clipped(polygon, [&](const Vector2d& p) { return normal.dot(p) - limit; });
 }
 
 class LayerBuilder {
@@ -134,7 +126,7 @@ std::vector<GroundLayer> add_ground_layers(const world::Scenario& scenario,
     const double height_m =
         kAreaHeightM + kNextAreaM * static_cast<double>(std::min(i, kMaxHeights));
     layer(area.material, [&] {
-      for (const auto& triangle : triangulate(area.corners)) {
+      for (const auto& triangle : geometry::triangulate(area.corners)) {
         builder.add_in_cells(
             {area.corners[triangle[0]], area.corners[triangle[1]], area.corners[triangle[2]]},
             height_m);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/polygon.h"
 #include "render/props/prop_shapes.h"
 
 namespace throng::render {
@@ -19,18 +20,13 @@ constexpr double kPlaneM = 1;  // height at which the light is taken
 constexpr double kStrengthM2 = 1000.0 / 54'000;
 constexpr int kTexels = 256;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 bool crosses(const world::Building& building, const Eigen::Vector2d& from,
              const Eigen::Vector2d& to) {
   const std::vector<Eigen::Vector2d>& corners = building.footprint;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2d& a = corners[i];
     const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
-    const bool ends_apart = cross(b - a, from - a) * cross(b - a, to - a) < 0;
-    if (ends_apart && cross(to - from, a - from) * cross(to - from, b - from) < 0) return true;
+    if (geometry::segments_cross(a, b, from, to)) return true;
   }
   return false;
 }

@@ -6,9 +6,10 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "geometry/polygon.h"
+#include "geometry/triangulate.h"
 #include "render/frame.h"
 #include "render/place/place_details.h"
-#include "render/place/triangulate.h"
 
 namespace throng::render {
 
@@ -29,10 +30,10 @@ double horizon_slope(const world::Building& building, const Eigen::Vector2d& fro
     const Eigen::Vector2d a = building.footprint[i] - from;
     const Eigen::Vector2d edge =
         building.footprint[(i + 1) % building.footprint.size()] - building.footprint[i];
-    const double across = direction.x() * edge.y() - direction.y() * edge.x();
+    const double across = geometry::cross(direction, edge);
     if (std::abs(across) < 1e-9) continue;
-    const double along_ray = (a.x() * edge.y() - a.y() * edge.x()) / across;
-    const double along_edge = (a.x() * direction.y() - a.y() * direction.x()) / across;
+    const double along_ray = geometry::cross(a, edge) / across;
+    const double along_edge = geometry::cross(a, direction) / across;
     if (along_ray < 0 || along_edge < 0 || along_edge > 1) continue;
     slope = std::max(slope, building.height_m / std::max(along_ray, 0.05));
   }
@@ -122,7 +123,7 @@ void add_roof(const world::Building& building, std::uint32_t id, PlaceMesh& mesh
                              id,
                              static_cast<float>(building.facade)});
   }
-  for (const auto& triangle : triangulate(building.footprint)) {
+  for (const auto& triangle : geometry::triangulate(building.footprint)) {
     for (const std::uint32_t corner : triangle) mesh.indices.push_back(first + corner);
   }
 }

@@ -3,11 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
-#include "base/angle.h"
 #include "base/random.h"
+#include "geometry/angle.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 #include "render/frame.h"
 
 namespace throng::render {
@@ -71,10 +72,7 @@ struct Machine {
 void add_machine(const Machine& machine, const Vector2d& along, double roof_m, std::uint32_t id,
                  PlaceMesh& mesh) {
   const Vector2d across(-along.y(), along.x());
-  const Vector2d a = machine.half.x() * along;
-  const Vector2d b = machine.half.y() * across;
-  const std::array<Vector2d, 4> corners = {machine.middle - a - b, machine.middle + a - b,
-                                           machine.middle + a + b, machine.middle - a + b};
+  const auto corners = geometry::turned_rectangle(machine.middle, machine.half, along);
   for (std::size_t i = 0; i < 4; ++i) {
     add_panel({corners[i], corners[(i + 1) % 4], roof_m, machine.height_m, id, WallLook::plant},
               mesh);
@@ -89,31 +87,6 @@ void add_machine(const Machine& machine, const Vector2d& along, double roof_m, s
         {local.dot(along), local.dot(across), 2 * machine.half.x(), 2 * machine.half.y()}, panel);
   }
   add_quad(top, mesh);
-}
-
-/// Negative inside a footprint; else the distance to it.
-double outside_m(const std::vector<Vector2d>& footprint, const Vector2d& p) {
-  bool inside = false;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < footprint.size(); ++i) {
-    const Vector2d& a = footprint[i];
-    const Vector2d edge = footprint[(i + 1) % footprint.size()] - a;
-    const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    nearest = std::min(nearest, (p - a - t * edge).norm());
-    const double up = (p.y() - a.y()) / edge.y();
-    if (up >= 0 && up < 1 && a.x() + up * edge.x() > p.x()) inside = !inside;
-  }
-  return inside ? -nearest : nearest;
-}
-
-double area_m2(const std::vector<Vector2d>& footprint) {
-  double sum = 0;
-  for (std::size_t i = 0; i < footprint.size(); ++i) {
-    const Vector2d& a = footprint[i];
-    const Vector2d& b = footprint[(i + 1) % footprint.size()];
-    sum += a.x() * b.y() - b.x() * a.y();
-  }
-  return 0.5 * sum;
 }
 
 /// The direction of the longest wall.
@@ -145,12 +118,13 @@ void add_machines(const world::Building& building, std::uint32_t number, PlaceMe
   for (const Vector2d& corner : building.footprint) bounds.extend(corner);
   const Vector2d along = max_side(building.footprint);
   std::vector<Machine> placed;
-  for (Machine& machine : wanted_machines(area_m2(building.footprint), random)) {
+  for (Machine& machine : wanted_machines(geometry::signed_area(building.footprint), random)) {
     const double reach = machine.half.norm();
     for (int attempt = 0; attempt < kTries; ++attempt) {
       machine.middle = {random.uniform(bounds.min().x(), bounds.max().x()),
                         random.uniform(bounds.min().y(), bounds.max().y())};
-      if (outside_m(building.footprint, machine.middle) > -reach - kFromEdgeM) continue;
+      if (geometry::signed_distance_to(building.footprint, machine.middle) > -reach - kFromEdgeM)
+        continue;
       const bool is_free = std::all_of(placed.begin(), placed.end(), [&](const Machine& other) {
         return (other.middle - machine.middle).norm() > reach + other.half.norm() + kApartM;
       });
@@ -193,7 +167,8 @@ std::optional<Panel> door_in(const world::Exit& exit, const Vector2d& from, cons
 
 bool has_roof_plant(const world::Building& building) {
   constexpr double kMinHeightM = 2.6;  // lower ones are walls, pedestals and the like
-  return building.height_m >= kMinHeightM && area_m2(building.footprint) >= kMinRoofM2;
+  return building.height_m >= kMinHeightM &&
+         geometry::signed_area(building.footprint) >= kMinRoofM2;
 }
 
 void add_exit_doors(const world::Scenario& scenario, PlaceMesh& mesh) {

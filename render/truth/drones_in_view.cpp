@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/polygon.h"
 #include "render/view.h"
 
 namespace throng::render {
@@ -44,7 +45,7 @@ Projected projected(const PropMesh& mesh, const camera::Camera& camera) {
 /// Sets the pixels whose middles are in the triangle or on its edges.
 void fill(const std::array<Vector2d, 3>& corners, PixelMask& mask) {
   const auto [a, b, c] = corners;
-  const double twice_area = (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+  const double twice_area = geometry::cross(b - a, c - a);
   if (!(twice_area != 0)) return;
   Eigen::AlignedBox2d box(a);
   box.extend(b);
@@ -53,9 +54,7 @@ void fill(const std::array<Vector2d, 3>& corners, PixelMask& mask) {
       box.min().array().floor().cast<int>(), box.max().array().ceil().cast<int>()));
   const double sign = twice_area > 0 ? 1 : -1;
   const auto is_inside = [&](const Vector2d& from, const Vector2d& to, const Vector2d& point) {
-    const Vector2d edge = to - from;
-    const Vector2d off = point - from;
-    return sign * (edge.x() * off.y() - edge.y() * off.x()) >= 0;
+    return sign * geometry::cross(to - from, point - from) >= 0;
   };
   for (int y = pixels.min().y(); y < pixels.max().y(); ++y) {
     for (int x = pixels.min().x(); x < pixels.max().x(); ++x) {

@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "base/version.h"
+#include "geometry/angle.h"
 #include "sim/people/crowd_source.h"
 
 namespace throng::sim {
@@ -73,8 +74,7 @@ std::vector<float> facings(const world::Trace& recording, std::uint64_t seed) {
 }
 
 float blend_yaw(float from, float to, float share) {
-  const float turn = std::remainder(to - from, 2 * static_cast<float>(EIGEN_PI));
-  return std::remainder(from + share * turn, 2 * static_cast<float>(EIGEN_PI));
+  return geometry::wrapped_rad(geometry::interpolated_rad(from, to, share));
 }
 
 class ReplayedCrowd : public CrowdSource {

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/polygon.h"
 #include "sim/planning/guidance_check.h"
 #include "sim/planning/separation.h"
-#include "world/polygon.h"
+#include "sim/policies/policy_table.h"
 
 namespace throng::sim {
 
@@ -140,7 +141,7 @@ class MissionCheck {
     const double room_m = frame.radius_m() + kClearanceM;
     for (const world::Building& building : scenario_.buildings) {
       if (point.z() < building.height_m + kClearanceM &&
-          world::distance_to(building.footprint, point.head<2>()) < room_m) {
+          geometry::distance_to(building.footprint, point.head<2>()) < room_m) {
         return &building;
       }
     }

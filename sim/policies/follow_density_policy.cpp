@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/angle.h"
 #include "sim/policies/glide.h"
 
 namespace throng::sim {
@@ -20,8 +21,9 @@ class FollowDensityPolicy : public Policy {
  public:
   explicit FollowDensityPolicy(const PolicyContext& context)
       : speed_mps_(context.mission.speed_mps), glide_(context.start, context.yaw_rad) {
-    const double heading_rad = context.yaw_rad + context.mission.camera.yaw_rad;
-    const double below = std::max(kSteepEnough, std::tan(-context.mission.camera.pitch_rad));
+    const double heading_rad = context.yaw_rad + context.mission.camera.yaw_deg * kDegree;
+    const double below =
+        std::max(kSteepEnough, std::tan(-context.mission.camera.pitch_deg * kDegree));
     ahead_ = context.start.z() / below * Vector2d(std::cos(heading_rad), std::sin(heading_rad));
     target_ = context.start.head<2>() + ahead_;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/angle.h"
 #include "sim/policies/glide.h"
 
 namespace throng::sim {
@@ -19,7 +20,7 @@ class OrbitPolicy : public Policy {
       : center_(*context.mission.guidance.center),
         radius_m_(*context.mission.guidance.radius_m),
         speed_mps_(std::min(context.mission.speed_mps, std::sqrt(radius_m_ * kMaxPullMps2))),
-        camera_yaw_rad_(context.mission.camera.yaw_rad),
+        camera_yaw_rad_(context.mission.camera.yaw_deg * kDegree),
         approach_(context.start, context.yaw_rad),
         height_m_(context.start.z()) {
     const Vector2d from = context.start.head<2>() - center_;

@@ -1,11 +1,11 @@
 // Guidance: what decides where a drone should be, where its camera should look and whether people
-// can follow it. One file per policy, and one line in the table of policy.cpp that makes it known.
+// can follow it. One file per policy, and one line in the table of policy_table.cpp that makes it
+// known.
 #pragma once
 
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "sim/sensors/world_view.h"
@@ -69,11 +69,5 @@ struct PolicyEntry {
 constexpr bool guides(const PolicyEntry& policy) {
   return ((policy.needs | policy.takes) & kFieldBeacon) == 0;
 }
-
-/// Every policy there is.
-std::span<const PolicyEntry> policies();
-
-/// The policy of that name; null when there is none.
-const PolicyEntry* find_policy(std::string_view name);
 
 }  // namespace throng::sim

@@ -39,7 +39,8 @@ class SurveyPolicy : public Policy {
   explicit SurveyPolicy(const PolicyContext& context)
       : speed_mps_(context.mission.speed_mps), glide_(context.start, context.yaw_rad) {
     const GuidanceSpec& guidance = context.mission.guidance;
-    const double seen_m = 2 * context.start.z() * std::tan(0.5 * context.mission.camera.hfov_rad);
+    const double seen_m =
+        2 * context.start.z() * std::tan(0.5 * context.mission.camera.pinhole_hfov_rad());
     path_ = lanes_over(guidance.area.value_or(context.scenario->inside),
                        seen_m * (1 - guidance.overlap.value_or(kUsualOverlap)));
     glide_.go(path_[0], speed_mps_);

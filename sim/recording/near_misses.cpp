@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "world/polygon.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 
 namespace throng::sim {
 
@@ -76,7 +77,7 @@ Approach approach_of(const VehicleInAir& a, const VehicleInAir& b) {
 
 Approach approach_of(const VehicleInAir& vehicle, const world::Building& building) {
   const auto gap_at = [&](const Vector3d& p) {
-    return gap_of(world::distance_to(building.footprint, p.head<2>()) - vehicle.radius_m,
+    return gap_of(geometry::distance_to(building.footprint, p.head<2>()) - vehicle.radius_m,
                   p.z() - 0.5 * vehicle.height_m - building.height_m);
   };
   Approach approach{gap_at(vehicle.position), kNever};
@@ -93,12 +94,7 @@ Approach approach_of(const VehicleInAir& vehicle, const world::Building& buildin
 NearMisses::NearMisses(std::vector<world::Building> buildings, Log log)
     : buildings_(std::move(buildings)), log_(std::move(log)) {
   for (const world::Building& building : buildings_) {
-    Bounds bounds{Vector2d::Constant(kNever), Vector2d::Constant(-kNever)};
-    for (const Vector2d& corner : building.footprint) {
-      bounds.min = bounds.min.cwiseMin(corner);
-      bounds.max = bounds.max.cwiseMax(corner);
-    }
-    bounds_.push_back(bounds);
+    bounds_.push_back(geometry::bounds_of(building.footprint));
   }
 }
 

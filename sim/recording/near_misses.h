@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "geometry/rectangle.h"
 #include "sim/vehicle/contact_log.h"
 #include "sim/vehicle/flight_world.h"
 #include "world/scenario.h"
@@ -63,16 +64,11 @@ class NearMisses {
     bool seen;
     bool hit;
   };
-  struct Bounds {
-    Eigen::Vector2d min;
-    Eigen::Vector2d max;
-  };
-
   void look(double time_s, const Key& key, const Approach& approach);
   void write(const Key& key, const Case& entry);
 
   std::vector<world::Building> buildings_;
-  std::vector<Bounds> bounds_;  ///< of the buildings' footprints
+  std::vector<geometry::Rectangle> bounds_;  ///< of the buildings' footprints
   Log log_;
   std::map<Key, Case> cases_;
 };

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "geometry/angle.h"
 
 namespace throng::sim {
 
@@ -33,7 +34,7 @@ ViewAngles mixed(const ViewAngles& a, const ViewAngles& b, double share) {
 /// x'' = w² (target - x) - 2 z w x', about three axes.
 class SecondOrder {
  public:
-  SecondOrder(const GimbalSpec& spec, const Vector3d& start) : spec_(spec), angle_(start) {}
+  SecondOrder(const camera::GimbalSpec& spec, const Vector3d& start) : spec_(spec), angle_(start) {}
 
   const Vector3d& advance(const Vector3d& from, const Vector3d& to, double dt_s) {
     const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kMaxStepS)));
@@ -48,7 +49,7 @@ class SecondOrder {
   }
 
  private:
-  GimbalSpec spec_;
+  camera::GimbalSpec spec_;
   Vector3d angle_;
   Vector3d rate_ = Vector3d::Zero();
 };
@@ -60,15 +61,22 @@ double heading_of(const Eigen::Quaterniond& orientation) {
   return std::atan2(nose.y(), nose.x());
 }
 
-GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const GimbalCommand& command,
-                     const GimbalSpec& spec, std::uint64_t seed, std::uint64_t camera) {
+ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera) {
+  return {heading_of(orientation) + camera.yaw_deg * kDegree, camera.pitch_deg * kDegree, 0};
+}
+
+GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const camera::CameraSpec& camera,
+                     std::uint64_t seed, std::uint64_t index) {
+  const camera::GimbalSpec& spec = camera.gimbal;
+  const double yaw_rad = camera.yaw_deg * kDegree;
+  const double pitch_rad = camera.pitch_deg * kDegree;
   check(!truth.empty(), "a drone with a camera has flown");
-  Random random(seed, Stream::sensors, kFirstGimbal + camera);
+  Random random(seed, Stream::sensors, kFirstGimbal + index);
   Vector3d bias;
   for (double& value : bias) value = random.uniform(-spec.bias_rad, spec.bias_rad);
   Vector3d jitter = normal3(random);
   double heading = heading_of(truth.front().orientation);
-  Vector3d target(heading + command.yaw_rad, command.pitch_rad, 0);
+  Vector3d target(heading + yaw_rad, pitch_rad, 0);
   SecondOrder response(spec, target);
   double last_s = truth.front().time_s;
   for (const world::DroneSample& sample : truth) {
@@ -76,7 +84,7 @@ GimbalLog::GimbalLog(const std::vector<world::DroneSample>& truth, const GimbalC
     last_s = sample.time_s;
     // Heading without jumps at half a turn.
     heading += std::remainder(heading_of(sample.orientation) - heading, 2 * EIGEN_PI);
-    const Vector3d next(heading + command.yaw_rad, command.pitch_rad, 0);
+    const Vector3d next(heading + yaw_rad, pitch_rad, 0);
     if (spec.ideal) {
       points_.push_back({sample.time_s, angles_of(next), angles_of(next)});
       continue;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/spec/gimbal_spec.h"
+#include "camera/spec/camera_spec.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -17,21 +17,19 @@ struct ViewAngles {
   double roll = 0;
 };
 
-/// Command of a gimbal: angles from the drone's heading and the horizon.
-struct GimbalCommand {
-  double yaw_rad = 0;
-  double pitch_rad = 0;
-};
-
 /// Heading of a drone: where its nose points, whatever it leans.
 double heading_of(const Eigen::Quaterniond& orientation);
+
+/// Viewing direction of an ideal gimbal below a drone: that of the drone's heading and the camera's
+/// mounting, level.
+ViewAngles ideal_view(const Eigen::Quaterniond& orientation, const camera::CameraSpec& camera);
 
 /// One camera's view over a run. Made from a trace alone, like SensorLog.
 class GimbalLog {
  public:
-  /// `camera` numbers the cameras of the run. The trace has samples of its drone.
-  GimbalLog(const std::vector<world::DroneSample>& truth, const GimbalCommand& command,
-            const GimbalSpec& spec, std::uint64_t seed, std::uint64_t camera);
+  /// `index` numbers the cameras of the run. The trace has samples of its drone.
+  GimbalLog(const std::vector<world::DroneSample>& truth, const camera::CameraSpec& camera,
+            std::uint64_t seed, std::uint64_t index);
 
   /// True viewing direction of the camera.
   ViewAngles view_at(double time_s) const;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/angle.h"
 #include "world/trace.h"
 
 namespace throng::sim {
@@ -24,8 +25,8 @@ struct InertialNoise {
 /// m/s/sqrt(Hz)) amounts to the standard deviations here. Barometer: 1 Pa of noise (PX4) and the
 /// weather's drift as in AirSim. Magnetometer: hector_quadrotor's share of the field.
 struct SensorNoise {
-  InertialNoise gyro{3.394e-4, 3.88e-5, 1000, 0.5 * EIGEN_PI / 180};  ///< rad/s
-  InertialNoise accelerometer{4e-3, 6e-3, 300, 0.196};                ///< m/s²
+  InertialNoise gyro{3.394e-4, 3.88e-5, 1000, 0.5 * kDegree};  ///< rad/s
+  InertialNoise accelerometer{4e-3, 6e-3, 300, 0.196};         ///< m/s²
   double gps_hz = 5;
   double gps_delay_s = 0.12;
   double gps_white_m = 0.01;

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "camera/spec/camera_spec.h"
 #include "crowd/types.h"
+#include "geometry/angle.h"
 #include "sim/spec/airframe.h"
 #include "sim/spec/wind_spec.h"
 #include "world/scenario.h"
@@ -28,12 +30,12 @@ struct PilotSample {
 enum class PerceptionKind { truth, camera };
 struct PerceptionSpec {
   PerceptionKind kind = PerceptionKind::truth;
-  double fov_rad = 90 * EIGEN_PI / 180;  ///< of the camera that counts, which looks straight down
-  double delay_s = 1;                    ///< from the image to the estimate
-  double count_noise = 0.1;              ///< share of the people missed, and of those seen twice
+  double fov_rad = 90 * kDegree;  ///< of the camera that counts, which looks straight down
+  double delay_s = 1;             ///< from the image to the estimate
+  double count_noise = 0.1;       ///< share of the people missed, and of those seen twice
 };
 
-/// Parameters that only some policies have; which ones is in the table of policy.cpp.
+/// Parameters that only some policies have; which ones is in the table of policy_table.cpp.
 struct GuidanceSpec {
   std::optional<Eigen::Vector2d> center;  ///< orbit: what it circles, m
   std::optional<double> radius_m;         ///< orbit
@@ -48,26 +50,19 @@ struct GuidanceSpec {
   std::optional<bool> beacon;
 };
 
-/// The drone's camera as far as policies need it.
-struct CameraGeometry {
-  double hfov_rad = 78 * EIGEN_PI / 180;
-  double pitch_rad = -50 * EIGEN_PI / 180;  ///< above the horizon
-  double yaw_rad = 0;                       ///< from the drone's heading
-};
-
 /// Mission of one drone.
 struct DroneMission {
   std::string id;                            ///< as in the job; unique
   std::string airframe = "f450";             ///< a name in sim/spec/airframes.json
   std::optional<Airframe> own_airframe;      ///< flies instead of the named one
-  std::string policy = "hover";              ///< a name in the table of policy.cpp
+  std::string policy = "hover";              ///< a name in the table of policy_table.cpp
   std::optional<Eigen::Vector3d> start;      ///< m; default: the scenario's start for this id
   std::vector<Eigen::Vector3d> waypoints;    ///< m, in order; the drone hovers at the last one
   double speed_mps = 3;                      ///< along the path
   std::optional<world::GoalRef> moves_goal;  ///< goal that follows this drone's (x, y)
   std::optional<double> battery_charge;      ///< share of a full battery; without it, it lasts
   GuidanceSpec guidance;
-  CameraGeometry camera;
+  camera::CameraSpec camera;
 };
 
 /// How the crowd engine computes.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "geometry/angle.h"
 #include "sim/spec/airframe.h"
 #include "sim/vehicle/quadcopter.h"
 
@@ -19,7 +20,7 @@ struct Setpoint {
 struct FlightLimits {
   double horizontal_mps = 5;
   double vertical_mps = 2;
-  double tilt_rad = 35 * EIGEN_PI / 180;
+  double tilt_rad = 35 * kDegree;
 };
 
 /// A cascade: position -> velocity (P) -> acceleration (PI) -> attitude and thrust -> angular

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/people/people_nearby.h"
-#include "sim/planning/plan.h"
+#include "sim/planning/planned_drone.h"
 #include "sim/recording/downwash_exposure.h"
 #include "sim/recording/fall_warning.h"
 #include "sim/recording/near_misses.h"

@@ -3,8 +3,8 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "base/error.h"
+#include "geometry/triangulate.h"
 #include "sim/vehicle/damage.h"
-#include "world/polygon.h"
 
 namespace throng::sim {
 
@@ -122,7 +122,7 @@ struct FlightWorld::Bodies {
 
   // Solid prisms over triangles, since a footprint need not be convex.
   void add_building(const world::Building& building, int index) {
-    for (const auto& triangle : world::triangulate(building.footprint)) {
+    for (const auto& triangle : geometry::triangulate(building.footprint)) {
       auto prism = std::make_unique<btConvexHullShape>();
       for (const std::size_t corner : triangle) {
         const Eigen::Vector2d& p = building.footprint[corner];

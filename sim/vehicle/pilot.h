@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "sim/planning/plan.h"
+#include "sim/planning/planned_drone.h"
 #include "sim/vehicle/battery.h"
 #include "sim/vehicle/controller.h"
 #include "sim/vehicle/damage.h"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "base/angle.h"
 #include "base/error.h"
+#include "geometry/angle.h"
 #include "skinning/animate/gait.h"
 #include "skinning/animate/motion.h"
 #include "skinning/animate/standing.h"

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
+#include "geometry/smoothstep.h"
 #include "skinning/animate/gait_tables.h"
 #include "skinning/animate/posture.h"
-#include "skinning/animate/smooth_step.h"
 
 namespace throng::skinning {
 
@@ -53,7 +53,7 @@ Arm arm_swing(const Gait& gait, const Manner& manner, double own) {
   }
   const double reach = swing * std::clamp(30 * gait.stride - 7, 4.0, 24.0);
   // People who walk at jogging speed bend the elbows.
-  const double elbow = 16 + manner.elbow_deg + 30 * smooth(0.9, 1.1, gait.stride);
+  const double elbow = 16 + manner.elbow_deg + 30 * geometry::smoothstep(0.9, 1.1, gait.stride);
   return {1 + reach * forward, elbow + 0.5 * reach * forward, manner.arms_out_deg, 4};
 }
 
@@ -154,8 +154,8 @@ double Stride::pitch_rad(Side side, double own) const {
   if (at > duty_) return measured * kDegree;
   const double down = gait_.runs ? 0.08 : 0.10;
   const double up = gait_.runs ? 0.14 : 0.30;
-  const double flat =
-      smooth(0.2 * down, down, at) * (1 - smooth(up, std::min(up + 0.2, duty_), at));
+  const double flat = geometry::smoothstep(0.2 * down, down, at) *
+                      (1 - geometry::smoothstep(up, std::min(up + 0.2, duty_), at));
   return (1 - flat) * std::clamp(measured, -62.0, 26.0) * kDegree;
 }
 
@@ -195,14 +195,14 @@ Foot Stride::foot_at(Side side, double own, const Pose& pose) const {
   const Foot swung_from = swung_foot(side, duty_, trunk_at(duty_ + other));
   const Foot swung_to = swung_foot(side, 1, trunk_at(other));
   const double t = (own - duty_) / (1 - duty_);
-  const auto share = static_cast<float>(smooth(0, 1, t));
+  const auto share = static_cast<float>(geometry::smoothstep(0, 1, t));
   Foot foot = swung_foot(side, own, pose);
   foot.ankle += (1 - share) * (left_from.ankle - swung_from.ankle) +
                 share * (strikes_at.ankle - swung_to.ankle);
   foot.pitch_rad += (1 - share) * (left_from.pitch_rad - swung_from.pitch_rad) +
                     share * (strikes_at.pitch_rad - swung_to.pitch_rad);
   // Toes that were flat on the ground come back to the foot's line.
-  const double bent = 1 - smooth(0, 0.3, t);
+  const double bent = 1 - geometry::smoothstep(0, 0.3, t);
   foot.toes_rad = foot.pitch_rad < 0 ? (1 - bent) * foot.pitch_rad : foot.pitch_rad;
   const double arch = std::sin(kPi * t);
   foot.ankle.y() += static_cast<float>(0.008 * arch) * sign_of(side);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "skinning/animate/smooth_step.h"
+#include "geometry/smoothstep.h"
 
 namespace throng::skinning {
 
@@ -23,7 +23,7 @@ double stride_length_m(double speed_mps, double stature_m, double age_years) {
   const double walk = 0.42 + 1.22 * relative_speed;
   const double run = 0.30 + 1.29 * relative_speed;
   const double change = running_speed_mps(stature_m);
-  const double blend = smooth(change - 0.25, change + 0.25, speed_mps);
+  const double blend = geometry::smoothstep(change - 0.25, change + 0.25, speed_mps);
   const double young = walk + blend * (run - walk);
   const double age = 1 - std::clamp(0.006 * (age_years - 60), 0.0, 0.15);
   const double shuffle = std::min(0.5 + 0.5 * speed_mps / 0.3, 1.0);

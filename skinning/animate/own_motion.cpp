@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "skinning/animate/smooth_step.h"
+#include "geometry/smoothstep.h"
 #include "skinning/animate/standing.h"
 
 namespace throng::skinning {
@@ -134,7 +134,9 @@ Figure stand_as(const Walker& walker, const std::vector<Pose>& poses, double sha
   // Feet and hips stay where they are: what they carry moves.
   own.shift = figure.pose.shift;
   own.of(Bone::hips) = figure.pose.of(Bone::hips);
-  figure.pose = mix(figure.pose, own, smooth(share / kBlend) * smooth((1 - share) / kBlend));
+  figure.pose =
+      mix(figure.pose, own,
+          geometry::smoothstep(share / kBlend) * geometry::smoothstep((1 - share) / kBlend));
   return figure;
 }
 

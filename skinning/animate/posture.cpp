@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "skinning/items.h"
 
 namespace throng::skinning {

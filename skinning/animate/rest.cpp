@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "skinning/animate/plan.h"
 
 namespace throng::skinning {
@@ -18,7 +18,7 @@ constexpr double kSlowTurnRadps = 12 * kDegree;
 constexpr double kSmallTurnRad = 15 * kDegree;
 
 double turned(const Moment& from, const Moment& to) {
-  return std::remainder(to.yaw_rad - from.yaw_rad, 360 * kDegree);
+  return geometry::turn_rad(from.yaw_rad, to.yaw_rad);
 }
 
 struct Turning {

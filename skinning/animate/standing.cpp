@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
+#include "geometry/smoothstep.h"
 #include "skinning/animate/posture.h"
-#include "skinning/animate/smooth_step.h"
 
 namespace throng::skinning {
 
@@ -161,8 +161,10 @@ Figure stand(const Walker& walker, double phase) {
 
 Figure look_around(const Walker& walker, double share) {
   // To the left, and after a while to the right.
-  const double left = smooth(share / 0.15) * (1 - smooth((share - 0.35) / 0.2));
-  const double right = smooth((share - 0.4) / 0.2) * (1 - smooth((share - 0.8) / 0.2));
+  const double left =
+      geometry::smoothstep(share / 0.15) * (1 - geometry::smoothstep((share - 0.35) / 0.2));
+  const double right =
+      geometry::smoothstep((share - 0.4) / 0.2) * (1 - geometry::smoothstep((share - 0.8) / 0.2));
   const double to = left - right;
   Trunk trunk;
   trunk.hips_yaw = 0.04 * to;
@@ -179,7 +181,8 @@ Figure look_up(const Walker& walker, double yaw_rad, double raised, double phase
   trunk.chest_yaw = 0.35 * yaw_rad;
   trunk.head_yaw = yaw_rad * (1 + 0.06 * sine(phase));
   trunk.head_down = (-40 + 2 * sine(phase)) * kDegree;
-  return mix(ready(walker), standing(walker, trunk, 0, 0.004 * sine(phase)), smooth(raised));
+  return mix(ready(walker), standing(walker, trunk, 0, 0.004 * sine(phase)),
+             geometry::smoothstep(raised));
 }
 
 Figure look_at_phone(const Walker& walker, double raised, double phase) {
@@ -195,7 +198,7 @@ Figure look_at_phone(const Walker& walker, double raised, double phase) {
        shoulder + Eigen::Vector3f(0.165F * stature, -0.075F * sign_of(side) * stature,
                                   (-0.09F + 0.003F * static_cast<float>(sine(phase))) * stature),
        figure.pose);
-  return mix(ready(walker), figure, smooth(raised));
+  return mix(ready(walker), figure, geometry::smoothstep(raised));
 }
 
 Figure turn_on_the_spot(const Walker& walker, double angle_rad, double share) {
@@ -205,7 +208,7 @@ Figure turn_on_the_spot(const Walker& walker, double angle_rad, double share) {
     const double t = std::clamp((share - begin) / 0.42, 0.0, 1.0);
     Foot& foot = figure.of(side);
     // In the world the foot stays, steps, and stays again; the body turns all the time.
-    foot.yaw_rad = angle_rad * (smooth(t) - share);
+    foot.yaw_rad = angle_rad * (geometry::smoothstep(t) - share);
     foot.ankle = turn_z(foot.yaw_rad) * foot.ankle;
     foot.ankle.z() += static_cast<float>(0.05 * std::sin(std::numbers::pi * t));
     foot.pitch_rad = foot.toes_rad = -0.15 * std::sin(std::numbers::pi * t);
@@ -223,13 +226,14 @@ Figure start(const Walker& walker, const Stride& stride, Side side, double share
   const Figure under = stride.at(middle);
   const Figure walking = stride.at(middle + 0.25 * share);
   Figure figure = walking;
-  figure.pose = mix(from.pose, walking.pose, smooth(share));
+  figure.pose = mix(from.pose, walking.pose, geometry::smoothstep(share));
   Foot at_first = from.of(other);
   at_first.ankle += walking.of(other).ankle - under.of(other).ankle;
   at_first.pitch_rad += walking.of(other).pitch_rad - under.of(other).pitch_rad;
   at_first.toes_rad += walking.of(other).toes_rad - under.of(other).toes_rad;
-  figure.of(other) = lifted(walker, other, blended(at_first, walking.of(other), smooth(share)),
-                            0.03 * std::sin(std::numbers::pi * share));
+  figure.of(other) =
+      lifted(walker, other, blended(at_first, walking.of(other), geometry::smoothstep(share)),
+             0.03 * std::sin(std::numbers::pi * share));
   return figure;
 }
 
@@ -239,9 +243,10 @@ Figure stop(const Walker& walker, const Stride& stride, Side side, double share)
   const Figure to = ready(walker);
   const Figure walking = stride.at(middle - kStopStrides * (1 - share));
   Figure figure = walking;
-  figure.pose = mix(walking.pose, to.pose, smooth(share));
-  figure.of(other) = lifted(walker, other, blended(walking.of(other), to.of(other), smooth(share)),
-                            0.02 * std::sin(std::numbers::pi * share));
+  figure.pose = mix(walking.pose, to.pose, geometry::smoothstep(share));
+  figure.of(other) =
+      lifted(walker, other, blended(walking.of(other), to.of(other), geometry::smoothstep(share)),
+             0.02 * std::sin(std::numbers::pi * share));
   return figure;
 }
 

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "geometry/angle.h"
 #include "skinning/bake/outline.h"
 
 namespace throng::skinning {
@@ -24,7 +24,6 @@ std::vector<Outline> outlines_of(std::span<const PosedSurface> surfaces) {
   };
   constexpr std::array<Round, 4> kRounds = {
       {{0, 180, 16}, {25, 360, 16}, {50, 360, 12}, {75, 360, 6}}};
-  constexpr double kDegree = std::numbers::pi / 180;
   std::vector<Outline> outlines;
   for (const Round& round : kRounds) {
     for (int i = 0; i < round.views; ++i) {

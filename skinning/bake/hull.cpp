@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numbers>
 
+#include "geometry/angle.h"
 #include "skinning/skeleton.h"
 
 namespace throng::skinning {
@@ -16,7 +16,7 @@ namespace {
 
 // Legs that touch would grow together; the arms are apart in the A-pose.
 Palette legs_apart(const DressedPerson& person) {
-  constexpr double kApart_rad = 8 * std::numbers::pi / 180;
+  constexpr double kApart_rad = 8 * kDegree;
   Joints a_pose;
   for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
     const BoneMatrix& matrix = person.to_neutral[bone];

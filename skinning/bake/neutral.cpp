@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::skinning {
 

@@ -3,18 +3,18 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/srgb.h"
+#include "geometry/angle.h"
 #include "skinning/bake/raster.h"
 
 namespace throng::skinning {
 
 namespace {
 
-constexpr double kElevation = 20 * std::numbers::pi / 180;  // radians
-constexpr float kMarginPx = 2;                              // pixels
-constexpr float kUnseen = -1e9F;                            // depth where nobody is seen
+constexpr double kElevation = 20 * kDegree;  // radians
+constexpr float kMarginPx = 2;               // pixels
+constexpr float kUnseen = -1e9F;             // depth where nobody is seen
 
 // Right and up in the camera's image, and toward the camera.
 Eigen::Vector3f view_of(const Eigen::Vector3f& point, bool front) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/polygon.h"
+
 namespace throng::skinning {
 
 /// Calls visit(x, y, barycentric) for every pixel of a width x height image whose center lies in
@@ -14,7 +16,7 @@ void for_each_pixel(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Ei
                     int width, int height, const Visit& visit) {
   const Eigen::Vector2f ab = b - a;
   const Eigen::Vector2f ac = c - a;
-  const float area = ab.x() * ac.y() - ab.y() * ac.x();
+  const float area = geometry::cross(ab, ac);
   if (!(std::abs(area) > 1e-12F)) return;
   const Eigen::Vector2f low = a.cwiseMin(b).cwiseMin(c);
   const Eigen::Vector2f high = a.cwiseMax(b).cwiseMax(c);
@@ -29,8 +31,8 @@ void for_each_pixel(const Eigen::Vector2f& a, const Eigen::Vector2f& b, const Ei
     for (int x = left; x < right; ++x) {
       const Eigen::Vector2f p =
           Eigen::Vector2f(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F) - a;
-      const float of_b = (p.x() * ac.y() - p.y() * ac.x()) / area;
-      const float of_c = (ab.x() * p.y() - ab.y() * p.x()) / area;
+      const float of_b = geometry::cross(p, ac) / area;
+      const float of_c = geometry::cross(ab, p) / area;
       if (of_b < 0 || of_c < 0 || of_b + of_c > 1) continue;
       visit(x, y, Eigen::Vector3f(1 - of_b - of_c, of_b, of_c));
     }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "geometry/smoothstep.h"
 #include "skinning/skeleton.h"
 #include "skinning/wardrobe/cloth.h"
 #include "skinning/wardrobe/garments.h"
@@ -21,16 +22,11 @@ constexpr float kWaist = 0.184F;
 constexpr float kKnee = -0.37F;
 constexpr float kHem = -0.728F;
 
-float smooth(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
-}
-
 BoneWeights hang(const Eigen::Vector3f& point) {
-  const float legs = 1 - smooth(-0.16F, 0.04F, point.z());
-  const float spine = smooth(0.08F, 0.2F, point.z());
-  const float shins = 0.5F * (1 - smooth(kKnee - 0.12F, kKnee + 0.05F, point.z()));
-  const float left = smooth(-0.07F, 0.07F, point.y());
+  const float legs = 1 - geometry::smoothstep(-0.16F, 0.04F, point.z());
+  const float spine = geometry::smoothstep(0.08F, 0.2F, point.z());
+  const float shins = 0.5F * (1 - geometry::smoothstep(kKnee - 0.12F, kKnee + 0.05F, point.z()));
+  const float left = geometry::smoothstep(-0.07F, 0.07F, point.y());
   BoneWeights weights{};
   weights[index_of(Bone::spine)] = spine;
   weights[index_of(Bone::hips)] = (1 - legs) * (1 - spine);

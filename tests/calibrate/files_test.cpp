@@ -212,5 +212,27 @@ TEST_F(Files, RequestsAreCheckedFieldByField) {
   EXPECT_THAT(error(R"({"fix": {"k1": "a"}})"), HasSubstr("/fix/k1"));
 }
 
+TEST_F(Files, RequestsSayAllThatIsWrongWithThem) {
+  const auto error = [&](const char* text) {
+    return error_of([&] { request_from_json(json::parse(text), base_); });
+  };
+  const std::string all = error(
+      R"({"knd": "pose", "skew": 1, "loss_px": -1, "lens": "brown6", "images": ["a.jpg"],
+          "board": {"colums": 9, "rows": 2}, "tie": {"fx": {"ratio": 1}},
+          "prior": {"cx": {"mean": 1, "sd": 0}}})");
+  for (const char* expected :
+       {R"(/knd: unknown field "knd"; did you mean "kind"?)",
+        "/skew: found 1, expected true or false",
+        "/loss_px: found -1, expected a number of at least 0",
+        R"(/lens: found "brown6", expected one of "auto", "pinhole")",
+        R"(/images/0: found "a.jpg", expected the name of a file that was sent along)",
+        R"(/board/colums: unknown field "colums"; did you mean "columns"?)",
+        "/board/rows: found 2, expected an integer from 3 to 100", "/tie/fx/to: found nothing",
+        "/prior/cx/sd: found 0, expected a number above 0"}) {
+    EXPECT_THAT(all, HasSubstr(expected));
+  }
+  EXPECT_THAT(error(R"({"images": "a.jpg"})"), HasSubstr("expected a list of files"));
+}
+
 }  // namespace
 }  // namespace throng::calibrate

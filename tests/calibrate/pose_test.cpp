@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "boards.h"
+#include "geometry/angle.h"
 
 namespace throng::calibrate {
 namespace {

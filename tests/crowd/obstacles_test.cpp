@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/random.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 namespace {
@@ -38,8 +39,8 @@ TEST(Obstacles, FindsNearWallsAsBruteForceDoes) {
     std::vector<int> expected;
     for (std::size_t s = 0; s < obstacles.segments().size(); ++s) {
       const Segment& wall = obstacles.segments()[s];
-      const float distance = (nearest_on_segment(wall.begin, wall.end, p) - p).norm();
-      const bool outside = cross(wall.end - wall.begin, p - wall.begin) < 0;
+      const float distance = (geometry::nearest_on_segment(wall.begin, wall.end, p) - p).norm();
+      const bool outside = geometry::cross(wall.end - wall.begin, p - wall.begin) < 0;
       if ((wall.obstacle_class & mask) != 0 && outside && distance < range) {
         expected.push_back(static_cast<int>(s));
       }

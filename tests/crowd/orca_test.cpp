@@ -9,12 +9,13 @@
 #include "crowd/kernels/orca_batch.h"
 #include "crowd/models/orca_lines.h"
 #include "crowd_files.h"
+#include "geometry/polygon.h"
 
 namespace throng::crowd {
 namespace {
 
 float violation(const HalfPlane& plane, const Eigen::Vector2f& v) {
-  return cross(plane.direction, plane.point - v);
+  return geometry::cross(plane.direction, plane.point - v);
 }
 
 HalfPlanes random_planes(std::size_t count, std::uint64_t seed) {

@@ -6,9 +6,7 @@
 
 #include "base/error.h"
 #include "fuzz_folder.h"
-#include "imports/osm_map.h"
-#include "imports/populate.h"
-#include "imports/sdf_world.h"
+#include "imports/imports.h"
 #include "metrics/trajectory_file.h"
 
 namespace throng::imports::fuzz {

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "base/random.h"
+#include "geometry/polygon.h"
 #include "imports/free_ground.h"
 #include "imports/solids.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 namespace {
@@ -18,7 +18,7 @@ Corners square(double from, double to) { return corners_of({{from, from}, {to, t
 
 double whole_m2(const std::vector<Corners>& parts) {
   return std::accumulate(parts.begin(), parts.end(), 0.0, [](double sum, const Corners& part) {
-    return sum + world::signed_area(part);
+    return sum + geometry::signed_area(part);
   });
 }
 
@@ -26,7 +26,7 @@ TEST(Areas, AreTidiedOrRefused) {
   const auto tidy = tidied({{{0, 0}, {0, 4}, {4, 4}, {4, 2}, {4, 0}, {2, 0}, {0, 0}}, {}});
   ASSERT_TRUE(tidy);
   EXPECT_EQ(tidy->outline.size(), 4U);
-  EXPECT_NEAR(world::signed_area(tidy->outline), 16, 1e-9);
+  EXPECT_NEAR(geometry::signed_area(tidy->outline), 16, 1e-9);
   EXPECT_FALSE(tidied({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {}}));  // crosses itself
   EXPECT_FALSE(tidied({{{0, 0}, {1, 1}, {2, 2}}, {}}));
   EXPECT_FALSE(tidied({square(0, 4), {square(3, 6)}}));  // a hole that reaches out
@@ -37,9 +37,9 @@ TEST(Areas, WithHolesComeApartIntoSimpleOnes) {
   EXPECT_GE(parts.size(), 3U);
   EXPECT_NEAR(whole_m2(parts), 100 - 8, 1e-6);
   for (const Corners& part : parts) {
-    EXPECT_TRUE(world::is_simple(part));
-    EXPECT_GT(world::distance_to(part, {3, 3}), 0.9);
-    EXPECT_GT(world::distance_to(part, {7, 7}), 0.9);
+    EXPECT_TRUE(geometry::is_simple(part));
+    EXPECT_GT(geometry::distance_to(part, {3, 3}), 0.9);
+    EXPECT_GT(geometry::distance_to(part, {7, 7}), 0.9);
   }
 }
 
@@ -100,7 +100,7 @@ TEST(Areas, LoopsAreAlwaysSimple) {
     for (const Area& part : repaired({ring, {}})) {
       const std::vector<Corners> parts = simple_parts(part);
       EXPECT_NEAR(whole_m2(parts), size_m2(part), 0.05) << round;
-      for (const Corners& corners : parts) EXPECT_TRUE(world::is_simple(corners)) << round;
+      for (const Corners& corners : parts) EXPECT_TRUE(geometry::is_simple(corners)) << round;
       for (const Eigen::Vector2d& corner : part.outline) {
         EXPECT_TRUE(corner.minCoeff() >= 0 && corner.maxCoeff() <= 20) << round;
       }
@@ -120,7 +120,7 @@ TEST(FreeGroundCells, AreThoseAwayFromAllObstacles) {
       const FreeGround ground({{0, 0}, {20, 20}}, {part.outline});
       for (double x = 0.25; x < 20; x += FreeGround::kCellM) {
         for (double y = 0.25; y < 20; y += FreeGround::kCellM) {
-          const double distance = world::distance_to(part.outline, {x, y});
+          const double distance = geometry::distance_to(part.outline, {x, y});
           if (std::abs(distance - 0.35) < 1e-9) continue;
           EXPECT_EQ(ground.region_at({x, y}) == FreeGround::kBlocked, distance < 0.35)
               << round << ": " << x << ", " << y;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/files.h"
+#include "geometry/polygon.h"
 #include "imports/osm_map.h"
 #include "tests/world/temporary_folder.h"
-#include "world/polygon.h"
 
 namespace throng::imports_testing {
 
@@ -100,14 +100,14 @@ class DrawnMap {
 
 inline double height_at(const Place& place, const Eigen::Vector2d& point) {
   for (const world::Building& building : place.buildings) {
-    if (world::distance_to(building.footprint, point) == 0) return building.height_m;
+    if (geometry::distance_to(building.footprint, point) == 0) return building.height_m;
   }
   return 0;
 }
 
 inline bool stops_people(const Place& place, const Eigen::Vector2d& point) {
   return std::any_of(place.obstacles.begin(), place.obstacles.end(), [&](const Corners& corners) {
-    return world::distance_to(corners, point) == 0;
+    return geometry::distance_to(corners, point) == 0;
   });
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "geometry/polygon.h"
 #include "imports/osm_gates.h"
 #include "tests/imports/drawn_map.h"
 
@@ -24,7 +25,7 @@ using imports_testing::way_text;
 std::string ground_at(const Place& place, const Vector2d& point) {
   std::string material;
   for (const world::GroundArea& area : place.areas) {
-    if (world::distance_to(area.corners, point) == 0) material = area.material;
+    if (geometry::distance_to(area.corners, point) == 0) material = area.material;
   }
   return material;
 }
@@ -178,7 +179,7 @@ TEST(MapBuildings, DoNotOverlap) {
   EXPECT_NEAR(height_at(place, {25, 10}), 12, 1e-9);
   double total = 0;
   for (const world::Building& building : place.buildings) {
-    total += world::signed_area(building.footprint);
+    total += geometry::signed_area(building.footprint);
   }
   EXPECT_NEAR(total, 30 * 20, 1);
   EXPECT_TRUE(mentions(place.skipped, way_text(second) + ": 200 m² of it are in other buildings"));

@@ -6,11 +6,11 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/polygon.h"
 #include "imports/osm_map.h"
 #include "imports/osm_tags.h"
 #include "tests/imports/drawn_map.h"
 #include "tests/world/temporary_folder.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 namespace {
@@ -24,7 +24,7 @@ const std::filesystem::path kMaps = std::filesystem::path(THRONG_SOURCE_DIR) / "
 class Quarter : public ::testing::Test {
  protected:
   static bool covers(const Corners& corners, const Eigen::Vector2d& point) {
-    return world::distance_to(corners, point) == 0;
+    return geometry::distance_to(corners, point) == 0;
   }
   bool built(const Eigen::Vector2d& point) const {
     return std::any_of(
@@ -60,7 +60,7 @@ TEST_F(Quarter, HasBuildingsWithCourtyardsAndHeights) {
   EXPECT_TRUE(built(at(50.00055, 10.0003)));
   EXPECT_FALSE(built(at(50.00065, 10.0003)));  // the courtyard
   for (const world::Building& building : place.buildings) {
-    EXPECT_TRUE(world::is_simple(building.footprint));
+    EXPECT_TRUE(geometry::is_simple(building.footprint));
     if (covers(building.footprint, at(50.00055, 10.0003))) {
       EXPECT_NEAR(building.height_m, 12, 1e-9);
     }
@@ -206,7 +206,7 @@ TEST(OsmFile, ReadsWaysThatCarryTheirPlaces) {  // Overpass's "out geom"
       "<nd ref='1' lat='0' lon='0'/><tag k='building' v='yes'/></way></osm>");
   const Place place = read_osm(folder.path() / "m.osm", {});
   ASSERT_EQ(place.buildings.size(), 1U);
-  EXPECT_NEAR(world::signed_area(place.buildings[0].footprint), 111.3 * 110.6, 50);
+  EXPECT_NEAR(geometry::signed_area(place.buildings[0].footprint), 111.3 * 110.6, 50);
 }
 
 }  // namespace

@@ -14,9 +14,10 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 #include "imports/place_writer.h"
 #include "tests/world/temporary_folder.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 namespace {
@@ -60,7 +61,7 @@ TEST(Starts, AreApartInsideAndOnFreeGround) {
   for (std::size_t i = 0; i < 150; ++i) {
     const Vector2d& start = population.starts[i];
     EXPECT_TRUE(start.x() >= 2 && start.x() <= 38 && start.y() >= 2 && start.y() <= 18);
-    EXPECT_GE(world::distance_to(place.obstacles[0], start), 0.35);
+    EXPECT_GE(geometry::distance_to(place.obstacles[0], start), 0.35);
     for (std::size_t k = 0; k < i; ++k) {
       EXPECT_GE((start - population.starts[k]).norm(), 0.9) << i << ", " << k;
     }
@@ -189,13 +190,13 @@ TEST(Footprints, TurnAndGrowWithTheirProps) {
   bench.kind = world::PropKind::bench;
   bench.position = {10, 20};
   const Vector2d half = world::prop_types().at(static_cast<std::size_t>(bench.kind)).half_size;
-  const Bounds straight = bounds_of(footprint_of(bench));
-  EXPECT_LT((straight.high - bench.position - half).norm(), 1e-12);
+  const geometry::Rectangle straight = geometry::bounds_of(world::footprint_of(bench));
+  EXPECT_LT((straight.max - bench.position - half).norm(), 1e-12);
   bench.yaw_rad = std::numbers::pi / 2;
   bench.scale = 2;
-  const Bounds turned = bounds_of(footprint_of(bench));
-  EXPECT_LT((turned.high - bench.position - 2 * Vector2d(half.y(), half.x())).norm(), 1e-9);
-  EXPECT_GT(world::signed_area(footprint_of(bench)), 0) << "counter-clockwise";
+  const geometry::Rectangle turned = geometry::bounds_of(world::footprint_of(bench));
+  EXPECT_LT((turned.max - bench.position - 2 * Vector2d(half.y(), half.x())).norm(), 1e-9);
+  EXPECT_GT(geometry::signed_area(world::footprint_of(bench)), 0) << "counter-clockwise";
 }
 
 TEST(Outward, IsAwayFromTheMiddle) {

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/polygon.h"
 #include "imports/populate.h"
 #include "tests/world/temporary_folder.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 namespace {
@@ -23,7 +23,7 @@ Place yard() { return read_sdf(kWorlds / "yard.sdf", {{kWorlds / "models"}, {}})
 
 bool is_blocked(const Place& place, const Eigen::Vector2d& point) {
   return std::any_of(place.obstacles.begin(), place.obstacles.end(), [&](const Corners& obstacle) {
-    return world::distance_to(obstacle, point) == 0;
+    return geometry::distance_to(obstacle, point) == 0;
   });
 }
 
@@ -38,15 +38,15 @@ TEST(Sdf, TallUprightBodiesAreBuildingsWhereTheirPosesSay) {
   const Place place = yard();
   ASSERT_EQ(place.buildings.size(), 3U);
   EXPECT_NEAR(place.buildings[0].height_m, 6, 1e-6);  // the hall, relative to a frame
-  EXPECT_EQ(world::distance_to(place.buildings[0].footprint, {15, 10}), 0);
-  EXPECT_GT(world::distance_to(place.buildings[0].footprint, {20.5, 10}), 0.4);
+  EXPECT_EQ(geometry::distance_to(place.buildings[0].footprint, {15, 10}), 0);
+  EXPECT_GT(geometry::distance_to(place.buildings[0].footprint, {20.5, 10}), 0.4);
   // The tower in it is turned: 2 m along x, 4 m along y, at (15, 10) - (15, 20).
   const auto tower = std::find_if(place.buildings.begin(), place.buildings.end(),
                                   [](const world::Building& b) { return b.height_m > 7; });
   ASSERT_NE(tower, place.buildings.end());
   EXPECT_NEAR(tower->height_m, 8, 1e-6);
-  EXPECT_EQ(world::distance_to(tower->footprint, {0.9, -8.1}), 0);
-  EXPECT_NEAR(world::distance_to(tower->footprint, {1.5, -10}), 0.5, 1e-6);
+  EXPECT_EQ(geometry::distance_to(tower->footprint, {0.9, -8.1}), 0);
+  EXPECT_NEAR(geometry::distance_to(tower->footprint, {1.5, -10}), 0.5, 1e-6);
 }
 
 TEST(Sdf, PeopleWalkAroundWhatIsLowAndBelowWhatIsHigh) {
@@ -178,8 +178,8 @@ TEST(Sdf, KnowsPolylinesConesAndGazebosColors) {
                "<material><script><uri>a</uri><name>mine</name></script></material>"));
   ASSERT_EQ(place.buildings.size(), 1U);
   EXPECT_NEAR(place.buildings[0].height_m, 5, 1e-9);
-  EXPECT_EQ(world::distance_to(place.buildings[0].footprint, {22, 2}), 0);
-  EXPECT_GT(world::distance_to(place.buildings[0].footprint, {27, 7}), 1);
+  EXPECT_EQ(geometry::distance_to(place.buildings[0].footprint, {22, 2}), 0);
+  EXPECT_GT(geometry::distance_to(place.buildings[0].footprint, {27, 7}), 1);
   ASSERT_EQ(place.things.size(), 2U);
   EXPECT_NEAR(place.things[0].solids.at(0).rgb.y(), 0.5, 0.05);  // orange
   EXPECT_GT(place.things[1].solids.at(0).rgb.minCoeff(), 0.4);   // not black

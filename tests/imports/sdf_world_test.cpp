@@ -11,11 +11,12 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/polygon.h"
+#include "geometry/rectangle.h"
 #include "imports/gazebo_colors.h"
 #include "imports/local_files.h"
 #include "imports/sdf_text.h"
 #include "tests/world/temporary_folder.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 namespace {
@@ -55,13 +56,13 @@ std::vector<std::string> reasons_in(const Place& place) {
 
 bool blocked(const Place& place, const Vector2d& point) {
   return std::any_of(place.obstacles.begin(), place.obstacles.end(), [&](const Corners& corners) {
-    return world::distance_to(corners, point) == 0;
+    return geometry::distance_to(corners, point) == 0;
   });
 }
 
-Bounds building_bounds(const Place& place) {
+geometry::Rectangle building_bounds(const Place& place) {
   EXPECT_EQ(place.buildings.size(), 1);
-  return bounds_of(place.buildings.at(0).footprint);
+  return geometry::bounds_of(place.buildings.at(0).footprint);
 }
 
 /// Bounds of all that is drawn as it is, from low to high.
@@ -89,14 +90,14 @@ void expect_seen(const Place& place, const Vector3d& low, const Vector3d& high, 
 
 TEST(SdfShapes, BoxesAndCylindersBecomeBuildings) {
   const Place place = read_world(body_of(box(4, 2, 3), "10 20 1.5 0 0 0"));
-  const Bounds bounds = building_bounds(place);
-  EXPECT_LT((bounds.low - Vector2d(8, 19)).norm(), 1e-9);
-  EXPECT_LT((bounds.high - Vector2d(12, 21)).norm(), 1e-9);
+  const geometry::Rectangle bounds = building_bounds(place);
+  EXPECT_LT((bounds.min - Vector2d(8, 19)).norm(), 1e-9);
+  EXPECT_LT((bounds.max - Vector2d(12, 21)).norm(), 1e-9);
   EXPECT_NEAR(place.buildings[0].height_m, 3, 1e-9);
   EXPECT_TRUE(blocked(place, {10, 20}));
   const Place silo = read_world(
       body_of("<cylinder><radius>3</radius><length>8</length></cylinder>", "0 0 4 0 0 0"));
-  EXPECT_NEAR(world::signed_area(silo.buildings.at(0).footprint),
+  EXPECT_NEAR(geometry::signed_area(silo.buildings.at(0).footprint),
               12 * 9 * std::sin(std::numbers::pi / 12), 1e-6);
   EXPECT_NEAR(silo.buildings[0].height_m, 8, 1e-9);
 }
@@ -150,9 +151,9 @@ TEST(SdfShapes, APlaneIsGroundOfItsSizeAndColor) {
                                          "3 4 0 0 0 0", material("0.2 0.5 0.2")) +
                                  body_of(box(4, 4, 4), "20 20 2 0 0 0"));
   ASSERT_EQ(place.areas.size(), 1);
-  const Bounds bounds = bounds_of(place.areas[0].corners);
-  EXPECT_LT((bounds.low - Vector2d(0, -1)).norm(), 1e-9);
-  EXPECT_LT((bounds.high - Vector2d(6, 9)).norm(), 1e-9);
+  const geometry::Rectangle bounds = geometry::bounds_of(place.areas[0].corners);
+  EXPECT_LT((bounds.min - Vector2d(0, -1)).norm(), 1e-9);
+  EXPECT_LT((bounds.max - Vector2d(6, 9)).norm(), 1e-9);
   const Place tilted =
       read_world(body_of("<plane><normal>0 1 1</normal><size>6 10</size></plane>", "0 0 0 0 0 0"));
   EXPECT_THAT(reasons_in(tilted), ::testing::Contains(HasSubstr("a plane that is not level")));
@@ -221,9 +222,9 @@ TEST(SdfPoses, AddUpFromWorldToVisual) {
       "<model name='m'><pose>10 0 0 0 0 1.5707963</pose><link name='l'>"
       "<pose>5 0 0 0 0 1.5707963</pose><visual name='v'><pose>2 0 1.5 0 0 0</pose><geometry>" +
       box(4, 2, 3) + "</geometry></visual></link></model>");
-  const Bounds bounds = building_bounds(place);
-  EXPECT_LT((bounds.low - Vector2d(6, 4)).norm(), 1e-5);
-  EXPECT_LT((bounds.high - Vector2d(10, 6)).norm(), 1e-5);
+  const geometry::Rectangle bounds = building_bounds(place);
+  EXPECT_LT((bounds.min - Vector2d(6, 4)).norm(), 1e-5);
+  EXPECT_LT((bounds.max - Vector2d(10, 6)).norm(), 1e-5);
 }
 
 TEST(SdfPoses, NestedModelsMoveWithTheirParents) {
@@ -231,8 +232,8 @@ TEST(SdfPoses, NestedModelsMoveWithTheirParents) {
       "<model name='a'><pose>10 10 0 0 0 3.14159265</pose><link name='x'/><model name='b'>"
       "<pose>3 1 2 0 0 0</pose><link name='l'><visual name='v'><geometry>" +
       box(2, 2, 4) + "</geometry></visual></link></model></model>");
-  const Bounds bounds = building_bounds(place);
-  EXPECT_LT((0.5 * (bounds.low + bounds.high) - Vector2d(7, 9)).norm(), 1e-5);
+  const geometry::Rectangle bounds = building_bounds(place);
+  EXPECT_LT((0.5 * (bounds.min + bounds.max) - Vector2d(7, 9)).norm(), 1e-5);
 }
 
 TEST(SdfPoses, MayBeRelativeToFramesAndInDegrees) {
@@ -242,10 +243,10 @@ TEST(SdfPoses, MayBeRelativeToFramesAndInDegrees) {
                         "10 0 0 0 0 90</pose></frame><model name='m'><pose relative_to='f'>5 1 2 0 "
                         "0 0</pose><link name='l'><visual name='v'><geometry>" +
                             box(2, 4, 4) + "</geometry></visual></link></model></world></sdf>");
-  const Bounds bounds = building_bounds(read_sdf(folder.path() / "w.sdf", {}));
+  const geometry::Rectangle bounds = building_bounds(read_sdf(folder.path() / "w.sdf", {}));
   // 5 m along the frame's x (world y) and 1 m along its y (world -x).
-  EXPECT_LT((0.5 * (bounds.low + bounds.high) - Vector2d(9, 5)).norm(), 1e-5);
-  EXPECT_NEAR(bounds.high.x() - bounds.low.x(), 4, 1e-5) << "turned by 90 degrees";
+  EXPECT_LT((0.5 * (bounds.min + bounds.max) - Vector2d(9, 5)).norm(), 1e-5);
+  EXPECT_NEAR(bounds.max.x() - bounds.min.x(), 4, 1e-5) << "turned by 90 degrees";
 }
 
 TEST(SdfPoses, FarAwayAndUnknownOnesAreSkipped) {
@@ -259,7 +260,7 @@ TEST(SdfBuildings, AreCutWhereTheyOverlap) {
       read_world(body_of(box(10, 10, 4), "0 0 2 0 0 0") + body_of(box(10, 10, 6), "5 0 3 0 0 0"));
   double total = 0;
   for (const world::Building& building : place.buildings) {
-    total += world::signed_area(building.footprint);
+    total += geometry::signed_area(building.footprint);
   }
   EXPECT_NEAR(total, 150, 1e-6);
 }
@@ -325,9 +326,9 @@ TEST(SdfModels, AreIncludedFromFoldersWithTheirPoses) {
   EXPECT_THAT(reasons_in(without), ::testing::Contains(HasSubstr("--models")));
   const Place place = read_sdf(folder.path() / "worlds/w.sdf", {{folder.path() / "extra"}, {}});
   ASSERT_EQ(place.buildings.size(), 2);
-  EXPECT_EQ(world::distance_to(place.buildings[0].footprint, {10, 0}), 0)
+  EXPECT_EQ(geometry::distance_to(place.buildings[0].footprint, {10, 0}), 0)
       << "the pose of <include> replaces the model's";
-  EXPECT_EQ(world::distance_to(place.buildings[1].footprint, {30, 0}), 0);
+  EXPECT_EQ(geometry::distance_to(place.buildings[1].footprint, {30, 0}), 0);
 }
 
 TEST(SdfSkipped, NamesActorsJointsAndSecondWorlds) {

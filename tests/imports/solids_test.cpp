@@ -12,10 +12,10 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/polygon.h"
 #include "imports/mesh_reader.h"
 #include "imports/mesh_text.h"
 #include "tests/world/temporary_folder.h"
-#include "world/polygon.h"
 
 namespace throng::imports {
 namespace {
@@ -105,7 +105,7 @@ TEST(Move, TurnsAndShifts) {
 
 double shadow_m2(const Triangles& triangles) {
   double sum = 0;
-  for (const Corners& corners : shadow_of(triangles)) sum += world::signed_area(corners);
+  for (const Corners& corners : shadow_of(triangles)) sum += geometry::signed_area(corners);
   return sum;
 }
 
@@ -153,7 +153,7 @@ TEST(ShadowOf, HasTheWallsOfAHouseWhereverTheyAre) {
     const std::vector<Corners> parts = shadow_of(raised(box_triangles({size, size, 3}), 1.5));
     const auto is_covered = [&](const Vector2d& p) {
       return std::any_of(parts.begin(), parts.end(), [&](const Corners& corners) {
-        return world::distance_to(corners, p) < 1e-6;
+        return geometry::distance_to(corners, p) < 1e-6;
       });
     };
     const double half = size / 2;

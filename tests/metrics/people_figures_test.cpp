@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "geometry/point_grid.h"
 #include "metrics/evacuation.h"
 #include "metrics/ground_pressure.h"
 #include "metrics/pressure.h"
@@ -208,7 +209,7 @@ TEST(ExposureFigures, ThePressureIsAMeanOverASecond) {
   const std::vector<NearPerson> two = {{0, {0.25, 0.25}, {1, 0}, 1, true},
                                        {1, {0.25, 0.35}, {0, 0}, 1, true}};
   const std::vector<Vector2d> places = {two[0].place, two[1].place};
-  EXPECT_NEAR(most_always, pressure_at({0.25, 0.25}, PointGrid(places, 1), two), 1e-9);
+  EXPECT_NEAR(most_always, pressure_at({0.25, 0.25}, geometry::PointGrid(places, 1), two), 1e-9);
   GroundPressure covered(ground, std::vector<world::Building>{box({-5, -5}, {5, 5})}, 0.1);
   covered.add({0.25, 0.25}, {1, 0});
   covered.add({0.25, 0.35}, {0, 0});

@@ -7,8 +7,9 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "geometry/point_grid.h"
+#include "geometry/polygon.h"
 #include "tests/metrics/walks.h"
-#include "world/polygon.h"
 
 namespace throng::metrics {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kDiscM2 = std::numbers::pi * kCellRadiusM * kCellRadiusM;
 
 VoronoiCell cell_of(const std::vector<Vector2d>& people, std::size_t index,
                     const std::vector<world::Building>& buildings = {}) {
-  return VoronoiCutter(buildings).cell(PointGrid(people, 0.8), index);
+  return VoronoiCutter(buildings).cell(geometry::PointGrid(people, 0.8), index);
 }
 
 TEST(Voronoi, WhoIsAloneHasTheWholeDisc) {
@@ -84,7 +85,7 @@ TEST(Voronoi, AgreesWithBoostPolygon) {
   }
   boost::polygon::voronoi_diagram<double> diagram;
   boost::polygon::construct_voronoi(points.begin(), points.end(), &diagram);
-  const PointGrid grid(people, 0.8);
+  const geometry::PointGrid grid(people, 0.8);
   const VoronoiCutter cutter({});
   int compared = 0;
   for (const auto& boost_cell : diagram.cells()) {
@@ -97,7 +98,7 @@ TEST(Voronoi, AgreesWithBoostPolygon) {
       ring.emplace_back(edge->vertex0()->x() / kPerM, edge->vertex0()->y() / kPerM);
       edge = edge->next();
     } while (edge != boost_cell.incident_edge());
-    EXPECT_NEAR(cutter.cell(grid, index).area_m2, world::signed_area(ring), 1e-6);
+    EXPECT_NEAR(cutter.cell(grid, index).area_m2, geometry::signed_area(ring), 1e-6);
     ++compared;
   }
   EXPECT_GT(compared, 100);

@@ -167,5 +167,25 @@ TEST(PlaceSpecs, NameEveryMistake) {
                                    "/scenario/generate/clutter", "/scenario/generate/colour"}));
 }
 
+TEST(PlaceSpecs, MistakesSayWhatWasExpected) {
+  const auto problems_of = [](const char* text) {
+    std::vector<Problem> problems;
+    read_place_spec(json::parse(text), "/scenario/generate", problems);
+    std::string texts;
+    for (const Problem& problem : problems) texts += problem.text() + "\n";
+    return texts;
+  };
+  EXPECT_EQ(problems_of(R"({"kind": "moon"})"),
+            "/scenario/generate/kind: found \"moon\", expected plaza, street, campus or block\n");
+  EXPECT_THAT(problems_of(R"({})"), HasSubstr("/scenario/generate/kind: found nothing, expected"));
+  EXPECT_EQ(problems_of(R"({"kind": "plaza", "size_m": 20})"),
+            "/scenario/generate/size_m: found 20, expected a number from 30 to 200\n");
+  EXPECT_EQ(problems_of(R"({"kind": "plaza", "exits": 2.5})"),
+            "/scenario/generate/exits: found 2.5, expected an integer from 2 to 8\n");
+  EXPECT_EQ(problems_of(R"({"kind": "plaza", "cluter": 0.5})"),
+            "/scenario/generate/cluter: unknown field \"cluter\"; did you mean \"clutter\"?\n");
+  EXPECT_EQ(problems_of("7"), "/scenario/generate: found 7, expected an object\n");
+}
+
 }  // namespace
 }  // namespace throng::places

@@ -1,4 +1,5 @@
 #include "render/animator.h"
+#include "geometry/angle.h"
 
 #include <gtest/gtest.h>
 

@@ -26,7 +26,7 @@ class Street {
     };
   }
 
-  Exposed expose(const MomentAt& moment_at, const Exposure& exposure, double time_s = 0) {
+  Exposed expose(const MomentAt& moment_at, const camera::Exposure& exposure, double time_s = 0) {
     return render::expose(lens_, moment_at, time_s, exposure);
   }
   Frame still(const MomentAt& moment_at, double time_s) {
@@ -61,7 +61,7 @@ TEST(Exposure, AnInstantIsAStillImage) {
 TEST(Exposure, LightIsTheMeanOverTheExposure) {
   Street street;
   const MomentAt walk = street.walking(3);
-  const Exposure exposure{0.04, 0};
+  const camera::Exposure exposure{0.04, 0};
   const Exposed blurred = street.expose(walk, exposure);
   ASSERT_GT(blurred.samples, 2);
   EXPECT_EQ(blurred.samples % 2, 1);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "geometry/angle.h"
 #include "stage.h"
 
 namespace throng::render {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/angle.h"
 #include "render/props/prop_shapes.h"
 #include "stage.h"
 

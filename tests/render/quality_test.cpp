@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/angle.h"
 #include "render/passes/smooth_edges.h"
 #include "stage.h"
 

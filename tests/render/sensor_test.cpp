@@ -42,7 +42,7 @@ TEST(Sensor, OffChangesNothing) {
 }
 
 TEST(Sensor, ExposureDoublesLight) {
-  Sensor sensor;
+  camera::Sensor sensor;
   sensor.ev = 1;
   Frame frame = gray(4, 4, 100);
   apply_sensor(sensor, 1, frame);
@@ -69,7 +69,7 @@ TEST(Sensor, WhiteBalanceTintsImages) {
 }
 
 TEST(Sensor, CornersFallOffByTheFourthPowerOfTheCosine) {
-  Sensor sensor;
+  camera::Sensor sensor;
   sensor.vignette = 1;
   Frame frame = gray(401, 301, 200);
   apply_sensor(sensor, 1, frame);
@@ -81,7 +81,7 @@ TEST(Sensor, CornersFallOffByTheFourthPowerOfTheCosine) {
 }
 
 TEST(Sensor, NoiseIsThatOfPhotonsAndReading) {
-  Sensor sensor;
+  camera::Sensor sensor;
   for (const double iso : {100.0, 1600.0, 6400.0}) {
     sensor.iso = iso;
     const double white_e = sensor.full_well_e * 100 / iso;
@@ -101,7 +101,7 @@ TEST(Sensor, NoiseIsThatOfPhotonsAndReading) {
 }
 
 TEST(Sensor, NoiseDependsOnItsSeedOnly) {
-  Sensor sensor;
+  camera::Sensor sensor;
   sensor.iso = 800;
   Frame a = gray(64, 64, 120);
   Frame b = a;

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "render/renderer.h"
 #include "synthetic_people.h"
 

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
+#include "geometry/polygon.h"
 #include "tests/sim/airframes.h"
 #include "tests/sim/missions.h"
-#include "world/polygon.h"
 
 namespace throng::sim {
 namespace {
@@ -95,7 +95,7 @@ TEST(Flight, SamplesAreEvenlySpacedAndEndWithTheInterval) {
 }
 
 bool in_house(const Vector3d& p) {
-  return p.z() < kHouse.height_m && world::distance_to(kHouse.footprint, p.head<2>()) == 0;
+  return p.z() < kHouse.height_m && geometry::distance_to(kHouse.footprint, p.head<2>()) == 0;
 }
 
 TEST(Flight, NobodyFliesThroughAHouse) {

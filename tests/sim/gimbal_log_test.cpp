@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::sim {
 namespace {
@@ -25,8 +25,16 @@ std::vector<world::DroneSample> turning(double duration_s,
   return samples;
 }
 
-GimbalSpec still() {
-  GimbalSpec spec;
+camera::CameraSpec camera_at(double yaw_rad, double pitch_rad, const camera::GimbalSpec& gimbal) {
+  camera::CameraSpec camera;
+  camera.yaw_deg = yaw_rad / kDegree;
+  camera.pitch_deg = pitch_rad / kDegree;
+  camera.gimbal = gimbal;
+  return camera;
+}
+
+camera::GimbalSpec still() {
+  camera::GimbalSpec spec;
   spec.ideal = false;
   spec.jitter_rad = spec.bias_rad = spec.reading_rad = 0;
   return spec;
@@ -35,8 +43,8 @@ GimbalSpec still() {
 TEST(GimbalLog, AnswersAStepAsASecondOrderSystem) {
   // w = 25 rad/s, z = 0.7: overshoot exp(-pi z / sqrt(1 - z²)) = 4.6 % after pi / (w sqrt(1 - z²)).
   const double size = 40 * kDegree;
-  const GimbalLog log(turning(3, [&](double t) { return t > 1 - 1e-9 ? size : 0; }), {0, -0.5},
-                      still(), 1, 0);
+  const GimbalLog log(turning(3, [&](double t) { return t > 1 - 1e-9 ? size : 0; }),
+                      camera_at(0, -0.5, still()), 1, 0);
   double max_value = 0;
   double max_s = 0;
   for (double t = 1; t < 3; t += 0.001) {
@@ -52,7 +60,7 @@ TEST(GimbalLog, AnswersAStepAsASecondOrderSystem) {
 }
 
 TEST(GimbalLog, ADroneThatTurnsRoundAndRoundIsFollowedWithoutJumps) {
-  const GimbalLog log(turning(20, [](double t) { return t; }), {0.3, 0}, still(), 1, 0);
+  const GimbalLog log(turning(20, [](double t) { return t; }), camera_at(0.3, 0, still()), 1, 0);
   // A ramp is followed 2 z / w behind.
   const double behind = 2 * 0.7 / 25;
   for (double t = 1; t < 20; t += 0.37) {
@@ -61,15 +69,15 @@ TEST(GimbalLog, ADroneThatTurnsRoundAndRoundIsFollowedWithoutJumps) {
 }
 
 TEST(GimbalLog, ShakesAndIsMisalignedAsMuchAsItSays) {
-  GimbalSpec spec;
+  camera::GimbalSpec spec;
   spec.ideal = false;
   const auto truth = turning(300, [](double) { return 0.0; });
   double biases = 0;
   constexpr int kCameras = 60;
   for (int camera = 0; camera < kCameras; ++camera) {
     const auto number = static_cast<std::uint64_t>(camera);
-    const GimbalLog log(camera == 0 ? truth : turning(2, [](double) { return 0.0; }), {0, -1}, spec,
-                        7, number);
+    const GimbalLog log(camera == 0 ? truth : turning(2, [](double) { return 0.0; }),
+                        camera_at(0, -1, spec), 7, number);
     double sum = 0;
     double squares = 0;
     double errors = 0;
@@ -94,10 +102,10 @@ TEST(GimbalLog, ShakesAndIsMisalignedAsMuchAsItSays) {
 }
 
 TEST(GimbalLog, AnIdealOneLooksWhereItIsTold) {
-  const GimbalLog log(turning(2, [](double t) { return 0.2 * t; }), {0.1, -0.4}, {}, 3, 0);
+  const GimbalLog log(turning(2, [](double t) { return 0.2 * t; }), camera_at(0.1, -0.4, {}), 3, 0);
   EXPECT_NEAR(log.view_at(1.234).yaw, 0.2 * 1.234 + 0.1, 1e-9);
-  EXPECT_EQ(log.view_at(1.234).pitch, -0.4);
-  EXPECT_EQ(log.reading_at(1).pitch, -0.4);
+  EXPECT_DOUBLE_EQ(log.view_at(1.234).pitch, -0.4);
+  EXPECT_DOUBLE_EQ(log.reading_at(1).pitch, -0.4);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/policies/policy_table.h"
 #include "sim/vehicle/flight.h"
 #include "tests/sim/airframes.h"
 

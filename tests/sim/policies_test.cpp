@@ -44,10 +44,10 @@ TEST(Policies, SurveySeesEveryPlaceOfItsArea) {
   DroneMission mission = mission_of("survey");
   mission.guidance.area = world::Rectangle{{-15, -10}, {15, 12}};
   mission.guidance.overlap = 0.2;
-  mission.camera.hfov_rad = 60 * EIGEN_PI / 180;
+  mission.camera.hfov_deg = 60;
   mission.speed_mps = 5;
   IdealFlight flight(scenario, mission, {0, 0, 10});
-  const double half_view_m = 10 * std::tan(0.5 * mission.camera.hfov_rad);
+  const double half_view_m = 10 * std::tan(0.5 * mission.camera.pinhole_hfov_rad());
   std::vector<Vector2d> places;
   for (double x = -15; x <= 15; x += 2.5) {
     for (double y = -10; y <= 12; y += 2) places.emplace_back(x, y);
@@ -62,8 +62,8 @@ TEST(Policies, SurveySeesEveryPlaceOfItsArea) {
 TEST(Policies, FollowDensityLooksAtTheCrowd) {
   const world::Scenario scenario = yard();
   DroneMission mission = mission_of("follow_density");
-  mission.camera.pitch_rad = -45 * EIGEN_PI / 180;
-  mission.camera.yaw_rad = EIGEN_PI / 2;
+  mission.camera.pitch_deg = -45;
+  mission.camera.yaw_deg = 90;
   mission.speed_mps = 5;
   IdealFlight flight(scenario, mission, {0, 0, 12});
   WorldView view;

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::sim {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "sim/planning/plan.h"
 #include "sim/run.h"
 #include "world/scenario.h"
 

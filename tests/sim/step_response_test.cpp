@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "sim/spec/airframe.h"
 #include "sim/vehicle/controller.h"
 #include "sim/vehicle/flight_world.h"

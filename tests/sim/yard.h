@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "sim/policies/policy.h"
+#include "sim/policies/policy_table.h"
 #include "world/scenario.h"
 
 namespace throng::sim::testing {

@@ -439,6 +439,23 @@ TEST_F(ImportTest, EverythingThatIsWrongInADescriptionIsSaidAtOnce) {
         "/bones/head", "/clips/wlak", "/clips/run/speed_mps"}) {
     EXPECT_THAT(message, HasSubstr(where));
   }
+  for (const char* expected :
+       {R"(/modle: unknown field "modle"; did you mean "model"?)",
+        "/model: found nothing, expected a string that is not empty",
+        "/height_m: found 17, expected 0.5 to 2.5 (in meters, from the soles",
+        R"(/sex: found "other", expected "male" or "female")",
+        "/age_years: found -1, expected 1 to 110 (years)",
+        "/bones/head: found 7, expected the name of a bone of the model",
+        R"(/clips/wlak: unknown field "wlak"; did you mean "walk"?)",
+        "/clips/run/speed_mps: found nothing, expected 1 to 12 (meters per second"}) {
+    EXPECT_THAT(message, HasSubstr(std::string("bad.json: ") + expected));
+  }
+  write_file_atomically(file, R"({"name": "a", "model": "a.glb", "height_m": 1.7, "bones": [],
+      "license": "MIT", "licence": "MIT", "clips": 3})");
+  const std::string more = complaint(file);
+  EXPECT_THAT(more, HasSubstr(R"(/bones: found an array of 0, expected an object such as {"left)"));
+  EXPECT_THAT(more, HasSubstr("/clips: found 3, expected an object such as {\"walk\""));
+  EXPECT_THAT(more, HasSubstr("bad.json: /licence: found both"));
 }
 
 TEST_F(ImportTest, AFolderWithOtherThingsInItIsLeftAlone) {

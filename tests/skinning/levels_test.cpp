@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "baked_people.h"
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "skinning/animate/motion.h"
 #include "skinning/bake/raster.h"
 #include "skinning/image.h"

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "skinning/animate/footsteps.h"
 #include "walkers.h"
 

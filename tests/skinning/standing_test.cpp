@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "walkers.h"
 
 namespace throng::skinning {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "jobs/pipeline/gimbal.h"
 
 namespace throng::jobs {
@@ -32,7 +32,7 @@ TEST(FlightRecord, HoldsTruthAndReadingsApart) {
   const auto truth = passage();
   const JobSpec job;
   const sim::SensorLog log = sensors_of(job, 3, truth, 0);
-  CameraSpec spec;
+  camera::CameraSpec spec;
   const sim::ViewAngles view{90 * kDegree, -40 * kDegree, 0.5 * kDegree};
   const camera::Camera camera = camera_on(truth[60], spec, view);
   const nlohmann::json record =
@@ -60,7 +60,7 @@ TEST(FlightRecord, HoldsTruthAndReadingsApart) {
 }
 
 TEST(HorizonRows, AreWhereFarGroundIsSeen) {
-  CameraSpec spec;
+  camera::CameraSpec spec;
   spec.pitch_deg = -20;
   const world::DroneSample drone = passage()[0];
   const sim::ViewAngles view{0.3, -20 * kDegree, 5 * kDegree};

@@ -11,15 +11,15 @@ namespace {
 
 constexpr int kFrames = 4000;
 
-CameraSpec shaken(double yaw_deg, double pitch_deg, double ev) {
-  CameraSpec camera;
+camera::CameraSpec shaken(double yaw_deg, double pitch_deg, double ev) {
+  camera::CameraSpec camera;
   camera.per_frame = {yaw_deg, pitch_deg, ev};
   return camera;
 }
 
 TEST(FrameDraw, NothingIsDrawnUnlessAskedFor) {
-  const CameraSpec camera;
-  const FrameDraw draw = draw_of_frame(camera, 7, 1, 12);
+  const camera::CameraSpec camera;
+  const camera::FrameOffsets draw = draw_of_frame(camera, 7, 1, 12);
   EXPECT_EQ(draw.yaw_deg, 0);
   EXPECT_EQ(draw.pitch_deg, 0);
   EXPECT_EQ(draw.ev, 0);
@@ -27,13 +27,13 @@ TEST(FrameDraw, NothingIsDrawnUnlessAskedFor) {
 }
 
 TEST(FrameDraw, SpreadsAsMuchAsItShould) {
-  const CameraSpec camera = shaken(6, 3, 0.4);
+  const camera::CameraSpec camera = shaken(6, 3, 0.4);
   double yaw = 0;
   double pitch = 0;
   double ev = 0;
   double both = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
-    const FrameDraw draw = draw_of_frame(camera, 7, 0, frame);
+    const camera::FrameOffsets draw = draw_of_frame(camera, 7, 0, frame);
     yaw += draw.yaw_deg * draw.yaw_deg;
     pitch += draw.pitch_deg * draw.pitch_deg;
     ev += draw.ev * draw.ev;
@@ -46,8 +46,8 @@ TEST(FrameDraw, SpreadsAsMuchAsItShould) {
 }
 
 TEST(FrameDraw, DependsOnRunDroneAndFrameAlone) {
-  const CameraSpec camera = shaken(6, 3, 0.4);
-  const FrameDraw draw = draw_of_frame(camera, 7, 1, 12);
+  const camera::CameraSpec camera = shaken(6, 3, 0.4);
+  const camera::FrameOffsets draw = draw_of_frame(camera, 7, 1, 12);
   EXPECT_EQ(draw.yaw_deg, draw_of_frame(camera, 7, 1, 12).yaw_deg);
   EXPECT_NE(draw.yaw_deg, draw_of_frame(camera, 8, 1, 12).yaw_deg);
   EXPECT_NE(draw.yaw_deg, draw_of_frame(camera, 7, 0, 12).yaw_deg);
@@ -56,11 +56,11 @@ TEST(FrameDraw, DependsOnRunDroneAndFrameAlone) {
 }
 
 TEST(FrameDraw, IsWhatIsAddedAndRecorded) {
-  CameraSpec camera = shaken(6, 40, 0.4);
+  camera::CameraSpec camera = shaken(6, 40, 0.4);
   camera.pitch_deg = -80;
   for (int frame = 0; frame < 200; ++frame) {
-    const FrameDraw draw = draw_of_frame(camera, 7, 0, frame);
-    const CameraSpec seen = camera_of_frame(camera, draw);
+    const camera::FrameOffsets draw = draw_of_frame(camera, 7, 0, frame);
+    const camera::CameraSpec seen = camera_of_frame(camera, draw);
     EXPECT_GE(seen.pitch_deg, -90);
     EXPECT_LE(seen.pitch_deg, 90);
     const nlohmann::json drawn = to_json(camera, draw);

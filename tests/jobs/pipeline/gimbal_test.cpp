@@ -1,9 +1,7 @@
 #include "jobs/pipeline/gimbal.h"
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 #include <gtest/gtest.h>
-
-#include <numbers>
 
 namespace throng::jobs {
 namespace {
@@ -17,7 +15,7 @@ world::DroneSample drone_heading(double yaw_rad, double tilt_rad) {
 }
 
 TEST(Gimbal, LooksAlongTheHeadingAndDown) {
-  CameraSpec spec;
+  camera::CameraSpec spec;
   spec.pitch_deg = -45;
   const camera::Camera camera = camera_on(drone_heading(90 * kDegree, 0), spec);
   EXPECT_TRUE(camera.pose.center().isApprox(Eigen::Vector3d(3, 4, 20)));
@@ -29,7 +27,7 @@ TEST(Gimbal, LooksAlongTheHeadingAndDown) {
 }
 
 TEST(Gimbal, YawTurnsToTheLeft) {
-  CameraSpec spec;
+  camera::CameraSpec spec;
   spec.pitch_deg = -45;
   spec.yaw_deg = 90;
   const camera::Camera camera = camera_on(drone_heading(0, 0), spec);
@@ -44,10 +42,10 @@ TEST(Gimbal, TheDronesTiltDoesNotReachTheCamera) {
 
 TEST(Gimbal, RollTurnsTheCameraClockwise) {
   // Then the image turns the other way: what lies below the middle moves to the right of it.
-  CameraSpec spec;
+  camera::CameraSpec spec;
   spec.pitch_deg = -45;
   const world::DroneSample drone = drone_heading(0, 0);
-  const sim::ViewAngles level = ideal_view(drone, spec);
+  const sim::ViewAngles level = sim::ideal_view(drone.orientation, spec);
   const camera::Camera camera = camera_on(drone, spec, {level.yaw, level.pitch, 90 * kDegree});
   EXPECT_TRUE(camera.pose.center().isApprox(drone.position, 1e-12));
   EXPECT_NEAR(camera.pose.R.determinant(), 1, 1e-12);
@@ -58,10 +56,10 @@ TEST(Gimbal, RollTurnsTheCameraClockwise) {
 
 TEST(Gimbal, AnIdealOneLooksAsWithoutAny) {
   const world::DroneSample drone = drone_heading(0.7, 0.2);
-  CameraSpec spec;
+  camera::CameraSpec spec;
   spec.yaw_deg = 20;
   const camera::Camera one = camera_on(drone, spec);
-  const camera::Camera two = camera_on(drone, spec, ideal_view(drone, spec));
+  const camera::Camera two = camera_on(drone, spec, sim::ideal_view(drone.orientation, spec));
   EXPECT_EQ(one.pose.R, two.pose.R);
   EXPECT_EQ(one.pose.t, two.pose.t);
 }

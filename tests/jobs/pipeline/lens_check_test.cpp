@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "jobs/pipeline/gimbal.h"
 #include "jobs/pipeline/sensor_record.h"
 

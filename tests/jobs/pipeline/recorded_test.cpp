@@ -12,6 +12,7 @@
 #include "jobs/pipeline/recording.h"
 #include "jobs/pipeline/resolve.h"
 #include "jobs/queue/folder.h"
+#include "jobs/spec/spec.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
 #include "tests/jobs/yard.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 #include "jobs/spec/calibrations.h"
 #include "jobs/spec/spec.h"
 
@@ -46,7 +46,7 @@ TEST(CameraSpec, FieldOfViewIsThatOfTheDistortedImage) {
        {R"({"hfov_deg": 80})",
         R"({"hfov_deg": 80, "model": "brown_conrady", "distortion": {"k1": -0.2, "k2": 0.03}})",
         R"({"hfov_deg": 80, "model": "fisheye", "distortion": {"k1": -0.02}})"}) {
-    const auto k = intrinsics_of(parsed(text));
+    const auto k = parsed(text).intrinsics();
     ASSERT_TRUE(k);
     EXPECT_NEAR(hfov_deg(*k), 80, 1e-6) << text;
     EXPECT_EQ(k->fx_px, k->fy_px);
@@ -61,7 +61,7 @@ constexpr const char* kCalibration =
 
 TEST(CameraSpec, ACalibrationIsTheCameraThatFramesHave) {
   const CameraSpec spec = parsed(kCalibration);
-  const auto k = intrinsics_of(camera_of_run(spec, 1, kPlace));
+  const auto k = camera_of_run(spec, 1, kPlace).intrinsics();
   ASSERT_TRUE(k);
   EXPECT_EQ(k->width, 640);
   EXPECT_EQ(k->height, 480);
@@ -113,9 +113,11 @@ TEST(CameraSpec, CalibrationsAreFoundByTheirNames) {
 }
 
 TEST(CameraSpec, CalibratedCamerasAreAsTheyWereCalibrated) {
-  const auto k = intrinsics_of(parsed(
-      R"({"width": 1920, "height": 1080, "fx_px": 1500, "fy_px": 1490, "cx_px": 950, "cy_px": 530,
-          "model": "brown_conrady", "distortion": {"k1": -0.1, "p1": 0.001, "k6": 0.01}})"));
+  const auto k =
+      parsed(
+          R"({"width": 1920, "height": 1080, "fx_px": 1500, "fy_px": 1490, "cx_px": 950, "cy_px": 530,
+          "model": "brown_conrady", "distortion": {"k1": -0.1, "p1": 0.001, "k6": 0.01}})")
+          .intrinsics();
   ASSERT_TRUE(k);
   EXPECT_EQ(k->fx_px, 1500);
   EXPECT_EQ(k->fy_px, 1490);
@@ -123,7 +125,7 @@ TEST(CameraSpec, CalibratedCamerasAreAsTheyWereCalibrated) {
   EXPECT_EQ(k->cy_px, 530);
   ASSERT_TRUE(k->distortion);
   EXPECT_THAT(k->distortion->coefficients(), ElementsAre(-0.1, 0, 0.001, 0, 0, 0, 0, 0.01));
-  EXPECT_EQ(intrinsics_of(parsed(R"({"fx_px": 900})"))->fy_px, 900);
+  EXPECT_EQ(parsed(R"({"fx_px": 900})").intrinsics()->fy_px, 900);
 }
 
 TEST(CameraSpec, IsWrittenAsItIsRead) {
@@ -142,10 +144,10 @@ TEST(CameraSpec, PresetsLendWhatIsLeftOut) {
   }
   const CameraSpec spec = parsed(R"({"preset": "dji_phantom_4_pro"})");
   EXPECT_EQ(spec.width, 4864);
-  EXPECT_NEAR(intrinsics_of(spec)->fx_px, 3666.7, 0.5) << "as calibrated";
+  EXPECT_NEAR(spec.intrinsics()->fx_px, 3666.7, 0.5) << "as calibrated";
   const CameraSpec smaller =
       parsed(R"({"preset": "dji_phantom_4_pro", "width": 1216, "height": 912})");
-  EXPECT_NEAR(intrinsics_of(smaller)->fx_px, 3666.7 / 4, 0.2);
+  EXPECT_NEAR(smaller.intrinsics()->fx_px, 3666.7 / 4, 0.2);
   EXPECT_EQ(parsed(R"({"preset": "airsim", "hfov_deg": 50})").hfov_deg, 50);
   // The schema lists what there is.
   const json& schema = job_schema();

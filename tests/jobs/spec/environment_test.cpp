@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "base/angle.h"
+#include "geometry/angle.h"
 
 namespace throng::jobs {
 namespace {

@@ -155,7 +155,8 @@ TEST_F(Spec, ReadsEveryField) {
   EXPECT_EQ(job.drones[0].mission.waypoints[1], Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(job.drones[0].mission.moves_goal, (world::GoalRef{4, 5}));
   EXPECT_EQ(job.drones[0].camera.pitch_deg, -90);
-  const sim::GimbalSpec gimbal = camera_of_run(job.drones[0].camera, 5, camera_pointer(0)).gimbal;
+  const camera::GimbalSpec gimbal =
+      camera_of_run(job.drones[0].camera, 5, camera_pointer(0)).gimbal;
   EXPECT_FALSE(gimbal.ideal);
   EXPECT_EQ(gimbal.natural_rad_s, 30);
   EXPECT_NEAR(gimbal.bias_rad, 0.2 * EIGEN_PI / 180, 1e-12);

@@ -1,10 +1,12 @@
-#include "world/polygon.h"
+#include "geometry/polygon.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-namespace throng::world {
+#include "geometry/triangulate.h"
+
+namespace throng::geometry {
 namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
@@ -56,4 +58,4 @@ TEST(Polygon, TrianglesCoverThePolygonWithoutOverlap) {
 }
 
 }  // namespace
-}  // namespace throng::world
+}  // namespace throng::geometry

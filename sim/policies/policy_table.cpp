@@ -1,4 +1,4 @@
-#include "sim/policies/policy.h"
+#include "sim/policies/policy_table.h"
 
 #include <algorithm>
 #include <array>

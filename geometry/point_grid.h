@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
-namespace throng::metrics {
+#include "geometry/rectangle.h"
+
+namespace throng::geometry {
 
 /// Square cells over the points' bounding box, coarser where that would be too many of them.
 class PointGrid {
@@ -17,13 +19,9 @@ class PointGrid {
   PointGrid(std::span<const Eigen::Vector2d> points, double cell_m)
       : points_(points.begin(), points.end()), cell_m_(cell_m) {
     if (points_.empty()) return;
-    Eigen::Vector2d max = points_.front();
-    min_ = max;
-    for (const Eigen::Vector2d& point : points_) {
-      min_ = min_.cwiseMin(point);
-      max = max.cwiseMax(point);
-    }
-    const Eigen::Vector2d size = max - min_;
+    const Rectangle bounds = bounds_of(points_);
+    min_ = bounds.min;
+    const Eigen::Vector2d size = bounds.max - bounds.min;
     // A few who are far away must not cost memory for all the ground in between.
     const double max_value = 4.0 * static_cast<double>(points_.size()) + 64;
     while ((size.x() / cell_m_ + 1) * (size.y() / cell_m_ + 1) > max_value) cell_m_ *= 1.5;
@@ -137,4 +135,4 @@ class PointGrid {
   std::vector<Sorted> sorted_;      ///< by cell, in order within each
 };
 
-}  // namespace throng::metrics
+}  // namespace throng::geometry

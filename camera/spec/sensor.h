@@ -2,7 +2,7 @@
 // applies them).
 #pragma once
 
-namespace throng::render {
+namespace throng::camera {
 
 struct Sensor {
   double ev = 0;  ///< exposure compensation: light is doubled by each 1
@@ -20,4 +20,4 @@ struct Sensor {
   }
 };
 
-}  // namespace throng::render
+}  // namespace throng::camera

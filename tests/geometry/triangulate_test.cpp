@@ -1,8 +1,8 @@
-#include "render/place/triangulate.h"
+#include "geometry/triangulate.h"
 
 #include <gtest/gtest.h>
 
-namespace throng::render {
+namespace throng::geometry {
 namespace {
 
 double area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
@@ -42,4 +42,4 @@ TEST(Triangulate, ToleratesCornersOnALine) {
 }
 
 }  // namespace
-}  // namespace throng::render
+}  // namespace throng::geometry

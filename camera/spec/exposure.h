@@ -1,7 +1,7 @@
 // How long a frame is exposed and read out (render/lens/exposure.h renders it).
 #pragma once
 
-namespace throng::render {
+namespace throng::camera {
 
 struct Exposure {
   double exposure_s = 0;  ///< how long each row gathers light; 0: an instant
@@ -10,4 +10,4 @@ struct Exposure {
   double readout_s = 0;
 };
 
-}  // namespace throng::render
+}  // namespace throng::camera

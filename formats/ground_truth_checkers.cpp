@@ -1,0 +1,45 @@
+#include <array>
+
+#include "formats/flight_checks.h"
+#include "formats/ground_truth_checks.h"
+#include "formats/run_checks.h"
+
+namespace throng::formats {
+
+using annotate::GroundTruth;
+
+namespace {
+
+/// A check of one picture at a time.
+template <void (*check)(const DatasetInfo&, const Image&, const Pixels&, Findings&)>
+class PixelCheck : public GroundTruthCheck {
+ public:
+  void add_pixels(const DatasetInfo& info, const Image& image, const Pixels& pixels,
+                  Findings& findings) override {
+    check(info, image, pixels, findings);
+  }
+};
+
+template <typename Check>
+std::unique_ptr<GroundTruthCheck> make() {
+  return std::make_unique<Check>();
+}
+
+constexpr std::array kCheckers = {
+    GroundTruthChecker{GroundTruth::density, make<PixelCheck<check_density>>},
+    GroundTruthChecker{GroundTruth::exits, make<ExitsCheck>},
+    GroundTruthChecker{GroundTruth::fields, make<FieldsCheck>},
+    GroundTruthChecker{GroundTruth::depth, make<PixelCheck<check_depth>>},
+    GroundTruthChecker{GroundTruth::instances, make<PixelCheck<check_instances>>},
+    GroundTruthChecker{GroundTruth::parts, make<PixelCheck<check_parts>>},
+    GroundTruthChecker{GroundTruth::normals, make<PixelCheck<check_normal_lengths>>},
+    GroundTruthChecker{GroundTruth::flow, make<PixelCheck<check_flow_values>>},
+    GroundTruthChecker{GroundTruth::semantic, make<PixelCheck<check_semantic>>},
+    GroundTruthChecker{GroundTruth::sensors, make<SensorTableCheck>},
+};
+
+}  // namespace
+
+std::span<const GroundTruthChecker> ground_truth_checkers() { return kCheckers; }
+
+}  // namespace throng::formats

@@ -1,0 +1,8 @@
+// Front door of the module: Gazebo's worlds and OpenStreetMap's extracts read, populated, and
+// written as scenarios.
+#pragma once
+
+#include "imports/osm_map.h"
+#include "imports/place_writer.h"
+#include "imports/populate.h"
+#include "imports/sdf_world.h"
