@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -31,13 +32,22 @@ class ExitsCheck : public GroundTruthCheck {
     std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks, by frame
     std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< seen there, by frame and exit
   };
-  /// On the ground, m.
+  /// A polygon on the ground as one image has it, m, the best known one: its corners are written to
+  /// 0.01 px, which is meters on ground far away.
+  struct Outline {
+    std::vector<Eigen::Vector2d> corners;
+    std::vector<std::array<Eigen::Vector2d, 4>> rounding;  ///< where each corner may be
+    double rounding_m = 0;                                 ///< the farthest of these
+  };
   struct Place {
-    std::vector<Eigen::Vector2d> door;
-    std::vector<Eigen::Vector2d> zone;
+    Outline door;
+    Outline zone;
   };
 
   Run& read(const DatasetInfo& info, const std::string& run, Findings& findings);
+  static Outline outline_of(const camera::Camera& camera, const nlohmann::json& polygon);
+  static double max_corner_distance_px(const camera::Camera& camera, const Outline& place,
+                                       const nlohmann::json& polygon);
   void check_polygons(const Image& image, const nlohmann::json& exit, Findings& findings);
   static void check_values(const std::string& file, const Image& image, const nlohmann::json& exit,
                            const Run& run, Findings& findings);

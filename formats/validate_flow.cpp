@@ -167,7 +167,9 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
   const Eigen::Vector2d moved(box.x + box.width / 2 - then.amodal.x - then.amodal.width / 2,
                               box.y + box.height / 2 - then.amodal.y - then.amodal.height / 2);
   if (static_cast<double>(led.known) < 0.9 * static_cast<double>(led.pixels)) {
-    if (moved.cwiseAbs().maxCoeff() < 0.8 * kFlowReachPx) {
+    const bool is_cut =
+        reaches_amodal_limit(before.image, then.amodal) || reaches_amodal_limit(after.image, box);
+    if (!is_cut && moved.cwiseAbs().maxCoeff() < 0.8 * kFlowReachPx) {
       findings.add("flow-leads-to-boxes", file, record,
                    fmt::format("flow of {} of {} pixels is unknown, but the person is in the next "
                                "frame",
@@ -175,9 +177,10 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
     }
     return;
   }
-  if (led.left < box.x - kFlowSlackPx || led.top < box.y - kFlowSlackPx ||
-      led.right > box.x + box.width + kFlowSlackPx ||
-      led.bottom > box.y + box.height + kFlowSlackPx) {
+  const Eigen::Vector2d first = in_amodal_limit(after.image, {led.left, led.top});
+  const Eigen::Vector2d last = in_amodal_limit(after.image, {led.right, led.bottom});
+  if (first.x() < box.x - kFlowSlackPx || first.y() < box.y - kFlowSlackPx ||
+      last.x() > box.x + box.width + kFlowSlackPx || last.y() > box.y + box.height + kFlowSlackPx) {
     findings.add("flow-leads-to-boxes", file, record,
                  fmt::format("flow leads to [{:.1f}, {:.1f}] x [{:.1f}, {:.1f}], out of its "
                              "bbox_amodal in the next frame",
