@@ -35,7 +35,8 @@ namespace {
 
 Eigen::AlignedBox2d amodal_limit(const Image& image) {
   const Eigen::Vector2d size(image.width, image.height);
-  const bool is_pinhole = image.record.at("camera").value("model", "pinhole") == "pinhole";
+  const bool is_pinhole =
+      image.record.value("camera", json::object()).value("model", "pinhole") == "pinhole";
   const double share = is_pinhole ? 1 : 0.25;
   return {-share * size, (1 + share) * size};
 }

@@ -24,6 +24,8 @@ namespace throng::formats {
 class ExitsCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  /// Most people leave by the exit that their records said last.
+  void finish(const DatasetInfo& info, Findings& findings) override;
 
  private:
   struct Run {
@@ -31,6 +33,7 @@ class ExitsCheck : public GroundTruthCheck {
     std::vector<std::string> order;
     std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks, by frame
     std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< seen there, by frame and exit
+    std::map<std::int64_t, std::string> wanted;  ///< the last exit in records, by track
   };
   /// A polygon on the ground as one image has it, m, the best known one: its corners are written to
   /// 0.01 px, which is meters on ground far away.
@@ -83,7 +86,7 @@ class ConstancyCheck {
   void check_environment(const Image& image, Findings& findings);
   void check_camera(const Image& image, Findings& findings);
   void check_person(const Person& person, Findings& findings);
-  void check_track(const Person& person, Findings& findings);
+  void check_track(const Image& image, const Person& person, Findings& findings);
 
   const nlohmann::json& manifest_;
   std::map<std::string, nlohmann::json> lenses_;       ///< by run and camera
@@ -108,6 +111,9 @@ class PresenceCheck {
 
 /// metrics.json against metrics/RUN.json and the tables that it sums up.
 void check_metrics(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
+
+/// What the manifest's job asks of cameras, sensors, light and weather, against an image's record.
+void check_job(const nlohmann::json& manifest, const Image& image, Findings& findings);
 
 /// previews/ against the pictures and boxes that they show.
 void check_preview(const DatasetInfo& info, const Image& image, Findings& findings);

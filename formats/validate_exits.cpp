@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 
+#include "annotate/coco.h"
 #include "base/error.h"
+#include "base/files.h"
+#include "base/json_text.h"
 #include "formats/image_camera.h"
 #include "formats/run_checks.h"
 
@@ -33,8 +37,8 @@ Vector2d point_at(const json& point) {
 
 }  // namespace
 
-/// Empty where the ground is nowhere near, or the polygon is cut off by the camera's plane or the end
-/// of its lens.
+/// Empty where the ground is nowhere near, or the polygon is cut off by the camera's plane or the
+/// end of its lens.
 ExitsCheck::Outline ExitsCheck::outline_of(const camera::Camera& camera, const json& polygon) {
   Outline outline;
   for (const json& written : polygon) {
@@ -102,8 +106,14 @@ ExitsCheck::Run& ExitsCheck::read(const DatasetInfo& info, const std::string& na
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const std::vector<std::string>& cells = table.rows[i];
     ExitRow row{i + 2, {}, cells[state], cells[offline]};
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      row.value[table.columns[c]] = number_of(cells[c]);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const double value = number_of(cells[c]);
+      if (c != exit && c != state && c != offline && !std::isfinite(value)) {
+        findings.add("exits", file, fmt::format("line {}", i + 2),
+                     fmt::format("{} is no number: {}", table.columns[c], cells[c]));
+      }
+      row.value[table.columns[c]] = value;
+    }
     const auto number = static_cast<std::int64_t>(number_of(cells[frame]));
     if (!run.exits.contains(cells[exit])) run.order.push_back(cells[exit]);
     const double time_s = info.from_s + static_cast<double>(number) / info.rate_hz;
@@ -187,6 +197,22 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
   const std::vector<Vector2d>& door = place.door.corners;
   const std::vector<Vector2d>& zone = place.zone.corners;
   if (door.size() < 4 || zone.size() < 3) return;
+  // The door is a strip 0.5 m deep.
+  double twice_area_m2 = 0;
+  double longest_m = 0;
+  for (std::size_t i = 0; i < door.size(); ++i) {
+    const Vector2d& next = door[(i + 1) % door.size()];
+    twice_area_m2 += door[i].x() * next.y() - door[i].y() * next.x();
+    for (const Vector2d& other : door) longest_m = std::max(longest_m, (door[i] - other).norm());
+  }
+  const double deep_m = std::abs(twice_area_m2) / 2 / std::max(longest_m, 0.1);
+  constexpr double kDeepestM = 0.75;
+  if (deep_m > kDeepestM + 2 * place.door.rounding_m) {
+    findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
+                 fmt::format("the door of {} is {:.1f} m long and {:.1f} m deep, expected 0.5 m",
+                             exit.at("id").get<std::string>(), longest_m, deep_m));
+    return;
+  }
   // The zone is a half disc about the middle of the door.
   const double zone_m = [&] {
     double max_value = 0;
@@ -228,6 +254,7 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
       findings.add("exits", person, "exit is none of the scenario's: " + id);
       continue;
     }
+    run.wanted[person.track_id] = id;
     const auto place = places_.find(id);
     if (place == places_.end() || place->second.zone.corners.empty()) continue;
     if (!counted.insert(person.track_id).second) continue;
@@ -267,6 +294,36 @@ void ExitsCheck::add(const DatasetInfo& info, const Image& image, Findings& find
                  fmt::format("{} exits, but {} has {}", exits->size(), file, run.order.size()));
   }
   count_people(file, image, run, findings);
+}
+
+void ExitsCheck::finish(const DatasetInfo& info, Findings& findings) {
+  for (const auto& [name, run] : runs_) {
+    const std::filesystem::path file = info.root / "metrics" / (name + ".json");
+    if (run.wanted.empty() || !std::filesystem::is_regular_file(file)) continue;
+    const json figures = parse_json_or_discard(read_file(file), kOwnJsonLimits);
+    if (!figures.is_object()) continue;  // check_metrics says so
+    const json people = figures.value("by_person", json::object());
+    const json agents = people.value("agent", json::array());
+    const json used = people.value("exit", json::array());
+    int left = 0;
+    int as_wanted = 0;
+    for (std::size_t i = 0; i < std::min(agents.size(), used.size()); ++i) {
+      if (!used[i].is_string()) continue;
+      const std::int64_t number = agents[i].get<std::int64_t>() + 1;
+      const auto wanted = std::find_if(
+          run.wanted.begin(), run.wanted.end(),
+          [&](const auto& entry) { return entry.first % annotate::kTrackIdsPerRun == number; });
+      if (wanted == run.wanted.end()) continue;
+      ++left;
+      as_wanted += used[i] == wanted->second ? 1 : 0;
+    }
+    constexpr int kMinLeft = 12;
+    constexpr double kMinShare = 0.4;  // plans change
+    if (left < kMinLeft || as_wanted >= kMinShare * left) continue;
+    findings.add(
+        "exits", kCocoFile, name,
+        fmt::format("{} of {} people go out by the exit that their records say", as_wanted, left));
+  }
 }
 
 }  // namespace throng::formats

@@ -266,6 +266,14 @@ void check_position(const Person& person, Findings& findings) {
   if (!((person.position - person.box_middle).head<2>().norm() <= kReachM)) {
     findings.add("position", person, "position is away from box_3d");
   }
+  // Bodies stand or lie on the ground; runners leave it by a few centimeters.
+  constexpr double kFlightM = 0.15;
+  const double above_m = person.box_middle.z() - person.box_size.z() / 2 - person.position.z();
+  if (person.track->contains("attributes") && !(std::abs(above_m) <= kFlightM)) {
+    findings.add(
+        "position", person,
+        fmt::format("box_3d begins {:.2f} m above position, which is on the ground", above_m));
+  }
 }
 
 }  // namespace

@@ -115,16 +115,42 @@ std::string break_between(const Row& a, const Row& b, bool in_contact) {
   return "";
 }
 
-/// Whether the run's figures say that the drone touched something.
-bool has_collisions(const DatasetInfo& info, const std::string& run, const std::string& drone) {
+/// The drone's figures in metrics/RUN.json; an empty object without.
+json figures_of(const DatasetInfo& info, const std::string& run, const std::string& drone) {
   const std::filesystem::path file = info.root / "metrics" / (run + ".json");
-  if (!std::filesystem::is_regular_file(file)) return false;
+  if (!std::filesystem::is_regular_file(file)) return json::object();
   const json figures = parse_json_or_discard(read_file(file), kOwnJsonLimits);
-  if (!figures.is_object()) return false;  // check_metrics says so
+  if (!figures.is_object()) return json::object();  // check_metrics says so
   for (const json& figure : figures.value("drones", json::array())) {
-    if (figure.value("id", "") == drone) return !figure.value("collisions", json::object()).empty();
+    if (figure.value("id", "") == drone) return figure;
   }
-  return false;
+  return json::object();
+}
+
+/// Names a figure that is not what the rows, which are those of the whole run, add up to.
+std::string other_figure(const json& figures, const std::vector<Row>& rows) {
+  double flown_m = 0;
+  double fastest_mps = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    fastest_mps = std::max(fastest_mps, at(rows[i], kVelocity).norm());
+    if (i > 0) flown_m += (at(rows[i], kPosition) - at(rows[i - 1], kPosition)).norm();
+  }
+  constexpr double kJoules = 3600;
+  const double energy_wh = rows.back()[kEnergy] / kJoules;
+  struct Figure {
+    const char* key;
+    double expected;
+  };
+  for (const Figure& figure : {Figure{"flown_m", flown_m}, Figure{"fastest_mps", fastest_mps},
+                               Figure{"energy_wh", energy_wh}}) {
+    if (!figures.contains(figure.key) || !figures.at(figure.key).is_number()) continue;
+    const double found = figures.at(figure.key).get<double>();
+    constexpr double kSlack = 1e-3;  // the last row may be a step before the end
+    if (std::abs(found - figure.expected) <= kSlack * (1 + std::abs(figure.expected))) continue;
+    return fmt::format("{} is {} in the run's metrics, but the rows give {:.4f}", figure.key, found,
+                       figure.expected);
+  }
+  return "";
 }
 
 /// Contact lasts less than the time between two rows: velocity jumps, and no row has the force.
@@ -222,7 +248,10 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
     }
     const double latitude_deg =
         image.record.value("environment", json::object()).value("latitude_deg", 45.0);
-    const bool may_touch = has_collisions(info, image.run, image.camera);
+    const json figures = figures_of(info, image.run, image.camera);
+    const bool may_touch = !figures.value("collisions", json::object()).empty();
+    const std::string figure = table.rows.empty() ? "" : other_figure(figures, table.rows);
+    if (!figure.empty()) findings.add("sensors", name, "", figure);
     bool in_contact = false;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       // From then on it may lie there or slide.

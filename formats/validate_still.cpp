@@ -172,6 +172,26 @@ std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
   return std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * std::abs(*ground - *nearer);
 }
 
+/// Of an sRGB pixel, in linear light.
+double luminance(const std::uint8_t* rgb) {
+  constexpr double kGamma = 2.2;
+  const auto linear = [](std::uint8_t value) { return std::pow(value / 255.0, kGamma); };
+  return 0.2126 * linear(rgb[0]) + 0.7152 * linear(rgb[1]) + 0.0722 * linear(rgb[2]);
+}
+
+double median_light(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Equal exposure, and no vignette that makes it a matter of the place.
+bool have_one_exposure(const Image& a, const Image& b) {
+  const nlohmann::json one = a.record.value("sensor", nlohmann::json::object());
+  const nlohmann::json two = b.record.value("sensor", nlohmann::json::object());
+  return one.value("ev", 0.0) == two.value("ev", 0.0) && one.value("vignette", 0.0) == 0;
+}
+
 /// Colors of the same still points in consecutive pictures of one camera.
 void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   const Pixels& pixels = before.pixels;
@@ -181,6 +201,8 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   double both = 0;
   double then = 0;
   double now = 0;
+  std::vector<double> light_then;
+  std::vector<double> light_now;
   std::size_t count = 0;
   for (int y = 1; y + 1 < pixels.height; y += step) {
     for (int x = 1 + y % step; x + 1 < pixels.width; x += step) {
@@ -199,6 +221,8 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
       const std::uint8_t* b = &after.pixels.rgb[3 * after.pixels.at(u, v)];
       const double warm_a = static_cast<double>(a[0]) - a[2];
       const double warm_b = static_cast<double>(b[0]) - b[2];
+      light_then.push_back(luminance(a));
+      light_now.push_back(luminance(b));
       both += warm_a * warm_b;
       then += warm_a * warm_a;
       now += warm_b * warm_b;
@@ -207,6 +231,16 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   }
   constexpr std::size_t kMinCount = 200;
   if (count < kMinCount) return;
+  if (have_one_exposure(before.image, after.image)) {
+    const double ratio = median_light(light_now) / std::max(1e-4, median_light(light_then));
+    // Light and exposure are a run's; a gentle vignette passes.
+    constexpr double kMaxRatio = 1.35;
+    if (ratio > kMaxRatio || ratio < 1 / kMaxRatio) {
+      findings.add(
+          "picture-brightness", after.image.file, after.record(),
+          fmt::format("still points are {:.2f} times as bright as in the picture before", ratio));
+    }
+  }
   const auto number = static_cast<double>(count);
   const double strength = std::sqrt(std::max(then, now) / number);
   const double weakness = std::sqrt(std::min(then, now) / number);

@@ -185,7 +185,11 @@ std::vector<Corners> shadow_of(const Triangles& triangles) {
   for (const Triangle& triangle : triangles) {
     const std::vector<Vector3d> whole(triangle.begin(), triangle.end());
     std::vector<Vector3d> slice = cut(cut(whole, kStepM, 1), kHeadM, -1);
-    if (slice.size() >= 2) slices.push_back(std::move(slice));
+    const bool is_between = std::any_of(slice.begin(), slice.end(),
+                                        [](const Vector3d& p) { return !is_step(p.z()); }) &&
+                            std::any_of(slice.begin(), slice.end(),
+                                        [](const Vector3d& p) { return !is_overhead(p.z()); });
+    if (slice.size() >= 2 && is_between) slices.push_back(std::move(slice));
   }
   if (slices.empty()) return {};
   Vector2d low = slices.front().front().head<2>();

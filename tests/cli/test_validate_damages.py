@@ -12,8 +12,21 @@ import time
 import damages
 import damages.runner
 
-ANNOTATIONS = ["coco", "keypoints", "amodal", "density", "exits", "fields", "depth", "instances", "parts", "normals",
-               "flow", "semantic", "sensors"]
+ANNOTATIONS = [
+    "coco",
+    "keypoints",
+    "amodal",
+    "density",
+    "exits",
+    "fields",
+    "depth",
+    "instances",
+    "parts",
+    "normals",
+    "flow",
+    "semantic",
+    "sensors",
+]
 
 
 def camera(**more):
@@ -41,12 +54,23 @@ JOB = {
             "camera": camera(yaw_deg=180, pitch_deg=-42),
         },
     ],
-    "outputs": {"annotations": ANNOTATIONS, "previews": 1, "formats": ["coco", "mot", "yolo-detect", "kitti", "visdrone-mot", "table"]},
+    "outputs": {
+        "annotations": ANNOTATIONS,
+        "previews": 1,
+        "formats": ["coco", "mot", "yolo-detect", "kitti", "visdrone-mot", "table"],
+    },
 }
-# Of two people with all that belongs to them, and of places that little else depends on, nothing else tells.
-# Flow is taken over 4 s, and these images span 2 s.
-NOT_FOUND = {"attributes of two people exchanged", "exits of people exchanged", "field one cell off",
-             "doors and zones exchanged", "flow of exits doubled"}
+# Of two people with all that belongs to them, and of places that little else depends on, nothing else tells. Flow is
+# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody, or what a behavior's names mean.
+NOT_FOUND = {
+    "attributes of two people exchanged",
+    "behaviors of people exchanged",
+    "field one cell off",
+    "flow of exits doubled",
+    "picture without somebody",
+}
+# Nobody of this job is in a group, and fewer than a quarter have escaped.
+NOT_POSSIBLE = {"groups moved by one", "escape percentiles 20 percent less"}
 
 
 def test_everything(throng, folder):
@@ -59,7 +83,11 @@ def test_everything(throng, folder):
 
     def run(name):
         with tempfile.TemporaryDirectory(dir=folder) as place:
-            code, lines = damages.runner.run(throng, dataset, place, name)
+            try:
+                code, lines = damages.runner.run(throng, dataset, place, name)
+            except AssertionError:
+                assert name in NOT_POSSIBLE, name
+                return name, ["not possible"]
         assert code in (0, 2), (name, code, lines[-3:])
         # That exports are no longer those of the records would find nearly everything.
         told = [line for line in lines if line.endswith("]")]
@@ -73,7 +101,8 @@ def test_everything(throng, folder):
         assert rules != ["manifest"], f"{name}: the manifest was not put right"
         print(f"{name:62} {'found by ' + ', '.join(rules) if rules else 'NOT FOUND'}")
     missed = {name for name, rules in results if not rules}
-    print(f"found {len(results) - len(missed)} of {len(results)}")
+    possible = sum(rules != ["not possible"] for _, rules in results)
+    print(f"found {possible - len(missed)} of {possible}")
     assert missed <= NOT_FOUND, missed - NOT_FOUND
 
 

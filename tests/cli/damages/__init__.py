@@ -44,7 +44,8 @@ TABLE = {
         ids_of_two_people_exchanged_after_a_frame ids_of_two_people_exchanged_in_one_camera
         one_person_removed_everywhere everybody_in_the_background_removed annotation_twice top_colors_inverted
         top_color_of_the_largest_person_green groups_moved_by_one ages_ten_years_older statures_in_centimeters
-        behaviors_of_people_exchanged categories_exchanged runs_of_images_exchanged""",
+        behaviors_of_people_exchanged categories_exchanged runs_of_images_exchanged runs_of_tracks_exchanged
+        carried_items_left_out""",
     cameras: """
         flight_moved_by_5_m flight_of_one_picture_moved_by_20_cm camera_and_flight_moved_by_5_m
         camera_turned_by_half_a_degree camera_of_the_frame_before focal_length_1_percent_more
@@ -60,7 +61,8 @@ TABLE = {
         camera_of_one_picture_turned_by_1_degree times_one_frame_late times_and_capture_half_a_second_late
         capture_rate_doubled weather_rain_everywhere time_of_day_three_hours_later sensor_record_says_noise
         gyro_without_noise accelerometer_5_percent_more magnetometer_axes_exchanged gps_30_m_off
-        pressure_in_hectopascal energy_of_the_battery_halved""",
+        pressure_in_hectopascal energy_of_the_battery_halved seeds_of_runs_exchanged
+        gimbal_pitch_5_degrees_off_in_the_job wind_of_the_job""",
     pixels: """
         depth_of_buildings_5_percent_more depth_of_buildings_4_percent_less depth_of_buildings_in_one_picture
         depth_of_one_building depth_of_props depth_of_one_person_1_m_more depth_1_percent_more

@@ -318,3 +318,21 @@ def runs_of_images_exchanged(d):
     d.coco["annotations"] = [p for p in d.coco["annotations"] if p["track_id"] in known]
     d.coco["annotations"].sort(key=lambda p: p["id"])
     d.save_coco()
+
+
+@damage
+def runs_of_tracks_exchanged(d):
+    for track in d.coco["tracks"]:
+        track["run"] = d.runs[1 - d.runs.index(track["run"])]
+    d.save_coco()
+
+
+@damage
+def carried_items_left_out(d):
+    people = [
+        t["attributes"] for t in d.coco["tracks"] if t.get("attributes", {}).get("carries", "nothing") != "nothing"
+    ]
+    assert people, "nobody carries anything"
+    for attributes in people:
+        attributes["carries"] = "nothing"
+    d.save_coco()

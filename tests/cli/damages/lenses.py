@@ -221,3 +221,25 @@ def energy_of_the_battery_halved(d):
     for image in d.images:
         image["flight"]["true"]["energy_wh"] /= 2
     d.save_coco()
+
+
+@damage
+def seeds_of_runs_exchanged(d):
+    manifest = json.loads(d.path("manifest.json").read_text())
+    a, b = manifest["runs"][:2]
+    a["seed"], b["seed"] = b["seed"], a["seed"]
+    d.write("manifest.json", json.dumps(manifest, indent=1))
+
+
+@damage
+def gimbal_pitch_5_degrees_off_in_the_job(d):
+    manifest = json.loads(d.path("manifest.json").read_text())
+    manifest["job"]["drones"][0]["camera"]["pitch_deg"] += 5
+    d.write("manifest.json", json.dumps(manifest, indent=1))
+
+
+@damage
+def wind_of_the_job(d):
+    manifest = json.loads(d.path("manifest.json").read_text())
+    manifest["job"]["environment"]["wind"]["speed_mps"] = 9.0
+    d.write("manifest.json", json.dumps(manifest, indent=1))
