@@ -169,7 +169,10 @@ std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
   const std::optional<double> ground = ground_depth_at(shot, x, y);
   const std::optional<double> nearer = ground_depth_at(shot, below.x(), below.y());
   if (!ground || !nearer) return std::nullopt;
-  return std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * std::abs(*ground - *nearer);
+  // The foot is somewhere between two pixels, of the ground and of the wall.
+  const double per_pixel_m =
+      std::max(std::abs(*ground - *nearer), 0.5 * std::abs(pixels.depth_m(higher) - z));
+  return std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * per_pixel_m;
 }
 
 /// Of an sRGB pixel, in linear light.

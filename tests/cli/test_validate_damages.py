@@ -61,12 +61,14 @@ JOB = {
     },
 }
 # Of two people with all that belongs to them, and of places that little else depends on, nothing else tells. Flow is
-# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody, or what a behavior's names mean.
+# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody, or what a behavior's names mean. The
+# damage to hidden people takes some here who are hidden in all images.
 NOT_FOUND = {
     "attributes of two people exchanged",
     "behaviors of people exchanged",
     "field one cell off",
     "flow of exits doubled",
+    "hidden people of one picture left out",
     "picture without somebody",
 }
 # Nobody of this job is in a group, and fewer than a quarter have escaped.
