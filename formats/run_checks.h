@@ -112,7 +112,7 @@ class PresenceCheck {
 /// metrics.json against metrics/RUN.json and the tables that it sums up.
 void check_metrics(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
 
-/// What the manifest's job asks of cameras, sensors, light and weather, against an image's record.
+/// Compares an image's record with the manifest's job: camera, sensor, light, weather and wind.
 void check_job(const nlohmann::json& manifest, const Image& image, Findings& findings);
 
 /// previews/ against the pictures and boxes that they show.

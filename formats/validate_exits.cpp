@@ -199,18 +199,19 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
   if (door.size() < 4 || zone.size() < 3) return;
   // The door is a strip 0.5 m deep.
   double twice_area_m2 = 0;
-  double longest_m = 0;
+  double max_length_m = 0;
   for (std::size_t i = 0; i < door.size(); ++i) {
     const Vector2d& next = door[(i + 1) % door.size()];
     twice_area_m2 += door[i].x() * next.y() - door[i].y() * next.x();
-    for (const Vector2d& other : door) longest_m = std::max(longest_m, (door[i] - other).norm());
+    for (const Vector2d& other : door)
+      max_length_m = std::max(max_length_m, (door[i] - other).norm());
   }
-  const double deep_m = std::abs(twice_area_m2) / 2 / std::max(longest_m, 0.1);
+  const double deep_m = std::abs(twice_area_m2) / 2 / std::max(max_length_m, 0.1);
   constexpr double kDeepestM = 0.75;
   if (deep_m > kDeepestM + 2 * place.door.rounding_m) {
     findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
                  fmt::format("the door of {} is {:.1f} m long and {:.1f} m deep, expected 0.5 m",
-                             exit.at("id").get<std::string>(), longest_m, deep_m));
+                             exit.at("id").get<std::string>(), max_length_m, deep_m));
     return;
   }
   // The zone is a half disc about the middle of the door.

@@ -1,4 +1,4 @@
-// What the manifest's job asks of cameras, sensors and light, against the pictures' records.
+// The manifest's job against the images' records: cameras, sensors, light and weather.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -190,7 +190,7 @@ class RunFigures {
           return;
         }
         constexpr double kStepS = 0.3;   // the table is of the last crowd step before the frame
-        constexpr double kDelayS = 4.0;  // slow people stand about in the door
+        constexpr double kDelayS = 4.0;  // slow people stand in the door
         if (crossed <= crossed_by(time_s + 1e-3) &&
             crossed >= crossed_by(time_s - kDelayS - kStepS)) {
           continue;
@@ -233,14 +233,14 @@ class RunFigures {
         const auto passed = static_cast<double>(
             std::upper_bound(times.begin(), times.end(), time_s + 1e-3) -
             std::lower_bound(times.begin(), times.end(), time_s - kWindowS - kDelayS));
-        const double least_s = queue * kPriorS / (passed + capacity * kPriorS);
-        const double longest_s = queue * (kWindowS + kPriorS) / (capacity * kPriorS);
+        const double min_wait_s = queue * kPriorS / (passed + capacity * kPriorS);
+        const double max_wait_s = queue * (kWindowS + kPriorS) / (capacity * kPriorS);
         constexpr double kRoundingS = 0.011;
-        if (wait_s >= least_s - kRoundingS && wait_s <= longest_s + kRoundingS) continue;
+        if (wait_s >= min_wait_s - kRoundingS && wait_s <= max_wait_s + kRoundingS) continue;
         fault(
             fmt::format("exits/{}.csv line {}: predicted_wait {} s for a queue of {}, expected "
                         "{:.2f} to {:.2f} s",
-                        name_, i + 2, wait_s, queue, least_s, longest_s));
+                        name_, i + 2, wait_s, queue, min_wait_s, max_wait_s));
         return;
       }
     }

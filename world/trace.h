@@ -36,8 +36,8 @@ inline constexpr std::uint8_t kFollowing = 8;
 /// contains one of the words in docs/trace.md, in upper or lower case.
 bool implies_lying(std::string_view state_name);
 
-/// What moved a run's people, as far as it decides how they walk; words are those of a job's
-/// `crowd` (docs/job.md).
+/// Model and settings that moved a run's people, as far as they decide how people walk; words are
+/// those of a job's `crowd` (docs/job.md).
 struct CrowdOrigin {
   /// The pedestrian model (docs/crowd.md); kRecordedCrowd where trajectories were replayed; empty:
   /// not known, as in files of earlier versions, and the rest means nothing.

@@ -15,7 +15,7 @@ import sound_jobs
 
 
 def findings_of(throng, job, folder):
-    """What validate says of the job's dataset; empty where it finds nothing."""
+    """Findings of validate in the job's dataset; empty where it finds nothing."""
     folder.mkdir()
     (folder / "job.json").write_text(json.dumps(job))
     run = subprocess.run(

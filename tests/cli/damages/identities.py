@@ -211,7 +211,7 @@ def one_person_removed_everywhere(d):
 
 @damage
 def everybody_in_the_background_removed(d):
-    """Who is smaller than the median, from the records of an image and its counts."""
+    """People smaller than the median, from the records of an image and its counts."""
     image = d.image()
     people = sorted(d.people(image), key=lambda p: p["area"])
     gone = people[: len(people) // 2]
