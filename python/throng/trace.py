@@ -21,8 +21,8 @@ ROLES = ("person", "disaster", "absent", "attacker")
 
 
 def _crowd_of(attributes: dict[str, Any]) -> dict[str, Any]:
-    """Origin of the people's motion: `model` ("recorded": a recording), `compat`, `hard_separation`, `compliance`, `physical`,
-    `fall_impulse_ns`; empty in traces of earlier versions."""
+    """Origin of the people's motion: `model` ("recorded": a recording), `compat`, `hard_separation`, `compliance`,
+    `physical`, `fall_impulse_ns`; empty in traces of earlier versions."""
     if "crowd_model" not in attributes:
         return {}
     return {
