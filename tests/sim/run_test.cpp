@@ -50,7 +50,7 @@ world::Trace trace_of(const RunSpec& spec) {
 TEST(Run, SaysWhichModelMovedThePeople) {
   RunSpec spec = short_run();
   spec.duration_s = 0.2;
-  EXPECT_EQ(trace_of(spec).header.crowd, (world::CrowdOrigin{"ttc", "none", false, 1, false, 20}));
+  EXPECT_EQ(trace_of(spec).header.crowd, (world::CrowdOrigin{"orca", "none", false, 1, false, 20}));
   spec.crowd.model = "helbing";
   spec.crowd.compat = crowd::Compat::menge;
   spec.crowd.hard_separation = true;
