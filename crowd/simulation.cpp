@@ -28,6 +28,7 @@ struct Simulation::State {
   void sub_step();
 
   Crowd crowd;
+  LoadOptions options;
   int sub_steps = 1;
   std::vector<Problem> warnings;
   std::vector<std::string> state_names;
@@ -42,7 +43,8 @@ struct Simulation::State {
 
 Simulation::State::State(const SceneDescription& scene_description,
                          const BehaviorDescription& behavior_description,
-                         const LoadOptions& options) {
+                         const LoadOptions& load_options)
+    : options(load_options) {
   const bool words_are_zero = options.compat != Compat::none;
   Reading scene(scene_description, "Experiment", words_are_zero);
   Reading behavior(behavior_description, "BFSM", words_are_zero);
@@ -110,6 +112,8 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::step() { state_->step(); }
 
 const std::vector<Problem>& Simulation::warnings() const { return state_->warnings; }
+
+const LoadOptions& Simulation::options() const { return state_->options; }
 
 double Simulation::dt_s() const { return state_->crowd.dt_s * state_->sub_steps; }
 

@@ -39,6 +39,8 @@ class Simulation {
   /// Advances by dt_s().
   void step();
 
+  /// As the crowd was made with, its model by name.
+  const LoadOptions& options() const;
   double dt_s() const;
   double time_s() const;
   std::size_t agent_count() const;

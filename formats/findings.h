@@ -54,6 +54,9 @@ void check_bodies(const Image& image, Findings& findings);
 /// compared byte by byte; of a dataset that this version of the program wrote.
 void check_exports(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
 
+/// Names and numbers of the COCO file's categories.
+void check_categories(const DatasetInfo& info, Findings& findings);
+
 /// R is a rotation, and the center is where R and t put it.
 void check_camera(const Image& image, Findings& findings);
 

@@ -31,6 +31,31 @@ camera::Camera camera_of(const Image& image) {
   return camera;
 }
 
+namespace {
+
+Eigen::AlignedBox2d amodal_limit(const Image& image) {
+  const Eigen::Vector2d size(image.width, image.height);
+  const bool is_pinhole =
+      image.record.value("camera", json::object()).value("model", "pinhole") == "pinhole";
+  const double share = is_pinhole ? 1 : 0.25;
+  return {-share * size, (1 + share) * size};
+}
+
+}  // namespace
+
+Eigen::Vector2d in_amodal_limit(const Image& image, const Eigen::Vector2d& point) {
+  const Eigen::AlignedBox2d limit = amodal_limit(image);
+  return point.cwiseMax(limit.min()).cwiseMin(limit.max());
+}
+
+bool reaches_amodal_limit(const Image& image, const Box& box) {
+  constexpr double kSlackPx = 0.02;
+  const Eigen::AlignedBox2d limit = amodal_limit(image);
+  return box.x <= limit.min().x() + kSlackPx || box.y <= limit.min().y() + kSlackPx ||
+         box.x + box.width >= limit.max().x() - kSlackPx ||
+         box.y + box.height >= limit.max().y() - kSlackPx;
+}
+
 double pixels_across(const camera::Camera& camera, const Eigen::Vector3d& world, double size_m) {
   constexpr double kMinDistanceM = 0.1;
   const camera::Intrinsics& k = camera.intrinsics;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,8 @@ namespace throng::formats {
 class ExitsCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;
+  /// Most people leave by the exit that their records said last.
+  void finish(const DatasetInfo& info, Findings& findings) override;
 
  private:
   struct Run {
@@ -30,14 +33,24 @@ class ExitsCheck : public GroundTruthCheck {
     std::vector<std::string> order;
     std::map<std::int64_t, std::set<std::int64_t>> counted;      ///< tracks, by frame
     std::map<std::int64_t, std::map<std::string, int>> in_zone;  ///< seen there, by frame and exit
+    std::map<std::int64_t, std::string> wanted;  ///< the last exit in records, by track
   };
-  /// On the ground, m.
+  /// A polygon on the ground as one image has it, m, the best known one: its corners are written to
+  /// 0.01 px, which is meters on ground far away.
+  struct Outline {
+    std::vector<Eigen::Vector2d> corners;
+    std::vector<std::array<Eigen::Vector2d, 4>> rounding;  ///< where each corner may be
+    double rounding_m = 0;                                 ///< the farthest of these
+  };
   struct Place {
-    std::vector<Eigen::Vector2d> door;
-    std::vector<Eigen::Vector2d> zone;
+    Outline door;
+    Outline zone;
   };
 
   Run& read(const DatasetInfo& info, const std::string& run, Findings& findings);
+  static Outline outline_of(const camera::Camera& camera, const nlohmann::json& polygon);
+  static double max_corner_distance_px(const camera::Camera& camera, const Outline& place,
+                                       const nlohmann::json& polygon);
   void check_polygons(const Image& image, const nlohmann::json& exit, Findings& findings);
   static void check_values(const std::string& file, const Image& image, const nlohmann::json& exit,
                            const Run& run, Findings& findings);
@@ -73,7 +86,7 @@ class ConstancyCheck {
   void check_environment(const Image& image, Findings& findings);
   void check_camera(const Image& image, Findings& findings);
   void check_person(const Person& person, Findings& findings);
-  void check_track(const Person& person, Findings& findings);
+  void check_track(const Image& image, const Person& person, Findings& findings);
 
   const nlohmann::json& manifest_;
   std::map<std::string, nlohmann::json> lenses_;       ///< by run and camera
@@ -98,6 +111,9 @@ class PresenceCheck {
 
 /// metrics.json against metrics/RUN.json and the tables that it sums up.
 void check_metrics(const DatasetInfo& info, const nlohmann::json& manifest, Findings& findings);
+
+/// Compares an image's record with the manifest's job: camera, sensor, light, weather and wind.
+void check_job(const nlohmann::json& manifest, const Image& image, Findings& findings);
 
 /// previews/ against the pictures and boxes that they show.
 void check_preview(const DatasetInfo& info, const Image& image, Findings& findings);

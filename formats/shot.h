@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -67,6 +68,8 @@ class ClothesCheck {
     std::size_t pixels = 0;
   };
   std::map<std::string, std::map<std::int64_t, Shirt>> runs_;  ///< by track
+  std::map<std::int64_t, std::size_t> carried_;  ///< pixels of carried items, by track
+  std::set<std::int64_t> without_item_;          ///< tracks of these that carry nothing
 };
 
 /// Outlines of labels are where the pictures have edges. Judged when all of a dataset is seen:

@@ -241,6 +241,7 @@ Validation validate_dataset(const fs::path& root) {
       other_formats.add(info, image, findings);
       check_bodies(image, findings);
       records.add(info, image, findings);
+      check_job(manifest, image, findings);
       kinds.add(info, image, findings);
       const std::size_t before = validation.found;
       check_people(image, findings);
@@ -254,6 +255,7 @@ Validation validate_dataset(const fs::path& root) {
     shots.finish(findings);
     other_formats.finish(findings);
     check_counts(manifest, validation, findings);
+    check_categories(info, findings);
     records.finish(info, findings);
     kinds.finish(info, findings);
     check_metrics(info, manifest, findings);

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -169,6 +171,15 @@ void AlignmentCheck::add(const Shot& shot) {
 }
 
 void AlignmentCheck::finish(Findings& findings) const {
+  // Outlines that are where the picture has edges show that the picture is theirs: other outlines
+  // of it may be few, or lie in patterns (a wall full of windows), and need not stand out.
+  std::set<std::string> confirmed;
+  for (const auto& [series, scores] : scores_) {
+    for (const Score& score : scores) {
+      const int away = std::max(std::abs(score.best_x), std::abs(score.best_y));
+      if (score.here >= kTellingScore && away <= kNearPx) confirmed.insert(score.file);
+    }
+  }
   for (const auto& [series, scores] : scores_) {
     std::vector<double> sorted;
     for (const Score& score : scores) sorted.push_back(score.here);
@@ -176,7 +187,7 @@ void AlignmentCheck::finish(Findings& findings) const {
     std::nth_element(sorted.begin(), middle, sorted.end());
     const bool others_tell = *middle >= kTellingScore;
     for (const Score& score : scores) {
-      if (!others_tell && !score.can_tell) continue;
+      if (!others_tell && (!score.can_tell || confirmed.contains(score.file))) continue;
       const int away = std::max(std::abs(score.best_x), std::abs(score.best_y));
       const bool is_elsewhere = away > kNearPx && score.best > 1.1 * score.here;
       if (!is_elsewhere && score.here >= kMinScore) continue;

@@ -103,7 +103,11 @@ void check_box_is_tight(const Shot& shot, const Person& person, Findings& findin
   const Eigen::Matrix<double, 3, 8> corners =
       shot.image.camera_matrix * corners_in_camera(shot.image, person);
   if (!(corners.row(2).minCoeff() > 0.5)) return;
-  const Eigen::Matrix<double, 2, 8> seen = corners.colwise().hnormalized().array() + 0.5;
+  Eigen::Matrix<double, 2, 8> seen;
+  for (int i = 0; i < 8; ++i) {
+    seen.col(i) =
+        in_amodal_limit(shot.image, Eigen::Vector3d(corners.col(i)).hnormalized().array() + 0.5);
+  }
   const Box& box = person.amodal;
   // The box is that of a coarser mesh than the drawn one.
   const double focal_px = shot.image.camera_matrix(0, 0);

@@ -5,6 +5,7 @@
 // people, label and picture agree.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -17,6 +18,7 @@ namespace throng::formats {
 namespace {
 
 constexpr std::uint16_t kTorso = 2;
+constexpr std::uint16_t kCarriedItem = 9;
 
 double linear(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
@@ -43,6 +45,62 @@ std::optional<Eigen::Vector3d> color_of(const nlohmann::json& track) {
   return rgb;
 }
 
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Somebody's top: chroma of the label and of the picture.
+struct Top {
+  std::int64_t track;
+  Eigen::Vector2d label;
+  Eigen::Vector2d picture;
+};
+
+/// Pictures show the colors of labels less saturated, by one factor for all people of a run, and in
+/// one light: nobody's is far from that. Fitted by medians, so that one wrong label does not spoil
+/// it.
+void check_single_tops(std::vector<Top> tops, const std::string& run, Findings& findings) {
+  constexpr std::size_t kMinPeople = 12;
+  if (tops.size() < kMinPeople) return;
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<double> labels;
+    std::vector<double> pictures;
+    for (const Top& top : tops) {
+      labels.push_back(top.label[axis]);
+      pictures.push_back(top.picture[axis]);
+    }
+    const double label = middle_of(std::move(labels));
+    const double picture = middle_of(std::move(pictures));
+    for (Top& top : tops) {
+      top.label[axis] -= label;
+      top.picture[axis] -= picture;
+    }
+  }
+  std::vector<double> slopes;
+  constexpr double kColorful = 0.5;
+  for (const Top& top : tops) {
+    if (top.label.norm() < kColorful) continue;
+    slopes.push_back(top.picture.dot(top.label) / top.label.squaredNorm());
+  }
+  constexpr std::size_t kMinColorful = 4;
+  if (slopes.size() < kMinColorful) return;
+  const double slope = middle_of(std::move(slopes));
+  constexpr double kMinSlope = 0.25;  // by night and in fog colors say little
+  if (slope < kMinSlope) return;
+  for (const Top& top : tops) {
+    const double off = (top.picture - slope * top.label).norm();
+    constexpr double kMaxOff = 1.2;  // sound runs of 12 kinds: up to 0.8
+    if (off <= kMaxOff) continue;
+    findings.add(
+        "colors-are-clothes", kCocoFile, fmt::format("track {}", top.track),
+        fmt::format("top_colour is not that of the torso in the pictures of {}: {:.1f} off "
+                    "in redness and blueness (natural logarithms)",
+                    run, off));
+  }
+}
+
 const std::array<double, 256>& linear_table() {
   static const std::array<double, 256> table = [] {
     std::array<double, 256> values{};
@@ -62,9 +120,18 @@ void ClothesCheck::add(const Shot& shot) {
   std::map<std::uint32_t, const Person*> people;
   for (const Person& person : shot.image.people) people[instance_of(person)] = &person;
   for (std::size_t i = 0; i < pixels.parts.size(); ++i) {
-    if (pixels.parts[i] != kTorso) continue;
+    if (pixels.parts[i] != kTorso && pixels.parts[i] != kCarriedItem) continue;
     const auto person = people.find(pixels.ids[i]);
     if (person == people.end()) continue;
+    if (pixels.parts[i] == kCarriedItem) {
+      ++carried_[person->second->track_id];
+      const auto attributes = person->second->track->find("attributes");
+      if (attributes != person->second->track->end() &&
+          attributes->value("carries", "") == "nothing") {
+        without_item_.insert(person->second->track_id);
+      }
+      continue;
+    }
     Shirt& shirt = runs_[shot.image.run][person->second->track_id];
     if (shirt.pixels++ == 0) shirt.label = color_of(*person->second->track);
     for (int c = 0; c < 3; ++c) {
@@ -74,18 +141,29 @@ void ClothesCheck::add(const Shot& shot) {
 }
 
 void ClothesCheck::finish(Findings& findings) const {
+  for (const std::int64_t track : without_item_) {
+    findings.add("attributes", kCocoFile, fmt::format("track {}", track),
+                 fmt::format("carries nothing, but parts/ has {} pixels of a carried item",
+                             carried_.at(track)));
+  }
   for (const auto& [run, shirts] : runs_) {
     std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pairs;  // label, picture
     Eigen::Vector2d mean_label = Eigen::Vector2d::Zero();
     Eigen::Vector2d mean_picture = Eigen::Vector2d::Zero();
     constexpr std::size_t kMinPixels = 60;
+    constexpr std::size_t kManyPixels = 150;
+    std::vector<Top> tops;
     for (const auto& [track, shirt] : shirts) {
       if (shirt.pixels < kMinPixels || !shirt.label) continue;
       pairs.emplace_back(chroma_of(*shirt.label),
                          chroma_of(shirt.sum / static_cast<double>(shirt.pixels)));
+      if (shirt.pixels >= kManyPixels) {
+        tops.push_back({track, pairs.back().first, pairs.back().second});
+      }
       mean_label += pairs.back().first;
       mean_picture += pairs.back().second;
     }
+    check_single_tops(std::move(tops), run, findings);
     constexpr std::size_t kMinPeople = 15;
     if (pairs.size() < kMinPeople) continue;
     const auto count = static_cast<double>(pairs.size());

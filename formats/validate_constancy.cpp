@@ -167,8 +167,12 @@ void ConstancyCheck::check_person(const Person& person, Findings& findings) {
   }
 }
 
-void ConstancyCheck::check_track(const Person& person, Findings& findings) {
+void ConstancyCheck::check_track(const Image& image, const Person& person, Findings& findings) {
   if (!tracks_.insert(person.track_id).second) return;
+  if (person.track->value("run", image.run) != image.run) {
+    findings.add("ids", kCocoFile, fmt::format("track {}", person.track_id),
+                 "its run is not that of its images");
+  }
   const auto attributes = person.track->find("attributes");
   if (attributes == person.track->end()) return;
   const auto fault = [&](const std::string& what) {
@@ -210,7 +214,7 @@ void ConstancyCheck::add(const DatasetInfo& /*info*/, const Image& image, Findin
   check_camera(image, findings);
   for (const Person& person : image.people) {
     check_person(person, findings);
-    check_track(person, findings);
+    check_track(image, person, findings);
     tracks_of_run_[image.run].insert(person.track_id);
   }
 }

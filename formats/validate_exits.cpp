@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <numbers>
 #include <optional>
 
+#include "annotate/coco.h"
 #include "base/error.h"
+#include "base/files.h"
+#include "base/json_text.h"
 #include "formats/image_camera.h"
 #include "formats/run_checks.h"
 #include "geometry/polygon.h"
@@ -18,40 +23,67 @@ using nlohmann::json;
 
 namespace {
 
-/// Position of a point of the picture on the ground.
-std::optional<Vector2d> on_ground(const camera::Camera& camera, const json& point) {
-  const Vector2d pixel(point.at(0).get<double>() - 0.5, point.at(1).get<double>() - 0.5);
-  const Vector3d at = camera.unproject(pixel, 1);
+/// Position of a point of the image, in box coordinates, on the ground.
+std::optional<Vector2d> on_ground(const camera::Camera& camera, const Vector2d& point) {
+  const Vector3d at = camera.unproject(point.array() - 0.5, 1);
   const Vector3d center = camera.pose.center();
   const double down = center.z() - at.z();
   if (!at.allFinite() || !(down > 1e-6)) return std::nullopt;
   return Vector2d((center + (at - center) * (center.z() / down)).head<2>());
 }
 
-std::vector<Vector2d> polygon_on_ground(const camera::Camera& camera, const json& polygon) {
-  std::vector<Vector2d> corners;
-  for (const json& point : polygon) {
-    const auto corner = on_ground(camera, point);
-    if (!corner) return {};
-    corners.push_back(*corner);
-  }
-  return corners;
-}
-
-/// Whether every corner of the polygon is where the place's is seen.
-double max_corner_distance_px(const camera::Camera& camera, const std::vector<Vector2d>& place,
-                              const json& polygon) {
-  double off_px = 0;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    const auto seen = camera.project({place[i].x(), place[i].y(), 0});
-    if (!seen.visible) return 0;
-    const Vector2d at(polygon.at(i).at(0).get<double>(), polygon.at(i).at(1).get<double>());
-    off_px = std::max(off_px, (at - Vector2d(seen.pixel.array() + 0.5)).norm());
-  }
-  return off_px;
+Vector2d point_at(const json& point) {
+  return {point.at(0).get<double>(), point.at(1).get<double>()};
 }
 
 }  // namespace
+
+/// Empty where the ground is nowhere near, or the polygon is cut off by the camera's plane or the
+/// end of its lens.
+ExitsCheck::Outline ExitsCheck::outline_of(const camera::Camera& camera, const json& polygon) {
+  Outline outline;
+  for (const json& written : polygon) {
+    const Vector2d point = point_at(written);
+    const auto corner = on_ground(camera, point);
+    if (!corner) return {};
+    constexpr double kCutM = 0.2;  // the polygon is cut off at 0.1 m
+    if (!(camera.project({corner->x(), corner->y(), 0}).depth_m > kCutM)) return {};
+    std::array<Vector2d, 4> rounding;
+    constexpr double kRoundingPx = 0.01;  // twice, so that it leaves the lens where that cuts
+    for (std::size_t i = 0; i < rounding.size(); ++i) {
+      const Vector2d off((i & 1U) != 0 ? kRoundingPx : -kRoundingPx,
+                         (i & 2U) != 0 ? kRoundingPx : -kRoundingPx);
+      const auto moved = on_ground(camera, point + off);
+      if (!moved) return {};
+      rounding.at(i) = *moved;
+      outline.rounding_m = std::max(outline.rounding_m, (*moved - *corner).norm());
+    }
+    outline.corners.push_back(*corner);
+    outline.rounding.push_back(rounding);
+  }
+  return outline;
+}
+
+/// How far a corner of the polygon is, at most, from where the place's is seen, less what the
+/// rounding of that explains.
+double ExitsCheck::max_corner_distance_px(const camera::Camera& camera, const Outline& place,
+                                          const json& polygon) {
+  const auto seen_at = [&](const Vector2d& at) { return camera.project({at.x(), at.y(), 0}); };
+  double off_px = 0;
+  for (std::size_t i = 0; i < place.corners.size(); ++i) {
+    const auto seen = seen_at(place.corners[i]);
+    if (!seen.visible) return 0;
+    double rounding_px = 0;
+    for (const Vector2d& moved : place.rounding[i]) {
+      const auto other = seen_at(moved);
+      if (!other.visible) return 0;
+      rounding_px = std::max(rounding_px, (other.pixel - seen.pixel).norm());
+    }
+    const Vector2d here = seen.pixel.array() + 0.5;
+    off_px = std::max(off_px, (point_at(polygon.at(i)) - here).norm() - rounding_px);
+  }
+  return off_px;
+}
 
 ExitsCheck::Run& ExitsCheck::read(const DatasetInfo& info, const std::string& name,
                                   Findings& findings) {
@@ -75,8 +107,14 @@ ExitsCheck::Run& ExitsCheck::read(const DatasetInfo& info, const std::string& na
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const std::vector<std::string>& cells = table.rows[i];
     ExitRow row{i + 2, {}, cells[state], cells[offline]};
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      row.value[table.columns[c]] = number_of(cells[c]);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const double value = number_of(cells[c]);
+      if (c != exit && c != state && c != offline && !std::isfinite(value)) {
+        findings.add("exits", file, fmt::format("line {}", i + 2),
+                     fmt::format("{} is no number: {}", table.columns[c], cells[c]));
+      }
+      row.value[table.columns[c]] = value;
+    }
     const auto number = static_cast<std::int64_t>(number_of(cells[frame]));
     if (!run.exits.contains(cells[exit])) run.order.push_back(cells[exit]);
     const double time_s = info.from_s + static_cast<double>(number) / info.rate_hz;
@@ -142,42 +180,63 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
   for (const char* key : {"door", "zone"}) {
     const json& polygon = exit.at(key);
     if (polygon.empty()) continue;
-    std::vector<Vector2d>& known = key[0] == 'd' ? place.door : place.zone;
-    if (known.empty()) {
-      known = polygon_on_ground(camera, polygon);
-      continue;
-    }
-    if (known.size() != polygon.size()) continue;  // cut off by the camera's plane
-    const double off_px = max_corner_distance_px(camera, known, polygon);
-    // Corners are written to 0.01 px, and read from a picture that may be farther away.
+    Outline& known = key[0] == 'd' ? place.door : place.zone;
+    Outline outline = outline_of(camera, polygon);
+    if (outline.corners.empty()) continue;
+    const bool is_new = known.corners.empty();
+    const double off_px = is_new || known.corners.size() != polygon.size()
+                              ? 0
+                              : max_corner_distance_px(camera, known, polygon);
+    if (is_new || outline.rounding_m < known.rounding_m) known = std::move(outline);
+    // Of the lens, which is inverted numerically.
     constexpr double kSlackPx = 0.5;
     if (off_px <= kSlackPx) continue;
     findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
                  fmt::format("{} of {} is {:.1f} px from where other pictures have it", key,
                              exit.at("id").get<std::string>(), off_px));
   }
-  if (place.door.size() < 4 || place.zone.size() < 3) return;
+  const std::vector<Vector2d>& door = place.door.corners;
+  const std::vector<Vector2d>& zone = place.zone.corners;
+  if (door.size() < 4 || zone.size() < 3) return;
+  // The door is a strip 0.5 m deep.
+  double twice_area_m2 = 0;
+  double max_length_m = 0;
+  for (std::size_t i = 0; i < door.size(); ++i) {
+    const Vector2d& next = door[(i + 1) % door.size()];
+    twice_area_m2 += door[i].x() * next.y() - door[i].y() * next.x();
+    for (const Vector2d& other : door)
+      max_length_m = std::max(max_length_m, (door[i] - other).norm());
+  }
+  const double deep_m = std::abs(twice_area_m2) / 2 / std::max(max_length_m, 0.1);
+  constexpr double kDeepestM = 0.75;
+  if (deep_m > kDeepestM + 2 * place.door.rounding_m) {
+    findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
+                 fmt::format("the door of {} is {:.1f} m long and {:.1f} m deep, expected 0.5 m",
+                             exit.at("id").get<std::string>(), max_length_m, deep_m));
+    return;
+  }
   // The zone is a half disc about the middle of the door.
   const double zone_m = [&] {
     double max_value = 0;
-    for (const Vector2d& a : place.zone) {
-      for (const Vector2d& b : place.zone) max_value = std::max(max_value, (a - b).norm());
+    for (const Vector2d& a : zone) {
+      for (const Vector2d& b : zone) max_value = std::max(max_value, (a - b).norm());
     }
     return max_value;
   }();
   double door_m = 0;
-  for (const Vector2d& a : place.door) {
-    for (const Vector2d& b : place.door) door_m = std::max(door_m, (a - b).norm());
+  for (const Vector2d& a : door) {
+    for (const Vector2d& b : door) door_m = std::max(door_m, (a - b).norm());
   }
   constexpr double kDoorDepthM = 0.5;
   const double width_m = std::sqrt(std::max(0.0, door_m * door_m - kDoorDepthM * kDoorDepthM));
   const double expected_m = 2 * (std::max(width_m, 2.0) + 1);
   Vector2d door_middle = Vector2d::Zero();
-  for (const Vector2d& a : place.door) door_middle += a / static_cast<double>(place.door.size());
+  for (const Vector2d& a : door) door_middle += a / static_cast<double>(door.size());
   double reach_m = 0;
-  for (const Vector2d& a : place.zone) reach_m = std::max(reach_m, (a - door_middle).norm());
+  for (const Vector2d& a : zone) reach_m = std::max(reach_m, (a - door_middle).norm());
   // Cut off by the camera's plane, they are smaller.
-  const double slack_m = 0.25 + 0.05 * expected_m;
+  const double slack_m =
+      0.25 + 0.05 * expected_m + 2 * (place.door.rounding_m + place.zone.rounding_m);
   if (zone_m > expected_m + slack_m || reach_m > 0.5 * expected_m + 0.5 + slack_m) {
     findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
                  fmt::format("the zone of {} is {:.1f} m wide and reaches {:.1f} m from the door's "
@@ -197,18 +256,19 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
       findings.add("exits", person, "exit is none of the scenario's: " + id);
       continue;
     }
+    run.wanted[person.track_id] = id;
     const auto place = places_.find(id);
-    if (place == places_.end() || place->second.zone.empty()) continue;
+    if (place == places_.end() || place->second.zone.corners.empty()) continue;
     if (!counted.insert(person.track_id).second) continue;
     // Well inside: the table is of the last crowd step before the frame.
-    const std::vector<Vector2d>& zone = place->second.zone;
+    const std::vector<Vector2d>& zone = place->second.zone.corners;
     bool is_inside = true;
     for (std::size_t i = 0; i < zone.size(); ++i) {
       const Vector2d side = zone[(i + 1) % zone.size()] - zone[i];
       const Vector2d to = person.position.head<2>() - zone[i];
       if (side.norm() < 1e-6) continue;
-      constexpr double kMarginM = 0.4;
-      is_inside = is_inside && geometry::cross(side, to) / side.norm() > kMarginM;
+      const double margin_m = 0.4 + place->second.zone.rounding_m;
+      is_inside = is_inside && geometry::cross(side, to) / side.norm() > margin_m;
     }
     if (!is_inside) continue;
     const int found = ++run.in_zone[image.frame][id];
@@ -236,6 +296,36 @@ void ExitsCheck::add(const DatasetInfo& info, const Image& image, Findings& find
                  fmt::format("{} exits, but {} has {}", exits->size(), file, run.order.size()));
   }
   count_people(file, image, run, findings);
+}
+
+void ExitsCheck::finish(const DatasetInfo& info, Findings& findings) {
+  for (const auto& [name, run] : runs_) {
+    const std::filesystem::path file = info.root / "metrics" / (name + ".json");
+    if (run.wanted.empty() || !std::filesystem::is_regular_file(file)) continue;
+    const json figures = parse_json_or_discard(read_file(file), kOwnJsonLimits);
+    if (!figures.is_object()) continue;  // check_metrics says so
+    const json people = figures.value("by_person", json::object());
+    const json agents = people.value("agent", json::array());
+    const json used = people.value("exit", json::array());
+    int left = 0;
+    int as_wanted = 0;
+    for (std::size_t i = 0; i < std::min(agents.size(), used.size()); ++i) {
+      if (!used[i].is_string()) continue;
+      const std::int64_t number = agents[i].get<std::int64_t>() + 1;
+      const auto wanted = std::find_if(
+          run.wanted.begin(), run.wanted.end(),
+          [&](const auto& entry) { return entry.first % annotate::kTrackIdsPerRun == number; });
+      if (wanted == run.wanted.end()) continue;
+      ++left;
+      as_wanted += used[i] == wanted->second ? 1 : 0;
+    }
+    constexpr int kMinLeft = 12;
+    constexpr double kMinShare = 0.4;  // plans change
+    if (left < kMinLeft || as_wanted >= kMinShare * left) continue;
+    findings.add(
+        "exits", kCocoFile, name,
+        fmt::format("{} of {} people go out by the exit that their records say", as_wanted, left));
+  }
 }
 
 }  // namespace throng::formats

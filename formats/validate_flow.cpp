@@ -167,7 +167,9 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
   const Eigen::Vector2d moved(box.x + box.width / 2 - then.amodal.x - then.amodal.width / 2,
                               box.y + box.height / 2 - then.amodal.y - then.amodal.height / 2);
   if (static_cast<double>(led.known) < 0.9 * static_cast<double>(led.pixels)) {
-    if (moved.cwiseAbs().maxCoeff() < 0.8 * kFlowReachPx) {
+    const bool is_cut =
+        reaches_amodal_limit(before.image, then.amodal) || reaches_amodal_limit(after.image, box);
+    if (!is_cut && moved.cwiseAbs().maxCoeff() < 0.8 * kFlowReachPx) {
       findings.add("flow-leads-to-boxes", file, record,
                    fmt::format("flow of {} of {} pixels is unknown, but the person is in the next "
                                "frame",
@@ -175,9 +177,10 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
     }
     return;
   }
-  if (led.left < box.x - kFlowSlackPx || led.top < box.y - kFlowSlackPx ||
-      led.right > box.x + box.width + kFlowSlackPx ||
-      led.bottom > box.y + box.height + kFlowSlackPx) {
+  const Eigen::Vector2d first = in_amodal_limit(after.image, {led.left, led.top});
+  const Eigen::Vector2d last = in_amodal_limit(after.image, {led.right, led.bottom});
+  if (first.x() < box.x - kFlowSlackPx || first.y() < box.y - kFlowSlackPx ||
+      last.x() > box.x + box.width + kFlowSlackPx || last.y() > box.y + box.height + kFlowSlackPx) {
     findings.add("flow-leads-to-boxes", file, record,
                  fmt::format("flow leads to [{:.1f}, {:.1f}] x [{:.1f}, {:.1f}], out of its "
                              "bbox_amodal in the next frame",
@@ -210,11 +213,55 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
 
 }  // namespace
 
+namespace {
+
+double median_of_axis(std::vector<Eigen::Vector2d> values, int axis) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end(),
+                   [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+  return (*middle)[axis];
+}
+
+/// Flow where keypoints are seen is the motion of these, on the average over an image's people: a
+/// joint is inside of the limb whose surface flows, so that one alone differs by some of its
+/// motion.
+void check_keypoint_flow(const Shot& before, const Shot& after, Findings& findings) {
+  const Pixels& pixels = before.pixels;
+  std::vector<Eigen::Vector2d> off;
+  for (const Person& then : before.image.people) {
+    const Person* now = after.find(then.track_id);
+    if (now == nullptr || now->keypoints.size() != then.keypoints.size()) continue;
+    for (std::size_t i = 0; i < then.keypoints.size(); ++i) {
+      const Keypoint& a = then.keypoints[i];
+      const Keypoint& b = now->keypoints[i];
+      const int x = static_cast<int>(a.x);
+      const int y = static_cast<int>(a.y);
+      if (a.visibility != 2 || b.visibility == 0 || !pixels.holds(x, y)) continue;
+      const auto flow = flow_at(pixels, pixels.at(x, y));
+      if (flow) off.emplace_back(*flow - Eigen::Vector2d(b.x - a.x, b.y - a.y));
+    }
+  }
+  constexpr std::size_t kMinCount = 30;
+  if (off.size() < kMinCount) return;
+  const Eigen::Vector2d median(median_of_axis(off, 0), median_of_axis(off, 1));
+  for (Eigen::Vector2d& value : off) value = (value - median).cwiseAbs();
+  const Eigen::Vector2d spread(median_of_axis(off, 0), median_of_axis(off, 1));
+  constexpr double kSlackPx = 0.3;
+  if ((median.cwiseAbs() - 2 * spread).maxCoeff() <= kSlackPx) return;
+  findings.add("flow-of-keypoints", raster_name("flow", before.image), before.record(),
+               fmt::format("flow at {} keypoints is ({:.2f}, {:.2f}) px other than their motion "
+                           "(median)",
+                           off.size(), median.x(), median.y()));
+}
+
+}  // namespace
+
 void check_flow_between(const Shot& before, const Shot& after, Findings& findings) {
   if (before.pixels.flow.empty() || !before.at_once || !after.at_once) return;
   if (!before.pixels.ids.empty() && !before.pixels.depth_cm.empty()) {
     check_still_flow(before, after, findings);
   }
+  check_keypoint_flow(before, after, findings);
   for (const Person& then : before.image.people) {
     const Person* now = after.find(then.track_id);
     if (now != nullptr) check_person_flow(before, after, then, *now, findings);

@@ -113,12 +113,14 @@ void check_who_is_there(const Shot& shot, const Shot& other, Findings& findings)
                                "an annotation nor is among the hidden",
                                person.track_id, at.x(), at.y(), shot.image.id));
     }
+    const Vector2d in_box = in_amodal_limit(other.image, at);
     for (const HiddenPerson& hidden : other.image.hidden) {
       if (hidden.track_id != person.track_id) continue;
       const Box& box = hidden.amodal;
       constexpr double kSlackPx = 1.5;
-      if (at.x() >= box.x - kSlackPx && at.y() >= box.y - kSlackPx &&
-          at.x() <= box.x + box.width + kSlackPx && at.y() <= box.y + box.height + kSlackPx) {
+      if (in_box.x() >= box.x - kSlackPx && in_box.y() >= box.y - kSlackPx &&
+          in_box.x() <= box.x + box.width + kSlackPx &&
+          in_box.y() <= box.y + box.height + kSlackPx) {
         continue;
       }
       findings.add("hidden-box", kCocoFile, other.record(),

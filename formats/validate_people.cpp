@@ -187,17 +187,22 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
 }
 
 /// The upright box holds the body: as seen by the camera, it holds the box in the picture, and its
-/// middle lies in that.
+/// middle lies in that. Of people who reach behind the near plane, the picture's box is that of a
+/// part.
 void check_projection(const Image& image, const Person& person, Findings& findings) {
-  const Eigen::Matrix<double, 3, 8> corners =
-      image.camera_matrix * corners_in_camera(image, person);
-  const Eigen::Vector3d middle = corners.rowwise().mean();
-  if (!(middle.z() > 0) || !holds(person.amodal, middle.x() / middle.z() + 0.5,
-                                  middle.y() / middle.z() + 0.5, kBoxSlackPx)) {
+  const Eigen::Matrix<double, 3, 8> in_camera = corners_in_camera(image, person);
+  if (!(in_camera.row(2).maxCoeff() > kNearPlaneM)) {
+    findings.add("box-3d", person, "box_3d is behind the camera");
+    return;
+  }
+  if (!(in_camera.row(2).minCoeff() > kNearPlaneM)) return;
+  const Eigen::Matrix<double, 3, 8> corners = image.camera_matrix * in_camera;
+  const Eigen::Vector2d middle =
+      in_amodal_limit(image, Eigen::Vector3d(corners.rowwise().mean()).hnormalized().array() + 0.5);
+  if (!holds(person.amodal, middle.x(), middle.y(), kBoxSlackPx)) {
     findings.add("box-3d", person, "the middle of box_3d does not project into bbox_amodal");
     return;
   }
-  if (!(corners.row(2).minCoeff() > 0)) return;
   const Eigen::Matrix<double, 2, 8> seen = corners.colwise().hnormalized().array() + 0.5;
   const Eigen::Vector2d first = seen.rowwise().minCoeff();
   const Eigen::Vector2d size = seen.rowwise().maxCoeff() - first;
@@ -260,6 +265,14 @@ void check_position(const Person& person, Findings& findings) {
   constexpr double kReachM = 1.6;
   if (!((person.position - person.box_middle).head<2>().norm() <= kReachM)) {
     findings.add("position", person, "position is away from box_3d");
+  }
+  // Bodies stand or lie on the ground; runners leave it by a few centimeters.
+  constexpr double kFlightM = 0.15;
+  const double above_m = person.box_middle.z() - person.box_size.z() / 2 - person.position.z();
+  if (person.track->contains("attributes") && !(std::abs(above_m) <= kFlightM)) {
+    findings.add(
+        "position", person,
+        fmt::format("box_3d begins {:.2f} m above position, which is on the ground", above_m));
   }
 }
 

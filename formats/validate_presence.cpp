@@ -49,8 +49,9 @@ void check_between(const Image& before, const Image& image, const Image& after,
       continue;
     }
     const Box& box = hidden->amodal;
-    if (at.x() < box.x - margin_px || at.y() < box.y - margin_px ||
-        at.x() > box.x + box.width + margin_px || at.y() > box.y + box.height + margin_px) {
+    const Vector2d in_box = in_amodal_limit(image, at);
+    if (in_box.x() < box.x - margin_px || in_box.y() < box.y - margin_px ||
+        in_box.x() > box.x + box.width + margin_px || in_box.y() > box.y + box.height + margin_px) {
       findings.add("hidden-box", kCocoFile, record,
                    fmt::format("bbox_amodal of hidden track {} is away from ({:.0f}, {:.0f}), "
                                "where the frames before and after put them",

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "base/files.h"
+#include "base/json_text.h"
 #include "formats/csv_table.h"
 #include "formats/flight_checks.h"
 #include "formats/json_vectors.h"
@@ -55,10 +58,10 @@ SensorSample sample_of_row(const Row& row) {
           row[kPressure],     row[kHeight],       at(row, kGpsPosition),   at(row, kGpsVelocity)};
 }
 
-/// Names a value of a row that does not follow from the one before; "" if all do.
-std::string break_between(const Row& a, const Row& b) {
+/// Names motion between two rows that does not follow from velocity, force and rates; "" if all
+/// does.
+std::string break_of_motion(const Row& a, const Row& b) {
   const double dt_s = b[kTime] - a[kTime];
-  if (!(dt_s > 0)) return fmt::format("time_s {} after {}", b[kTime], a[kTime]);
   // Forces of the air and of rotors change within a step, and a crash stops a drone at once.
   const Vector3d moved = at(b, kPosition) - at(a, kPosition);
   const Vector3d mean = 0.5 * (at(a, kVelocity) + at(b, kVelocity));
@@ -83,6 +86,16 @@ std::string break_between(const Row& a, const Row& b) {
   if (off_rad_s > 0.1 + (at(a, kRates) - at(b, kRates)).norm()) {
     return fmt::format("turns by {:.3f} rad/s other than true_w says", off_rad_s);
   }
+  return "";
+}
+
+/// Names a value of a row that does not follow from the one before; "" if all do. Motion is not
+/// judged in contact.
+std::string break_between(const Row& a, const Row& b, bool in_contact) {
+  const double dt_s = b[kTime] - a[kTime];
+  if (!(dt_s > 0)) return fmt::format("time_s {} after {}", b[kTime], a[kTime]);
+  const std::string motion = in_contact ? "" : break_of_motion(a, b);
+  if (!motion.empty()) return motion;
   constexpr double kMaxPowerW = 5000;
   const double power_w = (b[kEnergy] - a[kEnergy]) / dt_s;
   if (!(power_w >= -1e-6 && power_w < kMaxPowerW)) {
@@ -100,6 +113,50 @@ std::string break_between(const Row& a, const Row& b) {
     return "air velocity jumps";
   }
   return "";
+}
+
+/// The drone's figures in metrics/RUN.json; an empty object without.
+json figures_of(const DatasetInfo& info, const std::string& run, const std::string& drone) {
+  const std::filesystem::path file = info.root / "metrics" / (run + ".json");
+  if (!std::filesystem::is_regular_file(file)) return json::object();
+  const json figures = parse_json_or_discard(read_file(file), kOwnJsonLimits);
+  if (!figures.is_object()) return json::object();  // check_metrics says so
+  for (const json& figure : figures.value("drones", json::array())) {
+    if (figure.value("id", "") == drone) return figure;
+  }
+  return json::object();
+}
+
+/// Names a figure that is not what the rows, which are those of the whole run, add up to.
+std::string other_figure(const json& figures, const std::vector<Row>& rows) {
+  double flown_m = 0;
+  double fastest_mps = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    fastest_mps = std::max(fastest_mps, at(rows[i], kVelocity).norm());
+    if (i > 0) flown_m += (at(rows[i], kPosition) - at(rows[i - 1], kPosition)).norm();
+  }
+  constexpr double kJoules = 3600;
+  const double energy_wh = rows.back()[kEnergy] / kJoules;
+  struct Figure {
+    const char* key;
+    double expected;
+  };
+  for (const Figure& figure : {Figure{"flown_m", flown_m}, Figure{"fastest_mps", fastest_mps},
+                               Figure{"energy_wh", energy_wh}}) {
+    if (!figures.contains(figure.key) || !figures.at(figure.key).is_number()) continue;
+    const double found = figures.at(figure.key).get<double>();
+    constexpr double kSlack = 1e-3;  // the last row may be a step before the end
+    if (std::abs(found - figure.expected) <= kSlack * (1 + std::abs(figure.expected))) continue;
+    return fmt::format("{} is {} in the run's metrics, but the rows give {:.4f}", figure.key, found,
+                       figure.expected);
+  }
+  return "";
+}
+
+/// Contact lasts less than the time between two rows: velocity jumps, and no row has the force.
+bool is_contact(const Row& a, const Row& b) {
+  constexpr double kJumpMps = 0.1;  // collisions are of 0.3 m/s and more (docs/trace.md)
+  return (at(b, kVelocity) - at(a, kVelocity)).norm() > kJumpMps && !break_of_motion(a, b).empty();
 }
 
 /// The row at or before a time.
@@ -191,8 +248,16 @@ void SensorTableCheck::add(const DatasetInfo& info, const Image& image, Findings
     }
     const double latitude_deg =
         image.record.value("environment", json::object()).value("latitude_deg", 45.0);
+    const json figures = figures_of(info, image.run, image.camera);
+    const bool may_touch = !figures.value("collisions", json::object()).empty();
+    const std::string figure = table.rows.empty() ? "" : other_figure(figures, table.rows);
+    if (!figure.empty()) findings.add("sensors", name, "", figure);
+    bool in_contact = false;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      std::string what = i == 0 ? "" : break_between(table.rows[i - 1], table.rows[i]);
+      // From then on it may lie there or slide.
+      in_contact =
+          in_contact || (may_touch && i > 0 && is_contact(table.rows[i - 1], table.rows[i]));
+      std::string what = i == 0 ? "" : break_between(table.rows[i - 1], table.rows[i], in_contact);
       constexpr double kGpsAgeS = 0.45;
       if (what.empty()) {
         what = implausible_reading(sample_of_row(table.rows[i]), latitude_deg, 0, kGpsAgeS);

@@ -132,6 +132,69 @@ std::optional<double> ground_depth_at(const Shot& shot, int x, int y) {
   return center.z() / down;
 }
 
+/// Whether the wall that a pixel shows ends at the depth of the ground below it; nullopt if the
+/// pixel is not the foot of a wall. A foot is found along the picture's vertical (the image of the
+/// world's, which is not the columns' for steep cameras): ground is next below, and above the same
+/// building at the same place on the ground, as only walls have it. The edges of roofs have ground
+/// beside them, too, but far below.
+std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
+  const Pixels& pixels = shot.pixels;
+  const std::size_t pixel = pixels.at(x, y);
+  const double z = pixels.depth_m(pixel);
+  const Eigen::Vector3d point = shot.camera.unproject({x, y}, z);
+  if (!point.allFinite()) return std::nullopt;
+  constexpr double kUpShare = 0.02;  // of the distance: some pixels
+  const auto seen = shot.camera.project(point + Eigen::Vector3d(0, 0, kUpShare * std::max(z, 1.0)));
+  const Eigen::Vector2d up = seen.pixel - Eigen::Vector2d(x, y);
+  if (!seen.visible || !(up.norm() > 0.5)) return std::nullopt;  // looks straight down the wall
+  const auto neighbor = [&](double steps) {
+    const Eigen::Vector2d at = Eigen::Vector2d(x, y) + steps * up.normalized();
+    return Eigen::Vector2i(static_cast<int>(std::lround(at.x())),
+                           static_cast<int>(std::lround(at.y())));
+  };
+  const Eigen::Vector2i below = neighbor(-1);
+  const Eigen::Vector2i above = neighbor(2);
+  if (!pixels.holds(below.x(), below.y()) || !pixels.holds(above.x(), above.y())) {
+    return std::nullopt;
+  }
+  const std::size_t higher = pixels.at(above.x(), above.y());
+  if (pixels.ids[pixels.at(below.x(), below.y())] != kGround ||
+      pixels.ids[higher] != pixels.ids[pixel] || pixels.depth_cm[higher] == 0) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d step =
+      shot.camera.unproject(above.cast<double>(), pixels.depth_m(higher)) - point;
+  constexpr double kUpright = 2;
+  if (!(step.z() > kUpright * step.head<2>().norm())) return std::nullopt;
+  const std::optional<double> ground = ground_depth_at(shot, x, y);
+  const std::optional<double> nearer = ground_depth_at(shot, below.x(), below.y());
+  if (!ground || !nearer) return std::nullopt;
+  // The foot is somewhere between two pixels, of the ground and of the wall.
+  const double per_pixel_m =
+      std::max(std::abs(*ground - *nearer), 0.5 * std::abs(pixels.depth_m(higher) - z));
+  return std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * per_pixel_m;
+}
+
+/// Of an sRGB pixel, in linear light.
+double luminance(const std::uint8_t* rgb) {
+  constexpr double kGamma = 2.2;
+  const auto linear = [](std::uint8_t value) { return std::pow(value / 255.0, kGamma); };
+  return 0.2126 * linear(rgb[0]) + 0.7152 * linear(rgb[1]) + 0.0722 * linear(rgb[2]);
+}
+
+double median_light(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Equal exposure, and no vignette that makes it a matter of the place.
+bool have_one_exposure(const Image& a, const Image& b) {
+  const nlohmann::json one = a.record.value("sensor", nlohmann::json::object());
+  const nlohmann::json two = b.record.value("sensor", nlohmann::json::object());
+  return one.value("ev", 0.0) == two.value("ev", 0.0) && one.value("vignette", 0.0) == 0;
+}
+
 /// Colors of the same still points in consecutive pictures of one camera.
 void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   const Pixels& pixels = before.pixels;
@@ -141,6 +204,8 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   double both = 0;
   double then = 0;
   double now = 0;
+  std::vector<double> light_then;
+  std::vector<double> light_now;
   std::size_t count = 0;
   for (int y = 1; y + 1 < pixels.height; y += step) {
     for (int x = 1 + y % step; x + 1 < pixels.width; x += step) {
@@ -159,6 +224,8 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
       const std::uint8_t* b = &after.pixels.rgb[3 * after.pixels.at(u, v)];
       const double warm_a = static_cast<double>(a[0]) - a[2];
       const double warm_b = static_cast<double>(b[0]) - b[2];
+      light_then.push_back(luminance(a));
+      light_now.push_back(luminance(b));
       both += warm_a * warm_b;
       then += warm_a * warm_a;
       now += warm_b * warm_b;
@@ -167,6 +234,16 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   }
   constexpr std::size_t kMinCount = 200;
   if (count < kMinCount) return;
+  if (have_one_exposure(before.image, after.image)) {
+    const double ratio = median_light(light_now) / std::max(1e-4, median_light(light_then));
+    // Light and exposure are a run's; a gentle vignette passes.
+    constexpr double kMaxRatio = 1.35;
+    if (ratio > kMaxRatio || ratio < 1 / kMaxRatio) {
+      findings.add(
+          "picture-brightness", after.image.file, after.record(),
+          fmt::format("still points are {:.2f} times as bright as in the picture before", ratio));
+    }
+  }
   const auto number = static_cast<double>(count);
   const double strength = std::sqrt(std::max(then, now) / number);
   const double weakness = std::sqrt(std::min(then, now) / number);
@@ -205,21 +282,17 @@ void check_buildings(const Shot& shot, Findings& findings) {
       const std::size_t pixel = pixels.at(x, y);
       const std::uint32_t id = pixels.ids[pixel];
       if (!is_building(id) || pixels.depth_cm[pixel] == 0) continue;
-      const double z = pixels.depth_m(pixel);
       if (x % kStep == 0 && y % kStep == 0) {
+        const double z = pixels.depth_m(pixel);
         const Eigen::Vector3d point = shot.camera.unproject({x, y}, z);
         Foot& foot = feet[id];
         ++foot.points;
         if (point.z() < -0.05 - 0.004 * z) ++foot.below;
       }
-      // Ground right below in the picture and nearer: the wall stands there.
-      if (pixels.ids[pixels.at(x, y + 1)] != kGround) continue;
-      const std::optional<double> ground = ground_depth_at(shot, x, y);
-      const std::optional<double> nearer = ground_depth_at(shot, x, y + 1);
-      if (!ground || !nearer || !(*nearer < *ground)) continue;
-      Foot& foot = feet[id];
-      ++foot.looked_at;
-      if (std::abs(z - *ground) <= 0.03 + 0.003 * z + 1.5 * (*ground - *nearer)) ++foot.touching;
+      if (const std::optional<bool> touches = wall_touches_ground(shot, x, y)) {
+        ++feet[id].looked_at;
+        if (*touches) ++feet[id].touching;
+      }
     }
   }
   constexpr std::size_t kMinCount = 40;
@@ -233,7 +306,7 @@ void check_buildings(const Shot& shot, Findings& findings) {
                                foot.points, name_of_still(id)));
     }
   }
-  // Some buildings hang over the ground; all of them never do.
+  // Doorways and steps have other feet; most of a picture's walls do not.
   if (all.looked_at >= kMinCount &&
       static_cast<double>(all.touching) < 0.25 * static_cast<double>(all.looked_at)) {
     findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),

@@ -70,15 +70,27 @@ Body ball(const Vector3d& radii, double stretch, const Isometry3d& pose) {
   return body;
 }
 
+/// Turns the plane z = 0, in which sizes are given, so that it has this normal: about y by half a
+/// turn for the opposite one, as Gazebo does.
+Eigen::Quaterniond turn_to(const Vector3d& normal) {
+  constexpr double kOpposite = -1 + 1e-9;
+  if (normal.normalized().z() < kOpposite) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitY()));
+  }
+  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal);
+}
+
 Body plane(const sdf::Plane& plane, const Isometry3d& pose) {
-  const Vector3d up = pose.linear() * vector_of(plane.Normal());
+  const Vector3d normal = vector_of(plane.Normal());
+  const Vector3d up = pose.linear() * normal;
+  const Eigen::Quaterniond turn = turn_to(normal);
   if (!(up.z() > 0.99)) reject("a plane that is not level", "a level plane");
   const double half_x = 0.5 * size_within(plane.Size().X());
   const double half_y = 0.5 * size_within(plane.Size().Y());
   Body body;
   Corners corners;
   for (const Vector2d& corner : corners_of({{-half_x, -half_y}, {half_x, half_y}})) {
-    corners.emplace_back((pose * Vector3d(corner.x(), corner.y(), 0)).head<2>());
+    corners.emplace_back((pose * (turn * Vector3d(corner.x(), corner.y(), 0))).head<2>());
   }
   if (auto tidy = tidied({corners, {}})) body.footprint = tidy->outline;
   body.from_z = body.to_z = pose.translation().z();

@@ -232,7 +232,7 @@ void SdfReader::add_seen(Body body, const Vector3d* rgb, Thing& thing) {
 
 void SdfReader::add_in_the_way(const Body& body) {
   if (body.footprint) {
-    if (body.from_z >= kHeadM || body.to_z <= kStepM) return;
+    if (is_overhead(body.from_z) || is_step(body.to_z)) return;
     reach(*body.footprint);
     place_.obstacles.push_back(*body.footprint);
     return;

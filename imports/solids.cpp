@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "geometry/polygon.h"
@@ -168,11 +169,19 @@ void move(Triangles& triangles, const Eigen::Isometry3d& pose) {
 }
 
 std::vector<Corners> shadow_of(const Triangles& triangles) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Triangle& triangle : triangles) {
+    for (const Vector3d& corner : triangle) lowest = std::min(lowest, corner.z());
+  }
+  if (is_overhead(lowest)) return {};
   std::vector<std::vector<Vector3d>> slices;
   for (const Triangle& triangle : triangles) {
     const std::vector<Vector3d> whole(triangle.begin(), triangle.end());
     std::vector<Vector3d> slice = cut(cut(whole, kStepM, 1), kHeadM, -1);
-    if (slice.size() >= 2) slices.push_back(std::move(slice));
+    // The top of a step is at kStepM at the most; the rest of it was cut off.
+    const bool is_above =
+        std::any_of(slice.begin(), slice.end(), [](const Vector3d& p) { return !is_step(p.z()); });
+    if (slice.size() >= 2 && is_above) slices.push_back(std::move(slice));
   }
   if (slices.empty()) return {};
   Vector2d low = slices.front().front().head<2>();

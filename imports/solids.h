@@ -27,6 +27,10 @@ void move(Triangles& triangles, const Eigen::Isometry3d& pose);
 /// Bodies between these heights are obstacles for people who walk.
 inline constexpr double kStepM = 0.2;
 inline constexpr double kHeadM = 2;
+/// Whether what ends, or begins, at a height is in nobody's way: at exactly these heights it is
+/// not, within a micrometer, which sums of poses and sizes are off.
+inline bool is_step(double top_z) { return top_z <= kStepM + 1e-6; }
+inline bool is_overhead(double bottom_z) { return bottom_z >= kHeadM - 1e-6; }
 
 /// The ground below what of the triangles is between kStepM and kHeadM, as rectangles of whole
 /// cells of 0.25 m that do not overlap; coarser cells for what is larger than 250 m.

@@ -62,6 +62,12 @@ json horizons_json(const std::vector<RunMetrics::Horizon>& horizons) {
   return result;
 }
 
+/// The model whose doors' capacities bound the run: the one that made it, of older traces the one
+/// that the scenario names.
+std::string model_of_run(const world::Trace& trace, const world::Scenario& scenario) {
+  return trace.header.crowd.model.empty() ? scenario.crowd_model : trace.header.crowd.model;
+}
+
 }  // namespace
 
 RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenario,
@@ -70,6 +76,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   RunMetrics metrics;
   metrics.persons = person_records(trace, scenario, alarm);
   const std::vector<PersonRecord>& people = metrics.persons;
+  metrics.crowd_model = trace.header.crowd.model;
   metrics.people = static_cast<int>(people.size());
   metrics.duration_s = trace.duration_s();
   metrics.alarm_s = alarm.at_s;
@@ -93,9 +100,9 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
   if (!people.empty()) {
     const std::vector<WalkingDistance> distances = walking_distances(scenario);
     metrics.journeys = journeys(trace, scenario, exits, people, distances);
-    metrics.lower_bound =
-        lower_bound(scenario, people, alarm, metrics.duration_s,
-                    {scenario.crowd_model, max_radius_m(trace.header), Knowledge::as_noticed});
+    metrics.lower_bound = lower_bound(
+        scenario, people, alarm, metrics.duration_s,
+        {model_of_run(trace, scenario), max_radius_m(trace.header), Knowledge::as_noticed});
     metrics.reference = reference_time(scenario, people, alarm, metrics.duration_s,
                                        Knowledge::as_noticed, distances);
     metrics.remaining = remaining_of(trace, scenario, people, distances);
@@ -118,6 +125,7 @@ json to_json(const RunMetrics& metrics) {
   json drones = json::array();
   for (const DroneFigures& drone : metrics.drones) drones.push_back(to_json(drone));
   return {{"definitions_version", kDefinitionsVersion},
+          {"crowd_model", metrics.crowd_model.empty() ? json(nullptr) : json(metrics.crowd_model)},
           {"people", metrics.people},
           {"left_before_alarm", metrics.escapes.left_before_alarm},
           {"alarm_s", seconds_or_null(metrics.alarm_s)},

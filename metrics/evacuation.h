@@ -45,6 +45,7 @@ struct RunMetrics {
     std::optional<double> restricted_mean_s;
   };
   std::vector<Horizon> horizons;
+  std::string crowd_model;        ///< of the trace (world::CrowdOrigin); empty: not known
   double mean_escape_time_s = 0;  ///< of `escapes`, censored at the end of the run
   int not_escaped = 0;            ///< still inside at the end, unhurt
   int casualties = 0;             ///< lie there at the end in a state for that (world::TraceHeader)
@@ -71,7 +72,7 @@ RunMetrics run_metrics(const world::Trace& trace, const world::Scenario& scenari
                        const std::optional<Alarm>& alarm = {});
 
 /// Raised whenever the meaning of a value in metrics.json or exits.csv changes (docs/metrics.md).
-inline constexpr int kDefinitionsVersion = 7;
+inline constexpr int kDefinitionsVersion = 8;
 
 /// metrics.json: every value with its unit in its name, and the version of the definitions.
 nlohmann::json to_json(const RunMetrics& metrics);

@@ -154,7 +154,8 @@ void scatter_over(const JsonValue& item, const Scenario& scenario, std::vector<P
     const bool close = std::any_of(props.begin(), props.end(), [&](const Prop& other) {
       return (other.position - prop.position).norm() < apart_m;
     });
-    if (close || geometry::distance_to(area, prop.position) > 0 || refusal_of(prop, scenario)) continue;
+    if (close || geometry::distance_to(area, prop.position) > 0 || refusal_of(prop, scenario))
+      continue;
     props.push_back(prop);
     ++placed;
   }

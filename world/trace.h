@@ -36,12 +36,29 @@ inline constexpr std::uint8_t kFollowing = 8;
 /// contains one of the words in docs/trace.md, in upper or lower case.
 bool implies_lying(std::string_view state_name);
 
+/// Model and settings that moved a run's people, as far as they decide how people walk; words are
+/// those of a job's `crowd` (docs/job.md).
+struct CrowdOrigin {
+  /// The pedestrian model (docs/crowd.md); kRecordedCrowd where trajectories were replayed; empty:
+  /// not known, as in files of earlier versions, and the rest means nothing.
+  std::string model;
+  std::string compat = "none";
+  bool hard_separation = false;
+  double compliance = 1;
+  bool physical = false;
+  double fall_impulse_ns = 20;
+
+  bool operator==(const CrowdOrigin&) const = default;
+};
+inline constexpr std::string_view kRecordedCrowd = "recorded";
+
 /// Constant data of a run.
 struct TraceHeader {
   std::string scenario_id;
   std::string generator;  ///< "throng 0.1.0"
   std::uint64_t seed = 0;
-  double dt_s = 0.1;                     ///< crowd step
+  double dt_s = 0.1;  ///< crowd step
+  CrowdOrigin crowd;
   std::vector<std::string> state_names;  ///< index = value in Trace::state
   /// Per state: 1 if people in it lie on the ground. Empty: the names decide (implies_lying).
   std::vector<std::uint8_t> state_lying;

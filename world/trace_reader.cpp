@@ -66,6 +66,22 @@ class Reader {
     }
   }
 
+  CrowdOrigin read_origin() {
+    const auto flag = [&](const char* name) {
+      const auto value = hdf5::read_attribute<std::uint8_t>(root_, name);
+      if (value > 1) reject(source_, name, std::to_string(value), "0 or 1");
+      return value == 1;
+    };
+    CrowdOrigin crowd;
+    crowd.model = hdf5::read_text_attribute(root_, "crowd_model");
+    crowd.compat = hdf5::read_text_attribute(root_, "crowd_compat");
+    crowd.hard_separation = flag("crowd_hard_separation");
+    crowd.compliance = hdf5::read_attribute<double>(root_, "crowd_compliance");
+    crowd.physical = flag("crowd_physical");
+    crowd.fall_impulse_ns = hdf5::read_attribute<double>(root_, "crowd_fall_impulse_ns");
+    return crowd;
+  }
+
   TraceHeader read_header() {
     TraceHeader header;
     header.scenario_id = hdf5::read_text_attribute(root_, "scenario_id");
@@ -75,6 +91,7 @@ class Reader {
     if (!(header.dt_s > 0)) {
       reject(source_, "dt_s", fmt::format("{}", header.dt_s), "a positive number");
     }
+    if (H5Aexists(root_.id(), "crowd_model") > 0) header.crowd = read_origin();
     header.state_names = hdf5::read_texts(root_, "state_names");
     if (H5Lexists(root_.id(), "state_lying", H5P_DEFAULT) > 0) {
       header.state_lying = numbers<std::uint8_t>(root_, "state_lying", {header.state_names.size()});

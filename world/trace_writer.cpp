@@ -228,6 +228,16 @@ class EventColumns {
   Column<double> extra_;
 };
 
+void write_origin(const hdf5::Handle& file, const CrowdOrigin& crowd) {
+  if (crowd.model.empty()) return;
+  hdf5::write_text_attribute(file, "crowd_model", crowd.model);
+  hdf5::write_text_attribute(file, "crowd_compat", crowd.compat);
+  hdf5::write_attribute(file, "crowd_hard_separation", std::uint8_t{crowd.hard_separation});
+  hdf5::write_attribute(file, "crowd_compliance", crowd.compliance);
+  hdf5::write_attribute(file, "crowd_physical", std::uint8_t{crowd.physical});
+  hdf5::write_attribute(file, "crowd_fall_impulse_ns", crowd.fall_impulse_ns);
+}
+
 void write_header(const hdf5::Handle& file, const TraceHeader& header) {
   hdf5::write_text_attribute(file, "format", kTraceFormat);
   hdf5::write_attribute(file, "version", kTraceVersion);
@@ -235,6 +245,7 @@ void write_header(const hdf5::Handle& file, const TraceHeader& header) {
   hdf5::write_text_attribute(file, "generator", header.generator);
   hdf5::write_attribute(file, "seed", header.seed);
   hdf5::write_attribute(file, "dt_s", header.dt_s);
+  write_origin(file, header.crowd);
   hdf5::write_texts(file, "state_names", header.state_names);
   if (!header.state_lying.empty()) {
     Column<std::uint8_t> lying(file, "state_lying", {}, 1024, "");

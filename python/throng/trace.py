@@ -20,6 +20,21 @@ _PRESENT, _PANIC, _LYING, _FOLLOWING = 1, 2, 4, 8
 ROLES = ("person", "disaster", "absent", "attacker")
 
 
+def _crowd_of(attributes: dict[str, Any]) -> dict[str, Any]:
+    """Origin of the people's motion: `model` ("recorded": a recording), `compat`, `hard_separation`, `compliance`,
+    `physical`, `fall_impulse_ns`; empty in traces of earlier versions."""
+    if "crowd_model" not in attributes:
+        return {}
+    return {
+        "model": _text(attributes["crowd_model"]),
+        "compat": _text(attributes.get("crowd_compat", b"none")),
+        "hard_separation": _number(attributes.get("crowd_hard_separation")) == 1,
+        "compliance": _number(attributes.get("crowd_compliance")),
+        "physical": _number(attributes.get("crowd_physical")) == 1,
+        "fall_impulse_ns": _number(attributes.get("crowd_fall_impulse_ns")),
+    }
+
+
 class Trace:
     """S steps of N agents. Arrays are read when they are asked for; the file is closed in between.
 
@@ -40,6 +55,7 @@ class Trace:
         seed = _number(attributes.get("seed"))
         self.seed = int(seed) if np.isfinite(seed) else 0
         self.dt_s = _number(attributes.get("dt_s"))
+        self.crowd = _crowd_of(attributes)
 
     def __repr__(self) -> str:
         return f"Trace({self.scenario}: {len(self.time_s)} steps of {len(self.roles)} agents)"

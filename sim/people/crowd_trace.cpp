@@ -1,9 +1,11 @@
 #include "sim/people/crowd_trace.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/version.h"
+#include "crowd/project.h"
 
 namespace throng::sim {
 
@@ -17,6 +19,15 @@ std::vector<T> copied(std::span<const T> values) {
 world::TraceHeader named(world::TraceHeader header, const std::string& name) {
   header.scenario_id = name;
   return header;
+}
+
+world::CrowdOrigin origin_of(const crowd::LoadOptions& options) {
+  return {options.model,
+          std::string(crowd::kCompatWords.at(static_cast<std::size_t>(options.compat))),
+          options.hard_separation,
+          options.compliance,
+          options.physical.on,
+          static_cast<double>(options.physical.fall_impulse_ns)};
 }
 
 /// Per state: 1 if people in it lie on the ground.
@@ -36,6 +47,7 @@ world::TraceHeader crowd_header(const crowd::Simulation& crowd, std::uint64_t se
   header.generator = kGenerator;
   header.seed = seed;
   header.dt_s = crowd.dt_s();
+  header.crowd = origin_of(crowd.options());
   header.state_names = crowd.state_names();
   header.state_lying = lying_states(crowd);
   header.role.assign(crowd.agent_count(), world::AgentRole::person);

@@ -99,6 +99,8 @@ class ReplayedCrowd : public CrowdSource {
     header.generator = kGenerator;
     header.seed = seed;
     header.dt_s = dt_s_;
+    header.crowd = {};
+    header.crowd.model = world::kRecordedCrowd;
     header.state_names = {"Recorded"};
     return header;
   }

@@ -1,5 +1,5 @@
 """`throng validate` believes no manifest: a dataset with everything is damaged in one way after the other, with its
-hashes put right each time (damages.py), and the damage is found; the dataset itself is not found fault with."""
+hashes put right each time (damages/), and the damage is found; the dataset itself is not found fault with."""
 import concurrent.futures
 import json
 import os
@@ -10,9 +10,23 @@ import tempfile
 import time
 
 import damages
+import damages.runner
 
-ANNOTATIONS = ["coco", "keypoints", "amodal", "density", "exits", "fields", "depth", "instances", "parts", "normals",
-               "flow", "sensors"]
+ANNOTATIONS = [
+    "coco",
+    "keypoints",
+    "amodal",
+    "density",
+    "exits",
+    "fields",
+    "depth",
+    "instances",
+    "parts",
+    "normals",
+    "flow",
+    "semantic",
+    "sensors",
+]
 
 
 def camera(**more):
@@ -29,18 +43,36 @@ JOB = {
     "drones": [
         {"id": "d1", "start": [8, -3, 15], "camera": camera(yaw_deg=90, pitch_deg=-38)},
         {
+            "id": "d1_lens",
+            "start": [-8, -3, 15],
+            "camera": camera(yaw_deg=60, pitch_deg=-38, model="brown_conrady", distortion={"k1": -0.2, "k2": 0.05}),
+        },
+        {
             "id": "d2",
             "start": [4, 12, 15],
             "guidance": {"policy": "orbit", "center": [-4, 0], "radius_m": 14, "speed_mps": 2},
             "camera": camera(yaw_deg=180, pitch_deg=-42),
         },
     ],
-    "outputs": {"annotations": ANNOTATIONS, "previews": 1, "formats": ["mot", "yolo-detect", "kitti", "table"]},
+    "outputs": {
+        "annotations": ANNOTATIONS,
+        "previews": 1,
+        "formats": ["coco", "mot", "yolo-detect", "kitti", "visdrone-mot", "table"],
+    },
 }
-# Of two people with all that belongs to them, and of places that little else depends on, nothing else tells.
-# Flow is taken over 4 s, and these images span 2 s.
-NOT_FOUND = {"attributes of two people exchanged", "exits of people exchanged", "field one cell off",
-             "doors and zones exchanged", "flow of exits doubled"}
+# Of two people with all that belongs to them, and of places that little else depends on, nothing else tells. Flow is
+# taken over 4 s, and these images span 2 s. Nothing says what is behind somebody, or what a behavior's names mean. The
+# damage to hidden people takes some here who are hidden in all images.
+NOT_FOUND = {
+    "attributes of two people exchanged",
+    "behaviors of people exchanged",
+    "field one cell off",
+    "flow of exits doubled",
+    "hidden people of one picture left out",
+    "picture without somebody",
+}
+# Nobody of this job is in a group, and fewer than a quarter have escaped.
+NOT_POSSIBLE = {"groups moved by one", "escape percentiles 20 percent less"}
 
 
 def test_everything(throng, folder):
@@ -53,7 +85,11 @@ def test_everything(throng, folder):
 
     def run(name):
         with tempfile.TemporaryDirectory(dir=folder) as place:
-            code, lines = damages.run(throng, dataset, place, name)
+            try:
+                code, lines = damages.runner.run(throng, dataset, place, name)
+            except AssertionError:
+                assert name in NOT_POSSIBLE, name
+                return name, ["not possible"]
         assert code in (0, 2), (name, code, lines[-3:])
         # That exports are no longer those of the records would find nearly everything.
         told = [line for line in lines if line.endswith("]")]
@@ -67,7 +103,8 @@ def test_everything(throng, folder):
         assert rules != ["manifest"], f"{name}: the manifest was not put right"
         print(f"{name:62} {'found by ' + ', '.join(rules) if rules else 'NOT FOUND'}")
     missed = {name for name, rules in results if not rules}
-    print(f"found {len(results) - len(missed)} of {len(results)}")
+    possible = sum(rules != ["not possible"] for _, rules in results)
+    print(f"found {possible - len(missed)} of {possible}")
     assert missed <= NOT_FOUND, missed - NOT_FOUND
 
 

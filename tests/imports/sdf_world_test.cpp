@@ -154,6 +154,20 @@ TEST(SdfShapes, APlaneIsGroundOfItsSizeAndColor) {
   const geometry::Rectangle bounds = geometry::bounds_of(place.areas[0].corners);
   EXPECT_LT((bounds.min - Vector2d(0, -1)).norm(), 1e-9);
   EXPECT_LT((bounds.max - Vector2d(6, 9)).norm(), 1e-9);
+  // The size is in the plane: turned with its normal, which the pose turns up again.
+  for (const auto& [normal, pose] : {std::pair("0 1 0", "3 4 0 1.5707963267948966 0 0"),
+                                     std::pair("1 0 0", "3 4 0 0 -1.5707963267948966 0"),
+                                     std::pair("0 0 -1", "3 4 0 3.141592653589793 0 0"),
+                                     std::pair("0 0 -1", "3 4 0 0 3.141592653589793 0")}) {
+    const Place turned = read_world(
+        body_of(fmt::format("<plane><normal>{}</normal><size>6 10</size></plane>", normal), pose,
+                material("0.2 0.5 0.2")) +
+        body_of(box(4, 4, 4), "20 20 2 0 0 0"));
+    ASSERT_EQ(turned.areas.size(), 1) << normal << " at " << pose;
+    const geometry::Rectangle shown = geometry::bounds_of(turned.areas[0].corners);
+    EXPECT_LT((shown.min - Vector2d(0, -1)).norm(), 1e-6) << normal << " at " << pose;
+    EXPECT_LT((shown.max - Vector2d(6, 9)).norm(), 1e-6) << normal << " at " << pose;
+  }
   const Place tilted =
       read_world(body_of("<plane><normal>0 1 1</normal><size>6 10</size></plane>", "0 0 0 0 0 0"));
   EXPECT_THAT(reasons_in(tilted), ::testing::Contains(HasSubstr("a plane that is not level")));

@@ -120,7 +120,10 @@ TEST(ShadowOf, CoversTheOutlineBetweenStepsAndHeads) {
   // Cells of 0.25 m that touch: at most half a cell more on each side.
   EXPECT_NEAR(shadow_m2(raised(box_triangles({4, 2, 1}), 0.5)), 8, 1.6);
   EXPECT_EQ(shadow_m2(raised(box_triangles({4, 2, 0.18}), 0.09)), 0) << "a step";
+  EXPECT_EQ(shadow_m2(raised(box_triangles({4, 2, 0.2}), 0.1)), 0) << "a step of exactly 0.2 m";
+  EXPECT_GT(shadow_m2(raised(box_triangles({4, 2, 0.21}), 0.105)), 7) << "1 cm more";
   EXPECT_EQ(shadow_m2(raised(box_triangles({4, 2, 1}), 2.6)), 0) << "above heads";
+  EXPECT_EQ(shadow_m2(raised(box_triangles({4, 2, 1}), 2.5)), 0) << "from exactly 2 m on";
   EXPECT_GT(shadow_m2(raised(box_triangles({4, 2, 1}), 2.4)), 7) << "down to 1.9 m";
   EXPECT_TRUE(shadow_of({}).empty());
 }

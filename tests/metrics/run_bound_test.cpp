@@ -187,6 +187,25 @@ TEST(LowerBound, IsLimitedByTheDoor) {
   EXPECT_GT(run.lower_bound->escape_s.back(), 25);
 }
 
+// The doors are those of the model that moved the people, whatever the scenario was made for.
+TEST(LowerBound, IsThatOfTheRunsModel) {
+  world::Scenario scenario = place_with_door(2);
+  scenario.crowd_model = "ttc";
+  add_alarm(scenario, 0);
+  world::Trace trace = trace_of(std::vector<Walk>(200, standing({-0.1, 0})));
+  const auto last_s = [&] {
+    return run_metrics(trace, scenario, exit_series(trace, scenario)).lower_bound->escape_s.back();
+  };
+  const auto expected = [](const char* model) {
+    const DoorCapacity capacity = door_capacity(model, 2);
+    return (200 - capacity.burst) / capacity.rate_per_s + 10 / 1.3;
+  };
+  EXPECT_NEAR(last_s(), expected("ttc"), 1.01) << "the trace does not say: the scenario's";
+  trace.header.crowd.model = "helbing";
+  EXPECT_NEAR(last_s(), expected("helbing"), 1.01);
+  EXPECT_GT(std::abs(expected("helbing") - expected("ttc")), 3);
+}
+
 TEST(LowerBound, CountsFromTheLaterOfAlarmAndArrival) {
   world::Scenario scenario = place_with_door(2);
   add_alarm(scenario, 5);

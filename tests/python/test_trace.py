@@ -49,6 +49,17 @@ class Traces(unittest.TestCase):
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
+    def test_says_which_model_moved_the_people(self):
+        self.assertEqual(self.trace.crowd["model"], "ttc")
+        self.assertIs(self.trace.crowd["physical"], False)
+        self.assertEqual(self.metrics["crowd_model"], "ttc")
+        earlier = self.path.with_name("earlier.h5")
+        earlier.write_bytes(self.path.read_bytes())
+        with h5py.File(earlier, "a") as file:
+            for name in [name for name in file.attrs if name.startswith("crowd_")]:
+                del file.attrs[name]
+        self.assertEqual(Trace(earlier).crowd, {})
+
     def test_arrays(self):
         trace = self.trace
         with h5py.File(self.path) as file:

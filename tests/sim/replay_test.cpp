@@ -97,6 +97,7 @@ TEST(Replay, ARunHasThePeopleOfTheRecordingAndItsOwnDrones) {
   EXPECT_TRUE(simulate(scenario, spec, seen).empty());
   ASSERT_EQ(seen.steps_.size(), 33U);
   EXPECT_EQ(seen.header_.dt_s, 0.0625);
+  EXPECT_EQ(seen.header_.crowd.model, world::kRecordedCrowd);
   EXPECT_TRUE(seen.header_.exit_ids.empty());
   EXPECT_EQ(seen.steps_[7].flags[1], 0);
   EXPECT_EQ(seen.steps_[8].flags[1], world::kPresent);

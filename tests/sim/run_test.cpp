@@ -47,6 +47,19 @@ world::Trace trace_of(const RunSpec& spec) {
   return world::read_trace(folder.path() / "run.h5");
 }
 
+TEST(Run, SaysWhichModelMovedThePeople) {
+  RunSpec spec = short_run();
+  spec.duration_s = 0.2;
+  EXPECT_EQ(trace_of(spec).header.crowd, (world::CrowdOrigin{"orca", "none", false, 1, false, 20}));
+  spec.crowd.model = "helbing";
+  spec.crowd.compat = crowd::Compat::menge;
+  spec.crowd.hard_separation = true;
+  spec.crowd.compliance = 0.5;
+  spec.crowd.physical = {true, 35};
+  EXPECT_EQ(trace_of(spec).header.crowd,
+            (world::CrowdOrigin{"helbing", "menge", true, 0.5, true, 35}));
+}
+
 TEST(Run, RecordsTheWholeDurationOfCrowdAndDrone) {
   const RunSpec spec = short_run();
   const world::Trace trace = trace_of(spec);

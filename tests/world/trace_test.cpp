@@ -330,6 +330,23 @@ TEST(TraceFile, SaysInWhichStatesPeopleLieWhateverTheirNames) {
   EXPECT_EQ(trace.flags, (std::vector<std::uint8_t>{kPresent, kPresent, kPresent | kFallen}));
 }
 
+TEST(TraceFile, SaysWhatMovedThePeople) {
+  const TemporaryFolder folder;
+  const auto read_back = [&](const TraceHeader& header) {
+    TraceWriter writer(folder.path() / "run.h5", header);
+    writer.add(step_of(0, 3));
+    writer.finish();
+    return read_trace(folder.path() / "run.h5").header.crowd;
+  };
+  TraceHeader header = header_of(3);
+  EXPECT_EQ(read_back(header), CrowdOrigin{}) << "files of earlier versions do not say it";
+  header.crowd = {"helbing", "menge", true, 0.25, true, 35};
+  EXPECT_EQ(read_back(header), header.crowd);
+  header.crowd = {};
+  header.crowd.model = kRecordedCrowd;
+  EXPECT_EQ(read_back(header), header.crowd);
+}
+
 TEST(ImpliesLying, KnowsTheWordsOfStatesInWhichNobodyStands) {
   for (const char* name : {"Fallen", "incapacitated", "is_dead", "Collapsed2", "CASUALTY"}) {
     EXPECT_TRUE(implies_lying(name)) << name;

@@ -1,0 +1,263 @@
+"""Damages to keypoints, velocities, headings and positions of people."""
+import numpy
+
+from .dataset import damage, walker
+
+
+PAIRS = [(1, 2), (3, 4), (5, 6), (7, 8), (9, 10), (11, 12), (13, 14), (15, 16)]
+
+
+def exchange_keypoints(person, pairs=PAIRS, flat=True, solid=True):
+    for a, b in pairs:
+        if flat:
+            k = person["keypoints"]
+            k[3 * a : 3 * a + 3], k[3 * b : 3 * b + 3] = k[3 * b : 3 * b + 3], k[3 * a : 3 * a + 3]
+        if solid:
+            k = person["keypoints_3d"]
+            k[a], k[b] = k[b], k[a]
+
+
+@damage
+def left_and_right_keypoints_exchanged(d):
+    for person in d.everybody:
+        exchange_keypoints(person)
+    d.save_coco()
+
+
+@damage
+def left_and_right_keypoints_of_one_person_exchanged(d):
+    exchange_keypoints(d.largest(d.image()))
+    d.save_coco()
+
+
+@damage
+def left_and_right_arms_of_one_person_exchanged(d):
+    exchange_keypoints(d.largest(d.image()), [(5, 6), (7, 8), (9, 10)])
+    d.save_coco()
+
+
+@damage
+def keypoints_exchanged_in_the_picture_only(d):
+    for person in d.people(d.image()):
+        exchange_keypoints(person, solid=False)
+    d.save_coco()
+
+
+@damage
+def elbows_and_wrists_of_one_person_exchanged(d):
+    person = d.largest(d.image())
+    exchange_keypoints(person, [(7, 9), (8, 10)])
+    d.save_coco()
+
+
+@damage
+def eyes_and_ears_exchanged(d):
+    for person in d.people(d.image()):
+        exchange_keypoints(person, [(1, 3), (2, 4)])
+    d.save_coco()
+
+
+@damage
+def visible_keypoints_called_hidden(d):
+    for person in d.people(d.image()):
+        k = person["keypoints"]
+        k[2::3] = [1 if v == 2 else v for v in k[2::3]]
+    d.save_coco()
+
+
+@damage
+def hidden_keypoints_called_visible(d):
+    for person in d.people(d.image()):
+        k = person["keypoints"]
+        k[2::3] = [2 if v == 1 else v for v in k[2::3]]
+    d.save_coco()
+
+
+def turn_vector(v, angle):
+    c, s = numpy.cos(angle), numpy.sin(angle)
+    return [float(round(c * v[0] - s * v[1], 2)), float(round(s * v[0] + c * v[1], 2))]
+
+
+def change_velocities(d, people, change):
+    for person in people:
+        person["velocity"] = change(person["velocity"])
+    d.save_coco()
+
+
+@damage
+def velocities_reversed(d):
+    change_velocities(d, d.everybody, lambda v: [-v[0], -v[1]])
+
+
+@damage
+def velocity_of_one_person_reversed(d):
+    change_velocities(d, [walker(d, d.image())], lambda v: [-v[0], -v[1]])
+
+
+@damage
+def velocities_5_percent_too_high(d):
+    change_velocities(d, d.everybody, lambda v: [round(1.05 * v[0], 2), round(1.05 * v[1], 2)])
+
+
+@damage
+def velocities_of_one_frame_turned_by_90_degrees(d):
+    change_velocities(d, d.people(d.image()), lambda v: turn_vector(v, numpy.pi / 2))
+
+
+@damage
+def velocity_axes_exchanged(d):
+    change_velocities(d, d.everybody, lambda v: v[::-1])
+
+
+@damage
+def velocities_of_one_frame_zero(d):
+    change_velocities(d, d.people(d.image()), lambda v: [0, 0])
+
+
+def wrapped(angle):
+    return round(float((angle + numpy.pi) % (2 * numpy.pi) - numpy.pi), 2)
+
+
+def change_headings(d, people, change):
+    for person in people:
+        person["heading"] = wrapped(change(person["heading"]))
+    d.save_coco()
+
+
+@damage
+def headings_turned_by_90_degrees(d):
+    change_headings(d, d.everybody, lambda h: h + numpy.pi / 2)
+
+
+@damage
+def headings_from_north(d):
+    change_headings(d, d.everybody, lambda h: numpy.pi / 2 - h)
+
+
+@damage
+def heading_of_one_person_reversed(d):
+    change_headings(d, [d.largest(d.image())], lambda h: h + numpy.pi)
+
+
+@damage
+def headings_of_one_frame_40_degrees_off(d):
+    change_headings(d, d.people(d.image()), lambda h: h + 0.7)
+
+
+@damage
+def headings_in_degrees(d):
+    for person in d.everybody:
+        person["heading"] = round(float(numpy.degrees(person["heading"])), 2)
+    d.save_coco()
+
+
+@damage
+def positions_30_cm_off(d):
+    for person in d.people(d.image()):
+        person["position"][0] = round(person["position"][0] + 0.3, 3)
+    d.save_coco()
+
+
+@damage
+def position_of_one_person_1_m_off(d):
+    person = d.largest(d.image())
+    person["position"][1] = round(person["position"][1] + 1, 3)
+    d.save_coco()
+
+
+@damage
+def position_axes_exchanged(d):
+    for person in d.everybody:
+        p = person["position"]
+        p[0], p[1] = p[1], p[0]
+    d.save_coco()
+
+
+@damage
+def positions_of_the_frame_before(d):
+    before = {p["track_id"]: p for p in d.people(d.image(-1, 1))}
+    for person in d.people(d.image(-1, 2)):
+        if person["track_id"] in before:
+            person["position"] = before[person["track_id"]]["position"]
+    d.save_coco()
+
+
+@damage
+def keypoint_visibility_inverted(d):
+    for person in d.everybody:
+        k = person["keypoints"]
+        k[2::3] = [{0: 0, 1: 2, 2: 1}[v] for v in k[2::3]]
+    d.save_coco()
+
+
+@damage
+def keypoints_2_px_to_the_right(d):
+    for person in d.people(d.image()):
+        k = person["keypoints"]
+        for i in range(0, len(k), 3):
+            k[i] = round(k[i] + 2, 2) if k[i + 2] else 0
+    d.save_coco()
+
+
+@damage
+def all_places_50_cm_higher(d):
+    for person in d.everybody:
+        person["position"][2] = 0.5
+        person["box_3d"][2] = round(person["box_3d"][2] + 0.5, 2)
+        for point in person["keypoints_3d"]:
+            point[2] = round(point[2] + 0.5, 3)
+    d.save_coco()
+
+
+@damage
+def positions_at_the_middle_of_the_body(d):
+    for person in d.everybody:
+        person["position"][2] = person["box_3d"][2]
+    d.save_coco()
+
+
+def move_in_world(person, x, y):
+    for place in [person["position"], person["box_3d"], *person["keypoints_3d"]]:
+        place[0] = round(place[0] + x, 3)
+        place[1] = round(place[1] + y, 3)
+
+
+@damage
+def places_in_a_run_30_cm_off(d):
+    images = {i["id"] for i in d.images if i["run"] == d.runs[0]}
+    for person in d.everybody:
+        if person["image_id"] in images:
+            move_in_world(person, 0.3, 0)
+    d.save_coco()
+
+
+@damage
+def places_of_one_person_30_cm_off(d):
+    track = d.largest(d.image())["track_id"]
+    for person in d.everybody:
+        if person["track_id"] == track:
+            move_in_world(person, 0, 0.3)
+    d.save_coco()
+
+
+@damage
+def velocities_one_frame_late(d):
+    last = {}
+    for image in d.images:
+        key = image["run"], image["camera_id"]
+        before, last[key] = last.get(key, {}), {p["track_id"]: p["velocity"] for p in d.people(image)}
+        for person in d.people(image):
+            person["velocity"] = before.get(person["track_id"], person["velocity"])
+    d.save_coco()
+
+
+@damage
+def velocities_in_km_per_h(d):
+    change_velocities(d, d.everybody, lambda v: [round(3.6 * v[0], 2), round(3.6 * v[1], 2)])
+
+
+@damage
+def headings_are_of_velocity_reversed_for_those_who_stand(d):
+    people = [p for p in d.everybody if numpy.hypot(*p["velocity"]) < 0.2]
+    assert people, "nobody stands"
+    change_headings(d, people, lambda h: h + numpy.pi)

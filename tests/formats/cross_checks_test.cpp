@@ -1,0 +1,193 @@
+// Checks of pictures against each other and against labels, on pictures made by hand.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "base/files.h"
+#include "formats/run_checks.h"
+#include "formats/shot.h"
+#include "tests/formats/hand_made.h"
+
+namespace throng::formats {
+namespace {
+
+using hand_made::any_with;
+using hand_made::found_by;
+using nlohmann::json;
+using ::testing::IsEmpty;
+
+/// The hand-made camera's picture of its frame: gray ground, known depth.
+Shot ground_shot(std::int64_t frame, double brightness) {
+  Shot shot;
+  shot.image = hand_made::image();
+  shot.image.frame = frame;
+  shot.image.file = fmt::format("images/run002/d1/{:06}.jpg", frame);
+  shot.camera = camera_of(shot.image);
+  Pixels& pixels = shot.pixels;
+  pixels.width = hand_made::kWidth;
+  pixels.height = hand_made::kHeight;
+  for (int y = 0; y < hand_made::kHeight; ++y) {
+    for (int x = 0; x < hand_made::kWidth; ++x) {
+      const bool is_ground = y > 42;  // the horizon is at 39.5
+      pixels.ids.push_back(is_ground ? kGround : 0);
+      pixels.depth_cm.push_back(
+          is_ground ? static_cast<std::uint16_t>(std::lround(100 * 500 / (y - 39.5))) : 0);
+      const double tone = brightness * (110 + (x * 5 + y * 3) % 11);
+      for (int c = 0; c < 3; ++c) pixels.rgb.push_back(static_cast<std::uint8_t>(tone + 4 * c));
+    }
+  }
+  return shot;
+}
+
+TEST(CrossChecks, StillPlacesKeepTheirBrightness) {
+  const auto faults = [](double brightness, double ev) {
+    const Shot before = ground_shot(3, 1);
+    Shot after = ground_shot(4, brightness);
+    after.image.record["sensor"] = {{"ev", ev}};
+    return found_by([&](Findings& findings) { check_still_surfaces(before, after, findings); });
+  };
+  EXPECT_THAT(faults(1, 0), IsEmpty());
+  EXPECT_THAT(faults(0.93, 0), IsEmpty()) << "a vignette or a cloud of dust";
+  EXPECT_TRUE(any_with(faults(0.8, 0), "picture-brightness"));
+  EXPECT_TRUE(any_with(faults(1.3, 0), "picture-brightness"));
+  EXPECT_THAT(faults(0.8, -0.6), IsEmpty()) << "another exposure";
+}
+
+/// Twelve people who move by (2, -1) px, each with three keypoints, and flow that is off by
+/// `bias_px`.
+std::vector<std::string> keypoint_flow_faults(double bias_px) {
+  Shot before = ground_shot(3, 1);
+  Shot after = ground_shot(4, 1);
+  before.pixels.ids.clear();
+  before.pixels.depth_cm.clear();
+  for (int i = 0; i < hand_made::kWidth * hand_made::kHeight; ++i) {
+    before.pixels.flow.push_back(static_cast<std::uint16_t>(32768 + 64 * (2 + bias_px)));
+    before.pixels.flow.push_back(static_cast<std::uint16_t>(32768 - 64));
+    before.pixels.flow.push_back(1);
+  }
+  for (int i = 0; i < 12; ++i) {
+    const double x = 6 + 7 * i;
+    for (Shot* shot : {&before, &after}) {
+      const double shift = shot == &after ? 1 : 0;
+      const Box box{x + 2 * shift, 50 - shift, 5, 12};
+      Person person = hand_made::person(i + 1, box, box, 1);
+      for (const double y : {52.0, 55.5, 60.0}) {
+        person.keypoints.push_back({x + 2.5 + 2 * shift, y - shift, 2});
+      }
+      shot->image.people.push_back(person);
+    }
+  }
+  return found_by([&](Findings& findings) { check_flow_between(before, after, findings); });
+}
+
+TEST(CrossChecks, FlowIsTheMotionOfKeypoints) {
+  EXPECT_THAT(keypoint_flow_faults(0), IsEmpty());
+  EXPECT_FALSE(any_with(keypoint_flow_faults(0.25), "flow-of-keypoints"));
+  EXPECT_TRUE(any_with(keypoint_flow_faults(0.75), "flow-of-keypoints"));
+  EXPECT_TRUE(any_with(keypoint_flow_faults(-1), "flow-of-keypoints"));
+}
+
+/// Sixteen people with tops of as many colors, of whom the picture shows the torsos in half of the
+/// light; the label of one of them may be another, and an item may be carried.
+std::vector<std::string> clothes_faults(const std::string& first_label, bool shows_item = false) {
+  constexpr std::array<const char*, 16> kColors = {
+      "#a03030", "#30a030", "#3030a0", "#a0a030", "#a030a0", "#30a0a0", "#808080", "#c06040",
+      "#4060c0", "#60c040", "#202020", "#e0e0e0", "#905030", "#305090", "#509030", "#b08060"};
+  Shot shot = ground_shot(4, 1);
+  shot.pixels.parts.assign(shot.pixels.count(), 0);
+  for (std::size_t i = 0; i < kColors.size(); ++i) {
+    const int x = 2 + 12 * static_cast<int>(i % 8);
+    const int y = 2 + 36 * static_cast<int>(i / 8);
+    const Box box{static_cast<double>(x), static_cast<double>(y), 10, 20};
+    Person person = hand_made::person(static_cast<std::int64_t>(i) + 1, box, box, 1);
+    json track = *person.track;
+    const std::string color = kColors.at(i);
+    track["attributes"]["top_colour"] = i == 0 && !first_label.empty() ? first_label : color;
+    track["attributes"]["carries"] = i == 0 ? "nothing" : "handbag";
+    person.track = std::make_shared<const json>(track);
+    for (int v = y; v < y + 20; ++v) {
+      for (int u = x; u < x + 10; ++u) {
+        const std::size_t pixel = shot.pixels.at(u, v);
+        shot.pixels.ids[pixel] = instance_of(person);
+        shot.pixels.parts[pixel] = v == y && (shows_item || i > 0) ? 9 : 2;
+        for (std::size_t c = 0; c < 3; ++c) {
+          // Half of the light is 0.73 of the sRGB value.
+          shot.pixels.rgb[3 * pixel + c] =
+              static_cast<std::uint8_t>(0.73 * std::stoi(color.substr(1 + 2 * c, 2), nullptr, 16));
+        }
+      }
+    }
+    shot.image.people.push_back(person);
+  }
+  return found_by([&](Findings& findings) {
+    ClothesCheck check;
+    check.add(shot);
+    check.finish(findings);
+  });
+}
+
+TEST(CrossChecks, EverybodysTopHasTheColorOfItsLabel) {
+  EXPECT_THAT(clothes_faults(""), IsEmpty());
+  EXPECT_THAT(clothes_faults("#902828"), IsEmpty()) << "nearly the same";
+  EXPECT_TRUE(any_with(clothes_faults("#00ff00"), "colors-are-clothes track 2000001"));
+  EXPECT_TRUE(any_with(clothes_faults("#3030a0"), "colors-are-clothes track 2000001"));
+}
+
+TEST(CrossChecks, WhoCarriesNothingShowsNoItem) {
+  EXPECT_TRUE(any_with(clothes_faults("", true), "attributes track 2000001 carries nothing, but"));
+}
+
+TEST(CrossChecks, CategoriesHaveTheirNames) {
+  const throng::testing::TemporaryFolder folder;
+  const auto faults = [&](const std::string& categories) {
+    write_file_atomically(folder.path() / kCocoFile,
+                          "{\"info\":{},\n\"licenses\":[],\n\"categories\":" + categories +
+                              ",\n\"tracks\":[\n],\n\"images\":[\n],\n\"annotations\":[\n]}\n");
+    return found_by(
+        [&](Findings& findings) { check_categories(hand_made::info(folder.path()), findings); });
+  };
+  EXPECT_THAT(faults(R"([{"id":1,"name":"person"},{"id":2,"name":"drone"}])"), IsEmpty());
+  EXPECT_EQ(faults(R"([{"id":1,"name":"drone"},{"id":2,"name":"person"}])").size(), 2U);
+  EXPECT_EQ(faults(R"([{"id":3,"name":"person"}])").size(), 1U);
+}
+
+/// A run of three crossings at 2.5, 4 and 6 s through a door of 1 m, with a row of the table.
+std::vector<std::string> table_faults(const std::string& row) {
+  const throng::testing::TemporaryFolder folder;
+  DatasetInfo info = hand_made::info(folder.path());
+  info.runs = {"run000"};
+  const json run = {{"run", "run000"},
+                    {"exits", json::array({{{"id", "north"},
+                                            {"width_m", 1},
+                                            {"crossings", {{"out", 3}, {"in", 0}}},
+                                            {"gaps", {{"list_s", {1.5, 2}}}},
+                                            {"last_crossing_s", 6}}})}};
+  write_file_atomically(folder.path() / "metrics.json", json{{"runs", json::array({run})}}.dump());
+  write_file_atomically(folder.path() / "exits/run000.csv",
+                        "time_s,exit,queue,predicted_wait,crossed_out,crossed_in\n" + row + "\n");
+  return found_by([&](Findings& findings) {
+    check_metrics(info, {{"runs", json::array({{{"run", "run000"}}})}}, findings);
+  });
+}
+
+TEST(CrossChecks, TablesOfExitsHaveTheCrossingsOfTheGaps) {
+  EXPECT_THAT(table_faults("4.5,north,0,0,2,0"), IsEmpty());
+  EXPECT_THAT(table_faults("4.1,north,0,0,1,0"), IsEmpty()) << "the second one is on the line yet";
+  EXPECT_TRUE(any_with(table_faults("4.5,north,0,0,3,0"), "has 3 crossings in exits/run000.csv"));
+  EXPECT_TRUE(any_with(table_faults("12,north,0,0,2,0"), "has 2 crossings in exits/run000.csv"));
+  EXPECT_TRUE(any_with(table_faults("4.5,north,0,0,2,1"), "crossings.in of north is 0"));
+}
+
+TEST(CrossChecks, WaitsAreTheQueueOverAPossibleRate) {
+  // Three crossings in 20 s at a capacity of 1.3 /s: 13 / 10 to 16 / 10 and down to 13 / 30 a
+  // second.
+  EXPECT_THAT(table_faults("9,north,13,10,3,0"), IsEmpty());
+  EXPECT_THAT(table_faults("9,north,13,29.9,3,0"), IsEmpty());
+  EXPECT_TRUE(any_with(table_faults("9,north,13,31,3,0"), "predicted_wait 31 s for a queue of 13"));
+  EXPECT_TRUE(any_with(table_faults("9,north,13,7,3,0"), "predicted_wait 7 s for a queue of 13"));
+}
+
+}  // namespace
+}  // namespace throng::formats
