@@ -6,7 +6,7 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 option(THRONG_BENCHMARKS "Build the programs in bench/" OFF)
 option(THRONG_FUZZ "Build the programs in tests/fuzz/ (clang only, preset asan)" OFF)
-option(THRONG_PRECOMPILE "Precompile the headers of libraries; OFF: use ccache if it is there" ON)
+option(THRONG_PRECOMPILE "Precompile the headers of libraries (instead of ccache)" OFF)
 set(THRONG_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address,undefined or thread")
 
 find_program(CCACHE_PROGRAM ccache)
@@ -37,7 +37,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   target_compile_options(throng_flags INTERFACE -w)
 elseif(CMAKE_UNITY_BUILD)
   # Several files compiled as one: g++ then takes a file's own namespace for a header's, and its flow warnings see
-  # strings overlap themselves or without end, and function objects without value.
-  target_compile_options(throng_flags INTERFACE -Wno-subobject-linkage -Wno-restrict -Wno-maybe-uninitialized
-    -Wno-stringop-overflow)
+  # strings overlap themselves and function objects without value.
+  target_compile_options(throng_flags INTERFACE -Wno-subobject-linkage -Wno-restrict -Wno-maybe-uninitialized)
 endif()
