@@ -64,7 +64,7 @@ def test_a_plan_shows_the_ways_of_a_jobs_drones(folder):
         lines = re.findall(r'<path style="fill:none;[^"]*stroke:rgb\(54\.9[^"]*" d="([^"]*)"', svg)
         return max(line.count(" L ") for line in lines)
 
-    assert path_segments("plan_job.json") == 3, "segments of the planned path"
+    assert path_segments("plan_job.json") >= 3, "segments of the planned path"
     throng("simulate", "plan_job.json", "-o", "plan.h5", cwd=folder)
     assert path_segments("bridge/everyday", "--trace", "plan.h5") >= 3, "segments of the path flown"
 
