@@ -154,9 +154,9 @@ GrayImage decode_png(std::string_view bytes, const std::string& what) {
   if (!read_header(png, info, image)) refuse(what, "a damaged PNG: " + source.message);
   check_size(what, image.width, image.height);
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
-  std::vector<png_bytep> rows;
+  std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
   for (int y = 0; y < image.height; ++y) {
-    rows.push_back(image.pixels.data() + static_cast<std::size_t>(y) * image.width);
+    rows[y] = image.pixels.data() + static_cast<std::size_t>(y) * image.width;
   }
   if (!read_rows(png, info, rows.data())) refuse(what, "a damaged PNG: " + source.message);
   return image;
