@@ -146,16 +146,21 @@ TEST(JobRules, RecordsAreWhatTheJobAsksFor) {
     return hand_made::found_by([&](Findings& findings) { check_job(manifest, image, findings); });
   };
   EXPECT_THAT(faults([](Image&) {}), IsEmpty());
-  for (const auto& [pointer, value] :
-       std::vector<std::pair<const char*, json>>{{"/sensor/iso", 6400},
-                                                 {"/sensor/exposure_s", 0.006},
-                                                 {"/sensor/ev", 0},
-                                                 {"/environment/weather", "rain"},
-                                                 {"/environment/time_of_day", "11:00"},
-                                                 {"/camera/model", "fisheye"}}) {
-    EXPECT_EQ(
-        faults([&](Image& image) { image.record[json::json_pointer(pointer)] = value; }).size(), 1U)
-        << pointer;
+  struct Damage {
+    const char* pointer;
+    json value;
+  };
+  for (const Damage& damage : std::vector<Damage>{{"/sensor/iso", 6400},
+                                                  {"/sensor/exposure_s", 0.006},
+                                                  {"/sensor/ev", 0},
+                                                  {"/environment/weather", "rain"},
+                                                  {"/environment/time_of_day", "11:00"},
+                                                  {"/camera/model", "fisheye"}}) {
+    EXPECT_EQ(faults([&](Image& image) {
+                image.record[json::json_pointer(damage.pointer)] = damage.value;
+              }).size(),
+              1U)
+        << damage.pointer;
   }
   EXPECT_EQ(faults([](Image& image) { image.camera_matrix(0, 0) = 51.5; }).size(), 1U);
   EXPECT_EQ(faults([](Image& image) { image.width = 101; }).size(), 2U);  // and the focal length
