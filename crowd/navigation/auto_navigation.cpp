@@ -33,23 +33,45 @@ void AutoNavigation::enter(const Crowd& crowd, std::size_t agent) {
 
 /// The ground that fits the agent; makes one for all that it may share it with if there is none.
 int AutoNavigation::ground_for(const Crowd& crowd, std::size_t agent) {
-  constexpr float kSizeRatio = 1.25F;  // of the biggest and the smallest on one ground
   const Agents& agents = crowd.agents;
-  const std::vector<float>& radii = agents[Property::radius];
   const std::uint32_t mask = agents.obstacle_mask[agent] & all_classes_;
+  const float agent_radius = agents[Property::radius][agent];
   for (std::size_t i = 0; i < grounds_.size(); ++i) {
     const Ground& ground = *grounds_[i];
-    const bool fits = radii[agent] <= ground.radius && ground.radius <= kSizeRatio * radii[agent];
-    if (ground.obstacle_mask == mask && fits) return static_cast<int>(i);
+    if (ground.obstacle_mask == mask && fits(agent_radius, ground.radius)) {
+      return static_cast<int>(i);
+    }
   }
-  float biggest = radii[agent];
-  for (std::size_t i = 0; i < agents.count(); ++i) {
-    if ((agents.obstacle_mask[i] & all_classes_) != mask) continue;
-    if (radii[i] <= kSizeRatio * radii[agent]) biggest = std::max(biggest, radii[i]);
-  }
-  NavMesh mesh = make_walkable_mesh(crowd.obstacles, mask, biggest, everyone_, options_);
-  grounds_.push_back(std::make_unique<Ground>(mask, biggest, std::move(mesh)));
+  const float radius = mesh_radius(crowd, agent);
+  NavMesh mesh = make_walkable_mesh(crowd.obstacles, mask, radius, everyone_, options_);
+  grounds_.push_back(std::make_unique<Ground>(mask, radius, std::move(mesh)));
   return static_cast<int>(grounds_.size()) - 1;
+}
+
+/// Whether an agent of this radius may use a mesh made for another.
+bool AutoNavigation::fits(float agent_radius, float mesh_radius) {
+  constexpr float kMaxSizeRatio = 1.25F;
+  return agent_radius <= mesh_radius && mesh_radius <= kMaxSizeRatio * agent_radius;
+}
+
+/// The radius of a new mesh for the agent: that of a mesh for other obstacles if one fits, else
+/// that of the biggest agent that may share it, rounded up. So people of random sizes who arrive
+/// one by one, or learn of closed doors one by one, do not each need a mesh of their own.
+float AutoNavigation::mesh_radius(const Crowd& crowd, std::size_t agent) const {
+  constexpr float kStep_m = 0.01F;
+  const std::vector<float>& radii = crowd.agents[Property::radius];
+  float shared = 0;
+  for (const auto& ground : grounds_) {
+    if (fits(radii[agent], ground->radius)) shared = std::max(shared, ground->radius);
+  }
+  if (shared > 0) return shared;
+  float biggest = radii[agent];
+  for (const float radius : radii) {
+    if (fits(radii[agent], radius)) biggest = std::max(biggest, radius);
+  }
+  constexpr float kRounding = 1e-3F;  // steps: 0.25 m stays 0.25 m
+  const float rounded = std::max(biggest, kStep_m * std::ceil(biggest / kStep_m - kRounding));
+  return fits(radii[agent], rounded) ? rounded : biggest;
 }
 
 void AutoNavigation::prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred) {

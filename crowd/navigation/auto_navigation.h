@@ -17,7 +17,8 @@ namespace throng::crowd {
 
 /// The paths of all agents that navigate automatically, in any state. Agents that avoid the
 /// same obstacles and are of about the same size share a mesh, which is made when the first of them
-/// enters such a state (when the scene is loaded, that is, unless obstacles or sizes change).
+/// enters such a state (when the scene is loaded, unless obstacles or sizes change). Its radius is
+/// rounded up to whole centimeters, at most 1.25 times that of the smallest who use it.
 ///
 /// An agent walks from bend to bend of the shortest path. Twice a second it looks whether it can go
 /// straight to the bend after the next, whether it still can go straight to the next, and whether
@@ -29,6 +30,8 @@ class AutoNavigation {
 
   void enter(const Crowd& crowd, std::size_t agent);  ///< the agent has another goal
   void prefer(const Crowd& crowd, std::size_t agent, PreferredVelocity& preferred);
+
+  std::size_t mesh_count() const { return grounds_.size(); }
 
  private:
   static constexpr int kMaxBends = 8;
@@ -66,6 +69,8 @@ class AutoNavigation {
   };
 
   int ground_for(const Crowd& crowd, std::size_t agent);
+  static bool fits(float agent_radius, float mesh_radius);
+  float mesh_radius(const Crowd& crowd, std::size_t agent) const;
   bool is_time_to_look(const Crowd& crowd, std::size_t agent) const;
   static NavMesh::Place place_on(const NavMesh& mesh, const Eigen::Vector2f& point, int hint);
   void look(const Crowd& crowd, std::size_t agent, Route& route);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "crowd/navigation/auto_navigation.h"
 #include "crowd/navigation/path_finder.h"
 #include "crowd/navigation/walkable_mesh.h"
 #include "crowd_files.h"
@@ -147,6 +148,34 @@ TEST(AutoNavigation, MindsTheObstaclesOfItsClassesOnly) {
                  go_to(point_goal(0, 10)));
   while (!crowd.all_final() && crowd.time_s() < 60) crowd.step();
   EXPECT_LT(crowd.time_s(), 9);
+}
+
+TEST(AutoNavigation, SharesMeshesAmongPeopleOfSimilarSize) {
+  Crowd crowd;
+  for (int wall = 0; wall < 3; ++wall) {
+    const float y = 4.0F * static_cast<float>(wall);
+    crowd.obstacles.add_polygon(test::corners_of({{-10, y}, {10, y + 1}}), 1U << wall);
+  }
+  crowd.obstacles.build();
+  AutoNavigation navigation(crowd, {});
+  // People arrive one by one; later they learn one by one of the second and the third wall.
+  constexpr std::size_t kPeople = 100;
+  Random random(7, Stream::crowd_profile, 0);
+  for (const std::uint32_t known : {1U, 3U, 7U}) {
+    for (std::size_t agent = 0; agent < kPeople; ++agent) {
+      if (known == 1) {
+        crowd.agents.resize(agent + 1, 0);
+        crowd.agents[Property::radius][agent] = static_cast<float>(random.uniform(0.195, 0.24));
+      }
+      crowd.agents.obstacle_mask[agent] = known;
+      navigation.enter(crowd, agent);
+    }
+    EXPECT_LE(navigation.mesh_count(), 9U);
+  }
+  const std::size_t meshes = navigation.mesh_count();
+  crowd.agents[Property::radius][0] = 0.5F;
+  navigation.enter(crowd, 0);
+  EXPECT_EQ(navigation.mesh_count(), meshes + 1) << "this one fits through other gaps";
 }
 
 TEST(AutoNavigation, IsTheSameForAnyNumberOfThreads) {
