@@ -8,8 +8,9 @@
 
 namespace throng {
 
-/// One zlib stream (RFC 1950) of `input`, at ISA-L's level 1: several times as fast as zlib's own.
-/// The result lies in `output`, whose capacity grows as needed and may be reused.
+/// One zlib stream (RFC 1950) of `input`, by libdeflate at its level 1. Equal inputs give equal
+/// bytes; ISA-L, four times as fast, did not always. The result lies in `output`, whose capacity
+/// grows as needed and may be reused.
 std::string_view deflated(std::span<const std::uint8_t> input, std::vector<std::uint8_t>& output);
 
 }  // namespace throng

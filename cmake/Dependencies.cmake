@@ -23,6 +23,7 @@ pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)
 pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(isal REQUIRED IMPORTED_TARGET libisal)
+pkg_check_modules(libdeflate REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(libexif REQUIRED IMPORTED_TARGET libexif)
 pkg_check_modules(pangocairo REQUIRED IMPORTED_TARGET pangocairo)
 # Without its -pthread, which does nothing here but keep precompiled headers from being used.

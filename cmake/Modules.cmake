@@ -70,17 +70,18 @@ function(throng_embed target symbol file)
   set_source_files_properties("${output}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
 
-# throng_test(NAME SOURCES file... LIBRARIES target... SHARDS n): one GoogleTest program per module, test_NAME. Its tests run
-# in n processes (default 1), NAME.1 to NAME.n; `test_NAME --gtest_filter=...` runs a single one.
+# throng_test(NAME SOURCES file... LIBRARIES target... SHARDS n OPTIMIZED): one GoogleTest program per module, test_NAME. Its
+# tests run in n processes (default 1), NAME.1 to NAME.n; `test_NAME --gtest_filter=...` runs a single one. OPTIMIZED: also
+# with sanitizers, where tests that look at every pixel or vertex themselves take longer than what they test.
 function(throng_test name)
-  cmake_parse_arguments(ARG "" "SHARDS" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMIZED" "SHARDS" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE throng_flags ${ARG_LIBRARIES} GTest::gtest_main GTest::gmock)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_compile_definitions(test_${name} PRIVATE THRONG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # The tests' own code is compiled often and runs briefly.
   set(options "")
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  if(CMAKE_BUILD_TYPE STREQUAL "Release" OR (THRONG_SANITIZE AND ARG_OPTIMIZED))
     set(options -O1)
   endif()
   target_compile_options(test_${name} PRIVATE ${options})

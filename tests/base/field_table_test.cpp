@@ -65,6 +65,13 @@ TEST(FieldTable, ReadsWhatIsRight) {
   EXPECT_THAT(outcome.lamp.list, ElementsAre(1, 2));
 }
 
+// Lengths count characters, as in JSON Schema: each letter of this name takes two bytes.
+TEST(FieldTable, CountsCharactersOfTexts) {
+  EXPECT_THAT(read(R"({"name": "äöüßéèàâ"})").texts, ElementsAre());
+  EXPECT_THAT(read(R"({"name": "äöüßéèàâx"})").texts,
+              ElementsAre(::testing::HasSubstr("expected a text of 1 to 8 characters")));
+}
+
 TEST(FieldTable, NamesEveryMistakeAtOnceAndReadsTheRest) {
   const Outcome outcome = read(
       R"({"kind": "moon", "size": {"height_m": 12.5, "hight_m": 3}, "watt": 0, "count": 2.5,
