@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,7 +12,6 @@
 #include "calibrate/request.h"
 #include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
-#include "cli/calibration_child.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
@@ -218,15 +216,6 @@ CLI::App* add_with_control_points(CLI::App& app, const char* name, const char* t
   return command;
 }
 
-/// The child process that `throng serve` starts for each calibration.
-void add_request(CLI::App& app) {
-  auto* command = app.add_subcommand("request", "Work off a calibration of the service");
-  command->group("");  // not for users
-  const auto folder = std::make_shared<std::string>();
-  command->add_option("folder", *folder, "Folder with request.json and files/")->required();
-  command->callback([folder] { std::exit(run_calibration_child(*folder)); });
-}
-
 }  // namespace
 
 void add_calibrate(CLI::App& app) {
@@ -244,7 +233,6 @@ void add_calibrate(CLI::App& app) {
   add_lens(*adjust, *bundle);
   adjust->callback([bundle] { run(*bundle, "bundle"); });
   add_calibrate_selftest(*command);
-  add_request(*command);
 }
 
 }  // namespace throng::cli

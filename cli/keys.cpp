@@ -22,13 +22,16 @@ std::string day_of(std::int64_t unix_ms) {
 }
 
 void print_keys(const std::vector<server::KeyRow>& keys) {
-  fmt::print("{:<10}{:<8}{:>10}{:>10}  {:<12}{:<12}{}\n", "id", "scope", "most jobs", "most GiB",
-             "made", "revoked", "name");
+  fmt::print("{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{}\n", "id", "scope", "most jobs",
+             "most GiB", "priority", "made", "revoked", "name");
   for (const server::KeyRow& key : keys) {
-    fmt::print("{:<10}{:<8}{:>10}{:>10}  {:<12}{:<12}{}\n", key.id, server::name_of(key.scope),
-               key.max_active == 0 ? "any" : std::to_string(key.max_active),
-               key.max_bytes == 0 ? "any" : std::to_string(key.max_bytes >> kGibShift),
-               day_of(key.created_ms), key.revoked_ms == 0 ? "" : day_of(key.revoked_ms), key.name);
+    const int max_priority =
+        key.scope >= server::Scope::admin ? server::kMaxPriority : key.max_priority;
+    fmt::print(
+        "{:<10}{:<8}{:>10}{:>10}{:>10}  {:<12}{:<12}{}\n", key.id, server::name_of(key.scope),
+        key.max_active == 0 ? "any" : std::to_string(key.max_active),
+        key.max_bytes == 0 ? "any" : std::to_string(key.max_bytes >> kGibShift), max_priority,
+        day_of(key.created_ms), key.revoked_ms == 0 ? "" : day_of(key.revoked_ms), key.name);
   }
 }
 
@@ -60,11 +63,17 @@ void add_keys(CLI::App& app) {
   const auto max_gib = std::make_shared<int>(0);
   create->add_option("--max-gib", *max_gib, "Max disk usage of their jobs in GiB (0: no limit)")
       ->check(CLI::NonNegativeNumber);
+  const auto max_priority = std::make_shared<int>(0);
+  create
+      ->add_option("--max-priority", *max_priority,
+                   "Highest priority of their jobs; administrators may give any")
+      ->check(CLI::Range(-server::kMaxPriority, server::kMaxPriority))
+      ->capture_default_str();
   add_data(create);
   create->callback([=] {
-    fmt::print("{}\n",
-               server::Keys(*data).create(*name, *server::scope_named(*scope), *max_jobs,
-                                          static_cast<std::int64_t>(*max_gib) << kGibShift));
+    fmt::print("{}\n", server::Keys(*data).create(*name, *server::scope_named(*scope), *max_jobs,
+                                                  static_cast<std::int64_t>(*max_gib) << kGibShift,
+                                                  *max_priority));
   });
 
   auto* list = command->add_subcommand("list", "List the keys");

@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/input_file.h"
 #include "cli/scenario_named.h"
+#include "cli/trace_file.h"
 #include "metrics/evacuation.h"
 #include "metrics/exits.h"
 #include "metrics/trajectory_file.h"
@@ -73,11 +74,10 @@ void measure(const MetricsArguments& arguments) {
     throw InputError({"throng metrics", "", recorded ? "a trace and a trajectory" : "neither",
                       "a trace or --trajectory"});
   }
-  check_input_file(recorded ? arguments.trajectory : arguments.trace,
-                   recorded ? "a file of trajectories" : "a trace (HDF5)");
+  if (recorded) check_input_file(arguments.trajectory, "a file of trajectories");
   const world::Trace trace =
       recorded ? metrics::read_trajectory(arguments.trajectory, arguments.walkers, arguments.format)
-               : world::read_trace(arguments.trace);
+               : read_trace_file(arguments.trace);
   if (!arguments.to_file.empty()) {
     metrics::write_trajectory(trace, arguments.to_file);
     fmt::print("{}\n", arguments.to_file);
@@ -94,7 +94,7 @@ void measure(const MetricsArguments& arguments) {
   nlohmann::json figures = metrics::to_json(metrics::run_metrics(trace, scenario, exits));
   if (!arguments.without_guides.empty()) {
     metrics::add_to_json(
-        metrics::lead_effect(trace, world::read_trace(arguments.without_guides), scenario),
+        metrics::lead_effect(trace, read_trace_file(arguments.without_guides), scenario),
         figures["guidance"]);
   }
   const std::string text = figures.dump(2) + "\n";

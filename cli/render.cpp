@@ -8,6 +8,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "cli/job_runner.h"
+#include "cli/trace_file.h"
 #include "jobs/queue/folder.h"
 #include "world/trace.h"
 
@@ -46,7 +47,7 @@ void render(const RenderArguments& arguments) {
   job.runs = 1;
   std::erase_if(job.outputs.exports.splits.runs,
                 [](const auto& named) { return named.first != jobs::run_name(0); });
-  check_fits(world::read_trace(arguments.trace_file), job, arguments);
+  check_fits(read_trace_file(arguments.trace_file), job, arguments);
   const jobs::ResolvedJob one_run(std::move(job));
   const auto folder = jobs::JobFolder::create(arguments.output, one_run);
   const auto place = folder.output_of({jobs::Task::Kind::simulate, 0, 0});

@@ -14,7 +14,9 @@
 #include "cli/bundle.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/job_report.h"
 #include "cli/scenario_named.h"
+#include "cli/trace_file.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/queue/folder.h"
 #include "jobs/queue/job_id.h"
@@ -92,7 +94,7 @@ std::string report_of_traces(const ReportArguments& arguments) {
   std::string id = scenario ? scenario->id : "";
   std::vector<study::MeasuredRun> runs;
   for (const NamedTrace& named : traces) {
-    world::Trace trace = world::read_trace(named.file);
+    world::Trace trace = read_trace_file(named.file);
     if (!scenario) scenario = scenario_named(id = trace.header.scenario_id);
     if (arguments.scenario.empty() && trace.header.scenario_id != id) {
       throw InputError({named.file.string(), "", trace.header.scenario_id,
@@ -113,6 +115,10 @@ void report(const ReportArguments& arguments) {
 }
 
 }  // namespace
+
+std::string report_of_job(const fs::path& folder) {
+  return report_of_traces({{folder.string()}, "", ""});
+}
 
 void add_report(CLI::App& app) {
   auto* command = app.add_subcommand(

@@ -16,6 +16,7 @@
 #include "cli/job_runner.h"
 #include "cli/scenario_import.h"
 #include "cli/scenario_named.h"
+#include "cli/trace_file.h"
 #include "drawing/drawing.h"
 #include "jobs/pipeline/job_scenario.h"
 #include "jobs/pipeline/pipeline.h"
@@ -83,7 +84,7 @@ void draw_plan(const PlanArguments& arguments) {
   } else {
     scenario = scenario_named(arguments.name);
   }
-  if (!arguments.trace.empty()) paths = world::flown_paths(world::read_trace(arguments.trace));
+  if (!arguments.trace.empty()) paths = world::flown_paths(read_trace_file(arguments.trace));
   drawing::write_drawing(places::draw_plan(*scenario, arguments.size_px, paths), arguments.output);
 }
 

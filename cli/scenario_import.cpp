@@ -101,7 +101,7 @@ void import_place(const PlaceArguments& arguments) {
   fmt::print("{}: {:.0f} m x {:.0f} m, {} buildings, {} props, {} exits, {} people, {} skipped\n",
              written.string(), place.inside.max.x() - place.inside.min.x(),
              place.inside.max.y() - place.inside.min.y(), place.buildings.size(),
-             place.things.size() + place.props.size(), population.gates.size(),
+             place.objects.size() + place.props.size(), population.gates.size(),
              population.starts.size(), place.skipped.size());
 }
 

@@ -25,6 +25,11 @@ void add_serve(CLI::App& app) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command
+      ->add_option("--max-active-jobs", options->max_active_jobs,
+                   "Jobs in progress at once; each key may always have one")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
       ->add_option("--keep-days", options->keep_days,
                    "Remove jobs this many days after their end (0: never)")
       ->check(CLI::NonNegativeNumber);
@@ -48,8 +53,14 @@ void add_serve(CLI::App& app) {
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--worker-memory", options->worker_memory_mib,
-                   "Max MiB of address space per worker (0: no limit)")
+                   "Max MiB of address space per worker (0: by what its task needs)")
       ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--memory", options->memory_mib,
+                   "MiB of memory for all workers together (0: 7/8 of the machine's)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--webhook-private", options->webhook_private,
+                    "Let webhooks call addresses that are not public (this machine, its network)");
   command->add_flag("--log-json", options->log_json, "Log lines as JSON");
   command->add_flag(
       "--insecure", options->insecure,

@@ -3,10 +3,34 @@
 #include <cstdlib>
 #include <memory>
 
+#include "base/files.h"
+#include "calibrate/request.h"
 #include "cli/commands.h"
+#include "cli/job_report.h"
 #include "jobs/pipeline/worker.h"
 
 namespace throng::cli {
+
+namespace {
+
+void calibrate_in(const jobs::JobFolder& folder, const jobs::OnTaskProgress& on_progress) {
+  calibrate::carry_out_in(folder.path(),
+                          [&](double share, const std::string& what) {
+                            on_progress({share, 1, what});
+                          },
+                          {});
+}
+
+void write_report(const jobs::JobFolder& folder, const jobs::OnTaskProgress& /*on_progress*/) {
+  write_file_atomically(folder.output_of({jobs::Task::Kind::report}), report_of_job(folder.path()));
+}
+
+jobs::OtherTasks other_tasks() {
+  return {{jobs::name_of({jobs::Task::Kind::calibrate}), &calibrate_in},
+          {jobs::name_of({jobs::Task::Kind::report}), &write_report}};
+}
+
+}  // namespace
 
 void add_worker(CLI::App& app) {
   struct Arguments {
@@ -20,8 +44,9 @@ void add_worker(CLI::App& app) {
   command->add_option("--task", arguments->task, "The task's name, e.g. run000/shard0003")
       ->required();
   // The worker's exit codes: its supervisor retries only where that makes sense.
-  command->callback(
-      [arguments] { std::exit(jobs::run_worker(arguments->job_folder, arguments->task)); });
+  command->callback([arguments] {
+    std::exit(jobs::run_worker(arguments->job_folder, arguments->task, other_tasks()));
+  });
 }
 
 }  // namespace throng::cli

@@ -233,6 +233,18 @@ std::vector<hsize_t> shape_of(const Handle& parent, const std::string& name, std
   return shape;
 }
 
+void require_stored(const Handle& parent, const std::string& name,
+                    const std::vector<hsize_t>& shape, std::size_t value_bytes) {
+  constexpr double kMaxDeflation = 1100;  // zlib's is 1032
+  constexpr double kSmallBytes = 1e6;     // of which the partly filled last chunk is no matter
+  double bytes = static_cast<double>(value_bytes);
+  for (const hsize_t size : shape) bytes *= static_cast<double>(size);
+  if (bytes <= kSmallBytes) return;
+  const Handle dataset = open_dataset(parent, name);
+  const auto stored = static_cast<double>(H5Dget_storage_size(dataset.id()));
+  if (bytes > kMaxDeflation * stored) throw Failure(name);
+}
+
 void read_into(const Handle& parent, const std::string& name, const std::vector<hsize_t>& shape,
                const ElementType& type, void* data) {
   const Handle dataset = open_dataset(parent, name);
@@ -268,6 +280,7 @@ std::vector<std::string> read_texts(const Handle& parent, const std::string& nam
   }
   std::vector<std::string> texts;
   if (count == 0) return texts;
+  require_stored(parent, name, {count}, width);
   std::string cells(count * width, '\0');
   require(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, cells.data()), name);
   for (hsize_t i = 0; i < count; ++i) {

@@ -125,6 +125,11 @@ class RowDataset {
 /// The shape of a dataset, its rank checked. Throws Failure when it is missing or has another rank.
 std::vector<hsize_t> shape_of(const Handle& parent, const std::string& name, std::size_t rank);
 
+/// Throws Failure when the file holds too few bytes of a dataset for its shape: a damaged shape
+/// must not decide how much memory is asked for.
+void require_stored(const Handle& parent, const std::string& name,
+                    const std::vector<hsize_t>& shape, std::size_t value_bytes);
+
 /// A whole dataset of numbers, whose shape must be `shape` and whose element type in the file must
 /// be T's.
 void read_into(const Handle& parent, const std::string& name, const std::vector<hsize_t>& shape,

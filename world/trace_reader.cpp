@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/error.h"
@@ -17,10 +18,21 @@ namespace {
 
 // Far above any real run, far below what would exhaust the memory by a damaged number alone.
 constexpr hsize_t kMaxElements = 4'000'000'000;
+constexpr double kMaxImpulseNs = 1e6;
 
 [[noreturn]] void reject(const std::string& source, const std::string& where,
                          const std::string& found, const std::string& expected) {
   throw InputError(Problem{source, where, found, expected});
+}
+
+// Names and ids end up in JSON, whose writer refuses other bytes.
+bool is_utf8(const std::string& text) {
+  try {
+    static_cast<void>(nlohmann::json(text).dump());
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+  return true;
 }
 
 class Reader {
@@ -73,31 +85,31 @@ class Reader {
       return value == 1;
     };
     CrowdOrigin crowd;
-    crowd.model = hdf5::read_text_attribute(root_, "crowd_model");
-    crowd.compat = hdf5::read_text_attribute(root_, "crowd_compat");
+    crowd.model = text("crowd_model");
+    crowd.compat = text("crowd_compat");
     crowd.hard_separation = flag("crowd_hard_separation");
-    crowd.compliance = hdf5::read_attribute<double>(root_, "crowd_compliance");
+    crowd.compliance = number("crowd_compliance", 1);
     crowd.physical = flag("crowd_physical");
-    crowd.fall_impulse_ns = hdf5::read_attribute<double>(root_, "crowd_fall_impulse_ns");
+    crowd.fall_impulse_ns = number("crowd_fall_impulse_ns", kMaxImpulseNs);
     return crowd;
   }
 
   TraceHeader read_header() {
     TraceHeader header;
-    header.scenario_id = hdf5::read_text_attribute(root_, "scenario_id");
-    header.generator = hdf5::read_text_attribute(root_, "generator");
+    header.scenario_id = text("scenario_id");
+    header.generator = text("generator");
     header.seed = hdf5::read_attribute<std::uint64_t>(root_, "seed");
     header.dt_s = hdf5::read_attribute<double>(root_, "dt_s");
     if (!(header.dt_s > 0)) {
       reject(source_, "dt_s", fmt::format("{}", header.dt_s), "a positive number");
     }
     if (H5Aexists(root_.id(), "crowd_model") > 0) header.crowd = read_origin();
-    header.state_names = hdf5::read_texts(root_, "state_names");
+    header.state_names = texts("state_names");
     if (H5Lexists(root_.id(), "state_lying", H5P_DEFAULT) > 0) {
       header.state_lying = numbers<std::uint8_t>(root_, "state_lying", {header.state_names.size()});
     }
-    header.exit_ids = hdf5::read_texts(root_, "exit_ids");
-    header.drone_ids = hdf5::read_texts(root_, "drone_ids");
+    header.exit_ids = texts("exit_ids");
+    header.drone_ids = texts("drone_ids");
     const hdf5::Handle agents = open_group("agents");
     const hsize_t count = hdf5::shape_of(agents, "role", 1)[0];
     for (const std::uint8_t role : numbers<std::uint8_t>(agents, "role", {count})) {
@@ -216,6 +228,31 @@ class Reader {
     return events;
   }
 
+  std::string text(const char* name) {
+    std::string value = hdf5::read_text_attribute(root_, name);
+    require_utf8(value, name);
+    return value;
+  }
+
+  std::vector<std::string> texts(const char* name) {
+    std::vector<std::string> values = hdf5::read_texts(root_, name);
+    for (const std::string& value : values) require_utf8(value, name);
+    return values;
+  }
+
+  void require_utf8(const std::string& value, const char* name) {
+    if (is_utf8(value)) return;
+    reject(source_, name, "bytes that are not UTF-8", "text");
+  }
+
+  double number(const char* name, double max) {
+    const auto value = hdf5::read_attribute<double>(root_, name);
+    if (!(value >= 0 && value <= max)) {
+      reject(source_, name, fmt::format("{}", value), fmt::format("a number from 0 to {}", max));
+    }
+    return value;
+  }
+
   hdf5::Handle open_group(const char* name) {
     return {H5Gopen2(root_.id(), name, H5P_DEFAULT), H5Gclose, name};
   }
@@ -234,6 +271,7 @@ class Reader {
       if (size > 0 && count > kMaxElements / size) throw hdf5::Failure(name);
       count *= size;
     }
+    hdf5::require_stored(group, name, shape, sizeof(T));
     std::vector<T> values(count);
     hdf5::read_into(group, name, shape, hdf5::element_type<T>(), values.data());
     if constexpr (std::is_floating_point_v<T>) {

@@ -263,6 +263,30 @@ TEST(Trace, ADatasetOfAnotherLengthIsNamed) {
   EXPECT_THAT(problem, HasSubstr("yaw_rad"));
 }
 
+TEST(Trace, TextThatIsNotUtf8IsRefused) {
+  const std::string problem = problem_after([](hid_t file) {
+    const hid_t attribute = H5Aopen(file, "scenario_id", H5P_DEFAULT);
+    const hid_t type = H5Aget_type(attribute);
+    std::string text(H5Tget_size(type), 'a');
+    text[1] = '\xdc';
+    H5Awrite(attribute, type, text.data());
+    H5Tclose(type);
+    H5Aclose(attribute);
+  });
+  EXPECT_THAT(problem, HasSubstr("scenario_id: found bytes that are not UTF-8"));
+}
+
+// No more memory than the file's size can account for is asked for.
+TEST(Trace, AShapeThatTheFileCannotHoldIsRefused) {
+  const std::string problem = problem_after([](hid_t file) {
+    const hid_t dataset = H5Dopen2(file, "/crowd/time_s", H5P_DEFAULT);
+    const hsize_t longer = 3'000'000'000;
+    H5Dset_extent(dataset, &longer);
+    H5Dclose(dataset);
+  });
+  EXPECT_THAT(problem, HasSubstr("time_s"));
+}
+
 TEST(Trace, AnIndexOutOfRangeIsRefused) {
   const std::string problem = problem_after([](hid_t file) {
     const hid_t dataset = H5Dopen2(file, "/crowd/state", H5P_DEFAULT);
