@@ -81,6 +81,24 @@ def test_a_generated_place_in_a_job(folder):
     assert "/scenario/generate/kind" in said and "campus" in said, said
 
 
+def test_names_say_where_things_lie(_):
+    axes = {"east": (0, 1), "west": (0, -1), "north": (1, 1), "south": (1, -1)}
+    checked = 0
+    for file in (ROOT / "scenarios").rglob("*.json"):
+        scenario = json.loads(file.read_text())
+        for thing in [*scenario.get("buildings", []), *scenario.get("exits", [])]:
+            if "box" in thing:
+                corners = [thing["box"][:2], thing["box"][2:]]
+            else:
+                corners = thing.get("footprint") or [thing["from"], thing["to"]]
+            for word in set(thing.get("id", "").split("_")) & set(axes):
+                axis, sign = axes[word]
+                middle = sum(corner[axis] for corner in corners) / len(corners)
+                assert sign * middle > 0, (file, thing["id"], corners)
+                checked += 1
+    assert checked > 100, checked
+
+
 for test in [value for name, value in list(globals().items()) if name.startswith("test_")]:
     with tempfile.TemporaryDirectory() as temporary:
         test(pathlib.Path(temporary))
