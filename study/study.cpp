@@ -204,11 +204,12 @@ class StudyReader {
     const json crowd = part(given, "crowd");
     const json drones = part(document_["policies"][p], "drones");
     if (!crowd.is_null()) job["crowd"] = crowd;
-    if (!drones.is_null()) job["drones"] = drones;
+    const bool nobody_flies = drones.is_null() || drones == json::array();
+    if (!nobody_flies) job["drones"] = drones;
+    const auto default_drones =
+        nobody_flies ? jobs::DefaultDrones::none : jobs::DefaultDrones::of_scenario;
     try {
-      jobs::JobSpec spec = jobs::resolve_job(job.dump(), source_, scenarios_).spec();
-      if (drones.is_null()) spec.drones.clear();  // not the scenario's own
-      return spec;
+      return jobs::resolve_job(job.dump(), source_, scenarios_, default_drones).spec();
     } catch (const InputError& error) {
       for (Problem problem : error.problems()) {
         const bool of_policy = problem.where.rfind("/drones", 0) == 0;

@@ -63,6 +63,25 @@ TEST_F(StudyFile, MakesAJobOfEveryCaseAndPolicy) {
   EXPECT_EQ(study.runs, 2);
 }
 
+TEST_F(StudyFile, APolicyWithoutDronesNeedsNoneOfTheScenario) {
+  const std::string id = "city_square/huang2016/";
+  fs::create_directories(folder.path() / id);
+  fs::copy(kScenarios / id, folder.path() / id);
+  const fs::path file = folder.path() / id / "nearest_exit.json";
+  json scenario = json::parse(read_file(file));
+  ASSERT_EQ(scenario.erase("drones"), 1U);
+  std::ofstream(file) << scenario;
+  json document = small_study();
+  document["cases"][0]["scenario"] = id + "nearest_exit";
+  document["policies"][0] = {{"id", "none"}};
+  document["policies"][1] = {{"id", "none_either"}, {"drones", json::array()}};
+  const Study study =
+      load_study(folder.write("study.json", document.dump()), fs::path(folder.path()));
+  EXPECT_TRUE(study.jobs[0][0].drones.empty());
+  EXPECT_TRUE(study.jobs[0][1].drones.empty());
+  EXPECT_EQ(study.jobs[0][0].crowd.model, "orca") << "still the scenario's";
+}
+
 TEST_F(StudyFile, TheShippedOneIsFine) {
   const Study study = load_study(kScenarios / "city_square" / "study.json", kScenarios);
   EXPECT_EQ(study.runs, 24);

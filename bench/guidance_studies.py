@@ -1,0 +1,238 @@
+#!/usr/bin/env python3
+"""Runs the studies of docs/guidance.md, and prints their tables.
+
+usage: bench/guidance_studies.py FOLDER [--runs N] [--threads N] [--figure FILE.svg] [STUDY...]
+
+Studies (all without a name): square (scenarios/city_square/study.json), baselines (nobody informed or a siren at t = 0,
+without and with three drones, for the crowd models orca and ttc), unseen (another seed, drones lead at 1.6 m/s), camera
+(drones see what their cameras count), compliance (half of the people follow), signage, everyday_square (the four cases of
+city_square). FOLDER has a folder per study; an interrupted one is resumed. --figure draws the escape curves of case 2 of
+the study baselines (docs/guidance_baselines.svg). THRONG names another program than
+build/release/cli/throng.
+"""
+import argparse
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+THRONG = os.environ.get("THRONG", str(ROOT / "build/release/cli/throng"))
+SHIPPED = json.loads((ROOT / "scenarios/city_square/study.json").read_text())
+NEWS = r'<Condition type="proximity" distance="20" agentToAvoid="260" growth_rate="0.75"/>'
+SIREN = '<Condition type="proximity" distance="1000" agentToAvoid="260"/>'
+CASES = ["nearest_exit", "crowded_exit_blocked", "side_exit_blocked", "second_nearest"]
+UNSEEN_SEED = 60427  # of no study before this one
+
+
+def cases(prefix, **crowd):
+    """Cases of the shipped study whose ids begin with `prefix`, with more settings of the crowd."""
+    found = [dict(case) for case in SHIPPED["cases"] if case["id"].startswith(prefix)]
+    for case in found:
+        if crowd:
+            case["crowd"] = {**case.get("crowd", {}), **crowd}
+    return found
+
+
+def policies(*ids, **guidance):
+    """Policies of the shipped study, with other parameters of the drones' guidance."""
+    found = json.loads(json.dumps([policy for policy in SHIPPED["policies"] if policy["id"] in ids]))
+    for policy in found:
+        for drone in policy.get("drones", []):
+            drone["guidance"].update(guidance)
+    return found
+
+
+def study(name, its_cases, its_policies, runs, seed=None):
+    """A study file as a value; nobody flies in its baseline."""
+    return {
+        "name": name,
+        "seed": SHIPPED["seed"] if seed is None else seed,
+        "runs": runs,
+        "baseline": "none",
+        "cases": its_cases,
+        "policies": its_policies,
+    }
+
+
+def add_siren(scenarios):
+    """Scenarios X_siren: X_navigated, but everybody knows at t = 0."""
+    folder = scenarios / "city_square/huang2016"
+    for case in CASES:
+        behavior = (folder / f"{case}_navigated_behavior.xml").read_text()
+        if behavior.count(NEWS) == 0:
+            raise SystemExit(f"{case}_navigated_behavior.xml: no condition {NEWS}")
+        (folder / f"{case}_siren_behavior.xml").write_text(behavior.replace(NEWS, SIREN))
+        scenario = json.loads((folder / f"{case}_navigated.json").read_text())
+        scenario["crowd"]["behavior"] = f"{case}_siren_behavior.xml"
+        (folder / f"{case}_siren.json").write_text(json.dumps(scenario))
+
+
+def baseline_cases():
+    """Cases 1 to 4 with navigation, without and with a siren, for two crowd models."""
+    found = []
+    for model in ["orca", "ttc"]:
+        for case in cases("ours_", model=model):
+            siren = dict(case, scenario=case["scenario"].replace("_navigated", "_siren"))
+            found += [dict(case, id=f"{model}_{case['id']}"), dict(siren, id=f"{model}_siren_{case['id']}")]
+    return found
+
+
+def everyday_square():
+    """The cases of city_square with today's default crowd of that scenario."""
+    return [{"id": case, "scenario": f"city_square/{case}", "duration_s": 300} for case in CASES]
+
+
+def signage():
+    """Three drones of the policy signage."""
+    drones = policies("balance_3")[0]["drones"]
+    for drone in drones:
+        drone["guidance"] = {"policy": "signage"}
+    return [policies("none")[0], {"id": "signage_3", "title": "signage, 3 drones", "drones": drones}]
+
+
+def studies():
+    """All studies by name."""
+    three = policies("none", "balance_3", lead_speed_mps=1.6)
+    camera = policies("none", "balance_3", lead_speed_mps=1.6, perception={"kind": "camera"})
+    return {
+        "square": SHIPPED,
+        "baselines": study("Baselines", baseline_cases(), policies("none", "balance_3"), 24),
+        "unseen": study(
+            "Other seeds", cases(""), policies("none", "balance_1", "balance_3", lead_speed_mps=1.6), 12, UNSEEN_SEED
+        ),
+        "three": study("Three drones at 1.6 m/s", cases("paper_"), three, 12),
+        "camera": study("Camera perception", cases("paper_"), camera, 12),
+        "compliance": study("Half comply", cases("paper_", compliance=0.5), three, 12),
+        "signage": study("Signage", cases("paper_"), signage(), 12),
+        "everyday_square": study("Cases of the library", everyday_square(), policies("none", "balance_3"), 12),
+    }
+
+
+def p_text(p):
+    """Two digits."""
+    return f"{p:.2g}"
+
+
+def print_rows(summary):
+    """Rows of docs/guidance.md: times are medians, means and differences those to the longer horizon."""
+    print(
+        "| case | policy | T50 | T75 | T90 | T95 | all out | mean escape, s | ratio | difference, s [95 %] | p | p (Holm) "
+        "| T90/reference |"
+    )
+    print("|" + "---|" * 13)
+    for row in summary["rows"]:
+        times = [row["times"][f"t{p}_s"] for p in (50, 75, 90, 95)]
+        cells = [row["case"], row["policy"]]
+        cells += ["never" if time is None or time["median"] is None else f"{time['median']:.0f}" for time in times]
+        mean = row["restricted_means"][-1]
+        cells += [f"{row['all_out']}/{row['runs']}", f"{mean['mean_s']:.1f}"]
+        if row["policy"] == summary["baseline"]:
+            cells += ["", "", "", ""]
+        else:
+            low, high = mean["difference_95_s"]
+            cells += [
+                f"{mean['ratio_to_baseline']:.2f}",
+                f"{mean['difference_s']:+.1f} [{low:+.1f}, {high:+.1f}]",
+                p_text(mean["wilcoxon"]["p"]),
+                p_text(mean["holm_p"]),
+            ]
+        ratio = row["t90_to_reference"]
+        cells.append("" if ratio is None or math.isinf(ratio) else f"{ratio:.2f}")
+        print("| " + " | ".join(cells) + " |")
+
+
+CURVES = [
+    ("orca_ours_2", "none", "nobody informed", "#000000"),
+    ("orca_ours_2", "balance_3", "3 drones", "#009E73"),
+    ("orca_siren_ours_2", "none", "siren", "#0072B2"),
+    ("orca_siren_ours_2", "balance_3", "siren and 3 drones", "#D55E00"),
+]
+END_S = 100
+LEFT, RIGHT, TOP, BOTTOM = 60, 560, 20, 330  # of the axes, pixels
+
+
+def mean_out(folder, case, policy):
+    """Mean number of people who are out at each second, over the runs."""
+    runs = [json.loads(file.read_text())["outcome"]["escapes"] for file in (folder / "runs" / case / policy).iterdir()]
+    return [sum(time <= second for run in runs for time in run["escape_s"]) / len(runs) for second in range(END_S + 1)]
+
+
+def figure(folder):
+    """Escape curves of CURVES as SVG."""
+    curves = [mean_out(folder, case, policy) for case, policy, _, _ in CURVES]
+    most = 20 * math.ceil(max(map(max, curves)) / 20)
+
+    def x(second):
+        return LEFT + (RIGHT - LEFT) * second / END_S
+
+    def y(count):
+        return BOTTOM - (BOTTOM - TOP) * count / most
+
+    parts = [
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 720 380" font-family="sans-serif" font-size="12">',
+        '<rect width="720" height="380" fill="white"/>',
+    ]
+    for count in range(0, most + 1, 20):
+        parts.append(
+            f'<line x1="{LEFT}" x2="{RIGHT}" y1="{y(count):.1f}" y2="{y(count):.1f}" stroke="#ddd"/>'
+            f'<text x="{LEFT - 6}" y="{y(count) + 4:.1f}" text-anchor="end">{count}</text>'
+        )
+    for second in range(0, END_S + 1, 20):
+        parts.append(f'<text x="{x(second):.1f}" y="{BOTTOM + 18}" text-anchor="middle">{second}</text>')
+    parts.append(
+        f'<text x="{x(END_S / 2):.1f}" y="{BOTTOM + 38}" text-anchor="middle">time since the alarm, s</text>'
+        f'<text transform="translate(18 {y(most / 2):.1f}) rotate(-90)" text-anchor="middle">people out</text>'
+    )
+    for row, (curve, (_, _, title, color)) in enumerate(zip(curves, CURVES)):
+        points = " ".join(f"{x(second):.1f},{y(count):.1f}" for second, count in enumerate(curve))
+        parts.append(
+            f'<polyline fill="none" stroke="{color}" stroke-width="2" points="{points}"/>'
+            f'<line x1="{RIGHT + 10}" x2="{RIGHT + 30}" y1="{40 + 20 * row}" y2="{40 + 20 * row}" stroke="{color}" '
+            f'stroke-width="2"/><text x="{RIGHT + 36}" y="{44 + 20 * row}">{title}</text>'
+        )
+    return "\n".join(parts) + "\n</svg>\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--runs", type=int, default=0)
+    parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--figure", type=pathlib.Path)
+    parser.add_argument("study", nargs="*")
+    options = parser.parse_intermixed_args()
+    scenarios = options.folder.resolve() / "scenarios"
+    shutil.copytree(ROOT / "scenarios", scenarios, dirs_exist_ok=True)
+    add_siren(scenarios)
+    for name, document in studies().items():
+        if options.study and name not in options.study:
+            continue
+        file = options.folder / f"{name}.json"
+        file.write_text(json.dumps(document, indent=1))
+        subprocess.run(
+            [
+                THRONG,
+                "study",
+                file,
+                "-o",
+                options.folder / name,
+                "--runs",
+                str(options.runs),
+                "--threads",
+                str(options.threads),
+            ],
+            check=True,
+            stdout=subprocess.DEVNULL,
+            env={**os.environ, "THRONG_SCENARIOS": str(scenarios)},
+        )
+        print(f"\n{name}\n", flush=True)
+        print_rows(json.loads((options.folder / name / "summary.json").read_text()))
+    if options.figure:
+        options.figure.write_text(figure(options.folder / "baselines"))
+
+
+if __name__ == "__main__":
+    main()
