@@ -65,8 +65,8 @@ BagFile::BagFile(const std::filesystem::path& path, bool is_compressed)
 
 BagFile::~BagFile() = default;
 
-void BagFile::add_picture(const std::string& topic, const std::string& frame, double time_s,
-                          const std::string& jpeg) {
+void BagFile::add_image(const std::string& topic, const std::string& frame, double time_s,
+                        const std::string& jpeg) {
   sensor_msgs::CompressedImage message;
   message.header = header_of(frame, time_s);
   message.format = "jpeg";

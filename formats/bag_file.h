@@ -51,8 +51,8 @@ class BagFile {
   BagFile& operator=(const BagFile&) = delete;
 
   /// sensor_msgs/CompressedImage: the JPEG's bytes as they are.
-  void add_picture(const std::string& topic, const std::string& frame, double time_s,
-                   const std::string& jpeg);
+  void add_image(const std::string& topic, const std::string& frame, double time_s,
+                 const std::string& jpeg);
   void add_lens(const std::string& topic, const std::string& frame, double time_s,
                 const camera::Intrinsics& lens);
   /// tf2_msgs/TFMessage on /tf.

@@ -16,7 +16,7 @@ namespace {
 constexpr int kCardVersion = 1;
 /// Of the characters that set-up bakes; own ones that were imported have their own.
 constexpr const char* kPeopleLicense =
-    "CC0-1.0 for those that throng people build makes; see NOTICE.txt beside the baked people";
+    "CC0-1.0 for those that throng people build makes; see NOTICE.txt beside the character library";
 
 /// Grounds, walls, sky and props are drawn from formulas.
 constexpr const char* kPlaceLicense =
@@ -55,7 +55,7 @@ std::string place_of(const annotate::GroundTruthKind& kind) {
 constexpr std::string_view kCocoSnippet = R"(
 ## Loading
 
-Boxes, masks, cameras and who is who, with nothing but Python's standard library:
+Boxes, masks, cameras and tracks, with nothing but Python's standard library:
 
 ```python
 import json
@@ -86,7 +86,7 @@ assert abs(density.sum(dtype=numpy.float64) - image["density_count"]) < 0.01 * m
 )";
 
 constexpr std::string_view kProjectionSnippet = R"(
-Where somebody stands, in the picture (of a camera without distortion):
+The position of a person in the image (of a camera without distortion):
 
 ```python
 import json
@@ -183,9 +183,9 @@ json DatasetCard::description() const {
         {"projection",
          "OpenCV's pixels: u = K (R X + t), divided by its third part; + 0.5 in "
          "box coordinates"},
-        {"world", "right-handed, metres, z up, the ground is z = 0"},
+        {"world", "right-handed, meters, z up, the ground is z = 0"},
         {"camera", "x right, y down, z forward"},
-        {"time", "seconds since the run began; label and picture are of the same instant"}}},
+        {"time", "seconds since the run began; label and image are of the same instant"}}},
       {"licence", {{"people", kPeopleLicense}, {"place", kPlaceLicense}}},
       {"people", manifest_.value("people", json::object())},
       {"job", manifest_.at("job")}};
@@ -211,7 +211,7 @@ std::string DatasetCard::readme() const {
   if (info_.has(annotate::GroundTruth::density)) text += kDensitySnippet;
   text += kProjectionSnippet;
   text += fmt::format(
-      "\n## Splits\n\nWhole runs: {}.\n\n## Licence\n\nThe people that are drawn: {}. Everything "
+      "\n## Splits\n\nWhole runs: {}.\n\n## License\n\nThe people that are drawn: {}. Everything "
       "else is made by {}.\n",
       card.at("splits").dump(), kPeopleLicense, info_.generator);
   return text;

@@ -141,21 +141,21 @@ class CocoExporter : public Exporter {
   }
 
  private:
-  void add(const Image& image, const Person& thing, std::size_t category, CocoFile& file) const {
-    json record = thing.record;
+  void add(const Image& image, const Person& object, std::size_t category, CocoFile& file) const {
+    json record = object.record;
     record["category_id"] = category + 1;
-    if (thing.is_ignored) {
+    if (object.is_ignored) {
       record["iscrowd"] = 1;
       // COCO has run lengths of regions as plain numbers.
       record["segmentation"]["counts"] =
-          runs_of(thing.mask, static_cast<std::uint64_t>(image.width) *
-                                  static_cast<std::uint64_t>(image.height));
+          runs_of(object.mask, static_cast<std::uint64_t>(image.width) *
+                                   static_cast<std::uint64_t>(image.height));
     }
     if (!keypoints_) {
       for (const char* key : {"keypoints", "num_keypoints", "keypoints_3d"}) record.erase(key);
     }
     file.add_annotation(record);
-    file.add_track(*thing.track, image.run);
+    file.add_track(*object.track, image.run);
   }
 
   fs::path root_;

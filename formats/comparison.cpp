@@ -55,7 +55,7 @@ void Comparison::bytes(const fs::path& path, std::string_view made) {
 
 void Comparison::file(const fs::path& path, const fs::path& made) {
   if (is_there(path) && !(fs::is_regular_file(made) && are_equal(folder_ / path, made))) {
-    report_(path.string(), "not what the annotations or pictures give");
+    report_(path.string(), "not what the annotations or images give");
   }
 }
 

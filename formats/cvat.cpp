@@ -1,4 +1,4 @@
-// CVAT for images 1.1: one XML of all pictures, boxes with attributes.
+// CVAT for images 1.1: one XML of all images, boxes with attributes.
 #include <fmt/format.h>
 
 #include <iterator>

@@ -135,12 +135,12 @@ void read_image(json record, const DatasetInfo& info, Image& image) {
 json sample_of(const Image& image, const DatasetInfo& info) {
   json sample = image.record;
   sample["annotations"] = json::array();
-  const auto add = [&](const Person& thing, const std::string& category) {
-    json& record = sample["annotations"].emplace_back(*thing.track);
+  const auto add = [&](const Person& object, const std::string& category) {
+    json& record = sample["annotations"].emplace_back(*object.track);
     record.erase("run");
-    record.update(thing.record);
+    record.update(object.record);
     record["category"] = category;
-    if (thing.is_ignored) record["ignored"] = true;
+    if (object.is_ignored) record["ignored"] = true;
   };
   for (const Person& person : image.people) add(person, info.categories[person.category]);
   for (const Person& drone : image.drones) add(drone, kDroneClass);
@@ -191,6 +191,14 @@ json read_manifest(const fs::path& root) {
   return parse_json(read_file(file), file.string(), kOwnJsonLimits);
 }
 
+InputError bad_manifest(const fs::path& root, const json::exception& error) {
+  const std::string_view text = error.what();  // "[json.exception.type_error.302] type must be..."
+  const auto end = text.find("] ");
+  return InputError({(root / "manifest.json").string(), "",
+                     std::string(end == std::string_view::npos ? text : text.substr(end + 2)),
+                     "the manifest that throng wrote"});
+}
+
 DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
                              const ExportOptions& options) {
   DatasetInfo info;
@@ -217,8 +225,7 @@ DatasetInfo describe_dataset(const fs::path& root, const json& manifest,
     info.density_sigma_px =
         outputs.value("density", json::object()).value("sigma_px", info.density_sigma_px);
   } catch (const json::exception& error) {
-    throw InputError(
-        {(root / "manifest.json").string(), "", error.what(), "the manifest that throng wrote"});
+    throw bad_manifest(root, error);
   }
   if (!info.has(annotate::GroundTruth::coco)) {
     throw InputError({root.string(), "", "no COCO annotations",

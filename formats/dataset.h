@@ -1,5 +1,5 @@
-// A finished dataset, read picture by picture with its annotations: what every exporter is fed.
-// Memory does not grow with the number of pictures.
+// A finished dataset, read image by image with its annotations: what every exporter is fed.
+// Memory does not grow with the number of images.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,6 +14,7 @@
 
 #include "annotate/coco.h"
 #include "annotate/spec/ground_truth.h"
+#include "base/error.h"
 #include "formats/spec/options.h"
 
 namespace throng::formats {
@@ -33,7 +34,7 @@ struct Keypoint {
   int visibility = 0;
 };
 
-/// Somebody in a picture, or another drone; docs/formats.md says what the values mean.
+/// Somebody in an image, or another drone; docs/formats.md says what the values mean.
 struct Person {
   nlohmann::json record;  ///< the annotation as it stands in the COCO file
   /// That of `tracks`: what stays the same all run long. Empty if it has none; never null.
@@ -55,7 +56,7 @@ struct Person {
   std::string state;
   std::vector<Keypoint> keypoints;  ///< 17, or none if the dataset has none
   std::size_t category = 0;         ///< index into DatasetInfo::categories
-  /// What track_id says of the person within its run, from 1: also in pictures of instances.
+  /// What track_id says of the person within its run, from 1: also in images of instances.
   std::int64_t number_in_run() const { return track_id % annotate::kTrackIdsPerRun; }
   bool is_ignored = false;  ///< fails the filters: to be written as an ignore region
 };
@@ -86,7 +87,7 @@ struct Image {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();              ///< world to camera
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 
-  /// "run000-d1": one camera's pictures of one run, in order.
+  /// "run000-d1": one camera's images of one run, in order.
   std::string sequence() const { return run + "-" + camera; }
   /// "run000-d1-000012": unique over the dataset, fit for a file's name.
   std::string stem() const;
@@ -115,7 +116,7 @@ struct DatasetInfo {
 
 /// The image's record with `annotations`, its people's and drones' records with what their tracks
 /// say, in which `category` names their class and `ignored` is true of who fails the filters:
-/// everything about a picture in one object.
+/// everything about an image in one object.
 nlohmann::json sample_of(const Image& image, const DatasetInfo& info);
 
 /// Describes a dataset by its manifest. Throws InputError when it has no COCO annotations, or when
@@ -125,6 +126,9 @@ DatasetInfo describe_dataset(const std::filesystem::path& root, const nlohmann::
 
 /// Reads manifest.json. Throws InputError when `root` is not a finished dataset.
 nlohmann::json read_manifest(const std::filesystem::path& root);
+
+/// The error to throw where reading a value of the manifest threw `error`.
+InputError bad_manifest(const std::filesystem::path& root, const nlohmann::json::exception& error);
 
 /// Path of a dataset's COCO file, below its root.
 inline constexpr const char* kCocoFile = "annotations/instances.json";
@@ -140,8 +144,8 @@ class DatasetReader {
   DatasetReader(const DatasetReader&) = delete;
   DatasetReader& operator=(const DatasetReader&) = delete;
 
-  /// The next picture, in the file's order: by run, frame, camera. False after the last. Throws
-  /// InputError naming file and line of a damaged record, or one whose picture is not there.
+  /// The next image, in the file's order: by run, frame, camera. False after the last. Throws
+  /// InputError naming file and line of a damaged record, or one whose image is not there.
   bool next(Image& image);
 
  private:
@@ -151,7 +155,7 @@ class DatasetReader {
   std::unique_ptr<Tracks> tracks_;
   std::unique_ptr<Lines> images_;
   std::unique_ptr<Lines> annotations_;
-  nlohmann::json waiting_;  ///< the annotation after those of the last picture; null: none
+  nlohmann::json waiting_;  ///< the annotation after those of the last image; null: none
 };
 
 }  // namespace throng::formats

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <vector>
 
+#include "formats/median.h"
+
 namespace throng::formats {
 
 namespace {
 
-constexpr double kCapacityPerMs = 1.3;
 constexpr double kFullDensity = 0.6;
 constexpr double kFreeSpeed = 0.6;
 
@@ -18,14 +19,6 @@ bool differs(double a, double b, double slack) { return std::abs(a - b) > slack;
 
 /// People gone out less people come in.
 double net_of(const ExitRow& row) { return row["crossed_out"] - row["crossed_in"]; }
-
-/// The middle value of ratios of columns, which are one number but for rounding; NaN without any.
-double common_ratio(std::vector<double> ratios) {
-  if (ratios.empty()) return std::nan("");
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
-}
 
 /// Constants of an exit that the table does not name.
 struct ExitSizes {
@@ -45,7 +38,7 @@ ExitSizes sizes_of(const ExitSeries& series) {
       widths.push_back(row["flow"] / row["specific_flow"]);
     }
   }
-  return {common_ratio(areas), common_ratio(packings), common_ratio(widths)};
+  return {median(areas), median(packings), median(widths)};
 }
 
 /// One row, and what it follows from.

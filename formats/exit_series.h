@@ -10,6 +10,11 @@
 
 namespace throng::formats {
 
+/// Definitions of docs/metrics.md, stated here once more: checks do not rely on what they check.
+inline constexpr double kCapacityPerMs = 1.3;  ///< of a door, people per meter and second
+inline constexpr double kWaitWindowS = 20;     ///< predicted waits: the flow of the last seconds,
+inline constexpr double kWaitPriorS = 10;      ///< with this time at the capacity
+
 struct ExitRow {
   std::size_t line = 0;                 ///< in the file, from 1
   std::map<std::string, double> value;  ///< by column; NaN for texts

@@ -1,4 +1,4 @@
-// A format: a name, what it needs, and an exporter that is fed picture by picture.
+// A format: a name, what it needs, and an exporter that is fed image by image.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace throng::formats {
 
-/// Writes one format. Pictures come in the dataset's order; memory must not grow with their number.
+/// Writes one format. Images come in the dataset's order; memory must not grow with their number.
 class Exporter {
  public:
   Exporter() = default;

@@ -35,19 +35,19 @@ class Findings {
 };
 
 /// People and drones.
-inline std::vector<Person> things_of(const Image& image) {
-  std::vector<Person> things = image.people;
-  things.insert(things.end(), image.drones.begin(), image.drones.end());
-  return things;
+inline std::vector<Person> objects_of(const Image& image) {
+  std::vector<Person> objects = image.people;
+  objects.insert(objects.end(), image.drones.begin(), image.drones.end());
+  return objects;
 }
 
-/// The value of a person or drone in pictures of instances.
-std::uint32_t instance_of(const Person& thing);
+/// The value of a person or drone in images of instances.
+std::uint32_t instance_of(const Person& object);
 
-/// One picture's annotations by themselves: boxes, masks, visibility, keypoints.
+/// One image's annotations by themselves: boxes, masks, visibility, keypoints.
 void check_people(const Image& image, Findings& findings);
 
-/// Positions of a picture's people in the world, against their boxes.
+/// Positions of an image's people in the world, against their boxes.
 void check_bodies(const Image& image, Findings& findings);
 
 /// Everything below formats/, dataset.json and README.md, made again from the annotations and
@@ -94,7 +94,7 @@ class FormatCheck {
 /// since that is rounded.
 Eigen::Matrix<double, 3, 8> corners_in_camera(const Image& image, const Person& person);
 
-/// Whether the file alone says where things appear: without a lens's distortion or a rolling
+/// Whether the file alone says where objects appear: without a lens's distortion or a rolling
 /// shutter.
 bool is_plain(const Image& image);
 

@@ -1,4 +1,4 @@
-// The drone that carries the camera: its record with each picture, and the tables of its sensors.
+// The drone that carries the camera: its record with each image, and the tables of its sensors.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,14 +35,14 @@ struct SensorSample {
 std::string implausible_reading(const SensorSample& sample, double latitude_deg, double age_s,
                                 double gps_age_s);
 
-/// A picture's flight record: camera, gimbal, sensors.
+/// An image's flight record: camera, gimbal, sensors.
 void check_flight(const Image& image, Findings& findings);
 
 /// Flight records of consecutive frames of one camera.
 void check_flight_between(const Image& before, const Image& after, Findings& findings);
 
 /// sensors/RUN/DRONE.csv: rows follow from each other, readings from the truth, and the flight
-/// records of the pictures are between the rows.
+/// records of the images are between the rows.
 class SensorTableCheck : public GroundTruthCheck {
  public:
   void add(const DatasetInfo& info, const Image& image, Findings& findings) override;

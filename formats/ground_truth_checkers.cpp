@@ -10,7 +10,7 @@ using annotate::GroundTruth;
 
 namespace {
 
-/// A check of one picture at a time.
+/// A check of one image at a time.
 template <void (*check)(const DatasetInfo&, const Image&, const Pixels&, Findings&)>
 class PixelCheck : public GroundTruthCheck {
  public:

@@ -21,7 +21,7 @@ void GroundTruthChecks::add(const DatasetInfo& info, const Image& image, Finding
       findings.add("ground-truth", file, fmt::format("image {}", image.id),
                    fmt::format("no such file, but the job asks for {}", kind.name));
     }
-    // Files of single pictures come once; only those of runs are kept in mind.
+    // Files of single images come once; only those of runs are kept in mind.
     if (kind.file.find("CAMERA/FRAME") == std::string_view::npos) files_.insert(std::move(file));
   }
   for (const auto& check : checks_) check->add(info, image, findings);

@@ -1,5 +1,5 @@
 // The checks of `throng validate` for each kind of ground truth: one table. Checks of the COCO
-// records, and of several kinds or pictures against each other, are in formats/shot.h and
+// records, and of several kinds or images against each other, are in formats/shot.h and
 // formats/findings.h.
 #pragma once
 
@@ -16,16 +16,16 @@
 
 namespace throng::formats {
 
-/// Of one kind and one dataset, fed picture by picture in the order of the COCO file.
+/// Of one kind and one dataset, fed image by image in the order of the COCO file.
 class GroundTruthCheck {
  public:
   GroundTruthCheck() = default;
   virtual ~GroundTruthCheck() = default;
   GroundTruthCheck(const GroundTruthCheck&) = delete;
   GroundTruthCheck& operator=(const GroundTruthCheck&) = delete;
-  /// Every picture.
+  /// Every image.
   virtual void add(const DatasetInfo& /*info*/, const Image& /*image*/, Findings& /*findings*/) {}
-  /// Every picture whose records have no faults, after add().
+  /// Every image whose records have no faults, after add().
   virtual void add_pixels(const DatasetInfo& /*info*/, const Image& /*image*/,
                           const Pixels& /*pixels*/, Findings& /*findings*/) {}
   virtual void finish(const DatasetInfo& /*info*/, Findings& /*findings*/) {}
@@ -56,7 +56,7 @@ class GroundTruthChecks {
 // Checks of one kind's values per pixel, for the table.
 void check_density(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                    Findings& findings);
-/// Masks against the picture of instances, pixel by pixel.
+/// Masks against the image of instances, pixel by pixel.
 void check_instances(const DatasetInfo& info, const Image& image, const Pixels& pixels,
                      Findings& findings);
 /// Depth inside the masks against where the people are, and that of the ground.

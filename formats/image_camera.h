@@ -1,4 +1,4 @@
-// The camera of a dataset's picture, with its lens.
+// The camera of a dataset's image, with its lens.
 #pragma once
 
 #include "camera/camera.h"
@@ -9,10 +9,10 @@ namespace throng::formats {
 /// As the image's record says it.
 camera::Camera camera_of(const Image& image);
 
-/// Pixels that a thing of this size covers at a point of the world: for a pinhole fx size / z; with
-/// a lens the mean of two directions at right angles to the line of sight, as the lens shows them,
-/// or the pinhole's where it shows nothing. Points nearer to the camera's plane than 0.1 m count as
-/// that far.
+/// Pixels that a object of this size covers at a point of the world: for a pinhole fx size / z;
+/// with a lens the mean of two directions at right angles to the line of sight, as the lens shows
+/// them, or the pinhole's where it shows nothing. Points nearer to the camera's plane than 0.1 m
+/// count as that far.
 double pixels_across(const camera::Camera& camera, const Eigen::Vector3d& world, double size_m);
 
 /// Nothing nearer to the camera's plane is drawn or in a box, m.

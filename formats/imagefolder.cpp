@@ -1,4 +1,4 @@
-// Hugging Face's ImageFolder: pictures and a metadata.jsonl beside them, equal keys on each line.
+// Hugging Face's ImageFolder: images and a metadata.jsonl beside them, equal keys on each line.
 #include <fmt/format.h>
 
 #include <map>

@@ -1,4 +1,4 @@
-// The values of the pictures of instances (docs/formats.md).
+// The values of the images of instances (docs/formats.md).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// KITTI's object detection: a label and a calibration per picture.
+// KITTI's object detection: a label and a calibration per image.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ void append_label(std::string& text, const Image& image, const Person& person) {
 }
 
 /// The lens's coefficients in OpenCV's order, on a line whose name says the model; "" for a
-/// pinhole. KITTI's own pictures are rectified and have no such line.
+/// pinhole. KITTI's own images are rectified and have no such line.
 std::string distortion_line(const Image& image) {
   const auto distortion = camera_of(image).intrinsics.distortion;
   if (!distortion) return "";
@@ -82,12 +82,12 @@ std::string calibration(const Image& image) {
 }
 
 constexpr std::string_view kLensNote =
-    "Pictures of this dataset are distorted by a lens, unlike KITTI's: P0 to P3 alone do not\n"
-    "project into them. The last line of a calib file has OpenCV's coefficients of its picture:\n"
+    "Images of this dataset are distorted by a lens, unlike KITTI's: P0 to P3 alone do not\n"
+    "project into them. The last line of a calib file has OpenCV's coefficients of its image:\n"
     "D2_brown_conrady: k1 k2 p1 p2 k3 k4 k5 k6   (cv::projectPoints with K = P2's left 3 x 3)\n"
     "D2_fisheye: k1 k2 k3 k4                     (cv::fisheye::projectPoints)\n"
     "Files without such a line are a pinhole's. Boxes of label_2 are those of the distorted\n"
-    "pictures; places, sizes and rotation_y are those of the camera's frame.\n";
+    "images; places, sizes and rotation_y are those of the camera's frame.\n";
 
 class KittiExporter : public Exporter {
  public:

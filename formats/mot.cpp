@@ -31,7 +31,7 @@ std::string sequence_info(const DatasetInfo& info, const Image& image) {
       image.sequence(), info.rate_hz, info.frames_per_camera, image.width, image.height);
 }
 
-/// Common to MOT and MOTS: the folders of a sequence, its pictures and its text.
+/// Common to MOT and MOTS: the folders of a sequence, its images and its text.
 class SequenceExporter : public Exporter {
  public:
   SequenceExporter(const DatasetInfo& info, Output output)
@@ -54,7 +54,7 @@ class SequenceExporter : public Exporter {
 
  protected:
   virtual void append(std::string& lines, const Image& image) const = 0;
-  /// Writes further files of a picture, below the sequence's folder.
+  /// Writes further files of an image, below the sequence's folder.
   virtual void add_files(const Image& image, const std::string& folder) = 0;
 
   const Output& output() const { return output_; }

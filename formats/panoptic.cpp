@@ -1,4 +1,4 @@
-// COCO panoptic: the dataset's pictures of instances as they are, and a list of their segments.
+// COCO panoptic: the dataset's images of instances as they are, and a list of their segments.
 #include <fmt/format.h>
 
 #include <algorithm>

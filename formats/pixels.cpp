@@ -20,7 +20,7 @@ namespace {
 
 using Codec = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
 
-/// Decodes all of the picture; what is cut off or damaged has no size.
+/// Decodes all of the image; what is cut off or damaged has no size.
 bool decode(const std::string& bytes, int& width, int& height, std::vector<std::uint8_t>& rgb) {
   thread_local const Codec decoder(tjInitDecompress(), &tjDestroy);
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -65,11 +65,11 @@ std::string quantization_of_quality(int quality) {
   return tables;
 }
 
-void read_picture(const DatasetInfo& info, const Image& image, Pixels& pixels, Findings& findings) {
+void read_rgb(const DatasetInfo& info, const Image& image, Pixels& pixels, Findings& findings) {
   const fs::path path = info.root / image.file;
   const std::string record = fmt::format("image {}", image.id);
   if (!fs::is_regular_file(path)) {
-    findings.add("picture", image.file, record, "no such file");
+    findings.add("image", image.file, record, "no such file");
     return;
   }
   const std::string bytes = read_file(path);
@@ -77,7 +77,7 @@ void read_picture(const DatasetInfo& info, const Image& image, Pixels& pixels, F
   int height = 0;
   const bool is_whole = decode(bytes, width, height, pixels.rgb);
   if (!is_whole || width != image.width || height != image.height) {
-    findings.add("picture", image.file, record,
+    findings.add("image", image.file, record,
                  is_whole ? fmt::format("{} x {} pixels, but the record says {} x {}", width,
                                         height, image.width, image.height)
                           : "no whole JPEG");
@@ -88,7 +88,7 @@ void read_picture(const DatasetInfo& info, const Image& image, Pixels& pixels, F
   if (sensor == image.record.end() || !sensor->contains("jpeg_quality")) return;
   const int quality = sensor->at("jpeg_quality").get<int>();
   if (quality < 1 || quality > 100 || quantization_of(bytes) != quantization_of_quality(quality)) {
-    findings.add("picture", image.file, record,
+    findings.add("image", image.file, record,
                  fmt::format("not compressed with the quality that its record says, {}", quality));
   }
 }
@@ -126,7 +126,7 @@ Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findin
   Pixels pixels;
   pixels.width = image.width;
   pixels.height = image.height;
-  read_picture(info, image, pixels, findings);
+  read_rgb(info, image, pixels, findings);
   const std::vector<std::uint16_t> rgb =
       read_plane(info, image, GroundTruth::instances, 3, 8, findings);
   pixels.ids.resize(rgb.size() / 3);

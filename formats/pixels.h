@@ -1,4 +1,4 @@
-// A dataset's values per pixel of one picture, read once for all checks.
+// A dataset's values per pixel of one image, read once for all checks.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace throng::formats {
 struct Pixels {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;        ///< the picture, 3 a pixel
+  std::vector<std::uint8_t> rgb;        ///< the image, 3 a pixel
   std::vector<std::uint32_t> ids;       ///< instances
   std::vector<std::uint16_t> depth_cm;  ///< camera z; 0: sky
   std::vector<std::uint16_t> normals;   ///< 3 a pixel, as in the file
@@ -41,7 +41,7 @@ struct Pixels {
   }
 };
 
-/// Reads the picture and every raster that the dataset has of it; what is missing, damaged or of
+/// Reads the image and every raster that the dataset has of it; what is missing, damaged or of
 /// another size or kind is a finding.
 Pixels read_pixels(const DatasetInfo& info, const Image& image, Findings& findings);
 

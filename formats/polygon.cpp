@@ -141,7 +141,7 @@ std::vector<Piece> pieces_of(const Bitmap& mask) {
   return pieces;
 }
 
-/// The shortest way from what is joined to a piece that is not.
+/// The shortest path from what is joined to a piece that is not.
 struct Joint {
   PixelPlace from;
   PixelPlace to;

@@ -78,7 +78,7 @@ Raster read_raster(const fs::path& path) {
   png_destroy_read_struct(&png, &info, nullptr);
   if (!is_read) throw InputError({path.string(), "", "a damaged PNG: " + message, "a whole PNG"});
   if ((rows.bits != 8 && rows.bits != 16) || (rows.channels != 1 && rows.channels != 3)) {
-    throw InputError({path.string(), "", "another kind of PNG", "grey or RGB of 8 or 16 bits"});
+    throw InputError({path.string(), "", "another kind of PNG", "gray or RGB of 8 or 16 bits"});
   }
   Raster raster{
       static_cast<int>(rows.width), static_cast<int>(rows.height), rows.channels, rows.bits, {}};

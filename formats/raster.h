@@ -19,11 +19,11 @@ struct Raster {
 /// Throws InputError when the file is not there or is no gray or RGB PNG of 8 or 16 bits.
 Raster read_raster(const std::filesystem::path& path);
 
-/// One number per pixel of a picture of instances: red + 256 * green + 65536 * blue. Throws like
-/// read_raster(), and when the picture is not of 8-bit RGB.
+/// One number per pixel of an image of instances: red + 256 * green + 65536 * blue. Throws like
+/// read_raster(), and when the image is not of 8-bit RGB.
 std::vector<std::uint32_t> read_instances(const std::filesystem::path& path);
 
-/// Path of the values of this kind of a picture: "images/a/b.jpg" and "depth" give
+/// Path of the values of this kind of an image: "images/a/b.jpg" and "depth" give
 /// "depth/a/b.png".
 std::filesystem::path raster_path(const std::filesystem::path& root, const char* kind,
                                   const std::string& image_file);

@@ -1,4 +1,4 @@
-// ROS 1 bags, one for each run with all of its drones: pictures, calibration, transforms, odometry,
+// ROS 1 bags, one for each run with all of its drones: images, calibration, transforms, odometry,
 // IMU and people, stamped with the frames' times.
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* kWorldFrame = "world";
 
-/// Readings before the first picture that are worth having (s): filters settle on them.
+/// Readings before the first image that are worth having (s): filters settle on them.
 constexpr double kLeadS = 1;
 
 Eigen::Vector3d vector_in(const json& value) {
@@ -167,7 +167,7 @@ class RosbagExporter : public Exporter {
       throw;
     } catch (const json::exception& error) {
       throw InputError({(info_.root / kCocoFile).string(), run_, error.what(),
-                        "a picture whose record says how its drone flew"});
+                        "an image whose record says how its drone flew"});
     } catch (const std::runtime_error& error) {
       throw EnvironmentError(fmt::format("cannot write the bag of {}: {}", run_, error.what()));
     }
@@ -215,8 +215,8 @@ class RosbagExporter : public Exporter {
     add_flight(image, root, body_frame, optical_frame);
     bag_->add_lens(root + "/camera/camera_info", optical_frame, time_s,
                    camera_of(image).intrinsics);
-    bag_->add_picture(root + "/camera/image_color/compressed", optical_frame, time_s,
-                      read_file(info_.root / image.file));
+    bag_->add_image(root + "/camera/image_color/compressed", optical_frame, time_s,
+                    read_file(info_.root / image.file));
     bag_->add_boxes(root + "/ground_truth/boxes", kWorldFrame, time_s, boxes_of(image));
     bag_->add_text(root + "/ground_truth/annotations", time_s, sample_of(image, info_).dump());
   }
@@ -239,7 +239,7 @@ class RosbagExporter : public Exporter {
     add_inertial(image, flight->at("measured"), root + "/imu", body_frame);
   }
 
-  /// All readings up to the picture if the dataset has them, else the last one before it.
+  /// All readings up to the image if the dataset has them, else the last one before it.
   void add_inertial(const Image& image, const json& measured, const std::string& topic,
                     const std::string& frame) {
     if (!info_.has(annotate::GroundTruth::sensors)) {

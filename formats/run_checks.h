@@ -1,5 +1,5 @@
-// Files that hold a whole run, against the pictures' records and against themselves. Fed picture by
-// picture in the order of the COCO file.
+// Files that hold a whole run, against the images' records and against themselves. Fed image by
+// image in the order of the COCO file.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@
 
 namespace throng::formats {
 
-/// exits/RUN.csv: its columns against each other, over time and against the pictures' `exits`; and
+/// exits/RUN.csv: its columns against each other, over time and against the images' `exits`; and
 /// the polygons of these against each other.
 class ExitsCheck : public GroundTruthCheck {
  public:
@@ -52,6 +52,7 @@ class ExitsCheck : public GroundTruthCheck {
   static double max_corner_distance_px(const camera::Camera& camera, const Outline& place,
                                        const nlohmann::json& polygon);
   void check_polygons(const Image& image, const nlohmann::json& exit, Findings& findings);
+  static std::string shape_fault(const std::string& id, const Place& place);
   static void check_values(const std::string& file, const Image& image, const nlohmann::json& exit,
                            const Run& run, Findings& findings);
   void count_people(const std::string& file, const Image& image, Run& run,
@@ -104,7 +105,7 @@ class PresenceCheck {
 
  private:
   struct Moment {
-    Image image;  ///< without pictures and masks
+    Image image;  ///< without images and masks
   };
   std::map<std::string, std::vector<Moment>> last_;  ///< two of each camera
 };
@@ -115,7 +116,7 @@ void check_metrics(const DatasetInfo& info, const nlohmann::json& manifest, Find
 /// Compares an image's record with the manifest's job: camera, sensor, light, weather and wind.
 void check_job(const nlohmann::json& manifest, const Image& image, Findings& findings);
 
-/// previews/ against the pictures and boxes that they show.
+/// previews/ against the images and boxes that they show.
 void check_preview(const DatasetInfo& info, const Image& image, Findings& findings);
 
 }  // namespace throng::formats

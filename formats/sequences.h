@@ -1,4 +1,4 @@
-// For formats with one text per sequence, which is one camera's pictures of one run.
+// For formats with one text per sequence, which is one camera's images of one run.
 #pragma once
 
 #include <fmt/format.h>

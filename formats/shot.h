@@ -1,8 +1,9 @@
-// One picture of a dataset with everything that belongs to it, as checks take it, alone or in
+// One image of a dataset with everything that belongs to it, as checks take it, alone or in
 // pairs.
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "camera/camera.h"
 #include "formats/findings.h"
 #include "formats/instances.h"
+#include "formats/pixel_rays.h"
 #include "formats/pixels.h"
 
 namespace throng::formats {
@@ -20,11 +22,14 @@ struct Shot {
   Image image;
   Pixels pixels;
   camera::Camera camera;
-  bool is_plain = true;  ///< no lens distortion, no rolling shutter
-  bool at_once = true;   ///< no rolling shutter
+  bool is_plain = true;                             ///< no lens distortion, no rolling shutter
+  bool at_once = true;                              ///< no rolling shutter
+  std::shared_ptr<const PixelRays> rays = nullptr;  ///< of a distorted image; may be missing
 
   std::string record() const { return "image " + std::to_string(image.id); }
   const Person* find(std::int64_t track_id) const;
+  /// camera.unproject({x, y}, depth_m) for a pixel of the image.
+  Eigen::Vector3d point_at(int x, int y, double depth_m) const;
 };
 
 /// Whether a pixel shows something that never moves: the ground, a building or a prop.
@@ -33,8 +38,8 @@ inline bool is_still(std::uint32_t id) {
 }
 inline bool is_building(std::uint32_t id) { return id >= kFirstBuilding && id < kFirstProp; }
 
-/// Depth and ids of what stands still, seen twice: no picture sees through what another one shows,
-/// and one place has one id. Of two pictures of one run.
+/// Depth and ids of what stands still, seen twice: no image sees through what another one shows,
+/// and one place has one id. Of two images of one run.
 void check_still_surfaces(const Shot& a, const Shot& b, Findings& findings);
 /// Buildings stand on the ground and not below it.
 void check_buildings(const Shot& shot, Findings& findings);
@@ -52,10 +57,10 @@ void check_skeletons(const Shot& shot, Findings& findings);
 /// Walkers face where they go.
 void check_facing_motion(const Shot& shot, Findings& findings);
 void check_motion(const Shot& before, const Shot& after, Findings& findings);
-/// People of two cameras' pictures of one instant.
+/// People of two cameras' images of one instant.
 void check_same_instant(const Shot& a, const Shot& b, Findings& findings);
 
-/// Colors of clothes are those that the pictures show, more or less. Judged for each run.
+/// Colors of clothes are those that the images show, more or less. Judged for each run.
 class ClothesCheck {
  public:
   void add(const Shot& shot);
@@ -72,8 +77,8 @@ class ClothesCheck {
   std::set<std::int64_t> without_item_;          ///< tracks of these that carry nothing
 };
 
-/// Outlines of labels are where the pictures have edges. Judged when all of a dataset is seen:
-/// pictures that can tell (not too dark, foggy or noisy) say what the others must be like.
+/// Outlines of labels are where the images have edges. Judged when all of a dataset is seen:
+/// images that can tell (not too dark, foggy or noisy) say what the others must be like.
 class AlignmentCheck {
  public:
   void add(const Shot& shot);

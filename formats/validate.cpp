@@ -52,7 +52,7 @@ void check_manifest(const fs::path& root, const json& manifest, Findings& findin
   }
 }
 
-/// The instant of a picture is that of its frame, and its file that of its run, camera and frame.
+/// The instant of an image is that of its frame, and its file that of its run, camera and frame.
 void check_time(const DatasetInfo& info, const Image& image, Findings& findings) {
   constexpr double kSlackS = 1e-6;
   const std::string record = fmt::format("image {}", image.id);
@@ -66,7 +66,7 @@ void check_time(const DatasetInfo& info, const Image& image, Findings& findings)
   if (image.file != file) findings.add("time", kCocoFile, record, "file_name is not " + file);
 }
 
-/// As many pictures and annotations as the manifest says.
+/// As many images and annotations as the manifest says.
 void check_counts(const json& manifest, const Validation& validation, Findings& findings) {
   const auto counts = manifest.find("counts");
   if (counts == manifest.end()) return;
@@ -122,7 +122,7 @@ class IdCheck {
     }
     const std::int64_t first_track = (run - info.runs.begin()) * annotate::kTrackIdsPerRun;
     std::set<std::int64_t> tracks;
-    for (const Person& person : things_of(image)) {
+    for (const Person& person : objects_of(image)) {
       const std::int64_t agent = person.track_id - first_track - 1;
       if (agent < 0 || agent >= annotate::kMaxAgentsPerRun) {
         findings.add("ids", person,
@@ -143,7 +143,7 @@ class IdCheck {
   std::set<std::int64_t> images_;
 };
 
-/// Checks of one picture at a time and of pairs, fed in the order of the COCO file.
+/// Checks of one image at a time and of pairs, fed in the order of the COCO file.
 class ShotChecks {
  public:
   void add(const DatasetInfo& info, const Image& image, GroundTruthChecks& kinds,
@@ -152,6 +152,7 @@ class ShotChecks {
     shot.pixels = read_pixels(info, image, findings);
     shot.image = image;
     shot.camera = camera_of(image);
+    shot.rays = rays_of(image.camera, shot.camera.intrinsics);
     shot.is_plain = is_plain(image);
     shot.at_once = is_shot_at_once(image);
     kinds.add_pixels(info, image, shot.pixels, findings);
@@ -179,16 +180,26 @@ class ShotChecks {
     alignment_.finish(findings);
     clothes_.finish(findings);
   }
-  /// Nothing is compared with a camera's last picture any more.
+  /// Nothing is compared with a camera's last image any more.
   void forget(const std::string& camera) { last_.erase(camera); }
 
  private:
+  /// The camera's last image has the same unless its lens changes.
+  std::shared_ptr<const PixelRays> rays_of(const std::string& camera,
+                                           const camera::Intrinsics& intrinsics) const {
+    if (!intrinsics.distortion) return nullptr;
+    const auto last = last_.find(camera);
+    const bool is_same = last != last_.end() && last->second.rays != nullptr &&
+                         last->second.rays->are_of(intrinsics);
+    return is_same ? last->second.rays : std::make_shared<const PixelRays>(intrinsics);
+  }
+
   AlignmentCheck alignment_;
   ClothesCheck clothes_;
   std::map<std::string, Shot> last_;  ///< each camera's
 };
 
-/// Checks of the records without masks and pictures.
+/// Checks of the records without masks and images.
 class RecordChecks {
  public:
   explicit RecordChecks(const json& manifest) : constancy_(manifest) {}
@@ -215,14 +226,27 @@ class RecordChecks {
   PresenceCheck presence_;
 };
 
+/// Runs what reads the manifest. Throws InputError naming that where a value is none that throng
+/// writes.
+template <typename Read>
+auto reading_manifest(const fs::path& root, const Read& read) {
+  try {
+    return read();
+  } catch (const json::exception& error) {
+    throw bad_manifest(root, error);
+  }
+}
+
 }  // namespace
 
 Validation validate_dataset(const fs::path& root) {
   const json manifest = read_manifest(root);
-  const DatasetInfo info = describe_dataset(root, manifest, options_of(manifest));
   Validation validation;
   Findings findings(validation);
-  check_manifest(root, manifest, findings);
+  const DatasetInfo info = reading_manifest(root, [&] {
+    check_manifest(root, manifest, findings);
+    return describe_dataset(root, manifest, options_of(manifest));
+  });
   IdCheck ids;
   ShotChecks shots;
   FormatCheck other_formats;

@@ -7,7 +7,7 @@
 
 namespace throng::formats {
 
-/// Reads all of the dataset once. Memory does not grow with its pictures, but for the lists of its
+/// Reads all of the dataset once. Memory does not grow with its images, but for the lists of its
 /// files and ids. Throws InputError when it is no finished dataset at all.
 Validation validate_dataset(const std::filesystem::path& root);
 

@@ -1,9 +1,9 @@
-// Whether a picture shows what its labels say: outlines of labels are where the picture has edges.
+// Whether an image shows what its labels say: outlines of labels are where the image has edges.
 //
 // The mean brightness gradient along the labels' outlines is compared with that along the same
-// outlines moved by some pixels. A picture that belongs to its labels has its maximum where they
-// are; of any other picture all places are alike. How far the maximum stands out of the others, in
-// standard deviations of these, also says whether a picture (night, fog, noise) can tell at all.
+// outlines moved by some pixels. An image that belongs to its labels has its maximum where they
+// are; of any other image all places are alike. How far the maximum stands out of the others, in
+// standard deviations of these, also says whether an image (night, fog, noise) can tell at all.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "formats/mask.h"
+#include "formats/median.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -25,7 +26,7 @@ constexpr int kSide = 2 * kReachPx + 1;
 constexpr int kNearPx = 1;  ///< a maximum so near is where it should be
 constexpr std::size_t kMaxBorders = 6000;
 constexpr std::size_t kMinBorders = 150;
-/// Sound pictures reach 4 to 30, any others stay below 2 (tests/formats/validate_damages.py).
+/// Sound images reach 4 to 30, any others stay below 2 (tests/formats/validate_damages.py).
 constexpr double kMinScore = 2.5;
 constexpr double kTellingScore = 5;
 
@@ -62,7 +63,7 @@ class Differences {
 std::vector<std::uint32_t> labels_of(const Shot& shot) {
   if (!shot.pixels.ids.empty()) return shot.pixels.ids;
   std::vector<std::uint32_t> labels(shot.pixels.count());
-  for (const Person& person : things_of(shot.image)) {
+  for (const Person& person : objects_of(shot.image)) {
     const Bitmap mask = bitmap_of(runs_of(person.mask, shot.pixels.count()), shot.image.height);
     for (int y = mask.y; y < mask.y + mask.height; ++y) {
       for (int x = mask.x; x < mask.x + mask.width; ++x) {
@@ -139,7 +140,7 @@ Alignment align(const Shot& shot, const std::vector<Border>& borders) {
   return alignment;
 }
 
-/// Whether light, air and camera are such that outlines must show, whatever other pictures do.
+/// Whether light, air and camera are such that outlines must show, whatever other images do.
 bool can_tell(const Image& image) {
   const auto environment = image.record.find("environment");
   if (environment == image.record.end()) return false;
@@ -171,7 +172,7 @@ void AlignmentCheck::add(const Shot& shot) {
 }
 
 void AlignmentCheck::finish(Findings& findings) const {
-  // Outlines that are where the picture has edges show that the picture is theirs: other outlines
+  // Outlines that are where the image has edges show that the image is theirs: other outlines
   // of it may be few, or lie in patterns (a wall full of windows), and need not stand out.
   std::set<std::string> confirmed;
   for (const auto& [series, scores] : scores_) {
@@ -181,18 +182,16 @@ void AlignmentCheck::finish(Findings& findings) const {
     }
   }
   for (const auto& [series, scores] : scores_) {
-    std::vector<double> sorted;
-    for (const Score& score : scores) sorted.push_back(score.here);
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const bool others_tell = *middle >= kTellingScore;
+    std::vector<double> scores_here;
+    for (const Score& score : scores) scores_here.push_back(score.here);
+    const bool others_tell = median(std::move(scores_here)) >= kTellingScore;
     for (const Score& score : scores) {
       if (!others_tell && (!score.can_tell || confirmed.contains(score.file))) continue;
       const int away = std::max(std::abs(score.best_x), std::abs(score.best_y));
       const bool is_elsewhere = away > kNearPx && score.best > 1.1 * score.here;
       if (!is_elsewhere && score.here >= kMinScore) continue;
-      findings.add("picture-is-labels", score.file, score.record,
-                   fmt::format("the outlines of {} have no edges in the picture: {:.1f} standard "
+      findings.add("image-is-labels", score.file, score.record,
+                   fmt::format("the outlines of {} have no edges in the image: {:.1f} standard "
                                "deviations above other places, best {:.1f} at ({}, {}) px",
                                std::get<2>(series) ? "people" : "buildings, props and ground",
                                score.here, score.best, score.best_x, score.best_y));

@@ -166,12 +166,19 @@ void check_head(const Shot& shot, const Person& person, Findings& findings) {
 }  // namespace
 
 const Person* Shot::find(std::int64_t track_id) const {
-  for (const std::vector<Person>* things : {&image.people, &image.drones}) {
-    for (const Person& thing : *things) {
-      if (thing.track_id == track_id) return &thing;
+  for (const std::vector<Person>* objects : {&image.people, &image.drones}) {
+    for (const Person& object : *objects) {
+      if (object.track_id == track_id) return &object;
     }
   }
   return nullptr;
+}
+
+Eigen::Vector3d Shot::point_at(int x, int y, double depth_m) const {
+  if (!rays) return camera.unproject({x, y}, depth_m);
+  const Eigen::Vector2d direction = rays->direction(x, y);
+  const Eigen::Vector3d point(direction.x() * depth_m, direction.y() * depth_m, depth_m);
+  return camera.pose.R.transpose() * (point - camera.pose.t);
 }
 
 void check_whole_bodies(const Shot& shot, Findings& findings) {

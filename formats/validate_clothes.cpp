@@ -1,8 +1,8 @@
-// Colors of clothes in the tracks against those in the pictures.
+// Colors of clothes in the tracks against those in the images.
 //
-// What a picture shows of a shirt is its color times the light, more or less veiled. So the colors
+// What an image shows of a shirt is its color times the light, more or less veiled. So the colors
 // themselves are not compared, but whose shirt is redder or bluer than the others': over many
-// people, label and picture agree.
+// people, label and image agree.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "base/srgb.h"
+#include "formats/median.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -19,10 +21,6 @@ namespace {
 
 constexpr std::uint16_t kTorso = 2;
 constexpr std::uint16_t kCarriedItem = 9;
-
-double linear(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
 
 /// Redness and blueness against green, of linear light.
 Eigen::Vector2d chroma_of(const Eigen::Vector3d& rgb) {
@@ -39,26 +37,20 @@ std::optional<Eigen::Vector3d> color_of(const nlohmann::json& track) {
   }
   Eigen::Vector3d rgb;
   for (int c = 0; c < 3; ++c) {
-    rgb[c] =
-        linear(std::stoi(text.substr(1 + 2 * static_cast<std::size_t>(c), 2), nullptr, 16) / 255.0);
+    const std::string byte = text.substr(1 + 2 * static_cast<std::size_t>(c), 2);
+    rgb[c] = linear_of_srgb(static_cast<std::uint8_t>(std::stoi(byte, nullptr, 16)));
   }
   return rgb;
 }
 
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Somebody's top: chroma of the label and of the picture.
+/// Somebody's top: chroma of the label and of the image.
 struct Top {
   std::int64_t track;
   Eigen::Vector2d label;
-  Eigen::Vector2d picture;
+  Eigen::Vector2d image;
 };
 
-/// Pictures show the colors of labels less saturated, by one factor for all people of a run, and in
+/// Images show the colors of labels less saturated, by one factor for all people of a run, and in
 /// one light: nobody's is far from that. Fitted by medians, so that one wrong label does not spoil
 /// it.
 void check_single_tops(std::vector<Top> tops, const std::string& run, Findings& findings) {
@@ -66,50 +58,38 @@ void check_single_tops(std::vector<Top> tops, const std::string& run, Findings& 
   if (tops.size() < kMinPeople) return;
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<double> labels;
-    std::vector<double> pictures;
+    std::vector<double> images;
     for (const Top& top : tops) {
       labels.push_back(top.label[axis]);
-      pictures.push_back(top.picture[axis]);
+      images.push_back(top.image[axis]);
     }
-    const double label = middle_of(std::move(labels));
-    const double picture = middle_of(std::move(pictures));
+    const double label = median(std::move(labels));
+    const double image = median(std::move(images));
     for (Top& top : tops) {
       top.label[axis] -= label;
-      top.picture[axis] -= picture;
+      top.image[axis] -= image;
     }
   }
   std::vector<double> slopes;
   constexpr double kColorful = 0.5;
   for (const Top& top : tops) {
     if (top.label.norm() < kColorful) continue;
-    slopes.push_back(top.picture.dot(top.label) / top.label.squaredNorm());
+    slopes.push_back(top.image.dot(top.label) / top.label.squaredNorm());
   }
   constexpr std::size_t kMinColorful = 4;
   if (slopes.size() < kMinColorful) return;
-  const double slope = middle_of(std::move(slopes));
+  const double slope = median(std::move(slopes));
   constexpr double kMinSlope = 0.25;  // by night and in fog colors say little
   if (slope < kMinSlope) return;
   for (const Top& top : tops) {
-    const double off = (top.picture - slope * top.label).norm();
+    const double off = (top.image - slope * top.label).norm();
     constexpr double kMaxOff = 1.2;  // sound runs of 12 kinds: up to 0.8
     if (off <= kMaxOff) continue;
-    findings.add(
-        "colors-are-clothes", kCocoFile, fmt::format("track {}", top.track),
-        fmt::format("top_colour is not that of the torso in the pictures of {}: {:.1f} off "
-                    "in redness and blueness (natural logarithms)",
-                    run, off));
+    findings.add("colors-are-clothes", kCocoFile, fmt::format("track {}", top.track),
+                 fmt::format("top_colour is not that of the torso in the images of {}: {:.1f} off "
+                             "in redness and blueness (natural logarithms)",
+                             run, off));
   }
-}
-
-const std::array<double, 256>& linear_table() {
-  static const std::array<double, 256> table = [] {
-    std::array<double, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values.at(i) = linear(static_cast<double>(i) / 255);
-    }
-    return values;
-  }();
-  return table;
 }
 
 }  // namespace
@@ -135,7 +115,7 @@ void ClothesCheck::add(const Shot& shot) {
     Shirt& shirt = runs_[shot.image.run][person->second->track_id];
     if (shirt.pixels++ == 0) shirt.label = color_of(*person->second->track);
     for (int c = 0; c < 3; ++c) {
-      shirt.sum[c] += linear_table().at(pixels.rgb[3 * i + static_cast<std::size_t>(c)]);
+      shirt.sum[c] += linear_of_srgb(pixels.rgb[3 * i + static_cast<std::size_t>(c)]);
     }
   }
 }
@@ -147,9 +127,9 @@ void ClothesCheck::finish(Findings& findings) const {
                              carried_.at(track)));
   }
   for (const auto& [run, shirts] : runs_) {
-    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pairs;  // label, picture
+    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> pairs;  // label, image
     Eigen::Vector2d mean_label = Eigen::Vector2d::Zero();
-    Eigen::Vector2d mean_picture = Eigen::Vector2d::Zero();
+    Eigen::Vector2d mean_image = Eigen::Vector2d::Zero();
     constexpr std::size_t kMinPixels = 60;
     constexpr std::size_t kManyPixels = 150;
     std::vector<Top> tops;
@@ -161,7 +141,7 @@ void ClothesCheck::finish(Findings& findings) const {
         tops.push_back({track, pairs.back().first, pairs.back().second});
       }
       mean_label += pairs.back().first;
-      mean_picture += pairs.back().second;
+      mean_image += pairs.back().second;
     }
     check_single_tops(std::move(tops), run, findings);
     constexpr std::size_t kMinPeople = 15;
@@ -169,22 +149,22 @@ void ClothesCheck::finish(Findings& findings) const {
     const auto count = static_cast<double>(pairs.size());
     double both = 0;
     double labels = 0;
-    double pictures = 0;
-    for (const auto& [label, picture] : pairs) {
+    double images = 0;
+    for (const auto& [label, image] : pairs) {
       const Eigen::Vector2d a = label - mean_label / count;
-      const Eigen::Vector2d b = picture - mean_picture / count;
+      const Eigen::Vector2d b = image - mean_image / count;
       both += a.dot(b);
       labels += a.squaredNorm();
-      pictures += b.squaredNorm();
+      images += b.squaredNorm();
     }
-    const double correlation = both / std::max(1e-9, std::sqrt(labels * pictures));
-    // Gray shirts, and pictures without color by night, say nothing.
+    const double correlation = both / std::max(1e-9, std::sqrt(labels * images));
+    // Gray shirts, and images without color by night, say nothing.
     constexpr double kColorful = 0.4;
     constexpr double kMinCorrelation = 0.35;
     if (std::sqrt(labels / count) < kColorful || correlation >= kMinCorrelation) continue;
     findings.add("colors-are-clothes", kCocoFile, run,
                  fmt::format("top_colour of {} people and the colors of their torsos in the "
-                             "pictures have a correlation of {:.2f}",
+                             "images have a correlation of {:.2f}",
                              pairs.size(), correlation));
   }
 }

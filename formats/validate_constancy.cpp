@@ -124,7 +124,7 @@ void ConstancyCheck::check_camera(const Image& image, Findings& findings) {
   const auto [known, is_new] = lenses_.try_emplace(image.run + "/" + image.camera, lens);
   if (!is_new && known->second != lens) {
     findings.add("camera", kCocoFile, fmt::format("image {}", image.id),
-                 "another lens or size than the camera's pictures before");
+                 "another lens or size than the camera's images before");
   }
   if (!frames_[image.run + "/" + image.camera].insert(image.frame).second) {
     findings.add("ids", kCocoFile, fmt::format("image {}", image.id),
@@ -144,8 +144,7 @@ void ConstancyCheck::check_person(const Person& person, Findings& findings) {
     const bool follows = contains_follow(behavior);
     if ((person.state == "following" && !follows) ||
         (follows && (person.state == "walking" || person.state == "running"))) {
-      findings.add("state", person,
-                   fmt::format("{} with behaviour \"{}\"", person.state, behavior));
+      findings.add("state", person, fmt::format("{} with behavior \"{}\"", person.state, behavior));
     }
   }
   const auto keypoints = person.record.find("keypoints_3d");
@@ -161,7 +160,7 @@ void ConstancyCheck::check_person(const Person& person, Findings& findings) {
     if (std::abs(lengths[i] - known->second[i]) <= kBones.at(i).slack_m) continue;
     findings.add(
         "bones", person,
-        fmt::format("keypoints {} and {} are {:.2f} m apart, in another picture {:.2f} m",
+        fmt::format("keypoints {} and {} are {:.2f} m apart, in another image {:.2f} m",
                     kBones.at(i).from + 1, kBones.at(i).to + 1, lengths[i], known->second[i]));
     return;
   }
@@ -184,7 +183,7 @@ void ConstancyCheck::check_track(const Image& image, const Person& person, Findi
   }
   const double stature_m = attributes->at("stature_m").get<double>();
   const double upright = person.box_size.head<2>().maxCoeff();
-  // Headgear and hair add a little; whoever lies, bends or sits has a lower box.
+  // Headgear and hair add a little; people who lie, bend or sit have a lower box.
   const double height_m = person.box_size.z();
   // Walkers neither raise their arms nor bend.
   const bool is_upright = person.state == "walking" && height_m > 1.5 * upright;
@@ -194,7 +193,7 @@ void ConstancyCheck::check_track(const Image& image, const Person& person, Findi
     fault(fmt::format("stature_m {}, but box_3d of annotation {} is {:.2f} m high", stature_m,
                       person.id, height_m));
   }
-  // A character is known by stature and age: whoever shares both is one.
+  // A character is known by stature and age: people who share both are one.
   json others = *attributes;
   for (auto it = others.begin(); it != others.end();) {
     const std::string& key = it.key();

@@ -1,4 +1,4 @@
-// Exits: table, records of pictures and polygons. Definitions: docs/metrics.md.
+// Exits: table, records of images and polygons. Definitions: docs/metrics.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,6 +29,15 @@ std::optional<Vector2d> on_ground(const camera::Camera& camera, const Vector2d& 
   const double down = center.z() - at.z();
   if (!at.allFinite() || !(down > 1e-6)) return std::nullopt;
   return Vector2d((center + (at - center) * (center.z() / down)).head<2>());
+}
+
+/// The greatest distance between two points.
+double diameter(const std::vector<Vector2d>& points) {
+  double max_m = 0;
+  for (const Vector2d& a : points) {
+    for (const Vector2d& b : points) max_m = std::max(max_m, (a - b).norm());
+  }
+  return max_m;
 }
 
 Vector2d point_at(const json& point) {
@@ -174,8 +183,9 @@ void ExitsCheck::check_values(const std::string& file, const Image& image, const
 }
 
 void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& findings) {
+  const auto id = exit.at("id").get<std::string>();
   const camera::Camera camera = camera_of(image);
-  Place& place = places_[exit.at("id").get<std::string>()];
+  Place& place = places_[id];
   for (const char* key : {"door", "zone"}) {
     const json& polygon = exit.at(key);
     if (polygon.empty()) continue;
@@ -190,58 +200,44 @@ void ExitsCheck::check_polygons(const Image& image, const json& exit, Findings& 
     // Of the lens, which is inverted numerically.
     constexpr double kSlackPx = 0.5;
     if (off_px <= kSlackPx) continue;
-    findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
-                 fmt::format("{} of {} is {:.1f} px from where other pictures have it", key,
-                             exit.at("id").get<std::string>(), off_px));
+    findings.add(
+        "exit-polygons", kCocoFile, fmt::format("image {}", image.id),
+        fmt::format("{} of {} is {:.1f} px from where other images have it", key, id, off_px));
   }
+  const std::string fault = shape_fault(id, place);
+  if (fault.empty()) return;
+  findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id), fault);
+}
+
+/// The door is a strip 0.5 m deep, and the zone a half disc about its middle. "" if they are.
+std::string ExitsCheck::shape_fault(const std::string& id, const Place& place) {
   const std::vector<Vector2d>& door = place.door.corners;
   const std::vector<Vector2d>& zone = place.zone.corners;
-  if (door.size() < 4 || zone.size() < 3) return;
-  // The door is a strip 0.5 m deep.
-  double twice_area_m2 = 0;
-  double max_length_m = 0;
-  for (std::size_t i = 0; i < door.size(); ++i) {
-    const Vector2d& next = door[(i + 1) % door.size()];
-    twice_area_m2 += door[i].x() * next.y() - door[i].y() * next.x();
-    for (const Vector2d& other : door)
-      max_length_m = std::max(max_length_m, (door[i] - other).norm());
+  if (door.size() < 4 || zone.size() < 3) return "";
+  const double door_m = diameter(door);
+  const double depth_m = std::abs(geometry::signed_area(door)) / std::max(door_m, 0.1);
+  constexpr double kMaxDepthM = 0.75;
+  if (depth_m > kMaxDepthM + 2 * place.door.rounding_m) {
+    return fmt::format("the door of {} is {:.1f} m long and {:.1f} m deep, expected 0.5 m", id,
+                       door_m, depth_m);
   }
-  const double deep_m = std::abs(twice_area_m2) / 2 / std::max(max_length_m, 0.1);
-  constexpr double kDeepestM = 0.75;
-  if (deep_m > kDeepestM + 2 * place.door.rounding_m) {
-    findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
-                 fmt::format("the door of {} is {:.1f} m long and {:.1f} m deep, expected 0.5 m",
-                             exit.at("id").get<std::string>(), max_length_m, deep_m));
-    return;
-  }
-  // The zone is a half disc about the middle of the door.
-  const double zone_m = [&] {
-    double max_value = 0;
-    for (const Vector2d& a : zone) {
-      for (const Vector2d& b : zone) max_value = std::max(max_value, (a - b).norm());
-    }
-    return max_value;
-  }();
-  double door_m = 0;
-  for (const Vector2d& a : door) {
-    for (const Vector2d& b : door) door_m = std::max(door_m, (a - b).norm());
-  }
+  const double zone_m = diameter(zone);
   constexpr double kDoorDepthM = 0.5;
   const double width_m = std::sqrt(std::max(0.0, door_m * door_m - kDoorDepthM * kDoorDepthM));
   const double expected_m = 2 * (std::max(width_m, 2.0) + 1);
   Vector2d door_middle = Vector2d::Zero();
-  for (const Vector2d& a : door) door_middle += a / static_cast<double>(door.size());
+  for (const Vector2d& corner : door) door_middle += corner / static_cast<double>(door.size());
   double reach_m = 0;
-  for (const Vector2d& a : zone) reach_m = std::max(reach_m, (a - door_middle).norm());
+  for (const Vector2d& corner : zone) reach_m = std::max(reach_m, (corner - door_middle).norm());
   // Cut off by the camera's plane, they are smaller.
   const double slack_m =
       0.25 + 0.05 * expected_m + 2 * (place.door.rounding_m + place.zone.rounding_m);
-  if (zone_m > expected_m + slack_m || reach_m > 0.5 * expected_m + 0.5 + slack_m) {
-    findings.add("exit-polygons", kCocoFile, fmt::format("image {}", image.id),
-                 fmt::format("the zone of {} is {:.1f} m wide and reaches {:.1f} m from the door's "
-                             "middle, but the door is {:.1f} m wide",
-                             exit.at("id").get<std::string>(), zone_m, reach_m, width_m));
-  }
+  if (zone_m <= expected_m + slack_m && reach_m <= 0.5 * expected_m + 0.5 + slack_m) return "";
+  return fmt::format(
+      "the zone of {} is {:.1f} m wide and reaches {:.1f} m from the door's middle, but the door "
+      "is "
+      "{:.1f} m wide",
+      id, zone_m, reach_m, width_m);
 }
 
 void ExitsCheck::count_people(const std::string& file, const Image& image, Run& run,
@@ -275,7 +271,7 @@ void ExitsCheck::count_people(const std::string& file, const Image& image, Run& 
     if (row == run.exits.at(id).end()) continue;
     if (found > row->second["in_zone"]) {
       findings.add("exits", file, fmt::format("line {}", row->second.line),
-                   fmt::format("{}: in_zone {}, but pictures show {} there who head for it", id,
+                   fmt::format("{}: in_zone {}, but images show {} there who head for it", id,
                                row->second["in_zone"], found));
     }
   }

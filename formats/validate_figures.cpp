@@ -1,6 +1,7 @@
 // The figures of a run against each other: most of metrics.json follows from the rows of by_person
 // and from the exits' crossings and gaps. Definitions: docs/metrics.md.
 #include "formats/validate_figures.h"
+#include "formats/median.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +16,6 @@ namespace throng::formats {
 using nlohmann::json;
 
 namespace {
-
-using Report = std::function<void(const std::string&)>;
 
 double number_in(const json& object, const char* key) {
   const auto found = object.find(key);
@@ -201,10 +200,7 @@ double median_of_column(const json& columns, const char* key) {
   for (const json& value : column) {
     if (value.is_number()) values.push_back(value.get<double>());
   }
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  return median(std::move(values));
 }
 
 void check_journeys(const json& run, const Report& fault) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a pixel of the picture of instances shows what has an annotation.
+/// Whether a pixel of the image of instances shows what has an annotation.
 bool is_labeled(std::uint32_t id) { return is_person(id) || (id >= kFirstDrone && id < kGround); }
 
 std::string relative(const DatasetInfo& info, const fs::path& path) {
@@ -53,8 +53,8 @@ void check_map(const DatasetInfo& info, const Image& image, Findings& findings) 
 
 }  // namespace
 
-std::uint32_t instance_of(const Person& thing) {
-  const auto number = thing.number_in_run();
+std::uint32_t instance_of(const Person& object) {
+  const auto number = object.number_in_run();
   const bool is_drone = number > annotate::kFirstDroneNumber;
   return static_cast<std::uint32_t>(
       is_drone ? kFirstDrone + number - annotate::kFirstDroneNumber - 1 : number);
@@ -81,7 +81,7 @@ void check_instances(const DatasetInfo& /*info*/, const Image& image, const Pixe
   }
   const auto pixels =
       static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
-  for (const Person& person : things_of(image)) {
+  for (const Person& person : objects_of(image)) {
     const std::uint32_t id = instance_of(person);
     const Bitmap mask = bitmap_of(runs_of(person.mask, pixels), image.height);
     std::size_t wrong = 0;
@@ -122,7 +122,7 @@ void check_depth(const DatasetInfo& /*info*/, const Image& image, const Pixels& 
   }
   // Rounding of depth and boxes; a rolling shutter sees a person at several times.
   const double slack_m = is_shot_at_once(image) ? 0.03 : 1;
-  for (const Person& person : things_of(image)) {
+  for (const Person& person : objects_of(image)) {
     const auto found = range.find(instance_of(person));
     if (found == range.end()) continue;  // a finding of another rule
     const Eigen::RowVectorXd z = corners_in_camera(image, person).row(2);

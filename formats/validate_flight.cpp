@@ -1,4 +1,4 @@
-// The flight record of a picture against its camera, its sensors' errors and the flight before.
+// The flight record of an image against its camera, its sensors' errors and the flight before.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -79,7 +79,7 @@ class FlightRecord {
     const Vector3d position = numbers_at<3>(truth.at("position"));
     const Vector3d center = -image_.R.transpose() * image_.t;
     if (!((position - center).norm() <= 1e-6 * (1 + center.norm()))) {
-      fault(fmt::format("flight.true.position is {:.3f} m from the camera's centre",
+      fault(fmt::format("flight.true.position is {:.3f} m from the camera's center",
                         (position - center).norm()));
     }
     if (!are_alike(truth.at("height_m").get<double>(), position.z(), 1e-6)) {
@@ -120,9 +120,10 @@ class FlightRecord {
   void check_gimbal() const {
     const Vector3d seen = view_of(image_.R);
     const auto off = [&](const json& gimbal) {
-      const Vector3d told(gimbal.at("yaw_deg").get<double>(), gimbal.at("pitch_deg").get<double>(),
-                          gimbal.at("roll_deg").get<double>());
-      Vector3d off_deg = (told - seen).unaryExpr([](double d) { return std::remainder(d, 360); });
+      const Vector3d stated(gimbal.at("yaw_deg").get<double>(),
+                            gimbal.at("pitch_deg").get<double>(),
+                            gimbal.at("roll_deg").get<double>());
+      Vector3d off_deg = (stated - seen).unaryExpr([](double d) { return std::remainder(d, 360); });
       // Straight down, heading and roll are one.
       constexpr double kSteepDeg = 89;
       if (std::abs(seen[1]) > kSteepDeg) off_deg[0] = off_deg[2] = 0;

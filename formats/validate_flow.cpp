@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/mask.h"
+#include "formats/median.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -44,7 +45,7 @@ void look_at_still(const Shot& before, const Shot& after, int x, int y, StillFlo
   constexpr double kFarM = 1e7;
   const double z = is_sky ? kFarM : pixels.depth_m(pixel);
   const auto moved_to = [&](double depth_m) {
-    return after.camera.project(before.camera.unproject({x, y}, depth_m));
+    return after.camera.project(before.point_at(x, y, depth_m));
   };
   const auto seen = moved_to(z);
   const auto beside = moved_to(z + 0.01);
@@ -57,7 +58,7 @@ void look_at_still(const Shot& before, const Shot& after, int x, int y, StillFlo
     ++tally.unknown;
     return;
   }
-  // A lens is looked up at the nearest pixel of a pinhole picture.
+  // A lens is looked up at the nearest pixel of a pinhole image.
   const double slack_px = (before.is_plain ? 0.1 : 1.2) + (beside.pixel - seen.pixel).norm();
   if ((*flow - expected).norm() <= slack_px + 0.01 * expected.norm()) return;
   if (tally.wrong++ == 0) {
@@ -215,11 +216,11 @@ void check_person_flow(const Shot& before, const Shot& after, const Person& then
 
 namespace {
 
-double median_of_axis(std::vector<Eigen::Vector2d> values, int axis) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end(),
-                   [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
-  return (*middle)[axis];
+double median_of_axis(const std::vector<Eigen::Vector2d>& values, int axis) {
+  std::vector<double> of_axis;
+  of_axis.reserve(values.size());
+  for (const Eigen::Vector2d& value : values) of_axis.push_back(value[axis]);
+  return median(std::move(of_axis));
 }
 
 /// Flow where keypoints are seen is the motion of these, on the average over an image's people: a

@@ -69,7 +69,7 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
               findings);
       if (std::string line; std::getline(text, line)) {
         findings.add("formats", file.lexically_relative(info.root).string(), "",
-                     "more lines than the picture has people");
+                     "more lines than the image has people");
       }
     } else if (format == "visdrone-mot" || format == "mot") {
       const fs::path rest = format == "mot" ? fs::path(image.sequence()) / "gt/gt.txt"
@@ -86,7 +86,7 @@ void FormatCheck::add(const DatasetInfo& info, const Image& image, Findings& fin
 void FormatCheck::finish(Findings& findings) {
   for (auto& [name, text] : texts_) {
     if (std::string line; std::getline(text, line)) {
-      findings.add("formats", name, "", "more lines than its pictures have people: " + line);
+      findings.add("formats", name, "", "more lines than its images have people: " + line);
     }
   }
 }
@@ -155,7 +155,7 @@ void FormatCheck::check_yolo(const DatasetInfo& info, const Image& image, const 
   const std::string record = fmt::format("image {}", image.id);
   if (lines.size() != expected.size()) {
     findings.add("formats", name, record,
-                 fmt::format("{} lines, but {} people and drones are labelled", lines.size(),
+                 fmt::format("{} lines, but {} people and drones are labeled", lines.size(),
                              expected.size()));
     return;
   }

@@ -1,6 +1,7 @@
 // The manifest's job against the images' records: cameras, sensors, light and weather.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -14,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The fields of the job as they hold for one picture: those that were sampled are in its record.
+/// The fields of the job as they hold for one image: those that were sampled are in its record.
 class JobOfImage {
  public:
   JobOfImage(const json& job, const Image& image)
@@ -24,23 +25,12 @@ class JobOfImage {
   /// cannot be looked up.
   json at(const std::string& path) const {
     if (const auto sampled = drawn_.find(path); sampled != drawn_.end()) return *sampled;
-    const json* value = &job_;
-    std::size_t from = 0;
-    while (from <= path.size()) {
-      const std::size_t end = std::min(path.find('.', from), path.size());
-      const std::string key = path.substr(from, end - from);
-      if (value->is_array()) {
-        const std::size_t index = std::stoul(key);
-        if (index >= value->size()) return nullptr;
-        value = &value->at(index);
-      } else {
-        const auto found = value->find(key);
-        if (!value->is_object() || found == value->end()) return nullptr;
-        value = &*found;
-      }
-      from = end + 1;
-    }
-    return value->is_structured() ? json(nullptr) : *value;
+    std::string pointer_text = "/" + path;
+    std::replace(pointer_text.begin(), pointer_text.end(), '.', '/');
+    const json::json_pointer pointer(pointer_text);
+    if (!job_.contains(pointer)) return nullptr;
+    const json& value = job_.at(pointer);
+    return value.is_structured() ? json(nullptr) : value;
   }
   /// A number that was sampled for the frame alone; 0 without.
   double of_frame(const char* name) const {
@@ -54,8 +44,9 @@ class JobOfImage {
 
 std::optional<std::size_t> drone_of(const json& job, const Image& image) {
   const json drones = job.value("drones", json::array());
+  if (!drones.is_array()) return std::nullopt;
   for (std::size_t i = 0; i < drones.size(); ++i) {
-    if (drones[i].value("id", "") == image.camera) return i;
+    if (drones[i].is_object() && drones[i].value("id", json()) == image.camera) return i;
   }
   return std::nullopt;
 }

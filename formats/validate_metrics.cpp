@@ -34,10 +34,9 @@ class RunFigures {
     check_copy();
     check_escapes();
     for (const json& exit : run_.value("exits", json::array())) check_exit(exit);
-    check_run_figures(run_, [this](const std::string& what) { fault(what); });
-    check_table();
-    check_crossings();
-    check_waits();
+    const Report report = [this](const std::string& what) { fault(what); };
+    check_run_figures(run_, report);
+    check_against_exit_table(info_.root, run_, report);
   }
 
  private:
@@ -126,122 +125,6 @@ class RunFigures {
       if (is_number(exit, share) &&
           !(exit.at(share).get<double>() >= -1e-9 && exit.at(share).get<double>() <= 1 + 1e-9)) {
         fault(fmt::format("{} of {} is {}", share, id, exit.at(share).dump()));
-      }
-    }
-  }
-
-  /// No value of exits/RUN.csv is above the greatest of all steps.
-  void check_table() const {
-    const fs::path file = info_.root / ("exits/" + name_ + ".csv");
-    if (!fs::is_regular_file(file) || !run_.contains("exits")) return;
-    const CsvTable table = read_csv(file);
-    struct Pair {
-      const char* column;
-      const char* key;
-      double rounding;
-    };
-    const std::size_t exit_column = table.find("exit");
-    for (const Pair& pair :
-         {Pair{"queue", "max_queue", 0.01}, Pair{"queue_length", "max_queue_length_m", 0.01},
-          Pair{"predicted_wait", "max_predicted_wait_s", 0.01},
-          Pair{"pressure", "max_pressure_per_s2", 1e-5},
-          Pair{"voronoi_density", "max_voronoi_density_per_m2", 1e-4}}) {
-      const std::size_t column = table.find(pair.column);
-      if (column == table.columns.size() || exit_column == table.columns.size()) continue;
-      for (const json& exit : run_.at("exits")) {
-        if (!is_number(exit, pair.key)) continue;
-        for (std::size_t i = 0; i < table.rows.size(); ++i) {
-          if (table.rows[i][exit_column] != exit.value("id", "")) continue;
-          const double value = number_of(table.rows[i][column]);
-          if (value <= exit.at(pair.key).get<double>() + pair.rounding) continue;
-          fault(fmt::format("{} of {} is {}, but exits/{}.csv line {} has {}", pair.key,
-                            exit.value("id", ""), exit.at(pair.key).dump(), name_, i + 2, value));
-          return;
-        }
-      }
-    }
-  }
-
-  /// Crossings in exits/RUN.csv are at the times that gaps and last crossing give. They count when
-  /// the person is 0.2 m beyond the line, some time after having crossed it.
-  void check_crossings() const {
-    const fs::path file = info_.root / ("exits/" + name_ + ".csv");
-    if (!fs::is_regular_file(file) || !run_.contains("exits")) return;
-    const CsvTable table = read_csv(file);
-    const std::size_t exit_column = table.find("exit");
-    const std::size_t time_column = table.find("time_s");
-    const std::size_t out_column = table.find("crossed_out");
-    const std::size_t in_column = table.find("crossed_in");
-    if (std::max({exit_column, time_column, out_column, in_column}) >= table.columns.size()) return;
-    for (const json& exit : run_.at("exits")) {
-      const std::vector<double> times = crossing_times(exit);
-      const double in = exit.value("crossings", json::object()).value("in", 1e9);
-      const auto crossed_by = [&](double time_s) {
-        return static_cast<double>(std::upper_bound(times.begin(), times.end(), time_s) -
-                                   times.begin());
-      };
-      for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        if (table.rows[i][exit_column] != exit.value("id", "")) continue;
-        const double time_s = number_of(table.rows[i][time_column]);
-        const double crossed = number_of(table.rows[i][out_column]);
-        if (number_of(table.rows[i][in_column]) > in) {
-          fault(fmt::format("crossings.in of {} is {}, but exits/{}.csv line {} has {}",
-                            exit.value("id", ""), in, name_, i + 2, table.rows[i][in_column]));
-          return;
-        }
-        constexpr double kStepS = 0.3;   // the table is of the last crowd step before the frame
-        constexpr double kDelayS = 4.0;  // slow people stand in the door
-        if (crossed <= crossed_by(time_s + 1e-3) &&
-            crossed >= crossed_by(time_s - kDelayS - kStepS)) {
-          continue;
-        }
-        fault(
-            fmt::format("{} has {} crossings in exits/{}.csv line {}, but {} by its gaps and "
-                        "last_crossing_s",
-                        exit.value("id", ""), crossed, name_, i + 2, crossed_by(time_s)));
-        return;
-      }
-    }
-  }
-
-  /// The predicted wait is the queue over a rate, which is between a third of the door's capacity
-  /// and what the crossings of the last 20 s would give (docs/metrics.md).
-  void check_waits() const {
-    const fs::path file = info_.root / ("exits/" + name_ + ".csv");
-    if (!fs::is_regular_file(file) || !run_.contains("exits")) return;
-    const CsvTable table = read_csv(file);
-    const std::size_t exit_column = table.find("exit");
-    const std::size_t time_column = table.find("time_s");
-    const std::size_t queue_column = table.find("queue");
-    const std::size_t wait_column = table.find("predicted_wait");
-    if (std::max({exit_column, time_column, queue_column, wait_column}) >= table.columns.size()) {
-      return;
-    }
-    for (const json& exit : run_.at("exits")) {
-      if (!is_number(exit, "width_m")) continue;
-      constexpr double kCapacityPerMs = 1.3;
-      constexpr double kPriorS = 10;
-      constexpr double kWindowS = 20;
-      const double capacity = kCapacityPerMs * exit.at("width_m").get<double>();
-      const std::vector<double> times = crossing_times(exit);
-      for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        if (table.rows[i][exit_column] != exit.value("id", "")) continue;
-        const double time_s = number_of(table.rows[i][time_column]);
-        const double queue = number_of(table.rows[i][queue_column]);
-        const double wait_s = number_of(table.rows[i][wait_column]);
-        constexpr double kDelayS = 4.5;  // as in check_crossings()
-        const auto passed = static_cast<double>(
-            std::upper_bound(times.begin(), times.end(), time_s + 1e-3) -
-            std::lower_bound(times.begin(), times.end(), time_s - kWindowS - kDelayS));
-        const double min_wait_s = queue * kPriorS / (passed + capacity * kPriorS);
-        const double max_wait_s = queue * (kWindowS + kPriorS) / (capacity * kPriorS);
-        constexpr double kRoundingS = 0.011;
-        if (wait_s >= min_wait_s - kRoundingS && wait_s <= max_wait_s + kRoundingS) continue;
-        fault(
-            fmt::format("exits/{}.csv line {}: predicted_wait {} s for a queue of {}, expected "
-                        "{:.2f} to {:.2f} s",
-                        name_, i + 2, wait_s, queue, min_wait_s, max_wait_s));
-        return;
       }
     }
   }

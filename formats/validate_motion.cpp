@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "formats/median.h"
 #include "formats/shot.h"
 #include "geometry/angle.h"
 
@@ -13,12 +14,6 @@ namespace throng::formats {
 namespace {
 
 using Eigen::Vector2d;
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double angle_off(const Person& person) {
   return std::abs(
@@ -55,7 +50,7 @@ void check_velocities(const Shot& before, const Shot& after, Findings& findings)
   }
   constexpr std::size_t kMinCount = 6;
   if (ratios.size() < kMinCount) return;
-  const double ratio = median_of(ratios);
+  const double ratio = median(ratios);
   constexpr double kMaxRatioOff = 0.03;
   if (std::abs(ratio - 1) > kMaxRatioOff) {
     findings.add("velocity-is-motion", kCocoFile, after.record(),
@@ -81,7 +76,7 @@ void check_headings(const Shot& shot, Findings& findings) {
   }
   constexpr std::size_t kMinCount = 5;
   if (angles.size() < kMinCount) return;
-  const double angle = median_of(angles);
+  const double angle = median(angles);
   constexpr double kMaxOffRad = 0.25;
   if (angle > kMaxOffRad) {
     findings.add("heading-is-motion", kCocoFile, shot.record(),

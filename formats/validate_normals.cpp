@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "formats/median.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -47,7 +48,7 @@ std::optional<Eigen::Vector3d> normal_by_depth(const Shot& shot, int x, int y, i
     const int v = y + offsets[i][1];
     const std::size_t pixel = pixels.at(u, v);
     if (pixels.ids[pixel] != id || pixels.depth_cm[pixel] == 0) return std::nullopt;
-    points[i] = shot.camera.unproject({u, v}, pixels.depth_m(pixel));
+    points[i] = shot.point_at(u, v, pixels.depth_m(pixel));
     if (!points[i].allFinite()) return std::nullopt;
   }
   const Eigen::Vector3d across = points[2] - points[1];
@@ -85,7 +86,7 @@ std::map<Kind, NormalTally> tally_normals(const Shot& shot) {
       const std::size_t pixel = pixels.at(x, y);
       const std::optional<Kind> kind = kind_of(pixels.ids[pixel]);
       if (!kind || pixels.depth_cm[pixel] == 0) continue;
-      const Eigen::Vector3d ray = shot.camera.unproject({x, y}, 1) - center;
+      const Eigen::Vector3d ray = shot.point_at(x, y, 1) - center;
       if (!ray.allFinite()) continue;
       const Eigen::Vector3d normal = normal_at(pixels, pixel);
       NormalTally& tally = tallies[*kind];
@@ -125,7 +126,7 @@ void judge_normals(const Shot& shot, Kind kind, NormalTally& tally, Findings& fi
                  fmt::format("normals of {} of {} pixels of the ground do not point up",
                              tally.not_up, tally.looked_at));
   }
-  // Bodies are round: what is exactly flat is the ground of another picture.
+  // Bodies are round: what is exactly flat is the ground of another image.
   if (kind == Kind::person && tally.looked_at >= 2 * kMinCount &&
       static_cast<double>(tally.flat) > 0.15 * static_cast<double>(tally.looked_at)) {
     findings.add("normals-are-surface", file, shot.record(),
@@ -133,16 +134,14 @@ void judge_normals(const Shot& shot, Kind kind, NormalTally& tally, Findings& fi
                              tally.flat, tally.looked_at));
   }
   if (tally.angles_rad.size() < kMinCount) return;
-  const auto middle =
-      tally.angles_rad.begin() + static_cast<std::ptrdiff_t>(tally.angles_rad.size() / 2);
-  std::nth_element(tally.angles_rad.begin(), middle, tally.angles_rad.end());
+  const double angle_rad = median(tally.angles_rad);
   // People are round, and props have many small faces.
   const double max_rad = kind == Kind::prop ? 0.9 : kind == Kind::person ? 0.6 : 0.09;
-  if (*middle > max_rad) {
+  if (angle_rad > max_rad) {
     findings.add("normals-are-surface", file, shot.record(),
                  fmt::format("normals of {} are {:.1f} degrees off the surface that the depth "
                              "shows (median of {})",
-                             name, *middle * 180 / EIGEN_PI, tally.angles_rad.size()));
+                             name, angle_rad * 180 / EIGEN_PI, tally.angles_rad.size()));
   }
 }
 

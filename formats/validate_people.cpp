@@ -126,11 +126,11 @@ void check_visibility(const Person& person, Findings& findings) {
   }
 }
 
-void check_category(const Person& thing, Findings& findings) {
-  const bool is_drone = thing.number_in_run() > annotate::kFirstDroneNumber;
-  if (thing.record.at("category_id") !=
+void check_category(const Person& object, Findings& findings) {
+  const bool is_drone = object.number_in_run() > annotate::kFirstDroneNumber;
+  if (object.record.at("category_id") !=
       (is_drone ? annotate::kDroneCategory : annotate::kPersonCategory)) {
-    findings.add("category", thing, "another category than that of people, 1, or drones, 2");
+    findings.add("category", object, "another category than that of people, 1, or drones, 2");
   }
 }
 
@@ -169,7 +169,7 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
   for (const Keypoint& point : person.keypoints) {
     if (point.visibility == 0) {
       if (point.x != 0 || point.y != 0) {
-        findings.add("keypoints", person, "a keypoint that is not labelled has a place");
+        findings.add("keypoints", person, "a keypoint that is not labeled has a place");
       }
       continue;
     }
@@ -181,13 +181,13 @@ void check_keypoints(const Image& image, const Person& person, Findings& finding
   }
   if (person.record.at("num_keypoints") != labeled) {
     findings.add("keypoints", person,
-                 fmt::format("num_keypoints {}, but {} are labelled",
+                 fmt::format("num_keypoints {}, but {} are labeled",
                              person.record.at("num_keypoints").dump(), labeled));
   }
 }
 
-/// The upright box holds the body: as seen by the camera, it holds the box in the picture, and its
-/// middle lies in that. Of people who reach behind the near plane, the picture's box is that of a
+/// The upright box holds the body: as seen by the camera, it holds the box in the image, and its
+/// middle lies in that. Of people who reach behind the near plane, the image's box is that of a
 /// part.
 void check_projection(const Image& image, const Person& person, Findings& findings) {
   const Eigen::Matrix<double, 3, 8> in_camera = corners_in_camera(image, person);
@@ -214,7 +214,7 @@ void check_projection(const Image& image, const Person& person, Findings& findin
   }
 }
 
-/// Keypoints in the picture are those in the world, seen by the camera.
+/// Keypoints in the image are those in the world, seen by the camera.
 void check_keypoints_3d(const camera::Camera& camera, const Person& person, Findings& findings) {
   const auto places = person.record.find("keypoints_3d");
   if (places == person.record.end()) return;
@@ -296,7 +296,7 @@ void check_bodies(const Image& image, Findings& findings) {
   const bool plain = is_plain(image);
   const bool at_once = is_shot_at_once(image);
   const camera::Camera camera = camera_of(image);
-  for (const Person& person : things_of(image)) {
+  for (const Person& person : objects_of(image)) {
     check_position(person, findings);
     check_state(person, findings);
     check_truncation(image, person, findings);
@@ -315,7 +315,7 @@ bool is_shot_at_once(const Image& image) {
 }
 
 void check_people(const Image& image, Findings& findings) {
-  for (const Person& person : things_of(image)) {
+  for (const Person& person : objects_of(image)) {
     check_box(image, person, findings);
     const bool is_whole = check_mask(image, person, findings);
     check_visibility(person, findings);

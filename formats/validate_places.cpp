@@ -50,7 +50,7 @@ void check_camera(const Image& image, Findings& findings) {
       image.R.determinant() > 0;
   if (!turns || !((image.R * center + image.t).norm() < kSlack * (1 + center.norm()))) {
     findings.add("camera", kCocoFile, fmt::format("image {}", image.id),
-                 turns ? "the camera's centre is not where R and t put it" : "R is no rotation");
+                 turns ? "the camera's center is not where R and t put it" : "R is no rotation");
   }
 }
 

@@ -1,4 +1,4 @@
-// Presence in a picture, by the pictures before and after.
+// Presence in an image, by the images before and after.
 #include <fmt/format.h>
 
 #include <algorithm>

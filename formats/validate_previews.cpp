@@ -1,4 +1,4 @@
-// Previews: the pictures with boxes drawn around people.
+// Previews: the images with boxes drawn around people.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Mean difference of two pictures' brightness in squares, the greatest.
+/// Mean difference of two images' brightness in squares, the greatest.
 double greatest_difference(const Pixels& a, const Pixels& b, int top) {
   constexpr int kSide = 16;
   double greatest = 0;
@@ -43,15 +43,15 @@ void check_preview(const DatasetInfo& info, const Image& image, Findings& findin
     return;
   Image preview = image;
   preview.file = path;
-  DatasetInfo only_pictures = info;
-  only_pictures.annotations = {"coco"};
-  const Pixels shown = read_pixels(only_pictures, preview, findings);
-  const Pixels picture = read_pixels(only_pictures, image, findings);
-  if (shown.rgb.empty() || picture.rgb.empty()) return;
+  DatasetInfo only_images = info;
+  only_images.annotations = {"coco"};
+  const Pixels shown = read_pixels(only_images, preview, findings);
+  const Pixels original = read_pixels(only_images, image, findings);
+  if (shown.rgb.empty() || original.rgb.empty()) return;
   render::Frame frame;
   frame.camera.intrinsics.width = image.width;
   frame.camera.intrinsics.height = image.height;
-  frame.rgb = picture.rgb;
+  frame.rgb = original.rgb;
   annotate::FrameLabels labels;
   labels.time_s = image.time_s;
   for (const Person& person : image.people) {
@@ -60,7 +60,7 @@ void check_preview(const DatasetInfo& info, const Image& image, Findings& findin
     label.box = {static_cast<int>(person.box.x), static_cast<int>(person.box.y),
                  static_cast<int>(person.box.width), static_cast<int>(person.box.height)};
   }
-  Pixels expected = picture;
+  Pixels expected = original;
   expected.rgb = annotate::draw_preview(frame, labels);
   // Both are compressed, one of them twice; the caption's numbers are left out.
   const int caption = std::max(32, image.height / 12);
@@ -70,7 +70,7 @@ void check_preview(const DatasetInfo& info, const Image& image, Findings& findin
   const double off = greatest_difference(expected, shown, caption);
   if (off <= max_value) return;
   findings.add("previews", path, fmt::format("image {}", image.id),
-               fmt::format("not the picture with its boxes: brightness is up to {:.0f} off", off));
+               fmt::format("not the image with its boxes: brightness is up to {:.0f} off", off));
 }
 
 }  // namespace throng::formats

@@ -1,4 +1,4 @@
-// Classes per pixel against the masks of people and drones, and against the picture of instances.
+// Classes per pixel against the masks of people and drones, and against the image of instances.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -15,7 +15,7 @@ using annotate::SemanticClass;
 
 namespace {
 
-/// Of a value of the picture of instances.
+/// Of a value of the image of instances.
 SemanticClass class_of_instance(std::uint32_t id) {
   if (id == 0) return SemanticClass::sky;
   if (id < kFirstUmbrella) return SemanticClass::person;
@@ -26,11 +26,11 @@ SemanticClass class_of_instance(std::uint32_t id) {
 }
 
 /// Pixels that the masks of people, or of drones, cover: 1, else 0.
-std::vector<std::uint8_t> covered_by(const std::vector<Person>& things, const Image& image) {
+std::vector<std::uint8_t> covered_by(const std::vector<Person>& objects, const Image& image) {
   const auto width = static_cast<std::size_t>(image.width);
   std::vector<std::uint8_t> covered(width * static_cast<std::size_t>(image.height), 0);
-  for (const Person& thing : things) {
-    const Bitmap mask = bitmap_of(runs_of(thing.mask, covered.size()), image.height);
+  for (const Person& object : objects) {
+    const Bitmap mask = bitmap_of(runs_of(object.mask, covered.size()), image.height);
     for (int y = mask.y; y < mask.y + mask.height; ++y) {
       for (int x = mask.x; x < mask.x + mask.width; ++x) {
         if (mask.at(x, y))
@@ -57,9 +57,9 @@ void check_semantic(const DatasetInfo& /*info*/, const Image& image, const Pixel
     unknown += value > static_cast<std::uint16_t>(SemanticClass::drone) ? 1 : 0;
   }
   fault(unknown, "have a value that is no class");
-  const auto compare = [&](const std::vector<Person>& things, SemanticClass expected,
+  const auto compare = [&](const std::vector<Person>& objects, SemanticClass expected,
                            const char* what) {
-    const std::vector<std::uint8_t> covered = covered_by(things, image);
+    const std::vector<std::uint8_t> covered = covered_by(objects, image);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < classes.size(); ++i) {
       wrong += (classes[i] == static_cast<std::uint16_t>(expected)) == (covered[i] == 1) ? 0 : 1;

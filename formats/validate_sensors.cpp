@@ -1,4 +1,4 @@
-// The tables of drones' sensors against themselves and against the pictures' flight records.
+// The tables of drones' sensors against themselves and against the images' flight records.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -170,7 +170,7 @@ bool are_equal(const Vector3d& a, const Vector3d& b, double slack) {
   return (a - b).cwiseAbs().maxCoeff() <= slack + 1e-7 * b.cwiseAbs().maxCoeff();
 }
 
-/// Names a reading of a picture that is not in the row; "" if all are.
+/// Names a reading of an image that is not in the row; "" if all are.
 std::string other_reading(const json& measured, const Row& row) {
   struct Reading {
     const char* name;
@@ -198,7 +198,7 @@ std::string other_reading(const json& measured, const Row& row) {
   return "";
 }
 
-/// Names a true value of a picture that is not between two rows; "" if all are.
+/// Names a true value of an image that is not between two rows; "" if all are.
 std::string other_truth(const json& truth, const Row& a, const Row& b) {
   const double dt_s = b[kTime] - a[kTime];
   const double time_s = truth.at("time_s").get<double>();

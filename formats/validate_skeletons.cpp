@@ -1,4 +1,4 @@
-// Keypoints in the world against the body's box and heading, and in the picture against its parts.
+// Keypoints in the world against the body's box and heading, and in the image against its parts.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -21,7 +21,7 @@ constexpr std::size_t kLeftHip = 11;
 /// One limb's keypoint and what of the body it is in: the same on the other side is one more.
 struct Limb {
   std::size_t left_keypoint;  ///< the right one follows
-  std::uint16_t left_part;    ///< of the pictures of parts; the right one follows
+  std::uint16_t left_part;    ///< of the images of parts; the right one follows
 };
 constexpr std::array<Limb, 4> kLimbs = {{{7, 3}, {9, 3}, {13, 5}, {15, 7}}};
 
@@ -74,7 +74,7 @@ void check_facing(const Person& person, Findings& findings) {
   }
 }
 
-/// Which sides the pictures of parts show at the limbs' visible keypoints.
+/// Which sides the images of parts show at the limbs' visible keypoints.
 struct Sides {
   int own = 0;
   int opposite = 0;
@@ -204,7 +204,7 @@ void check_heads_are_heads(const Shot& shot, Findings& findings) {
   constexpr int kMinCount = 6;
   if (looked_at < kMinCount || 2 * heads >= looked_at) return;
   findings.add("parts-at-keypoints", raster_name("parts", shot.image), shot.record(),
-               fmt::format("{} of {} visible heads are labelled as heads", heads, looked_at));
+               fmt::format("{} of {} visible heads are labeled as heads", heads, looked_at));
 }
 
 }  // namespace

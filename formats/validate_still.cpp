@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/srgb.h"
+#include "formats/median.h"
 #include "formats/shot.h"
 
 namespace throng::formats {
@@ -36,9 +38,9 @@ Patch patch_at(const Pixels& pixels, int x, int y, std::uint32_t id) {
   return patch;
 }
 
-/// How the still points of one picture look in another one.
+/// How the still points of one image look in another one.
 struct Tally {
-  std::size_t seen = 0;          ///< points within the other picture
+  std::size_t seen = 0;          ///< points within the other image
   std::size_t seen_through = 0;  ///< where it shows something farther
   std::size_t same_place = 0;    ///< where it shows that depth
   std::size_t other_id = 0;      ///< of these, with another id
@@ -56,7 +58,7 @@ void tally_point(const Shot& from, const Shot& to, int x, int y, Tallies& tallie
   // At an edge, or where the surface is seen from its side, a pixel says little.
   constexpr double kSmooth = 0.03;
   if (here.far_m - here.near_m > kSmooth * z) return;
-  const Eigen::Vector3d point = from.camera.unproject({x, y}, z);
+  const Eigen::Vector3d point = from.point_at(x, y, z);
   if (!point.allFinite()) return;
   const auto seen = to.camera.project(point);
   if (!seen.visible || !(seen.depth_m > 0)) return;
@@ -96,7 +98,7 @@ std::string name_of_still(std::uint32_t id) {
 
 void judge(const Shot& from, const Shot& to, Findings& findings) {
   constexpr std::size_t kMinCount = 12;
-  // Rounded pixels meet edges: a few in a hundred are off in sound pictures.
+  // Rounded pixels meet edges: a few in a hundred are off in sound images.
   constexpr double kMaxThrough = 0.25;
   constexpr double kMaxOtherId = 0.25;
   for (const auto& [id, tally] : tally(from, to)) {
@@ -124,7 +126,7 @@ bool has_geometry(const Shot& shot) {
 
 /// Camera z at which a pixel's ray meets the ground.
 std::optional<double> ground_depth_at(const Shot& shot, int x, int y) {
-  const Eigen::Vector3d at = shot.camera.unproject({x, y}, 1);
+  const Eigen::Vector3d at = shot.point_at(x, y, 1);
   if (!at.allFinite()) return std::nullopt;
   const Eigen::Vector3d center = shot.camera.pose.center();
   const double down = center.z() - at.z();
@@ -133,7 +135,7 @@ std::optional<double> ground_depth_at(const Shot& shot, int x, int y) {
 }
 
 /// Whether the wall that a pixel shows ends at the depth of the ground below it; nullopt if the
-/// pixel is not the foot of a wall. A foot is found along the picture's vertical (the image of the
+/// pixel is not the foot of a wall. A foot is found along the image's vertical (the image of the
 /// world's, which is not the columns' for steep cameras): ground is next below, and above the same
 /// building at the same place on the ground, as only walls have it. The edges of roofs have ground
 /// beside them, too, but far below.
@@ -141,7 +143,7 @@ std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
   const Pixels& pixels = shot.pixels;
   const std::size_t pixel = pixels.at(x, y);
   const double z = pixels.depth_m(pixel);
-  const Eigen::Vector3d point = shot.camera.unproject({x, y}, z);
+  const Eigen::Vector3d point = shot.point_at(x, y, z);
   if (!point.allFinite()) return std::nullopt;
   constexpr double kUpShare = 0.02;  // of the distance: some pixels
   const auto seen = shot.camera.project(point + Eigen::Vector3d(0, 0, kUpShare * std::max(z, 1.0)));
@@ -162,8 +164,7 @@ std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
       pixels.ids[higher] != pixels.ids[pixel] || pixels.depth_cm[higher] == 0) {
     return std::nullopt;
   }
-  const Eigen::Vector3d step =
-      shot.camera.unproject(above.cast<double>(), pixels.depth_m(higher)) - point;
+  const Eigen::Vector3d step = shot.point_at(above.x(), above.y(), pixels.depth_m(higher)) - point;
   constexpr double kUpright = 2;
   if (!(step.z() > kUpright * step.head<2>().norm())) return std::nullopt;
   const std::optional<double> ground = ground_depth_at(shot, x, y);
@@ -177,15 +178,8 @@ std::optional<bool> wall_touches_ground(const Shot& shot, int x, int y) {
 
 /// Of an sRGB pixel, in linear light.
 double luminance(const std::uint8_t* rgb) {
-  constexpr double kGamma = 2.2;
-  const auto linear = [](std::uint8_t value) { return std::pow(value / 255.0, kGamma); };
-  return 0.2126 * linear(rgb[0]) + 0.7152 * linear(rgb[1]) + 0.0722 * linear(rgb[2]);
-}
-
-double median_light(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return 0.2126 * linear_of_srgb(rgb[0]) + 0.7152 * linear_of_srgb(rgb[1]) +
+         0.0722 * linear_of_srgb(rgb[2]);
 }
 
 /// Equal exposure, and no vignette that makes it a matter of the place.
@@ -195,7 +189,7 @@ bool have_one_exposure(const Image& a, const Image& b) {
   return one.value("ev", 0.0) == two.value("ev", 0.0) && one.value("vignette", 0.0) == 0;
 }
 
-/// Colors of the same still points in consecutive pictures of one camera.
+/// Colors of the same still points in consecutive images of one camera.
 void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   const Pixels& pixels = before.pixels;
   if (pixels.rgb.empty() || after.pixels.rgb.empty()) return;
@@ -211,8 +205,7 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
     for (int x = 1 + y % step; x + 1 < pixels.width; x += step) {
       const std::size_t pixel = pixels.at(x, y);
       if (!is_still(pixels.ids[pixel]) || pixels.depth_cm[pixel] == 0) continue;
-      const auto seen =
-          after.camera.project(before.camera.unproject({x, y}, pixels.depth_m(pixel)));
+      const auto seen = after.camera.project(before.point_at(x, y, pixels.depth_m(pixel)));
       if (!seen.visible || !(seen.depth_m > 0)) continue;
       const int u = static_cast<int>(std::lround(seen.pixel.x()));
       const int v = static_cast<int>(std::lround(seen.pixel.y()));
@@ -235,13 +228,13 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   constexpr std::size_t kMinCount = 200;
   if (count < kMinCount) return;
   if (have_one_exposure(before.image, after.image)) {
-    const double ratio = median_light(light_now) / std::max(1e-4, median_light(light_then));
+    const double ratio = median(light_now) / std::max(1e-4, median(light_then));
     // Light and exposure are a run's; a gentle vignette passes.
     constexpr double kMaxRatio = 1.35;
     if (ratio > kMaxRatio || ratio < 1 / kMaxRatio) {
       findings.add(
-          "picture-brightness", after.image.file, after.record(),
-          fmt::format("still points are {:.2f} times as bright as in the picture before", ratio));
+          "image-brightness", after.image.file, after.record(),
+          fmt::format("still points are {:.2f} times as bright as in the image before", ratio));
     }
   }
   const auto number = static_cast<double>(count);
@@ -251,8 +244,8 @@ void compare_colors(const Shot& before, const Shot& after, Findings& findings) {
   // Gray places say nothing.
   constexpr double kColorful = 7;
   if (strength < kColorful || (likeness > 0.3 && weakness > 0.3 * strength)) return;
-  findings.add("picture-colors", after.image.file, after.record(),
-               fmt::format("red minus blue of still points was {:.1f} (rms) in the picture before "
+  findings.add("image-colors", after.image.file, after.record(),
+               fmt::format("red minus blue of still points was {:.1f} (rms) in the image before "
                            "and is {:.1f}, with a correlation of {:.2f}",
                            std::sqrt(then / number), std::sqrt(now / number), likeness));
 }
@@ -284,7 +277,7 @@ void check_buildings(const Shot& shot, Findings& findings) {
       if (!is_building(id) || pixels.depth_cm[pixel] == 0) continue;
       if (x % kStep == 0 && y % kStep == 0) {
         const double z = pixels.depth_m(pixel);
-        const Eigen::Vector3d point = shot.camera.unproject({x, y}, z);
+        const Eigen::Vector3d point = shot.point_at(x, y, z);
         Foot& foot = feet[id];
         ++foot.points;
         if (point.z() < -0.05 - 0.004 * z) ++foot.below;
@@ -306,7 +299,7 @@ void check_buildings(const Shot& shot, Findings& findings) {
                                foot.points, name_of_still(id)));
     }
   }
-  // Doorways and steps have other feet; most of a picture's walls do not.
+  // Doorways and steps have other feet; most of an image's walls do not.
   if (all.looked_at >= kMinCount &&
       static_cast<double>(all.touching) < 0.25 * static_cast<double>(all.looked_at)) {
     findings.add("depth-of-buildings", raster_name("depth", shot.image), shot.record(),

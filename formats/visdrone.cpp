@@ -1,4 +1,4 @@
-// VisDrone DET (a text per picture) and MOT (a text per sequence): whole numbers and classes of
+// VisDrone DET (a text per image) and MOT (a text per sequence): whole numbers and classes of
 // truncation and occlusion.
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// Pascal VOC: an XML per picture; corners are whole pixels, counted from 1, both inside.
+// Pascal VOC: an XML per image; corners are whole pixels, counted from 1, both inside.
 #include <fmt/format.h>
 
 #include <map>

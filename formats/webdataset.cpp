@@ -81,9 +81,9 @@ class WebDatasetExporter : public Exporter {
 
   void add(const Image& image) override {
     // Keys end at the first dot, and have none.
-    const std::string picture = read_file(info_.root / image.file);
+    const std::string jpeg = read_file(info_.root / image.file);
     const std::string sample = sample_of(image, info_).dump();
-    const std::int64_t bytes = bytes_in_tar(picture) + bytes_in_tar(sample);
+    const std::int64_t bytes = bytes_in_tar(jpeg) + bytes_in_tar(sample);
     Shards& shards = shards_[image.split];
     const bool is_full =
         static_cast<double>(shards.bytes + bytes) > info_.options.webdataset.shard_mb * kBytesPerMb;
@@ -94,7 +94,7 @@ class WebDatasetExporter : public Exporter {
     }
     ++shards.samples;
     shards.bytes += bytes;
-    shards.open->add(image.stem() + ".jpg", picture);
+    shards.open->add(image.stem() + ".jpg", jpeg);
     shards.open->add(image.stem() + ".json", sample);
   }
 

@@ -1,4 +1,4 @@
-// YOLO as Ultralytics reads it: one text per picture, in shares of the picture's size.
+// YOLO as Ultralytics reads it: one text per image, in shares of the image's size.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 enum class Task : std::uint8_t { detect, segment, pose };
 
-/// The keypoint that each becomes when a picture is mirrored.
+/// The keypoint that each becomes when an image is mirrored.
 constexpr std::array<int, skinning::kKeypointCount> kMirrored = {0,  2, 1,  4,  3,  6,  5,  8, 7,
                                                                  10, 9, 12, 11, 14, 13, 16, 15};
 
@@ -50,7 +50,7 @@ class YoloExporter : public Exporter {
   }
 
   void finish() override {
-    // A split without pictures is left out: a trainer that wants it must not get another one's.
+    // A split without images is left out: a trainer that wants it must not get another one's.
     std::string yaml;
     for (const Split split : info_.splits())
       yaml += fmt::format("{0}: images/{0}\n", name_of(split));

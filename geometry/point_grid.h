@@ -23,8 +23,8 @@ class PointGrid {
     min_ = bounds.min;
     const Eigen::Vector2d size = bounds.max - bounds.min;
     // A few who are far away must not cost memory for all the ground in between.
-    const double max_value = 4.0 * static_cast<double>(points_.size()) + 64;
-    while ((size.x() / cell_m_ + 1) * (size.y() / cell_m_ + 1) > max_value) cell_m_ *= 1.5;
+    const double max_cells = 4.0 * static_cast<double>(points_.size()) + 64;
+    while ((size.x() / cell_m_ + 1) * (size.y() / cell_m_ + 1) > max_cells) cell_m_ *= 1.5;
     columns_ = static_cast<int>(size.x() / cell_m_) + 1;
     rows_ = static_cast<int>(size.y() / cell_m_) + 1;
     fill();

@@ -19,7 +19,8 @@ namespace throng::images {
 namespace {
 
 // The largest image that is read, in pixels: what a small file may unpack to is limited.
-constexpr std::int64_t kMaxPixels = 1LL << 28;
+// Backs of medium format have 151 million.
+constexpr std::int64_t kMaxPixels = 160'000'000;
 
 [[noreturn]] void refuse(const std::string& what, std::string found) {
   throw InputError(Problem{what, "", std::move(found), "a JPEG or PNG image"});
@@ -68,19 +69,35 @@ GrayImage upright(GrayImage stored, int orientation) {
   return image;
 }
 
-GrayImage decode_jpeg(std::string_view bytes, const std::string& what) {
-  using Handle = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
-  const Handle handle(tjInitDecompress(), &tjDestroy);
+using JpegHandle = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
+
+const unsigned char* data_of(std::string_view bytes) {
+  return reinterpret_cast<const unsigned char*>(bytes.data());
+}
+
+JpegHandle new_decompressor() {
+  JpegHandle handle(tjInitDecompress(), &tjDestroy);
   if (!handle) throw EnvironmentError("cannot start the JPEG decompressor: out of memory");
-  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  GrayImage image;
+  return handle;
+}
+
+// Sets the size of the image.
+void read_jpeg_header(tjhandle handle, std::string_view bytes, const std::string& what,
+                      GrayImage& image) {
   int sampling = 0;
   int colors = 0;
-  if (tjDecompressHeader3(handle.get(), data, bytes.size(), &image.width, &image.height, &sampling,
-                          &colors) != 0) {
-    refuse(what, fmt::format("a damaged JPEG: {}", tjGetErrorStr2(handle.get())));
+  if (tjDecompressHeader3(handle, data_of(bytes), bytes.size(), &image.width, &image.height,
+                          &sampling, &colors) != 0) {
+    refuse(what, fmt::format("a damaged JPEG: {}", tjGetErrorStr2(handle)));
   }
   check_size(what, image.width, image.height);
+}
+
+GrayImage decode_jpeg(std::string_view bytes, const std::string& what) {
+  const JpegHandle handle = new_decompressor();
+  const unsigned char* data = data_of(bytes);
+  GrayImage image;
+  read_jpeg_header(handle.get(), bytes, what, image);
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
   if (tjDecompress2(handle.get(), data, bytes.size(), image.pixels.data(), image.width, 0,
                     image.height, TJPF_GRAY, TJFLAG_ACCURATEDCT) != 0 &&
@@ -143,31 +160,72 @@ bool read_rows(png_structp png, png_infop info, png_bytepp rows) {
   return true;
 }
 
-GrayImage decode_png(std::string_view bytes, const std::string& what) {
-  PngSource source{bytes, ""};
+// libpng's objects for one file.
+struct PngFile {
+  explicit PngFile(std::string_view bytes) : source{bytes, ""} {
+    png_set_read_fn(png, &source, take_bytes);
+  }
+  ~PngFile() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngFile(const PngFile&) = delete;
+  PngFile& operator=(const PngFile&) = delete;
+
+  PngSource source;
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, fail, ignore_warning);
   png_infop info = png_create_info_struct(png);
-  const auto destroy = [&](void*) { png_destroy_read_struct(&png, &info, nullptr); };
-  const std::unique_ptr<void, decltype(destroy)> guard(png, destroy);
-  png_set_read_fn(png, &source, take_bytes);
+};
+
+// The image's size, without pixels.
+GrayImage header_of(PngFile& file, const std::string& what) {
   GrayImage image;
-  if (!read_header(png, info, image)) refuse(what, "a damaged PNG: " + source.message);
+  if (!read_header(file.png, file.info, image)) {
+    refuse(what, "a damaged PNG: " + file.source.message);
+  }
   check_size(what, image.width, image.height);
+  return image;
+}
+
+GrayImage decode_png(std::string_view bytes, const std::string& what) {
+  PngFile file(bytes);
+  GrayImage image = header_of(file, what);
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
   std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
   for (int y = 0; y < image.height; ++y) {
     rows[y] = image.pixels.data() + static_cast<std::size_t>(y) * image.width;
   }
-  if (!read_rows(png, info, rows.data())) refuse(what, "a damaged PNG: " + source.message);
+  if (!read_rows(file.png, file.info, rows.data())) {
+    refuse(what, "a damaged PNG: " + file.source.message);
+  }
   return image;
+}
+
+// The first bytes tell the format.
+bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8\xFF"); }
+bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
+
+[[noreturn]] void refuse_kind(std::string_view bytes, const std::string& what) {
+  refuse(what, fmt::format("{} bytes of another kind", bytes.size()));
 }
 
 }  // namespace
 
 GrayImage decode_gray_image(std::string_view bytes, const std::string& what) {
-  if (bytes.starts_with("\xFF\xD8\xFF")) return decode_jpeg(bytes, what);
-  if (bytes.starts_with("\x89PNG")) return decode_png(bytes, what);
-  refuse(what, fmt::format("{} bytes of another kind", bytes.size()));
+  if (is_jpeg(bytes)) return decode_jpeg(bytes, what);
+  if (is_png(bytes)) return decode_png(bytes, what);
+  refuse_kind(bytes, what);
+}
+
+std::int64_t pixels_of_image(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
+  GrayImage image;
+  if (is_jpeg(bytes)) {
+    read_jpeg_header(new_decompressor().get(), bytes, file.string(), image);
+  } else if (is_png(bytes)) {
+    PngFile png(bytes);
+    image = header_of(png, file.string());
+  } else {
+    refuse_kind(bytes, file.string());
+  }
+  return static_cast<std::int64_t>(image.width) * image.height;
 }
 
 GrayImage read_gray_image(const std::filesystem::path& file) {

@@ -20,6 +20,10 @@ struct GrayImage {
 /// samples keep their upper byte; transparency is ignored. Throws InputError naming `what`.
 GrayImage decode_gray_image(std::string_view bytes, const std::string& what);
 
+/// Pixels that the image in a file unpacks to, by its head; nothing is decoded. Throws InputError
+/// for a file of another kind or of more pixels than are decoded, and EnvironmentError.
+std::int64_t pixels_of_image(const std::filesystem::path& file);
+
 /// Reads and decodes. Throws InputError, and EnvironmentError when the file cannot be read.
 GrayImage read_gray_image(const std::filesystem::path& file);
 

@@ -11,22 +11,7 @@ import time
 
 import damages
 import damages.runner
-
-ANNOTATIONS = [
-    "coco",
-    "keypoints",
-    "amodal",
-    "density",
-    "exits",
-    "fields",
-    "depth",
-    "instances",
-    "parts",
-    "normals",
-    "flow",
-    "semantic",
-    "sensors",
-]
+from sound_jobs import GEOMETRY
 
 
 def camera(**more):
@@ -55,7 +40,7 @@ JOB = {
         },
     ],
     "outputs": {
-        "annotations": ANNOTATIONS,
+        "annotations": GEOMETRY,
         "previews": 1,
         "formats": ["coco", "mot", "yolo-detect", "kitti", "visdrone-mot", "table"],
     },

@@ -1,4 +1,4 @@
-// Checks of pictures against each other and against labels, on pictures made by hand.
+// Checks of images against each other and against labels, on images made by hand.
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using hand_made::found_by;
 using nlohmann::json;
 using ::testing::IsEmpty;
 
-/// The hand-made camera's picture of its frame: gray ground, known depth.
+/// The hand-made camera's image of its frame: gray ground, known depth.
 Shot ground_shot(std::int64_t frame, double brightness) {
   Shot shot;
   shot.image = hand_made::image();
@@ -50,8 +50,8 @@ TEST(CrossChecks, StillPlacesKeepTheirBrightness) {
   };
   EXPECT_THAT(faults(1, 0), IsEmpty());
   EXPECT_THAT(faults(0.93, 0), IsEmpty()) << "a vignette or a cloud of dust";
-  EXPECT_TRUE(any_with(faults(0.8, 0), "picture-brightness"));
-  EXPECT_TRUE(any_with(faults(1.3, 0), "picture-brightness"));
+  EXPECT_TRUE(any_with(faults(0.8, 0), "image-brightness"));
+  EXPECT_TRUE(any_with(faults(1.3, 0), "image-brightness"));
   EXPECT_THAT(faults(0.8, -0.6), IsEmpty()) << "another exposure";
 }
 
@@ -89,7 +89,7 @@ TEST(CrossChecks, FlowIsTheMotionOfKeypoints) {
   EXPECT_TRUE(any_with(keypoint_flow_faults(-1), "flow-of-keypoints"));
 }
 
-/// Sixteen people with tops of as many colors, of whom the picture shows the torsos in half of the
+/// Sixteen people with tops of as many colors, of whom the image shows the torsos in half of the
 /// light; the label of one of them may be another, and an item may be carried.
 std::vector<std::string> clothes_faults(const std::string& first_label, bool shows_item = false) {
   constexpr std::array<const char*, 16> kColors = {

@@ -61,22 +61,23 @@ class SmallDataset : public ::testing::Test {
     annotate::SyntheticScene scene;
     scene.seed = static_cast<std::uint64_t>(100 * run + 10 * camera + frame);
     scene.people = frame == 1 && camera == 1 ? 0 : 14;
-    render::Frame picture = annotate::synthetic_frame(scene);
-    *std::find(picture.id.begin(), picture.id.end(), render::kIdGround) = render::id_of_umbrella(3);
-    picture.index = frame;
-    picture.time_s = 0.5 * frame;
-    picture.depth_m = depth_of(picture);
-    // Every picture is another scene: nobody is in two.
+    render::Frame rendered = annotate::synthetic_frame(scene);
+    *std::find(rendered.id.begin(), rendered.id.end(), render::kIdGround) =
+        render::id_of_umbrella(3);
+    rendered.index = frame;
+    rendered.time_s = 0.5 * frame;
+    rendered.depth_m = depth_of(rendered);
+    // Every image is another scene: nobody is in two.
     const auto first = static_cast<std::uint32_t>(100 * (kFrames * camera + frame));
-    for (std::uint32_t& id : picture.id) id += render::is_agent(id) ? first : 0;
-    for (render::PersonInView& person : picture.people) {
+    for (std::uint32_t& id : rendered.id) id += render::is_agent(id) ? first : 0;
+    for (render::PersonInView& person : rendered.people) {
       person.agent += first;
       person.velocity *= 0.05;  // they stand
       person.keypoints.fill(person.hips.cast<float>());
-      set_box(picture.camera, person);
+      set_box(rendered.camera, person);
     }
-    annotate::FrameLabels labels = annotate::label_people(picture);
-    annotate::add_keypoints(picture, labels);
+    annotate::FrameLabels labels = annotate::label_people(rendered);
+    annotate::add_keypoints(rendered, labels);
     annotate::CocoImage image;
     image.id = 1 + (run * kCameras + camera) * kFrames + frame;
     image.run = "run00" + std::to_string(run);
@@ -85,13 +86,13 @@ class SmallDataset : public ::testing::Test {
     const std::string place = image.run + "/" + image.camera_id + "/00000" + std::to_string(frame);
     image.file_name = "images/" + place + ".jpg";
     image.frame_index = frame;
-    image.time_s = picture.time_s;
-    image.camera = picture.camera;
+    image.time_s = rendered.time_s;
+    image.camera = rendered.camera;
     std::vector<Eigen::Vector2d> heads;
     for (const annotate::PersonLabel& label : labels.people) {
-      const auto head = render::head_in(label.person, picture.camera);
-      if (!head || head->x() < 0 || head->y() < 0 || head->x() >= picture.width() ||
-          head->y() >= picture.height()) {
+      const auto head = render::head_in(label.person, rendered.camera);
+      if (!head || head->x() < 0 || head->y() < 0 || head->x() >= rendered.width() ||
+          head->y() >= rendered.height()) {
         continue;
       }
       heads.push_back(*head);
@@ -103,17 +104,17 @@ class SmallDataset : public ::testing::Test {
       write_file_atomically(root_ / path, bytes);
     };
     write(image.file_name,
-          annotate::jpeg_bytes(picture.rgb, picture.width(), picture.height(), 80));
-    write(image.density_file,
-          annotate::npy_bytes(annotate::density_map(heads, picture.width(), picture.height(), 4)));
-    picture.flow.assign(2 * picture.id.size(), 1.5F);
-    write("flow/" + place + ".png", annotate::flow_png(picture));
-    write("instances/" + place + ".png", annotate::instance_png(picture));
-    write("semantic/" + place + ".png", annotate::semantic_png(picture));
-    write("depth/" + place + ".png", annotate::depth_png(picture));
+          annotate::jpeg_bytes(rendered.rgb, rendered.width(), rendered.height(), 80));
+    write(image.density_file, annotate::npy_bytes(annotate::density_map(heads, rendered.width(),
+                                                                        rendered.height(), 4)));
+    rendered.flow.assign(2 * rendered.id.size(), 1.5F);
+    write("flow/" + place + ".png", annotate::flow_png(rendered));
+    write("instances/" + place + ".png", annotate::instance_png(rendered));
+    write("semantic/" + place + ".png", annotate::semantic_png(rendered));
+    write("depth/" + place + ".png", annotate::depth_png(rendered));
   }
 
-  /// A cube that holds what the picture shows, 9 m away.
+  /// A cube that holds what the image shows, 9 m away.
   static void set_box(const camera::Camera& camera, render::PersonInView& person) {
     const Eigen::AlignedBox2d& box = person.amodal_box;
     const double depth_m = (camera.pose.R * person.hips + camera.pose.t).z();
@@ -125,14 +126,14 @@ class SmallDataset : public ::testing::Test {
   }
 
   /// People are 9 m away; the ground is where it is.
-  static std::vector<float> depth_of(const render::Frame& picture) {
-    std::vector<float> depth_m(picture.id.size(), 9.0F);
-    const camera::Camera& camera = picture.camera;
+  static std::vector<float> depth_of(const render::Frame& rendered) {
+    std::vector<float> depth_m(rendered.id.size(), 9.0F);
+    const camera::Camera& camera = rendered.camera;
     const Eigen::Vector3d center = camera.pose.center();
     for (std::size_t i = 0; i < depth_m.size(); ++i) {
-      if (picture.id[i] != render::kIdGround) continue;
-      const auto column = static_cast<double>(static_cast<int>(i) % picture.width());
-      const auto row = static_cast<double>(static_cast<int>(i) / picture.width());
+      if (rendered.id[i] != render::kIdGround) continue;
+      const auto column = static_cast<double>(static_cast<int>(i) % rendered.width());
+      const auto row = static_cast<double>(static_cast<int>(i) / rendered.width());
       const Eigen::Vector3d ray = camera.unproject({column, row}, 1) - center;
       depth_m[i] = static_cast<float>(-center.z() / ray.z());
     }

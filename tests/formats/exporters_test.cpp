@@ -175,10 +175,10 @@ TEST_F(Exports, MotsMasksDoNotOverlapAndAreTheDatasets) {
   for (const auto& [key, ids] : ids_of_pixels) {
     char name[16];
     std::snprintf(name, sizeof(name), "%06d.png", key.second);
-    const Raster picture = read_raster(out / key.first / "instances" / name);
-    ASSERT_EQ(picture.bits, 16);
-    ASSERT_EQ(picture.channels, 1);
-    EXPECT_EQ(picture.samples, ids) << key.first << " " << name;
+    const Raster raster = read_raster(out / key.first / "instances" / name);
+    ASSERT_EQ(raster.bits, 16);
+    ASSERT_EQ(raster.channels, 1);
+    EXPECT_EQ(raster.samples, ids) << key.first << " " << name;
   }
   double expected = 0;
   const json all = coco();
@@ -278,7 +278,7 @@ TEST_F(Exports, CocoSplitsByRunAndHasIgnoreRegions) {
   EXPECT_FALSE(fs::exists(out / "annotations/instances_test.json"));
 }
 
-TEST_F(Exports, PanopticListsExactlyTheSegmentsOfThePicture) {
+TEST_F(Exports, PanopticListsExactlyTheSegmentsOfTheImage) {
   const fs::path out = exported("coco-panoptic");
   const json list = json::parse(read_file(out / "annotations/panoptic_train.json"));
   ASSERT_EQ(list.at("annotations").size(), 12U);
@@ -315,7 +315,7 @@ TEST_F(Exports, SplitsKeepRunsTogether) {
   EXPECT_THROW(info(options), InputError);
 }
 
-TEST_F(Exports, YoloNamesOnlySplitsThatHavePictures) {
+TEST_F(Exports, YoloNamesOnlySplitsThatHaveImages) {
   ExportOptions options;
   for (const std::string format : {"yolo-detect", "yolo-segment", "yolo-pose"}) {
     const std::string yaml = read_file(exported(format, options) / "data.yaml");

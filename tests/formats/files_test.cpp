@@ -83,7 +83,7 @@ TEST(Rasters, KeepTheirSamples) {
   EXPECT_EQ(wide.width, 2);
   EXPECT_THAT(wide.samples, ElementsAre(1, 256, 65535, 40, 50, 60));
   EXPECT_THAT(refused([&] { read_instances(file); }), HasSubstr("a.png")) << "not of 8 bits";
-  write_file_atomically(file, "no picture");
+  write_file_atomically(file, "no image");
   EXPECT_THAT(refused([&] { read_raster(file); }), HasSubstr("a.png"));
   EXPECT_EQ(raster_path("/d", "depth", "images/a/b.jpg"), fs::path("/d/depth/a/b.png"));
 }
@@ -110,7 +110,7 @@ TEST(CsvTables, HaveQuotesAndEqualRows) {
 }
 
 TEST(Masks, RunDownColumns) {
-  // Picture of 4 x 3; the pixels (1, 1), (1, 2) and (2, 0) are set: positions 4, 5 and 6.
+  // Image of 4 x 3; the pixels (1, 1), (1, 2) and (2, 0) are set: positions 4, 5 and 6.
   const std::vector<std::uint32_t> runs = {4, 3, 5};
   EXPECT_EQ(runs_of(counts_of(runs), 12), runs);
   const Bitmap mask = bitmap_of(runs, 3);
@@ -145,7 +145,7 @@ TEST(Masks, HaveCocosCompressedCounts) {
 }
 
 TEST(Masks, TakePartsOfColumns) {
-  // Picture of 3 x 4; a run over the end of the first column: (0, 3), (1, 0) and (1, 1).
+  // Image of 3 x 4; a run over the end of the first column: (0, 3), (1, 0) and (1, 1).
   const Bitmap mask = bitmap_of({3, 3, 6}, 4);
   EXPECT_EQ(mask.x, 0);
   EXPECT_EQ(mask.width, 2);
@@ -174,7 +174,7 @@ TEST(Comparisons, NameWhatDiffersIsMissingOrTooMuch) {
   write_file_atomically(folder / "same.txt", "abc");
   write_file_atomically(folder / "other.txt", "abd");
   write_file_atomically(folder / "sub/more.txt", "x");
-  write_file_atomically(folder / "picture.jpg", std::string(100'000, 'p'));
+  write_file_atomically(folder / "image.jpg", std::string(100'000, 'p'));
   write_file_atomically(made / "good.jpg", std::string(100'000, 'p'));
   write_file_atomically(made / "bad.jpg", std::string(99'999, 'p') + "q");
   std::vector<std::string> reports;
@@ -182,15 +182,15 @@ TEST(Comparisons, NameWhatDiffersIsMissingOrTooMuch) {
     reports.push_back(path + ": " + what);
   });
   comparison.bytes("same.txt", "abc");
-  comparison.file("picture.jpg", made / "good.jpg");
+  comparison.file("image.jpg", made / "good.jpg");
   EXPECT_THAT(reports, ::testing::IsEmpty());
   comparison.bytes("other.txt", "abc");
   comparison.bytes("gone.txt", "abc");
-  comparison.file("picture.jpg", made / "bad.jpg");
+  comparison.file("image.jpg", made / "bad.jpg");
   comparison.finish();
   EXPECT_THAT(reports, ElementsAre("other.txt: not what the annotations give",
                                    "gone.txt: no such file, but the annotations give one",
-                                   "picture.jpg: not what the annotations or pictures give",
+                                   "image.jpg: not what the annotations or images give",
                                    "sub/more.txt: a file that the format does not have"));
 }
 

@@ -1,4 +1,4 @@
-// Pictures, people and datasets for tests, made by hand: every number is known.
+// Images, people and datasets for tests, made by hand: every number is known.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace throng::formats::hand_made {
 inline constexpr int kWidth = 100;
 inline constexpr int kHeight = 80;
 
-/// COCO's counts of a filled rectangle of the picture.
+/// COCO's counts of a filled rectangle of the image.
 inline std::string filled(int x, int y, int width, int height) {
   const Bitmap mask{x, y, width, height,
                     std::vector<std::uint8_t>(static_cast<std::size_t>(width * height), 1)};
@@ -92,7 +92,7 @@ inline DatasetInfo info(const std::filesystem::path& root) {
   return made;
 }
 
-/// Exports pictures in one format; files are read by their path below the format's folder.
+/// Exports images in one format; files are read by their path below the format's folder.
 class Export {
  public:
   Export() : info_(info(folder_.path())) {}
@@ -129,6 +129,23 @@ inline std::vector<std::string> found_by(const std::function<void(Findings&)>& c
 inline bool any_with(const std::vector<std::string>& found, const std::string& words) {
   return std::any_of(found.begin(), found.end(),
                      [&](const std::string& one) { return one.find(words) != std::string::npos; });
+}
+
+/// A: fully visible, B: half hidden and cut off by the left edge, C: fails the filters, and D, of
+/// whom nothing is visible.
+inline Image crossing() {
+  Image image = hand_made::image();
+  Person a = person(3, {10, 20, 8, 30}, {10, 20, 8, 30}, 1);
+  Person b = person(12, {0, 40, 6, 20}, {-6, 38, 12, 24}, 0.417);
+  b.truncation = 0.5;
+  b.state = "lying";
+  Person c = person(25, {60, 10, 4, 6}, {60, 10, 4, 6}, 0.1);
+  c.is_ignored = true;
+  a.head = Eigen::Vector2d(14, 22);
+  b.head = Eigen::Vector2d(-2, 40);
+  image.people = {a, b, c};
+  image.hidden = {{2'000'031, {70.5, 30.25, 5, 12}, false}, {2'000'032, {1, 2, 3, 4}, true}};
+  return image;
 }
 
 }  // namespace throng::formats::hand_made

@@ -33,7 +33,7 @@ Value value_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-// Heads inside the picture, in box coordinates.
+// Heads inside the image, in box coordinates.
 std::vector<std::pair<double, double>> heads_of_people(const std::vector<json>& people) {
   std::vector<std::pair<double, double>> heads;
   for (const json& person : people) {
@@ -192,7 +192,7 @@ TEST_F(MoreExports, VocCountsFromOneWithBothEndsInside) {
   }
 }
 
-TEST_F(MoreExports, CvatListsEveryPictureAndBox) {
+TEST_F(MoreExports, CvatListsEveryImageAndBox) {
   const fs::path out = exported("cvat");
   tinyxml2::XMLDocument xml;
   ASSERT_EQ(xml.LoadFile((out / "annotations.xml").c_str()), tinyxml2::XML_SUCCESS);

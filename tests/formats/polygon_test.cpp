@@ -114,7 +114,7 @@ TEST(Polygon, PiecesAreJoinedByNoMoreThanTheyBring) {
 
 TEST(Polygon, NoMaskNoPolygon) { EXPECT_TRUE(polygon_of(Bitmap{}).empty()); }
 
-// As Ultralytics does: shares times the picture's size, cut off to whole numbers; others round.
+// As Ultralytics does: shares times the image's size, cut off to whole numbers; others round.
 TEST_F(PolygonExports, YoloLabelsFillToTheMasks) {
   const std::filesystem::path out = exported("yolo-segment");
   int exact = 0;

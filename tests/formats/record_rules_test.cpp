@@ -1,4 +1,4 @@
-// Rules about one picture's records: a sound picture made by hand has no faults, and each damage is
+// Rules about one image's records: a sound image made by hand has no faults, and each damage is
 // named by its rule.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(RecordRules, BoxesAreThoseOfMasks) {
   expect_people("box-in-image", [](Person& p) { p.box.x = 99; });
 }
 
-TEST(RecordRules, MasksFillTheirPicture) {
+TEST(RecordRules, MasksFillTheirImage) {
   expect_people("mask-size", [](Person& p) { p.record["segmentation"]["size"] = {100, 80}; });
   expect_people("mask-runs annotation 103 runs that fill the image", [](Person& p) {
     p.mask = counts_of({10, 4});
@@ -121,9 +121,9 @@ TEST(RecordRules, KeypointsAreCountedAndNearTheMask) {
   };
   EXPECT_THAT(faults([](Person&) {}), ::testing::IsEmpty());
   EXPECT_TRUE(any_with(faults([](Person& p) { p.record["num_keypoints"] = 16; }),
-                       "num_keypoints 16, but 17 are labelled"));
+                       "num_keypoints 16, but 17 are labeled"));
   EXPECT_TRUE(any_with(faults([](Person& p) { p.keypoints[4].visibility = 0; }),
-                       "a keypoint that is not labelled has a place"));
+                       "a keypoint that is not labeled has a place"));
   EXPECT_TRUE(any_with(faults([](Person& p) {
                          p.keypoints[4] = {70, 62, 1};
                        }),
@@ -210,7 +210,7 @@ TEST(CameraRules, CenterIsWhereTheRotationPutsIt) {
   };
   EXPECT_THAT(faults([](Image&) {}), ::testing::IsEmpty());
   EXPECT_TRUE(any_with(faults([](Image& i) { i.record["camera"]["centre"][2] = 10.1; }),
-                       "centre is not where R and t put it"));
+                       "center is not where R and t put it"));
   EXPECT_TRUE(any_with(faults([](Image& i) { i.R(0, 0) = 1.01; }), "R is no rotation"));
   EXPECT_TRUE(any_with(faults([](Image& i) { i.R.row(0) *= -1; }), "R is no rotation"))
       << "mirrored";
@@ -265,7 +265,7 @@ TEST(PresenceRules, OnlyConsecutiveFramesOfOneCameraTell) {
   EXPECT_THAT(presence_of(slow), ::testing::IsEmpty()) << "more than 1.1 s";
   std::vector<Image> beyond = {frame_at(0, -19), frame_at(1, 0), frame_at(2, -21)};
   beyond[1].people.clear();
-  EXPECT_THAT(presence_of(beyond), ::testing::IsEmpty()) << "at the edge of the picture";
+  EXPECT_THAT(presence_of(beyond), ::testing::IsEmpty()) << "at the edge of the image";
 }
 
 TEST(PresenceRules, HiddenPeopleAreInViewAndNotVisible) {

@@ -1,4 +1,4 @@
-// Checks of pictures, surfaces and motion on scenes that are known exactly: sound ones pass, and
+// Checks of images, surfaces and motion on scenes that are known exactly: sound ones pass, and
 // each damage is named. Whole datasets are damaged in tests/cli/test_validate_damages.py.
 #include <gtest/gtest.h>
 
@@ -105,7 +105,7 @@ std::vector<std::string> alignment_of(const std::vector<Shot>& shots) {
   });
 }
 
-TEST(ValidateChecks, OutlinesAreWhereThePictureHasEdges) {
+TEST(ValidateChecks, OutlinesAreWhereTheImageHasEdges) {
   EXPECT_TRUE(alignment_of({scene(0), scene(1, 1)}).empty());
   const auto damaged = [](const std::function<std::size_t(int, int)>& from) {
     const Shot sound = scene(1);
@@ -116,7 +116,7 @@ TEST(ValidateChecks, OutlinesAreWhereThePictureHasEdges) {
                     &shot.pixels.rgb[3 * sound.pixels.at(x, y)]);
       }
     }
-    return has(alignment_of({shot}), "picture-is-labels");
+    return has(alignment_of({shot}), "image-is-labels");
   };
   const Pixels size = scene(0).pixels;
   EXPECT_TRUE(damaged([&](int x, int y) { return size.at(std::max(0, x - 3), y); }));
@@ -124,7 +124,7 @@ TEST(ValidateChecks, OutlinesAreWhereThePictureHasEdges) {
   EXPECT_TRUE(damaged([&](int /*x*/, int /*y*/) { return std::size_t{0}; }));
 }
 
-TEST(ValidateChecks, ADarkPictureAloneCannotTell) {
+TEST(ValidateChecks, ADarkImageAloneCannotTell) {
   Shot shot = scene(0);
   shot.image.record["environment"]["sun_elevation_deg"] = -20;
   std::fill(shot.pixels.rgb.begin(), shot.pixels.rgb.end(), std::uint8_t{3});
@@ -143,7 +143,7 @@ TEST(ValidateChecks, StillPixelsFlowAsDepthAndCamerasSay) {
   for (const double factor : {0.0, -1.0, 1.05}) EXPECT_TRUE(has(rules(factor), "flow-of-still"));
 }
 
-TEST(ValidateChecks, DepthIsOneInAllPictures) {
+TEST(ValidateChecks, DepthIsOneInAllImages) {
   const auto rules = [](double factor) {
     const Shot before = scene(0);
     Shot after = scene(0.8, 1);

@@ -129,7 +129,7 @@ TEST_F(Validate, RecordsThatContradictThemselves) {
   expect_change("ids", [](json& r) { r["id"] = r["id"].get<std::int64_t>() + 7; });
 }
 
-TEST_F(Validate, PlacesThatThePictureDoesNotShow) {
+TEST_F(Validate, PlacesThatTheImageDoesNotShow) {
   expect_change("keypoints", [](json& r) {
     for (json& place : r["keypoints_3d"]) place[0] = place[0].get<double>() + 0.3;
   });
@@ -174,7 +174,7 @@ TEST_F(Validate, FilesThatAreMissingCutOffOrTooMany) {
   fs::resize_file(image, 10);
   expect("manifest", "images/run000/d1/000001.jpg", "");
   write_manifest();
-  expect("picture", "images/run000/d1/000001.jpg", "image 2");
+  expect("image", "images/run000/d1/000001.jpg", "image 2");
   fs::remove(image);
   expect("manifest", "images/run000/d1/000001.jpg", "");
   std::ofstream(root_ / "stranger.txt") << "x";
@@ -191,7 +191,7 @@ TEST_F(Validate, BytesThatWereChanged) {
   expect("density-sum", "density/run000/d2/000000.npy", "");
 }
 
-TEST_F(Validate, PicturesOfInstancesThatAreNotTheMasks) {
+TEST_F(Validate, ImagesOfInstancesThatAreNotTheMasks) {
   fs::copy_file(root_ / "instances/run000/d1/000000.png", root_ / "instances/run000/d1/000002.png",
                 fs::copy_options::overwrite_existing);
   write_manifest();
@@ -287,7 +287,7 @@ TEST_F(Validate, IdsThatComeTwice) {
   expect("ids", kCocoFile, "image 1");
 }
 
-TEST_F(Validate, PeopleAndPicturesThatAreLeftOut) {
+TEST_F(Validate, PeopleAndImagesThatAreLeftOut) {
   const std::string whole = read_file(root_ / kCocoFile);
   change_lines("\"image_id\":", [](const std::string&) { return ""; });
   expect("counts", kCocoFile, "image 1");
@@ -298,7 +298,7 @@ TEST_F(Validate, PeopleAndPicturesThatAreLeftOut) {
   expect("counts", kCocoFile, "");
 }
 
-TEST_F(Validate, PicturesOfAnotherTick) {
+TEST_F(Validate, ImagesOfAnotherTick) {
   const std::string whole = read_file(root_ / kCocoFile);
   change_image([](json& r) { r["time_s"] = 0.5; });
   expect("time", kCocoFile, "image 1");
@@ -339,14 +339,14 @@ TEST_F(Validate, WholeMasksThatLackWhatIsVisible) {
   expect("area-is-mask", kCocoFile, "annotation ");
 }
 
-TEST_F(Validate, PicturesThatAreCutOff) {
+TEST_F(Validate, ImagesThatAreCutOff) {
   const fs::path image = root_ / "images/run000/d1/000001.jpg";
   fs::resize_file(image, fs::file_size(image) * 7 / 10);
   write_manifest();
-  expect("picture", "images/run000/d1/000001.jpg", "image 2");
+  expect("image", "images/run000/d1/000001.jpg", "image 2");
 }
 
-TEST_F(Validate, PicturesThatChangedPlaces) {
+TEST_F(Validate, ImagesThatChangedPlaces) {
   const fs::path a = root_ / "images/run000/d1/000001.jpg";
   const fs::path b = root_ / "images/run000/d1/000002.jpg";
   const render::Frame other = annotate::empty_frame(160, 120);

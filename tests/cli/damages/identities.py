@@ -1,4 +1,4 @@
-"""Damages to who is who, attributes, states and exits of people."""
+"""Damages to identities, attributes, states and exits of people."""
 import json
 
 import numpy

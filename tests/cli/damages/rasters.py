@@ -4,6 +4,7 @@ import struct
 import zlib
 
 import numpy
+from check_dataset import decode_counts
 
 
 def raster_name(kind, image):
@@ -70,24 +71,6 @@ def instances(d, image):
     return ids_of(d.raster("instances", image)[1])
 
 
-def decode(counts):
-    runs, at = [], 0
-    while at < len(counts):
-        value, shift, more = 0, 0, True
-        while more:
-            byte = ord(counts[at]) - 48
-            value |= (byte & 31) << shift
-            more = byte & 32
-            shift += 5
-            at += 1
-            if not more and byte & 16:
-                value -= 1 << shift
-        if len(runs) > 2:
-            value += runs[-2]
-        runs.append(value)
-    return runs
-
-
 def encode(runs):
     text = ""
     for i, run in enumerate(runs):
@@ -103,7 +86,8 @@ def encode(runs):
 
 def mask_of(segmentation):
     height, width = segmentation["size"]
-    flat = numpy.repeat(numpy.arange(len(decode(segmentation["counts"]))) % 2 == 1, decode(segmentation["counts"]))
+    runs = decode_counts(segmentation["counts"])
+    flat = numpy.repeat(numpy.arange(len(runs)) % 2 == 1, runs)
     return flat.reshape(width, height).T
 
 
