@@ -1,4 +1,4 @@
-// Front door of the module: Gazebo's worlds and OpenStreetMap's extracts read, populated, and
+// The module's public header: Gazebo's worlds and OpenStreetMap's extracts read, populated, and
 // written as scenarios.
 #pragma once
 

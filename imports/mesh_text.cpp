@@ -9,14 +9,14 @@
 
 namespace throng::imports {
 
-MeshText mesh_text(const Thing& thing, const std::string& materials_file) {
+MeshText mesh_text(const Object& object, const std::string& materials_file) {
   MeshText text;
   text.triangles = fmt::format("mtllib {}\n", materials_file);
   auto out = std::back_inserter(text.triangles);
   int vertices = 0;
   int normals = 0;
-  for (std::size_t i = 0; i < thing.solids.size(); ++i) {
-    const Solid& solid = thing.solids[i];
+  for (std::size_t i = 0; i < object.solids.size(); ++i) {
+    const Solid& solid = object.solids[i];
     text.materials += fmt::format("newmtl m{}\nKd {:.4f} {:.4f} {:.4f}\n", i, solid.rgb.x(),
                                   solid.rgb.y(), solid.rgb.z());
     fmt::format_to(out, "usemtl m{}\n", i);
@@ -37,9 +37,9 @@ MeshText mesh_text(const Thing& thing, const std::string& materials_file) {
   return text;
 }
 
-std::string mesh_name(const Place& place, std::size_t thing) {
-  const std::string word = place_name_of(place.things[thing].name);
-  return fmt::format("{}_meshes/{:03}_{}", place.name, thing, word.substr(0, 40));
+std::string mesh_name(const Place& place, std::size_t object) {
+  const std::string word = place_name_of(place.objects[object].name);
+  return fmt::format("{}_meshes/{:03}_{}", place.name, object, word.substr(0, 40));
 }
 
 }  // namespace throng::imports

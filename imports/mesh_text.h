@@ -1,4 +1,4 @@
-// Things as Wavefront OBJ with its materials.
+// Objects as Wavefront OBJ with its materials.
 #pragma once
 
 #include <string>
@@ -12,9 +12,9 @@ struct MeshText {
   std::string materials;  ///< the .mtl
 };
 
-MeshText mesh_text(const Thing& thing, const std::string& materials_file);
+MeshText mesh_text(const Object& object, const std::string& materials_file);
 
-/// Path of a thing's files below the scenario's folder, without suffix; unique.
-std::string mesh_name(const Place& place, std::size_t thing);
+/// Path of an object's files below the scenario's folder, without suffix; unique.
+std::string mesh_name(const Place& place, std::size_t object);
 
 }  // namespace throng::imports

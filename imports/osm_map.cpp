@@ -61,7 +61,7 @@ class MapReader {
   void add_tree_row(const OsmLine& line);
   void add_prop(const OsmPoint& point);
   void add_prop(world::PropKind kind, const Vector2d& at, const Tags& tags, std::uint32_t look);
-  Thing& thing(const std::string& name) { return place_.things.emplace_back(Thing{name, {}}); }
+  Object& object(const std::string& name) { return place_.objects.emplace_back(Object{name, {}}); }
 
   OsmFile file_;
   std::string source_;
@@ -97,7 +97,7 @@ void MapReader::add_hanging(const BuildingPiece& piece) {
       solid.triangles.insert(solid.triangles.end(), prism.begin(), prism.end());
     }
   }
-  if (!solid.triangles.empty()) thing(piece.name).solids.push_back(std::move(solid));
+  if (!solid.triangles.empty()) object(piece.name).solids.push_back(std::move(solid));
 }
 
 // Buildings that are there already are cut out, so that no two buildings overlap.
@@ -155,7 +155,7 @@ void MapReader::add_water(const OsmArea& found) {
       place_.obstacles.push_back(corners);
     }
   }
-  if (!solid.triangles.empty()) thing(found.name).solids.push_back(std::move(solid));
+  if (!solid.triangles.empty()) object(found.name).solids.push_back(std::move(solid));
 }
 
 void MapReader::add_area(const OsmArea& found) {
@@ -229,7 +229,7 @@ void MapReader::add_barrier(const OsmLine& line, const Barrier& barrier) {
     }
   }
   if (!solid.triangles.empty()) {
-    thing(fmt::format("{} {}", value_of(line.tags, "barrier"), line.id)).solids.push_back(solid);
+    object(fmt::format("{} {}", value_of(line.tags, "barrier"), line.id)).solids.push_back(solid);
   }
 }
 

@@ -30,7 +30,7 @@ struct Solid {
 };
 
 /// Something that is drawn as it is and has an id of its own.
-struct Thing {
+struct Object {
   std::string name;
   std::vector<Solid> solids;
 };
@@ -51,7 +51,7 @@ struct Place {
   std::vector<world::Marking> markings;
   std::vector<world::Building> buildings;  ///< what drones cannot fly through
   std::vector<world::Prop> props;
-  std::vector<Thing> things;
+  std::vector<Object> objects;
   std::vector<Corners> obstacles;  ///< where nobody can walk: buildings and all else; simple
   std::vector<Gate> gates;
   bool gates_asked = false;  ///< by the user, not found in the file

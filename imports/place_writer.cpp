@@ -113,7 +113,7 @@ json drone_json(const Place& place) {
 
 json scenario_json(const Place& place, const Population& population) {
   json meshes = json::array();
-  for (std::size_t i = 0; i < place.things.size(); ++i) {
+  for (std::size_t i = 0; i < place.objects.size(); ++i) {
     meshes.push_back({{"file", mesh_name(place, i) + ".obj"}, {"position", {0, 0, 0}}});
   }
   return {
@@ -236,9 +236,9 @@ std::string place_name_of(const fs::path& file) {
 
 fs::path write_place(const Place& place, const Population& population, const fs::path& folder) {
   constexpr int kIndent = 1;
-  for (std::size_t i = 0; i < place.things.size(); ++i) {
+  for (std::size_t i = 0; i < place.objects.size(); ++i) {
     const std::string name = mesh_name(place, i);
-    const MeshText mesh = mesh_text(place.things[i], fs::path(name).filename().string() + ".mtl");
+    const MeshText mesh = mesh_text(place.objects[i], fs::path(name).filename().string() + ".mtl");
     write_file_atomically(folder / (name + ".mtl"), mesh.materials);
     write_file_atomically(folder / (name + ".obj"), mesh.triangles);
   }

@@ -10,7 +10,7 @@
 namespace throng::imports {
 
 /// Writes into `folder`: NAME.json, NAME_scene.xml, NAME_behavior.xml, NAME.job.json (a short
-/// draft), NAME.skipped.txt and, where there are things, NAME_meshes/. Each file is complete or
+/// draft), NAME.skipped.txt and, where there are objects, NAME_meshes/. Each file is complete or
 /// absent, the scenario comes last. NAME is the place's name, which must be one for scenarios:
 /// words of a to z, 0 to 9 and '_'. Returns the scenario's file. Throws EnvironmentError.
 std::filesystem::path write_place(const Place& place, const Population& population,

@@ -81,11 +81,11 @@ class SdfReader {
                                     const sdf::ElementPtr& element, const std::string& path);
   void add_model(const sdf::Model& model, const Isometry3d& parent, const std::string& path);
   void add_link(const sdf::Link& link, const Isometry3d& model, const std::string& path,
-                Thing& thing);
+                Object& object);
   void add_light(const sdf::Light& light, const Isometry3d& parent, const std::string& path);
   template <typename Owner>
   std::optional<Body> body(const Owner& owner, const Isometry3d& link, const std::string& path);
-  void add_seen(Body body, const Vector3d* rgb, Thing& thing);
+  void add_seen(Body body, const Vector3d* rgb, Object& object);
   void add_in_the_way(const Body& body);
   void reach(const Corners& corners);
   void add_building(const Body& body);
@@ -202,7 +202,7 @@ void SdfReader::add_building(const Body& body) {
   }
 }
 
-void SdfReader::add_seen(Body body, const Vector3d* rgb, Thing& thing) {
+void SdfReader::add_seen(Body body, const Vector3d* rgb, Object& object) {
   if (rgb != nullptr) {
     for (Solid& solid : body.solids) solid.rgb = *rgb;
   }
@@ -226,7 +226,7 @@ void SdfReader::add_seen(Body body, const Vector3d* rgb, Thing& thing) {
     for (const Triangle& triangle : solid.triangles) {
       for (const Vector3d& corner : triangle) reach({corner.head<2>()});
     }
-    thing.solids.push_back(std::move(solid));
+    object.solids.push_back(std::move(solid));
   }
 }
 
@@ -268,7 +268,7 @@ void SdfReader::add_light(const sdf::Light& light, const Isometry3d& parent,
 }
 
 void SdfReader::add_link(const sdf::Link& link, const Isometry3d& model, const std::string& path,
-                         Thing& thing) {
+                         Object& object) {
   const std::string name = path + "/" + link.Name();
   const auto pose = resolve(link.SemanticPose(), model, link.Element(), name);
   if (!pose) return;
@@ -281,7 +281,7 @@ void SdfReader::add_link(const sdf::Link& link, const Isometry3d& model, const s
     drawn = true;
     if (link.CollisionCount() == 0) add_in_the_way(*seen);
     const auto rgb = color_of(visual.Material());
-    add_seen(std::move(*seen), rgb ? &*rgb : nullptr, thing);
+    add_seen(std::move(*seen), rgb ? &*rgb : nullptr, object);
   }
   bool by_collisions = false;
   for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
@@ -290,7 +290,7 @@ void SdfReader::add_link(const sdf::Link& link, const Isometry3d& model, const s
     add_in_the_way(*felt);
     if (drawn) continue;
     by_collisions = true;
-    add_seen(std::move(*felt), nullptr, thing);
+    add_seen(std::move(*felt), nullptr, object);
   }
   if (by_collisions) skip(link.Element(), name, "drawn by its collisions, for want of visuals");
   for (std::uint64_t i = 0; i < link.LightCount(); ++i) {
@@ -305,11 +305,11 @@ void SdfReader::add_model(const sdf::Model& model, const Isometry3d& parent,
   if (!pose) return;
   skip_unknown(model.Element(), name);
   if (model.LinkCount() + model.ModelCount() == 0) skip(model.Element(), name, "has no links");
-  Thing thing{name, {}};
+  Object object{name, {}};
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-    add_link(*model.LinkByIndex(i), *pose, name, thing);
+    add_link(*model.LinkByIndex(i), *pose, name, object);
   }
-  if (!thing.solids.empty()) place_.things.push_back(std::move(thing));
+  if (!object.solids.empty()) place_.objects.push_back(std::move(object));
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
     add_model(*model.ModelByIndex(i), *pose, name);
   }

@@ -17,7 +17,7 @@ struct SdfOptions {
 /// world's folder and `models` (nothing is fetched, and no file elsewhere is read). Boxes,
 /// cylinders, spheres, capsules, ellipsoids, planes and meshes at their poses: those that stand
 /// upright on the ground and are 2 m high or more become buildings, flat ones areas of ground, all
-/// others things that are drawn as they are. Collisions between 0.2 and 2 m are obstacles for
+/// others objects that are drawn as they are. Collisions between 0.2 and 2 m are obstacles for
 /// people.
 /// Lamps become lamp posts. The rest is listed in Place::skipped. Throws InputError (file, line)
 /// where there is no world in the file, and EnvironmentError.

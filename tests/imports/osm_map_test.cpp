@@ -30,17 +30,17 @@ std::string ground_at(const Place& place, const Vector2d& point) {
   return material;
 }
 
-const Thing* thing_called(const Place& place, const std::string& name) {
-  for (const Thing& thing : place.things) {
-    if (thing.name == name) return &thing;
+const Object* object_called(const Place& place, const std::string& name) {
+  for (const Object& object : place.objects) {
+    if (object.name == name) return &object;
   }
   return nullptr;
 }
 
 /// Lowest and highest z of what is drawn.
-std::pair<double, double> heights_of(const Thing& thing) {
+std::pair<double, double> heights_of(const Object& object) {
   std::pair<double, double> heights(1e9, -1e9);
-  for (const Solid& solid : thing.solids) {
+  for (const Solid& solid : object.solids) {
     for (const auto& triangle : solid.triangles) {
       for (const Eigen::Vector3d& corner : triangle) {
         heights.first = std::min(heights.first, corner.z());
@@ -126,10 +126,10 @@ TEST(MapBarriers, HaveGatesWhereMapsSay) {
   EXPECT_TRUE(stops_people(place, {6.3, 0}));
   EXPECT_TRUE(stops_people(place, {0, 20.35})) << "a hedge is 0.8 m wide";
   EXPECT_FALSE(stops_people(place, {0, 30})) << "people step over a kerb";
-  const Thing* thing = thing_called(place, fmt::format("fence {}", fence));
-  ASSERT_NE(thing, nullptr);
-  EXPECT_NEAR(heights_of(*thing).first, 0, 1e-9);
-  EXPECT_NEAR(heights_of(*thing).second, 1.8, 1e-9);
+  const Object* object = object_called(place, fmt::format("fence {}", fence));
+  ASSERT_NE(object, nullptr);
+  EXPECT_NEAR(heights_of(*object).first, 0, 1e-9);
+  EXPECT_NEAR(heights_of(*object).second, 1.8, 1e-9);
   EXPECT_TRUE(mentions(place.skipped, "barrier=kerb is not drawn"));
 }
 
@@ -142,9 +142,9 @@ TEST(MapWater, IsDrawnAndStopsPeople) {
   const Place place = map.read();
   EXPECT_TRUE(stops_people(place, {10, 10}));
   EXPECT_FALSE(stops_people(place, {0, 0}));
-  const Thing* thing = thing_called(place, fmt::format("relation {}", pond));
-  ASSERT_NE(thing, nullptr);
-  EXPECT_NEAR(heights_of(*thing).second, 0.02, 1e-9);
+  const Object* object = object_called(place, fmt::format("relation {}", pond));
+  ASSERT_NE(object, nullptr);
+  EXPECT_NEAR(heights_of(*object).second, 0.02, 1e-9);
 }
 
 TEST(MapBuildings, OnStiltsAndUndergroundAreNoObstacles) {
@@ -159,14 +159,14 @@ TEST(MapBuildings, OnStiltsAndUndergroundAreNoObstacles) {
   EXPECT_FALSE(stops_people(place, {20, 25}));
   EXPECT_TRUE(stops_people(place, {-20, 25})) << way_text(low) << " begins below heads";
   EXPECT_NEAR(height_at(place, {-20, 25}), 6, 1e-9);
-  const Thing* roof_thing = thing_called(place, way_text(roof));
-  ASSERT_NE(roof_thing, nullptr);
-  EXPECT_NEAR(heights_of(*roof_thing).first, 4.7, 1e-9) << "0.3 m thick";
-  EXPECT_NEAR(heights_of(*roof_thing).second, 5, 1e-9);
-  const Thing* high_thing = thing_called(place, way_text(high));
-  ASSERT_NE(high_thing, nullptr);
-  EXPECT_NEAR(heights_of(*high_thing).first, 4, 1e-9);
-  EXPECT_NEAR(heights_of(*high_thing).second, 10, 1e-9);
+  const Object* roof_object = object_called(place, way_text(roof));
+  ASSERT_NE(roof_object, nullptr);
+  EXPECT_NEAR(heights_of(*roof_object).first, 4.7, 1e-9) << "0.3 m thick";
+  EXPECT_NEAR(heights_of(*roof_object).second, 5, 1e-9);
+  const Object* high_object = object_called(place, way_text(high));
+  ASSERT_NE(high_object, nullptr);
+  EXPECT_NEAR(heights_of(*high_object).first, 4, 1e-9);
+  EXPECT_NEAR(heights_of(*high_object).second, 10, 1e-9);
   EXPECT_TRUE(mentions(place.skipped, way_text(cellar) + ": is underground"));
 }
 
@@ -347,7 +347,7 @@ TEST(MapErrors, AnEmptyMapHasANameAndOpenGround) {
   EXPECT_EQ(place.name, "old_town");
   EXPECT_THAT(place.description, ::testing::HasSubstr("Old Town.osm"));
   EXPECT_TRUE(place.gates.empty());
-  EXPECT_TRUE(place.buildings.empty() && place.things.empty() && place.areas.empty());
+  EXPECT_TRUE(place.buildings.empty() && place.objects.empty() && place.areas.empty());
 }
 
 }  // namespace

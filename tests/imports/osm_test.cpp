@@ -140,7 +140,7 @@ TEST(OsmBuildings, AreDrawnByTheirParts) {
   EXPECT_NEAR(height_at(place, {10, 10}), 30, 1e-9);
   EXPECT_EQ(height_at(place, {25, 5}), 0);
   EXPECT_EQ(height_at(place, {25, 15}), 0);  // no part of it is there
-  ASSERT_EQ(place.things.size(), 1U);        // what people of another building would pass below
+  ASSERT_EQ(place.objects.size(), 1U);       // what people of another building would pass below
   for (const Eigen::Vector2d& point : {Eigen::Vector2d(2, 2), {10, 10}, {25, 5}, {25, 15}}) {
     EXPECT_TRUE(stops_people(place, point)) << point.transpose();
   }

@@ -56,10 +56,10 @@ TEST(Sdf, PeopleWalkAroundWhatIsLowAndBelowWhatIsHigh) {
   EXPECT_TRUE(is_blocked(place, {3.9, 2.4}));  // the kiosk of the included model
   EXPECT_TRUE(is_blocked(place, {0, -4}));     // the log that lies
   EXPECT_FALSE(is_blocked(place, {-8, 14}));   // the bridge
-  ASSERT_EQ(place.things.size(), 3U);
-  const auto kiosk = std::find_if(place.things.begin(), place.things.end(),
-                                  [](const Thing& thing) { return thing.name == "kiosk"; });
-  ASSERT_NE(kiosk, place.things.end());
+  ASSERT_EQ(place.objects.size(), 3U);
+  const auto kiosk = std::find_if(place.objects.begin(), place.objects.end(),
+                                  [](const Object& object) { return object.name == "kiosk"; });
+  ASSERT_NE(kiosk, place.objects.end());
   EXPECT_NEAR(kiosk->solids.at(0).rgb.x(), 0.8, 1e-6);
   EXPECT_EQ(place.areas.at(0).material, "grass");
   ASSERT_EQ(place.props.size(), 1U);
@@ -97,7 +97,7 @@ TEST(Sdf, RefusesWhatIsNoWorldAndSkipsWhatCannotBe) {
         "<cylinder><radius>0</radius><length>1</length></cylinder>",
         "<mesh><uri>file:///etc/passwd</uri></mesh>", "<mesh><uri>../../etc/passwd</uri></mesh>"}) {
     const Place place = read(world_with(geometry));
-    EXPECT_TRUE(place.buildings.empty() && place.things.empty()) << geometry;
+    EXPECT_TRUE(place.buildings.empty() && place.objects.empty()) << geometry;
     EXPECT_FALSE(place.skipped.empty()) << geometry;
   }
 }
@@ -180,9 +180,9 @@ TEST(Sdf, KnowsPolylinesConesAndGazebosColors) {
   EXPECT_NEAR(place.buildings[0].height_m, 5, 1e-9);
   EXPECT_EQ(geometry::distance_to(place.buildings[0].footprint, {22, 2}), 0);
   EXPECT_GT(geometry::distance_to(place.buildings[0].footprint, {27, 7}), 1);
-  ASSERT_EQ(place.things.size(), 2U);
-  EXPECT_NEAR(place.things[0].solids.at(0).rgb.y(), 0.5, 0.05);  // orange
-  EXPECT_GT(place.things[1].solids.at(0).rgb.minCoeff(), 0.4);   // not black
+  ASSERT_EQ(place.objects.size(), 2U);
+  EXPECT_NEAR(place.objects[0].solids.at(0).rgb.y(), 0.5, 0.05);  // orange
+  EXPECT_GT(place.objects[1].solids.at(0).rgb.minCoeff(), 0.4);   // not black
 }
 
 TEST(Sdf, ALinkWithoutItsMeshIsDrawnByItsCollisions) {

@@ -69,8 +69,8 @@ geometry::Rectangle building_bounds(const Place& place) {
 std::pair<Vector3d, Vector3d> seen_bounds(const Place& place) {
   Vector3d low = Vector3d::Constant(1e9);
   Vector3d high = -low;
-  for (const Thing& thing : place.things) {
-    for (const Solid& solid : thing.solids) {
+  for (const Object& object : place.objects) {
+    for (const Solid& solid : object.solids) {
       for (const auto& triangle : solid.triangles) {
         for (const Vector3d& corner : triangle) {
           low = low.cwiseMin(corner);
@@ -111,7 +111,7 @@ TEST(SdfShapes, OnlyTallOnesOnTheGroundBecomeBuildings) {
   EXPECT_TRUE(blocked(high, {0, 0})) << "but in the way";
   const Place thin = read_world(body_of(box(0.5, 0.5, 4), "0 0 2 0 0 0"));
   EXPECT_TRUE(thin.buildings.empty()) << "a post of 0.25 m^2";
-  EXPECT_EQ(thin.things.size(), 1);
+  EXPECT_EQ(thin.objects.size(), 1);
 }
 
 TEST(SdfShapes, RoundOnesAreDrawnAsTheyAre) {

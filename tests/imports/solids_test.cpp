@@ -204,10 +204,10 @@ std::map<std::string, Triangles> read_obj(const std::string& text) {
 }
 
 TEST(MeshText, IsReadAgainWithYUp) {
-  Thing thing{"box", {}};
-  thing.solids.push_back({{0.8, 0.2, 0.1}, raised(box_triangles({2, 4, 6}), 3)});
-  thing.solids.push_back({{0, 1, 0}, box_triangles({1, 1, 1})});
-  const MeshText text = mesh_text(thing, "box.mtl");
+  Object object{"box", {}};
+  object.solids.push_back({{0.8, 0.2, 0.1}, raised(box_triangles({2, 4, 6}), 3)});
+  object.solids.push_back({{0, 1, 0}, box_triangles({1, 1, 1})});
+  const MeshText text = mesh_text(object, "box.mtl");
   EXPECT_EQ(text.triangles.rfind("mtllib box.mtl\n", 0), 0);
   EXPECT_NE(text.materials.find("newmtl m0\nKd 0.8000 0.2000 0.1000\n"), std::string::npos);
   EXPECT_NE(text.materials.find("newmtl m1\nKd 0.0000 1.0000 0.0000\n"), std::string::npos);
@@ -227,7 +227,7 @@ TEST(MeshText, IsReadAgainWithYUp) {
 TEST(MeshNames, AreUniqueWords) {
   Place place;
   place.name = "yard";
-  place.things = {{"Big Tree!", {}}, {"Big Tree!", {}}, {std::string(90, 'x'), {}}};
+  place.objects = {{"Big Tree!", {}}, {"Big Tree!", {}}, {std::string(90, 'x'), {}}};
   EXPECT_EQ(mesh_name(place, 0), "yard_meshes/000_big_tree");
   EXPECT_EQ(mesh_name(place, 1), "yard_meshes/001_big_tree");
   EXPECT_EQ(mesh_name(place, 2), "yard_meshes/002_" + std::string(40, 'x'));
