@@ -363,6 +363,11 @@ void Renderer::State::measure_coverage(const Scene& scene, const Frame& frame,
   }
 }
 
+int max_image_px(const DeviceChoice& device) {
+  const Context context(device.name);
+  return max_target_px();
+}
+
 Renderer::Renderer(const world::Scenario& scenario, const skinning::Population& population,
                    const Environment& environment, const DeviceChoice& device,
                    const RenderOptions& options)

@@ -24,6 +24,10 @@ struct DeviceChoice {
   std::string name = "auto";
 };
 
+/// The largest width and height of an image that the device renders, at each sample of color. Makes
+/// a context: expensive. Throws EnvironmentError when it cannot.
+int max_image_px(const DeviceChoice& device = {});
+
 /// Ground truth to render beside the scene itself.
 struct RenderOptions {
   Quality quality = Quality::standard;

@@ -16,11 +16,7 @@ namespace throng::render {
 namespace {
 
 int size_within_limits(int width, int height) {
-  GLint texture = 0;
-  std::array<GLint, 2> viewport{};
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
-  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
-  const int limit = std::min({texture, viewport[0] - 2 * kGuardBand, viewport[1] - 2 * kGuardBand});
+  const int limit = max_target_px();
   if (std::min(width, height) < 1 || std::max(width, height) > limit) {
     throw EnvironmentError(
         fmt::format("cannot render an image of {} x {} pixels: this device supports up to {} x {}",
@@ -53,6 +49,14 @@ class LightTable {
 };
 
 }  // namespace
+
+int max_target_px() {
+  GLint texture = 0;
+  std::array<GLint, 2> viewport{};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  return std::min({texture, viewport[0] - 2 * kGuardBand, viewport[1] - 2 * kGuardBand});
+}
 
 Target::Target(int width, int height)
     : width_(size_within_limits(width, height)),

@@ -9,6 +9,9 @@
 
 namespace throng::render {
 
+/// The largest width and height of a target on the current context's device.
+int max_target_px();
+
 class Target {
  public:
   /// Throws EnvironmentError when the device cannot make buffers of this size.

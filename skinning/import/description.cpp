@@ -46,29 +46,20 @@ fields::Values quantity(double low, double high, const char* meaning) {
   return values;
 }
 
-/// A field that is read only.
-template <typename Object>
-fields::Field<Object>& add_read(fields::FieldTable<Object>& table, const char* path,
-                                fields::Values values,
-                                typename fields::FieldTable<Object>::Set set) {
-  return table.add(
-      path, "", "", std::move(values), [](const Object&) { return json(); }, std::move(set), "");
-}
-
 /// Fields of a clip. One on the spot has no speed.
 fields::FieldTable<ClipDescription> clip_fields(std::optional<fields::Values> speed_mps) {
   fields::FieldTable<ClipDescription> table;
   table.add("name", "", "", any_text(), at(&ClipDescription::name), "");
-  add_read(table, "file", any_text(),
-           [](ClipDescription& clip, const json& value, const FieldPlace& place) {
-             clip.file = path_in(place, value);
-           });
+  table.add_read("file", any_text(),
+                 [](ClipDescription& clip, const json& value, const FieldPlace& place) {
+                   clip.file = path_in(place, value);
+                 });
   if (speed_mps) {
     table.add("speed_mps", "", "m/s", std::move(*speed_mps), at(&ClipDescription::speed_mps), "")
         .required();
   } else {
-    add_read(table, "speed_mps", fields::numbers(0, 12),
-             [](ClipDescription&, const json&, const FieldPlace&) {});
+    table.add_read("speed_mps", fields::numbers(0, 12),
+                   [](ClipDescription&, const json&, const FieldPlace&) {});
   }
   return table;
 }
@@ -77,11 +68,11 @@ using ClipMember = std::optional<ClipDescription> CharacterDescription::*;
 
 void add_clip(fields::FieldTable<CharacterDescription>& table, const char* path, ClipMember clip,
               std::optional<fields::Values> speed_mps) {
-  add_read(table, path, fields::raw({{"type", "object"}}, kClipExample),
-           [clip, clips = clip_fields(std::move(speed_mps))](
-               CharacterDescription& character, const json& value, const FieldPlace& place) {
-             clips.read_checked(value, (character.*clip).emplace(), place);
-           });
+  table.add_read(path, fields::raw({{"type", "object"}}, kClipExample),
+                 [clip, clips = clip_fields(std::move(speed_mps))](
+                     CharacterDescription& character, const json& value, const FieldPlace& place) {
+                   clips.read_checked(value, (character.*clip).emplace(), place);
+                 });
 }
 
 void set_name(CharacterDescription& character, const json& value, const FieldPlace& place) {
@@ -110,11 +101,12 @@ fields::FieldTable<CharacterDescription> make_description_fields() {
   using Character = CharacterDescription;
   constexpr const char* kSpeed = "meters per second at the described height";
   fields::FieldTable<Character> table;
-  add_read(table, "name", needed_text(), set_name).required();
-  add_read(table, "model", needed_text(),
-           [](Character& character, const json& value, const FieldPlace& place) {
-             character.model = path_in(place, value);
-           })
+  table.add_read("name", needed_text(), set_name).required();
+  table
+      .add_read("model", needed_text(),
+                [](Character& character, const json& value, const FieldPlace& place) {
+                  character.model = path_in(place, value);
+                })
       .required();
   table
       .add("height_m", "", "m",
@@ -130,14 +122,14 @@ fields::FieldTable<CharacterDescription> make_description_fields() {
   table.add("wears", "", "", any_text(), at(&Character::wears), "");
   fields::Values sexes = fields::one_of(std::array{"male", "female"});
   sexes.expected = "\"male\" or \"female\"";
-  add_read(table, "sex", std::move(sexes),
-           [](Character& character, const json& value, const FieldPlace& /*place*/) {
-             character.male = value == "male";
-           });
+  table.add_read("sex", std::move(sexes),
+                 [](Character& character, const json& value, const FieldPlace& /*place*/) {
+                   character.male = value == "male";
+                 });
   table.add("age_years", "", "years", quantity(1, 110, "years"), at(&Character::age_years), "");
-  add_read(table, "bones",
-           fields::raw({{"type", "object"}}, R"(an object such as {"left_thigh": "Leg1.L"})"),
-           set_bones);
+  table.add_read("bones",
+                 fields::raw({{"type", "object"}}, R"(an object such as {"left_thigh": "Leg1.L"})"),
+                 set_bones);
   table.group("clips", "", "").values.expected =
       R"(an object such as {"walk": {"name": "Walk", "speed_mps": 1.4}})";
   add_clip(table, "clips/idle", &Character::idle, std::nullopt);

@@ -88,9 +88,20 @@ TEST_P(PropOutline, IdsCoverWhatTheProjectedMeshCovers) {
   EXPECT_LE(wrong, drawn / 100);
 }
 
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+std::vector<Triangle> triangles_of(const PropMesh& mesh) {
+  std::vector<Triangle> triangles(mesh.indices.size() / 3);
+  for (std::size_t k = 0; k < mesh.indices.size(); ++k) {
+    const auto& p = mesh.vertices[mesh.indices[k]].position;
+    triangles[k / 3][k % 3] = {p[0], p[1], p[2]};
+  }
+  return triangles;
+}
+
 /// Distance along a ray to a triangle (Moeller and Trumbore 1997), or infinity.
 double distance_along(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
-                      const std::array<Eigen::Vector3d, 3>& triangle) {
+                      const Triangle& triangle) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d a = triangle[1] - triangle[0];
   const Eigen::Vector3d b = triangle[2] - triangle[0];
@@ -111,7 +122,7 @@ TEST_P(PropOutline, DepthIsThatOfCastRays) {
   Stage stage(ground_with({prop}));
   const camera::Camera camera = camera_at({0, 0, 6}, 0, -25, 320, 240);
   const Frame frame = stage.draw(camera);
-  const PropMesh mesh = prop_shape(prop, kIdProp);
+  const std::vector<Triangle> triangles = triangles_of(prop_shape(prop, kIdProp));
   const Eigen::Vector3d eye = camera.pose.center();
   int compared = 0;
   int wrong = 0;
@@ -122,12 +133,7 @@ TEST_P(PropOutline, DepthIsThatOfCastRays) {
       // At depth 1 along the pixel's ray, so that distances are depths.
       const Eigen::Vector3d ray = camera.unproject({x, y}, 1.0) - eye;
       double nearest = -eye.z() / ray.z();
-      for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
-        std::array<Eigen::Vector3d, 3> triangle;
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-          const auto& p = mesh.vertices[mesh.indices[k + corner]].position;
-          triangle[corner] = {p[0], p[1], p[2]};
-        }
+      for (const Triangle& triangle : triangles) {
         nearest = std::min(nearest, distance_along(eye, ray, triangle));
       }
       ++compared;
