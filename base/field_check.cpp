@@ -9,6 +9,7 @@
 #include "base/deprecation.h"
 #include "base/json_describe.h"
 #include "base/suggest.h"
+#include "base/utf8.h"
 
 namespace throng::fields {
 
@@ -34,12 +35,12 @@ std::string range_text(const json& schema) {
 }
 
 std::string array_text(const json& schema) {
-  const auto min_value = schema.value("minItems", 0);
-  const auto max_value = schema.value("maxItems", 0);
+  const auto min_items = schema.value("minItems", 0);
+  const auto max_items = schema.value("maxItems", 0);
   return fmt::format("an array of {}{}",
                      schema.value("uniqueItems", false) ? "different items, " : "",
-                     min_value == max_value ? fmt::format("{} items", max_value)
-                                            : fmt::format("{} to {} items", min_value, max_value));
+                     min_items == max_items ? fmt::format("{} items", max_items)
+                                            : fmt::format("{} to {} items", min_items, max_items));
 }
 
 }  // namespace
@@ -100,8 +101,8 @@ bool keeps_range(const json& value, const ordered_json& rules) {
   }
   const bool is_text = value.is_string();
   if (!is_text && !value.is_array()) return true;
-  const auto size =
-      static_cast<double>(is_text ? value.get_ref<const std::string&>().size() : value.size());
+  const auto size = static_cast<double>(
+      is_text ? character_count(value.get_ref<const std::string&>()) : value.size());
   return limit(is_text ? "minLength" : "minItems", [&](double low) { return size >= low; }) &&
          limit(is_text ? "maxLength" : "maxItems", [&](double high) { return size <= high; });
 }

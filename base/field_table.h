@@ -143,6 +143,13 @@ class FieldTable {
     return field;
   }
 
+  /// A field that is read and never printed.
+  Field<Object>& add_read(std::string path, Values values, Set set) {
+    return add(
+        std::move(path), "", "", std::move(values), [](const Object&) { return nlohmann::json(); },
+        std::move(set), "");
+  }
+
   /// An enumerator that is written as one of `words`.
   template <typename Words, typename Access>
   Field<Object>& add_word(std::string path, std::string title, const Words& words, Access access,
@@ -191,35 +198,20 @@ class FieldTable {
   /// Reads an object that a schema has been held against; what it leaves out stays as it is.
   /// `place` is the object's.
   void read(const nlohmann::json& value, Object& object, const FieldPlace& place) const {
-    for (const Field<Object>& field : fields_) {
-      if (field.is_group) continue;
-      const nlohmann::json* found = value_at(value, field.path);
-      if (found != nullptr) field.set(object, *found, place.below(field.path));
-      if (field.deprecated_name.empty()) continue;
-      const FieldPlace old = place.below(deprecated_path(field));
-      const nlohmann::json* found_old = value_at(value, deprecated_path(field));
-      if (found_old == nullptr || !old.allows_deprecated(field, found != nullptr)) continue;
-      field.set(object, *found_old, old);
-    }
+    for_each_given(value, place,
+                   [&](const Field<Object>& field, const nlohmann::json& given,
+                       const FieldPlace& at) { field.set(object, given, at); });
   }
 
   /// Checks an object and reads what is right of it. Adds a problem for each unknown name, missing
   /// required field and value that breaks its field's rules.
   void read_checked(const nlohmann::json& value, Object& object, const FieldPlace& place) const {
     if (!check_object(value, rules(), place)) return;
-    for (const Field<Object>& field : fields_) {
-      if (field.is_group) continue;
-      const nlohmann::json* found = value_at(value, field.path);
-      const auto read = [&](const nlohmann::json& given, const FieldPlace& at) {
-        if (check_value(given, field, at)) field.set(object, given, at);
-      };
-      if (found != nullptr) read(*found, place.below(field.path));
-      if (field.deprecated_name.empty()) continue;
-      const FieldPlace old = place.below(deprecated_path(field));
-      const nlohmann::json* found_old = value_at(value, deprecated_path(field));
-      if (found_old == nullptr || !old.allows_deprecated(field, found != nullptr)) continue;
-      read(*found_old, old);
-    }
+    for_each_given(
+        value, place,
+        [&](const Field<Object>& field, const nlohmann::json& given, const FieldPlace& at) {
+          if (check_value(given, field, at)) field.set(object, given, at);
+        });
   }
 
   nlohmann::json print(const Object& object) const {
@@ -237,6 +229,22 @@ class FieldTable {
   nlohmann::ordered_json schema() const { return schema_of(rules()); }
 
  private:
+  /// Calls visit(field, value, its place) for the fields that `value` has, under their names or
+  /// their deprecated names.
+  template <typename Visit>
+  void for_each_given(const nlohmann::json& value, const FieldPlace& place, Visit visit) const {
+    for (const Field<Object>& field : fields_) {
+      if (field.is_group) continue;
+      const nlohmann::json* found = value_at(value, field.path);
+      if (found != nullptr) visit(field, *found, place.below(field.path));
+      if (field.deprecated_name.empty()) continue;
+      const FieldPlace old = place.below(deprecated_path(field));
+      const nlohmann::json* found_old = value_at(value, deprecated_path(field));
+      if (found_old == nullptr || !old.allows_deprecated(field, found != nullptr)) continue;
+      visit(field, *found_old, old);
+    }
+  }
+
   std::vector<const FieldRules*> rules() const {
     std::vector<const FieldRules*> rules;
     rules.reserve(fields_.size());

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "calibrate/residual_plot.h"
 #include "calibrate/result.h"
 #include "calibrate/spec/camera_file.h"
+#include "images/gray_image.h"
 
 namespace throng::calibrate {
 
@@ -57,32 +59,24 @@ void collect(const FieldPlace& place, const Read& read) {
   }
 }
 
-/// A field that is read only.
-template <typename Object>
-fields::Field<Object>& add_read(FieldTable<Object>& table, const char* path, fields::Values values,
-                                typename FieldTable<Object>::Set set) {
-  return table.add(
-      path, "", "", std::move(values), [](const Object&) { return json(); }, std::move(set), "");
-}
-
 fields::Values text() { return raw({{"type", "string"}}); }
 fields::Values number() { return raw({{"type", "number"}}); }
 fields::Values number_above_0() { return raw({{"type", "number"}, {"exclusiveMinimum", 0}}); }
 fields::Values number_from_0() { return raw({{"type", "number"}, {"minimum", 0}}); }
 
 void add_file(FieldTable<ReadRequest>& table, const char* path, fs::path Request::*member) {
-  add_read(table, path, text(),
-           [member](ReadRequest& read, const json& value, const FieldPlace& place) {
-             read.request.*member = file_of(value, read.folder, place);
-           });
+  table.add_read(path, text(),
+                 [member](ReadRequest& read, const json& value, const FieldPlace& place) {
+                   read.request.*member = file_of(value, read.folder, place);
+                 });
 }
 
 FieldTable<Board> make_board_fields() {
   FieldTable<Board> table;
-  add_read(table, "kind", fields::one_of(std::array{"chessboard", "charuco", "circles"}),
-           [](Board& board, const json& value, const FieldPlace& place) {
-             board.kind = board_kind_named(value.get<std::string>(), place.pointer);
-           });
+  table.add_read("kind", fields::one_of(std::array{"chessboard", "charuco", "circles"}),
+                 [](Board& board, const json& value, const FieldPlace& place) {
+                   board.kind = board_kind_named(value.get<std::string>(), place.pointer);
+                 });
   table.add("columns", "", "", fields::integers(3, 100), at(&Board::columns), "");
   table.add("rows", "", "", fields::integers(3, 100), at(&Board::rows), "");
   table.add("square", "", "", number_above_0(), at(&Board::square), "");
@@ -151,22 +145,20 @@ void set_lens(ReadRequest& read, const json& value, const FieldPlace& place) {
 }
 
 void add_inputs(FieldTable<ReadRequest>& table) {
-  add_read(table, "name", text(), [](ReadRequest&, const json&, const FieldPlace&) {});
+  table.add_read("name", text(), [](ReadRequest&, const json&, const FieldPlace&) {});
   table.add("kind", "", "", fields::one_of(kRequestKinds),
             at(&ReadRequest::request, &Request::kind), "");
-  add_read(table, "images", raw({{"type", "array"}}, "a list of files"), set_images);
-  add_read(table, "board", raw({{"type", "object"}}, "an object: kind, columns, rows, square"),
-           set_board);
+  table.add_read("images", raw({{"type", "array"}}, "a list of files"), set_images);
+  table.add_read("board", raw({{"type", "object"}}, "an object: kind, columns, rows, square"),
+                 set_board);
   add_file(table, "points", &Request::points);
   add_file(table, "observations", &Request::observations);
   add_file(table, "gcp", &Request::control_points);
   add_file(table, "camera", &Request::camera);
-  add_read(table, "size", text(),
-           [](ReadRequest& read, const json& value, const FieldPlace& place) {
-             collect(place, [&] {
-               read.request.size = image_size_of(value.get<std::string>(), place.pointer);
-             });
-           });
+  table.add_read("size", text(), [](ReadRequest& read, const json& value, const FieldPlace& place) {
+    collect(place,
+            [&] { read.request.size = image_size_of(value.get<std::string>(), place.pointer); });
+  });
 }
 
 void add_options(FieldTable<ReadRequest>& table) {
@@ -176,15 +168,15 @@ void add_options(FieldTable<ReadRequest>& table) {
   };
   std::vector<std::string> lenses{"auto"};
   for (const Lens lens : kLenses) lenses.emplace_back(name_of(lens));
-  add_read(table, "lens", fields::one_of(lenses), set_lens);
+  table.add_read("lens", fields::one_of(lenses), set_lens);
   table.add("fix_lens", "", "", fields::booleans(), at(&ReadRequest::request, &Request::fix_lens),
             "");
   table.add("skew", "", "", fields::booleans(),
             at(&ReadRequest::request, &Request::options, &IntrinsicsOptions::wishes, &Wishes::skew),
             "");
-  add_read(table, "fix", by_parameter(), set_fixed);
-  add_read(table, "tie", by_parameter(), set_ties);
-  add_read(table, "prior", by_parameter(), set_priors);
+  table.add_read("fix", by_parameter(), set_fixed);
+  table.add_read("tie", by_parameter(), set_ties);
+  table.add_read("prior", by_parameter(), set_priors);
   table.add("reject", "", "", fields::booleans(), fit(&FitOptions::reject), "");
   table.add("outlier_px", "", "px", number_from_0(), fit(&FitOptions::outlier_px), "");
   table.add("loss_px", "", "px", number_from_0(), fit(&FitOptions::loss_px), "");
@@ -254,6 +246,14 @@ Request request_from_json(const json& value, const fs::path& folder) {
   if (!problems.empty()) throw InputError(std::move(problems));
   require_inputs(read.request, "request");
   return std::move(read.request);
+}
+
+std::int64_t max_image_pixels(const Request& request) {
+  std::int64_t most = 0;
+  for (const fs::path& file : request.images) {
+    if (fs::exists(file)) most = std::max(most, images::pixels_of_image(file));
+  }
+  return most;
 }
 
 Calibration carry_out(const Request& request, const OnProgress& on_progress) {

@@ -1,6 +1,7 @@
 // A calibration request, from the command line or over HTTP, and its processing.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -32,6 +33,10 @@ struct Request {
 /// Reads what a client sent; paths are below `folder`, where its files lie. Throws InputError with
 /// JSON pointers.
 Request request_from_json(const nlohmann::json& value, const std::filesystem::path& folder);
+
+/// Pixels of the largest of the request's images, by their heads: nothing is decoded. 0 without
+/// images. Throws InputError for a file that is none, or has more pixels than are decoded.
+std::int64_t max_image_pixels(const Request& request);
 
 /// `done` of `total` of the work, and what it is.
 using OnProgress = std::function<void(double share, const std::string& what)>;

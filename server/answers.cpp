@@ -23,7 +23,12 @@ json time_json(std::int64_t unix_ms) {
 namespace {
 
 json parsed_or(const std::string& text, json otherwise) {
-  return text.empty() ? std::move(otherwise) : parse_own_json(text, "a row of the store");
+  if (text.empty()) return otherwise;
+  try {
+    return parse_own_json(text, "a row of the store");
+  } catch (const EnvironmentError&) {  // damaged: the rest of the job is still there
+    return otherwise;
+  }
 }
 
 // Stage of a job: that of its least advanced run, but simulating once any run is. Runs that have
@@ -196,7 +201,7 @@ json partial_error_json(const std::vector<jobs::RunFailure>& failures) {
 json calibration_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/calibrations/" + row.id;
   json value = row_json(row, retention);
-  value["request"] = parse_own_json(row.spec_json, "the job");
+  value["request"] = parsed_or(row.spec_json, nullptr);
   value["links"] = {{"self", self}};
   if (row.state == jobs::JobState::succeeded) {
     for (const char* result : {"camera", "opencv", "ros", "residuals"}) {
@@ -209,7 +214,7 @@ json calibration_json(const jobs::JobRow& row, const Retention& retention) {
 json job_json(const jobs::JobRow& row, const Retention& retention) {
   const std::string self = "/v1/jobs/" + row.id;
   json value = row_json(row, retention);
-  value["job"] = parse_own_json(row.spec_json, "the job");
+  value["job"] = parsed_or(row.spec_json, nullptr);
   value["links"] = {{"self", self}};
   if (has_dataset(row.state)) {
     value["links"]["archive"] = self + "/archive";

@@ -21,6 +21,8 @@
 #include "server/requests.h"
 #include "server/scenarios_api.h"
 #include "server/service_api.h"
+#include "server/session_api.h"
+#include "server/studio.h"
 #include "server/webhooks_api.h"
 
 namespace throng::server {
@@ -39,6 +41,7 @@ void write_problem(Response& response, const HttpError& error) {
 
 constexpr const char* kCalibrations = "/v1/calibrations";
 constexpr const char* kScenarios = "/v1/scenarios";
+constexpr const char* kSession = "/v1/session";
 constexpr const char* kJobs = "/v1/jobs";
 
 }  // namespace
@@ -58,6 +61,7 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/jobs/{id}/logs/{name}", Scope::read, &send_log},
       Route{Method::get, "/v1/jobs/{id}/previews", Scope::read, &list_previews},
       Route{Method::get, "/v1/jobs/{id}/previews/{path}", Scope::read, &send_preview},
+      Route{Method::get, "/v1/jobs/{id}/images", Scope::read, &list_images_of_job},
       Route{Method::get, "/v1/jobs/{id}/archive", Scope::read, &send_archive},
       Route{Method::get, "/v1/jobs/{id}/manifest", Scope::read, &send_manifest},
       Route{Method::get, "/v1/jobs/{id}/files/{path}", Scope::read, &send_file},
@@ -88,6 +92,9 @@ std::span<const Route> routes() {
       Route{Method::get, "/v1/policies", Scope::read, &list_policies},
       Route{Method::get, "/v1/formats", Scope::read, &list_formats},
       Route{Method::get, "/v1/schema", Scope::read, &send_schema},
+      Route{Method::post, kSession, Scope::anybody, &open_session},
+      Route{Method::get, kSession, Scope::anybody, &send_session},
+      Route{Method::remove, kSession, Scope::anybody, &close_session},
       Route{Method::get, "/v1/version", Scope::anybody, &send_version},
       Route{Method::get, "/openapi.json", Scope::anybody, &send_openapi},
       Route{Method::get, "/metrics", Scope::read, &send_figures},
@@ -104,10 +111,13 @@ void write_library_error(const Request& request, Response& response, const HttpE
   forget_ranges(request);
   if (error.status == 503) response.set_header("Retry-After", "5");
   if (error.status == 404 && error.detail.empty()) {
-    if (const std::string methods = allowed_methods(routes(), request.path); !methods.empty()) {
+    std::string methods = allowed_methods(routes(), request.path);
+    if (methods.empty()) methods = allowed_methods(studio_routes(), request.path);
+    if (!methods.empty()) {
       response.set_header("Allow", methods);
       return write_problem(response, {405, fmt::format("{} is not possible here", request.method)});
     }
+    if (is_for_studio(request)) return write_studio(request, response);
     return write_problem(response, {404, "there is nothing at this path"});
   }
   write_problem(response, error);
@@ -152,14 +162,6 @@ bool names_this_machine(const Request& request) {
   return host.empty() || is_loopback(host);
 }
 
-/// Identity of a request's sender; nothing when a key is required and missing.
-std::optional<Caller> caller_in(const Keys& keys, const Request& request) {
-  constexpr std::string_view kBearer = "Bearer ";
-  const std::string header = request.get_header_value("Authorization");
-  return keys.caller_of(header.starts_with(kBearer) ? header.substr(kBearer.size())
-                                                    : std::string());
-}
-
 constexpr std::size_t kMaxImagesBytes = 256 << 20;
 constexpr std::size_t kMaxBundleBytes = 64 << 20;
 constexpr std::size_t kMaxTextBytes = 1 << 20;
@@ -173,13 +175,13 @@ void refuse_other_sites(const Request& request) {
 }
 
 // Identity of the caller, if it may use the route.
-Caller admitted(const Keys& keys, const Request& request, Scope needed) {
+Caller admitted(const Keys& keys, Sessions& sessions, const Request& request, Scope needed) {
   if (needed == Scope::anybody) return {};
-  const auto caller = caller_in(keys, request);
+  const auto caller = caller_in(keys, sessions, request);
   if (!caller) {
-    throw HttpError{401, request.get_header_value("Authorization").empty()
-                             ? "this service needs a key: Authorization: Bearer KEY"
-                             : "this key is not known, or was revoked"};
+    throw HttpError{401, has_credentials(request)
+                             ? "this key is not known, or was revoked"
+                             : "this service needs a key: Authorization: Bearer KEY"};
   }
   if (caller->scope < needed) {
     throw HttpError{403, fmt::format("the key's scope is {}, this needs {}", name_of(caller->scope),
@@ -197,19 +199,21 @@ const Route* route_of(const Request& request) {
 }
 
 // Access control of a route, independent of the call. Throws HttpError.
-Caller checked_caller(const Keys& keys, const Request& request, const Route& route, bool loopback) {
+Caller checked_caller(const Keys& keys, Sessions& sessions, const Request& request,
+                      const Route& route, bool loopback) {
   if (loopback && !names_this_machine(request)) {
     throw HttpError{421, "this service is for its own machine"};
   }
   if (route.method != Method::get) refuse_other_sites(request);
-  return admitted(keys, request, route.scope);
+  return admitted(keys, sessions, request, route.scope);
 }
 
 // Nothing is read of a body whose sender may not do what they ask for. Throws HttpError.
-std::size_t max_body_bytes(const Keys& keys, const Request& request, bool loopback) {
+std::size_t max_body_bytes(const Keys& keys, Sessions& sessions, const Request& request,
+                           bool loopback) {
   const Route* route = route_of(request);
   if (route == nullptr) throw HttpError{404, ""};
-  static_cast<void>(checked_caller(keys, request, *route, loopback));
+  static_cast<void>(checked_caller(keys, sessions, request, *route, loopback));
   if (route->method != Method::post) return kMaxTextBytes;
   if (request.path == kCalibrations) return kMaxImagesBytes;
   const bool is_bundle =
@@ -217,10 +221,10 @@ std::size_t max_body_bytes(const Keys& keys, const Request& request, bool loopba
   return is_bundle ? kMaxBundleBytes : kMaxTextBytes;
 }
 
-HttpOptions with_body_limits(HttpOptions options, const Keys& keys) {
+HttpOptions with_body_limits(HttpOptions options, const Keys& keys, Sessions& sessions) {
   const bool loopback = is_loopback(options.host);
-  options.max_body_bytes = [&keys, loopback](const Request& request) {
-    return max_body_bytes(keys, request, loopback);
+  options.max_body_bytes = [&keys, &sessions, loopback](const Request& request) {
+    return max_body_bytes(keys, sessions, request, loopback);
   };
   return options;
 }
@@ -228,22 +232,23 @@ HttpOptions with_body_limits(HttpOptions options, const Keys& keys) {
 }  // namespace
 
 Api::Api(Service& service, const Keys& keys, WebhookSender& hooks, const HttpOptions& options)
-    : server_(with_body_limits(options, keys), &write_library_error) {
+    : server_(with_body_limits(options, keys, sessions_), &write_library_error) {
   const bool loopback = is_loopback(options.host);
-  const auto route = [&service, &keys, &hooks, loopback](const Route& entry) {
-    return [&service, &keys, &hooks, loopback, entry](const Request& request, Response& response) {
+  const auto route = [this, &service, &keys, &hooks, loopback](const Route& entry) {
+    return [this, &service, &keys, &hooks, loopback, entry](const Request& request,
+                                                            Response& response) {
       forget_ranges(request);
       guarded(service.folders(), request, response, [&] {
-        const Caller caller = checked_caller(keys, request, entry, loopback);
+        const Caller caller = checked_caller(keys, sessions_, request, entry, loopback);
         entry.handler({service.queue(), service.uploads(), service.calibrations(),
                        service.housekeeping(), service.datasets(), service.reports(),
-                       service.confined(), service.folders(), hooks, caller},
+                       service.confined(), service.folders(), hooks, keys, sessions_, caller},
                       request, response);
       });
     };
   };
   httplib::Server& server = server_.routes();
-  for (const Route& entry : routes()) {
+  const auto add = [&](const Route& entry) {
     const std::string pattern = pattern_of(entry.path);
     switch (entry.method) {
       case Method::get:
@@ -259,7 +264,9 @@ Api::Api(Service& service, const Keys& keys, WebhookSender& hooks, const HttpOpt
         server.Delete(pattern, route(entry));
         break;
     }
-  }
+  };
+  for (const Route& entry : routes()) add(entry);
+  for (const Route& entry : studio_routes()) add(entry);
 }
 
 }  // namespace throng::server

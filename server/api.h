@@ -11,6 +11,7 @@
 #include "server/keys.h"
 #include "server/routes.h"
 #include "server/service.h"
+#include "server/sessions.h"
 #include "server/webhook_sender.h"
 
 namespace throng::server {
@@ -31,6 +32,7 @@ class Api {
   void stop() { server_.stop(); }
 
  private:
+  Sessions sessions_;
   HttpServer server_;
 };
 

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_text.h"
 #include "calibrate/spec/request_files.h"
 #include "jobs/queue/job_id.h"
+#include "jobs/spec/task_memory.h"
 #include "server/answers.h"
 #include "server/service_errors.h"
 
@@ -21,6 +23,12 @@ namespace fs = std::filesystem;
 using jobs::JobRow;
 using jobs::JobState;
 using nlohmann::json;
+
+namespace {
+
+constexpr const char* kMemoryName = "memory_mib";
+
+}  // namespace
 
 JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upload>& files,
                             const Quota& quota) {
@@ -36,7 +44,8 @@ JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upl
     }
     write_file_atomically(staging.path() / "files" / file.name, file.bytes);
   }
-  confined_.calibration(request, staging.path() / "files");
+  const std::int64_t memory_mib = confined_.calibration(request, staging.path() / "files");
+  write_file_atomically(staging.path() / kMemoryName, std::to_string(memory_mib));
   write_file_atomically(staging.path() / "request.json", text_of(request));
   JobRow row;
   {
@@ -46,8 +55,7 @@ JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upl
                                           .spec_json = text_of(request),
                                           .kind = jobs::JobKind::calibration,
                                           .owner = quota.owner,
-                                          .max_active = quota.max_active,
-                                          .max_bytes = quota.max_bytes});
+                                          .limits = {quota.max_active, quota.max_bytes}});
     if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
     row = added.row;
     fs::rename(staging.path(), folders_.folder_of(row));
@@ -56,6 +64,14 @@ JobRow Calibrations::submit(std::string_view request_json, const std::vector<Upl
   state_.notify_queued();
   state_.notify_event();
   return row;
+}
+
+std::int64_t Calibrations::memory_mib_of(const fs::path& folder) {
+  try {
+    return std::stoll(read_file(folder / kMemoryName));
+  } catch (const std::exception&) {  // of an earlier version
+    return jobs::calibration_memory_mib(0);
+  }
 }
 
 json Calibrations::camera_of(const std::string& id) const {

@@ -40,6 +40,9 @@ class Calibrations {
   jobs::JobRow submit(std::string_view request_json, const std::vector<Upload>& files,
                       const Quota& quota = {});
 
+  /// The memory that the calibration in a folder needs, in MiB.
+  static std::int64_t memory_mib_of(const std::filesystem::path& folder);
+
   /// The camera of one that has succeeded. Throws EnvironmentError saying why there is none.
   nlohmann::json camera_of(const std::string& id) const;
 

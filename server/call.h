@@ -9,6 +9,7 @@
 #include "server/keys.h"
 #include "server/report_maker.h"
 #include "server/service_folders.h"
+#include "server/sessions.h"
 #include "server/uploads.h"
 #include "server/webhook_sender.h"
 
@@ -24,6 +25,8 @@ struct Call {
   const ConfinedChecks& confined;
   const ServiceFolders& folders;
   WebhookSender& hooks;
+  const Keys& keys;
+  Sessions& sessions;
   const Caller& caller;
 };
 

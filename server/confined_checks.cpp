@@ -1,5 +1,6 @@
 #include "server/confined_checks.h"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <utility>
@@ -7,14 +8,16 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "jobs/spec/spec.h"
+#include "jobs/spec/task_memory.h"
 
 namespace throng::server {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-ConfinedChecks::ConfinedChecks(jobs::ConfinedTask task, const fs::path& data)
-    : task_(std::move(task)), data_(fs::absolute(data)) {
+ConfinedChecks::ConfinedChecks(jobs::ConfinedTask task, const fs::path& data,
+                               std::int64_t max_task_mib)
+    : task_(std::move(task)), data_(fs::absolute(data)), max_task_mib_(max_task_mib) {
   check(task_ != nullptr, "the service knows how to start its checks");
 }
 
@@ -40,7 +43,9 @@ jobs::ResolvedJob ConfinedChecks::job(std::string_view job_json, const fs::path&
                                  {"subject", "a job and a scenario"},
                                  {"job", job_json},
                                  {"scenarios", scenarios.string()}});
-  return jobs::read_resolved_job(answer.at("job").dump(), "");
+  jobs::ResolvedJob resolved = jobs::read_resolved_job(answer.at("job").dump(), "");
+  require_memory(jobs::TaskMemory(resolved.spec()).max_mib(), "/drones");
+  return resolved;
 }
 
 std::string ConfinedChecks::scenario_plan(const std::string& id, const fs::path& scenarios) const {
@@ -53,8 +58,19 @@ std::string ConfinedChecks::job_plan(const std::string& job_json, const fs::path
       .at("svg");
 }
 
-void ConfinedChecks::calibration(const json& request, const fs::path& files) const {
-  answer_to({{"task", "calibration"}, {"request", request}, {"files", files.string()}});
+std::int64_t ConfinedChecks::calibration(const json& request, const fs::path& files) const {
+  const json answer =
+      answer_to({{"task", "calibration"}, {"request", request}, {"files", files.string()}});
+  const std::int64_t mib = jobs::calibration_memory_mib(answer.value("max_image_pixels", 0LL));
+  require_memory(mib, "/images");
+  return mib;
+}
+
+void ConfinedChecks::require_memory(std::int64_t mib, const char* pointer) const {
+  if (max_task_mib_ == 0 || mib <= max_task_mib_) return;
+  throw InputError(
+      Problem{"", pointer, fmt::format("images that need about {} MiB of memory", mib),
+              fmt::format("smaller ones: this service has {} MiB for a task", max_task_mib_)});
 }
 
 const json& ConfinedChecks::catalog() const {

@@ -2,6 +2,7 @@
 // in a confined child (jobs/pipeline/confined_work.h).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -18,8 +19,11 @@ namespace throng::server {
 /// problem, also when the child was ended at a limit, and EnvironmentError.
 class ConfinedChecks {
  public:
-  /// Folders for the children's files are made in `data`, and removed.
-  ConfinedChecks(jobs::ConfinedTask task, const std::filesystem::path& data);
+  /// Folders for the children's files are made in `data`, and removed. Jobs and calibrations with a
+  /// task that needs more than `max_task_mib` of memory (jobs/spec/task_memory.h) are refused; 0:
+  /// none are.
+  ConfinedChecks(jobs::ConfinedTask task, const std::filesystem::path& data,
+                 std::int64_t max_task_mib = 0);
 
   /// The scenarios in a folder.
   jobs::CheckedScenarios scenarios(const std::filesystem::path& folder) const;
@@ -29,17 +33,19 @@ class ConfinedChecks {
   /// Floor plans as SVG: of a scenario, and of a resolved job with the paths of its drones.
   std::string scenario_plan(const std::string& id, const std::filesystem::path& scenarios) const;
   std::string job_plan(const std::string& job_json, const std::filesystem::path& scenarios) const;
-  /// A calibration's request, whose files lie in the folder.
-  void calibration(const nlohmann::json& request, const std::filesystem::path& files) const;
+  /// A calibration's request, whose files lie in the folder. Returns the memory it needs, in MiB.
+  std::int64_t calibration(const nlohmann::json& request, const std::filesystem::path& files) const;
   /// Names that jobs may use (jobs/pipeline/catalog.h); queried once.
   const nlohmann::json& catalog() const;
   nlohmann::json people() const;
 
  private:
   nlohmann::json answer_to(const nlohmann::json& request) const;
+  void require_memory(std::int64_t mib, const char* pointer) const;
 
   jobs::ConfinedTask task_;
   std::filesystem::path data_;
+  std::int64_t max_task_mib_;
   mutable std::once_flag catalog_once_;
   mutable nlohmann::json catalog_;
 };

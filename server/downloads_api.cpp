@@ -19,8 +19,10 @@
 #include "jobs/queue/folder.h"
 #include "jobs/queue/manifest.h"
 #include "jobs/spec/plan.h"
+#include "jobs/spec/task_memory.h"
 #include "server/file_answer.h"
 #include "server/http.h"
+#include "server/image_list.h"
 #include "server/requests.h"
 
 namespace throng::server {
@@ -173,6 +175,9 @@ void send_archive(const Call& call, const Request& request, Response& response) 
   const auto archive = call.datasets.archive_of(
       dataset, name, format,
       selection_of(request, dataset, parse_own_json(row.spec_json, "the job")));
+  if (archive->is_empty()) {
+    throw HttpError{404, "the dataset has no file of those that were asked for"};
+  }
   // The manifest holds the hash of every file; what was chosen of them is in the query.
   const std::string chosen =
       request.target.substr(std::min(request.target.find('?'), request.target.size()));
@@ -222,6 +227,39 @@ void send_file(const Call& call, const Request& request, Response& response) {
                    fmt::format("\"{}\"", file->sha256));
 }
 
+void list_images_of_job(const Call& call, const Request& request, Response& response) {
+  constexpr std::int64_t kMaxPage = 1000;
+  constexpr std::int64_t kUsualPage = 100;
+  constexpr std::int64_t kMaxOffset = 1'000'000'000;
+  const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
+  const ImageQuery query{request.get_param_value("run"), request.get_param_value("camera"),
+                         number_of(request, "offset", 0, kMaxOffset, 0),
+                         number_of(request, "limit", 1, kMaxPage, kUsualPage)};
+  const auto manifest = call.datasets.manifest_of(dataset);
+  const ImageList list = list_images(manifest->files, query);
+  json images = json::array();
+  for (const ImageFile& image : list.images) {
+    images.push_back({{"run", image.run},
+                      {"camera", image.camera},
+                      {"frame", image.frame},
+                      {"path", image.file->path},
+                      {"bytes", image.file->bytes}});
+  }
+  json runs = json::array();
+  for (const auto& [run, cameras] : list.runs) {
+    json parts = json::array();
+    for (const auto& [camera, frames] : cameras) {
+      parts.push_back({{"camera", camera},
+                       {"images", frames.images},
+                       {"first", frames.first},
+                       {"last", frames.last}});
+    }
+    runs.push_back({{"run", run}, {"cameras", std::move(parts)}});
+  }
+  write_json(response, 200,
+             {{"images", std::move(images)}, {"total", list.total}, {"runs", std::move(runs)}});
+}
+
 void send_metrics(const Call& call, const Request& request, Response& response) {
   const fs::path dataset = call.folders.dataset_of(find_succeeded(call, request).id);
   response.set_content(read_file(dataset / "metrics.json"), "application/json");
@@ -239,8 +277,13 @@ void send_report(const Call& call, const Request& request, Response& response) {
   // Shorter than a proxy's patience, and than what is left to a service that ends.
   constexpr auto kPatience = std::chrono::seconds(5);
   const jobs::JobRow row = find_succeeded(call, request);
-  const std::optional<fs::path> file =
-      call.reports.report_of(call.folders.job_folder(row.id), kPatience);
+  const std::optional<fs::path> file = call.reports.report_of(
+      call.folders.job_folder(row.id),
+      {.owner = row.owner,
+       .job = row.id,
+       .priority = [priority = row.priority] { return priority; },
+       .memory_mib = [](const jobs::Task&) { return jobs::kReportMemoryMib; }},
+      kPatience);
   if (!file) {
     response.set_header("Retry-After", "2");
     return write_json(response, 202, {{"status", "the report is being made"}});

@@ -10,6 +10,9 @@ void send_archive(const Call& call, const httplib::Request& request, httplib::Re
 void send_manifest(const Call& call, const httplib::Request& request, httplib::Response& response);
 /// A file of the dataset, by its path in the manifest.
 void send_file(const Call& call, const httplib::Request& request, httplib::Response& response);
+/// A page of the images, and how many each camera took in each run.
+void list_images_of_job(const Call& call, const httplib::Request& request,
+                        httplib::Response& response);
 void send_metrics(const Call& call, const httplib::Request& request, httplib::Response& response);
 void send_run_metrics(const Call& call, const httplib::Request& request,
                       httplib::Response& response);

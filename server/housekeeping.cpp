@@ -65,6 +65,7 @@ void Housekeeping::remove_expired() {
   const std::int64_t now_ms = store_.now_ms();
   const Retention& retention = options_.retention;
   if (retention.max_wait_ms > 0 || retention.max_bytes > 0) {
+    store_.correct_ended(now_ms);
     for (const std::string& id :
          expired(store_.ended(kMaxAtOnce), store_.total_bytes(), now_ms, retention)) {
       spdlog::info("job {}: has been kept for long enough", id);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "jobs/spec/calibrations.h"
+#include "jobs/spec/spec.h"
 #include "server/answers.h"
 #include "server/report_maker.h"
 
@@ -47,8 +48,7 @@ jobs::Added JobQueue::submit(const Submission& submission) {
                                         .owner = submission.owner,
                                         .key = submission.key,
                                         .hash = sha256_hex(text_of(sent)),
-                                        .max_active = submission.max_active,
-                                        .max_bytes = submission.max_bytes});
+                                        .limits = {submission.max_active, submission.max_bytes}});
   if (!added.over_quota.empty()) throw QuotaError(added.over_quota);
   if (!added.is_new) return added;
   spdlog::info("job {} queued", added.row.id);
@@ -124,7 +124,11 @@ std::vector<JobRow> JobQueue::list(const jobs::JobFilter& filter) const {
 
 std::optional<JobRow> JobQueue::change(const std::string& id, const jobs::JobChange& change) {
   std::optional<JobRow> row = store_.change(id, change);
-  if (row) state_.notify_event();
+  if (row) {
+    state_.set_priority(id, change.priority);
+    state_.notify_queued();  // it may be ahead of others now
+    state_.notify_event();
+  }
   return row;
 }
 
@@ -143,20 +147,24 @@ std::optional<JobRow> JobQueue::cancel(const std::string& id) {
   return std::nullopt;
 }
 
-std::optional<JobRow> JobQueue::retry(const std::string& id) {
+std::optional<JobRow> JobQueue::retry(const std::string& id, const jobs::OwnerLimits& limits) {
   for (std::optional<JobRow> row = store_.get(id); row; row = store_.get(id)) {
+    if (row->is_damaged) {
+      throw ConflictError("the job's row in the store is damaged: it can only be removed");
+    }
     if (!next_state(row->state, JobEvent::retry)) {
       throw ConflictError(
           fmt::format("the job is {}: only one that failed or was cancelled can be "
                       "tried again",
                       name_of(row->state)));
     }
-    const std::optional<JobRow> queued = state_.apply(*row, JobEvent::retry);
-    if (!queued) continue;
+    const jobs::Retried retried = state_.retry(*row, limits);
+    if (!retried.over_quota.empty()) throw QuotaError(retried.over_quota);
+    if (!retried.row) continue;
     ReportMaker::forget(folders_.folder_of(*row));
     spdlog::info("job {} queued again", id);
     state_.notify_queued();
-    return queued;
+    return retried.row;
   }
   return std::nullopt;
 }

@@ -65,6 +65,8 @@ class JobQueue {
   std::map<jobs::JobState, std::int64_t> count() const { return store_.count(); }
   /// Why the queue is paused; "" when it is not.
   std::string paused() const { return state_.paused(); }
+  /// Throws EnvironmentError if the store takes no changes (jobs/queue/store.h).
+  void check_store() const { store_.check_files(); }
 
   /// In any state of the job; nothing when there is none.
   std::optional<jobs::JobRow> change(const std::string& id, const jobs::JobChange& change);
@@ -72,8 +74,9 @@ class JobQueue {
   /// Nothing when there is none. Throws ConflictError when it has ended.
   std::optional<jobs::JobRow> cancel(const std::string& id);
   /// Queues a job again that failed, at least in part, or was cancelled; what it has published is
-  /// not done again. Nothing when there is none. Throws ConflictError in any other state.
-  std::optional<jobs::JobRow> retry(const std::string& id);
+  /// not done again. Nothing when there is none. Throws ConflictError in any other state, and
+  /// QuotaError when its owner has as much as `limits` allow.
+  std::optional<jobs::JobRow> retry(const std::string& id, const jobs::OwnerLimits& limits = {});
 
   /// Events after number `after` of a job, or of all (""): at once if there are any, else as soon
   /// as there are, else none after `timeout`.

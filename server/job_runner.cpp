@@ -3,16 +3,19 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "jobs/queue/folder.h"
 #include "jobs/spec/resolved_job.h"
+#include "jobs/spec/task_memory.h"
 #include "server/answers.h"
+#include "server/calibrations.h"
 #include "server/data_folder.h"
 
 namespace throng::server {
@@ -25,52 +28,112 @@ using jobs::JobState;
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr auto kProgressInterval = 1s;
 constexpr auto kPauseAfterError = 1s;
+// Files are counted while a job runs, but for at most a twentieth of the time.
+constexpr auto kMinBytesInterval = 10s;
+constexpr int kMaxPartOfTime = 20;
+
+/// Whether a job may be begun beside those that are active.
+bool may_begin(const JobRow& row, const std::vector<JobRow>& active, int max_active) {
+  if (static_cast<int>(active.size()) < max_active) return true;
+  const bool is_first_of_owner = std::none_of(
+      active.begin(), active.end(), [&](const JobRow& other) { return other.owner == row.owner; });
+  const bool is_above_all = std::all_of(active.begin(), active.end(), [&](const JobRow& other) {
+    return other.priority < row.priority;
+  });
+  return is_first_of_owner || is_above_all;
+}
 
 }  // namespace
 
 JobRunner::JobRunner(const ServiceFolders& folders, jobs::Store& store, QueueState& state,
-                     jobs::Executor& executor, Calibrator calibrator, LookAtDisk look_at_disk)
+                     jobs::Executor& executor, LookAtDisk look_at_disk, int max_active)
     : folders_(folders),
       store_(store),
       state_(state),
       executor_(executor),
-      calibrator_(std::move(calibrator)),
       look_at_disk_(std::move(look_at_disk)),
-      thread_([this](const std::stop_token& stop) { work(stop); }) {}
+      max_active_(max_active),
+      thread_([this](const std::stop_token& stop) { dispatch(stop); }) {}
 
-void JobRunner::work(const std::stop_token& stop) {
+void JobRunner::dispatch(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
+    join_ended();
     try {
-      if (!state_.wait_while_paused(stop)) return;
-      if (!work_on_next(stop)) state_.wait_for_queued(stop);
+      if (!state_.wait_while_paused(stop)) break;
+      if (!begin_next()) state_.wait_for_queued(stop);
     } catch (const std::exception& error) {
       // The store cannot be reached (for example disk full): nothing is lost, try again.
       spdlog::error("queue: {}", error.what());
       state_.wait(stop, kPauseAfterError);
     }
   }
+  for (Supervisor& supervisor : supervisors_) supervisor.stop.request_stop();
+  supervisors_.clear();
 }
 
-bool JobRunner::work_on_next(const std::stop_token& stop) {
-  const std::optional<JobRow> next = store_.next();
+void JobRunner::join_ended() {
+  supervisors_.remove_if([](const Supervisor& supervisor) { return supervisor.has_ended.load(); });
+}
+
+std::optional<JobRow> JobRunner::next_job() const {
+  const std::vector<JobRow> active = state_.active_jobs();
+  const auto active_of = [&](const std::string& owner) {
+    return std::count_if(active.begin(), active.end(),
+                         [&](const JobRow& row) { return row.owner == owner; });
+  };
+  std::optional<JobRow> best;
+  for (JobRow& row : store_.startable()) {
+    if (row.state == JobState::running) {
+      const bool is_at_work = std::any_of(active.begin(), active.end(),
+                                          [&](const JobRow& other) { return other.id == row.id; });
+      if (!is_at_work) return std::move(row);  // it was running when the last server ended
+      continue;
+    }
+    if (!may_begin(row, active, max_active_)) continue;
+    const auto rank = [&](const JobRow& of) {
+      return std::tuple(-of.priority, active_of(of.owner), of.id);
+    };
+    if (!best || rank(row) < rank(*best)) best = std::move(row);
+  }
+  return best;
+}
+
+bool JobRunner::begin_next() {
+  const std::optional<JobRow> next = next_job();
   if (!next) return false;
   const bool resumed = next->state == JobState::running;
-  std::stop_source stop_job;
+  std::stop_source stop;
   const std::optional<JobRow> row = state_.begin(
-      [&] { return state_.apply(*next, resumed ? JobEvent::resume : JobEvent::start); }, stop_job);
+      [&] { return state_.apply(*next, resumed ? JobEvent::resume : JobEvent::start); }, stop);
   if (!row) return true;
   spdlog::info("job {} {}", row->id, resumed ? "resumed" : "started");
-  const std::stop_callback forward(stop, [&] { stop_job.request_stop(); });
+  Supervisor& supervisor = supervisors_.emplace_back();
+  supervisor.stop = stop;
   try {
-    run(*row, stop_job.get_token());
-  } catch (...) {
-    state_.finish();
+    supervisor.thread = std::jthread([this, row = *row, &supervisor] {
+      work_on(row, supervisor.stop.get_token());
+      supervisor.has_ended = true;
+    });
+  } catch (const std::exception&) {  // the machine has no room for a thread
+    supervisors_.pop_back();
+    state_.finish(row->id);
     throw;
   }
-  state_.finish();
   return true;
+}
+
+void JobRunner::work_on(const JobRow& row, const std::stop_token& stop) {
+  try {
+    run(row, stop);
+  } catch (const std::exception& error) {
+    spdlog::error("job {}: {}", row.id, error.what());
+    state_.wait(stop, kPauseAfterError);  // it is still "running", and taken up again
+  }
+  state_.finish(row.id);
 }
 
 void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
@@ -92,7 +155,7 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
     // By cancel() or remove(), which have noted it; or because the service ends or rests, and then
     // the job stays "running" to be resumed.
     spdlog::info("job {} stopped", row.id);
-    return;
+    return save_bytes(row);
   } catch (const InputError& failure) {
     error = text_of(error_json("input", folders_.without_paths(failure.what()),
                                folders_.without_paths(failure.problems())));
@@ -108,11 +171,23 @@ void JobRunner::run(const JobRow& row, const std::stop_token& stop) {
   spdlog::info("job {} {}", row.id, ended ? name_of(ended->state) : "was cancelled meanwhile");
 }
 
+jobs::Share JobRunner::share_of(const JobRow& row) const {
+  jobs::Share share;
+  share.owner = row.owner;
+  share.job = row.id;
+  share.priority = [this, id = row.id] { return state_.priority_of(id); };
+  share.on_wait = [this, id = row.id](const std::string& reason) {
+    state_.set_waiting(id, reason);
+  };
+  return share;
+}
+
 std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
                                                       const std::stop_token& stop) {
   const jobs::ResolvedJob job = jobs::read_resolved_job(row.spec_json, "");
   const auto folder = jobs::JobFolder::create(folders_.job_folder(row.id), job);
-  auto last_save = std::chrono::steady_clock::time_point();
+  Clock::time_point last_save;
+  Clock::time_point next_bytes = Clock::now() + kMinBytesInterval;
   std::string stages;
   const auto on_progress = [&](const jobs::JobProgress& progress) {
     state_.set_progress(row, text_of(progress_json(progress)));
@@ -120,20 +195,45 @@ std::vector<jobs::RunFailure> JobRunner::make_dataset(const JobRow& row,
       stages = now;
       state_.record_event(row, "stage", stages);
     }
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = Clock::now();
     if (now - last_save < kProgressInterval) return;
     last_save = now;
     save_progress(row);
+    if (now < next_bytes) return;
+    save_bytes(row);
+    const auto took = Clock::now() - now;
+    next_bytes = now + std::max<Clock::duration>(kMinBytesInterval, kMaxPartOfTime * took);
   };
-  return jobs::run_job(folder, job, executor_, on_progress, stop);
+  jobs::Share share = share_of(row);
+  share.memory_mib = [memory = jobs::TaskMemory(job.spec())](const jobs::Task& task) {
+    return memory.mib_of(task);
+  };
+  return jobs::run_job(folder, job, executor_, on_progress, stop, share);
 }
 
 void JobRunner::make_calibration(const JobRow& row, const std::stop_token& stop) {
-  const fs::path folder = folders_.calibration_folder(row.id);
+  const jobs::JobFolder folder(folders_.calibration_folder(row.id));
+  constexpr jobs::Task kTask{jobs::Task::Kind::calibrate};
   const auto set_progress = [&](double share, const std::string& what) {
     state_.set_progress(row, text_of({{"share", share}, {"stage", what}}));
   };
-  calibrator_(folder, set_progress, stop);
+  if (!folder.is_done(kTask)) {
+    const std::array tasks = {kTask};
+    const auto on_progress = [&](const jobs::Task&, const jobs::TaskProgress& progress) {
+      set_progress(progress.total > 0 ? progress.done / progress.total : 0, progress.what);
+    };
+    jobs::Share share = share_of(row);
+    share.memory_mib = [mib = Calibrations::memory_mib_of(folder.path())](const jobs::Task&) {
+      return mib;
+    };
+    const jobs::TaskResult result = executor_.run(folder, tasks, on_progress, stop, share).at(0);
+    folder.remove_leftovers();
+    if (stop.stop_requested()) throw Cancelled();
+    if (result.outcome == jobs::Outcome::input_error && !result.problems.empty()) {
+      throw InputError(result.problems);
+    }
+    if (result.outcome != jobs::Outcome::succeeded) throw EnvironmentError(result.message);
+  }
   set_progress(1, "finished");
 }
 
@@ -145,6 +245,16 @@ void JobRunner::save_progress(const JobRow& row) {
     store_.save_progress(row, newest.progress_json);
   } catch (const EnvironmentError& error) {
     spdlog::warn("job {}: progress not saved: {}", row.id, error.what());
+  }
+}
+
+// The disk space of a job counts for its owner's quota from its first file on, also when it is
+// cancelled.
+void JobRunner::save_bytes(const JobRow& row) {
+  try {
+    store_.set_bytes(row.id, disk_bytes_of(folders_.folder_of(row)));
+  } catch (const std::exception& error) {
+    spdlog::warn("job {}: its files were not counted: {}", row.id, error.what());
   }
 }
 

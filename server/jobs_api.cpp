@@ -22,7 +22,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kMaxPriority = 100;
 constexpr std::size_t kMaxLabels = 20;
 constexpr std::size_t kMaxLabelLength = 60;
 constexpr std::size_t kMaxKeyLength = 200;
@@ -91,6 +90,15 @@ std::optional<Form> form_of(const Request& request) {
   return form;
 }
 
+/// Throws HttpError 403 for a priority that the caller may not give; `pointer` says where it is.
+void require_priority(const Call& call, int priority, const std::string& pointer) {
+  if (priority <= call.caller.max_priority) return;
+  throw HttpError{403,
+                  "this key may not give its jobs that priority",
+                  {{"", pointer, std::to_string(priority),
+                    fmt::format("at most {}", call.caller.max_priority)}}};
+}
+
 /// With a bundle of its own, unless that is null.
 void queue(const Call& call, Submission submission, Response& response,
            const std::string* bundle = nullptr) {
@@ -145,17 +153,18 @@ void submit_job(const Call& call, const Request& request, Response& response) {
   const std::optional<Form> form = form_of(request);
   if (!form) require_json(request);
   const std::string& job = form ? form->job : request.body;
+  Submission submission{job};
+  submission.priority =
+      static_cast<int>(number_of(request, "priority", -kMaxPriority, kMaxPriority, 0));
+  require_priority(call, submission.priority, "?priority");
+  submission.labels = all_of(request, "label");
+  check_labels(submission.labels, "?label");
   if (is_asked(request, "dry_run")) {
     const bool has_bundle = form && form->bundle != nullptr;
     return answer_dry_run(
         has_bundle ? call.queue.checked_with_bundle(job, *form->bundle) : call.queue.checked(job),
         response);
   }
-  Submission submission{job};
-  submission.priority =
-      static_cast<int>(number_of(request, "priority", -kMaxPriority, kMaxPriority, 0));
-  submission.labels = all_of(request, "label");
-  check_labels(submission.labels, "?label");
   submission.key = key_of(request);
   queue(call, std::move(submission), response, form ? form->bundle : nullptr);
 }
@@ -210,6 +219,8 @@ void change_job(const Call& call, const Request& request, Response& response) {
         throw invalid_field("/priority", value.dump(), "an integer from -100 to 100");
       }
       wanted.priority = value;
+      // An administrator may have raised it: then it may stay.
+      if (wanted.priority > row.priority) require_priority(call, wanted.priority, "/priority");
     } else if (name == "labels") {
       const bool is_list =
           value.is_array() && std::all_of(value.begin(), value.end(),
@@ -237,7 +248,12 @@ void cancel_job(const Call& call, const Request& request, Response& response) {
 }
 
 void retry_job(const Call& call, const Request& request, Response& response) {
-  const auto row = call.queue.retry(find_own(call, request).id);
+  const jobs::JobRow own = find_own(call, request);
+  // An administrator may retry another's job beyond its key's limits.
+  const bool is_owner = own.owner == call.caller.key_id;
+  const auto row = call.queue.retry(
+      own.id, is_owner ? jobs::OwnerLimits{call.caller.max_active, call.caller.max_bytes}
+                       : jobs::OwnerLimits{});
   if (!row) throw HttpError{404, "the job has been removed"};
   write_json(response, 200, job_json(*row, call.housekeeping.retention()));
 }
@@ -250,7 +266,8 @@ void clone_job(const Call& call, const Request& request, Response& response) {
     job.merge_patch(json_body_of(request));
   }
   const std::string text = text_of(job);
-  queue(call, {text, row.priority, row.labels, key_of(request)}, response);
+  const int priority = std::min(row.priority, call.caller.max_priority);
+  queue(call, {text, priority, row.labels, key_of(request)}, response);
 }
 
 void remove_job(const Call& call, const Request& request, Response& response) {

@@ -6,11 +6,11 @@
 
 #include <array>
 #include <chrono>
-#include <random>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "server/private_database.h"
+#include "server/random_text.h"
 
 namespace throng::server {
 
@@ -30,18 +30,11 @@ CREATE TABLE IF NOT EXISTS key (
   scope TEXT NOT NULL,
   max_active INTEGER NOT NULL DEFAULT 0,
   max_bytes INTEGER NOT NULL DEFAULT 0,
+  max_priority INTEGER NOT NULL DEFAULT 0,
   created_ms INTEGER NOT NULL,
   revoked_ms INTEGER NOT NULL DEFAULT 0
 ) WITHOUT ROWID
 )";
-
-std::string random_text(std::size_t length) {
-  constexpr std::string_view kLetters = "abcdefghijkmnpqrstuvwxyz23456789";  // 32, none alike
-  std::random_device random;
-  std::string text;
-  for (std::size_t i = 0; i < length; ++i) text += kLetters[random() % kLetters.size()];
-  return text;
-}
 
 std::int64_t now_ms() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -67,13 +60,15 @@ fs::path prepared(const fs::path& data) {
 
 void set_up(SQLite::Database& database) {
   database.exec(kTable);
-  // Made by a version that knew no limit of bytes.
-  const bool is_old = database
-                          .execAndGet(
-                              "SELECT count(*) FROM pragma_table_info('key') "
-                              "WHERE name = 'max_bytes'")
-                          .getInt() == 0;
-  if (is_old) database.exec("ALTER TABLE key ADD COLUMN max_bytes INTEGER NOT NULL DEFAULT 0");
+  // Columns that earlier versions did not have.
+  for (const char* column : {"max_bytes", "max_priority"}) {
+    SQLite::Statement known(database,
+                            "SELECT count(*) FROM pragma_table_info('key') WHERE name = ?");
+    known.bind(1, column);
+    known.executeStep();
+    if (known.getColumn(0).getInt() > 0) continue;
+    database.exec(fmt::format("ALTER TABLE key ADD COLUMN {} INTEGER NOT NULL DEFAULT 0", column));
+  }
 }
 
 }  // namespace
@@ -106,13 +101,13 @@ Keys::Keys(const fs::path& data) {
 Keys::~Keys() = default;
 
 std::string Keys::create(const std::string& name, Scope scope, int max_active,
-                         std::int64_t max_bytes) {
+                         std::int64_t max_bytes, int max_priority) {
   const std::string id = random_text(kIdLength);
   std::string token = fmt::format("{}{}_{}", kPrefix, id, random_text(kSecretLength));
   file_->with([&](SQLite::Database& database) {
     SQLite::Statement insert(database,
                              "INSERT INTO key (id, name, hash, scope, max_active, created_ms, "
-                             "max_bytes) VALUES (?, ?, ?, ?, ?, ?, ?)");
+                             "max_bytes, max_priority) VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
     insert.bind(1, id);
     insert.bind(2, name);
     insert.bind(3, sha256_hex(token));
@@ -120,6 +115,7 @@ std::string Keys::create(const std::string& name, Scope scope, int max_active,
     insert.bind(5, max_active);
     insert.bind(6, now_ms());
     insert.bind(7, max_bytes);
+    insert.bind(8, max_priority);
     insert.exec();
   });
   return token;
@@ -127,15 +123,16 @@ std::string Keys::create(const std::string& name, Scope scope, int max_active,
 
 std::vector<KeyRow> Keys::list() const {
   return file_->with([](SQLite::Database& database) {
-    SQLite::Statement query(database,
-                            "SELECT id, name, scope, max_active, max_bytes, created_ms, revoked_ms "
-                            "FROM key ORDER BY created_ms, id");
+    SQLite::Statement query(
+        database,
+        "SELECT id, name, scope, max_active, max_bytes, max_priority, created_ms, revoked_ms "
+        "FROM key ORDER BY created_ms, id");
     std::vector<KeyRow> rows;
     while (query.executeStep()) {
       rows.push_back({query.getColumn(0).getString(), query.getColumn(1).getString(),
                       scope_of(query.getColumn(2).getString()), query.getColumn(3).getInt(),
-                      query.getColumn(4).getInt64(), query.getColumn(5).getInt64(),
-                      query.getColumn(6).getInt64()});
+                      query.getColumn(4).getInt64(), query.getColumn(5).getInt(),
+                      query.getColumn(6).getInt64(), query.getColumn(7).getInt64()});
     }
     return rows;
   });
@@ -158,7 +155,7 @@ bool Keys::are_needed() const {
 }
 
 std::optional<Caller> Keys::caller_of(std::string_view token) const {
-  if (!are_needed()) return Caller{"", Scope::admin, 0, 0};
+  if (!are_needed()) return Caller{"", Scope::admin, 0, 0, kMaxPriority};
   if (!token.starts_with(kPrefix) ||
       token.size() != kPrefix.size() + kIdLength + 1 + kSecretLength) {
     return std::nullopt;
@@ -167,13 +164,16 @@ std::optional<Caller> Keys::caller_of(std::string_view token) const {
   return file_->with([&](SQLite::Database& database) -> std::optional<Caller> {
     SQLite::Statement query(
         database,
-        "SELECT id, hash, scope, max_active, max_bytes FROM key WHERE id = ? AND revoked_ms = 0");
+        "SELECT id, hash, scope, max_active, max_bytes, max_priority FROM key WHERE id = ? AND "
+        "revoked_ms = 0");
     query.bind(1, std::string(token.substr(kPrefix.size(), kIdLength)));
     if (!query.executeStep() || !equals_in_constant_time(query.getColumn(1).getString(), hash)) {
       return std::nullopt;
     }
-    return Caller{query.getColumn(0).getString(), scope_of(query.getColumn(2).getString()),
-                  query.getColumn(3).getInt(), query.getColumn(4).getInt64()};
+    const Scope scope = scope_of(query.getColumn(2).getString());
+    const int max_priority = scope >= Scope::admin ? kMaxPriority : query.getColumn(5).getInt();
+    return Caller{query.getColumn(0).getString(), scope, query.getColumn(3).getInt(),
+                  query.getColumn(4).getInt64(), max_priority};
   });
 }
 

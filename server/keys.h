@@ -12,6 +12,9 @@
 
 namespace throng::server {
 
+/// Jobs have priorities from -kMaxPriority to this; administrators may give them any.
+inline constexpr int kMaxPriority = 100;
+
 /// Permissions of a caller; each includes those before it.
 enum class Scope : std::uint8_t {
   anybody,  ///< nothing but ask whether the service lives
@@ -30,6 +33,7 @@ struct Caller {
   Scope scope = Scope::anybody;
   int max_active = 0;          ///< jobs that may wait or run at once; 0: any number
   std::int64_t max_bytes = 0;  ///< disk that their jobs may take; 0: any
+  int max_priority = 0;        ///< of their jobs
 };
 
 struct KeyRow {
@@ -38,6 +42,7 @@ struct KeyRow {
   Scope scope = Scope::read;
   int max_active = 0;
   std::int64_t max_bytes = 0;
+  int max_priority = 0;
   std::int64_t created_ms = 0;  ///< Unix time
   std::int64_t revoked_ms = 0;  ///< 0: it is good
 };
@@ -53,7 +58,7 @@ class Keys {
 
   /// Makes a key and returns what the caller has to send: it can never be asked for again.
   std::string create(const std::string& name, Scope scope, int max_active = 0,
-                     std::int64_t max_bytes = 0);
+                     std::int64_t max_bytes = 0, int max_priority = 0);
   std::vector<KeyRow> list() const;
   /// False when there is no good key of this id.
   bool revoke(const std::string& id);

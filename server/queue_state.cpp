@@ -33,6 +33,15 @@ std::optional<JobRow> QueueState::apply(const JobRow& row, JobEvent event,
   return changed;
 }
 
+jobs::Retried QueueState::retry(const JobRow& row, const jobs::OwnerLimits& limits) {
+  const std::string place = fmt::format("server/{}/", name_of(JobEvent::retry));
+  jobs::provoke_faults(place + "before", 1);
+  jobs::Retried retried = store_.retry(row, limits);
+  jobs::provoke_faults(place + "after", 1);
+  if (retried.row) notify_event();
+  return retried;
+}
+
 void QueueState::record_event(const JobRow& row, const std::string& type,
                               const std::string& data_json) {
   try {
@@ -54,22 +63,50 @@ std::optional<JobRow> QueueState::begin(const std::function<std::optional<JobRow
   const std::lock_guard lock(mutex_);
   if (!paused_.empty()) return std::nullopt;
   std::optional<JobRow> row = start();
-  if (row) active_ = Active{*row, stop};
+  if (row) active_.insert_or_assign(row->id, Active{*row, stop});
   return row;
 }
 
-void QueueState::finish() {
+void QueueState::finish(const std::string& id) {
   {
     const std::lock_guard lock(mutex_);
-    active_.reset();
+    active_.erase(id);
+    queued_ = true;  // there is room for another
   }
   changed_.notify_all();
 }
 
+std::vector<JobRow> QueueState::active_jobs() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<JobRow> rows;
+  rows.reserve(active_.size());
+  for (const auto& [id, active] : active_) rows.push_back(active.row);
+  return rows;
+}
+
+int QueueState::priority_of(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = active_.find(id);
+  return found == active_.end() ? 0 : found->second.row.priority;
+}
+
+void QueueState::set_priority(const std::string& id, int priority) {
+  const std::lock_guard lock(mutex_);
+  const auto found = active_.find(id);
+  if (found != active_.end()) found->second.row.priority = priority;
+}
+
+void QueueState::set_waiting(const std::string& id, const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  const auto found = active_.find(id);
+  if (found != active_.end()) found->second.row.waiting_for = reason;
+  ++revision_;
+}
+
 void QueueState::end_work_on(const std::string& id) {
   std::unique_lock lock(mutex_);
-  const auto is_at_work = [&] { return active_ && active_->row.id == id; };
-  if (is_at_work()) active_->stop.request_stop();
+  const auto is_at_work = [&] { return active_.contains(id); };
+  if (is_at_work()) active_.at(id).stop.request_stop();
   if (!changed_.wait_for(lock, kMaxEnd, [&] { return !is_at_work(); })) {
     throw EnvironmentError("the job's workers do not end; the job is cancelled, try again later");
   }
@@ -77,16 +114,20 @@ void QueueState::end_work_on(const std::string& id) {
 
 void QueueState::set_progress(const JobRow& row, std::string progress_json) {
   const std::lock_guard lock(mutex_);
-  if (active_ && active_->row.id == row.id) active_->row.progress_json = std::move(progress_json);
+  const auto found = active_.find(row.id);
+  if (found != active_.end()) found->second.row.progress_json = std::move(progress_json);
   ++revision_;
 }
 
 void QueueState::complete(JobRow& row) const {
   const std::lock_guard lock(mutex_);
-  if (active_ && active_->row.id == row.id && !active_->row.progress_json.empty()) {
-    row.progress_json = active_->row.progress_json;
+  const auto found = active_.find(row.id);
+  if (found != active_.end()) {
+    const JobRow& newest = found->second.row;
+    if (!newest.progress_json.empty()) row.progress_json = newest.progress_json;
+    row.waiting_for = newest.waiting_for;
   }
-  if (is_active(row.state)) row.waiting_for = paused_;
+  if (is_active(row.state) && !paused_.empty()) row.waiting_for = paused_;
 }
 
 void QueueState::notify_queued() {
@@ -115,20 +156,24 @@ void QueueState::wait(const std::stop_token& stop, std::chrono::milliseconds tim
 }
 
 void QueueState::pause(const std::string& reason) {
-  std::optional<JobRow> row;
+  std::vector<JobRow> stopped;
   {
     const std::lock_guard lock(mutex_);
     paused_ = reason;
-    if (active_) row = active_->row;
+    queued_ = true;
     // Published output stays; the rest is done again when there is disk space.
-    if (active_ && !reason.empty()) active_->stop.request_stop();
+    for (auto& [id, active] : active_) {
+      if (reason.empty()) continue;
+      active.stop.request_stop();
+      stopped.push_back(active.row);
+    }
   }
   if (reason.empty()) {
     spdlog::info("queue: goes on");
   } else {
     spdlog::warn("queue: paused, {}", reason);
   }
-  if (row && !reason.empty()) record_event(*row, "paused", text_of({{"reason", reason}}));
+  for (const JobRow& row : stopped) record_event(row, "paused", text_of({{"reason", reason}}));
   changed_.notify_all();
   notify_event();
 }

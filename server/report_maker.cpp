@@ -1,13 +1,13 @@
 #include "server/report_maker.h"
 
 #include <fmt/core.h>
-#include <poll.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/error.h"
-#include "jobs/queue/child_process.h"
+#include "jobs/queue/folder.h"
 
 namespace throng::server {
 
@@ -15,50 +15,46 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path report_file(const fs::path& job) { return job / "report.html"; }
+constexpr jobs::Task kReport{jobs::Task::Kind::report};
+
+fs::path report_file(const fs::path& job) { return jobs::JobFolder(job).output_of(kReport); }
 
 }  // namespace
 
-Reporter reporter_in_child(std::vector<std::string> command) {
-  return [command = std::move(command)](const fs::path& job, const fs::path& file,
-                                        const std::stop_token& stop) {
-    std::vector<std::string> words = command;
-    words.insert(words.end(), {job.string(), "-o", file.string()});
-    jobs::ChildProcess child(words, {}, job / "logs" / "report.log");
-    while (!child.has_ended()) {
-      if (stop.stop_requested()) throw Cancelled();  // the child ends with its object
-      constexpr int kPollMs = 50;
-      pollfd wait{child.output(), POLLIN, 0};
-      ::poll(&wait, 1, kPollMs);
-      child.read_lines();
-    }
-    const jobs::ExitStatus status = child.wait();
-    if (status.signal != 0) {
-      throw EnvironmentError(fmt::format("the report was ended by signal {}", status.signal));
-    }
-    if (status.code != 0) throw EnvironmentError("the report could not be made: see its log");
-  };
+ReportMaker::ReportMaker(jobs::Executor& executor, ReportMakerOptions options)
+    : executor_(executor), options_(options) {
+  for (int i = 0; i < options_.at_once; ++i) {
+    workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+  }
 }
 
-ReportMaker::ReportMaker(Reporter reporter)
-    : reporter_(std::move(reporter)),
-      worker_([this](const std::stop_token& stop) { work(stop); }) {}
+std::deque<ReportMaker::Order>::iterator ReportMaker::order_of(const fs::path& job) {
+  return std::find_if(orders_.begin(), orders_.end(),
+                      [&](const Order& order) { return order.job == job; });
+}
 
-std::optional<fs::path> ReportMaker::report_of(const fs::path& job,
+std::deque<ReportMaker::Order>::iterator ReportMaker::next_order() {
+  return std::find_if(orders_.begin(), orders_.end(),
+                      [](const Order& order) { return !order.is_begun; });
+}
+
+std::optional<fs::path> ReportMaker::report_of(const fs::path& job, const jobs::Share& share,
                                                std::chrono::milliseconds timeout) {
   const fs::path file = report_file(job);
   std::unique_lock lock(mutex_);
-  const auto is_waited_for = [&] {
-    return std::find(waiting_.begin(), waiting_.end(), job) != waiting_.end();
-  };
-  if (!is_waited_for() && failures_.count(job) == 0) {
+  const auto is_ordered = [&] { return order_of(job) != orders_.end(); };
+  if (!is_ordered() && failures_.count(job) == 0) {
     if (fs::exists(file)) return file;
-    waiting_.push_back(job);
+    if (orders_.size() >= options_.max_waiting) {
+      throw EnvironmentError(
+          fmt::format("{} reports wait to be made; try again later", orders_.size()));
+    }
+    orders_.push_back({job, share});
     changed_.notify_all();
   }
-  changed_.wait_for(lock, timeout, [&] { return !is_waited_for(); });
+  changed_.wait_for(lock, timeout, [&] { return !is_ordered(); });
   if (const auto failure = failures_.extract(job)) throw EnvironmentError(failure.mapped());
-  return !is_waited_for() && fs::exists(file) ? std::optional(file) : std::nullopt;
+  return !is_ordered() && fs::exists(file) ? std::optional(file) : std::nullopt;
 }
 
 void ReportMaker::forget(const fs::path& job) {
@@ -68,25 +64,30 @@ void ReportMaker::forget(const fs::path& job) {
 
 void ReportMaker::work(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
-    const fs::path job = waiting_.front();
+  while (changed_.wait(lock, stop, [this] { return next_order() != orders_.end(); })) {
+    const auto next = next_order();
+    next->is_begun = true;
+    const Order order = *next;
     lock.unlock();
-    const std::string failure = failure_of(job, stop);
+    const std::string failure = failure_of(order, stop);
     lock.lock();
-    waiting_.pop_front();
-    if (!failure.empty()) failures_[job] = failure;
+    orders_.erase(order_of(order.job));
+    if (!failure.empty()) failures_[order.job] = failure;
     changed_.notify_all();
   }
 }
 
-std::string ReportMaker::failure_of(const fs::path& job, const std::stop_token& stop) const {
+std::string ReportMaker::failure_of(const Order& order, const std::stop_token& stop) const {
   try {
-    reporter_(job, report_file(job), stop);
-    return "";
-  } catch (const Cancelled&) {
-    return "the service ends";
+    const std::array tasks = {kReport};
+    const jobs::TaskResult result =
+        executor_.run(jobs::JobFolder(order.job), tasks, {}, stop, order.share).at(0);
+    if (result.outcome == jobs::Outcome::succeeded) return "";
+    if (stop.stop_requested()) return "the service ends";
+    spdlog::error("report of job {}: {}", order.job.filename().string(), result.message);
+    return fmt::format("the report could not be made: {}", result.message);
   } catch (const std::exception& error) {
-    spdlog::error("report of job {}: {}", job.filename().string(), error.what());
+    spdlog::error("report of job {}: {}", order.job.filename().string(), error.what());
     return error.what();
   }
 }

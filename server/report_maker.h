@@ -5,7 +5,6 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -14,41 +13,51 @@
 #include <thread>
 #include <vector>
 
+#include "jobs/queue/executor.h"
+
 namespace throng::server {
 
-/// Writes the report of the job in a folder (jobs/queue/folder.h) to a file, which appears when it
-/// is complete. Throws EnvironmentError and, once a stop is requested, Cancelled.
-using Reporter = std::function<void(const std::filesystem::path& job,
-                                    const std::filesystem::path& file, const std::stop_token&)>;
+struct ReportMakerOptions {
+  int at_once = 2;               ///< a report that hangs does not hold back the next
+  std::size_t max_waiting = 32;  ///< not yet made; more are refused
+};
 
-/// In a child: `command` with the folder, "-o" and the file appended.
-Reporter reporter_in_child(std::vector<std::string> command);
-
-/// One report after the other, in a thread of its own: reading thousands of frames takes longer
-/// than a request may. Safe to use from many threads.
+/// Reports are tasks like those of jobs (jobs/queue/executor.h), made in threads of their own:
+/// reading thousands of frames takes longer than a request may. Safe to use from many threads.
 class ReportMaker {
  public:
-  explicit ReportMaker(Reporter reporter);
+  /// The executor must outlive it.
+  explicit ReportMaker(jobs::Executor& executor, ReportMakerOptions options = {});
 
   /// The report's file, which is kept in the job's folder; nothing when it is not there after
-  /// `patience`: then it is waited for or being made, ask again. Throws EnvironmentError when
-  /// making it has failed; asked again, it is tried again.
+  /// `timeout`: then it is waited for or being made, ask again. Throws EnvironmentError when
+  /// making it has failed (asked again, it is tried again), or when too many wait.
   std::optional<std::filesystem::path> report_of(const std::filesystem::path& job,
+                                                 const jobs::Share& share,
                                                  std::chrono::milliseconds timeout);
 
   /// Removes the report of a job whose results change.
   static void forget(const std::filesystem::path& job);
 
  private:
-  void work(const std::stop_token& stop);
-  std::string failure_of(const std::filesystem::path& job, const std::stop_token& stop) const;
+  struct Order {
+    std::filesystem::path job;
+    jobs::Share share;
+    bool is_begun = false;
+  };
 
-  Reporter reporter_;
+  void work(const std::stop_token& stop);
+  std::string failure_of(const Order& order, const std::stop_token& stop) const;
+  std::deque<Order>::iterator order_of(const std::filesystem::path& job);
+  std::deque<Order>::iterator next_order();
+
+  jobs::Executor& executor_;
+  ReportMakerOptions options_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::filesystem::path> waiting_;              ///< the first is being made
+  std::deque<Order> orders_;
   std::map<std::filesystem::path, std::string> failures_;  ///< not yet reported
-  std::jthread worker_;
+  std::vector<std::jthread> workers_;
 };
 
 }  // namespace throng::server

@@ -12,6 +12,7 @@ namespace throng::server {
 namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
+constexpr std::string_view kAcceptEncoding = "Accept-Encoding";
 
 // Thrown within this file only: reading stops at the first fault.
 struct Fault {
@@ -62,6 +63,24 @@ std::vector<std::string_view> elements_of(std::string_view list) {
     list.remove_prefix(std::min(comma + 1, list.size()));
   }
   return elements;
+}
+
+/// Whether a coding of Accept-Encoding has a quality of 0 (RFC 9110, 12.4.2): "0", "0.", "0.000".
+bool is_refused(std::string_view parameters) {
+  const auto mark = parameters.find("q=");
+  if (mark == std::string_view::npos) return false;
+  const std::string_view quality = trimmed(parameters.substr(mark + 2));
+  return quality.starts_with('0') && quality.find_first_not_of("0.") == std::string_view::npos;
+}
+
+bool names_gzip(std::string_view codings) {
+  const auto elements = elements_of(codings);
+  return std::any_of(elements.begin(), elements.end(), [](std::string_view element) {
+    const auto end = std::min(element.find(';'), element.size());
+    const std::string_view coding = trimmed(element.substr(0, end));
+    return (are_equal(coding, "gzip") || are_equal(coding, "x-gzip")) &&
+           !is_refused(element.substr(end));
+  });
 }
 
 std::optional<int> hex_digit(char c) {
@@ -325,10 +344,17 @@ HeadError check_head_start(std::string_view bytes) {
   }
 }
 
+bool RequestHead::accepts_gzip() const {
+  return std::any_of(fields.begin(), fields.end(), [](const HeaderField& field) {
+    return are_equal(field.name, kAcceptEncoding) && names_gzip(field.value);
+  });
+}
+
 std::string library_text_of(const RequestHead& head) {
   std::string text = head.method + " " + head.target;
   text += head.is_http_1_0 ? " HTTP/1.0\r\n" : " HTTP/1.1\r\n";
   for (const HeaderField& field : head.fields) {
+    if (are_equal(field.name, kAcceptEncoding)) continue;
     text += field.name;
     text += ": ";
     // The library decodes percent escapes in values, which nobody else does.
@@ -341,6 +367,8 @@ std::string library_text_of(const RequestHead& head) {
     }
     text += kLineEnd;
   }
+  // The library prefers brotli at its slowest level (a second for 300 kB), and ignores qualities.
+  if (head.accepts_gzip()) text += "Accept-Encoding: gzip\r\n";
   if (head.is_http_1_0 && head.keeps_connection) text += "Connection: Keep-Alive\r\n";
   // Without it the library reads a body until the connection ends.
   if (head.takes_body()) text += fmt::format("Content-Length: {}\r\n", head.content_length);

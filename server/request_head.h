@@ -34,6 +34,8 @@ struct RequestHead {
 
   /// Whether the method allows a body.
   bool takes_body() const;
+  /// Whether an answer may be compressed by gzip (Accept-Encoding).
+  bool accepts_gzip() const;
 };
 
 /// Why a request is refused. The connection has to be closed: where the next request begins is
@@ -53,7 +55,8 @@ std::variant<RequestHead, HeadError> parse_request_head(std::string_view bytes);
 /// Error in the first bytes of a head whose end has not arrived; status 0 when there is none.
 HeadError check_head_start(std::string_view bytes);
 
-/// The head in the form in which cpp-httplib 0.11 reads exactly the members' values.
+/// The head in the form in which cpp-httplib 0.11 reads exactly the members' values. Of
+/// Accept-Encoding only "gzip" is left, if it is accepted.
 std::string library_text_of(const RequestHead& head);
 
 }  // namespace throng::server

@@ -4,6 +4,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -14,7 +15,9 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "jobs/queue/file_fence.h"
 #include "jobs/queue/local_processes.h"
+#include "jobs/queue/machine_memory.h"
 #include "server/api.h"
 #include "server/json_log.h"
 #include "server/keys.h"
@@ -30,6 +33,10 @@ sigset_t ending_signals() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
+  // Under nohup a terminal that closes is no reason to end.
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);
   return signals;
 }
 
@@ -62,6 +69,18 @@ void set_up_log(bool as_json) {
   spdlog::set_default_logger(logger);
 }
 
+std::int64_t memory_for_workers_mib(const ServeOptions& options) {
+  constexpr std::int64_t kParts = 8;
+  return options.memory_mib > 0 ? options.memory_mib
+                                : jobs::total_memory_mib() * (kParts - 1) / kParts;
+}
+
+std::int64_t max_task_mib(const ServeOptions& options, std::int64_t memory_mib) {
+  if (options.worker_memory_mib == 0) return memory_mib;
+  if (memory_mib == 0) return options.worker_memory_mib;
+  return std::min<std::int64_t>(memory_mib, options.worker_memory_mib);
+}
+
 std::string url_of(const std::string& host, int port) {
   const bool is_ipv6 = host.find(':') != std::string::npos;
   return is_ipv6 ? fmt::format("http://[{}]:{}", host, port)
@@ -82,11 +101,17 @@ int serve(const ServeOptions& options) {
   const sigset_t signals = ending_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
+  // Children read nothing of it but scenarios and their own folder: keys and secrets lie there.
+  ::setenv(jobs::kPrivateFolderVariable, std::filesystem::absolute(options.data).c_str(), 1);
   // Workers look for scenarios there.
   ::setenv("THRONG_SCENARIOS", ScenarioStore::folder_in(options.data).c_str(), 1);
+  const std::int64_t memory_mib = memory_for_workers_mib(options);
   jobs::LocalProcesses executor({.workers = options.workers,
+                                 .memory_mib = memory_mib,
+                                 .waits_for_memory = true,
                                  .max_task_s = options.max_task_s,
-                                 .worker_memory_mib = options.worker_memory_mib});
+                                 .worker_memory_mib = options.worker_memory_mib,
+                                 .limits_by_need = true});
   const auto checks =
       std::make_shared<jobs::ForkServer>(std::vector<std::string>{"/proc/self/exe", "confined"});
   constexpr int kMibShift = 20;
@@ -96,13 +121,14 @@ int serve(const ServeOptions& options) {
       {.data = options.data,
        .scenarios = options.scenarios,
        .confined = jobs::confined_task_by(checks),
-       .calibrator = calibrator_in_child({"/proc/self/exe", "calibrate", "request"}),
-       .reporter = reporter_in_child({"/proc/self/exe", "report"}),
        .uploads = {.max_bytes = options.uploads_gib << kGibShift},
        .housekeeping = {.retention = {options.keep_days * kMsPerDay, options.keep_gib << kGibShift},
-                        .min_free_bytes = options.min_free_mib << kMibShift}},
+                        .min_free_bytes = options.min_free_mib << kMibShift},
+       .max_active_jobs = options.max_active_jobs,
+       .max_task_mib = max_task_mib(options, memory_mib)},
       executor);
-  WebhookSender hooks(service.queue(), options.data);
+  WebhookSender hooks(service.queue(), options.data,
+                      {.post = {.allow_private = options.webhook_private}});
   Api api(service, keys, hooks, {options.host, options.port});
   if (!options.port_file.empty()) {
     write_file_atomically(options.port_file, fmt::format("{}\n", api.port()));
@@ -112,6 +138,7 @@ int serve(const ServeOptions& options) {
   const SignalWatch watch([&] {
     spdlog::info("ending");
     checks->stop();  // requests that wait for one get their answer
+    hooks.stop();    // also a ping that a request waits for
     api.stop();
   });
   api.run();

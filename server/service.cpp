@@ -5,14 +5,15 @@ namespace throng::server {
 Service::Service(const ServiceOptions& options, jobs::Executor& executor)
     : folders_(options.data, options.scenarios),
       store_(options.data, options.clock),
-      confined_(options.confined, options.data),
+      confined_(options.confined, options.data, options.max_task_mib),
       state_(store_),
       uploads_(folders_, store_, confined_, options.uploads),
       calibrations_(folders_, store_, state_, confined_),
       queue_(folders_, store_, state_, uploads_, calibrations_, confined_),
       housekeeping_(folders_, store_, state_, uploads_, options.housekeeping),
-      reports_(options.reporter),
-      runner_(folders_, store_, state_, executor, options.calibrator,
-              [this] { return housekeeping_.look_at_disk(); }) {}
+      reports_(executor),
+      runner_(
+          folders_, store_, state_, executor, [this] { return housekeeping_.look_at_disk(); },
+          options.max_active_jobs) {}
 
 }  // namespace throng::server

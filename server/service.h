@@ -3,12 +3,10 @@
 
 #include <filesystem>
 
-#include "base/error.h"
 #include "jobs/queue/confined_task.h"
 #include "jobs/queue/executor.h"
 #include "jobs/queue/store.h"
 #include "server/calibrations.h"
-#include "server/calibrator.h"
 #include "server/confined_checks.h"
 #include "server/datasets.h"
 #include "server/housekeeping.h"
@@ -25,14 +23,10 @@ struct ServiceOptions {
   std::filesystem::path data;       ///< holds the store and a folder per job; one service at a time
   std::filesystem::path scenarios;  ///< those that come with throng
   jobs::ConfinedTask confined;      ///< checks of what users send
-  /// Default: there are no calibrations.
-  Calibrator calibrator = [](const auto&...) {
-    throw EnvironmentError("no calibrations are made here");
-  };
-  /// Default: there are no reports.
-  Reporter reporter = [](const auto&...) { throw EnvironmentError("no reports are made here"); };
   UploadLimits uploads = {};
   HousekeepingOptions housekeeping = {};
+  int max_active_jobs = 16;       ///< worked on at once (server/job_runner.h)
+  std::int64_t max_task_mib = 0;  ///< memory for a task (server/confined_checks.h); 0: any
   jobs::Store::Clock clock = {};  ///< default: the system's
 };
 

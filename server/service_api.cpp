@@ -46,6 +46,7 @@ void send_health(const Call&, const Request&, Response& response) {
 
 void send_readiness(const Call& call, const Request&, Response& response) {
   static_cast<void>(call.queue.count());  // throws when the store cannot be read
+  call.queue.check_store();
   if (const std::string reason = call.queue.paused(); !reason.empty()) {
     throw HttpError{503, fmt::format("the queue is paused: {}", reason)};
   }

@@ -9,7 +9,6 @@
 
 #include "base/version.h"
 #include "server/answers.h"
-#include "server/http.h"
 
 namespace throng::server {
 
@@ -21,50 +20,6 @@ std::int64_t unix_ms() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(
              std::chrono::system_clock::now().time_since_epoch())
       .count();
-}
-
-/// "http://host:port" and what follows, at least "/".
-std::pair<std::string, std::string> split(const std::string& url) {
-  const std::size_t host = url.find("://") + 3;
-  const std::size_t path = url.find('/', host);
-  if (path == std::string::npos) return {url, "/"};
-  return {url.substr(0, path), url.substr(path)};
-}
-
-Delivery post(const Webhook& webhook, std::int64_t event, const std::string& type, int attempt,
-              const std::string& body) {
-  Delivery delivery{event, type, unix_ms(), attempt, 0, "", 0};
-  const auto begun = std::chrono::steady_clock::now();
-  const auto [server, path] = split(webhook.url);
-  httplib::Client client(server);
-  client.set_connection_timeout(5s);
-  client.set_read_timeout(10s);
-  client.set_write_timeout(10s);
-  constexpr std::int64_t kMsPerS = 1000;
-  const httplib::Headers headers = {
-      {"User-Agent", std::string(kGenerator)},
-      {"Content-Type", "application/json"},
-      {"Throng-Event", type},
-      {"Throng-Delivery", fmt::format("{}-{}", webhook.id, event)},
-      {"Throng-Signature", signature_of(webhook.secret, delivery.at_ms / kMsPerS, body)}};
-  httplib::Request request;
-  request.method = "POST";
-  request.path = path;
-  request.headers = headers;
-  request.body = body;
-  // Of the answer only the status counts: a receiver may send any amount of anything.
-  request.response_handler = [&](const httplib::Response& response) {
-    delivery.status = response.status;
-    return false;
-  };
-  const auto result = client.send(request);
-  // The library does not call the handler for answers without a body (204).
-  if (delivery.status == 0 && result) delivery.status = result->status;
-  if (delivery.status == 0) delivery.error = httplib::to_string(result.error());
-  delivery.took_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
-                         std::chrono::steady_clock::now() - begun)
-                         .count();
-  return delivery;
 }
 
 bool is_wanted(const Webhook& webhook, const std::string& type) {
@@ -86,9 +41,33 @@ WebhookSender::WebhookSender(const JobQueue& queue, const std::filesystem::path&
   refresh();
 }
 
-WebhookSender::~WebhookSender() {
+WebhookSender::~WebhookSender() { stop(); }
+
+void WebhookSender::stop() {
+  ending_.request_stop();
   const std::lock_guard lock(mutex_);
   for (auto& [id, thread] : threads_) thread.request_stop();
+}
+
+Delivery WebhookSender::post(const Webhook& webhook, std::int64_t event, const std::string& type,
+                             int attempt, const std::string& body,
+                             const std::stop_token& stop) const {
+  Delivery delivery{event, type, unix_ms(), attempt, 0, "", 0};
+  const auto begun = std::chrono::steady_clock::now();
+  constexpr std::int64_t kMsPerS = 1000;
+  const PostHeaders headers = {
+      {"User-Agent", std::string(kGenerator)},
+      {"Content-Type", "application/json"},
+      {"Throng-Event", type},
+      {"Throng-Delivery", fmt::format("{}-{}", webhook.id, event)},
+      {"Throng-Signature", signature_of(webhook.secret, delivery.at_ms / kMsPerS, body)}};
+  PostResult result = bounded_post(webhook.url, headers, body, options_.post, stop);
+  delivery.status = result.status;
+  delivery.error = std::move(result.error);
+  delivery.took_ms = std::chrono::duration_cast<std::chrono::milliseconds>(
+                         std::chrono::steady_clock::now() - begun)
+                         .count();
+  return delivery;
 }
 
 void WebhookSender::refresh() {
@@ -119,7 +98,7 @@ void WebhookSender::refresh() {
 std::optional<Delivery> WebhookSender::ping(const std::string& id) {
   const auto webhook = webhooks_.get(id);
   if (!webhook) return std::nullopt;
-  Delivery delivery = post(*webhook, 0, "ping", 1, R"({"type": "ping"})");
+  Delivery delivery = post(*webhook, 0, "ping", 1, R"({"type": "ping"})", ending_.get_token());
   // The result of a ping does not affect the waiting events.
   webhooks_.settle(*webhook, delivery);
   return delivery;
@@ -162,7 +141,9 @@ bool WebhookSender::deliver_next(Webhook& webhook, const std::stop_token& stop) 
       continue;
     }
     const Delivery delivery =
-        post(webhook, event.seq, event.type, webhook.failures + 1, body_of(event));
+        post(webhook, event.seq, event.type, webhook.failures + 1, body_of(event), stop);
+    // Broken off because the service ends: it did not fail.
+    if (delivery.status == 0 && stop.stop_requested()) return true;
     if (delivery.succeeded()) {
       webhook.after = event.seq;
       webhook.failures = 0;

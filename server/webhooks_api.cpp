@@ -67,9 +67,11 @@ bool is_url(const std::string& url) {
     if (!url.starts_with(scheme) || url.size() > kMaxUrlLength) continue;
     const std::string rest = url.substr(scheme.size());
     return !rest.empty() && rest[0] != '/' && rest[0] != ':' &&
-           std::none_of(rest.begin(), rest.end(), [](unsigned char c) {
-             return c <= ' ' || c >= 127 || c == '@' || c == '\\' || c == '#';
-           });
+           std::none_of(rest.begin(), rest.end(),
+                        [](unsigned char c) {
+                          return c <= ' ' || c >= 127 || c == '@' || c == '\\' || c == '#';
+                        }) &&
+           is_callable_url(url);
   }
   return false;
 }
@@ -112,6 +114,10 @@ void create_webhook(const Call& call, const Request& request, Response& response
   const std::string url = text_at(body, "url", "");
   if (!is_url(url)) {
     throw invalid_field("/url", '"' + url + '"', "an address such as https://example.org/hook");
+  }
+  if (!call.hooks.allows_private() && names_private_address(url)) {
+    throw invalid_field("/url", '"' + url + '"',
+                        "a public address (throng serve --webhook-private allows others)");
   }
   const std::string secret = text_at(body, "secret", "");
   if (secret.size() > kMaxSecretLength) {

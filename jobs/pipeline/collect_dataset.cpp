@@ -60,10 +60,24 @@ class Collector {
   }
 
  private:
+  // The record of a task's output. If that is damaged it is removed, so that the task is done
+  // again.
+  static json checked_record(const fs::path& output) {
+    try {
+      json record = read_record(output);
+      check_published(output, record);
+      return record;
+    } catch (const DamagedOutput&) {
+      std::error_code error;
+      fs::remove_all(output, error);
+      throw;
+    }
+  }
+
   // Takes over the files of a task's output and returns its record.
   json take(const Task& task) {
     const fs::path output = folder_.output_of(task);
-    json record = read_record(output);
+    json record = checked_record(output);
     for (const auto& file : record.at("files").get<std::vector<FileEntry>>()) {
       link_or_copy(published_file(output, file.path), staging_.path() / file.path);
       files_.push_back(file);

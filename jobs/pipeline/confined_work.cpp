@@ -53,8 +53,9 @@ json draw_job(const json& request) {
 }
 
 json check_calibration(const json& request) {
-  static_cast<void>(calibrate::request_from_json(request.at("request"), text_at(request, "files")));
-  return json::object();
+  const calibrate::Request checked =
+      calibrate::request_from_json(request.at("request"), text_at(request, "files"));
+  return {{"max_image_pixels", calibrate::max_image_pixels(checked)}};
 }
 
 using Work = std::pair<const char*, json (*)(const json&)>;

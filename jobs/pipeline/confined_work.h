@@ -11,7 +11,8 @@ namespace throng::jobs {
 ///   job            resolves the text "job" with the scenarios in "scenarios": {"job": ...}
 ///   scenario_plan  draws the floor plan of the scenario "id" in "scenarios": {"svg": ...}
 ///   job_plan       likewise of the resolved job "job", with the paths of its drones: {"svg": ...}
-///   calibration    checks the calibration "request", whose files lie in "files": {}
+///   calibration    checks the calibration "request", whose files lie in "files":
+///                  {"max_image_pixels": ...}
 ///   catalog        names that jobs may use (jobs/pipeline/catalog.h)
 ///   people         the character library, or null
 /// Throws InputError and EnvironmentError.

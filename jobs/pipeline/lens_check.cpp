@@ -3,11 +3,42 @@
 #include <fmt/core.h>
 
 #include "render/lens/lens.h"
+#include "render/renderer.h"
 
 namespace throng::jobs {
 
-void check_lens(const camera::CameraSpec& run_camera, const std::string& pointer,
-                std::vector<Problem>& problems) {
+namespace {
+
+/// Larger images are not rendered. Only those beyond the software renderer's limit ask the device.
+int max_rendered_px(int wanted_px) {
+  constexpr int kSoftwarePx = 14336;
+  if (wanted_px <= kSoftwarePx) return kSoftwarePx;
+  try {
+    static const int kDevicePx = render::max_image_px();
+    return kDevicePx;
+  } catch (const EnvironmentError&) {  // there is no device: workers will say so
+    return kSoftwarePx;
+  }
+}
+
+void check_rendered_size(const Eigen::Vector2i& size, render::Quality quality,
+                         const std::string& pointer, std::vector<Problem>& problems) {
+  const render::QualitySettings& settings = render::settings_of(quality);
+  const Eigen::Vector2i rendered = size * settings.supersampling;
+  const int limit = max_rendered_px(rendered.maxCoeff());
+  if (rendered.maxCoeff() <= limit) return;
+  problems.push_back(
+      {"", pointer,
+       fmt::format("a camera whose images are rendered at {} x {} pixels in quality {}",
+                   rendered.x(), rendered.y(), settings.word),
+       fmt::format("at most {0} x {0} on this machine: a smaller image or a lower quality",
+                   limit)});
+}
+
+}  // namespace
+
+void check_lens(const camera::CameraSpec& run_camera, render::Quality quality,
+                const std::string& pointer, std::vector<Problem>& problems) {
   constexpr int kMaxImagePx = 12000;  // px; what software GL draws with room around it
   const std::string at = pointer + "/distortion";
   const std::optional<camera::Intrinsics> k = run_camera.intrinsics();
@@ -27,6 +58,8 @@ void check_lens(const camera::CameraSpec& run_camera, const std::string& pointer
         {"", at,
          fmt::format("a lens that a flat image of {} x {} pixels covers", size.x(), size.y()),
          fmt::format("one of at most {0} x {0}", kMaxImagePx)});
+  } else {
+    check_rendered_size(size, quality, pointer, problems);
   }
 }
 

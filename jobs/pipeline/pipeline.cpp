@@ -117,6 +117,9 @@ void do_task(const JobFolder& folder, const ResolvedJob& resolved, const fs::pat
                           on_progress, stop);
     case Task::Kind::collect:
       return collect_dataset(folder, job);
+    case Task::Kind::calibrate:
+    case Task::Kind::report:
+      check(false, "the program has tasks of its own for calibrations and reports");
   }
 }
 

@@ -66,17 +66,21 @@ void check_cameras(const JobSpec& job, std::vector<Problem>& problems) {
     const CameraSpec& camera = job.drones[i].camera;
     const std::string pointer = camera_pointer(i);
     const std::size_t before = problems.size();
+    const bool is_alike = camera.sampled.empty() && job.randomize.empty();
     for (const RunPlan& run : plan_runs(job)) {
-      check_lens(camera_of_run(camera, run.seed, pointer), pointer, problems);
-      if (camera.sampled.empty() || problems.size() > before) break;
+      const render::Quality quality =
+          job.randomize.empty() ? job.quality : job_of_run(job, run.index).quality;
+      check_lens(camera_of_run(camera, run.seed, pointer), quality, pointer, problems);
+      if (is_alike || problems.size() > before) break;
     }
   }
 }
 
 // Gives the job what the scenario knows: its model, and its drones to a job without any.
-void take_from_scenario(JobSpec& job, const world::Scenario& scenario) {
+void take_from_scenario(JobSpec& job, const world::Scenario& scenario,
+                        DefaultDrones default_drones) {
   job.crowd.model = sim::model_for(scenario, job.crowd);
-  if (job.drones.empty()) {
+  if (job.drones.empty() && default_drones == DefaultDrones::of_scenario) {
     for (const world::DroneStart& known : scenario.drones) {
       job.drones.emplace_back().mission.id = known.id;
     }
@@ -117,13 +121,15 @@ void check_recording(const JobSpec& job, std::vector<Problem>& problems) {
   }
 }
 
+void check_has_drones(const JobSpec& job, std::vector<Problem>& problems) {
+  if (!job.drones.empty()) return;
+  problems.push_back(
+      {"", "/drones", "nothing", "at least one drone, since the scenario has none of its own"});
+}
+
 // Checks that need the simulation: whether the drones can fly and whether there are people enough.
 void check_with_simulation(const JobSpec& job, const world::Scenario& scenario,
                            std::vector<Problem>& problems) {
-  if (job.drones.empty()) {
-    problems.push_back(
-        {"", "/drones", "nothing", "at least one drone, since the scenario has none of its own"});
-  }
   std::vector<sim::DroneMission> missions;
   for (const DroneSpec& drone : job.drones) missions.push_back(drone.mission);
   sim::plan_drones(scenario, missions, job.capture.to_s, problems);
@@ -172,10 +178,11 @@ void check_runs(const JobSpec& job, const world::Scenario& scenario,
 }
 
 ResolvedJob resolved(JobSpec job, const world::Scenario& scenario, const std::string& source,
-                     std::vector<Problem> problems) {
+                     std::vector<Problem> problems, DefaultDrones default_drones) {
   read_files(job, problems);
   check_formats(job.outputs, problems);
-  take_from_scenario(job, scenario);
+  take_from_scenario(job, scenario, default_drones);
+  if (default_drones == DefaultDrones::of_scenario) check_has_drones(job, problems);
   check_image_count(job, problems);
   if (problems.empty()) check_cameras(job, problems);
   if (problems.empty() && !job.randomize.empty()) {
@@ -193,15 +200,15 @@ ResolvedJob resolved(JobSpec job, const world::Scenario& scenario, const std::st
 }  // namespace
 
 ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source) {
-  return resolved(std::move(job), scenario, source, {});
+  return resolved(std::move(job), scenario, source, {}, DefaultDrones::of_scenario);
 }
 
 ResolvedJob resolve_job(std::string_view text, const std::string& source,
-                        const std::filesystem::path& scenarios) {
+                        const std::filesystem::path& scenarios, DefaultDrones default_drones) {
   std::vector<Problem> problems;
   JobSpec job = parse_job(text, source, problems);
   const world::Scenario scenario = scenario_of(job, scenarios, source);
-  return resolved(std::move(job), scenario, source, std::move(problems));
+  return resolved(std::move(job), scenario, source, std::move(problems), default_drones);
 }
 
 }  // namespace throng::jobs

@@ -15,9 +15,14 @@ namespace throng::jobs {
 /// part. Throws InputError with all problems (JSON pointers into `source`, the job's file or "").
 ResolvedJob resolve(JobSpec job, const world::Scenario& scenario, const std::string& source);
 
+/// Drones of a job that names none: the scenario's, of which there must be one, or none at all, for
+/// simulations that are not rendered.
+enum class DefaultDrones { of_scenario, none };
+
 /// Parses a job's text, loads its scenario from the folder `scenarios` and resolves it. Problems of
 /// the text that the schema does not show are reported together with those of the scenario.
 ResolvedJob resolve_job(std::string_view json, const std::string& source,
-                        const std::filesystem::path& scenarios);
+                        const std::filesystem::path& scenarios,
+                        DefaultDrones default_drones = DefaultDrones::of_scenario);
 
 }  // namespace throng::jobs

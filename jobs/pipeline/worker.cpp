@@ -21,6 +21,7 @@
 #include "base/redact.h"
 #include "jobs/pipeline/pipeline.h"
 #include "jobs/queue/faults.h"
+#include "jobs/queue/file_fence.h"
 #include "jobs/queue/worker_side.h"
 #include "render/allocator.h"
 #include "world/scenario.h"
@@ -118,6 +119,19 @@ int attempt_of_this_process() {
   return text == nullptr ? 1 : std::max(1, std::atoi(text));
 }
 
+/// Confines this process to the files of its job. Compiled shaders are kept between tasks: without
+/// them each would begin with seconds of compiling.
+std::string fence_worker(const std::filesystem::path& job_folder, const std::string& task_name) {
+  FileFence fence = fence_of_folder(job_folder);
+  const bool renders = task_name.find("/shard") != std::string::npos;
+  if (const auto cache = shader_cache_folder(); renders && !cache.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(cache, error);
+    fence.writable.push_back(cache);
+  }
+  return fence_this_process(fence);
+}
+
 void log_usage(const std::string& task, std::chrono::steady_clock::time_point begun) {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
@@ -129,12 +143,14 @@ void log_usage(const std::string& task, std::chrono::steady_clock::time_point be
 
 }  // namespace
 
-int run_worker(const std::filesystem::path& job_folder, const std::string& task_name) {
+int run_worker(const std::filesystem::path& job_folder, const std::string& task_name,
+               const OtherTasks& others) {
   die_with_supervisor();
   log_to_stderr();
   const std::filesystem::path scenarios = world::scenarios_folder();
-  const std::string unlimited = limit_this_process();
-  if (!unlimited.empty()) spdlog::warn("the kernel lets nobody limit {}", unlimited);
+  for (const std::string& unlimited : {limit_this_process(), fence_worker(job_folder, task_name)}) {
+    if (!unlimited.empty()) spdlog::warn("the kernel lets nobody limit {}", unlimited);
+  }
   render::tune_allocator();
   Reporter reporter({job_folder, scenarios});
   const auto lacks_memory = [&] {
@@ -148,9 +164,13 @@ int run_worker(const std::filesystem::path& job_folder, const std::string& task_
     spdlog::info("{} begun, attempt {}", task_name, attempt);
     provoke_faults(task_name, attempt);
     const JobFolder folder(job_folder);
-    const ResolvedJob job = folder.read_job();
-    do_task(folder, job, scenarios, task_named(job.spec(), task_name),
-            [&](const TaskProgress& progress) { reporter.report(progress); });
+    const auto on_progress = [&](const TaskProgress& progress) { reporter.report(progress); };
+    if (const auto other = others.find(task_name); other != others.end()) {
+      other->second(folder, on_progress);
+    } else {
+      const ResolvedJob job = folder.read_job();
+      do_task(folder, job, scenarios, task_named(job.spec(), task_name), on_progress);
+    }
     log_usage(task_name, begun);
     return worker_succeeded;
   } catch (const InputError& error) {
@@ -161,7 +181,9 @@ int run_worker(const std::filesystem::path& job_folder, const std::string& task_
     // A thread that finds no room for its stack.
     const bool is_lack = error.code() == std::errc::resource_unavailable_try_again ||
                          error.code() == std::errc::not_enough_memory;
-    if (is_lack && std::getenv(kMemoryVariable) != nullptr) return lacks_memory();
+    const bool is_limited =
+        std::getenv(kMemoryVariable) != nullptr || std::getenv(kDataVariable) != nullptr;
+    if (is_lack && is_limited) return lacks_memory();
     return reporter.fail(worker_environment_error, "environment", error.what());
   } catch (const std::bad_alloc&) {
     return lacks_memory();

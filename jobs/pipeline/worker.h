@@ -3,15 +3,26 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 
+#include "jobs/pipeline/pipeline.h"
+
 namespace throng::jobs {
+
+/// Tasks that belong to no job's plan, by name (name_of(Task)): they publish their output in the
+/// folder. Throw InputError and EnvironmentError.
+using OtherTasks =
+    std::map<std::string,
+             std::function<void(const JobFolder& folder, const OnTaskProgress& on_progress)>>;
 
 /// Runs the task in the job's folder and returns the process's exit code. Writes
 ///   {"done":3,"total":30}
 /// lines as it goes on, {} lines as signs of life in between and, when it fails,
 ///   {"error":{"kind":"input"|"environment"|"bug","message":...,"problems":[{"source","where","found","expected"}]}}
 /// Dies with the process that started it, and is limited as jobs/queue/worker_limits.h says.
-int run_worker(const std::filesystem::path& job_folder, const std::string& task_name);
+int run_worker(const std::filesystem::path& job_folder, const std::string& task_name,
+               const OtherTasks& others = {});
 
 }  // namespace throng::jobs

@@ -32,6 +32,8 @@ class Archive {
       : Archive(dataset, read_manifest(dataset), root, format, selection) {}
 
   std::int64_t size() const { return size_; }
+  /// Whether it holds nothing but the manifest.
+  bool is_empty() const { return files_.size() < 2; }
 
   /// Fills `buffer` with the bytes from `offset` on; returns how many: less than asked for only at
   /// the end. Throws EnvironmentError when a file is gone or no longer has its size.

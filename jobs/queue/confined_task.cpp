@@ -7,13 +7,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
-#include <semaphore>
 #include <thread>
 
 #include "base/error.h"
@@ -21,6 +22,8 @@
 #include "base/json_text.h"
 #include "base/problem_json.h"
 #include "jobs/queue/child_process.h"
+#include "jobs/queue/file_fence.h"
+#include "jobs/queue/machine_memory.h"
 #include "jobs/queue/worker_limits.h"
 
 namespace throng::jobs {
@@ -45,22 +48,65 @@ constexpr bool kMayLimitMemory = false;  // sanitizers reserve terabytes of addr
 constexpr bool kMayLimitMemory = true;
 #endif
 
-using Places = std::counting_semaphore<kMaxAtOnce>;
+/// Memory that a child may use: a quarter of the machine's, but 1 to 4 GiB.
+std::int64_t max_memory_mib() {
+  constexpr std::int64_t kMinMib = 1024;
+  constexpr std::int64_t kMaxMib = 4096;
+  const std::int64_t total_mib = total_memory_mib();
+  return total_mib == 0 ? kMaxMib : std::clamp(total_mib / 4, kMinMib, kMaxMib);
+}
 
-/// One of the children that may run at once.
-class Place {
+/// Children that may run at once: so many that each finds its memory, though all take it at once.
+class Slots {
  public:
-  explicit Place(Places& places) : places_(places) {
-    if (!places_.try_acquire_for(kMaxWait)) {
-      throw EnvironmentError("too many checks are under way; try again later");
+  explicit Slots(int max) : max_(max) {}
+
+  void acquire() {
+    std::unique_lock lock(mutex_);
+    const auto end = std::chrono::steady_clock::now() + kMaxWait;
+    while (!has_room()) {
+      if (std::chrono::steady_clock::now() > end) {
+        throw EnvironmentError("too many checks are under way; try again later");
+      }
+      changed_.wait_for(lock, kMemoryInterval);
     }
+    ++running_;
   }
-  ~Place() { places_.release(); }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
+
+  void release() {
+    {
+      const std::lock_guard lock(mutex_);
+      --running_;
+    }
+    changed_.notify_all();
+  }
 
  private:
-  Places& places_;
+  // Memory becomes free without a notice.
+  static constexpr auto kMemoryInterval = std::chrono::milliseconds(100);
+
+  bool has_room() const {
+    if (running_ == 0) return true;
+    if (running_ >= max_) return false;
+    return total_memory_mib() == 0 || available_memory_mib() >= (running_ + 1) * max_memory_mib();
+  }
+
+  int max_;
+  int running_ = 0;  ///< guarded by mutex_
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
+
+/// One of the children that may run at once.
+class Slot {
+ public:
+  explicit Slot(Slots& slots) : slots_(slots) { slots_.acquire(); }
+  ~Slot() { slots_.release(); }
+  Slot(const Slot&) = delete;
+  Slot& operator=(const Slot&) = delete;
+
+ private:
+  Slots& slots_;
 };
 
 void limit(decltype(RLIMIT_AS) what, rlim_t max) {
@@ -69,15 +115,27 @@ void limit(decltype(RLIMIT_AS) what, rlim_t max) {
 }
 
 void confine_this_process() {
-  constexpr rlim_t kMaxMemory = 4ULL << 30U;
+  constexpr rlim_t kMib = 1 << 20;
   constexpr rlim_t kMaxCpuSeconds = 110;
   constexpr rlim_t kMaxFileBytes = 64ULL << 20U;
   constexpr rlim_t kMaxFiles = 256;
-  if (kMayLimitMemory) limit(RLIMIT_AS, kMaxMemory);
+  if (kMayLimitMemory) limit(RLIMIT_AS, static_cast<rlim_t>(max_memory_mib()) * kMib);
   limit(RLIMIT_CPU, kMaxCpuSeconds);
   limit(RLIMIT_FSIZE, kMaxFileBytes);
   limit(RLIMIT_NOFILE, kMaxFiles);
   static_cast<void>(limit_this_process());  // no network, no core dumps
+}
+
+/// A request may name folders that are read besides the work folder; the service writes them.
+void fence_this_task(const fs::path& work, const json& request) {
+  FileFence fence = fence_of_folder(work);
+  for (const char* name : {"folder", "files", "scenarios"}) {
+    const auto found = request.find(name);
+    if (found != request.end() && found->is_string()) {
+      fence.readable.emplace_back(found->get<std::string>());
+    }
+  }
+  static_cast<void>(fence_this_process(fence));
 }
 
 /// The status of a child; SIGALRM when it took too long and was killed.
@@ -105,7 +163,7 @@ json answer_of(const ExitStatus& status, const json& request, const fs::path& wo
     throw InputError(Problem{
         "", "",
         fmt::format("{} at which the reader was ended by signal {}", subject, status.signal),
-        "ones that load within 4 GiB of memory and two minutes"});
+        fmt::format("ones that load within {} MiB of memory and two minutes", max_memory_mib())});
   }
   const auto answer = [&] { return parse_own_json(read_file(work / kAnswerName), kAnswerName); };
   if (status.code == 0) return answer();
@@ -116,9 +174,9 @@ json answer_of(const ExitStatus& status, const json& request, const fs::path& wo
 /// `run` has a child do the work in a folder.
 ConfinedTask task_by(std::function<ExitStatus(const fs::path& work)> run) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  const auto places = std::make_shared<Places>(std::clamp(cores, kMinAtOnce, kMaxAtOnce));
-  return [run = std::move(run), places](const json& request, const fs::path& work) {
-    const Place place(*places);
+  const auto slots = std::make_shared<Slots>(std::clamp(cores, kMinAtOnce, kMaxAtOnce));
+  return [run = std::move(run), slots](const json& request, const fs::path& work) {
+    const Slot slot(*slots);
     // The request may hold any bytes that a client sent.
     write_file_atomically(work / kRequestName,
                           request.dump(-1, ' ', false, json::error_handler_t::replace));
@@ -150,7 +208,9 @@ int run_confined_task(const fs::path& work, const std::function<json(const json&
                           value.dump(-1, ' ', false, json::error_handler_t::replace));
   };
   try {
-    write(perform(parse_own_json(read_file(work / kRequestName), kRequestName)));
+    const json request = parse_own_json(read_file(work / kRequestName), kRequestName);
+    fence_this_task(work, request);
+    write(perform(request));
     return 0;
   } catch (const InputError& error) {
     write(error.problems());

@@ -7,6 +7,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -37,6 +38,19 @@ struct TaskResult {
 struct TaskProgress {
   double done = 0;
   double total = 0;
+  std::string what = {};  ///< what is being done, where the task says so
+};
+
+/// Whose tasks they are, and what they need: decides who is next where several jobs have tasks
+/// (jobs/queue/admission.h).
+struct Share {
+  std::string owner = {};                            ///< id of a key; "" for nobody in particular
+  std::string job = {};                              ///< id; older jobs have smaller ones
+  std::function<int()> priority = [] { return 0; };  ///< asked again for each task
+  std::function<std::int64_t(const Task&)> memory_mib = [](const Task&) { return 0; };
+  std::size_t later_tasks = 0;  ///< that follow once these are done
+  /// Gets the reason why no task of the job runs although it could, and "" once one does.
+  std::function<void(const std::string& reason)> on_wait = [](const std::string&) {};
 };
 
 class Executor {
@@ -52,9 +66,16 @@ class Executor {
   /// more; results are in the order of the tasks. Failures of the machine are retried. Once a task
   /// has failed for good, the others of its run are ended or not begun: they count as cancelled.
   /// So do all others once `stop` asks, or the job itself turns out to be wrong (an input error).
-  /// Calls `on_progress` from the calling thread.
+  /// Calls `on_progress` from the calling thread. Safe to use from many threads, each with another
+  /// folder or other tasks.
   virtual std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
-                                      const OnProgress& on_progress, std::stop_token stop) = 0;
+                                      const OnProgress& on_progress, std::stop_token stop,
+                                      const Share& share) = 0;
+  /// Likewise, of nobody in particular.
+  std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
+                              const OnProgress& on_progress, std::stop_token stop) {
+    return run(folder, tasks, on_progress, std::move(stop), Share{});
+  }
 };
 
 }  // namespace throng::jobs

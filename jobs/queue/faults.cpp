@@ -20,13 +20,14 @@ namespace {
 using KindName = std::pair<std::string_view, Fault::Kind>;
 constexpr std::array kKinds = {
     KindName{"die", Fault::Kind::die}, KindName{"fail", Fault::Kind::fail},
-    KindName{"hang", Fault::Kind::hang}, KindName{"slow", Fault::Kind::slow}};
+    KindName{"grow", Fault::Kind::grow}, KindName{"hang", Fault::Kind::hang},
+    KindName{"slow", Fault::Kind::slow}};
 
 Fault parse_fault(std::string_view text) {
   const auto malformed = [&] {
     return InputError(
         Problem{"", kFaultsVariable, fmt::format("\"{}\"", text),
-                "die, fail, hang or slow, a colon, a task's name or *, and optionally a "
+                "die, fail, grow, hang or slow, a colon, a task's name or *, and optionally a "
                 "colon and a number, as in die:run000/shard0001:2"});
   };
   const std::size_t first = text.find(':');
@@ -54,6 +55,16 @@ Fault parse_fault(std::string_view text) {
   return fault;
 }
 
+/// Takes memory until the limit of the worker refuses it (std::bad_alloc).
+void take_all_memory() {
+  constexpr int kMaxBlocks = 256;
+  constexpr std::size_t kBlockBytes = std::size_t{16} << 20U;
+  std::vector<std::vector<char>> blocks;
+  blocks.reserve(kMaxBlocks);
+  for (int i = 0; i < kMaxBlocks; ++i) blocks.emplace_back(kBlockBytes, '\1');
+  throw EnvironmentError(fmt::format("took 4 GiB of memory on purpose ({})", kFaultsVariable));
+}
+
 void provoke(const Fault& fault, int attempt) {
   if (fault.kind == Fault::Kind::slow) {
     std::this_thread::sleep_for(std::chrono::duration<double>(fault.amount.value_or(1)));
@@ -66,6 +77,9 @@ void provoke(const Fault& fault, int attempt) {
       break;
     case Fault::Kind::fail:
       throw EnvironmentError(fmt::format("fails on purpose ({})", kFaultsVariable));
+    case Fault::Kind::grow:
+      take_all_memory();
+      break;
     case Fault::Kind::hang:
       std::raise(SIGSTOP);  // all threads, also the one that gives signs of life
       break;

@@ -4,11 +4,12 @@
 //
 //   die    the process is killed on the spot (SIGKILL)
 //   fail   the task fails as if the machine had failed
+//   grow   the process takes memory until its limit stops it
 //   hang   the process stands still: its supervisor has to notice
 //   slow   the task waits AMOUNT seconds before it begins
 //
-// PLACE is a task's name, or * for any. For die, fail and hang AMOUNT is at how many attempts it
-// happens (default: at each). The server's own places are server/EVENT/before and
+// PLACE is a task's name, or * for any. For die, fail, grow and hang AMOUNT is at how many attempts
+// it happens (default: at each). The server's own places are server/EVENT/before and
 // server/EVENT/after: around the moment at which a job's change of state is written, with EVENT a
 // name_of(JobEvent).
 #pragma once
@@ -23,7 +24,7 @@ namespace throng::jobs {
 inline constexpr const char* kFaultsVariable = "THRONG_FAULTS";
 
 struct Fault {
-  enum class Kind { die, fail, hang, slow };
+  enum class Kind { die, fail, grow, hang, slow };
   Kind kind = Kind::die;
   std::string place;
   std::optional<double> amount;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "calibrate/spec/request_files.h"
 #include "jobs/queue/publication.h"
 #include "jobs/spec/spec.h"
 
@@ -69,6 +70,8 @@ ResolvedJob JobFolder::read_job() const {
 
 fs::path JobFolder::output_of(const Task& task) const {
   if (task.kind == Task::Kind::collect) return dataset();
+  if (task.kind == Task::Kind::calibrate) return path_ / calibrate::kCameraName;
+  if (task.kind == Task::Kind::report) return path_ / "report.html";
   const fs::path output = path_ / "work" / name_of(task);
   return task.kind == Task::Kind::simulate ? fs::path(output).replace_extension(".h5") : output;
 }

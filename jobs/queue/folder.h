@@ -37,7 +37,7 @@ class JobFolder {
   void remove_leftovers() const;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Output of the task: a file for a simulation, else a folder.
+  /// Output of the task: a file for a simulation, a calibration and a report, else a folder.
   std::filesystem::path output_of(const Task& task) const;
   std::filesystem::path log_of(const Task& task) const;
   std::filesystem::path job_file() const { return path_ / "job.json"; }

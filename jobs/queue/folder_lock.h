@@ -2,18 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace throng::jobs {
 
 class FolderLock {
  public:
-  /// Throws EnvironmentError when another process holds it, or the file cannot be made.
-  explicit FolderLock(const std::filesystem::path& folder);
+  /// Locks the file of this name in the folder; `what` names the folder in messages. Throws
+  /// EnvironmentError when another process holds it, or the file cannot be made.
+  FolderLock(const std::filesystem::path& folder, const char* name, const std::string& what);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
+  /// Whether others still find the locked file: somebody may have removed it.
+  bool is_in_place() const;
+
  private:
+  std::filesystem::path file_;
   int descriptor_;
 };
 

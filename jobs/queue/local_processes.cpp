@@ -15,6 +15,7 @@
 
 #include "base/resources.h"
 #include "jobs/queue/child_process.h"
+#include "jobs/queue/machine_memory.h"
 #include "jobs/queue/worker_end.h"
 #include "jobs/queue/worker_limits.h"
 #include "jobs/queue/worker_messages.h"
@@ -32,14 +33,17 @@ constexpr int kPollMs = 50;
 // The tasks of one call of run(), from the first worker's start to the last one's end.
 class Batch {
  public:
-  Batch(const LocalProcessesOptions& options, const JobFolder& folder, std::span<const Task> tasks,
-        const Executor::OnProgress& on_progress, std::stop_token stop)
+  Batch(const LocalProcessesOptions& options, Admission& admission, const JobFolder& folder,
+        std::span<const Task> tasks, const Executor::OnProgress& on_progress, std::stop_token stop,
+        const Share& share)
       : options_(options),
+        admission_(admission),
+        share_(share),
+        claimant_(admission, share.owner, share.job),
         folder_(folder),
         tasks_(tasks),
         on_progress_(on_progress),
         stop_(std::move(stop)),
-        slots_(std::min(static_cast<std::size_t>(options.workers), tasks.size())),
         results_(tasks.size()) {
     for (std::size_t i = 0; i < tasks.size(); ++i) waiting_.push_back({i, Clock::now()});
   }
@@ -47,8 +51,9 @@ class Batch {
   std::vector<TaskResult> run() {
     while (true) {
       if (stop_.stop_requested()) end_others([](const Task&) { return true; });
-      while (running_.size() < slots_ && start_next()) {
+      while (start_next()) {
       }
+      say_why_nothing_runs();
       if (running_.empty() && waiting_.empty()) break;
       wait_for_news();
       for (auto& worker : running_) read_messages(*worker);
@@ -65,10 +70,11 @@ class Batch {
   };
 
   struct Worker {
-    Worker(std::size_t index, const std::vector<std::string>& command,
+    Worker(std::size_t index, Admission::Permit&& held, const std::vector<std::string>& command,
            const ChildProcess::Variables& variables, const std::filesystem::path& log)
-        : task(index), process(command, variables, log) {}
+        : task(index), permit(std::move(held)), process(command, variables, log) {}
     std::size_t task;
+    Admission::Permit permit;  ///< given back when the process has ended
     ChildProcess process;
     Clock::time_point begun = Clock::now();
     Clock::time_point heard = begun;  ///< when it last said something
@@ -78,20 +84,28 @@ class Batch {
     std::optional<Clock::time_point> kill_at;  ///< it was asked to end: its result is of no use
   };
 
-  // Begins the next task that need not rest; false when there is none.
+  // Begins the next task that need not rest; false when there is none, or others are ahead.
   bool start_next() {
     const auto next = std::find_if(waiting_.begin(), waiting_.end(), [](const Waiting& waiting) {
       return waiting.from <= Clock::now();
     });
-    if (next == waiting_.end()) return false;
+    if (next == waiting_.end()) {
+      claimant_.withdraw();
+      return false;
+    }
     const std::size_t task = next->task;
+    const std::int64_t memory_mib = share_.memory_mib(tasks_[task]);
+    auto permit = claimant_.ask(share_.priority(),
+                                waiting_.size() + running_.size() + share_.later_tasks, memory_mib);
+    if (!permit) return false;
     waiting_.erase(next);
     const int attempt = ++results_[task].attempts;
     std::vector<std::string> command = options_.command;
     command.insert(command.end(),
                    {"--job", folder_.path().string(), "--task", name_of(tasks_[task])});
     try {
-      running_.push_back(std::make_unique<Worker>(task, command, variables_of(attempt),
+      running_.push_back(std::make_unique<Worker>(task, std::move(*permit), command,
+                                                  variables_of(attempt, memory_mib),
                                                   folder_.log_of(tasks_[task])));
     } catch (const EnvironmentError& error) {
       fail(task, {Outcome::environment_error, 0, error.what(), {}});
@@ -99,14 +113,25 @@ class Batch {
     return true;
   }
 
-  ChildProcess::Variables variables_of(int attempt) const {
+  void say_why_nothing_runs() {
+    const bool lacks_memory = running_.empty() && !waiting_.empty() && claimant_.waits_for_memory();
+    if (lacks_memory == lacks_memory_) return;
+    lacks_memory_ = lacks_memory;
+    share_.on_wait(lacks_memory ? "there is not enough free memory" : "");
+  }
+
+  ChildProcess::Variables variables_of(int attempt, std::int64_t memory_mib) const {
     ChildProcess::Variables variables = {{kSupervisorVariable, std::to_string(::getpid())},
                                          {kAttemptVariable, std::to_string(attempt)}};
     if (options_.worker_memory_mib > 0) {
       variables.emplace_back(kMemoryVariable, std::to_string(options_.worker_memory_mib));
+    } else if (options_.limits_by_need && memory_mib > 0) {
+      constexpr std::int64_t kMoreMib = 2048;
+      variables.emplace_back(kDataVariable, std::to_string(2 * memory_mib + kMoreMib));
     }
     // One core per worker: Mesa's software renderer would start a thread per core in each.
-    if (slots_ > 1) variables.emplace_back("LP_NUM_THREADS", "0");
+    if (options_.workers > 1 && (tasks_.size() > 1 || admission_.jobs() > 1))
+      variables.emplace_back("LP_NUM_THREADS", "0");
     return variables;
   }
 
@@ -211,11 +236,14 @@ class Batch {
   }
 
   const LocalProcessesOptions& options_;
+  Admission& admission_;
+  const Share& share_;
+  Admission::Claimant claimant_;
+  bool lacks_memory_ = false;
   const JobFolder& folder_;
   std::span<const Task> tasks_;
   const Executor::OnProgress& on_progress_;
   std::stop_token stop_;
-  std::size_t slots_;
   std::deque<Waiting> waiting_;
   std::vector<std::unique_ptr<Worker>> running_;
   std::vector<TaskResult> results_;
@@ -228,11 +256,15 @@ LocalProcesses::LocalProcesses(LocalProcessesOptions options) : options_(std::mo
   if (options_.workers == 0) {
     options_.workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
+  AdmissionLimits limits{options_.workers, options_.memory_mib};
+  if (options_.waits_for_memory) limits.available_mib = &available_memory_mib;
+  admission_ = std::make_unique<Admission>(std::move(limits));
 }
 
 std::vector<TaskResult> LocalProcesses::run(const JobFolder& folder, std::span<const Task> tasks,
-                                            const OnProgress& on_progress, std::stop_token stop) {
-  return Batch(options_, folder, tasks, on_progress, std::move(stop)).run();
+                                            const OnProgress& on_progress, std::stop_token stop,
+                                            const Share& share) {
+  return Batch(options_, *admission_, folder, tasks, on_progress, std::move(stop), share).run();
 }
 
 }  // namespace throng::jobs

@@ -1,10 +1,13 @@
 // Runs tasks as child processes of this one.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "jobs/queue/admission.h"
 #include "jobs/queue/executor.h"
 
 namespace throng::jobs {
@@ -13,8 +16,12 @@ struct LocalProcessesOptions {
   /// Program and first arguments of a worker; " --job FOLDER --task NAME" is appended. Empty: this
   /// program with the argument "worker".
   std::vector<std::string> command = {};
-  /// Workers at once; 0: one per core.
+  /// Workers at once, over all calls of run(); 0: one per core.
   int workers = 0;
+  /// That all workers may need together by Share::memory_mib; 0: any.
+  std::int64_t memory_mib = 0;
+  /// Whether tasks wait while the machine has less memory left than they need.
+  bool waits_for_memory = false;
   /// How often a task is begun before a failure of the machine is final.
   int attempts = 3;
   /// How long a task rests after its first failure; four times as long after each further one.
@@ -25,21 +32,27 @@ struct LocalProcessesOptions {
   double max_task_s = 0;
   /// Address space that a worker may use; 0: any.
   int worker_memory_mib = 0;
+  /// Without that: whether a worker may have twice the memory that its task is expected to need
+  /// (Share::memory_mib) and 2 GiB, as private data, which is what counts of a GPU's driver.
+  bool limits_by_need = false;
   /// How long a worker may take to end after SIGTERM, before SIGKILL.
   double grace_s = 2;
 };
 
 /// Each worker leads a process group of its own, so that ending it ends its children too, and asks
-/// the kernel to end it when this process dies. Use from one thread at a time.
+/// the kernel to end it when this process dies.
 class LocalProcesses final : public Executor {
  public:
   explicit LocalProcesses(LocalProcessesOptions options = {});
 
+  using Executor::run;
   std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
-                              const OnProgress& on_progress, std::stop_token stop) override;
+                              const OnProgress& on_progress, std::stop_token stop,
+                              const Share& share) override;
 
  private:
   LocalProcessesOptions options_;
+  std::unique_ptr<Admission> admission_;
 };
 
 }  // namespace throng::jobs

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "base/error.h"
@@ -17,6 +18,33 @@ namespace {
 
 constexpr const char* kFiles = "files";
 constexpr const char* kRecord = "record.json";
+constexpr const char* kOthers = "others";
+
+FileEntry entry_of(const fs::path& file, std::string path) {
+  FileHashes hashes = hashes_of_file(file);
+  return {std::move(path), static_cast<std::int64_t>(fs::file_size(file)),
+          std::move(hashes.sha256_hex), hashes.crc32};
+}
+
+/// The files beside files/.
+std::vector<FileEntry> other_files(const fs::path& folder) {
+  std::vector<FileEntry> others;
+  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::end(entry); ++entry) {
+    if (entry->path() == folder / kFiles) entry.disable_recursion_pending();
+    if (!entry->is_regular_file()) continue;
+    others.push_back(entry_of(entry->path(), entry->path().lexically_relative(folder).string()));
+  }
+  std::sort(others.begin(), others.end(),
+            [](const FileEntry& a, const FileEntry& b) { return a.path < b.path; });
+  return others;
+}
+
+void check_file(const fs::path& file, const FileEntry& entry) {
+  if (!fs::exists(file)) throw DamagedOutput(fmt::format("{} is gone", file.string()));
+  if (hashes_of_file(file).sha256_hex == entry.sha256) return;
+  throw DamagedOutput(
+      fmt::format("{} is damaged: its bytes have changed since they were written", file.string()));
+}
 
 }  // namespace
 
@@ -53,15 +81,33 @@ void Publication::add(std::string path, std::string_view bytes) {
 
 void Publication::publish(json record) {
   record["files"] = files_;
+  record[kOthers] = other_files(staging_.path());
   write_new_file(staging_.path() / kRecord, record.dump() + "\n");
   staging_.commit();
 }
 
 json read_record(const fs::path& output) {
+  const fs::path file = output / kRecord;
+  if (!fs::exists(file)) throw DamagedOutput(fmt::format("{} is gone", file.string()));
+  const std::string text = read_file(file);
   try {
-    return parse_own_json(read_file(output / kRecord), (output / kRecord).string());
+    return parse_own_json(text, file.string());
+  } catch (const EnvironmentError& error) {
+    throw DamagedOutput(error.what());
+  }
+}
+
+void check_published(const fs::path& output, const json& record) {
+  try {
+    for (const auto& file : record.at(kFiles).get<std::vector<FileEntry>>()) {
+      check_file(published_file(output, file.path), file);
+    }
+    // Earlier versions did not list them.
+    for (const auto& file : record.value(kOthers, json::array()).get<std::vector<FileEntry>>()) {
+      check_file(output / file.path, file);
+    }
   } catch (const json::exception& error) {
-    throw EnvironmentError(
+    throw DamagedOutput(
         fmt::format("{} is damaged: {}", (output / kRecord).string(), error.what()));
   }
 }

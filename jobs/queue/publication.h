@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
 #include "base/files.h"
 
 namespace throng::jobs {
@@ -34,7 +35,8 @@ void write_new_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Output under construction, in a staging folder: appears whole at publish(), or never.
 ///   files/...     the dataset's files, at their places in it
-///   record.json   {"files": [...], and what the task has to say}
+///   record.json   {"files": [...], "others": [...], and what the task has to say}
+/// "others" are the files beside files/, with paths relative to the folder.
 class Publication {
  public:
   explicit Publication(const std::filesystem::path& output);
@@ -50,8 +52,19 @@ class Publication {
   std::vector<FileEntry> files_;
 };
 
-/// The record of a published output. Throws EnvironmentError when it cannot be read.
+/// Published output that is not as it was published: a file is gone, or has other bytes. Its task
+/// has to be done again.
+class DamagedOutput : public EnvironmentError {
+ public:
+  using EnvironmentError::EnvironmentError;
+};
+
+/// The record of a published output. Throws DamagedOutput, and EnvironmentError when it cannot be
+/// read.
 nlohmann::json read_record(const std::filesystem::path& output);
+
+/// Hashes all files of the output again. Throws as read_record().
+void check_published(const std::filesystem::path& output, const nlohmann::json& record);
 
 /// Path of a file of the dataset in published output.
 std::filesystem::path published_file(const std::filesystem::path& output, const std::string& path);

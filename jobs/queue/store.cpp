@@ -3,11 +3,14 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
+#include <utility>
 
 #include "base/error.h"
 #include "jobs/queue/folder_lock.h"
@@ -45,7 +48,8 @@ std::string text(std::string_view view) { return std::string(view); }
 // One connection writes; another reads, so that readers never wait for the disk.
 struct Store::Connections {
   explicit Connections(const fs::path& folder)
-      : lock(created(folder)),
+      : lock(created(folder), "lock", "data folder"),
+        file(folder / "jobs.sqlite"),
         writer(folder / "jobs.sqlite", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                kBusyTimeoutMs),
         reader((prepare(writer), folder / "jobs.sqlite"), SQLite::OPEN_READWRITE, kBusyTimeoutMs),
@@ -54,6 +58,22 @@ struct Store::Connections {
     SQLite::Statement newest(writer, "SELECT max(id) FROM job");
     newest.executeStep();
     last_id = newest.getColumn(0).getString();
+    identity = identity_of(file);
+  }
+
+  /// Device and number of a file; nothing when there is none.
+  static std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& file) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+    return std::pair(status.st_dev, status.st_ino);
+  }
+
+  /// Changes of a file that somebody has removed are lost when the service ends.
+  void require_files() const {
+    if (identity_of(file) == identity && lock.is_in_place()) return;
+    throw EnvironmentError(
+        "job store: its file or its lock was removed while the service ran; nothing is accepted "
+        "until they are put back and the service is started again");
   }
 
   static void prepare(SQLite::Database& database) {
@@ -74,6 +94,7 @@ struct Store::Connections {
   }
 
   void write(const std::function<void()>& change) {
+    require_files();
     try {
       commits.run(change);
     } catch (const SQLite::Exception& error) {
@@ -99,6 +120,32 @@ struct Store::Connections {
     return first_of(query);
   }
 
+  /// Moves a job to its next state if it is still as in `row`; returns the new row.
+  std::optional<JobRow> move_to(JobState next, const JobRow& row, JobEvent event,
+                                const std::string& error_json, std::int64_t now_ms) {
+    JobRow changed = row;
+    changed.state = next;
+    changed.attempt += event == JobEvent::start || event == JobEvent::resume ? 1 : 0;
+    if (event == JobEvent::start) changed.started_ms = now_ms;
+    changed.ended_ms = is_active(next) ? 0 : now_ms;
+    changed.error_json = error_json;
+    SQLite::Statement update(writer,
+                             "UPDATE job SET state = ?, attempt = ?, error = ?, started_ms = ?, "
+                             "ended_ms = ? WHERE id = ? AND state = ? AND attempt = ?");
+    update.bind(1, text(name_of(changed.state)));
+    update.bind(2, changed.attempt);
+    update.bind(3, changed.error_json);
+    update.bind(4, changed.started_ms);
+    update.bind(5, changed.ended_ms);
+    update.bind(6, row.id);
+    update.bind(7, text(name_of(row.state)));
+    update.bind(8, row.attempt);
+    if (update.exec() == 0) return std::nullopt;
+    const nlohmann::json data = {{"state", name_of(next)}, {"attempt", changed.attempt}};
+    write_event(row.id, now_ms, text(name_of(event)), data.dump());
+    return changed;
+  }
+
   std::optional<JobRow> find_submission(const std::string& owner, const std::string& key) {
     SQLite::Statement query(
         writer, fmt::format("SELECT {} FROM job WHERE owner = ? AND submission_key = ?", kColumns));
@@ -108,6 +155,8 @@ struct Store::Connections {
   }
 
   FolderLock lock;
+  fs::path file;
+  std::optional<std::pair<dev_t, ino_t>> identity;
   std::mutex reader_mutex;
   SQLite::Database writer;  ///< only within write()
   SQLite::Database reader;
@@ -140,10 +189,8 @@ Added Store::add(const NewJob& job) {
         return;
       }
     }
-    if (job.max_active > 0 || job.max_bytes > 0) {
-      added.over_quota = over_quota(connections_->writer, job);
-      if (!added.over_quota.empty()) return;
-    }
+    added.over_quota = over_quota(connections_->writer, job.owner, job.limits);
+    if (!added.over_quota.empty()) return;
     std::random_device random;
     JobRow row;
     row.created_ms = clock_();
@@ -179,7 +226,9 @@ std::vector<JobRow> Store::list(const JobFilter& filter) const {
     where += fmt::format(" AND state IN ({})", fmt::join(names, ", "));
   }
   if (!filter.label.empty()) {
-    where += " AND EXISTS (SELECT 1 FROM json_each(labels) WHERE value = :label)";
+    where +=
+        " AND EXISTS (SELECT 1 FROM json_each(CASE WHEN json_valid(labels) THEN labels ELSE '[]' "
+        "END) WHERE value = :label)";
   }
   if (!filter.name_part.empty()) where += " AND instr(lower(name), lower(:name)) > 0";
   return connections_->read([&](SQLite::Database& database) {
@@ -195,29 +244,34 @@ std::vector<JobRow> Store::list(const JobFilter& filter) const {
   });
 }
 
+void Store::check_files() const { connections_->require_files(); }
+
 std::map<JobState, std::int64_t> Store::count() const {
   return connections_->read([&](SQLite::Database& database) {
     std::map<JobState, std::int64_t> counts;
     for (const JobState state : kJobStates) counts[state] = 0;
     SQLite::Statement query(database, "SELECT state, count(*) FROM job GROUP BY state");
     while (query.executeStep()) {
-      counts[job_state_named(query.getColumn(0).getString()).value()] = query.getColumn(1);
+      const auto state = job_state_named(query.getColumn(0).getString());
+      counts[state.value_or(JobState::failed)] += query.getColumn(1).getInt64();
     }
     return counts;
   });
 }
 
-std::optional<JobRow> Store::next() const {
-  return connections_->read([&](SQLite::Database& database) -> std::optional<JobRow> {
-    for (const char* state : {"running", "queued"}) {
-      SQLite::Statement query(
-          database, fmt::format("SELECT {} FROM job WHERE state = ? ORDER BY priority DESC, id "
-                                "LIMIT 1",
-                                kColumns));
-      query.bind(1, state);
-      if (auto row = first_of(query)) return row;
-    }
-    return std::nullopt;
+std::vector<JobRow> Store::startable() const {
+  return connections_->read([&](SQLite::Database& database) {
+    SQLite::Statement running(
+        database, fmt::format("SELECT {} FROM job WHERE state = 'running' ORDER BY id", kColumns));
+    std::vector<JobRow> rows = rows_of(running);
+    SQLite::Statement queued(
+        database,
+        fmt::format("SELECT {} FROM job WHERE id IN (SELECT id FROM (SELECT id, row_number() OVER "
+                    "(PARTITION BY owner ORDER BY priority DESC, id) AS place FROM job WHERE state "
+                    "= 'queued') WHERE place = 1) ORDER BY priority DESC, id",
+                    kColumns));
+    for (JobRow& row : rows_of(queued)) rows.push_back(std::move(row));
+    return rows;
   });
 }
 
@@ -225,33 +279,22 @@ std::optional<JobRow> Store::apply(const JobRow& row, JobEvent event,
                                    const std::string& error_json) {
   const std::optional<JobState> next = next_state(row.state, event);
   if (!next) return std::nullopt;
-  std::optional<JobRow> changed = row;
-  connections_->write([&] {
-    const std::int64_t now_ms = clock_();
-    changed->state = *next;
-    changed->attempt += event == JobEvent::start || event == JobEvent::resume ? 1 : 0;
-    if (event == JobEvent::start) changed->started_ms = now_ms;
-    changed->ended_ms = is_active(*next) ? 0 : now_ms;
-    changed->error_json = error_json;
-    SQLite::Statement update(connections_->writer,
-                             "UPDATE job SET state = ?, attempt = ?, error = ?, started_ms = ?, "
-                             "ended_ms = ? WHERE id = ? AND state = ? AND attempt = ?");
-    update.bind(1, text(name_of(changed->state)));
-    update.bind(2, changed->attempt);
-    update.bind(3, changed->error_json);
-    update.bind(4, changed->started_ms);
-    update.bind(5, changed->ended_ms);
-    update.bind(6, row.id);
-    update.bind(7, text(name_of(row.state)));
-    update.bind(8, row.attempt);
-    if (update.exec() == 0) {
-      changed.reset();
-      return;
-    }
-    const nlohmann::json data = {{"state", name_of(*next)}, {"attempt", changed->attempt}};
-    connections_->write_event(row.id, now_ms, text(name_of(event)), data.dump());
-  });
+  std::optional<JobRow> changed;
+  connections_->write(
+      [&] { changed = connections_->move_to(*next, row, event, error_json, clock_()); });
   return changed;
+}
+
+Retried Store::retry(const JobRow& row, const OwnerLimits& limits) {
+  const std::optional<JobState> next = next_state(row.state, JobEvent::retry);
+  Retried retried;
+  if (!next) return retried;
+  connections_->write([&] {
+    retried.over_quota = over_quota(connections_->writer, row.owner, limits);
+    if (!retried.over_quota.empty()) return;
+    retried.row = connections_->move_to(*next, row, JobEvent::retry, "", clock_());
+  });
+  return retried;
 }
 
 std::optional<JobRow> Store::change(const std::string& id, const JobChange& change) {
@@ -290,6 +333,16 @@ std::vector<JobRow> Store::ended(int limit) const {
                                         kColumns));
     query.bind(1, limit);
     return rows_of(query);
+  });
+}
+
+void Store::correct_ended(std::int64_t now_ms) {
+  connections_->write([&] {
+    SQLite::Statement update(connections_->writer,
+                             "UPDATE job SET ended_ms = ? WHERE ended_ms > ?");
+    update.bind(1, now_ms);
+    update.bind(2, now_ms);
+    update.exec();
   });
 }
 

@@ -39,6 +39,8 @@ struct JobRow {
   std::int64_t bytes = 0;        ///< that its files take on disk, as last measured
   bool keep = false;             ///< never to be removed for its age
   std::string waiting_for = {};  ///< not stored: why nobody works on it although it is its turn
+  /// Not stored: its state in the store is none. It counts as failed and can only be removed.
+  bool is_damaged = false;
 };
 
 /// Properties of a job that may be changed at any time.
@@ -46,6 +48,12 @@ struct JobChange {
   int priority = 0;
   std::vector<std::string> labels = {};
   bool keep = false;
+};
+
+/// Limits on all jobs of an owner together.
+struct OwnerLimits {
+  int max_active = 0;          ///< that may wait or run; 0: any number
+  std::int64_t max_bytes = 0;  ///< that they may take already; 0: any
 };
 
 /// A job to be queued.
@@ -60,8 +68,13 @@ struct NewJob {
   std::string key = {};
   /// Of what was sent, to tell a repetition from a key that is used twice.
   std::string hash = {};
-  int max_active = 0;          ///< jobs that the owner may have waiting or running; 0: any number
-  std::int64_t max_bytes = 0;  ///< that the owner's jobs may take before this one; 0: any
+  OwnerLimits limits = {};  ///< of the owner, before this job
+};
+
+/// A job that was queued again.
+struct Retried {
+  std::optional<JobRow> row = {};  ///< nothing when someone else was faster
+  std::string over_quota = {};     ///< why it was not queued: the owner has as much as they may
 };
 
 struct Added {
@@ -111,14 +124,17 @@ class Store {
   std::vector<JobRow> list(const JobFilter& filter) const;
   /// How many jobs of any kind are in each state.
   std::map<JobState, std::int64_t> count() const;
-  /// The job to work on next: one that was running when the last server ended, else the oldest of
-  /// the highest priority that is queued.
-  std::optional<JobRow> next() const;
+  /// Jobs that may be begun: those that are running, and of each owner the queued one that is next,
+  /// the oldest of their highest priority.
+  std::vector<JobRow> startable() const;
 
   /// Applies an event if the job is still in the state and attempt of `row`, and the state allows
   /// it; returns the new row. Nothing when someone else was faster. Durable.
   std::optional<JobRow> apply(const JobRow& row, JobEvent event,
                               const std::string& error_json = "");
+
+  /// Applies JobEvent::retry within the limits of the job's owner. Durable.
+  Retried retry(const JobRow& row, const OwnerLimits& limits);
 
   /// Returns the new row, nothing when there is none. Durable.
   std::optional<JobRow> change(const std::string& id, const JobChange& change);
@@ -128,6 +144,8 @@ class Store {
 
   /// Jobs of any kind that have ended and need not be kept, those that ended first before others.
   std::vector<JobRow> ended(int limit) const;
+  /// Jobs that ended in the future ended now: the clock has been put back since.
+  void correct_ended(std::int64_t now_ms);
   /// Of all jobs.
   std::int64_t total_bytes() const;
   /// Forgets events of removed jobs that are older than this. Returns how many.
@@ -147,6 +165,9 @@ class Store {
 
   /// The time by the store's clock.
   std::int64_t now_ms() const { return clock_(); }
+
+  /// Throws EnvironmentError if the store's files were removed or replaced: changes are refused.
+  void check_files() const;
 
   /// Forgets a job and what happened to it. False when there is none. Durable.
   bool remove(const std::string& id);

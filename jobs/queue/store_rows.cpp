@@ -9,13 +9,29 @@
 
 namespace throng::jobs {
 
+namespace {
+
+/// None where the text is no list of texts: labels only serve to find a job.
+std::vector<std::string> labels_of(const std::string& text) {
+  const nlohmann::json labels = parse_json_or_discard(text);
+  if (!labels.is_array()) return {};
+  std::vector<std::string> known;
+  for (const nlohmann::json& label : labels) {
+    if (label.is_string()) known.push_back(label);
+  }
+  return known;
+}
+
+}  // namespace
+
+// A damaged row must not hide the others.
 JobRow row_of(SQLite::Statement& query) {
   JobRow row;
   row.id = query.getColumn(0).getString();
   row.name = query.getColumn(1).getString();
   const auto state = job_state_named(query.getColumn(2).getString());
-  check(state.has_value(), "the table holds known states only");
-  row.state = *state;
+  row.is_damaged = !state;
+  row.state = state.value_or(JobState::failed);
   row.attempt = query.getColumn(3);
   row.spec_json = query.getColumn(4).getString();
   row.progress_json = query.getColumn(5).getString();
@@ -26,11 +42,17 @@ JobRow row_of(SQLite::Statement& query) {
   const bool calibration = query.getColumn(10).getString() == name_of(JobKind::calibration);
   row.kind = calibration ? JobKind::calibration : JobKind::dataset;
   row.priority = query.getColumn(11);
-  row.labels = parse_own_json(query.getColumn(12).getString(), "a row of the store")
-                   .get<std::vector<std::string>>();
+  row.labels = labels_of(query.getColumn(12).getString());
   row.owner = query.getColumn(13).getString();
   row.bytes = query.getColumn(14);
   row.keep = query.getColumn(15).getInt() != 0;
+  if (row.is_damaged) {
+    const nlohmann::json error = {
+        {"kind", "environment"},
+        {"message", "the job's row in the store is damaged: it can only be removed"},
+        {"problems", nlohmann::json::array()}};
+    row.error_json = error.dump();
+  }
   return row;
 }
 
@@ -63,22 +85,24 @@ void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job
   insert.exec();
 }
 
-std::string over_quota(SQLite::Database& database, const NewJob& job) {
+std::string over_quota(SQLite::Database& database, const std::string& owner,
+                       const OwnerLimits& limits) {
+  if (limits.max_active <= 0 && limits.max_bytes <= 0) return "";
   SQLite::Statement query(database,
                           "SELECT coalesce(sum(state IN ('queued', 'running')), 0), "
                           "coalesce(sum(bytes), 0) FROM job WHERE owner = ?");
-  query.bind(1, job.owner);
+  query.bind(1, owner);
   query.executeStep();
   const std::int64_t active = query.getColumn(0);
   const std::int64_t bytes = query.getColumn(1);
-  if (job.max_active > 0 && active >= job.max_active) {
+  if (limits.max_active > 0 && active >= limits.max_active) {
     return fmt::format("{} of your jobs wait or run, which is as many as this key may have",
-                       job.max_active);
+                       limits.max_active);
   }
-  if (job.max_bytes > 0 && bytes >= job.max_bytes) {
+  if (limits.max_bytes > 0 && bytes >= limits.max_bytes) {
     return fmt::format(
         "your jobs take {} bytes of disk, which is as many as this key may have ({}): remove some",
-        bytes, job.max_bytes);
+        bytes, limits.max_bytes);
   }
   return "";
 }

@@ -26,8 +26,9 @@ std::optional<JobRow> first_of(SQLite::Statement& query);
 /// `job` has what a row does not: the key of its submission.
 void insert_job(SQLite::Database& database, const JobRow& row, const NewJob& job);
 
-/// Why the owner of a new job may not have it; "" when they may.
-std::string over_quota(SQLite::Database& database, const NewJob& job);
+/// Why an owner may have no further active job; "" when they may.
+std::string over_quota(SQLite::Database& database, const std::string& owner,
+                       const OwnerLimits& limits);
 
 /// NewJob::hash of a stored job.
 std::string hash_of_submission(SQLite::Database& database, const std::string& id);

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "jobs/queue/failed_runs.h"
+#include "jobs/queue/folder_lock.h"
 
 namespace throng::jobs {
 
@@ -37,12 +38,13 @@ class Speedometer {
 class Supervision {
  public:
   Supervision(const JobFolder& folder, const JobSpec& job, Executor& executor,
-              const OnJobProgress& on_progress, std::stop_token stop)
+              const OnJobProgress& on_progress, std::stop_token stop, Share share)
       : folder_(folder),
         job_(job),
         executor_(executor),
         on_progress_(on_progress),
-        stop_(std::move(stop)) {
+        stop_(std::move(stop)),
+        share_(std::move(share)) {
     const auto cameras = static_cast<std::int64_t>(job.drones.size());
     for (const RunPlan& run : plan_runs(job)) {
       progress_.runs.push_back({run.index,
@@ -61,11 +63,17 @@ class Supervision {
     const Task dataset{Task::Kind::collect};
     if (!folder_.is_done(dataset)) {
       folder_.remove_leftovers();
+      share_.later_tasks = 1;  // the dataset
+      for (const RunProgress& run : progress_.runs) {
+        share_.later_tasks += tasks_of_frames(run.run).size();
+      }
       do_tasks(tasks_of_all_runs([](int run) {
         return std::vector<Task>{{Task::Kind::simulate, run}};
       }));
+      share_.later_tasks = 1;
       do_tasks(tasks_of_all_runs([this](int run) { return tasks_of_frames(run); }));
       note_failures();
+      share_.later_tasks = 0;
       do_task(dataset);
     }
     for (RunProgress& run : progress_.runs) {
@@ -133,7 +141,7 @@ class Supervision {
   // A worker that was killed leaves what it had half-written; once all have ended nobody needs it.
   std::vector<TaskResult> execute(std::span<const Task> tasks,
                                   const Executor::OnProgress& on_progress) {
-    std::vector<TaskResult> results = executor_.run(folder_, tasks, on_progress, stop_);
+    std::vector<TaskResult> results = executor_.run(folder_, tasks, on_progress, stop_, share_);
     folder_.remove_leftovers();
     return results;
   }
@@ -141,13 +149,29 @@ class Supervision {
   // The last task, of all runs together: its failure is the job's.
   void do_task(const Task& task) {
     const std::array tasks = {task};
-    const TaskResult result = execute(tasks, {})[0];
+    TaskResult result = execute(tasks, {})[0];
     if (stop_.stop_requested()) throw Cancelled();
+    if (result.outcome == Outcome::environment_error && lacks_output()) {
+      // It has removed output that was damaged.
+      do_tasks(tasks_of_all_runs([](int run) {
+        return std::vector<Task>{{Task::Kind::simulate, run}};
+      }));
+      do_tasks(tasks_of_all_runs([this](int run) { return tasks_of_frames(run); }));
+      note_failures();
+      result = execute(tasks, {})[0];
+      if (stop_.stop_requested()) throw Cancelled();
+    }
     throw_if_wrong(task, result);
     if (result.outcome != Outcome::succeeded) throw EnvironmentError(text_of(task, result));
     if (!folder_.is_done(task)) {
       throw EnvironmentError("dataset: the worker reported success but its output is not there");
     }
+  }
+
+  bool lacks_output() const {
+    const auto tasks = tasks_of_all_runs([this](int run) { return tasks_of_frames(run); });
+    return std::any_of(tasks.begin(), tasks.end(),
+                       [this](const Task& task) { return !folder_.is_done(task); });
   }
 
   static void throw_if_wrong(const Task& task, const TaskResult& result) {
@@ -264,6 +288,7 @@ class Supervision {
   Executor& executor_;
   const OnJobProgress& on_progress_;
   std::stop_token stop_;
+  Share share_;
   JobProgress progress_;
   std::vector<RunFailure> failures_;
   std::map<Task, long long> images_;    ///< done, per shard
@@ -292,8 +317,10 @@ std::string_view name_of(Stage stage) {
 }
 
 std::vector<RunFailure> run_job(const JobFolder& folder, const ResolvedJob& job, Executor& executor,
-                                const OnJobProgress& on_progress, std::stop_token stop) {
-  return Supervision(folder, job.spec(), executor, on_progress, std::move(stop)).run();
+                                const OnJobProgress& on_progress, std::stop_token stop,
+                                const Share& share) {
+  const FolderLock lock(folder.path(), ".lock", "job's folder");
+  return Supervision(folder, job.spec(), executor, on_progress, std::move(stop), share).run();
 }
 
 }  // namespace throng::jobs

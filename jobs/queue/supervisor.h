@@ -65,9 +65,11 @@ struct RunFailure {
 
 /// Does every task of the job whose output is not there yet. Safe to repeat after any interruption;
 /// the result has the same bytes. Runs that fail are left out of the dataset and returned; a
-/// repetition tries them again. No other supervisor may be at work in the folder. Throws
-/// InputError, EnvironmentError (no run came to its end: says which task and why), Cancelled.
+/// repetition tries them again. `share` says whose job it is. No other supervisor may be at work in
+/// the folder. Throws InputError, EnvironmentError (no run came to its end: says which task and
+/// why), Cancelled.
 std::vector<RunFailure> run_job(const JobFolder& folder, const ResolvedJob& job, Executor& executor,
-                                const OnJobProgress& on_progress = {}, std::stop_token stop = {});
+                                const OnJobProgress& on_progress = {}, std::stop_token stop = {},
+                                const Share& share = {});
 
 }  // namespace throng::jobs

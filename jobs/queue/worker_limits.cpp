@@ -7,30 +7,54 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <memory>
 
 namespace throng::jobs {
 
 namespace {
 
-/// Refuses sockets that lead out of this machine; 0, or an errno.
-int refuse_network() {
+// System calls by which a process could reach the network without socket(), other processes of the
+// same user, or parts of the kernel that no task needs.
+constexpr std::array kRefusedCalls = {SCMP_SYS(connect),        SCMP_SYS(io_uring_setup),
+                                      SCMP_SYS(io_uring_enter), SCMP_SYS(pidfd_getfd),
+                                      SCMP_SYS(unshare),        SCMP_SYS(setns),
+                                      SCMP_SYS(mount),          SCMP_SYS(umount2),
+                                      SCMP_SYS(pivot_root),     SCMP_SYS(bpf),
+                                      SCMP_SYS(userfaultfd),    SCMP_SYS(perf_event_open),
+                                      SCMP_SYS(keyctl),         SCMP_SYS(add_key),
+                                      SCMP_SYS(request_key),    SCMP_SYS(open_by_handle_at)};
+// The leak check of AddressSanitizer traces the process itself.
+#if !defined(THRONG_SANITIZE_ADDRESS) && !defined(THRONG_SANITIZE_THREAD)
+constexpr std::array kRefusedTracing = {SCMP_SYS(ptrace), SCMP_SYS(process_vm_readv),
+                                        SCMP_SYS(process_vm_writev)};
+#else
+constexpr std::array<int, 0> kRefusedTracing = {};
+#endif
+
+// Of -1000 to 1000: whom the kernel ends first when memory runs out.
+constexpr int kOomScore = 500;
+
+/// Refuses all sockets but unconnected local ones, and the calls above; 0, or an errno.
+int refuse_calls() {
   const std::unique_ptr<void, decltype(&seccomp_release)> filter(seccomp_init(SCMP_ACT_ALLOW),
                                                                  &seccomp_release);
   if (!filter) return ENOMEM;
-  for (const int family : {AF_INET, AF_INET6, AF_PACKET, AF_VSOCK}) {
-    // The kernel takes the lower 32 bits of the first argument, whatever the others are.
-    constexpr scmp_datum_t kInt = 0xFFFFFFFF;
-    const std::array conditions = {
-        scmp_arg_cmp{0, SCMP_CMP_MASKED_EQ, kInt, static_cast<scmp_datum_t>(family)}};
-    const int result = seccomp_rule_add_array(filter.get(), SCMP_ACT_ERRNO(EACCES),
-                                              SCMP_SYS(socket), 1, conditions.data());
-    if (result != 0) return -result;
-  }
-  return -seccomp_load(filter.get());
+  constexpr std::uint32_t kRefusal = SCMP_ACT_ERRNO(EACCES);
+  const auto refuse = [&](int call, std::initializer_list<scmp_arg_cmp> conditions) {
+    return seccomp_rule_add_array(filter.get(), kRefusal, call,
+                                  static_cast<unsigned>(conditions.size()), conditions.begin());
+  };
+  int error = refuse(SCMP_SYS(socket), {{0, SCMP_CMP_NE, AF_UNIX, 0}});
+  // Datagrams to an address need no connection.
+  if (error == 0) error = refuse(SCMP_SYS(sendto), {{4, SCMP_CMP_NE, 0, 0}});
+  for (const int call : kRefusedCalls) error = error == 0 ? refuse(call, {}) : error;
+  for (const int call : kRefusedTracing) error = error == 0 ? refuse(call, {}) : error;
+  return error != 0 ? -error : -seccomp_load(filter.get());
 }
 
 }  // namespace
@@ -42,13 +66,18 @@ std::string limit_this_process() {
   };
   const rlimit no_core{0, 0};
   if (::setrlimit(RLIMIT_CORE, &no_core) != 0) add_refused("core dumps", errno);
-  if (const char* text = std::getenv(kMemoryVariable)) {
+  // Rather than the server, which may have become larger in months.
+  std::ofstream("/proc/self/oom_score_adj") << kOomScore;
+  const auto limit_memory = [&](decltype(RLIMIT_AS) kind, const char* variable) {
+    const char* text = std::getenv(variable);
     constexpr rlim_t kMib = 1 << 20;
-    const rlim_t bytes = std::strtoull(text, nullptr, 10) * kMib;
+    const rlim_t bytes = text == nullptr ? 0 : std::strtoull(text, nullptr, 10) * kMib;
     const rlimit memory{bytes, bytes};
-    if (bytes > 0 && ::setrlimit(RLIMIT_AS, &memory) != 0) add_refused("memory", errno);
-  }
-  if (const int error = refuse_network(); error != 0) add_refused("the network", error);
+    if (bytes > 0 && ::setrlimit(kind, &memory) != 0) add_refused("memory", errno);
+  };
+  limit_memory(RLIMIT_AS, kMemoryVariable);
+  limit_memory(RLIMIT_DATA, kDataVariable);
+  if (const int error = refuse_calls(); error != 0) add_refused("the network", error);
   return refused;
 }
 

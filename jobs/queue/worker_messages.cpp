@@ -10,7 +10,9 @@ namespace throng::jobs {
 using nlohmann::json;
 
 std::string progress_line(const TaskProgress& progress) {
-  return json{{"done", progress.done}, {"total", progress.total}}.dump();
+  json line = {{"done", progress.done}, {"total", progress.total}};
+  if (!progress.what.empty()) line["what"] = progress.what;
+  return line.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 std::string error_line(const WorkerError& error) {
@@ -32,7 +34,8 @@ WorkerMessage read_worker_message(const std::string& line) {
                                   error.value("problems", std::vector<Problem>{})};
     } else {
       message.progress =
-          TaskProgress{value.at("done").get<double>(), value.at("total").get<double>()};
+          TaskProgress{value.at("done").get<double>(), value.at("total").get<double>(),
+                       value.value("what", std::string())};
     }
   } catch (const InputError&) {
     return {};

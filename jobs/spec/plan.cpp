@@ -61,6 +61,10 @@ std::string name_of(const Task& task) {
       return run_name(task.run) + "/metrics";
     case Task::Kind::render:
       return fmt::format("{}/shard{:04}", run_name(task.run), task.shard);
+    case Task::Kind::calibrate:
+      return "calibration";
+    case Task::Kind::report:
+      return "report";
     case Task::Kind::collect:
       break;
   }

@@ -40,17 +40,19 @@ bool has_preview(const JobSpec& job, std::int64_t frame);
 
 /// Unit of work of one worker.
 struct Task {
-  enum class Kind { simulate, measure, render, collect };
+  /// The last two belong to no job's plan: a calibration's folder, and a report of a finished job.
+  enum class Kind { simulate, measure, render, collect, calibrate, report };
   Kind kind = Kind::collect;
   int run = 0;    ///< simulate, measure, render
   int shard = 0;  ///< render
   auto operator<=>(const Task&) const = default;
 };
 
-/// "run000/trace", "run000/metrics", "run000/shard0003", "dataset": what the task publishes.
+/// "run000/trace", "run000/metrics", "run000/shard0003", "dataset", "calibration", "report": what
+/// the task publishes.
 std::string name_of(const Task& task);
 
-/// The reverse. Throws InputError when the job has no such task.
+/// The reverse, for tasks of the job's plan. Throws InputError when the job has no such task.
 Task task_named(const JobSpec& job, const std::string& name);
 
 /// "run000"

@@ -1,6 +1,9 @@
 #include "jobs/spec/scenario_summary.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "geometry/angle.h"
 
 namespace throng::jobs {
 
@@ -14,7 +17,8 @@ json scenario_summary(const world::Scenario& scenario) {
   json drones = json::array();
   for (const world::DroneStart& drone : scenario.drones) {
     drones.push_back({{"id", drone.id},
-                      {"start_m", {drone.position.x(), drone.position.y(), drone.position.z()}}});
+                      {"start_m", {drone.position.x(), drone.position.y(), drone.position.z()}},
+                      {"yaw_deg", std::round(drone.yaw_rad / kDegree * 1e6) / 1e6}});
   }
   const world::Rectangle& ground = scenario.ground;
   return {

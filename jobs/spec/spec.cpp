@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/utf8.h"
 #include "jobs/spec/job_fields.h"
 #include "jobs/spec/plan.h"
 #include "jobs/spec/resolved_job.h"
@@ -18,16 +19,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kMaxNameLength = 120;  // as in the schema
-
-// The first `count` characters of UTF-8 text; its continuation bytes are 10xxxxxx.
-std::string first_characters(const std::string& text, int count) {
-  std::size_t end = 0;
-  for (int characters = 0; end < text.size(); ++end) {
-    if ((static_cast<unsigned char>(text[end]) & 0xC0U) != 0x80U && ++characters > count) break;
-  }
-  return text.substr(0, end);
-}
+constexpr std::size_t kMaxNameLength = 120;  // as in the schema
 
 // Reads a value that the schema allows; absent fields keep the defaults of the structs.
 JobSpec read_job(const json& value, const std::string& source, std::vector<Problem>& problems) {

@@ -14,7 +14,7 @@ from typing import Any, Iterator, Literal, Mapping, Sequence
 from ._bundle import PathLike, bundle, json_bytes, path_of
 from ._http import BROKEN, Http, multipart, part
 from ._job_base import plain
-from .api_types import Calibration, CalibrationList, DeliveryList, Scenario, Upload, Webhook, WebhookList
+from .api_types import Calibration, CalibrationList, DeliveryList, Scenario, Session, Upload, Webhook, WebhookList
 from .errors import JobFailedError
 
 DEFAULT_URL = "http://127.0.0.1:8080"
@@ -158,6 +158,10 @@ class CatalogClient:
     def schema(self) -> Any:
         """The JSON Schema of a job."""
         return self._get("/v1/schema")
+
+    def session(self) -> Session:
+        """Whether the service needs a key, and the scope of this client's."""
+        return self._get("/v1/session")
 
     def version(self) -> str:
         return str(self._get("/v1/version")["version"])

@@ -28,7 +28,7 @@ def decode(data: bytes, where: str, size: tuple[int, int]) -> NDArray[Any]:
     if color not in (0, 2) or bits not in (8, 16) or interlace:
         raise DatasetError(
             f"{where}: found a PNG of color type {color} with {bits} bits{', interlaced' * interlace}, "
-            "expected grey or RGB of 8 or 16 bits"
+            "expected gray or RGB of 8 or 16 bits"
         )
     channels = 3 if color == 2 else 1
     pixel_bytes = channels * bits // 8

@@ -56,10 +56,10 @@ class JobChange(TypedDict):
 class JobErrorRun(TypedDict):
     """JobErrorRun of the service."""
 
-    run: Any
-    task: Any
-    message: Any
-    attempts: Any
+    run: str
+    task: str
+    message: str
+    attempts: int
 
 
 class JobError(TypedDict):
@@ -75,25 +75,26 @@ class JobError(TypedDict):
 class ProgressRun(TypedDict):
     """ProgressRun of the service."""
 
-    run: Any
-    seed: Any
-    stage: Any
-    simulated_s: Any
-    duration_s: Any
-    frames_done: Any
-    frames_total: Any
-    frames_per_s: Any
-    remaining_s: Any
+    run: str
+    seed: int
+    """Up to 64 bits."""
+    stage: Literal["waiting", "simulating", "rendering", "rendered", "finished", "failed"]
+    simulated_s: float
+    duration_s: float
+    frames_done: int
+    frames_total: int
+    frames_per_s: float
+    remaining_s: float | None
 
 
 class ProgressShard(TypedDict):
     """ProgressShard of the service."""
 
-    shard: Any
-    frames_done: Any
-    frames_total: Any
-    frames_per_s: Any
-    remaining_s: Any
+    shard: str
+    frames_done: int
+    frames_total: int
+    frames_per_s: float
+    remaining_s: float | None
 
 
 class Progress(TypedDict):
@@ -143,9 +144,9 @@ class EventList(TypedDict):
 class LogListLog(TypedDict):
     """LogListLog of the service."""
 
-    name: Any
-    bytes: Any
-    href: Any
+    name: str
+    bytes: int
+    href: str
 
 
 class LogList(TypedDict):
@@ -157,15 +158,54 @@ class LogList(TypedDict):
 class PreviewListPreview(TypedDict):
     """PreviewListPreview of the service."""
 
-    name: Any
-    href: Any
-    clean: Any
+    name: str
+    href: str
+    clean: str
+    """The image without annotations."""
 
 
 class PreviewList(TypedDict):
     """PreviewList of the service."""
 
     previews: list[PreviewListPreview]
+
+
+class ImageListImage(TypedDict):
+    """ImageListImage of the service."""
+
+    run: str
+    camera: str
+    frame: int
+    path: str
+    """In the dataset: /v1/jobs/{id}/files/PATH."""
+    bytes: int
+
+
+class ImageListRunCamera(TypedDict):
+    """ImageListRunCamera of the service."""
+
+    camera: str
+    images: int
+    first: int
+    """Number of the first frame."""
+    last: int
+
+
+class ImageListRun(TypedDict):
+    """ImageListRun of the service."""
+
+    run: str
+    cameras: list[ImageListRunCamera]
+
+
+class ImageList(TypedDict):
+    """ImageList of the service."""
+
+    images: list[ImageListImage]
+    total: int
+    """Images that fit, on all pages."""
+    runs: list[ImageListRun]
+    """Of the whole dataset."""
 
 
 class Calibration(TypedDict):
@@ -210,9 +250,18 @@ class CalibrationList(TypedDict):
 class ScenarioExit(TypedDict):
     """ScenarioExit of the service."""
 
-    id: Any
-    width_m: Any
-    open: Any
+    id: str
+    width_m: float
+    open: bool
+
+
+class ScenarioDrone(TypedDict):
+    """ScenarioDrone of the service."""
+
+    id: str
+    start_m: list[float]
+    yaw_deg: float
+    """Its heading, counter-clockwise from +x."""
 
 
 class Scenario(TypedDict):
@@ -224,7 +273,7 @@ class Scenario(TypedDict):
     crowd_model: NotRequired[str | None]
     ground_m: NotRequired[list[float]]
     exits: NotRequired[list[ScenarioExit]]
-    drones: NotRequired[list[Any]]
+    drones: NotRequired[list[ScenarioDrone]]
     buildings: NotRequired[int]
     props: NotRequired[int]
     error: NotRequired[str]
@@ -333,6 +382,15 @@ class DeliveryList(TypedDict):
     deliveries: list[Delivery]
 
 
+class Session(TypedDict):
+    """Session of the service."""
+
+    needs_key: bool
+    """Whether callers need a key."""
+    scope: str | None
+    """read, submit or admin; null without a good key."""
+
+
 OPERATIONS = (
     ("POST", "/v1/jobs"),
     ("GET", "/v1/jobs"),
@@ -347,6 +405,7 @@ OPERATIONS = (
     ("GET", "/v1/jobs/{id}/logs/{name}"),
     ("GET", "/v1/jobs/{id}/previews"),
     ("GET", "/v1/jobs/{id}/previews/{path}"),
+    ("GET", "/v1/jobs/{id}/images"),
     ("GET", "/v1/jobs/{id}/archive"),
     ("GET", "/v1/jobs/{id}/manifest"),
     ("GET", "/v1/jobs/{id}/files/{path}"),
@@ -377,6 +436,9 @@ OPERATIONS = (
     ("GET", "/v1/policies"),
     ("GET", "/v1/formats"),
     ("GET", "/v1/schema"),
+    ("POST", "/v1/session"),
+    ("GET", "/v1/session"),
+    ("DELETE", "/v1/session"),
     ("GET", "/v1/version"),
     ("GET", "/openapi.json"),
     ("GET", "/metrics"),

@@ -17,7 +17,7 @@ from ._catalog_client import CatalogClient, why
 from ._http import multipart, part, query_of
 from ._job_base import Part, plain
 from ._progress import ProgressBar
-from .api_types import DryRun, Event, EventList, Job, JobList, LogList, PreviewList, Progress
+from .api_types import DryRun, Event, EventList, ImageList, Job, JobList, LogList, PreviewList, Progress
 from .errors import JobFailedError
 from .tables import Table, read_csv
 
@@ -241,6 +241,13 @@ class Client(CatalogClient):
     def manifest(self, job_id: str) -> dict[str, Any]:
         """Every file of the dataset with its size and SHA-256."""
         return self._get(f"/v1/jobs/{part(job_id)}/manifest")
+
+    def images(
+        self, job_id: str, *, run: str | None = None, camera: str | None = None, offset: int = 0, limit: int = 100
+    ) -> ImageList:
+        """A page of the dataset's images, and how many each camera took in each run."""
+        query = {"run": run, "camera": camera, "offset": offset, "limit": limit}
+        return self._get(f"/v1/jobs/{part(job_id)}/images", query)
 
     def file(self, job_id: str, name: str) -> bytes:
         """One file of the dataset."""

@@ -305,12 +305,20 @@ class Crash(unittest.TestCase):
         self.expect_undisturbed(job)
 
     def test_a_worker_that_wants_too_much_memory_is_named(self):
-        self.server.options = ("--worker-memory", "64")
-        self.server.start()
+        self.server.options = ("--worker-memory", "1000")
+        self.server.start(faults="grow:*")
         job = self.server.request("POST", "/v1/jobs", JOB)["id"]
         end = self.server.wait_for_end(job)
         self.assertEqual(end["state"], "failed")
         self.assertIn("memory", end["error"]["message"])
+
+    def test_a_job_that_never_fits_is_refused(self):
+        self.server.options = ("--worker-memory", "64")
+        self.server.start()
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            self.server.request("POST", "/v1/jobs", JOB)
+        self.assertEqual(refused.exception.code, 400)
+        self.assertIn("memory", json.load(refused.exception)["errors"][0]["found"])
 
     def test_a_locked_database_is_waited_for(self):
         self.server.start()

@@ -92,7 +92,8 @@ class WithService(unittest.TestCase):
         port_file = cls.base / "port"
         port_file.unlink(missing_ok=True)
         cls.server = subprocess.Popen(
-            [common.THRONG, "serve", "--data", cls.base / "data", "--port", str(cls.port), "--port-file", port_file],
+            [common.THRONG, "serve", "--data", cls.base / "data", "--port", str(cls.port), "--port-file", port_file,
+             "--webhook-private"],
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )

@@ -21,7 +21,7 @@ class ApiTest : public ServiceFixture {
  protected:
   ApiTest()
       : service(options(), executor),
-        hooks(service.queue(), data.path()),
+        hooks(service.queue(), data.path(), {.post = {.allow_private = true}}),
         api(service, keys, hooks, {}),
         thread([this] { api.run(); }) {}
   ~ApiTest() override { api.stop(); }

@@ -29,6 +29,7 @@ TEST_F(ApiTest, AJobFromSubmissionToMetrics) {
   EXPECT_THAT(done["ended_at"].get<std::string>(), StartsWith("20"));
   EXPECT_EQ(get_json(done["links"]["metrics"]), json::parse(R"({"runs":[]})"));
   EXPECT_EQ(get(done["links"]["archive"])->status, 200);
+  expect_problem(get(done["links"]["archive"].get<std::string>() + "?include=nothing"), 404);
   // The pretended dataset has no runs of its own.
   expect_problem(get(self + "/runs/0/metrics"), 404);
   write_file_atomically(service.folders().dataset_of(job["id"]) / "metrics/run000.json",
@@ -72,7 +73,7 @@ TEST_F(ApiTest, TheListIsPagedNewestFirst) {
 
 TEST_F(ApiTest, UnknownThingsAre404AndWrongMethods405) {
   for (const char* path :
-       {"/", "/v1", "/v1/job", "/v1/jobs/", "/v1/jobs/jnosuchjob000000", "/v1/jobs/..%2f..%2fetc",
+       {"/v1", "/v1/job", "/v1/jobs/", "/v1/jobs/jnosuchjob000000", "/v1/jobs/..%2f..%2fetc",
         "/v1/jobs/jnosuchjob000000/archive", "/v1/jobs/jnosuchjob000000/metrics", "/v1/jobs/x/y"}) {
     expect_problem(get(path), 404);
   }

@@ -4,11 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <signal.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
+#include "calibrate/spec/request_files.h"
+#include "jobs/queue/file_fence.h"
 #include "server/http.h"
 #include "tests/server/service_fixture.h"
 
@@ -47,7 +55,7 @@ class CalibrationApi : public ServiceFixture {
  protected:
   CalibrationApi()
       : service(options(), executor),
-        hooks(service.queue(), data.path()),
+        hooks(service.queue(), data.path(), {.post = {.allow_private = true}}),
         api(service, keys, hooks, {}),
         thread([this] { api.run(); }) {}
   ~CalibrationApi() override { api.stop(); }
@@ -178,26 +186,122 @@ TEST_F(CalibrationApi, OneThatWaitsCanBeCancelled) {
   EXPECT_EQ(get_json(kRoute)["calibrations"].size(), 0U);
 }
 
-TEST(CalibrationChild, FailuresOfTheChildAreTold) {
-  jobs::TemporaryFolder folder;
-  const auto run = [&](std::vector<std::string> command) {
-    calibrator_in_child(std::move(command))(folder.path(), [](double, const std::string&) {}, {});
-  };
-  run({"true"});
-  EXPECT_THROW(run({"false"}), EnvironmentError);
-  EXPECT_THROW(run({"/no/such/program"}), EnvironmentError);
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_THROW(calibrator_in_child({"sh", "-c", "sleep 30"})(folder.path(), {}, stop.get_token()),
-               Cancelled);
-  SKIP_WITHOUT_PROGRAM();
-  write_file_atomically(folder.path() / "request.json", R"({"kind": "guess"})");
-  try {
-    run({kProgram, "calibrate", "request"});
-    FAIL() << "no error";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.problems().at(0).where, "/kind");
+/// The processes that work on a folder.
+std::vector<pid_t> workers_of(const fs::path& folder) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "cmdline", std::ios::binary);
+    const std::string line(std::istreambuf_iterator<char>(file), {});
+    if (line.find("worker") == std::string::npos) continue;
+    if (line.find(folder.string()) == std::string::npos) continue;
+    found.push_back(std::stoi(entry.path().filename()));
   }
+  return found;
+}
+
+std::string line_of(const fs::path& file, const std::string& beginning) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(beginning)) return line;
+  }
+  return "";
+}
+
+/// A calibration that takes some seconds: its worker waits before it begins.
+class SlowCalibration : public CalibrationApi {
+ protected:
+  SlowCalibration() { ::setenv("THRONG_FAULTS", "slow:calibration:3", 1); }
+  ~SlowCalibration() override { ::unsetenv("THRONG_FAULTS"); }
+
+  /// Queues one and waits for its worker.
+  pid_t begin() {
+    self = post(request())->get_header_value("Location");
+    folder = service.folders().calibration_folder(fs::path(self).filename());
+    std::vector<pid_t> workers;
+    EXPECT_TRUE(wait_until([&] {
+      workers = workers_of(folder);
+      // Its log is begun once it has limited itself.
+      return workers.size() == 1 && fs::exists(folder / "logs/calibration.log") &&
+             fs::file_size(folder / "logs/calibration.log") > 0;
+    }));
+    return workers.empty() ? -1 : workers[0];
+  }
+
+  std::string self;
+  fs::path folder;
+};
+
+TEST_F(SlowCalibration, IsLimitedLikeTheWorkersOfJobs) {
+  SKIP_WITHOUT_PROGRAM();
+  const fs::path process = fs::path("/proc") / std::to_string(begin());
+  EXPECT_EQ(line_of(process / "status", "Seccomp:"), "Seccomp:\t2");
+  EXPECT_THAT(line_of(process / "limits", "Max core file size"), HasSubstr(" 0 "));
+  EXPECT_EQ(ended(self)["state"], "succeeded");
+}
+
+TEST_F(CalibrationApi, AWorkerReadsNothingElseOfTheDataFolder) {
+  SKIP_WITHOUT_PROGRAM();
+  write_file_atomically(data.path() / "other.csv", grid_table());
+  const fs::path folder = data.path() / "calibrations/x";
+  write_file_atomically(folder / "request.json", request().dump());
+  fs::create_directories(folder / "files");
+  fs::create_symlink(data.path() / "other.csv", folder / "files/points.csv");
+  const auto outcome = [&] {
+    const std::array tasks = {jobs::Task{jobs::Task::Kind::calibrate}};
+    jobs::LocalProcesses quick({.command = {kProgram, "worker"}, .attempts = 1});
+    return quick.run(jobs::JobFolder(folder), tasks, {}, {}).at(0);
+  };
+  EXPECT_EQ(outcome().outcome, jobs::Outcome::succeeded);
+  fs::remove(folder / calibrate::kCameraName);
+  ::setenv(jobs::kPrivateFolderVariable, data.path().c_str(), 1);
+  const jobs::TaskResult hidden = outcome();
+  ::unsetenv(jobs::kPrivateFolderVariable);
+  const bool has_landlock =
+      read_file(folder / "logs/calibration.log").find("limit files") == std::string::npos;
+  if (!has_landlock) GTEST_SKIP() << "no Landlock";
+  EXPECT_NE(hidden.outcome, jobs::Outcome::succeeded);
+  EXPECT_FALSE(fs::exists(folder / calibrate::kCameraName));
+}
+
+TEST_F(SlowCalibration, OneThatIsKilledIsTriedAgain) {
+  SKIP_WITHOUT_PROGRAM();
+  ASSERT_EQ(::kill(begin(), SIGKILL), 0);
+  EXPECT_EQ(ended(self)["state"], "succeeded");
+}
+
+TEST_F(SlowCalibration, EndsWithItsCancellation) {
+  SKIP_WITHOUT_PROGRAM();
+  begin();
+  EXPECT_EQ(client().Delete(self)->status, 204);
+  EXPECT_TRUE(workers_of(folder).empty());
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (const unsigned int shift : {24U, 16U, 8U, 0U}) {
+    bytes += static_cast<char>((value >> shift) & 0xFFU);
+  }
+  return bytes;
+}
+
+/// The beginning of a black-and-white PNG file: what it will unpack to is known from that.
+std::string head_of_png(std::uint32_t width, std::uint32_t height) {
+  using namespace std::string_literals;
+  const std::string header = "IHDR" + big_endian(width) + big_endian(height) + "\1\0\0\0\0"s;
+  return "\x89PNG\r\n\x1a\n" + big_endian(13) + header + big_endian(crc32_of(header)) +
+         big_endian(1000) + "IDAT";
+}
+
+TEST_F(CalibrationApi, ImagesOfTooManyPixelsAreRefusedUnread) {
+  SKIP_WITHOUT_PROGRAM();
+  const std::string png = head_of_png(25000, 25000);
+  const json board = {{"images", {"a.png"}}, {"board", {{"columns", 7}, {"rows", 5}}}};
+  const httplib::MultipartFormDataItems items = {{"request", board.dump(), "", "application/json"},
+                                                 {"file", png, "a.png", "image/png"}};
+  const httplib::Result answer = client().Post(kRoute, items);
+  ASSERT_EQ(answer->status, 400) << answer->body;
+  EXPECT_THAT(answer->body, HasSubstr("25000 x 25000 pixels"));
 }
 
 TEST_F(CalibrationApi, BelongToTheKeyThatSentThem) {

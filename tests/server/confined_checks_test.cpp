@@ -23,8 +23,10 @@ class RealChecks : public ServiceFixture {
     return options;
   }
 
-  std::vector<Problem> problems_of(const std::string& job) {
-    Service service(really(options()), executor);
+  std::vector<Problem> problems_of(const std::string& job, std::int64_t max_task_mib = 0) {
+    ServiceOptions really_options = really(options());
+    really_options.max_task_mib = max_task_mib;
+    Service service(really_options, executor);
     try {
       service.queue().checked(job);
     } catch (const InputError& error) {
@@ -55,6 +57,20 @@ TEST_F(RealChecks, AJobIsRefusedForWhatItsScenarioCannotDo) {
     EXPECT_FALSE(problems[0].expected.empty());
   }
   EXPECT_TRUE(problems_of(R"({"scenario": "yard", "crowd": {"agents": 2}})").empty());
+}
+
+TEST_F(RealChecks, AJobThatNeedsMoreMemoryThanThereIsIsRefused) {
+  SKIP_WITHOUT_PROGRAM();
+  constexpr std::int64_t kMaxMib = 1000;
+  const char* small = R"({"scenario": "yard", "drones": [{"id": "d1"}]})";
+  EXPECT_TRUE(problems_of(small, kMaxMib).empty());
+  const char* large = R"({"scenario": "yard", "drones": [{"id": "d1", "camera":
+                          {"width": 7680, "height": 4320}}]})";
+  EXPECT_TRUE(problems_of(large).empty());
+  const std::vector<Problem> problems = problems_of(large, kMaxMib);
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].where, "/drones");
+  EXPECT_THAT(problems[0].expected, HasSubstr("1000 MiB"));
 }
 
 TEST_F(RealChecks, TheScenarioCompletesTheJob) {

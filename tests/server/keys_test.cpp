@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "base/files.h"
 #include "tests/server/api_fixture.h"
 
@@ -74,6 +76,76 @@ TEST_F(KeysTest, AKeyMayHaveSoManyJobs) {
   expect_problem(refused, 429);
   EXPECT_EQ(refused->get_header_value("Retry-After"), "60");
   EXPECT_EQ(posted("/v1/jobs", keys.create("many", Scope::submit), kJob), 201);
+  gate.open();
+}
+
+TEST_F(KeysTest, RetriesCountLikeNewJobs) {
+  const std::string token = keys.create("few", Scope::submit, 1);
+  const std::string admin = keys.create("admin", Scope::admin);
+  Gate gate(executor);
+  std::vector<std::string> paths;
+  for (int i = 0; i < 5; ++i) {
+    const httplib::Result answer = client().Post("/v1/jobs", with(token), kJob, "application/json");
+    ASSERT_EQ(answer->status, 201);
+    paths.push_back(answer->get_header_value("Location"));
+    gate.open();
+    const int cancelled = posted(paths.back() + "/cancel", token);
+    EXPECT_TRUE(cancelled == 200 || cancelled == 409);
+  }
+  const auto is_active = [&](const std::string& path) {
+    const std::string state = json::parse(get(path, with(admin))->body)["state"];
+    return state == "queued" || state == "running";
+  };
+  Gate closed(executor);
+  int accepted = 0;
+  for (const std::string& path : paths) {
+    const int status = posted(path + "/retry", token);
+    EXPECT_TRUE(status == 200 || status == 429 || status == 409) << status;
+    accepted += status == 200 ? 1 : 0;
+  }
+  EXPECT_EQ(accepted, 1);
+  EXPECT_EQ(std::count_if(paths.begin(), paths.end(), is_active), 1);
+  EXPECT_EQ(posted("/v1/jobs", token, kJob), 429);
+  for (const std::string& path : paths) {
+    if (is_active(path)) continue;
+    const int status = posted(path + "/retry", admin);
+    EXPECT_TRUE(status == 200 || status == 409) << "administrators may: " << status;
+  }
+  closed.open();
+}
+
+TEST_F(KeysTest, PrioritiesHaveALimit) {
+  const std::string one = keys.create("one", Scope::submit);
+  const std::string urgent = keys.create("urgent", Scope::submit, 0, 0, 10);
+  const std::string admin = keys.create("admin", Scope::admin);
+  Gate gate(executor);
+  EXPECT_EQ(posted("/v1/jobs?priority=1", one, kJob), 403);
+  EXPECT_EQ(posted("/v1/jobs?dry_run&priority=1", one, kJob), 403);
+  EXPECT_EQ(posted("/v1/jobs?priority=0", one, kJob), 201);
+  EXPECT_EQ(posted("/v1/jobs?priority=-100", one, kJob), 201);
+  EXPECT_EQ(posted("/v1/jobs?priority=11", urgent, kJob), 403);
+  EXPECT_EQ(posted("/v1/jobs?priority=10", urgent, kJob), 201);
+  EXPECT_EQ(posted("/v1/jobs?priority=101", admin, kJob), 400);
+  const httplib::Result high =
+      client().Post("/v1/jobs?priority=100", with(admin), kJob, "application/json");
+  ASSERT_EQ(high->status, 201);
+  // Nor by a copy of somebody else's.
+  const httplib::Result copy = client().Post(high->get_header_value("Location") + "/clone",
+                                             with(one), "{}", "application/json");
+  ASSERT_EQ(copy->status, 201);
+  EXPECT_EQ(json::parse(copy->body)["priority"], 0);
+  // Nor later; what an administrator has given may stay, and may be lowered.
+  const std::string path = copy->get_header_value("Location");
+  const auto patched = [&](const std::string& key, const char* change) {
+    return client().Patch(path, with(key), change, "application/json")->status;
+  };
+  EXPECT_EQ(patched(one, R"({"priority": 1})"), 403);
+  EXPECT_EQ(patched(admin, R"({"priority": 50})"), 200);
+  EXPECT_EQ(patched(one, R"({"labels": ["a"]})"), 200);
+  EXPECT_EQ(patched(one, R"({"priority": 50})"), 200);
+  EXPECT_EQ(patched(one, R"({"priority": 51})"), 403);
+  EXPECT_EQ(patched(one, R"({"priority": 20})"), 200);
+  EXPECT_EQ(patched(one, R"({"priority": 21})"), 403);
   gate.open();
 }
 

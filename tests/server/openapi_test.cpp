@@ -145,6 +145,7 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
            {"/v1/jobs/{id}/previews", "/previews"},
            {"/v1/jobs/{id}/previews/{path}", "/previews/run000/d1/000000.jpg"},
            {"/v1/jobs/{id}/archive", "/archive"},
+           {"/v1/jobs/{id}/images", "/images"},
            {"/v1/jobs/{id}/manifest", "/manifest"},
            {"/v1/jobs/{id}/files/{path}", "/files/metrics.json"},
            {"/v1/jobs/{id}/metrics", "/metrics"},
@@ -156,7 +157,7 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   for (const std::string path :
        {"/v1/jobs", "/v1/events", "/v1/calibrations", "/v1/scenarios", "/v1/airframes",
         "/v1/policies", "/v1/formats", "/v1/schema", "/v1/version", "/openapi.json", "/metrics",
-        "/healthz", "/readyz"}) {
+        "/healthz", "/readyz", "/v1/session"}) {
     expect_described("get", path, get(path));
     EXPECT_EQ(get(path)->status, 200) << path;
   }
@@ -182,6 +183,9 @@ TEST_F(OpenApi, AnswersAreAsDescribed) {
   expect_described("delete", "/v1/jobs/{id}", client().Delete(self));
   expect_described("delete", "/v1/jobs/{id}", client().Delete(self));
   expect_webhooks_described();
+  expect_described("post", "/v1/session", posted("/v1/session", R"({"key": "any"})"));
+  expect_described("post", "/v1/session", posted("/v1/session", "{}"));
+  expect_described("delete", "/v1/session", client().Delete("/v1/session"));
   EXPECT_GT(described_.size(), 45U);
 }
 

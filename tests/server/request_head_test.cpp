@@ -211,6 +211,23 @@ TEST(RequestHead, TheLibraryGetsWhatWasSent) {
   EXPECT_EQ(text, "GET / HTTP/1.0\r\nX: a%250d%250aEvil: 1\r\nConnection: Keep-Alive\r\n\r\n");
 }
 
+TEST(RequestHead, GzipIsTheOnlyCodingOfAnswers) {
+  const auto text_of = [](const std::string& codings) {
+    return library_text_of(taken("GET / HTTP/1.1\r\nHost: a\r\n" + codings + "\r\n"));
+  };
+  const std::string plain = "GET / HTTP/1.1\r\nHost: a\r\n\r\n";
+  const std::string packed = "GET / HTTP/1.1\r\nHost: a\r\nAccept-Encoding: gzip\r\n\r\n";
+  for (const char* codings :
+       {"", "br", "identity", "gzip;q=0", "br, gzip; q=0.000, deflate", "notgzip", "*"}) {
+    EXPECT_EQ(text_of(fmt::format("Accept-Encoding: {}\r\n", codings)), plain) << codings;
+  }
+  for (const char* codings :
+       {"gzip", "gzip, deflate, br, zstd", "br;q=1, GZIP;q=0.8", "x-gzip", "gzip;q=1"}) {
+    EXPECT_EQ(text_of(fmt::format("accept-encoding: {}\r\n", codings)), packed) << codings;
+  }
+  EXPECT_EQ(text_of("Accept-Encoding: br\r\nAccept-Encoding: gzip\r\n"), packed);
+}
+
 TEST(RequestHead, BeginningsAreRefusedAtOnce) {
   const auto status = [](const std::string& bytes) { return check_head_start(bytes).status; };
   EXPECT_EQ(status("GE"), 0);

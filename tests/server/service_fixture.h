@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <thread>
 
 #include "base/files.h"
+#include "jobs/queue/local_processes.h"
 #include "server/service.h"
 #include "tests/jobs/queue/fake_executor.h"
 #include "tests/jobs/yard.h"
@@ -32,22 +34,40 @@ inline bool wait_until(const std::function<bool()>& condition) {
 
 class ServiceFixture : public ::testing::Test {
  protected:
-  ServiceFixture() { jobs::write_yard(scenarios.path()); }
+  ServiceFixture() {
+    jobs::write_yard(scenarios.path());
+    executor.other = [this](const jobs::JobFolder& folder, const jobs::Task& task,
+                            const jobs::Executor::OnProgress& on_progress,
+                            const std::stop_token& stop) {
+      if (task.kind == jobs::Task::Kind::calibrate) {
+        return real.run(folder, std::array{task}, on_progress, stop).at(0);
+      }
+      try {
+        reporter(folder.path(), folder.output_of(task), stop);
+        return jobs::TaskResult{};
+      } catch (const std::exception& error) {
+        return jobs::TaskResult{jobs::Outcome::environment_error, 3, error.what(), {}};
+      }
+    };
+  }
 
   ServiceOptions options() const {
     return {.data = data.path(),
             .scenarios = scenarios.path(),
             .confined = test_checks(),
-            .calibrator = test_calibrator(),
-            .reporter = [this](const auto&... all) { reporter(all...); }};
+            .max_active_jobs = 1};
   }
 
-  Reporter reporter = [](const auto&, const std::filesystem::path& file, const std::stop_token&) {
-    write_file_atomically(file, "<!doctype html>");
-  };
+  /// Writes the report of the job in a folder to a file.
+  std::function<void(const std::filesystem::path& job, const std::filesystem::path& file,
+                     const std::stop_token&)>
+      reporter = [](const auto&, const std::filesystem::path& file, const std::stop_token&) {
+        write_file_atomically(file, "<!doctype html>");
+      };
 
   jobs::TemporaryFolder scenarios;
   jobs::TemporaryFolder data;
+  jobs::LocalProcesses real{{.command = {kProgram, "worker"}, .workers = 2}};
   jobs::FakeExecutor executor;
 };
 

@@ -15,7 +15,6 @@
 #include "jobs/queue/confined_task.h"
 #include "jobs/spec/scenario_summary.h"
 #include "jobs/spec/spec.h"
-#include "server/calibrator.h"
 #include "world/scenario.h"
 
 namespace throng::server {
@@ -84,10 +83,6 @@ inline jobs::ConfinedTask test_checks() {
   return [real = real_checks()](const nlohmann::json& request, const std::filesystem::path& work) {
     return request.at("task") == "job" ? check_lightly(request) : real(request, work);
   };
-}
-
-inline Calibrator test_calibrator() {
-  return calibrator_in_child({kProgram, "calibrate", "request"});
 }
 
 }  // namespace throng::server

@@ -111,8 +111,9 @@ TEST_F(WebhooksTest, ChosenEventsOnly) {
 }
 
 TEST_F(WebhooksTest, WhatIsNotTakenIsSentAgain) {
-  WebhookSender quick(service.queue(), data.path(),
-                      {.first_rest = 5ms, .max_pause = 20ms, .timeout = 60s});
+  WebhookSender quick(
+      service.queue(), data.path(),
+      {.first_rest = 5ms, .max_pause = 20ms, .timeout = 60s, .post = {.allow_private = true}});
   const Webhook hook =
       quick.webhooks().create(receiver.url(), {"*"}, "", service.queue().last_event());
   receiver.answer_with({500, 302, 404});
@@ -153,8 +154,9 @@ TEST_F(WebhooksTest, AnyStatusOf200To299TakesAnEvent) {
 }
 
 TEST_F(WebhooksTest, AnAddressThatFailsForTooLongIsLeftAloneUntilItIsEnabled) {
-  WebhookSender quick(service.queue(), data.path(),
-                      {.first_rest = 1ms, .max_pause = 2ms, .timeout = 30ms});
+  WebhookSender quick(
+      service.queue(), data.path(),
+      {.first_rest = 1ms, .max_pause = 2ms, .timeout = 30ms, .post = {.allow_private = true}});
   // Nobody listens there.
   const Webhook hook =
       quick.webhooks().create("http://127.0.0.1:1/hook", {"*"}, "", service.queue().last_event());
@@ -174,7 +176,7 @@ TEST_F(WebhooksTest, WhatHappenedWhileTheServerWasDownIsToldAfterwards) {
   ASSERT_TRUE(wait_until([&] { return receiver.requests().size() == 1; }));
   ASSERT_TRUE(wait_until([&] { return hooks.webhooks().get(id)->after > after; }));
   // Another sender, as after a restart, goes on where the first stood.
-  WebhookSender second(service.queue(), data.path());
+  WebhookSender second(service.queue(), data.path(), {.post = {.allow_private = true}});
   submit();
   ASSERT_TRUE(wait_until([&] { return receiver.requests().size() >= 2; }));
 }
@@ -205,6 +207,35 @@ TEST_F(WebhooksTest, AreManagedOverHttp) {
         R"({"url": "http://x", "events": [1]})", R"({"url": "http://x", "else": 1})", R"({})"}) {
     expect_problem(client().Post("/v1/webhooks", body, "application/json"), 400);
   }
+}
+
+TEST_F(WebhooksTest, PrivateAddressesAreRefusedUnlessAllowed) {
+  WebhookSender careful(service.queue(), data.path(), {.first_rest = 5ms, .max_pause = 20ms});
+  Api other(service, keys, careful, {});
+  const std::jthread serving([&] { other.run(); });
+  httplib::Client asking("127.0.0.1", other.port());
+  for (const char* url :
+       {"http://127.0.0.1/hook", "http://127.1/hook", "http://2130706433/", "http://0x7f.1/",
+        "http://017700000001/", "http://[::1]:80/", "http://[::ffff:10.0.0.1]/",
+        "https://169.254.169.254/latest/meta-data", "http://0.0.0.0:8080/", "http://10.1.2.3/",
+        "http://[fe80::1]/", "http://[64:ff9b::7f00:1]/", "http://[2002:a00:1::]/"}) {
+    const httplib::Result answer =
+        asking.Post("/v1/webhooks", json{{"url", url}}.dump(), "application/json");
+    expect_problem(answer, 400);
+    EXPECT_EQ(json::parse(answer->body)["errors"][0]["pointer"], "/url") << url;
+  }
+  // A name is looked up when it is called.
+  std::string url = receiver.url();
+  url.replace(url.find("127.0.0.1"), 9, "localhost");
+  const httplib::Result named =
+      asking.Post("/v1/webhooks", json{{"url", url}}.dump(), "application/json");
+  ASSERT_EQ(named->status, 201);
+  const std::string self = named->get_header_value("Location");
+  const json pinged = json::parse(asking.Post(self + "/ping", "", "application/json")->body);
+  EXPECT_FALSE(pinged["succeeded"]);
+  EXPECT_THAT(pinged["error"].get<std::string>(), ::testing::HasSubstr("private"));
+  EXPECT_TRUE(receiver.requests().empty());
+  other.stop();
 }
 
 TEST_F(WebhooksTest, AreForAdministrators) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "geometry/angle.h"
@@ -26,9 +27,10 @@ CameraSpec camera_parsed(const char* text) {
   return spec;
 }
 
-std::vector<std::string> lens_problems_of(const char* text) {
+std::vector<std::string> lens_problems_of(const char* text,
+                                          render::Quality quality = render::Quality::standard) {
   std::vector<Problem> problems;
-  check_lens(camera_of_run(camera_parsed(text), 1, kCameraPlace), kCameraPlace, problems);
+  check_lens(camera_of_run(camera_parsed(text), 1, kCameraPlace), quality, kCameraPlace, problems);
   std::vector<std::string> pointers;
   for (const Problem& problem : problems) pointers.push_back(problem.where);
   return pointers;
@@ -38,6 +40,19 @@ double width_deg(const camera::Intrinsics& k) {
   const double left = k.direction_of({-0.5, k.cy_px})->x();
   const double right = k.direction_of({k.width - 0.5, k.cy_px})->x();
   return (std::atan(right) - std::atan(left)) / kDegree;
+}
+
+TEST(Lens, ImagesThatTheDeviceCannotRenderAreRefused) {
+  const char* wide = R"({"width": 7680, "height": 4320})";
+  const char* fisheye = R"({"model": "fisheye", "hfov_deg": 120, "width": 3840, "height": 2160})";
+  EXPECT_THAT(lens_problems_of(wide), ElementsAre());
+  EXPECT_THAT(lens_problems_of(fisheye), ElementsAre());
+  ::setenv("THRONG_DEVICE", "software", 1);
+  EXPECT_THAT(lens_problems_of(wide, render::Quality::high), ElementsAre(kCameraPlace));
+  EXPECT_THAT(lens_problems_of(fisheye, render::Quality::high), ElementsAre(kCameraPlace));
+  EXPECT_THAT(lens_problems_of(R"({"width": 7168, "height": 64})", render::Quality::high),
+              ElementsAre());
+  ::unsetenv("THRONG_DEVICE");
 }
 
 TEST(Lens, OneThatFoldsInTheImageOrNeedsAnEnormousFlatImageIsRefused) {

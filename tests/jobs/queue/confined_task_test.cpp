@@ -7,9 +7,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "jobs/queue/file_fence.h"
 #include "tests/jobs/yard.h"
 
 namespace throng::jobs {
@@ -76,6 +78,28 @@ TEST(ConfinedTask, TheChildReachesNoNetwork) {
       },
       0);
   EXPECT_EQ(answer["socket"], -1);
+}
+
+TEST(ConfinedTask, TheChildWritesNowhereElse) {
+  const TemporaryFolder outside;
+  const auto file = outside.path() / "file";
+  write_file_atomically(file, "before");
+  const TemporaryFolder probe;
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(fence_this_process({{probe.path()}, {}, {}}).empty() ? 0 : 1);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (WEXITSTATUS(status) != 0) GTEST_SKIP() << "no Landlock";
+  const json answer = performed(
+      [&](const json&) {
+        std::ofstream stream(file);
+        stream << "after";
+        stream.close();
+        return json{{"wrote", stream.good()}};
+      },
+      0);
+  EXPECT_EQ(answer["wrote"], false);
+  EXPECT_EQ(read_file(file), "before");
 }
 
 #if !defined(THRONG_SANITIZE_ADDRESS) && !defined(THRONG_SANITIZE_THREAD)

@@ -21,12 +21,29 @@ class FakeExecutor : public Executor {
   /// Asked before each task; anything but success is its result.
   std::function<TaskResult(const Task&)> before = [](const Task&) { return TaskResult{}; };
 
+  /// Likewise, with the job's folder.
+  std::function<TaskResult(const JobFolder&, const Task&)> before_in =
+      [](const JobFolder&, const Task&) { return TaskResult{}; };
+
+  /// Does calibrations and reports, which this executor cannot.
+  std::function<TaskResult(const JobFolder&, const Task&, const OnProgress&, std::stop_token)>
+      other = [](const auto&...) {
+        return TaskResult{Outcome::environment_error, 1, "not done here", {}};
+      };
+
+  using Executor::run;
   std::vector<TaskResult> run(const JobFolder& folder, std::span<const Task> tasks,
-                              const OnProgress& on_progress, std::stop_token stop) override {
+                              const OnProgress& on_progress, std::stop_token stop,
+                              const Share& /*share*/) override {
     std::vector<TaskResult> results(tasks.size());
     for (std::size_t i = 0; i < tasks.size(); ++i) {
+      if (tasks[i].kind == Task::Kind::calibrate || tasks[i].kind == Task::Kind::report) {
+        results[i] = other(folder, tasks[i], on_progress, stop);
+        continue;
+      }
       results[i] =
           stop.stop_requested() ? TaskResult{Outcome::cancelled, 1, "", {}} : before(tasks[i]);
+      if (results[i].outcome == Outcome::succeeded) results[i] = before_in(folder, tasks[i]);
       if (results[i].outcome != Outcome::succeeded) continue;
       const std::lock_guard lock(mutex_);
       done_.push_back(name_of(tasks[i]));

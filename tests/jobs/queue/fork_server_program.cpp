@@ -16,11 +16,10 @@ int main() {
       if (request["do"] == "die") std::raise(SIGKILL);  // sanitizers handle others
       if (request["do"] == "fail") throw throng::EnvironmentError("no luck");
       if (request["do"] == "sleep") ::sleep(60);
-      if (request["do"] == "kill the server") ::kill(::getppid(), SIGKILL);
       if (request["do"] == "refuse") {
         throw throng::InputError(throng::Problem{"a", "/b", "c", "d"});
       }
-      return json{{"pid", ::getpid()}, {"n", request["n"]}};
+      return json{{"pid", ::getpid()}, {"server", ::getppid()}, {"n", request.at("n")}};
     });
   });
 }

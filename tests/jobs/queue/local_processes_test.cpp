@@ -232,6 +232,60 @@ TEST_F(LocalProcessesTest, WorkersKnowTheirSupervisorAndShareTheCores) {
   EXPECT_EQ(line, std::to_string(::getpid()) + " 0");
 }
 
+TEST_F(LocalProcessesTest, AHigherPriorityGoesAheadAtTheBordersOfTasks) {
+  LocalProcessesOptions options;
+  options.command = {"/bin/sh", "-c", "echo $2 $4 >> $0; sleep 0.1",
+                     (folder.path() / "order").string()};
+  options.workers = 1;
+  LocalProcesses processes(options);
+  const auto tasks_of = [](int count) {
+    std::vector<Task> tasks;
+    for (int i = 0; i < count; ++i) tasks.push_back({Task::Kind::simulate, i});
+    return tasks;
+  };
+  const auto run_job = [&](const std::string& name, int count, int priority) {
+    const auto tasks = tasks_of(count);
+    Share share{.owner = name, .job = name};
+    share.priority = [priority] { return priority; };
+    processes.run(JobFolder(folder.path() / name), tasks, {}, {}, share);
+  };
+  {
+    const std::jthread low([&] { run_job("low", 12, 0); });
+    while (count_lines("order") < 2) std::this_thread::sleep_for(5ms);
+    run_job("high", 4, 10);
+    EXPECT_LT(count_lines("order"), 12) << "the other has not ended";
+  }
+  std::ifstream file(folder.path() / "order");
+  std::string order;
+  for (std::string line; std::getline(file, line);) {
+    order += line.find("/high ") != std::string::npos ? 'h' : 'l';
+  }
+  EXPECT_EQ(order.size(), 16U);
+  EXPECT_THAT(order, HasSubstr("hhhh"));
+}
+
+TEST_F(LocalProcessesTest, CallsShareTheWorkers) {
+  LocalProcessesOptions options;
+  options.command = {"/bin/sh", "-c", "mkdir $0 || echo two >> $0.clash; sleep 0.05; rmdir $0",
+                     (folder.path() / "one").string()};
+  options.workers = 1;
+  LocalProcesses processes(options);
+  {
+    std::vector<std::jthread> jobs;
+    for (int i = 0; i < 4; ++i) {
+      jobs.emplace_back([&, i] {
+        const std::vector<Task> tasks = {{Task::Kind::simulate, 0}, {Task::Kind::simulate, 1}};
+        const std::string name = "j" + std::to_string(i);
+        for (const TaskResult& result :
+             processes.run(JobFolder(folder.path() / name), tasks, {}, {}, {.job = name})) {
+          EXPECT_EQ(result.outcome, Outcome::succeeded);
+        }
+      });
+    }
+  }
+  EXPECT_EQ(count_lines("one.clash"), 0);
+}
+
 TEST_F(LocalProcessesTest, AProgramThatIsNotThereIsTheMachinesFault) {
   LocalProcessesOptions options;
   options.command = {"/nonexistent/throng"};

@@ -65,8 +65,8 @@ TEST_F(StoreTest, AStoreOfVersionOneIsTakenOver) {
   for (int i = 0; i < 2; ++i) {  // and stays as it is from then on
     const Store store(folder.path(), clock());
     ASSERT_EQ(store.list({}).size(), 1U);
-    EXPECT_EQ(store.next()->name, "old");
-    EXPECT_EQ(store.next()->kind, JobKind::dataset);
+    EXPECT_EQ(store.startable().at(0).name, "old");
+    EXPECT_EQ(store.startable().at(0).kind, JobKind::dataset);
   }
 }
 
@@ -81,16 +81,23 @@ TEST_F(StoreTest, CalibrationsAreListedApart) {
   EXPECT_EQ(store.get(calibration.id)->kind, JobKind::calibration);
 }
 
-TEST_F(StoreTest, TheRunningJobComesNextThenTheOldestQueued) {
+TEST_F(StoreTest, RunningJobsMayGoOnThenTheOldestQueuedOfEachOwner) {
   Store store(folder.path(), clock());
-  EXPECT_FALSE(store.next());
+  EXPECT_TRUE(store.startable().empty());
   const JobRow first = store.add({"first", "{}"}).row;
   const JobRow second = store.add({"second", "{}"}).row;
-  EXPECT_EQ(store.next()->id, first.id);
+  EXPECT_EQ(store.startable().at(0).id, first.id);
   const JobRow running = store.apply(second, JobEvent::start).value();
-  EXPECT_EQ(store.next()->id, second.id);
+  EXPECT_EQ(store.startable().at(0).id, second.id);
+  EXPECT_EQ(store.startable().size(), 2U);
   store.apply(running, JobEvent::succeed);
-  EXPECT_EQ(store.next()->id, first.id);
+  EXPECT_EQ(store.startable().at(0).id, first.id);
+  store.add({.name = "third"});
+  const JobRow other = store.add({.name = "other", .owner = "them"}).row;
+  const JobRow urgent = store.add({.name = "urgent", .priority = 3, .owner = "them"}).row;
+  ASSERT_EQ(store.startable().size(), 2U);
+  EXPECT_EQ(store.startable()[0].id, urgent.id);
+  EXPECT_EQ(store.startable()[1].id, first.id);
 }
 
 TEST_F(StoreTest, AnEventCountsOnceAndForTheAttemptItWasMeantFor) {
@@ -132,9 +139,9 @@ TEST_F(StoreTest, TheHighestPriorityComesFirstAndCanBeChanged) {
   const JobRow low = store.add({.name = "low", .priority = -1}).row;
   const JobRow usual = store.add({.name = "usual"}).row;
   const JobRow high = store.add({.name = "high", .priority = 5}).row;
-  EXPECT_EQ(store.next()->id, high.id);
+  EXPECT_EQ(store.startable().at(0).id, high.id);
   EXPECT_EQ(store.change(low.id, {6, {"urgent"}})->priority, 6);
-  EXPECT_EQ(store.next()->id, low.id);
+  EXPECT_EQ(store.startable().at(0).id, low.id);
   EXPECT_EQ(store.get(low.id)->labels, std::vector<std::string>{"urgent"});
   EXPECT_EQ(store.get(usual.id)->labels, std::vector<std::string>{});
   EXPECT_FALSE(store.change("jnosuchjob00000", {}));
@@ -219,10 +226,26 @@ TEST_F(StoreTest, DiskIsCountedAndBoundedPerOwner) {
   store.set_bytes(theirs.id, 5000);
   EXPECT_EQ(store.get(mine.id)->bytes, 700);
   EXPECT_EQ(store.total_bytes(), 5700);
-  EXPECT_EQ(store.add({.name = "c", .owner = "me", .max_bytes = 701}).over_quota, "");
-  EXPECT_NE(store.add({.name = "d", .owner = "me", .max_bytes = 700}).over_quota, "");
-  EXPECT_NE(store.add({.name = "e", .owner = "me", .max_active = 2}).over_quota, "");
+  EXPECT_EQ(store.add({.name = "c", .owner = "me", .limits = {0, 701}}).over_quota, "");
+  EXPECT_NE(store.add({.name = "d", .owner = "me", .limits = {0, 700}}).over_quota, "");
+  EXPECT_NE(store.add({.name = "e", .owner = "me", .limits = {2, 0}}).over_quota, "");
   EXPECT_EQ(store.list({}).size(), 3U);
+}
+
+TEST_F(StoreTest, LimitsOfAnOwnerHoldForRetriesToo) {
+  Store store(folder.path(), clock());
+  const JobRow ended = store.add({.name = "a", .owner = "me"}).row;
+  const JobRow cancelled = store.apply(ended, JobEvent::cancel).value();
+  const JobRow active = store.add({.name = "b", .owner = "me"}).row;
+  EXPECT_NE(store.retry(cancelled, {1, 0}).over_quota, "");
+  EXPECT_EQ(store.get(ended.id)->state, JobState::cancelled);
+  store.set_bytes(ended.id, 50);
+  EXPECT_NE(store.retry(cancelled, {0, 50}).over_quota, "");
+  const Retried retried = store.retry(cancelled, {2, 51});
+  EXPECT_EQ(retried.over_quota, "");
+  EXPECT_EQ(retried.row.value().state, JobState::queued);
+  EXPECT_FALSE(store.retry(cancelled, {}).row) << "someone was faster";
+  EXPECT_FALSE(store.retry(active, {}).row) << "it has not ended";
 }
 
 TEST_F(StoreTest, WhatHasEndedIsListedInTheOrderOfEndingButWhatIsKept) {
@@ -270,6 +293,37 @@ TEST_F(StoreTest, ADamagedFileIsReportedNotReplaced) {
   write_file_atomically(folder.path() / "jobs.sqlite", std::string(4096, 'x'));
   EXPECT_THROW(Store store(folder.path()), EnvironmentError);
   EXPECT_EQ(read_file(folder.path() / "jobs.sqlite"), std::string(4096, 'x'));
+}
+
+TEST_F(StoreTest, ADamagedRowHidesNoOther) {
+  JobRow damaged;
+  JobRow mislabeled;
+  JobRow good;
+  {
+    Store store(folder.path(), clock());
+    damaged = store.add({"a", "{}"}).row;
+    mislabeled = store.add({.name = "b", .spec_json = "{}", .labels = {"x"}}).row;
+    good = store.add({.name = "c", .spec_json = "{}", .labels = {"x"}}).row;
+  }
+  {
+    SQLite::Database file(folder.path() / "jobs.sqlite", SQLite::OPEN_READWRITE);
+    file.exec("PRAGMA ignore_check_constraints = ON");  // as a flipped bit
+    file.exec("UPDATE job SET state = 'quexed', spec = x'ff00' WHERE id = '" + damaged.id + "'");
+    file.exec("UPDATE job SET labels = '[\"x' WHERE id = '" + mislabeled.id + "'");
+  }
+  Store store(folder.path(), clock());
+  EXPECT_EQ(store.list({}).size(), 3U);
+  EXPECT_EQ(store.list({.label = "x"}).size(), 1U);
+  EXPECT_EQ(store.count()[JobState::failed], 1);
+  EXPECT_EQ(store.startable().at(0).id, mislabeled.id);
+  const JobRow found = store.get(damaged.id).value();
+  EXPECT_TRUE(found.is_damaged);
+  EXPECT_EQ(found.state, JobState::failed);
+  EXPECT_NE(found.error_json.find("damaged"), std::string::npos);
+  EXPECT_TRUE(store.get(mislabeled.id)->labels.empty());
+  EXPECT_FALSE(store.retry(found, {}).row);
+  EXPECT_TRUE(store.remove(damaged.id));
+  EXPECT_EQ(store.list({}).size(), 2U);
 }
 
 TEST_F(StoreTest, ThreadsAddAndReadAtOnce) {

@@ -143,6 +143,31 @@ TEST_F(SupervisorTest, RemovesWhatAWorkerLeftThatDiedMeanwhile) {
   }
 }
 
+TEST_F(SupervisorTest, DamagedOutputThatTheCollectorRemovesIsMadeAgain) {
+  const JobFolder work = folder();
+  const Task damaged{Task::Kind::measure, 0};
+  int collected = 0;
+  executor.before = [&](const Task& task) {
+    if (task.kind != Task::Kind::collect || ++collected > 1) return TaskResult{};
+    std::filesystem::remove_all(work.output_of(damaged));
+    return TaskResult{Outcome::environment_error, 3, "damaged", {}};
+  };
+  run_job(work, job, executor);
+  EXPECT_TRUE(work.is_done({Task::Kind::collect}));
+  const std::vector<std::string> done = executor.done();
+  EXPECT_EQ(std::count(done.begin(), done.end(), name_of(damaged)), 2);
+}
+
+TEST_F(SupervisorTest, AFolderHasOneSupervisorAtATime) {
+  const JobFolder work = folder();
+  executor.before = [&](const Task&) {
+    EXPECT_THROW(run_job(work, job, executor), EnvironmentError);
+    return TaskResult{};
+  };
+  run_job(work, job, executor);
+  EXPECT_TRUE(work.is_done({Task::Kind::collect}));
+}
+
 TEST_F(SupervisorTest, AFailureNamesTheTaskAndTheReason) {
   executor.before = [](const Task& task) {
     return task.kind == Task::Kind::collect ? TaskResult{Outcome::crashed, 3, "boom", {}}
@@ -172,7 +197,7 @@ TEST_F(SupervisorTest, AnInputErrorKeepsItsProblems) {
 TEST_F(SupervisorTest, AWorkerThatLiesIsFoundOut) {
   class Liar : public Executor {
     std::vector<TaskResult> run(const JobFolder&, std::span<const Task> tasks, const OnProgress&,
-                                std::stop_token) override {
+                                std::stop_token, const Share&) override {
       return std::vector<TaskResult>(tasks.size());
     }
   } liar;

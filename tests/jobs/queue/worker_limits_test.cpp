@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
 
 namespace throng::jobs {
 namespace {
@@ -14,17 +17,37 @@ namespace {
 // Limits are permanent: each test limits a process of its own.
 [[noreturn]] void leave(bool is_as_expected) { ::_exit(is_as_expected ? 0 : 1); }
 
+template <typename... Arguments>
+bool is_refused(long call, Arguments... arguments) {
+  errno = 0;
+  return ::syscall(call, arguments...) == -1 && errno == EACCES;
+}
+
 TEST(WorkerLimits, NoSocketLeadsOutOfTheMachine) {
   EXPECT_EXIT(
       {
         const bool was_limited = limit_this_process().find("network") == std::string::npos;
         bool refused = true;
-        for (const int family : {AF_INET, AF_INET6}) {
+        for (const int family : {AF_INET, AF_INET6, AF_NETLINK, AF_PACKET, AF_VSOCK, AF_ALG}) {
           refused = refused && ::socket(family, SOCK_STREAM, 0) < 0 && errno == EACCES;
         }
         leave((!was_limited || refused) && ::socket(AF_UNIX, SOCK_STREAM, 0) >= 0);
       },
       testing::ExitedWithCode(0), "");
+}
+
+bool are_ways_around_refused() {
+  std::array<int, 2> pair{};
+  return ::socketpair(AF_UNIX, SOCK_STREAM, 0, pair.data()) == 0 && ::write(pair[0], "x", 1) == 1 &&
+         ::send(pair[0], "x", 1, 0) == 1 && is_refused(SYS_io_uring_setup) &&
+         is_refused(SYS_connect) && is_refused(SYS_sendto, pair[0], "x", 1, 0, "y", 1) &&
+         is_refused(SYS_unshare) && is_refused(SYS_bpf) && is_refused(SYS_pidfd_getfd) &&
+         is_refused(SYS_setns);
+}
+
+TEST(WorkerLimits, WaysAroundTheSocketAreRefused) {
+  EXPECT_EXIT(leave(!limit_this_process().empty() || are_ways_around_refused()),
+              testing::ExitedWithCode(0), "");
 }
 
 TEST(WorkerLimits, MemoryIsBoundedIfAsked) {
@@ -34,12 +57,18 @@ TEST(WorkerLimits, MemoryIsBoundedIfAsked) {
   EXPECT_EXIT(
       {
         ::setenv(kMemoryVariable, "3000", 1);
+        ::setenv(kDataVariable, "2000", 1);
         limit_this_process();
         rlimit limit{};
         ::getrlimit(RLIMIT_AS, &limit);
+        rlimit data{};
+        ::getrlimit(RLIMIT_DATA, &data);
+        int score = 0;
+        std::ifstream("/proc/self/oom_score_adj") >> score;
         rlimit core{};
         ::getrlimit(RLIMIT_CORE, &core);
-        leave(limit.rlim_cur == 3000ULL << 20U && core.rlim_cur == 0);
+        leave(limit.rlim_cur == 3000ULL << 20U && data.rlim_cur == 2000ULL << 20U &&
+              core.rlim_cur == 0 && score == 500);
       },
       testing::ExitedWithCode(0), "");
 }

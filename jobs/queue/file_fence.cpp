@@ -1,0 +1,181 @@
+#include "jobs/queue/file_fence.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <linux/landlock.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+namespace throng::jobs {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of version 3 of the interface (Linux 6.2); the header of Debian 12's kernel lacks it.
+constexpr std::uint64_t kTruncate = 1ULL << 14U;
+constexpr int kFirstWithRenames = 2;
+constexpr int kFirstWithTruncate = 3;
+// Version 6 (Linux 6.12): no signals to processes outside, no abstract local sockets of theirs.
+constexpr int kFirstWithScopes = 6;
+constexpr std::uint64_t kScopes = 1ULL << 0U | 1ULL << 1U;
+
+// As the kernel knows it since version 6; older kernels get the first field only.
+struct RulesetAttributes {
+  std::uint64_t files;
+  std::uint64_t network;
+  std::uint64_t scopes;
+};
+
+constexpr std::uint64_t kRead =
+    LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
+constexpr std::uint64_t kWrite =
+    LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR | LANDLOCK_ACCESS_FS_REMOVE_FILE |
+    LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
+    LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
+    LANDLOCK_ACCESS_FS_MAKE_SYM | LANDLOCK_ACCESS_FS_REFER;
+// Rights that a rule for a file may hold.
+constexpr std::uint64_t kOfFiles = LANDLOCK_ACCESS_FS_EXECUTE | LANDLOCK_ACCESS_FS_WRITE_FILE |
+                                   LANDLOCK_ACCESS_FS_READ_FILE | kTruncate;
+
+/// Closes its descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return value_; }
+
+ private:
+  int value_;
+};
+
+class Ruleset {
+ public:
+  explicit Ruleset(int version)
+      : handled_(kRead | kWrite | (version >= kFirstWithTruncate ? kTruncate : 0)),
+        descriptor_(create(handled_, version)) {}
+
+  bool is_good() const { return descriptor_.get() >= 0; }
+
+  /// Paths that cannot be opened are left out: they may not be used either.
+  void allow(const fs::path& path, std::uint64_t rights) {
+    const Descriptor opened(::open(path.c_str(), O_PATH | O_CLOEXEC));
+    if (opened.get() < 0) return;
+    struct stat status {};
+    if (::fstat(opened.get(), &status) != 0) return;
+    rights &= handled_;
+    if (!S_ISDIR(status.st_mode)) rights &= kOfFiles;
+    landlock_path_beneath_attr rule{};
+    rule.allowed_access = rights;
+    rule.parent_fd = opened.get();
+    ::syscall(SYS_landlock_add_rule, descriptor_.get(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
+  }
+
+  bool restrict_this_process() const {
+    return ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+           ::syscall(SYS_landlock_restrict_self, descriptor_.get(), 0) == 0;
+  }
+
+ private:
+  static int create(std::uint64_t handled, int version) {
+    const bool has_scopes = version >= kFirstWithScopes;
+    const RulesetAttributes attributes{handled, 0, has_scopes ? kScopes : 0};
+    const std::size_t size = has_scopes ? sizeof(attributes) : sizeof(attributes.files);
+    return static_cast<int>(::syscall(SYS_landlock_create_ruleset, &attributes, size, 0));
+  }
+
+  std::uint64_t handled_;
+  Descriptor descriptor_;
+};
+
+/// Everything but a folder: whatever lies beside it and beside the folders around it.
+void allow_reading_around(Ruleset& rules, const fs::path& hidden) {
+  fs::path inner = hidden;
+  for (fs::path outer = hidden.parent_path(); inner != outer;
+       inner = outer, outer = outer.parent_path()) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(outer, error)) {
+      // Links lead to what has a rule of its own, or to what is hidden.
+      if (entry.path() != inner && !entry.is_symlink(error)) rules.allow(entry.path(), kRead);
+    }
+  }
+}
+
+void allow_devices(Ruleset& rules) {
+  constexpr std::uint64_t kUse =
+      LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
+  for (const char* name : {"null", "zero", "full", "tty", "dri", "kfd", "nvidia-caps"}) {
+    rules.allow(fs::path("/dev") / name, kUse);
+  }
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator("/dev", error)) {
+    if (entry.path().filename().string().starts_with("nvidia")) rules.allow(entry.path(), kUse);
+  }
+  rules.allow("/dev/shm", kRead | kWrite | kTruncate);
+}
+
+}  // namespace
+
+std::string fence_this_process(const FileFence& fence) {
+  const auto version = static_cast<int>(
+      ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
+  if (version < 0) return fmt::format("files: {}", std::strerror(errno));
+  // Version 1 forbids every rename into another folder.
+  if (version < kFirstWithRenames) return "files: Landlock of this kernel cannot rename";
+  Ruleset rules(version);
+  if (!rules.is_good()) return fmt::format("files: {}", std::strerror(errno));
+  std::error_code error;
+  const fs::path hidden =
+      fence.hidden.empty() ? fs::path() : fs::weakly_canonical(fence.hidden, error);
+  if (hidden.empty()) {
+    rules.allow("/", kRead);
+  } else {
+    allow_reading_around(rules, hidden);
+  }
+  for (const fs::path& path : fence.readable) rules.allow(path, kRead);
+  for (const fs::path& path : fence.writable) rules.allow(path, kRead | kWrite | kTruncate);
+  allow_devices(rules);
+  if (!rules.restrict_this_process()) return fmt::format("files: {}", std::strerror(errno));
+  return "";
+}
+
+FileFence fence_of_folder(const fs::path& folder) {
+  FileFence fence;
+  fence.writable = {folder};
+  const char* hidden = std::getenv(kPrivateFolderVariable);
+  if (hidden == nullptr || *hidden == '\0') return fence;
+  fence.hidden = hidden;
+  fence.readable = {fence.hidden / "scenarios", fence.hidden / "uploads"};
+  return fence;
+}
+
+fs::path shader_cache_folder() {
+  const auto value_of = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string_view(value == nullptr ? "" : value);
+  };
+  constexpr const char* kName = "mesa_shader_cache";
+  if (const auto folder = value_of("MESA_SHADER_CACHE_DIR"); !folder.empty()) {
+    return fs::path(folder) / kName;
+  }
+  if (const auto folder = value_of("XDG_CACHE_HOME"); !folder.empty()) {
+    return fs::path(folder) / kName;
+  }
+  const auto home = value_of("HOME");
+  return home.empty() ? fs::path() : fs::path(home) / ".cache" / kName;
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,36 @@
+// Restricts the files that a child process can access (Landlock, Linux 5.19): code that takes over
+// the reader of a mesh or an image can neither change files of others nor read the service's keys.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace throng::jobs {
+
+/// The service's data folder, whose files children do not read but for what FileFence names. Unset
+/// for `throng run`: there is nothing to hide.
+inline constexpr const char* kPrivateFolderVariable = "THRONG_PRIVATE_FOLDER";
+
+struct FileFence {
+  /// Files and folders that may be written, read and removed; those that do not exist are left out.
+  std::vector<std::filesystem::path> writable;
+  /// Of this folder nothing may be read but what is in `writable` and `readable`; "": of any.
+  std::filesystem::path hidden;
+  std::vector<std::filesystem::path> readable;
+};
+
+/// From now on this process and its children write nothing outside of `writable`, whatever their
+/// user may do; devices of graphics, /dev/null and shared memory are excepted. Since Linux 6.12
+/// they send signals only to each other. Descriptors that are open stay usable. Returns why the
+/// kernel does not allow it, for people; "" when it does.
+std::string fence_this_process(const FileFence& fence);
+
+/// The fence of a child that works in a folder: it reads all but $THRONG_PRIVATE_FOLDER, and of
+/// that the scenarios.
+FileFence fence_of_folder(const std::filesystem::path& folder);
+
+/// Mesa's folder of compiled shaders, by its documentation; "" if it keeps none.
+std::filesystem::path shader_cache_folder();
+
+}  // namespace throng::jobs

@@ -1,0 +1,97 @@
+#include "jobs/spec/task_memory.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "jobs/spec/spec.h"
+#include "render/spec/quality.h"
+
+namespace throng::jobs {
+
+namespace {
+
+constexpr double kMibPerPerson = 0.006;
+constexpr double kSimulateMib = 192;
+constexpr double kRenderMib = 512;
+// MiB per million pixels, that is bytes per pixel.
+constexpr double kImageBytes = 42;
+constexpr double kSampleBytes = 28;  // each further sample of color
+constexpr double kTruthBytes = 48;   // ground truth per pixel
+constexpr double kPixelsPerMegapixel = 1e6;
+
+bool has_pixel_truth(const OutputSpec& outputs) {
+  constexpr std::array<std::string_view, 6> kPerPixel = {"depth",   "instances", "parts",
+                                                         "normals", "flow",      "semantic"};
+  return std::any_of(kPerPixel.begin(), kPerPixel.end(), [&](std::string_view name) {
+    return std::find(outputs.annotations.begin(), outputs.annotations.end(), name) !=
+           outputs.annotations.end();
+  });
+}
+
+/// Pixels of the flat image from which a lens that distorts takes its own, about; else the image's.
+double rendered_megapixels(const camera::CameraSpec& camera) {
+  const double image = static_cast<double>(camera.width) * camera.height / kPixelsPerMegapixel;
+  const std::optional<camera::Intrinsics> lens = camera.intrinsics();
+  if (!lens || !lens->distortion) return image;
+  constexpr int kSteps = 32;
+  Eigen::AlignedBox2d field;
+  for (int y = 0; y <= kSteps; ++y) {
+    for (int x = 0; x <= kSteps; ++x) {
+      const Eigen::Vector2d pixel(1.0 * x * (lens->width - 1) / kSteps,
+                                  1.0 * y * (lens->height - 1) / kSteps);
+      if (const auto direction = lens->direction_of(pixel)) field.extend(*direction);
+    }
+  }
+  if (field.isEmpty()) return image;
+  const Eigen::Vector2d size =
+      field.sizes().cwiseProduct(Eigen::Vector2d(lens->fx_px, lens->fy_px));
+  return std::max(image, size.prod() / kPixelsPerMegapixel);
+}
+
+double render_mib(const JobSpec& job, std::uint64_t run_seed) {
+  double megapixels = 0;
+  for (std::size_t i = 0; i < job.drones.size(); ++i) {
+    const auto camera = camera_of_run(job.drones[i].camera, run_seed, camera_pointer(i));
+    megapixels = std::max(megapixels, rendered_megapixels(camera));
+  }
+  const int side = render::settings_of(job.quality).supersampling;
+  const double bytes = kImageBytes + (side * side - 1) * kSampleBytes +
+                       (has_pixel_truth(job.outputs) ? kTruthBytes : 0);
+  return kRenderMib + megapixels * bytes;
+}
+
+}  // namespace
+
+TaskMemory::TaskMemory(const JobSpec& job) {
+  for (const RunPlan& run : plan_runs(job)) {
+    const JobSpec of_run = job.randomize.empty() ? job : job_of_run(job, run.index);
+    const double people = of_run.agents.value_or(0) * kMibPerPerson;
+    runs_.push_back({static_cast<std::int64_t>(kSimulateMib + people),
+                     static_cast<std::int64_t>(render_mib(of_run, run.seed) + people)});
+  }
+}
+
+std::int64_t TaskMemory::mib_of(const Task& task) const {
+  if (task.kind == Task::Kind::report) return kReportMemoryMib;
+  // Beyond the job's runs there are tasks of all runs: the largest stands for them.
+  const auto run = std::min(static_cast<std::size_t>(task.run), runs_.size() - 1);
+  return task.kind == Task::Kind::render ? runs_[run].render_mib : runs_[run].simulate_mib;
+}
+
+std::int64_t TaskMemory::max_mib() const {
+  std::int64_t most = 0;
+  for (const Run& run : runs_) most = std::max({most, run.simulate_mib, run.render_mib});
+  return most;
+}
+
+std::int64_t calibration_memory_mib(std::int64_t max_image_pixels) {
+  constexpr double kBaseMib = 192;
+  constexpr double kBytesPerPixel = 8;
+  return static_cast<std::int64_t>(kBaseMib + static_cast<double>(max_image_pixels) *
+                                                  kBytesPerPixel / kPixelsPerMegapixel);
+}
+
+}  // namespace throng::jobs

@@ -1,0 +1,38 @@
+// How much memory a worker needs for a task, estimated from the job alone: no more tasks are begun
+// at once than the machine has memory for, and a job that it can never run is refused.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "jobs/spec/job_spec.h"
+#include "jobs/spec/plan.h"
+
+namespace throng::jobs {
+
+/// Estimates in MiB of resident memory, on the high side. Measured with the shipped scenarios on
+/// the software renderer (docs/service.md): images dominate, people take a few KiB each.
+class TaskMemory {
+ public:
+  explicit TaskMemory(const JobSpec& job);
+
+  /// Any task of the job.
+  std::int64_t mib_of(const Task& task) const;
+  /// The largest of them.
+  std::int64_t max_mib() const;
+
+ private:
+  struct Run {
+    std::int64_t simulate_mib;
+    std::int64_t render_mib;
+  };
+  std::vector<Run> runs_;
+};
+
+/// Likewise of a calibration whose largest image has so many pixels.
+std::int64_t calibration_memory_mib(std::int64_t max_image_pixels);
+
+/// Of a report, which reads the results of a job run by run.
+inline constexpr std::int64_t kReportMemoryMib = 512;
+
+}  // namespace throng::jobs

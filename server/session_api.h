@@ -1,0 +1,24 @@
+// Sign-in of browsers, and the identity of a request's sender.
+#pragma once
+
+#include <optional>
+
+#include "server/call.h"
+#include "server/http_fwd.h"
+
+namespace throng::server {
+
+/// Sender of a request, by the key in its Authorization header, or else by its session's cookie;
+/// nothing when a key is required and missing. A cookie counts only for requests of the service's
+/// own pages: it is also sent with those of other ports of this host.
+std::optional<Caller> caller_in(const Keys& keys, Sessions& sessions,
+                                const httplib::Request& request);
+
+/// Whether a request came with a key or a session, good or not.
+bool has_credentials(const httplib::Request& request);
+
+void open_session(const Call& call, const httplib::Request& request, httplib::Response& response);
+void send_session(const Call& call, const httplib::Request& request, httplib::Response& response);
+void close_session(const Call& call, const httplib::Request& request, httplib::Response& response);
+
+}  // namespace throng::server
