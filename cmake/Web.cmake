@@ -1,4 +1,5 @@
-# Scripts of web/ for HTML reports, bundled by esbuild while CMake configures, embedded in the program.
+# Scripts of web/, bundled by esbuild and embedded in the program: those of HTML reports while CMake configures, Studio (the
+# page of the service) while it builds.
 
 # Installs the packages of web/package-lock.json, once for all builds of this tree; needs npm's registry then only.
 function(throng_web_packages)
@@ -15,7 +16,7 @@ function(throng_web_packages)
   endif()
   find_program(NPM_PROGRAM npm)
   if(NOT NPM_PROGRAM)
-    message(FATAL_ERROR "npm is missing, which fetches the chart library of reports (Debian package npm; scripts/setup.sh installs it)")
+    message(FATAL_ERROR "npm is missing, which fetches the libraries of web/ (Debian package npm; scripts/setup.sh installs it)")
   endif()
   message(STATUS "Fetching the packages of web/package-lock.json")
   file(COPY "${PROJECT_SOURCE_DIR}/web/package.json" "${lock}" DESTINATION "${folder}")
@@ -45,4 +46,24 @@ function(throng_bundle target symbol file)
     message(FATAL_ERROR "esbuild could not bundle web/${file}:\n${output}")
   endif()
   throng_embed(${target} ${symbol} "${bundle}")
+endfunction()
+
+# throng_studio(TARGET): web/studio as files of a web page, in TARGET as throng::embedded::kStudio (server/studio.h).
+function(throng_studio target)
+  throng_web_packages()
+  find_program(NODE_PROGRAM NAMES node nodejs REQUIRED)
+  set(packages "${PROJECT_SOURCE_DIR}/build/web/node_modules")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/web/studio/*" "${PROJECT_SOURCE_DIR}/scenarios/*.job.json")
+  set(output "${CMAKE_CURRENT_BINARY_DIR}/studio")
+  add_custom_command(OUTPUT "${output}/studio_files.cpp" "${output}/studio_bytes.S"
+    COMMAND "${CMAKE_COMMAND}" -E env "NODE_PATH=${packages}" "${NODE_PROGRAM}" "${PROJECT_SOURCE_DIR}/web/studio/build.mjs"
+      "${packages}" "${output}"
+    DEPENDS ${sources} "${PROJECT_SOURCE_DIR}/web/package-lock.json" "${PROJECT_SOURCE_DIR}/NOTICE"
+    COMMENT "Bundling web/studio" VERBATIM)
+  target_sources(${target} PRIVATE "${output}/studio_files.cpp" "${output}/studio_bytes.S")
+  target_include_directories(${target} PRIVATE "${output}")
+  set_source_files_properties("${output}/studio_files.cpp" PROPERTIES
+    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+  # .incbin is invisible to the build: the assembler's file is written again with every change of the bytes.
+  set_source_files_properties("${output}/studio_bytes.S" PROPERTIES LANGUAGE ASM)
 endfunction()

@@ -1,0 +1,271 @@
+// Parts of Studio without a browser: annotations by ranges of a large file, masks, values of the form, camera footprints.
+// usage: node modules_test.mjs PACKAGES
+import assert from "node:assert/strict";
+import { before, test } from "node:test";
+import { importStudio } from "./bundle.mjs";
+import { pixelsOf } from "./masks.mjs";
+
+const [packages] = process.argv.slice(2);
+let coco;
+let rle;
+let json;
+let schema;
+let footprint;
+let exits;
+let statistics;
+let differences;
+
+before(async () => {
+  coco = await importStudio(packages, "dataset/coco.ts");
+  rle = await importStudio(packages, "dataset/rle.ts");
+  json = await importStudio(packages, "form/json.ts");
+  schema = await importStudio(packages, "form/schema.ts");
+  statistics = await importStudio(packages, "compare/statistics.ts");
+  ({ differencesOf: differences } = await importStudio(packages, "compare/differences.ts"));
+  exits = await importStudio(packages, "run/exit_states.ts");
+  ({ footprint } = await importStudio(packages, "form/footprint.ts"));
+});
+
+/** Numbers that look random and are the same in each run. */
+function sequence(seed) {
+  let state = seed;
+  return (limit) => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return Math.floor((state / 2 ** 32) * limit);
+  };
+}
+
+/** A file as throng writes it: ids count a camera's frames, lines are ordered by run, frame and camera. */
+function annotationFile({ runs, cameras, frames, people, skippedRuns = [], seed = 1 }) {
+  const next = sequence(seed);
+  const images = [];
+  const annotations = [];
+  const tracks = [];
+  for (let run = 0; run < runs; ++run) {
+    if (skippedRuns.includes(run)) continue;
+    const name = `run${String(run).padStart(3, "0")}`;
+    for (let agent = 0; agent < people; ++agent) tracks.push({ id: run * 1000000 + agent * 3 + 1, run: name, group: null });
+    for (let frame = 0; frame < frames; ++frame) {
+      cameras.forEach((camera, index) => {
+        const id = (run * cameras.length + index) * frames + frame + 1;
+        const file = `images/${name}/${camera}/${String(frame).padStart(6, "0")}.jpg`;
+        images.push({ id, file_name: file, width: 64, height: 36, run: name, camera_id: camera, frame, pad: "x".repeat(next(3000)) });
+        const visible = next(people + 1);
+        for (let agent = 0; agent < visible; ++agent) {
+          annotations.push({ id: id * 100000 + agent * 3 + 1, image_id: id, track_id: run * 1000000 + agent * 3 + 1, pad: "y".repeat(next(900)) });
+        }
+      });
+    }
+  }
+  const lines = (list) => list.map((record) => JSON.stringify(record)).join(",\n");
+  const text = `{"info":{"description":"test"},\n"licenses":[],\n"categories":[{"id":1}],\n"tracks":[\n${lines(tracks)}\n],\n"images":[\n${lines(images)}\n],\n"annotations":[\n${lines(annotations)}\n]}\n`;
+  return { text, images, annotations, tracks };
+}
+
+/** The answer of GET /v1/jobs/{id}/images?limit=1. */
+function listOf(images) {
+  const runs = new Map();
+  for (const { run, camera_id: camera, frame } of images) {
+    const cameras = runs.get(run) ?? runs.set(run, new Map()).get(run);
+    const known = cameras.get(camera) ?? { camera, images: 0, first: frame, last: frame };
+    cameras.set(camera, { ...known, images: known.images + 1, last: frame });
+  }
+  return {
+    images: images.slice(0, 1).map((image) => ({ path: image.file_name })),
+    total: images.length,
+    runs: [...runs].map(([run, cameras]) => ({ run, cameras: [...cameras.values()].sort((a, b) => (a.camera < b.camera ? -1 : 1)) })),
+  };
+}
+
+/** A service with one dataset; counts the bytes that it sends. */
+function serve(file) {
+  const bytes = Buffer.from(file.text);
+  const sent = { bytes: 0 };
+  globalThis.fetch = async (address, { headers }) => {
+    if (address.includes("/images?")) return new Response(JSON.stringify(listOf(file.images)));
+    assert.equal(address, "/v1/jobs/job/files/annotations/instances.json");
+    const [, first, last] = /^bytes=(\d+)-(\d+)$/.exec(new Headers(headers).get("Range"));
+    const part = bytes.subarray(Number(first), Number(last) + 1);
+    sent.bytes += part.length;
+    return new Response(part, { status: 206, headers: { "Content-Range": `bytes ${first}-${last}/${bytes.length}` } });
+  };
+  return sent;
+}
+
+const kLayouts = [
+  { runs: 1, cameras: ["d1"], frames: 1, people: 3 },
+  { runs: 3, cameras: ["d1"], frames: 40, people: 40 },
+  // Not in the order of their names: the job's order decides.
+  { runs: 2, cameras: ["view", "a", "d2"], frames: 60, people: 60 },
+  { runs: 4, cameras: ["d1", "d2"], frames: 30, people: 50, skippedRuns: [1] },
+  { runs: 1, cameras: ["d1", "d2"], frames: 5, people: 1 },
+];
+
+for (const layout of kLayouts) {
+  test(`labels by ranges: ${JSON.stringify(layout)}`, async () => {
+    const file = annotationFile(layout);
+    serve(file);
+    const dataset = await coco.Dataset.open("job");
+    for (const record of file.images) {
+      const name = dataset.imageAt(record.run, record.camera_id, record.frame);
+      assert.deepEqual(name, coco.imageOf(record.file_name));
+      const { image, annotations } = await dataset.labelsOf(name);
+      assert.equal(image.file_name, name.path);
+      assert.deepEqual(annotations, file.annotations.filter((entry) => entry.image_id === image.id));
+    }
+    for (const track of file.tracks) assert.deepEqual(await dataset.trackOf(track.id), track);
+    assert.equal(await dataset.trackOf(2), null);
+  });
+}
+
+test("one image of a large file needs a small part of it", async () => {
+  const file = annotationFile({ runs: 4, cameras: ["d1", "d2"], frames: 600, people: 60, seed: 7 });
+  const sent = serve(file);
+  const dataset = await coco.Dataset.open("job");
+  const name = coco.imageOf("images/run002/d2/000123.jpg");
+  const { image, annotations } = await dataset.labelsOf(name);
+  assert.deepEqual(annotations, file.annotations.filter((entry) => entry.image_id === image.id));
+  assert.ok(file.text.length > 50e6);
+  console.log(`# ${sent.bytes} of ${file.text.length} bytes`);
+  assert.ok(sent.bytes < 8e6, `${sent.bytes} of ${file.text.length} bytes`);
+});
+
+test("neighbors are the next frames and cameras", async () => {
+  serve(annotationFile({ runs: 2, cameras: ["b", "a"], frames: 3, people: 2, skippedRuns: [0] }));
+  const dataset = await coco.Dataset.open("job");
+  const image = dataset.imageAt("run001", "b", 2);
+  assert.equal(dataset.neighbor(image, -1, 0).path, "images/run001/b/000001.jpg");
+  assert.equal(dataset.neighbor(image, 0, -1).path, "images/run001/a/000002.jpg");
+  assert.equal(dataset.neighbor(image, 1, 0), null);
+  assert.equal(dataset.neighbor(image, 0, 1), null);
+  assert.equal(dataset.imageAt("run000", "a", 0), null);
+  assert.equal(coco.imageOf("images/../job.json"), null);
+});
+
+test("an image that the annotations lack is reported", async () => {
+  const file = annotationFile({ runs: 1, cameras: ["d1"], frames: 3, people: 4 });
+  serve(file);
+  const dataset = await coco.Dataset.open("job");
+  await assert.rejects(dataset.labelsOf(coco.imageOf("images/run000/d1/000007.jpg")), /do not hold/);
+});
+
+/** docs/formats.md, "counts": groups of five bits, lowest first. */
+function encoded(runs) {
+  let text = "";
+  runs.forEach((run, index) => {
+    let value = index > 2 ? run - runs[index - 2] : run;
+    for (;;) {
+      const bits = value & 31;
+      value >>= 5;
+      const isLast = (value === 0 && !(bits & 16)) || (value === -1 && bits & 16);
+      text += String.fromCharCode(48 + (isLast ? bits : bits | 32));
+      if (isLast) break;
+    }
+  });
+  return text;
+}
+
+test("masks are read as they are written", () => {
+  const next = sequence(5);
+  for (let round = 0; round < 50; ++round) {
+    const size = [1 + next(70), 1 + next(90)];
+    const runs = [];
+    for (let left = size[0] * size[1]; left > 0; ) {
+      const run = Math.min(left, next(3) === 0 ? next(2000) + 1 : next(40) + 1);
+      runs.push(run);
+      left -= run;
+    }
+    for (const mask of [{ size, counts: encoded(runs) }, { size, counts: runs }]) {
+      const pixels = new Set();
+      rle.forEachRun(mask, (x, y, length) => {
+        for (let i = 0; i < length; ++i) pixels.add((y + i) * size[1] + x);
+      });
+      assert.deepEqual([...pixels].sort(), [...pixelsOf({ size, counts: encoded(runs) })].sort());
+    }
+  }
+});
+
+test("values of the form are set and removed", () => {
+  const job = { scenario: "a", drones: [{ id: "d1" }, { id: "d2", camera: { width: 64 } }] };
+  assert.deepEqual(json.withValue(job, ["drones", 1, "camera", "width"], undefined).drones[1], { id: "d2" });
+  assert.deepEqual(json.withValue(job, ["drones", 0], undefined).drones, [job.drones[1]]);
+  assert.deepEqual(json.withValue(job, ["crowd", "agents"], 5).crowd, { agents: 5 });
+  assert.equal(job.crowd, undefined);
+  assert.equal(json.pointerOf(["a/b", "c~d", 3]), "/a~1b/c~0d/3");
+});
+
+test("a copied job keeps what differs from the defaults", () => {
+  const part = { type: "object", default: {}, properties: { width: { default: 1280 }, height: { default: 720 } } };
+  const description = {
+    properties: { scenario: {}, runs: { default: 1 }, camera: part, drones: { items: { required: ["id"], properties: { id: { default: "x" }, camera: part } } } },
+    required: ["scenario"],
+  };
+  const job = { scenario: "a", runs: 1, camera: { width: 1280, height: 720 }, drones: [{ id: "x", camera: { width: 640, height: 720 } }] };
+  assert.deepEqual(schema.withoutDefaults(job, description), { scenario: "a", drones: [{ id: "x", camera: { width: 640 } }] });
+});
+
+test("footprints are those of a pinhole camera", () => {
+  // Straight down from 10 m with a square image of 90 degrees: 20 m × 20 m; the top of the image is ahead.
+  const down = footprint({ x: 1, y: 2, height: 10, yawDeg: 0, pitchDeg: -90, hfovDeg: 90, aspect: 1 });
+  const expected = [[11, 12], [11, -8], [-9, -8], [-9, 12]];
+  down.forEach(([x, y], index) => assert.ok(Math.hypot(x - expected[index][0], y - expected[index][1]) < 1e-9));
+  // Along the heading the edges of the image are at the pitch plus and minus half the vertical angle.
+  const ahead = footprint({ x: 0, y: 0, height: 10, yawDeg: 90, pitchDeg: -45, hfovDeg: 60, aspect: 2 });
+  const half = Math.atan(Math.tan(Math.PI / 6) / 2);
+  assert.ok(Math.abs(ahead[0][1] - 10 / Math.tan(Math.PI / 4 - half)) < 1e-9);
+  assert.ok(Math.abs(ahead[3][1] - 10 / Math.tan(Math.PI / 4 + half)) < 1e-9);
+  assert.ok(ahead[0][0] < 0 && ahead[1][0] > 0);
+  // Rays to the sky end somewhere.
+  for (const point of footprint({ x: 0, y: 0, height: 10, yawDeg: 30, pitchDeg: 0, hfovDeg: 90, aspect: 1.5 })) {
+    assert.ok(point.every(Number.isFinite) && Math.hypot(...point) < 200);
+  }
+});
+
+test("states of exits last until the next frame", () => {
+  const rows = [[0, "a", "idle"], [0, "b", "closed"], [2, "a", "flowing"], [2, "b", "closed"], [4, "a", "flowing"], [4, "b", "idle"]];
+  const csv = `frame,time_s,exit,queue,state\n${rows.map(([time, exit, state]) => `0,${time},${exit},3,${state}`).join("\n")}\n`;
+  const histories = exits.historiesOf(csv, 6);
+  assert.deepEqual(histories, [
+    { id: "a", spans: [{ from_s: 0, to_s: 2, state: "idle" }, { from_s: 2, to_s: 6, state: "flowing" }] },
+    { id: "b", spans: [{ from_s: 0, to_s: 4, state: "closed" }, { from_s: 4, to_s: 6, state: "idle" }] },
+  ]);
+  assert.equal(exits.stateAt(histories[1], 3.9), "closed");
+  assert.equal(exits.stateAt(histories[1], 6), "idle");
+  assert.deepEqual(exits.historiesOf("frame,time_s,exit,state\n", 6), []);
+});
+
+test("intervals are those of Student's distribution", () => {
+  // Tables of the two-sided 95 % quantile.
+  const table = { 1: 12.7062, 2: 4.30265, 3: 3.18245, 4: 2.77645, 9: 2.26216, 10: 2.22814, 29: 2.04523, 30: 2.04227, 99: 1.98422, 999: 1.96234 };
+  for (const [degrees, expected] of Object.entries(table)) {
+    assert.ok(Math.abs(statistics.studentQuantile(Number(degrees)) - expected) < 1e-4 * expected, `${degrees}: ${statistics.studentQuantile(Number(degrees))}`);
+  }
+  const { count, mean, margin } = statistics.summaryOf([4, 7, 13, 16]);
+  assert.deepEqual([count, mean], [4, 10]);
+  assert.ok(Math.abs(margin - 3.18245 * Math.sqrt(30 / 4)) < 1e-3);
+  assert.deepEqual(statistics.summaryOf([3]), { count: 1, mean: 3, margin: null });
+});
+
+test("bands keep the last value of runs that end earlier", () => {
+  assert.equal(statistics.quantileOf([5, 1, 3, 2], 0.5), 2.5);
+  assert.equal(statistics.quantileOf([7], 0.25), 7);
+  const band = statistics.bandOf([[0, 1], [0, 0, 0.5], [0, 0.5, 0.5]]);
+  assert.deepEqual(band.median, [0, 0.5, 0.5]);
+  assert.deepEqual(band.low, [0, 0.25, 0.5]);
+  assert.deepEqual(band.high, [0, 0.75, 0.75]);
+  assert.deepEqual(statistics.bandOf([]), { median: [], low: [], high: [] });
+});
+
+test("jobs differ in the smallest parts that differ", () => {
+  const a = { name: "a", seed: 1, drones: [{ id: "d1", start: [1, 2, 3] }], outputs: { annotations: ["coco"] }, same: { x: [1] } };
+  const b = { name: "b", seed: 1, drones: [{ id: "d1", start: [1, 2, 4] }], outputs: { annotations: ["coco", "exits"], previews: 2 }, same: { x: [1] } };
+  assert.deepEqual(differences([a, b]), [
+    { pointer: "/drones/0/start", values: [[1, 2, 3], [1, 2, 4]] },
+    { pointer: "/outputs/annotations", values: [["coco"], ["coco", "exits"]] },
+    { pointer: "/outputs/previews", values: [undefined, 2] },
+  ]);
+  assert.deepEqual(differences([a, { ...a, name: "c" }]), []);
+  // Lists of different length are one value.
+  assert.deepEqual(differences([{ drones: [{ id: "x" }] }, { drones: [{ id: "x" }, { id: "y" }] }]).map((entry) => entry.pointer), ["/drones"]);
+  assert.deepEqual(differences([{ seed: 1 }, { seed: 1 }, { seed: 3 }]), [{ pointer: "/seed", values: [1, 1, 3] }]);
+});

@@ -1,0 +1,96 @@
+// A service with a folder of its own, and Debian's Chromium.
+import { execFileSync, spawn } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import path from "node:path";
+
+const kChromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"];
+
+/** `packages` is the node_modules of web/package-lock.json. */
+export function load(packages, name) {
+  return createRequire(path.join(packages, "any.js"))(name);
+}
+
+export function packageFile(packages, name) {
+  return path.join(packages, name);
+}
+
+export class TestService {
+  constructor(program) {
+    this.program = program;
+    this.data = mkdtempSync(path.join(tmpdir(), "throng-studio-"));
+  }
+
+  /** Resolves when the service listens. */
+  start() {
+    this.child = spawn(this.program, ["serve", "--data", this.data, "--port", "0"], { stdio: ["ignore", "pipe", "pipe"] });
+    return new Promise((resolve, reject) => {
+      let text = "";
+      const read = (chunk) => {
+        text += chunk;
+        const address = /http:\/\/127\.0\.0\.1:\d+/.exec(text);
+        if (address) resolve((this.address = address[0]));
+      };
+      this.child.stdout.on("data", read);
+      this.child.stderr.on("data", read);
+      this.child.on("exit", (code) => reject(new Error(`throng serve ended with ${code}: ${text}`)));
+    });
+  }
+
+  createKey(scope) {
+    const text = execFileSync(this.program, ["keys", "create", "test", "--data", this.data, "--scope", scope], { encoding: "utf8" });
+    return /throng_\w+/.exec(text)[0];
+  }
+
+  async json(address, init) {
+    const response = await fetch(this.address + address, init);
+    if (!response.ok) throw new Error(`${address}: ${response.status} ${await response.text()}`);
+    return response.json();
+  }
+
+  async remove(address) {
+    const response = await fetch(this.address + address, { method: "DELETE" });
+    if (!response.ok) throw new Error(`${address}: ${response.status}`);
+  }
+
+  async stop() {
+    const ended = new Promise((resolve) => this.child.on("exit", resolve));
+    this.child.removeAllListeners("exit");
+    this.child.on("exit", () => {});
+    const gone = new Promise((resolve) => this.child.on("close", resolve));
+    this.child.kill("SIGTERM");
+    await Promise.race([ended, gone]);
+    rmSync(this.data, { recursive: true, force: true });
+  }
+}
+
+/** A name that leads to this machine for the browser alone. */
+export const kOtherHost = "other-site.test";
+
+/** A page of another origin, from which the service is attacked. */
+export class OtherSite {
+  start() {
+    this.server = createServer((_, response) => response.setHeader("Content-Type", "text/html").end("<!doctype html><title>other site</title>"));
+    return new Promise((resolve) =>
+      this.server.listen(0, "127.0.0.1", () => {
+        const { port } = this.server.address();
+        this.address = `http://${kOtherHost}:${port}/`;
+        this.localAddress = `http://127.0.0.1:${port}/`;
+        resolve();
+      }),
+    );
+  }
+
+  stop() {
+    this.server.closeAllConnections();
+    this.server.close();
+  }
+}
+
+export function launch(packages) {
+  const executablePath = kChromium.find((file) => existsSync(file));
+  if (!executablePath) throw new Error("Chromium is missing (Debian package chromium; scripts/setup.sh installs it)");
+  return load(packages, "playwright-core").chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu", `--host-resolver-rules=MAP ${kOtherHost} 127.0.0.1`] });
+}

@@ -1,0 +1,406 @@
+// Studio in a browser, against a real service: a job from the form to its labels, with mistakes and keys.
+// usage: node studio_test.mjs PROGRAM PACKAGES
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, test as nodeTest } from "node:test";
+import { pixelsOf } from "./masks.mjs";
+import { kOtherHost, launch, OtherSite, packageFile, TestService } from "./service.mjs";
+
+const [program, packages] = process.argv.slice(2);
+const kWidths = [360, 768, 1440];
+const kJobMs = 120_000; // a busy machine
+const kJob = {
+  name: "studio test",
+  scenario: "city_square/emergency",
+  crowd: { agents: 150 },
+  drones: [
+    { id: "d1", camera: { width: 320, height: 180 } },
+    { id: "d2", camera: { width: 320, height: 180 } },
+  ],
+  capture: { from_s: 1, to_s: 2, rate_hz: 1 },
+  outputs: { annotations: ["coco", "keypoints", "exits"], previews: 1 },
+};
+
+const service = new TestService(program);
+let browser;
+let page;
+const complaints = [];
+let job; // the id of the job that the form submits
+
+/** Each step begins where the last one ended: after a failure the rest is left out. */
+let isBroken = false;
+function test(name, step) {
+  nodeTest(name, async (context) => {
+    if (isBroken) return context.skip("an earlier step failed");
+    isBroken = true;
+    await step();
+    isBroken = false;
+  });
+}
+
+before(async () => {
+  await service.start();
+  browser = await launch(packages);
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
+  page = await context.newPage();
+  page.setDefaultTimeout(20_000);
+  // Refused requests are expected answers; anything else on the console is a fault, a violated policy among them.
+  page.on("console", (message) => {
+    if (message.type() === "error" && !/Failed to load resource: .* (400|401|404|409)/.test(message.text())) complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(error.message));
+});
+
+after(async () => {
+  await browser?.close();
+  await service.stop();
+});
+
+const go = (address) => page.goto(service.address + address);
+
+async function type(label, text) {
+  await page.getByLabel(label, { exact: true }).fill(text);
+}
+
+/** Findings of axe-core that keep people from using the screen. */
+async function checkAccess(name) {
+  await page.evaluate(readFileSync(packageFile(packages, "axe-core/axe.min.js"), "utf8"));
+  const found = await page.evaluate(async () => {
+    const { violations } = await window.axe.run(document, { resultTypes: ["violations"] });
+    return violations
+      .filter((entry) => entry.impact === "serious" || entry.impact === "critical")
+      .map((entry) => `${entry.id}: ${entry.nodes.map((node) => node.target.join(" ")).slice(0, 3)}`);
+  });
+  assert.deepEqual(found, [], name);
+}
+
+/** No screen is wider than the window, whatever its width. */
+async function checkWidths(name) {
+  for (const width of kWidths) {
+    await page.setViewportSize({ width, height: 900 });
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert.ok(wide <= 0, `${name} is ${wide} px too wide at ${width}`);
+  }
+}
+
+async function checkScreen(name) {
+  for (const colorScheme of ["light", "dark"]) {
+    await page.emulateMedia({ colorScheme });
+    await checkAccess(`${name}, ${colorScheme}`);
+  }
+  await page.emulateMedia({ colorScheme: "light" });
+  await checkWidths(name);
+}
+
+test("the empty home leads to the form", async () => {
+  await go("/");
+  await page.getByText("No jobs yet").waitFor();
+  await checkScreen("home");
+  await page.getByRole("link", { name: "Make the first dataset" }).click();
+  await page.getByRole("heading", { name: "New job" }).waitFor();
+  assert.equal(new URL(page.url()).pathname, "/new");
+});
+
+test("a mistake is shown at its field and at its line", async () => {
+  await page.getByLabel("Open a file").setInputFiles({ name: "job.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(kJob, null, 2)) });
+  await page.getByText("4 images").waitFor();
+  await type("Runs", "none");
+  const field = page.locator("#field-runs");
+  await page.locator("#field-runs-note", { hasText: 'found "none", expected an integer from 1 to 1000' }).waitFor();
+  assert.equal(await field.getAttribute("aria-invalid"), "true");
+  assert.ok(await page.getByRole("button", { name: "Submit" }).isDisabled());
+  await checkScreen("form");
+  await page.getByRole("tab", { name: /JSON/ }).click();
+  const line = page.locator(".cm-line", { has: page.locator(".cm-lintRange-error") });
+  await line.waitFor();
+  assert.match(await line.innerText(), /"runs": "none"/);
+  await checkScreen("text");
+  await page.getByRole("tab", { name: "All fields" }).click();
+  await page.getByPlaceholder("Search fields").fill("exposure");
+  await page.getByLabel("Exposure: value").first().waitFor();
+  assert.equal(await page.getByLabel("Name", { exact: true }).count(), 0);
+  await page.getByPlaceholder("Search fields").fill("");
+  await checkScreen("all fields");
+  await type("Runs", "1");
+  await page.getByText("4 images").waitFor();
+});
+
+test("a drone moves on the plan by keyboard", async () => {
+  await page.getByRole("tab", { name: "Basic" }).click();
+  const drone = page.getByRole("button", { name: /^Drone d2 at 10, -12/ });
+  await drone.focus();
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("ArrowUp");
+  await page.getByRole("button", { name: /^Drone d2 at 11, -11/ }).waitFor();
+  assert.equal(await page.locator("#field-drones-1-start input").first().inputValue(), "11");
+});
+
+test("what was typed survives a reload", async () => {
+  await page.getByText("4 images").waitFor();
+  await page.reload();
+  await page.getByText("4 images").waitFor();
+  assert.equal(await page.getByLabel("Name", { exact: true }).inputValue(), kJob.name);
+});
+
+test("a submitted job is watched until it ends", async () => {
+  await page.getByRole("button", { name: "Submit" }).click();
+  await page.getByRole("heading", { name: kJob.name }).waitFor();
+  job = /\/jobs\/(\w+)$/.exec(page.url())[1];
+  // Nothing is reloaded: events of the service change the screen.
+  await page.locator(".heading .badge", { hasText: "succeeded" }).waitFor({ timeout: kJobMs });
+  const stored = await service.json(`/v1/jobs/${job}`);
+  assert.equal(stored.job.drones[1].start[0], 11);
+  await page.locator("summary", { hasText: "Logs" }).click();
+  await page.locator("pre.log", { hasText: /\w{4}/ }).waitFor();
+  await checkScreen("job");
+});
+
+test("masks on the canvas are those of the annotations", async () => {
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await page.getByRole("link", { name: "Browse images" }).click();
+  await page.locator('canvas.image[data-drawn="yes"]').nth(3).waitFor();
+  await checkScreen("images");
+  const name = "images/run000/d2/000001.jpg";
+  await go(`/jobs/${job}/images?image=${name}`);
+  const coco = await service.json(`/v1/jobs/${job}/files/annotations/instances.json`);
+  const image = coco.images.find((entry) => entry.file_name === name);
+  const people = coco.annotations.filter((entry) => entry.image_id === image.id);
+  assert.ok(people.length > 3);
+  await page.locator(`canvas.overlay[data-drawn="${image.id} boxes,masks"]`).waitFor();
+  await page.keyboard.press("b");
+  const canvas = page.locator(`canvas.overlay[data-drawn="${image.id} masks"]`);
+  await canvas.waitFor();
+  const painted = new Set(await canvas.evaluate((element, { width, height }) => {
+    const { data } = element.getContext("2d").getImageData(0, 0, element.width, element.height);
+    const scale = element.width / width;
+    const found = [];
+    for (let y = 0; y < height; ++y) {
+      for (let x = 0; x < width; ++x) {
+        const column = Math.floor((x + 0.5) * scale);
+        const row = Math.floor((y + 0.5) * scale);
+        if (data[4 * (row * element.width + column) + 3] > 0) found.push(y * width + x);
+      }
+    }
+    return found;
+  }, image));
+  const expected = new Set(people.flatMap((entry) => [...pixelsOf(entry.segmentation)]));
+  assert.ok(expected.size > 100);
+  assert.deepEqual([...painted].sort(), [...expected].sort());
+});
+
+test("labels and images change by keyboard", async () => {
+  await page.keyboard.press("k");
+  await page.locator('canvas.overlay[data-drawn$="masks,keypoints"]').waitFor();
+  await page.keyboard.press("ArrowLeft");
+  await page.getByText("run000 · d2 · 000000").waitFor();
+  await page.keyboard.press("ArrowUp");
+  await page.getByText("run000 · d1 · 000000").waitFor();
+  await page.locator('canvas.overlay[data-drawn$="masks,keypoints"]').waitFor();
+  await checkScreen("viewer");
+  await page.keyboard.press("Escape");
+  await page.getByRole("heading", { name: /^Images of/ }).waitFor();
+});
+
+test("a click names a person", async () => {
+  await page.setViewportSize({ width: 1440, height: 900 });
+  const coco = await service.json(`/v1/jobs/${job}/files/annotations/instances.json`);
+  const image = coco.images.find((entry) => entry.file_name === "images/run000/d1/000000.jpg");
+  const people = coco.annotations.filter((entry) => entry.image_id === image.id);
+  const chosen = people.reduce((best, entry) => (entry.area > best.area ? entry : best));
+  await go(`/jobs/${job}/images?image=${image.file_name}`);
+  const canvas = page.locator(`canvas.overlay[data-drawn^="${image.id} "]`);
+  const box = await canvas.boundingBox();
+  const scale = box.width / image.width;
+  const [x, y, width, height] = chosen.bbox;
+  await canvas.click({ position: { x: (x + width / 2) * scale, y: (y + height / 2) * scale } });
+  const record = page.getByLabel("Person", { exact: true });
+  await record.getByText(String(chosen.track_id), { exact: true }).waitFor();
+  const track = coco.tracks.find((entry) => entry.id === chosen.track_id);
+  await record.getByText(track.attributes.wears).waitFor();
+});
+
+test("a run is shown over time", async () => {
+  await go(`/jobs/${job}`);
+  await page.getByRole("link", { name: "run000", exact: true }).click();
+  await page.getByRole("heading", { name: `run000 of ${kJob.name}` }).waitFor();
+  const time = page.getByRole("slider", { name: "Time" });
+  await time.waitFor();
+  assert.equal(await time.getAttribute("aria-valuetext"), "1.0 s");
+  await page.getByRole("img", { name: "Share of the people who have escaped: 0 % at 1.0 s" }).waitFor();
+  await page.keyboard.press("ArrowRight");
+  const coco = await service.json(`/v1/jobs/${job}/files/annotations/instances.json`);
+  const ids = new Set(coco.images.filter((image) => image.time_s === 2).map((image) => image.id));
+  const people = new Set(coco.annotations.filter((entry) => ids.has(entry.image_id)).map((entry) => entry.track_id));
+  await page.getByRole("img", { name: `${people.size} people on the plan` }).waitFor();
+  await page.getByRole("img", { name: /^States of the exits at 2.0 s: exit1 idle/ }).waitFor();
+  assert.equal(await time.getAttribute("aria-valuetext"), "2.0 s");
+  await checkScreen("run");
+});
+
+test("jobs are compared", async () => {
+  const changed = { ...kJob, name: "studio test, more people", seed: 5, crowd: { agents: 200 } };
+  const other = await service.json("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(changed) });
+  await go("/jobs");
+  await page.locator("tbody tr", { hasText: changed.name }).getByText("succeeded").waitFor({ timeout: kJobMs });
+  await page.getByLabel("Select all jobs of this page").check();
+  await page.getByRole("group", { name: "Selected jobs" }).getByRole("link", { name: "Compare" }).click();
+  await page.getByRole("heading", { name: "Compare", exact: true }).waitFor();
+  const ids = new URL(page.url()).searchParams.getAll("job");
+  assert.deepEqual([...ids].sort(), [job, other.id].sort());
+  // Each job has one run: its figures are those of metrics.json.
+  const row = page.locator("tr", { has: page.getByRole("rowheader", { name: "People", exact: true }) });
+  await row.waitFor();
+  const cells = await row.locator("td").allInnerTexts();
+  const people = await Promise.all(ids.map(async (id) => (await service.json(`/v1/jobs/${id}/metrics`)).runs[0].people));
+  assert.deepEqual(cells, people.map((count) => count.toFixed(1)));
+  const fields = await page.getByRole("region", { name: "Fields in which the jobs differ" }).getByRole("rowheader").allInnerTexts();
+  assert.deepEqual(fields.sort(), ["/crowd/agents", "/drones/1/start", "/seed"]);
+  await page.getByRole("slider", { name: "Time" }).fill("2");
+  await page.getByRole("img", { name: /^Median share of the people who have escaped at 2.0 s/ }).waitFor();
+  await page.getByRole("img", { name: /images\/run000\/d1\/000001.jpg$/ }).nth(1).waitFor();
+  const edge = page.getByRole("slider", { name: "Edge between the images" });
+  await edge.fill("25");
+  const upper = page.locator(".swipe .upper");
+  assert.match(await upper.evaluate((image) => image.style.clipPath), /^inset\(0(px)? 0(px)? 0(px)? 25%\)$/);
+  await checkScreen("comparison");
+  await service.remove(`/v1/jobs/${other.id}`);
+  await page.reload();
+  await page.getByText(`there is no job ${other.id}`).waitFor();
+});
+
+test("jobs are filtered by the address and removed in bulk", async () => {
+  await go("/jobs?state=failed");
+  await page.getByText("No job fits").waitFor();
+  await page.getByRole("button", { name: "succeeded" }).click();
+  await page.getByRole("link", { name: kJob.name }).waitFor();
+  assert.equal(new URL(page.url()).searchParams.getAll("state").join(), "failed,succeeded");
+  const copy = await service.json(`/v1/jobs/${job}/clone?dry`, { method: "POST" });
+  await go("/jobs?name=studio");
+  await page.locator("tbody tr").nth(1).waitFor();
+  await checkScreen("jobs");
+  await page.getByLabel("Select all jobs of this page").check();
+  await page.getByLabel(`Select ${kJob.name}`).last().uncheck();
+  await page.getByRole("group", { name: "Selected jobs" }).getByRole("button", { name: "Delete" }).click();
+  await page.getByRole("dialog").getByRole("button", { name: "Delete 1 job" }).click();
+  await page.waitForFunction(() => document.querySelectorAll("tbody tr").length === 1);
+  const left = await service.json("/v1/jobs");
+  assert.deepEqual(left.jobs.map((entry) => entry.id), [job]);
+  assert.notEqual(copy.id, job);
+});
+
+test("wrong addresses and removed jobs are named", async () => {
+  await go("/nothing/here");
+  await page.getByText("There is nothing at this address.").waitFor();
+  await go("/jobs/j0000000000000000");
+  await page.getByText("There is no job j0000000000000000").waitFor();
+});
+
+test("pages of other sites can neither change nor read anything", async () => {
+  const attacker = new OtherSite();
+  await attacker.start();
+  try {
+    const before = await service.json("/v1/jobs");
+    const context = await browser.newContext();
+    const evil = await context.newPage();
+    await evil.goto(attacker.address);
+    const body = JSON.stringify({ ...kJob, name: "attack" });
+    const outcomes = await evil.evaluate(async ({ address, body, job }) => {
+      const outcome = (path, init) => fetch(address + path, init).then((response) => `${response.type} ${response.status}`, () => "refused");
+      return [
+        await outcome("/v1/jobs", { method: "POST", mode: "no-cors", body }),
+        await outcome("/v1/jobs", { method: "POST", headers: { "Content-Type": "application/json" }, body }),
+        await outcome(`/v1/jobs/${job}`, { method: "DELETE" }),
+        await outcome(`/v1/jobs/${job}/clone`, { method: "POST", mode: "no-cors" }),
+        await outcome("/v1/jobs", {}),
+      ];
+    }, { address: service.address, body, job });
+    // An opaque answer cannot be read; what follows shows that it changed nothing.
+    assert.deepEqual(outcomes, ["opaque 0", "refused", "refused", "opaque 0", "refused"]);
+    await evil.evaluate(({ address, body }) => {
+      const form = document.createElement("form");
+      Object.assign(form, { action: `${address}/v1/jobs`, method: "post", enctype: "text/plain" });
+      const field = document.createElement("input");
+      Object.assign(field, { name: body.slice(0, -1) + ',"x":"', value: '"}' });
+      form.append(field);
+      document.body.append(form);
+      form.submit();
+    }, { address: service.address, body });
+    await evil.waitForURL(`${service.address}/v1/jobs`);
+    assert.match(await evil.locator("body").innerText(), /40[03]|415/);
+    assert.deepEqual((await service.json("/v1/jobs")).jobs.map((entry) => [entry.id, entry.state]), before.jobs.map((entry) => [entry.id, entry.state]));
+    // The page is not shown in frames of others.
+    await evil.goto(attacker.address);
+    await evil.evaluate((address) => {
+      const frame = document.createElement("iframe");
+      frame.src = address;
+      const loaded = new Promise((resolve) => frame.addEventListener("load", resolve));
+      document.body.append(frame);
+      return loaded;
+    }, service.address);
+    assert.match(evil.frames()[1].url(), /^chrome-error:/);
+    // A name of the attacker that leads to this machine (DNS rebinding) is not the service's.
+    for (const path of ["/", "/v1/jobs"]) {
+      const answer = await evil.goto(`http://${kOtherHost}:${new URL(service.address).port}${path}`);
+      assert.ok([400, 403, 421].includes(answer.status()), `${path}: ${answer.status()}`);
+      assert.ok(!(await answer.text()).includes(job));
+    }
+    await context.close();
+  } finally {
+    attacker.stop();
+  }
+});
+
+test("a key is asked for, a wrong one is reported, and a right one becomes a cookie", async () => {
+  const key = service.createKey("submit");
+  await go(`/jobs/${job}`);
+  await page.getByRole("heading", { name: "Key needed" }).waitFor();
+  await checkScreen("key");
+  await page.getByLabel("Key", { exact: true }).fill("throng_wrong");
+  await page.getByRole("button", { name: "Use this key" }).click();
+  await page.getByRole("alert").getByText("this key is not known, or was revoked").waitFor();
+  await page.getByLabel("Key", { exact: true }).fill(key);
+  await page.getByRole("button", { name: "Use this key" }).click();
+  await page.getByRole("heading", { name: kJob.name }).waitFor();
+  const cookies = await page.context().cookies();
+  assert.deepEqual(cookies.map(({ httpOnly, sameSite, expires }) => ({ httpOnly, sameSite, expires })), [{ httpOnly: true, sameSite: "Strict", expires: -1 }]);
+  assert.ok(!cookies[0].value.includes(key));
+  // Images and downloads need the session too.
+  await page.waitForFunction(() => [...document.querySelectorAll("figure img")].filter((image) => image.naturalWidth > 0).length >= 2);
+  await page.reload();
+  await page.getByRole("heading", { name: kJob.name }).waitFor();
+  const stored = await page.evaluate(() => JSON.stringify([localStorage, sessionStorage, document.cookie, location.href, performance.getEntriesByType("resource").map((entry) => entry.name)]));
+  assert.ok(!stored.includes(key) && !stored.includes("throng_"));
+  const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("link", { name: "Dataset (zip)" }).click()]);
+  assert.equal(readFileSync(await download.path()).subarray(0, 2).toString(), "PK");
+});
+
+test("a session does not serve pages of another port of this host", async () => {
+  const attacker = new OtherSite();
+  await attacker.start();
+  try {
+    const evil = await page.context().newPage();
+    await evil.goto(attacker.localAddress);
+    const outcome = await evil.evaluate(async ({ address, job }) => {
+      const post = (path) => fetch(address + path, { method: "POST", mode: "no-cors", credentials: "include" }).then((response) => response.type, () => "refused");
+      const image = new Image();
+      const isShown = new Promise((resolve) => {
+        image.onload = () => resolve(true);
+        image.onerror = () => resolve(false);
+      });
+      image.src = `${address}/v1/jobs/${job}/plan`;
+      const read = await fetch(`${address}/v1/jobs`, { credentials: "include" }).then((response) => response.text(), () => "refused");
+      return [await post(`/v1/jobs/${job}/clone`), await post("/v1/session"), read, await isShown];
+    }, { address: service.address, job });
+    assert.deepEqual(outcome, ["opaque", "opaque", "refused", false]);
+    await evil.close();
+  } finally {
+    attacker.stop();
+  }
+  const list = await page.evaluate(() => fetch("/v1/jobs").then((response) => response.json()));
+  assert.deepEqual(list.jobs.map((entry) => entry.id), [job]);
+  await page.getByRole("button", { name: "Sign out" }).click();
+  await page.getByRole("heading", { name: "Key needed" }).waitFor();
+  assert.deepEqual(await page.context().cookies(), []);
+});
+
+test("nothing was on the console", () => assert.deepEqual(complaints, []));

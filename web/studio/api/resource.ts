@@ -1,0 +1,51 @@
+// Values of the service as hooks.
+import { useCallback, useEffect, useRef, useState } from "preact/hooks";
+import { ApiError, getJson } from "./client";
+import { useSession } from "./session";
+
+export interface Resource<T> {
+  value: T | null;
+  error: ApiError | null;
+  reload: () => void;
+}
+
+/** A JSON answer; the last one stays while another is fetched. `null` as path: nothing is fetched. */
+export function useJson<T>(path: string | null): Resource<T> {
+  const [value, setValue] = useState<{ path: string | null; value: T | null }>({ path: null, value: null });
+  const [error, setError] = useState<ApiError | null>(null);
+  const [round, setRound] = useState(0);
+  const { round: session } = useSession();
+  useEffect(() => {
+    if (path === null) return;
+    const controller = new AbortController();
+    getJson<T>(path, controller.signal).then(
+      (answer) => {
+        setValue({ path, value: answer });
+        setError(null);
+      },
+      (reason: unknown) => {
+        if (!controller.signal.aborted) setError(reason instanceof ApiError ? reason : new ApiError(0, String(reason)));
+      },
+    );
+    return () => controller.abort();
+  }, [path, round, session]);
+  const reload = useCallback(() => setRound((count) => count + 1), []);
+  return { value: value.path === path ? value.value : null, error, reload };
+}
+
+/** Calls `action` every `periodMs` while the page is visible; 0: never. */
+export function useInterval(action: () => void, periodMs: number): void {
+  const handler = useRef(action);
+  handler.current = action;
+  useEffect(() => {
+    if (periodMs <= 0) return;
+    const timer = setInterval(() => document.hidden || handler.current(), periodMs);
+    return () => clearInterval(timer);
+  }, [periodMs]);
+}
+
+/** An address for <img>; null while a key is asked for, so that it is fetched again afterwards. */
+export function useSource(path: string | null): string | null {
+  const { demand } = useSession();
+  return demand === null ? path : null;
+}

@@ -1,0 +1,292 @@
+// Made by web/studio/generate_types.mjs from server/openapi.json; do not edit.
+
+export interface Job {
+  id: string;
+  name: string;
+  state: "queued" | "running" | "succeeded" | "partial" | "failed" | "cancelled";
+  /** How often work on it was begun or taken up. */
+  attempt: number;
+  priority: number;
+  labels: string[];
+  /** The id of the key that it came with. */
+  owner: string | null;
+  created_at: string | null;
+  started_at: string | null;
+  ended_at: string | null;
+  /** When it will be removed for its age; earlier where all jobs together take too much disk. */
+  expires_at: string | null;
+  /** Never to be removed for its age. */
+  keep: boolean;
+  /** Disk that its files take, measured when it ended. */
+  bytes: number;
+  /** Why nobody works on it although it is its turn. */
+  waiting_for: string | null;
+  progress: Progress;
+  error: JobError | null;
+  links: Record<string, string>;
+  /** With all defaults. */
+  job: Record<string, unknown>;
+}
+
+export interface JobList {
+  jobs: Job[];
+  next: string | null;
+}
+
+export interface JobChange {
+  priority?: number;
+  labels?: string[];
+  keep?: boolean;
+}
+
+export interface JobError {
+  kind: "input" | "environment" | "partial";
+  message: string;
+  problems: Mistake[];
+  /** Runs that failed, of a job that is partial. */
+  runs?: {
+    run: string;
+    task: string;
+    message: string;
+    attempts: number;
+  }[];
+}
+
+/** Empty before the job has begun. */
+export interface Progress {
+  stage?: "waiting" | "simulating" | "rendering" | "rendered" | "finished" | "failed";
+  frames_done?: number;
+  frames_total?: number;
+  runs?: ({
+    run: string;
+    /** Up to 64 bits. */
+    seed: number;
+    stage: "waiting" | "simulating" | "rendering" | "rendered" | "finished" | "failed";
+    simulated_s: number;
+    duration_s: number;
+    frames_done: number;
+    frames_total: number;
+    frames_per_s: number;
+    remaining_s: number | null;
+  })[];
+  /** Running ones. */
+  shards?: ({
+    shard: string;
+    frames_done: number;
+    frames_total: number;
+    frames_per_s: number;
+    remaining_s: number | null;
+  })[];
+  /** 0 before the first. */
+  frames_per_s?: number;
+  /** At this rate; null before the first frame. */
+  remaining_s?: number | null;
+}
+
+export interface DryRun {
+  valid: true;
+  runs: number;
+  shards: number;
+  /** Of all cameras. */
+  frames: number;
+  job: Record<string, unknown>;
+}
+
+export interface Event {
+  seq: number;
+  job: string;
+  at: string;
+  type: "submitted" | "started" | "resumed" | "stage" | "succeeded" | "failed" | "cancelled" | "retried" | "changed" | "removed";
+  data: Record<string, unknown>;
+}
+
+export interface EventList {
+  events: Event[];
+  /** The value of `after` for the next request. */
+  next: number;
+}
+
+export interface LogList {
+  logs: {
+    name: string;
+    bytes: number;
+    href: string;
+  }[];
+}
+
+export interface PreviewList {
+  previews: {
+    name: string;
+    href: string;
+    /** The image without annotations. */
+    clean: string;
+  }[];
+}
+
+export interface ImageList {
+  images: {
+    run: string;
+    camera: string;
+    frame: number;
+    /** In the dataset: /v1/jobs/{id}/files/PATH. */
+    path: string;
+    bytes: number;
+  }[];
+  /** Images that fit, on all pages. */
+  total: number;
+  /** Of the whole dataset. */
+  runs: {
+    run: string;
+    cameras: {
+      camera: string;
+      images: number;
+      /** Number of the first frame. */
+      first: number;
+      last: number;
+    }[];
+  }[];
+}
+
+export interface Calibration {
+  id: string;
+  name: string;
+  state: "queued" | "running" | "succeeded" | "failed" | "cancelled";
+  /** How often work on it was begun or taken up. */
+  attempt: number;
+  priority: number;
+  labels: string[];
+  /** The id of the key that it came with. */
+  owner: string | null;
+  created_at: string | null;
+  started_at: string | null;
+  ended_at: string | null;
+  /** When it will be removed for its age; earlier where all jobs together take too much disk. */
+  expires_at: string | null;
+  /** Never to be removed for its age. */
+  keep: boolean;
+  /** Disk that its files take, measured when it ended. */
+  bytes: number;
+  /** Why nobody works on it although it is its turn. */
+  waiting_for: string | null;
+  progress: Record<string, unknown>;
+  error: JobError | null;
+  links: Record<string, string>;
+  request: Record<string, unknown>;
+  camera?: Record<string, unknown>;
+}
+
+export interface CalibrationList {
+  calibrations: Calibration[];
+  next: string | null;
+  /** The JSON schema of a request. */
+  schema: Record<string, unknown>;
+}
+
+export interface Scenario {
+  id: string;
+  name?: string;
+  description?: string;
+  crowd_model?: string | null;
+  ground_m?: number[];
+  exits?: {
+    id: string;
+    width_m: number;
+    open: boolean;
+  }[];
+  drones?: {
+    id: string;
+    start_m: number[];
+    /** Its heading, counter-clockwise from +x. */
+    yaw_deg: number;
+  }[];
+  buildings?: number;
+  props?: number;
+  /** Why it cannot be used. */
+  error?: string;
+  /** Whose upload it is from; null: it came with throng. */
+  uploaded?: null | Upload;
+}
+
+export interface ScenarioList {
+  scenarios: Scenario[];
+}
+
+export interface Upload {
+  name: string;
+  /** The id of the key that sent it. */
+  owner: string;
+  created_at: string;
+  bytes: number;
+  files: number;
+  /** Of its scenarios. */
+  ids?: string[];
+  /** Findings that do not prevent the upload (throng scenario check). */
+  findings?: ({
+    severity: "error" | "warning";
+    remedy: string;
+  })[];
+}
+
+/** The part of the job's schema that says how a job names one. */
+export type JobField = unknown;
+
+export interface Mistake {
+  pointer: string;
+  found: string;
+  expected: string;
+  message: string;
+  source?: string;
+}
+
+/** RFC 9457 */
+export interface Problem {
+  type: string;
+  title: string;
+  status: number;
+  detail: string;
+  errors?: Mistake[];
+}
+
+export interface Webhook {
+  id: string;
+  url: string;
+  events: string[];
+  /** False also when it has failed for a day. */
+  enabled: boolean;
+  created_at: string | null;
+  /** The last event that is settled. */
+  delivered_up_to: number;
+  /** In a row. */
+  failures: number;
+  failing_since: string | null;
+  /** In the answer to its creation only. */
+  secret?: string;
+  links: Record<string, string>;
+}
+
+export interface WebhookList {
+  webhooks: Webhook[];
+}
+
+export interface Delivery {
+  /** 0 for a ping. */
+  event: number;
+  type: string;
+  at: string | null;
+  attempt: number;
+  status: number | null;
+  error: string | null;
+  took_ms: number;
+  succeeded: boolean;
+}
+
+export interface DeliveryList {
+  deliveries: Delivery[];
+}
+
+export interface Session {
+  /** Whether callers need a key. */
+  needs_key: boolean;
+  /** read, submit or admin; null without a good key. */
+  scope: string | null;
+}

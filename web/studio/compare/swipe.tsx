@@ -1,0 +1,81 @@
+// Two jobs' images of the same run, camera and time, one above the other; a slider moves the edge between them.
+import { useState } from "preact/hooks";
+import { useSource } from "../api/resource";
+import type { Job } from "../api/types";
+import type { Dataset, ImageName } from "../dataset/coco";
+import { useDataset } from "../dataset/stage";
+import { captureOf, frameAt, timeOf } from "../run/capture";
+import { Swatch } from "./curves";
+
+interface SwipeProps {
+  jobs: [Job, Job];
+  indices: [number, number]; ///< among the compared jobs, which have their colors
+  time_s: number;
+}
+
+function nearestImage(dataset: Dataset, job: Job, run: string, camera: string, time_s: number): ImageName | null {
+  const known = dataset.camerasOf(run).find((entry) => entry.camera === camera);
+  if (!known) return null;
+  const frame = Math.min(known.last, Math.max(known.first, frameAt(captureOf(job), time_s)));
+  return dataset.imageAt(run, camera, frame);
+}
+
+function commonCameras(a: Dataset, b: Dataset): { run: string; camera: string }[] {
+  return a.runs.flatMap(({ run, cameras }) =>
+    cameras.filter(({ camera }) => b.camerasOf(run).some((entry) => entry.camera === camera)).map(({ camera }) => ({ run, camera })),
+  );
+}
+
+interface ImagesProps extends SwipeProps {
+  datasets: [Dataset, Dataset];
+}
+
+function Images({ jobs, indices, datasets, time_s }: ImagesProps) {
+  const [choice, setChoice] = useState(0);
+  const [edge, setEdge] = useState(50);
+  const cameras = commonCameras(...datasets);
+  const chosen = cameras[Math.min(choice, cameras.length - 1)];
+  const images = datasets.map((dataset, side) => chosen && nearestImage(dataset, jobs[side]!, chosen.run, chosen.camera, time_s));
+  const [left, right] = images;
+  const sources = [useSource(left ? datasets[0].address(left) : null), useSource(right ? datasets[1].address(right) : null)];
+  if (!chosen || !left || !right) return <p class="quiet-text">These two jobs have no run and camera of the same name.</p>;
+  const caption = (side: 0 | 1, image: ImageName) => (
+    <span>
+      <Swatch index={indices[side]} /> {jobs[side].name}, {timeOf(captureOf(jobs[side]), image.frame).toFixed(1)} s
+    </span>
+  );
+  return (
+    <>
+      <label class="row">
+        Run and camera
+        <select value={String(choice)} onChange={(event) => setChoice(Number(event.currentTarget.value))}>
+          {cameras.map(({ run, camera }, index) => (
+            <option key={`${run} ${camera}`} value={String(index)}>
+              {run}, {camera}
+            </option>
+          ))}
+        </select>
+      </label>
+      <figure>
+        <div class="stage swipe">
+          {sources[0] && <img src={sources[0]} alt={`${jobs[0].name}: ${left.path}`} />}
+          {sources[1] && <img class="upper" src={sources[1]} alt={`${jobs[1].name}: ${right.path}`} style={{ clipPath: `inset(0 0 0 ${edge}%)` }} />}
+          <div class="edge" style={{ left: `${edge}%` }} />
+        </div>
+        <figcaption class="row swipe-caption">
+          {caption(0, left)}
+          <input type="range" aria-label="Edge between the images" aria-valuetext={`${edge} %`} min="0" max="100" value={edge} onInput={(event) => setEdge(Number(event.currentTarget.value))} />
+          {caption(1, right)}
+        </figcaption>
+      </figure>
+    </>
+  );
+}
+
+export function Swipe(props: SwipeProps) {
+  const first = useDataset(props.jobs[0].id);
+  const second = useDataset(props.jobs[1].id);
+  if (first.error ?? second.error) return <p class="field-error">{(first.error ?? second.error)!.message}</p>;
+  if (!first.dataset || !second.dataset) return <p class="loading">Loading …</p>;
+  return <Images {...props} datasets={[first.dataset, second.dataset]} />;
+}

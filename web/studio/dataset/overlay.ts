@@ -1,0 +1,155 @@
+// Labels of an image on a canvas over it.
+import type { Annotation, Labels } from "./coco";
+import { forEachRun } from "./rle";
+
+export interface Layer {
+  id: string;
+  key: string; ///< on the keyboard
+  label: string;
+}
+
+export const kLayers: Layer[] = [
+  { id: "boxes", key: "b", label: "Boxes" },
+  { id: "amodal", key: "a", label: "Amodal boxes" },
+  { id: "masks", key: "m", label: "Masks" },
+  { id: "keypoints", key: "k", label: "Keypoints" },
+  { id: "ids", key: "i", label: "Ids" },
+  { id: "exits", key: "e", label: "Exits" },
+  { id: "hidden", key: "h", label: "Hidden" },
+];
+
+export const kColorings = ["track", "state", "visibility"] as const;
+export type Coloring = (typeof kColorings)[number];
+
+export interface Drawing {
+  layers: ReadonlySet<string>;
+  coloring: Coloring;
+  opacity: number; ///< of masks
+  selected: number | null; ///< a track
+}
+
+const kDrone = 2; ///< category
+const kHues = 47; ///< degrees between neighbors in a list: far apart
+const kStateColors: Record<string, string> = {
+  waiting: "#6ea8ff",
+  walking: "#46c46a",
+  running: "#ffb020",
+  following: "#c77dff",
+  panicking: "#ff5a4f",
+  lying: "#b8860b",
+};
+/** Of COCO's 17 keypoints. */
+const kLimbs = [
+  [15, 13], [13, 11], [16, 14], [14, 12], [11, 12], [5, 11], [6, 12], [5, 6], [5, 7], [6, 8], [7, 9], [8, 10], [1, 2], [0, 1], [0, 2],
+] as const;
+
+export function colorOf(annotation: Annotation, coloring: Coloring): string {
+  if (annotation.category_id === kDrone) return "#00e5ff";
+  if (coloring === "state") return kStateColors[annotation.state ?? ""] ?? "#cccccc";
+  if (coloring === "visibility") return `hsl(${Math.round(120 * annotation.visibility)} 90% 50%)`;
+  return `hsl(${(annotation.track_id * kHues) % 360} 85% 60%)`;
+}
+
+function drawMasks(context: CanvasRenderingContext2D, annotations: Annotation[], drawing: Drawing, scale: number): void {
+  context.globalAlpha = drawing.opacity;
+  for (const annotation of annotations) {
+    context.fillStyle = colorOf(annotation, drawing.coloring);
+    // Pixel i covers [i, i + 1).
+    forEachRun(annotation.segmentation, (x, y, length) => context.fillRect(x * scale, y * scale, scale, length * scale));
+  }
+  context.globalAlpha = 1;
+}
+
+function drawBox(context: CanvasRenderingContext2D, [x, y, width, height]: readonly number[], scale: number): void {
+  context.strokeRect(x! * scale, y! * scale, width! * scale, height! * scale);
+}
+
+function drawKeypoints(context: CanvasRenderingContext2D, points: number[], color: string, scale: number, radius: number): void {
+  const at = (index: number) => ({ x: points[3 * index]! * scale, y: points[3 * index + 1]! * scale, seen: points[3 * index + 2]! });
+  context.strokeStyle = color;
+  context.lineWidth = radius * 0.8;
+  for (const [from, to] of kLimbs) {
+    const [a, b] = [at(from), at(to)];
+    if (!a.seen || !b.seen) continue;
+    context.beginPath();
+    context.moveTo(a.x, a.y);
+    context.lineTo(b.x, b.y);
+    context.stroke();
+  }
+  for (let index = 0; index < points.length / 3; ++index) {
+    const point = at(index);
+    if (!point.seen) continue;
+    context.beginPath();
+    context.arc(point.x, point.y, radius, 0, 2 * Math.PI);
+    context.fillStyle = point.seen === 2 ? "#ffffff" : "#000000";
+    context.fill();
+  }
+}
+
+function drawPolygon(context: CanvasRenderingContext2D, corners: [number, number][], scale: number): void {
+  if (corners.length < 2) return;
+  context.beginPath();
+  corners.forEach(([x, y], index) => (index ? context.lineTo(x * scale, y * scale) : context.moveTo(x * scale, y * scale)));
+  context.closePath();
+  context.stroke();
+}
+
+function drawText(context: CanvasRenderingContext2D, text: string, x: number, y: number, color: string): void {
+  context.lineWidth = 3;
+  context.strokeStyle = "rgb(0 0 0 / 80%)";
+  context.strokeText(text, x, y);
+  context.fillStyle = color;
+  context.fillText(text, x, y);
+}
+
+function drawExits(context: CanvasRenderingContext2D, labels: Labels, scale: number): void {
+  for (const exit of labels.image.exits ?? []) {
+    context.strokeStyle = "#ffd166";
+    context.lineWidth = 2;
+    drawPolygon(context, exit.zone, scale);
+    context.strokeStyle = "#ff3d81";
+    drawPolygon(context, exit.door, scale);
+    const first = exit.door[0];
+    if (first) drawText(context, `${exit.id}: ${exit.state}`, first[0] * scale, first[1] * scale - 4, "#ffd166");
+  }
+}
+
+/** Draws the labels; `scale` are pixels of the canvas per pixel of the image. */
+export function drawLabels(context: CanvasRenderingContext2D, labels: Labels, drawing: Drawing, scale: number): void {
+  const { canvas } = context;
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  const has = (layer: string) => drawing.layers.has(layer);
+  const line = Math.max(1.2, Math.min(2, scale));
+  context.font = `600 ${Math.max(11, Math.round(5 * scale + 6))}px system-ui, sans-serif`;
+  if (has("exits")) drawExits(context, labels, scale);
+  if (has("masks")) drawMasks(context, labels.annotations, drawing, scale);
+  if (has("hidden")) {
+    context.strokeStyle = "#ffffff";
+    context.lineWidth = line;
+    context.setLineDash([2, 3]);
+    for (const person of labels.image.hidden ?? []) drawBox(context, person.bbox_amodal, scale);
+    context.setLineDash([]);
+  }
+  for (const annotation of labels.annotations) {
+    const isSelected = annotation.track_id === drawing.selected;
+    const color = isSelected ? "#ffffff" : colorOf(annotation, drawing.coloring);
+    context.strokeStyle = color;
+    context.lineWidth = isSelected ? 2.5 * line : line;
+    if (has("boxes") || isSelected) drawBox(context, annotation.bbox, scale);
+    if (has("amodal")) {
+      context.setLineDash([5, 3]);
+      drawBox(context, annotation.bbox_amodal, scale);
+      context.setLineDash([]);
+    }
+    if (has("keypoints") && annotation.keypoints) drawKeypoints(context, annotation.keypoints, color, scale, Math.max(1.1, 0.8 * scale));
+    if (has("ids")) drawText(context, String(annotation.track_id), annotation.bbox[0] * scale, annotation.bbox[1] * scale - 3, color);
+  }
+}
+
+/** The smallest box at a point of the image. */
+export function annotationAt(annotations: Annotation[], x: number, y: number): Annotation | null {
+  const kSlack = 2;
+  const hits = annotations.filter(({ bbox: [left, top, width, height] }) =>
+    x >= left - kSlack && x <= left + width + kSlack && y >= top - kSlack && y <= top + height + kSlack);
+  return hits.sort((a, b) => a.bbox[2] * a.bbox[3] - b.bbox[2] * b.bbox[3])[0] ?? null;
+}

@@ -1,0 +1,47 @@
+// The record of one person in an image.
+import { useEffect, useState } from "preact/hooks";
+import type { Annotation, Dataset, Track } from "./coco";
+
+const percent = (share: number) => `${Math.round(100 * share)} %`;
+const fixed = (values: readonly number[]) => values.map((value) => value.toFixed(1)).join(", ");
+
+function rowsOf(annotation: Annotation, track: Track | null): [string, string][] {
+  const rows: [string, string][] = [
+    ["track", String(annotation.track_id)],
+    ["visible", `${percent(annotation.visibility)}, ${annotation.area} px`],
+    ["place", `${fixed(annotation.position.slice(0, 2))} m`],
+    ["speed", `${Math.hypot(...annotation.velocity).toFixed(2)} m/s`],
+  ];
+  if (annotation.truncation) rows.push(["outside of the image", percent(annotation.truncation)]);
+  if (annotation.state) rows.push(["state", annotation.state]);
+  if (annotation.exit) rows.push(["exit", annotation.exit]);
+  const about = track?.attributes;
+  if (about) {
+    rows.push(["person", `${about["sex"]}, ${about["age_years"]} years, ${about["stature_m"]} m`], ["wears", String(about["wears"])]);
+    if (about["carries"] !== "nothing") rows.push(["carries", String(about["carries"])]);
+  }
+  if (track && track.group !== null) rows.push(["group", String(track.group)]);
+  return rows;
+}
+
+export function PersonRecord({ dataset, annotation }: { dataset: Dataset; annotation: Annotation }) {
+  const [track, setTrack] = useState<Track | null>(null);
+  useEffect(() => {
+    let isCurrent = true;
+    dataset.trackOf(annotation.track_id).then(
+      (found) => isCurrent && setTrack(found),
+      () => isCurrent && setTrack(null),
+    );
+    return () => void (isCurrent = false);
+  }, [dataset, annotation.track_id]);
+  return (
+    <dl class="record">
+      {rowsOf(annotation, track?.id === annotation.track_id ? track : null).map(([name, value]) => (
+        <div key={name}>
+          <dt>{name}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}

@@ -1,0 +1,83 @@
+// The job that is being written: one state behind all tabs. The text is what is sent; its value is what fields show.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { ApiError, sendJson } from "../api/client";
+import type { DryRun, Mistake } from "../api/types";
+import { type Json, type JsonObject, isObject, type Path, textOf, withValue } from "./json";
+
+const kStorage = "throng.draft";
+const kPauseMs = 400;
+
+export interface Draft {
+  text: string;
+  value: JsonObject | null; ///< null: the text is no JSON object
+}
+
+export function draftOf(text: string): Draft {
+  try {
+    const value = JSON.parse(text) as Json;
+    return { text, value: isObject(value) ? value : null };
+  } catch {
+    return { text, value: null };
+  }
+}
+
+export function storedDraft(): Draft | null {
+  const text = sessionStorage.getItem(kStorage);
+  return text ? draftOf(text) : null;
+}
+
+export function forgetDraft(): void {
+  sessionStorage.removeItem(kStorage);
+}
+
+export interface Form {
+  value: JsonObject;
+  errors: Mistake[];
+  change: (path: Path, value: Json | undefined) => void;
+}
+
+/** Changes of a field; the text is written again. */
+export function changedDraft(draft: Draft, path: Path, value: Json | undefined): Draft {
+  const next = (withValue(draft.value ?? {}, path, value) ?? {}) as JsonObject;
+  return { text: textOf(next), value: next };
+}
+
+export interface Check {
+  isPending: boolean;
+  plan: DryRun | null;
+  errors: Mistake[];
+  message: string | null; ///< of an error that belongs to no field
+}
+
+const kUnchecked: Check = { isPending: true, plan: null, errors: [], message: null };
+
+/** Has the service check the job a moment after each change, and keeps it for this tab's life. */
+export function useCheck(draft: Draft | null): Check {
+  const [check, setCheck] = useState<Check>(kUnchecked);
+  const [round, setRound] = useState(0);
+  const controller = useRef<AbortController | null>(null);
+  useEffect(() => {
+    if (!draft) return;
+    sessionStorage.setItem(kStorage, draft.text);
+    setCheck((last) => ({ ...last, isPending: true }));
+    let retry = 0;
+    const timer = setTimeout(() => {
+      controller.current?.abort();
+      const { signal } = (controller.current = new AbortController());
+      sendJson<DryRun>("POST", "/v1/jobs?dry_run", draft.text, signal).then(
+        (plan) => setCheck({ isPending: false, plan, errors: [], message: null }),
+        (error: unknown) => {
+          if (signal.aborted) return;
+          const errors = error instanceof ApiError ? error.errors : [];
+          setCheck({ isPending: false, plan: null, errors, message: errors.length ? null : (error as Error).message });
+          if (error instanceof ApiError && error.status === 0) retry = setTimeout(() => setRound(round + 1), 10 * kPauseMs);
+        },
+      );
+    }, kPauseMs);
+    return () => {
+      clearTimeout(timer);
+      clearTimeout(retry);
+    };
+  }, [draft?.text, round]);
+  return check;
+}

@@ -1,0 +1,63 @@
+// Studio, the web page of the service.
+import { render } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import { applyTheme, KeyDialog, Shell } from "./parts/shell";
+import { followLinks, usePlace } from "./parts/router";
+import { Empty } from "./parts/elements";
+import { Home } from "./screens/home";
+import { JobScreen } from "./screens/job";
+import { Jobs } from "./screens/jobs";
+import { Lazy } from "./parts/lazy";
+import "./style.css";
+
+interface Screen {
+  title: string;
+  element: preact.JSX.Element;
+}
+
+const loadNewJob = () => import("./screens/new_job").then((module) => module.NewJob);
+const loadBrowser = () => import("./dataset/browser").then((module) => module.Browser);
+const loadCompare = () => import("./compare/compare_screen").then((module) => module.Compare);
+const loadRun = () => import("./run/run_screen").then((module) => module.RunScreen);
+
+function screenOf(path: string): Screen {
+  if (path === "/") return { title: "Home", element: <Home /> };
+  if (path === "/jobs") return { title: "Jobs", element: <Jobs /> };
+  if (path === "/new") return { title: "New job", element: <Lazy load={loadNewJob} props={{}} /> };
+  if (path === "/compare") return { title: "Compare", element: <Lazy load={loadCompare} props={{}} /> };
+  const run = /^\/jobs\/([a-z0-9]+)\/runs\/(\d{1,4})\/?$/.exec(path);
+  if (run) return { title: "Run", element: <Lazy key={path} load={loadRun} props={{ id: run[1]!, number: Number(run[2]) }} /> };
+  const job = /^\/jobs\/([a-z0-9]+)(\/images)?\/?$/.exec(path);
+  if (job && job[2]) return { title: "Images", element: <Lazy key={job[1]} load={loadBrowser} props={{ id: job[1]! }} /> };
+  if (job) return { title: "Job", element: <JobScreen key={job[1]} id={job[1]!} /> };
+  const element = (
+    <Empty title="There is nothing at this address.">
+      <a class="button" href="/">
+        Home
+      </a>
+    </Empty>
+  );
+  return { title: "Not found", element };
+}
+
+function Studio() {
+  const { path } = usePlace();
+  const isFirst = useRef(true);
+  const { title, element } = screenOf(path);
+  useEffect(() => {
+    document.title = `${title} – throng Studio`;
+    // A reader of the screen hears the new title; the first load leaves the focus where browsers put it.
+    if (!isFirst.current) document.getElementById("main")?.focus({ preventScroll: true });
+    isFirst.current = false;
+  }, [path]);
+  return (
+    <>
+      <Shell>{element}</Shell>
+      <KeyDialog />
+    </>
+  );
+}
+
+applyTheme();
+document.addEventListener("click", followLinks);
+render(<Studio />, document.getElementById("studio")!);

@@ -1,0 +1,26 @@
+// Places of the world in the drawing of a floor plan.
+
+// Of places/plan_drawing.cpp: the longer side, and where the ground begins in the drawing.
+const kPlanPx = 1200;
+const kBorderPx = 20;
+const kTitlePx = 30;
+const kLegendPx = 80;
+const kMinWidthPx = 640;
+
+export interface Sheet {
+  width: number;
+  height: number;
+  toPx: (x: number, y: number) => [number, number];
+  toMeters: (x: number, y: number) => [number, number];
+}
+
+export function sheetOf([minX, minY, maxX, maxY]: [number, number, number, number]): Sheet {
+  const scale = kPlanPx / Math.max(maxX - minX, maxY - minY);
+  const planHeight = Math.ceil((maxY - minY) * scale);
+  return {
+    width: Math.max(kMinWidthPx, Math.ceil((maxX - minX) * scale) + 2 * kBorderPx),
+    height: kTitlePx + planHeight + 2 * kBorderPx + kLegendPx,
+    toPx: (x, y) => [kBorderPx + (x - minX) * scale, kTitlePx + kBorderPx + planHeight - (y - minY) * scale],
+    toMeters: (x, y) => [(x - kBorderPx) / scale + minX, (kTitlePx + kBorderPx + planHeight - y) / scale + minY],
+  };
+}

@@ -1,0 +1,15 @@
+// Figures of a run that screens show (docs/metrics.md).
+
+export interface Metrics {
+  run: string;
+  duration_s: number;
+  alarm_s: number | null;
+  people: number;
+  not_escaped: number;
+  casualties: number;
+  mean_escape_time_censored_s: number | null;
+  escape_curve: { escaped_share: number[] }; ///< at 0, 1, 2, … s
+  escape_time_percentiles: Record<string, number | null>;
+  exposure: { max_density_2m2_per_m2: number | null } | null;
+  exit_balance: { jain: number | null } | null; ///< null: nobody left
+}

@@ -1,0 +1,176 @@
+// One run over time: every camera, the plan, the escape curve and the exits share one time.
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { ApiError, request } from "../api/client";
+import { useInterval, useJson, useSource } from "../api/resource";
+import type { Job, Scenario } from "../api/types";
+import type { Dataset, ImageName, Labels } from "../dataset/coco";
+import type { Drawing } from "../dataset/overlay";
+import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
+import { ErrorBox } from "../parts/elements";
+import { navigate, usePlace, withQuery } from "../parts/router";
+import { EscapeCurve, ExitChart } from "./charts";
+import { type ExitHistory, historiesOf } from "./exit_states";
+import { type Capture, captureOf, frameAt, timeOf } from "./capture";
+import type { Metrics } from "./metrics";
+import { TopView } from "./top_view";
+
+const kPlayMs = 600;
+
+function Camera({ dataset, image, drawing, onLabels }: { dataset: Dataset; image: ImageName; drawing: Drawing; onLabels: (camera: string, labels: Labels | null) => void }) {
+  const source = useSource(dataset.address(image));
+  const { labels } = useLabels(dataset, image);
+  useEffect(() => onLabels(image.camera, labels), [labels]);
+  return (
+    <figure>
+      <div class="stage">
+        {source && <img src={source} alt={`camera ${image.camera}, frame ${image.frame}`} />}
+        <LabelCanvas labels={labels} drawing={drawing} />
+      </div>
+      <figcaption class="row">
+        <span class="grow">{image.camera}</span>
+        <a href={`/jobs/${dataset.job}/images?image=${encodeURIComponent(image.path)}`}>open</a>
+      </figcaption>
+    </figure>
+  );
+}
+
+function useExits(address: string, end_s: number | undefined): ExitHistory[] {
+  const [histories, setHistories] = useState<ExitHistory[]>([]);
+  useEffect(() => {
+    if (end_s === undefined) return;
+    // A job that did not ask for exits has no such file.
+    request(address).then(
+      async (response) => setHistories(historiesOf(await response.text(), end_s)),
+      () => setHistories([]),
+    );
+  }, [address, end_s]);
+  return histories;
+}
+
+function Figures({ metrics }: { metrics: Metrics }) {
+  const seconds = (value: number | null | undefined) => (value === null || value === undefined ? "–" : `${value.toFixed(1)} s`);
+  const figures: [string, string][] = [
+    ["people", String(metrics.people)],
+    ["not escaped", String(metrics.not_escaped)],
+    ["escape time, median", seconds(metrics.escape_time_percentiles["t50_s"])],
+    ["90th percentile", seconds(metrics.escape_time_percentiles["t90_s"])],
+  ];
+  return (
+    <dl class="figures">
+      {figures.map(([name, value]) => (
+        <div key={name}>
+          <dt>{name}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+    </dl>
+  );
+}
+
+interface TimelineProps {
+  dataset: Dataset;
+  run: string;
+  number: number;
+  capture: Capture;
+  scenario: Scenario | null;
+}
+
+function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
+  const { query } = usePlace();
+  const cameras = dataset.camerasOf(run);
+  const first = Math.min(...cameras.map((camera) => camera.first));
+  const last = Math.max(...cameras.map((camera) => camera.last));
+  const metrics = useJson<Metrics>(`/v1/jobs/${dataset.job}/runs/${number}/metrics`);
+  const [labels, setLabels] = useState<Record<string, Labels | null>>({});
+  const [hasBoxes, setBoxes] = useState(true);
+  const [isPlaying, setPlaying] = useState(false);
+  const inRange = (value: number) => Math.min(last, Math.max(first, value));
+  const frame = inRange(Math.round(Number(query.get("frame") ?? first) || first));
+  const time_s = timeOf(capture, frame);
+  const end_s = Math.max(metrics.value?.duration_s ?? 0, timeOf(capture, last));
+  const exits = useExits(`/v1/jobs/${dataset.job}/runs/${number}/metrics.csv`, metrics.value?.duration_s);
+  const show = (next: number) => navigate(withQuery(query, { frame: inRange(next) }), { replace: true });
+  const onTime = (time: number) => show(frameAt(capture, time));
+  useInterval(() => (frame < last ? show(frame + 1) : setPlaying(false)), isPlaying ? kPlayMs : 0);
+  const onKey = useRef<(event: KeyboardEvent) => void>(() => {});
+  onKey.current = (event) => {
+    if (event.target instanceof Element && event.target.matches("input, select, button, a, summary")) return;
+    if (event.key === " ") setPlaying(!isPlaying);
+    else if (event.key === "ArrowRight") show(frame + 1);
+    else if (event.key === "ArrowLeft") show(frame - 1);
+    else return;
+    event.preventDefault();
+  };
+  useEffect(() => {
+    const listener = (event: KeyboardEvent) => onKey.current(event);
+    addEventListener("keydown", listener);
+    return () => removeEventListener("keydown", listener);
+  }, []);
+  const drawing: Drawing = useMemo(() => ({ layers: new Set(hasBoxes ? ["boxes"] : []), coloring: "state", opacity: 0.5, selected: null }), [hasBoxes]);
+  const chart = { time_s, end_s, onTime };
+  return (
+    <>
+      <div class="time-bar card">
+        <button type="button" class="button" aria-pressed={isPlaying} onClick={() => setPlaying(!isPlaying)}>
+          {isPlaying ? "Pause" : "Play"}
+        </button>
+        <input type="range" aria-label="Time" aria-valuetext={`${time_s.toFixed(1)} s`} min={first} max={last} value={frame} onInput={(event) => show(Number(event.currentTarget.value))} />
+        <output>{time_s.toFixed(1)} s</output>
+        <label class="row">
+          <input type="checkbox" checked={hasBoxes} onChange={(event) => setBoxes(event.currentTarget.checked)} />
+          Boxes
+        </label>
+      </div>
+      <div class="run-views">
+        <div class="run-cameras">
+          {cameras.map(({ camera }) => {
+            const image = dataset.imageAt(run, camera, frame);
+            return image && <Camera key={camera} {...{ dataset, image, drawing }} onLabels={(name, value) => setLabels((known) => ({ ...known, [name]: value }))} />;
+          })}
+        </div>
+        {scenario?.ground_m && <TopView scenario={scenario} labels={cameras.map(({ camera }) => labels[camera] ?? null)} />}
+      </div>
+      {metrics.error && metrics.error.status !== 401 && <ErrorBox error={metrics.error} />}
+      {metrics.value && (
+        <section class="card run-charts" aria-labelledby="escape">
+          <h2 id="escape">Escaped by time</h2>
+          <Figures metrics={metrics.value} />
+          <EscapeCurve {...chart} shares={metrics.value.escape_curve.escaped_share} alarm_s={metrics.value.alarm_s} />
+          {exits.length > 0 && (
+            <>
+              <h2>Exits</h2>
+              <ExitChart {...chart} histories={exits} />
+            </>
+          )}
+        </section>
+      )}
+    </>
+  );
+}
+
+export function RunScreen({ id, number }: { id: string; number: number }) {
+  const job = useJson<Job>(`/v1/jobs/${id}`);
+  const { dataset, error } = useDataset(id);
+  const place = job.value?.job["scenario"];
+  const scenario = useJson<Scenario>(typeof place === "string" ? `/v1/scenarios/${place}` : null);
+  const run = `run${String(number).padStart(3, "0")}`;
+  const hasRun = (dataset?.camerasOf(run).length ?? 0) > 0;
+  return (
+    <div class="screen">
+      <div class="heading">
+        <p class="breadcrumb">
+          <a href="/jobs">Jobs</a> / <a href={`/jobs/${id}`}>{job.value?.name ?? id}</a> / {run}
+        </p>
+        <h1>
+          {run} of {job.value?.name ?? id}
+        </h1>
+      </div>
+      {error?.status !== 401 && <ErrorBox error={error} />}
+      {!dataset && !error && <p class="loading">Loading …</p>}
+      {dataset && !hasRun && <ErrorBox error={new ApiError(404, `The dataset has no images of ${run}.`)} />}
+      {dataset && hasRun && job.value && (
+        <Timeline {...{ dataset, run, number }} capture={captureOf(job.value)} scenario={scenario.value} />
+      )}
+    </div>
+  );
+}

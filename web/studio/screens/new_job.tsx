@@ -1,0 +1,236 @@
+// The form of a job: presets and copies, three views of one state, checked by the service as it is typed.
+import { useEffect, useMemo, useState } from "preact/hooks";
+import presets from "presets";
+import { ApiError, getJson, messageOf, sendJson } from "../api/client";
+import { useJson } from "../api/resource";
+import type { Job, JobList } from "../api/types";
+import { AllFields } from "../form/all_fields";
+import { Basic } from "../form/basic";
+import { changedDraft, type Check, type Draft, draftOf, forgetDraft, type Form, storedDraft, useCheck } from "../form/draft";
+import { idOf } from "../form/field";
+import type { JsonEditorProps } from "../form/json_editor";
+import { type Json, type JsonObject, textOf } from "../form/json";
+import { type Schema, withoutDefaults } from "../form/schema";
+import { ErrorBox, Mistakes, Tabs } from "../parts/elements";
+import { bytesText, countText, durationText, secondsBetween } from "../parts/format";
+import { Lazy } from "../parts/lazy";
+import { navigate, usePlace, withQuery } from "../parts/router";
+
+const kPresets = presets as { file: string; job: JsonObject }[];
+const kFirstPreset = "city_square/demo.job.json";
+const loadEditor = () => import("../form/json_editor").then((module) => module.JsonEditor);
+
+/** The draft of this tab, a preset or a copy, as the address says. */
+async function firstDraft(query: URLSearchParams, schema: Schema): Promise<Draft> {
+  const clone = query.get("clone");
+  if (clone) {
+    const source = await getJson<Job>(`/v1/jobs/${clone}`);
+    return draftOf(textOf(withoutDefaults(source.job as JsonObject, schema)));
+  }
+  const preset = kPresets.find((entry) => entry.file === query.get("preset"));
+  if (preset) return draftOf(textOf(preset.job));
+  return storedDraft() ?? draftOf(textOf(kPresets.find((entry) => entry.file === kFirstPreset)!.job));
+}
+
+/** Time and disk per image of jobs that were done lately, as a forecast. */
+function Forecast({ images }: { images: number }) {
+  const list = useJson<JobList>("/v1/jobs?state=succeeded&limit=5");
+  const done = (list.value?.jobs ?? []).filter((job) => (job.progress.frames_total ?? 0) > 0);
+  const total = done.reduce((sum, job) => sum + (job.progress.frames_total ?? 0), 0);
+  if (total === 0) return null;
+  const seconds = done.reduce((sum, job) => sum + secondsBetween(job.started_at, job.ended_at), 0);
+  const bytes = done.reduce((sum, job) => sum + job.bytes, 0);
+  return (
+    <span class="quiet-text">
+      about {durationText((images * seconds) / total)} and {bytesText((images * bytes) / total)}, judging by the{" "}
+      {done.length === 1 ? "last job" : `last ${done.length} jobs`}
+    </span>
+  );
+}
+
+interface SubmitBarProps {
+  draft: Draft;
+  check: Check;
+  onErrors: (pointer: string) => void;
+}
+
+function SubmitBar({ draft, check, onErrors }: SubmitBarProps) {
+  const [error, setError] = useState<ApiError | null>(null);
+  const [isBusy, setBusy] = useState(false);
+  const submit = async () => {
+    setBusy(true);
+    try {
+      const job = await sendJson<Job>("POST", "/v1/jobs", draft.text);
+      forgetDraft();
+      navigate(`/jobs/${job.id}`);
+    } catch (reason) {
+      setError(reason instanceof ApiError ? reason : new ApiError(0, messageOf(reason)));
+      setBusy(false);
+    }
+  };
+  const { plan, errors, message } = check;
+  return (
+    <div class="submit-bar" role="region" aria-label="Check and submit">
+      <div class="grow" aria-live="polite">
+        {check.isPending && !plan && errors.length === 0 && <span class="quiet-text">checking …</span>}
+        {plan && (
+          <>
+            <strong>{countText(plan.frames, "image")}</strong> in {countText(plan.runs, "run")} <Forecast images={plan.frames} />
+          </>
+        )}
+        {errors.length > 0 && (
+          <details>
+            <summary class="field-error">{countText(errors.length, "error")}</summary>
+            <Mistakes list={errors} onSelect={onErrors} />
+          </details>
+        )}
+        {message && <span class="field-error">{message}</span>}
+      </div>
+      <button type="button" class="button primary" disabled={isBusy || !plan || check.isPending} onClick={submit}>
+        Submit
+      </button>
+      {error && error.status !== 401 && <ErrorBox error={error} />}
+    </div>
+  );
+}
+
+interface EditorProps {
+  draft: Draft;
+  check: Check;
+  schema: Schema;
+  onDraft: (draft: Draft) => void;
+}
+
+function Editor({ draft, check, schema, onDraft }: EditorProps) {
+  const { query } = usePlace();
+  const [focus, setFocus] = useState<string | null>(null);
+  const tab = query.get("tab") ?? "basic";
+  const select = (id: string) => navigate(withQuery(query, { tab: id === "basic" ? null : id }), { replace: true });
+  const form: Form = {
+    value: draft.value ?? {},
+    errors: check.errors,
+    change: (path, value: Json | undefined) => onDraft(changedDraft(draft, path, value)),
+  };
+  const showError = (pointer: string) => {
+    setFocus(pointer);
+    const field = document.getElementById(idOf(pointer.split("/").slice(1)));
+    if (field && tab !== "json") {
+      field.scrollIntoView({ block: "center" });
+      field.focus();
+    } else if (tab !== "json") select("json");
+  };
+  const editor: JsonEditorProps = { text: draft.text, errors: check.errors, focus, onChange: (text) => onDraft(draftOf(text)) };
+  const tabs = [
+    { id: "basic", label: "Basic" },
+    { id: "all", label: "All fields" },
+    { id: "json", label: <>JSON{check.errors.length > 0 && <span class="count">{check.errors.length}</span>}</> },
+  ];
+  return (
+    <>
+      <Tabs label="Views of the job" tabs={tabs} selected={tab} onSelect={select} />
+      <div id="panel" role="tabpanel" aria-labelledby={`tab-${tab}`}>
+        {tab === "json" ? (
+          <Lazy load={loadEditor} props={editor} />
+        ) : draft.value === null ? (
+          <div class="notice bad">
+            <p>The text is not a JSON object, so it cannot be shown as fields.</p>
+            <button type="button" class="button" onClick={() => select("json")}>
+              Go to the text
+            </button>
+          </div>
+        ) : tab === "all" ? (
+          <AllFields form={form} schema={schema} />
+        ) : (
+          <Basic form={form} schema={schema} />
+        )}
+      </div>
+      <SubmitBar draft={draft} check={check} onErrors={showError} />
+    </>
+  );
+}
+
+function Sources({ onDraft }: { onDraft: (draft: Draft) => void }) {
+  const recent = useJson<JobList>("/v1/jobs?limit=10");
+  const [error, setError] = useState<string | null>(null);
+  const readFile = async (file: File | undefined) => {
+    if (!file) return;
+    const draft = draftOf(await file.text());
+    setError(draft.value ? null : `${file.name} holds no JSON object`);
+    if (draft.value) onDraft(draft);
+  };
+  return (
+    <div class="row wrap sources">
+      <label class="row">
+        Start from
+        <select value="" onChange={(event) => navigate(event.currentTarget.value)}>
+          <option value="" disabled>
+            a preset or a job
+          </option>
+          <optgroup label="Presets">
+            {kPresets.map((preset) => (
+              <option key={preset.file} value={`/new?preset=${encodeURIComponent(preset.file)}`}>
+                {String(preset.job["name"] ?? preset.file)} ({preset.file.replace(".job.json", "")})
+              </option>
+            ))}
+          </optgroup>
+          <optgroup label="Copies of jobs">
+            {(recent.value?.jobs ?? []).map((job) => (
+              <option key={job.id} value={`/new?clone=${job.id}`}>
+                {job.name} ({job.id})
+              </option>
+            ))}
+          </optgroup>
+        </select>
+      </label>
+      <label class="button">
+        Open a file
+        <input class="hidden" type="file" accept=".json,application/json" onChange={(event) => void readFile(event.currentTarget.files?.[0])} />
+      </label>
+      {error && (
+        <span class="field-error" role="alert">
+          {error}
+        </span>
+      )}
+    </div>
+  );
+}
+
+export function NewJob() {
+  const { query } = usePlace();
+  const schema = useJson<Schema>("/v1/schema");
+  const [draft, setDraft] = useState<Draft | null>(null);
+  const [error, setError] = useState<ApiError | null>(null);
+  const check = useCheck(draft);
+  const source = `${query.get("clone") ?? ""} ${query.get("preset") ?? ""}`;
+  useEffect(() => {
+    if (!schema.value) return;
+    firstDraft(query, schema.value).then(
+      (next) => {
+        setDraft(next);
+        setError(null);
+        // From here on the draft counts, also after a reload.
+        if (source.trim()) {
+          sessionStorage.setItem("throng.draft", next.text);
+          navigate(withQuery(new URLSearchParams(location.search), { clone: null, preset: null }), { replace: true });
+        }
+      },
+      (reason: unknown) => setError(reason instanceof ApiError ? reason : new ApiError(0, messageOf(reason))),
+    );
+  }, [schema.value, source.trim()]);
+  const href = useMemo(() => `data:application/json,${encodeURIComponent(draft?.text ?? "")}`, [draft?.text]);
+  return (
+    <div class="screen new-job">
+      <div class="row wrap heading">
+        <h1 class="grow">New job</h1>
+        <Sources onDraft={setDraft} />
+        {draft && (
+          <a class="button" href={href} download="job.json">
+            Save as a file
+          </a>
+        )}
+      </div>
+      <ErrorBox error={error ?? (schema.error?.status !== 401 ? schema.error : null)} />
+      {draft && schema.value && <Editor draft={draft} check={check} schema={schema.value} onDraft={setDraft} />}
+    </div>
+  );
+}
