@@ -30,7 +30,8 @@ constexpr const char* kJobText = R"({"scenario": "city_square/nearest_exit"})";
 class IdleExecutor final : public jobs::Executor {
  public:
   std::vector<jobs::TaskResult> run(const jobs::JobFolder&, std::span<const jobs::Task> tasks,
-                                    const OnProgress&, std::stop_token stop) override {
+                                    const OnProgress&, std::stop_token stop,
+                                    const jobs::Share&) override {
     while (!stop.stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return std::vector<jobs::TaskResult>(tasks.size(), {jobs::Outcome::cancelled, 1, "", {}});
   }
