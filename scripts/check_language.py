@@ -121,20 +121,6 @@ COINED = {
     "new way": "new path",
 }
 
-# Words that were added after these folders had been cleaned of the others; empty this list folder by folder.
-RECENT = ("picture", "pictures", "thing", "things", "whoever", "shortest way", "new way")
-RECENT_NOT_YET = (
-    "formats/",
-    "imports/",
-    "validation/",
-    "tests/formats/",
-    "tests/imports/",
-    "tests/validation/",
-    "docs/formats.md",
-    "docs/imports.md",
-    "docs/validation.md",
-)
-
 # String literals that stay as they are: they are written into datasets, whose bytes do not change for spelling.
 LITERALS_KEPT = ("annotate/spec/ground_truth.cpp",)
 
@@ -149,8 +135,6 @@ IDENTIFIERS = (
         "paths, scattered, vehicle, EventCounter, ContinueCallback",
     ),
     (re.compile(r"\b(?:say_that|take_what|stop_if_wrong|is_anothers)\w*"), "a verb and its object: apply_overrides"),
-)
-RECENT_IDENTIFIERS = (
     (re.compile(r"\b[Tt]old\b"), "given, reported, notified"),
     (re.compile(r"\b(?!picture_test\b)\w*[Pp]icture\w*"), "image, texture, plot"),
 )
@@ -168,7 +152,7 @@ RELATIVE = re.compile(
     r"(?:^|(?<=[.:;!?] )|(?<=\| )|(?<=- )|(?<=\*\*))(Who|Whom|Whoever|What|Whatever|Where|Those who|Those that)\b(?![^.?!]*\?)"
 )
 
-CODE = (".cpp", ".h", ".glsl", ".js")
+CODE = (".cpp", ".h", ".glsl", ".js", ".mjs", ".ts", ".tsx")
 TOKEN = re.compile(
     r"""(?P<comment>//[^\n]*|/\*.*?\*/)|R"(?P<mark>[^()\s\\]{0,16})\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|"""
     r"""(?<![0-9A-Fa-f])'(?:\\.|[^'\\\n])*'""",
@@ -180,6 +164,7 @@ BRITISH_WORD = re.compile(
 )
 COINED_WORD = re.compile(r"\b(" + "|".join(sorted(COINED, key=len, reverse=True)) + r")\b", re.I)
 # Public names and proper terms: see the end of docs/glossary.md.
+FIELD_NAME = re.compile(r"\w*_\w*")
 QUOTED = re.compile(r"`[^`\n]*`|\"[^\"\n]*\"|\w+\.(?:h|cpp|glsl|md)\b|https?://\S+")
 FENCE = re.compile(r"^```.*?^```", re.S | re.M)
 
@@ -189,7 +174,6 @@ class Report:
 
     def __init__(self, path, text):
         self.path, self.text, self.findings = path, text, []
-        self.allows_recent = path.startswith(RECENT_NOT_YET)
 
     def add(self, offset, found, instead):
         line = self.text.count("\n", 0, offset) + 1
@@ -199,14 +183,13 @@ class Report:
         for word in WORD.finditer(text):
             british = BRITISH_WORD.match(word[0].lower())
             if british and not word[0].lower().startswith(
-                ("greyhound", "optimism", "optimist", "organism", "minimist", "specialist")
+                ("greyhound", "optimism", "optimist", "organism", "minimist", "specialist", "labelledby")
             ):
                 self.add(offset + word.start(), word[0], word[0].lower().replace(british[1], BRITISH[british[1]]))
 
     def coined(self, text, offset):
         for word in COINED_WORD.finditer(text):
-            is_exempt = self.allows_recent and word[0].lower() in RECENT
-            if not is_exempt and not is_term_here(word[0], self.path):
+            if not is_term_here(word[0], self.path):
                 self.add(offset + word.start(), word[0], COINED[word[0].lower()])
 
     def prose(self, text, offset):
@@ -216,13 +199,9 @@ class Report:
 
     def literal(self, text, offset):
         """A string literal: a message or a help text if it has three words or more."""
-        if (
-            text.count(" ") < 2
-            or self.allows_recent
-            or self.path.startswith(("tests/", "bench/"))
-            or self.path in LITERALS_KEPT
-        ):
+        if text.count(" ") < 2 or self.path.startswith(("tests/", "bench/")) or self.path in LITERALS_KEPT:
             return
+        text = FIELD_NAME.sub(lambda name: " " * len(name[0]), text)
         self.spelling(text, offset)
         self.coined(text, offset)
         self.clauses(re.sub(r'^(?:R"[^\s()"]*\(|")', lambda mark: " " * len(mark[0]), text).strip(), offset)
@@ -233,7 +212,7 @@ class Report:
 
     def identifiers(self, text, offset):
         self.spelling(text, offset)
-        for pattern, instead in IDENTIFIERS + (() if self.allows_recent else RECENT_IDENTIFIERS):
+        for pattern, instead in IDENTIFIERS:
             for name in pattern.finditer(text):
                 if is_term_here(name[0], self.path):
                     continue
