@@ -111,7 +111,8 @@ class ExitRowCheck {
     }
     if (std::isfinite(sizes_.width_m) &&
         row_["predicted_wait"] >
-            row_["queue"] / (0.1 * kCapacityPerMs * sizes_.width_m) * 1.01 + 0.02) {
+            row_["queue"] / (0.1 * kCapacityPerMs * std::min(kMinLaneM, sizes_.width_m)) * 1.01 +
+                0.02) {
       fault(fmt::format("predicted_wait {} s for a queue of {}", row_["predicted_wait"],
                         row_["queue"]));
     }

@@ -14,6 +14,7 @@ namespace throng::formats {
 inline constexpr double kCapacityPerMs = 1.3;  ///< of a door, people per meter and second
 inline constexpr double kWaitWindowS = 20;     ///< predicted waits: the flow of the last seconds,
 inline constexpr double kWaitPriorS = 10;      ///< with this time at the capacity
+inline constexpr double kMinLaneM = 0.8;       ///< of at least this part of the door
 
 struct ExitRow {
   std::size_t line = 0;                 ///< in the file, from 1

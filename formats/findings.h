@@ -72,7 +72,7 @@ void check_ground_depth(const Image& image, const std::string& path,
                         const std::vector<std::uint32_t>& ids,
                         const std::vector<std::uint16_t>& centimeters, Findings& findings);
 
-/// Boxes, tracks and who is ignored in other formats' texts below formats/, as far as they have
+/// Boxes, tracks and ignored people in other formats' texts below formats/, as far as they have
 /// them as lines of numbers: YOLO, MOT and VisDrone.
 class FormatCheck {
  public:

@@ -106,12 +106,13 @@ class ExitFigures {
     }
   }
 
-  /// The predicted wait is the queue over a rate, which is between a third of the door's capacity
-  /// and what the crossings of the last seconds would give (docs/metrics.md).
+  /// The predicted wait is the queue over a rate, which is between a third of one lane's capacity
+  /// and what the crossings of the last seconds would give with the whole door's (docs/metrics.md).
   void check_waits() const {
     const auto width = exit_.find("width_m");
     if (width == exit_.end() || !width->is_number()) return;
     const double capacity = kCapacityPerMs * width->get<double>();
+    const double min_capacity = kCapacityPerMs * std::min(kMinLaneM, width->get<double>());
     for (const ExitRow& row : rows_) {
       const double time_s = row["time_s"];
       const double passed =
@@ -119,7 +120,7 @@ class ExitFigures {
           crossed_until(time_s - kWaitWindowS - kMaxDelayS - kMaxStepS - kRoundingS);
       const double min_wait_s = row["queue"] * kWaitPriorS / (passed + capacity * kWaitPriorS);
       const double max_wait_s =
-          row["queue"] * (kWaitWindowS + kWaitPriorS) / (capacity * kWaitPriorS);
+          row["queue"] * (kWaitWindowS + kWaitPriorS) / (min_capacity * kWaitPriorS);
       const double wait_s = row["predicted_wait"];
       if (std::isnan(wait_s) ||
           (wait_s >= min_wait_s - kRoundingS && wait_s <= max_wait_s + kRoundingS)) {

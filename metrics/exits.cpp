@@ -64,7 +64,7 @@ class ExitObserver {
         capacity_per_s_(capacity_per_s(exit.width_m())),
         state_(exit.width_m()),
         pressure_(zone, trace.header.dt_s),
-        wait_(capacity_per_s_, trace.header.dt_s),
+        wait_(exit.width_m(), mean_radius_m_, trace.header.dt_s),
         counters_(people.size()) {
     if (people.empty()) return;
     const double fills_door = exit.width_m() / (2 * mean_radius_m_);
@@ -116,9 +116,9 @@ class ExitObserver {
     sample.normalized_density = sample.density_per_m2 * close_packing_m2();
     sample.voronoi_density_per_m2 = voronoi_density();
     sample.pressure_per_s2 = pressure_.step(near_);
-    const Queue queue = queue_before(zone_, exit_.outward, queuing_);
-    sample.queue = queue.people;
-    sample.queue_length_m = queue.length_m;
+    queue_ = queue_before(zone_, exit_.outward, queuing_);
+    sample.queue = queue_.people;
+    sample.queue_length_m = queue_.length_m;
     sample.demand = sample.in_zone >= demand_from_ && !people_.empty();
     return sample;
   }
@@ -128,7 +128,7 @@ class ExitObserver {
     sample.flow_per_s = (sample.net_out() - net_out_4s_ago) / kFlowWindowS;
     sample.specific_flow_per_ms = sample.flow_per_s / exit_.width_m();
     sample.since_crossing_s = time_s - last_outward_s_;
-    sample.predicted_wait_s = wait_.step(sample.queue, sample.crossed_out);
+    sample.predicted_wait_s = wait_.step(queue_, sample.crossed_out);
     const ExitDemand demand{sample.demand, desired_speed_mps_};
     const bool open = exit_.is_open(time_s);
     sample.state = state_.step(time_s, open, sample, demand);
@@ -238,6 +238,7 @@ class ExitObserver {
   double capacity_per_s_;
   ExitStateMachine state_;
   PressureMeter pressure_;
+  Queue queue_;  ///< at the step that is measured
   WaitPredictor wait_;
   std::vector<CrossingCounter> counters_;
   std::vector<NearPerson> near_;     ///< people who may matter for density and pressure in the zone

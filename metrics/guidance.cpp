@@ -13,10 +13,11 @@ using nlohmann::json;
 
 namespace {
 
+[[noreturn]] void refuse(const std::string& found, const std::string& expected) {
+  throw InputError({"the run without guides", "", found, expected});
+}
+
 void check_pair(const world::TraceHeader& run, const world::TraceHeader& plain) {
-  const auto refuse = [](const std::string& found, const std::string& expected) {
-    throw InputError({"the run without guides", "", found, expected});
-  };
   if (plain.scenario_id != run.scenario_id) {
     refuse("a run of " + plain.scenario_id, "one of " + run.scenario_id);
   }
@@ -27,6 +28,15 @@ void check_pair(const world::TraceHeader& run, const world::TraceHeader& plain) 
   if (plain.seed != run.seed) {
     refuse(fmt::format("seed {}", plain.seed), fmt::format("seed {}", run.seed));
   }
+}
+
+// A run in which drones led people is no baseline, whatever its file is called.
+void check_nobody_followed(const std::vector<PersonRecord>& people) {
+  const auto followed = std::ranges::count_if(
+      people, [](const PersonRecord& person) { return person.followed_s > 0; });
+  if (followed == 0) return;
+  refuse(fmt::format("{} {} drones", followed, followed == 1 ? "person follows" : "people follow"),
+         "a run in which drones lead nobody");
 }
 
 }  // namespace
@@ -71,6 +81,7 @@ LeadEffect lead_effect(const world::Trace& trace, const world::Trace& without_gu
     return !person.escaped_s || *person.escaped_s > end_s;
   };
   const std::vector<PersonRecord> plain = person_records(without_guides, scenario, alarm);
+  check_nobody_followed(plain);
   LeadEffect effect;
   auto other = plain.begin();
   for (const PersonRecord& person : person_records(trace, scenario, alarm)) {

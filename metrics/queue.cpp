@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/point_grid.h"
+#include "metrics/exit_state.h"
 
 namespace throng::metrics {
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kLinkM = 1.2;
 constexpr double kSlow = 0.5;  // of the desired speed
+constexpr double kMinLaneM = 0.8;  // one person walks through; narrower doors count whole
 constexpr double kAboveRounding = 1 + 1e-9;
 
 /// Shortest paths over the links from everybody in the zone at once. Paths that end within 0.25 m
@@ -49,6 +51,7 @@ class PathsBack {
     return std::nullopt;
   }
 
+  /// People whom the links reach, and the longest of their paths.
   Queue queue() const {
     Queue queue;
     for (const double path_m : path_m_) {
@@ -83,9 +86,14 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
   if (slow.empty()) return {};
   const geometry::PointGrid grid(slow, kLinkM);
   PathsBack paths(grid.size());
+  const Vector2d along(-outward.y(), outward.x());
+  double min_m = std::numeric_limits<double>::max(), max_m = std::numeric_limits<double>::lowest();
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Vector2d& place = grid.stored(i);
-    if (zone.contains(place)) paths.offer(i, (place - zone.middle()).norm());
+    if (!zone.contains(place)) continue;
+    paths.offer(i, (place - zone.middle()).norm());
+    min_m = std::min(min_m, (place - zone.middle()).dot(along));
+    max_m = std::max(max_m, (place - zone.middle()).dot(along));
   }
   while (const auto next = paths.next()) {
     const Vector2d& from = grid.stored(*next);
@@ -99,19 +107,22 @@ Queue queue_before(const ControlZone& zone, const Vector2d& outward,
       paths.offer(other, so_far + std::sqrt(squared));
     });
   }
-  return paths.queue();
+  Queue queue = paths.queue();
+  if (queue.people > 0) queue.breadth_m = max_m - min_m;
+  return queue;
 }
 
-WaitPredictor::WaitPredictor(double capacity_per_s, double dt_s)
-    : capacity_per_s_(capacity_per_s),
+WaitPredictor::WaitPredictor(double width_m, double mean_radius_m, double dt_s)
+    : width_m_(width_m),
+      mean_radius_m_(mean_radius_m),
       dt_s_(dt_s),
       window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kWindowS / dt_s)))) {}
 
-double WaitPredictor::step(int queue, int crossed_out) {
+double WaitPredictor::step(const Queue& queue, int crossed_out) {
   // A person who crosses in a step was in the queue at the step before.
   const Step now{had_queue_, crossed_out - crossed_out_};
   crossed_out_ = crossed_out;
-  had_queue_ = queue > 0;
+  had_queue_ = queue.people > 0;
   last_.push_back(now);
   if (now.queued) {
     ++queued_steps_;
@@ -125,8 +136,9 @@ double WaitPredictor::step(int queue, int crossed_out) {
     last_.pop_front();
   }
   const double queued_s = static_cast<double>(queued_steps_) * dt_s_;
-  const double rate = (served_ + capacity_per_s_ * kPriorS) / (queued_s + kPriorS);
-  return queue / rate;
+  const double used_m = std::min(width_m_, std::max(kMinLaneM, queue.breadth_m + 2 * mean_radius_m_));
+  const double rate = (served_ + capacity_per_s(used_m) * kPriorS) / (queued_s + kPriorS);
+  return queue.people / rate;
 }
 
 }  // namespace throng::metrics

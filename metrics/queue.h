@@ -11,8 +11,10 @@ namespace throng::metrics {
 
 struct Queue {
   int people = 0;
-  double length_m =
-      0;  ///< from the exit's middle along the queue to the person who has farthest to go
+  /// From the exit's middle along the queue to the person who has farthest to go.
+  double length_m = 0;
+  /// Extent along the door of those of the queue who are in the control zone.
+  double breadth_m = 0;
 };
 
 /// People who intend the exit, are on its inner side, slower than half of their desired speed, and
@@ -23,17 +25,19 @@ Queue queue_before(const ControlZone& zone, const Eigen::Vector2d& outward,
 
 /// How long the last one of a queue will wait: the queue over the rate at which the door serves it.
 /// The rate is that of the last 20 s, of the times in which there was a queue only, together with
-/// kPriorS seconds at the capacity: what nobody has measured yet is taken to be as doors are. (The
-/// mean of a gamma distribution of the rate after so much time, with that prior.)
+/// kPriorS seconds at the capacity of that part of the door before which the queue stands: what
+/// nobody has measured yet is taken to be as doors are. (The mean of a gamma distribution of the
+/// rate after so much time, with that prior.)
 class WaitPredictor {
  public:
   static constexpr double kWindowS = 20;
   static constexpr double kPriorS = 10;
 
-  WaitPredictor(double capacity_per_s, double dt_s);
+  /// Of a door (m) in a trace with steps of dt_s, for people of a mean radius (m).
+  WaitPredictor(double width_m, double mean_radius_m, double dt_s);
 
   /// After one more step (s). `crossed_out`: outward crossings since the start.
-  double step(int queue, int crossed_out);
+  double step(const Queue& queue, int crossed_out);
 
  private:
   struct Step {
@@ -41,7 +45,7 @@ class WaitPredictor {
     int out = 0;
   };
 
-  double capacity_per_s_, dt_s_;
+  double width_m_, mean_radius_m_, dt_s_;
   std::size_t window_;
   std::deque<Step> last_;
   std::size_t queued_steps_ = 0;  ///< of the window

@@ -29,9 +29,9 @@ class FormationGroup : public Process {
  public:
   FormationGroup(Formation formation, std::size_t agent_count);
 
-  /// Gathers who has asked since the last step, and gives them their places. The places are taken
-  /// in the order of their weights, each by the nearest who has none yet, and kept until somebody
-  /// joins or leaves; who finds none walks alone.
+  /// Gathers agents that have asked since the last step, and gives them their places. The places
+  /// are taken in the order of their weights, each by the nearest agent without one, and kept until
+  /// an agent joins or leaves; agents without a place walk alone.
   void before_decisions(Crowd& crowd, Machine& machine) override;
 
   /// An agent would go like this; returns how it goes in the formation. Called for different agents

@@ -41,7 +41,7 @@ struct TaskProgress {
   std::string what = {};  ///< what is being done, where the task says so
 };
 
-/// Whose tasks they are, and what they need: decides who is next where several jobs have tasks
+/// Owner, job and needs of tasks: decide the order where several jobs have tasks
 /// (jobs/queue/admission.h).
 struct Share {
   std::string owner = {};                            ///< id of a key; "" for nobody in particular

@@ -38,8 +38,23 @@ TEST(ExitQueue, GoesAsFarAsTheLinksReach) {
   const ExitSample sample = series_of(walks).samples.front();
   EXPECT_EQ(sample.queue, 8);
   EXPECT_NEAR(sample.queue_length_m, 1 + 7 * 1.1, 1e-5);
-  // Nothing was measured yet: the capacity of 2.6 /s.
-  EXPECT_NEAR(sample.predicted_wait_s, 8 / 2.6, 1e-9);
+  // Nothing was measured yet: the capacity of one lane, 0.8 m.
+  EXPECT_NEAR(sample.predicted_wait_s, 8 / (1.3 * 0.8), 1e-9);
+}
+
+TEST(ExitQueue, OnlyThatPartOfTheDoorServesBeforeWhichPeopleStand) {
+  CrowdOfTest crowd;
+  std::vector<Walk> walks;
+  for (int i = 0; i < 5; ++i) walks.push_back(standing({-1, i * 0.5 - 1.0}));
+  const auto wait_s = [&](double door_m) {
+    return exit_series(trace_of(walks, crowd), place_with_door(door_m))
+        .at(0)
+        .samples.front()
+        .predicted_wait_s;
+  };
+  const double radius_m = trace_of(walks, crowd).header.radius_m.front();
+  EXPECT_NEAR(wait_s(10), 5 / (1.3 * (2 + 2 * radius_m)), 1e-6);
+  EXPECT_NEAR(wait_s(1.5), 5 / (1.3 * 1.5), 1e-6) << "never more than the door";
 }
 
 TEST(ExitQueue, AroundACornerIsAsLongAsTheWay) {
@@ -61,8 +76,8 @@ TEST(ExitQueue, TheWaitIsTheQueueOverTheFlow) {
   for (int i = 0; i < 40; ++i) walks.push_back(walking({-0.55 - i, 0.9}, {1, 0}));
   const ExitSample sample = series_of(walks).samples.at(300);
   EXPECT_EQ(sample.queue, 6);
-  // 20 people in the last 20 s, and 10 s at the capacity of 2.6 /s.
-  EXPECT_NEAR(sample.predicted_wait_s, 6 / ((20 + 26.0) / 30), 0.1);
+  // 20 people in the last 20 s, and 10 s at the capacity of one lane, 1.04 /s.
+  EXPECT_NEAR(sample.predicted_wait_s, 6 / ((20 + 10.4) / 30), 0.1);
 }
 
 TEST(ExitPressure, IsDensityTimesVariance) {

@@ -317,7 +317,8 @@ TEST(GuidanceFigures, TheEffectIsAgainstTheSameRunWithoutGuides) {
   EXPECT_NEAR(effect.all_s, 10, 0.21);
   EXPECT_NEAR(effect.led_s, 5, 0.11);
   EXPECT_EQ(effect.censored, 0);
-  EXPECT_NEAR(lead_effect(two_observers(5), led, scenario).all_s, -10, 0.21);
+  EXPECT_NEAR(lead_effect(two_observers(5), two_observers(0), scenario).all_s, -10, 0.21);
+  EXPECT_THROW(lead_effect(two_observers(5), led, scenario), InputError) << "drones lead there";
   // Both are out at 12 and 14 s; without guides nobody is when that run ends, at 10 s.
   const LeadEffect censored = lead_effect(two_observers(0), two_observers(5, 13), scenario);
   EXPECT_EQ(censored.censored, 2);

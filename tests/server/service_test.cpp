@@ -180,7 +180,7 @@ TEST_F(ServiceTest, ManyClientsAtOnce) {
   }));
 }
 
-/// Jobs whose tasks wait until they are let go.
+/// Jobs whose tasks wait until they are released.
 class SeveralJobs : public ServiceTest {
  protected:
   SeveralJobs() {

@@ -188,7 +188,7 @@ TEST_P(GuidesBesideAFire, LeadNobodyToADoorFromWhenItShuts) {
     follow(view, at, leads);
     for (PersonSeen& person : view.people) {
       if (leads || person.guide < 0) continue;
-      person.guide = -1;  // who is let go runs where all run
+      person.guide = -1;  // released people run where all run
       person.exit = 0;
     }
   }
