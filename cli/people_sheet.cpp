@@ -112,7 +112,7 @@ std::string sheet_encoded(const annotate::Sheet& sheet, const std::string& exten
                 image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
     image.rgba[4 * i + 3] = 255;
   }
-  return skinning::encode_png(image);
+  return images::encode_png(image);
 }
 
 void draw(const SheetArguments& arguments) {

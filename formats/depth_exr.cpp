@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "formats/makers.h"
-#include "formats/raster.h"
+#include "formats/raster_files.h"
 
 namespace throng::formats {
 
@@ -74,7 +74,7 @@ Bytes header_of(int width, int height) {
   return header;
 }
 
-std::string exr_bytes(const Raster& depth) {
+std::string exr_bytes(const images::Raster& depth) {
   Bytes file = header_of(depth.width, depth.height);
   const std::int32_t line_bytes = depth.width * static_cast<std::int32_t>(sizeof(float));
   constexpr std::uint64_t kLineHeader = 8;
@@ -101,7 +101,7 @@ class ExrExporter : public Exporter {
   ExrExporter(const DatasetInfo& info, Output output) : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
-    const Raster depth = read_raster(raster_path(info_.root, "depth", image.file));
+    const images::Raster depth = images::read_raster(raster_path(info_.root, "depth", image.file));
     output_.write(image.sequence() + "/" + image.stem() + ".exr", exr_bytes(depth));
   }
   void finish() override {}

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "formats/makers.h"
-#include "formats/raster.h"
+#include "formats/raster_files.h"
 
 namespace throng::formats {
 
@@ -26,7 +26,7 @@ class FloExporter : public Exporter {
   FloExporter(const DatasetInfo& info, Output output) : info_(info), output_(std::move(output)) {}
 
   void add(const Image& image) override {
-    const Raster flow = read_raster(raster_path(info_.root, "flow", image.file));
+    const images::Raster flow = images::read_raster(raster_path(info_.root, "flow", image.file));
     std::string bytes;
     bytes.reserve(12 + flow.samples.size() / 3 * 8);
     append_bytes(bytes, kMagic);

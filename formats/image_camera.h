@@ -9,7 +9,7 @@ namespace throng::formats {
 /// As the image's record says it.
 camera::Camera camera_of(const Image& image);
 
-/// Pixels that a object of this size covers at a point of the world: for a pinhole fx size / z;
+/// Pixels that an object of this size covers at a point of the world: for a pinhole fx size / z;
 /// with a lens the mean of two directions at right angles to the line of sight, as the lens shows
 /// them, or the pinhole's where it shows nothing. Points nearer to the camera's plane than 0.1 m
 /// count as that far.

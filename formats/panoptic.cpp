@@ -9,7 +9,7 @@
 
 #include "formats/instances.h"
 #include "formats/makers.h"
-#include "formats/raster.h"
+#include "formats/raster_files.h"
 
 namespace throng::formats {
 

@@ -9,7 +9,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "formats/raster.h"
+#include "formats/raster_files.h"
+#include "images/jpeg_file.h"
 
 namespace throng::formats {
 
@@ -17,23 +18,6 @@ namespace fs = std::filesystem;
 using annotate::GroundTruth;
 
 namespace {
-
-using Codec = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
-
-/// Decodes all of the image; what is cut off or damaged has no size.
-bool decode(const std::string& bytes, int& width, int& height, std::vector<std::uint8_t>& rgb) {
-  thread_local const Codec decoder(tjInitDecompress(), &tjDestroy);
-  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  int subsampling = 0;
-  int colors = 0;
-  if (tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height, &subsampling,
-                          &colors) != 0) {
-    return false;
-  }
-  rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  return tjDecompress2(decoder.get(), data, bytes.size(), rgb.data(), width, 0, height, TJPF_RGB,
-                       TJFLAG_STOPONWARNING) == 0;
-}
 
 /// The quantization tables of a JPEG, as they stand in the file.
 std::string quantization_of(const std::string& bytes) {
@@ -51,7 +35,8 @@ std::string quantization_of(const std::string& bytes) {
 
 /// The tables that a quality stands for.
 std::string quantization_of_quality(int quality) {
-  const Codec encoder(tjInitCompress(), &tjDestroy);
+  const std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)> encoder(
+      tjInitCompress(), &tjDestroy);
   constexpr int kSide = 16;
   const std::array<unsigned char, std::size_t{3} * kSide * kSide> gray{};
   unsigned char* made = nullptr;
@@ -73,15 +58,17 @@ void read_rgb(const DatasetInfo& info, const Image& image, Pixels& pixels, Findi
     return;
   }
   const std::string bytes = read_file(path);
-  int width = 0;
-  int height = 0;
-  const bool is_whole = decode(bytes, width, height, pixels.rgb);
-  if (!is_whole || width != image.width || height != image.height) {
-    findings.add("image", image.file, record,
-                 is_whole ? fmt::format("{} x {} pixels, but the record says {} x {}", width,
-                                        height, image.width, image.height)
-                          : "no whole JPEG");
-    pixels.rgb.clear();
+  try {
+    const images::JpegFile jpeg(bytes, image.file);
+    if (jpeg.width() != image.width || jpeg.height() != image.height) {
+      findings.add("image", image.file, record,
+                   fmt::format("{} x {} pixels, but the record says {} x {}", jpeg.width(),
+                               jpeg.height(), image.width, image.height));
+      return;
+    }
+    pixels.rgb = jpeg.decode(TJPF_RGB, /*strict=*/true);
+  } catch (const InputError&) {
+    findings.add("image", image.file, record, "no whole JPEG");
     return;
   }
   const auto sensor = image.record.find("sensor");
@@ -100,7 +87,7 @@ std::vector<std::uint16_t> read_plane(const DatasetInfo& info, const Image& imag
   const std::string name = file_of(what, image.run, image.camera, image.frame);
   const std::string kind(kind_of(what).name);
   try {
-    Raster raster = read_raster(info.root / name);
+    images::Raster raster = images::read_raster(info.root / name);
     if (raster.width == image.width && raster.height == image.height &&
         raster.channels == channels && raster.bits == bits) {
       return std::move(raster.samples);

@@ -2,34 +2,22 @@
 
 #include <fmt/core.h>
 #include <libexif/exif-data.h>
-#include <png.h>
-#include <turbojpeg.h>
 
 #include <csetjmp>
-#include <cstring>
 #include <memory>
-#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "images/jpeg_file.h"
+#include "images/png_file.h"
 
 namespace throng::images {
 
 namespace {
 
-// The largest image that is read, in pixels: what a small file may unpack to is limited.
-// Backs of medium format have 151 million.
-constexpr std::int64_t kMaxPixels = 160'000'000;
-
 [[noreturn]] void refuse(const std::string& what, std::string found) {
   throw InputError(Problem{what, "", std::move(found), "a JPEG or PNG image"});
-}
-
-void check_size(const std::string& what, std::int64_t width, std::int64_t height) {
-  if (width * height <= kMaxPixels) return;
-  throw InputError(Problem{what, "", fmt::format("{} x {} pixels", width, height),
-                           fmt::format("at most {} pixels", kMaxPixels)});
 }
 
 // Orientation of TIFF and EXIF, 1 to 8; 1 if the file does not say.
@@ -69,63 +57,11 @@ GrayImage upright(GrayImage stored, int orientation) {
   return image;
 }
 
-using JpegHandle = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
-
-const unsigned char* data_of(std::string_view bytes) {
-  return reinterpret_cast<const unsigned char*>(bytes.data());
+GrayImage gray_of_jpeg(std::string_view bytes, const std::string& what) {
+  const JpegFile jpeg(bytes, what);
+  return upright({jpeg.width(), jpeg.height(), jpeg.decode(TJPF_GRAY, /*strict=*/false)},
+                 orientation_of(bytes));
 }
-
-JpegHandle new_decompressor() {
-  JpegHandle handle(tjInitDecompress(), &tjDestroy);
-  if (!handle) throw EnvironmentError("cannot start the JPEG decompressor: out of memory");
-  return handle;
-}
-
-// Sets the size of the image.
-void read_jpeg_header(tjhandle handle, std::string_view bytes, const std::string& what,
-                      GrayImage& image) {
-  int sampling = 0;
-  int colors = 0;
-  if (tjDecompressHeader3(handle, data_of(bytes), bytes.size(), &image.width, &image.height,
-                          &sampling, &colors) != 0) {
-    refuse(what, fmt::format("a damaged JPEG: {}", tjGetErrorStr2(handle)));
-  }
-  check_size(what, image.width, image.height);
-}
-
-GrayImage decode_jpeg(std::string_view bytes, const std::string& what) {
-  const JpegHandle handle = new_decompressor();
-  const unsigned char* data = data_of(bytes);
-  GrayImage image;
-  read_jpeg_header(handle.get(), bytes, what, image);
-  image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
-  if (tjDecompress2(handle.get(), data, bytes.size(), image.pixels.data(), image.width, 0,
-                    image.height, TJPF_GRAY, TJFLAG_ACCURATEDCT) != 0 &&
-      tjGetErrorCode(handle.get()) != TJERR_WARNING) {
-    refuse(what, fmt::format("a damaged JPEG: {}", tjGetErrorStr2(handle.get())));
-  }
-  return upright(std::move(image), orientation_of(bytes));
-}
-
-// The bytes that libpng reads from, and what it says when it fails.
-struct PngSource {
-  std::string_view bytes;
-  std::string message;
-};
-
-void take_bytes(png_structp png, png_bytep to, png_size_t count) {
-  auto* source = static_cast<PngSource*>(png_get_io_ptr(png));
-  if (count > source->bytes.size()) png_error(png, "cut off");
-  std::memcpy(to, source->bytes.data(), count);
-  source->bytes.remove_prefix(count);
-}
-
-[[noreturn]] void fail(png_structp png, png_const_charp message) {
-  static_cast<PngSource*>(png_get_error_ptr(png))->message = message;
-  png_longjmp(png, 1);
-}
-
-void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 // libpng makes 8 bits of gray from whatever the file holds, with Rec. 601's weights.
 void ask_for_gray(png_structp png, png_infop info) {
@@ -145,14 +81,6 @@ void ask_for_gray(png_structp png, png_infop info) {
 }
 
 // Nothing with a destructor may be made between setjmp and longjmp.
-bool read_header(png_structp png, png_infop info, GrayImage& image) {
-  if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT: how libpng fails
-  png_read_info(png, info);
-  image.width = static_cast<int>(png_get_image_width(png, info));
-  image.height = static_cast<int>(png_get_image_height(png, info));
-  return true;
-}
-
 bool read_rows(png_structp png, png_infop info, png_bytepp rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT: how libpng fails
   ask_for_gray(png, info);
@@ -160,33 +88,10 @@ bool read_rows(png_structp png, png_infop info, png_bytepp rows) {
   return true;
 }
 
-// libpng's objects for one file.
-struct PngFile {
-  explicit PngFile(std::string_view bytes) : source{bytes, ""} {
-    png_set_read_fn(png, &source, take_bytes);
-  }
-  ~PngFile() { png_destroy_read_struct(&png, &info, nullptr); }
-  PngFile(const PngFile&) = delete;
-  PngFile& operator=(const PngFile&) = delete;
-
-  PngSource source;
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, fail, ignore_warning);
-  png_infop info = png_create_info_struct(png);
-};
-
-// The image's size, without pixels.
-GrayImage header_of(PngFile& file, const std::string& what) {
-  GrayImage image;
-  if (!read_header(file.png, file.info, image)) {
-    refuse(what, "a damaged PNG: " + file.source.message);
-  }
-  check_size(what, image.width, image.height);
-  return image;
-}
-
-GrayImage decode_png(std::string_view bytes, const std::string& what) {
+GrayImage gray_of_png(std::string_view bytes, const std::string& what) {
   PngFile file(bytes);
-  GrayImage image = header_of(file, what);
+  const PngSize size = read_png_header(file, what);
+  GrayImage image{static_cast<int>(size.width), static_cast<int>(size.height), {}};
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
   std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
   for (int y = 0; y < image.height; ++y) {
@@ -198,10 +103,6 @@ GrayImage decode_png(std::string_view bytes, const std::string& what) {
   return image;
 }
 
-// The first bytes tell the format.
-bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8\xFF"); }
-bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
-
 [[noreturn]] void refuse_kind(std::string_view bytes, const std::string& what) {
   refuse(what, fmt::format("{} bytes of another kind", bytes.size()));
 }
@@ -209,23 +110,21 @@ bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
 }  // namespace
 
 GrayImage decode_gray_image(std::string_view bytes, const std::string& what) {
-  if (is_jpeg(bytes)) return decode_jpeg(bytes, what);
-  if (is_png(bytes)) return decode_png(bytes, what);
+  if (is_jpeg(bytes)) return gray_of_jpeg(bytes, what);
+  if (is_png(bytes)) return gray_of_png(bytes, what);
   refuse_kind(bytes, what);
 }
 
 std::int64_t pixels_of_image(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
-  GrayImage image;
   if (is_jpeg(bytes)) {
-    read_jpeg_header(new_decompressor().get(), bytes, file.string(), image);
-  } else if (is_png(bytes)) {
-    PngFile png(bytes);
-    image = header_of(png, file.string());
-  } else {
-    refuse_kind(bytes, file.string());
+    const JpegFile jpeg(bytes, file.string());
+    return static_cast<std::int64_t>(jpeg.width()) * jpeg.height();
   }
-  return static_cast<std::int64_t>(image.width) * image.height;
+  if (!is_png(bytes)) refuse_kind(bytes, file.string());
+  PngFile png(bytes);
+  const PngSize size = read_png_header(png, file.string());
+  return static_cast<std::int64_t>(size.width) * size.height;
 }
 
 GrayImage read_gray_image(const std::filesystem::path& file) {

@@ -33,8 +33,8 @@ struct LeadEffect {
   int censored = 0;  ///< people who had not escaped by the end in one of the runs or in both
 };
 
-/// Throws InputError when the runs are not of the same scenario, seed and agents, or somebody follows
-/// a drone in the one without guides.
+/// Throws InputError when the runs are not of the same scenario, seed and agents, or somebody
+/// follows a drone in the one without guides.
 LeadEffect lead_effect(const world::Trace& trace, const world::Trace& without_guides,
                        const world::Scenario& scenario);
 

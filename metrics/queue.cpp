@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kLinkM = 1.2;
-constexpr double kSlow = 0.5;  // of the desired speed
+constexpr double kSlow = 0.5;      // of the desired speed
 constexpr double kMinLaneM = 0.8;  // one person walks through; narrower doors count whole
 constexpr double kAboveRounding = 1 + 1e-9;
 
@@ -136,7 +136,8 @@ double WaitPredictor::step(const Queue& queue, int crossed_out) {
     last_.pop_front();
   }
   const double queued_s = static_cast<double>(queued_steps_) * dt_s_;
-  const double used_m = std::min(width_m_, std::max(kMinLaneM, queue.breadth_m + 2 * mean_radius_m_));
+  const double used_m =
+      std::min(width_m_, std::max(kMinLaneM, queue.breadth_m + 2 * mean_radius_m_));
   const double rate = (served_ + capacity_per_s(used_m) * kPriorS) / (queued_s + kPriorS);
   return queue.people / rate;
 }

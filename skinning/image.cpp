@@ -1,83 +1,12 @@
 #include "skinning/image.h"
 
-#include <png.h>
-#include <turbojpeg.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
-#include <memory>
-#include <type_traits>
 
-#include "base/error.h"
-#include "base/files.h"
 #include "base/srgb.h"
 
 namespace throng::skinning {
-
-Image decode_png(std::string_view bytes, const std::string& what) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0) {
-    throw InputError({what, "", header.message, "a PNG image"});
-  }
-  header.format = PNG_FORMAT_RGBA;
-  Image image(static_cast<int>(header.width), static_cast<int>(header.height));
-  if (png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr) == 0) {
-    throw InputError({what, "", header.message, "a complete PNG image"});
-  }
-  return image;
-}
-
-std::string encode_png(const Image& image) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(image.width);
-  header.height = static_cast<png_uint_32>(image.height);
-  header.format = PNG_FORMAT_RGBA;
-  header.flags = PNG_IMAGE_FLAG_FAST;
-  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
-  png_alloc_size_t size = bytes.size();
-  const int written =
-      png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr);
-  check(written != 0, "an RGBA image can be written as PNG");
-  bytes.resize(size);
-  return bytes;
-}
-
-Image read_png(const std::filesystem::path& path) {
-  return decode_png(read_file(path), path.string());
-}
-
-Image decode_image(std::string_view bytes, const std::string& what) {
-  const bool jpeg = bytes.substr(0, 3) == "\xFF\xD8\xFF";
-  if (!jpeg) {
-    if (bytes.substr(1, 3) == "PNG") return decode_png(bytes, what);
-    throw InputError({what, "", "another kind of image", "PNG or JPEG: convert it"});
-  }
-  using Handle = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
-  const Handle handle(tjInitDecompress(), &tjDestroy);
-  if (!handle) throw EnvironmentError("cannot start the JPEG decompressor: out of memory");
-  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  int width = 0;
-  int height = 0;
-  int sampling = 0;
-  int colors = 0;
-  if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width, &height, &sampling, &colors) !=
-      0) {
-    throw InputError({what, "", tjGetErrorStr2(handle.get()), "a JPEG image"});
-  }
-  Image image(width, height);
-  if (tjDecompress2(handle.get(), data, bytes.size(), image.rgba.data(), width, 0, height,
-                    TJPF_RGBA, TJFLAG_ACCURATEDCT) != 0) {
-    throw InputError({what, "", tjGetErrorStr2(handle.get()), "a complete JPEG image"});
-  }
-  return image;
-}
-
-Image read_image(const std::filesystem::path& path) {
-  return decode_image(read_file(path), path.string());
-}
 
 Image resized(const Image& image, int size) {
   if (image.width == size && image.height == size) return image;

@@ -26,7 +26,7 @@ class TextureLayers {
     const auto [entry, is_new] = layers_.try_emplace(
         sha256_hex(png), static_cast<std::int32_t>(population_->textures.size()));
     if (is_new) {
-      Image image = decode_png(png, file.string());
+      Image image = images::decode_png(png, file.string());
       const int size = population_->texture_size;
       if (image.width != size || image.height != size) {
         throw InputError({file.string(), "",

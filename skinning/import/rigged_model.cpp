@@ -156,10 +156,11 @@ class ModelReader {
 
   Image image_of(std::string name) const {
     const aiTexture* embedded = scene_->GetEmbeddedTexture(name.c_str());
-    if (embedded == nullptr) return read_image(file_of(std::move(name)));
+    if (embedded == nullptr) return images::read_image(file_of(std::move(name)));
     if (embedded->mHeight == 0) {
-      return decode_image({reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
-                          fmt::format("{}, image {}", path_.string(), name));
+      return images::decode_image(
+          {reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth},
+          fmt::format("{}, image {}", path_.string(), name));
     }
     Image image(static_cast<int>(embedded->mWidth), static_cast<int>(embedded->mHeight));
     for (std::size_t i = 0; 4 * i < image.rgba.size(); ++i) {

@@ -24,7 +24,7 @@ std::uint8_t luma(const std::uint8_t* rgb) {
 std::optional<Image> read_map(const fs::path& folder, const std::string& map) {
   const fs::path path = folder / "textures" / (folder.filename().string() + "_" + map + ".png");
   if (!fs::is_regular_file(path)) return std::nullopt;
-  return read_png(path);
+  return images::read_png(path);
 }
 
 // Calls visit(x, y, position) for every texel of the faces, position on the unmorphed body.
@@ -132,7 +132,7 @@ Image plain_cloth(const fs::path& folder, const Mask& covered) {
   const std::optional<Image> occlusion = read_map(folder, "ao");
   const std::optional<Image> relief = read_map(folder, "normal");
   if (!occlusion && !relief) {
-    Image image = read_png(diffuse_image(folder));
+    Image image = images::read_png(diffuse_image(folder));
     constexpr double kContrast = 0.7;  // dark cloth would turn noisy
     reduce_to_shade(image, covered, kContrast);
     return image;

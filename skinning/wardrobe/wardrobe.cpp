@@ -246,7 +246,7 @@ void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::pat
   if (!textures_.contains(garment.texture)) {
     const bool skirt = garment.proxy->name == kSkirt;
     constexpr int kSkirtTexels = 512;  // as the package's images
-    Image image = skirt ? skirt_cloth(kSkirtTexels) : read_png(diffuse_image(folder));
+    Image image = skirt ? skirt_cloth(kSkirtTexels) : images::read_png(diffuse_image(folder));
     Mask covered = covered_by(faces, image);
     if (skirt) {
     } else if (cloth == Cloth::print) {
@@ -273,7 +273,7 @@ void Wardrobe::add_piece(Worn& worn, Garment garment, Cloth cloth, const fs::pat
 void Wardrobe::add_image(const std::string& key, const fs::path& file,
                          const std::function<void(Image&)>& mend) {
   if (textures_.contains(key)) return;
-  Image image = read_png(file);
+  Image image = images::read_png(file);
   for (std::size_t at = 3; at < image.rgba.size(); at += 4) image.rgba[at] = 255;
   image = resized(image, texture_size_);
   if (mend) mend(image);

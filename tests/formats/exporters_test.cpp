@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "formats/mask.h"
-#include "formats/raster.h"
+#include "formats/raster_files.h"
 #include "tests/annotate/rle.h"
 #include "tests/formats/dataset_fixture.h"
 #include "tests/formats/readers.h"
@@ -175,7 +175,7 @@ TEST_F(Exports, MotsMasksDoNotOverlapAndAreTheDatasets) {
   for (const auto& [key, ids] : ids_of_pixels) {
     char name[16];
     std::snprintf(name, sizeof(name), "%06d.png", key.second);
-    const Raster raster = read_raster(out / key.first / "instances" / name);
+    const images::Raster raster = images::read_raster(out / key.first / "instances" / name);
     ASSERT_EQ(raster.bits, 16);
     ASSERT_EQ(raster.channels, 1);
     EXPECT_EQ(raster.samples, ids) << key.first << " " << name;

@@ -13,7 +13,7 @@
 #include "formats/csv_table.h"
 #include "formats/image_camera.h"
 #include "formats/npy.h"
-#include "formats/raster.h"
+#include "formats/raster_files.h"
 #include "tests/formats/hand_made.h"
 
 namespace throng::formats {
@@ -77,14 +77,14 @@ TEST(Rasters, KeepTheirSamples) {
   const fs::path file = folder.path() / "a.png";
   write_file_atomically(
       file, annotate::png_bytes({2, 1, 3}, std::vector<std::uint16_t>{1, 256, 65535, 40, 50, 60}));
-  const Raster wide = read_raster(file);
+  const images::Raster wide = images::read_raster(file);
   EXPECT_EQ(wide.bits, 16);
   EXPECT_EQ(wide.channels, 3);
   EXPECT_EQ(wide.width, 2);
   EXPECT_THAT(wide.samples, ElementsAre(1, 256, 65535, 40, 50, 60));
   EXPECT_THAT(refused([&] { read_instances(file); }), HasSubstr("a.png")) << "not of 8 bits";
   write_file_atomically(file, "no image");
-  EXPECT_THAT(refused([&] { read_raster(file); }), HasSubstr("a.png"));
+  EXPECT_THAT(refused([&] { images::read_raster(file); }), HasSubstr("a.png"));
   EXPECT_EQ(raster_path("/d", "depth", "images/a/b.jpg"), fs::path("/d/depth/a/b.png"));
 }
 

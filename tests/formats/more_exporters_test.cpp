@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "formats/npy.h"
-#include "formats/raster.h"
+#include "formats/raster_files.h"
 #include "tests/formats/dataset_fixture.h"
 #include "tests/formats/readers.h"
 
@@ -296,7 +296,7 @@ TEST_F(MoreExports, FloAndExrAreTheValuesPerPixel) {
   const std::string exr = read_file(exported("depth-exr") / "run000-d1/run000-d1-000001.exr");
   EXPECT_EQ(value_at<std::uint32_t>(exr, 0), 20000630U);
   // The last pixel of the last line ends the file.
-  const Raster depth = read_raster(root_ / "depth/run000/d1/000001.png");
+  const images::Raster depth = images::read_raster(root_ / "depth/run000/d1/000001.png");
   EXPECT_NEAR(value_at<float>(exr, exr.size() - 4), depth.samples.back() / 100.0, 0.005);
   EXPECT_EQ(exr.size() % 4, (exr.size() - 120 * (8 + 8 + 4 * 160)) % 4);
 }

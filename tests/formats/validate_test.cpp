@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "formats/mask.h"
 #include "formats/npy.h"
-#include "formats/raster.h"
+#include "formats/raster_files.h"
 #include "tests/formats/dataset_fixture.h"
 
 namespace throng::formats {
@@ -211,7 +211,7 @@ TEST_F(Validate, ClassesThatAreNotThoseOfTheMasks) {
   annotations_.emplace_back("semantic");
   write_manifest();
   EXPECT_EQ(validate_dataset(root_).found, 0U);
-  const Raster whole = read_raster(root_ / path);
+  const images::Raster whole = images::read_raster(root_ / path);
   const auto damaged = [&](std::uint16_t from, std::uint8_t to) {
     SCOPED_TRACE(from);
     std::vector<std::uint8_t> classes(whole.samples.begin(), whole.samples.end());
@@ -382,7 +382,7 @@ TEST_F(Validate, DensityMapsThatAreNotTheHeads) {
 
 TEST_F(Validate, DepthThatIsScaled) {
   const std::string path = "depth/run000/d1/000000.png";
-  Raster depth = read_raster(root_ / path);
+  images::Raster depth = images::read_raster(root_ / path);
   for (std::uint16_t& value : depth.samples) value = static_cast<std::uint16_t>(value * 1.01);
   write(path, annotate::png_bytes({depth.width, depth.height, 1}, depth.samples));
   expect("depth-of-ground", path, "image 1");

@@ -2,29 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "made_up.h"
 
 namespace throng::skinning {
 namespace {
-
-TEST(Image, PngKeepsEveryPixel) {
-  Image image(5, 3);
-  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-    image.rgba[i] = static_cast<std::uint8_t>(37 * i);
-  }
-  const Image read = decode_png(encode_png(image), "test");
-  EXPECT_EQ(read.width, 5);
-  EXPECT_EQ(read.height, 3);
-  EXPECT_EQ(read.rgba, image.rgba);
-}
-
-TEST(Image, BytesThatAreNoPngAreAnError) {
-  EXPECT_THROW(decode_png("", "empty.png"), InputError);
-  EXPECT_THROW(decode_png("GIF89a", "wrong.png"), InputError);
-  const std::string png = encode_png(plain(16, {1, 2, 3}));
-  EXPECT_THROW(decode_png(png.substr(0, png.size() / 2), "cut.png"), InputError);
-}
 
 TEST(Image, ShrinkingKeepsAPlainColor) {
   const Image small = resized(plain(512, {180, 90, 30}), 64);

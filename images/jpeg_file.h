@@ -1,0 +1,40 @@
+// libjpeg-turbo's decoder for one file in memory, shared by the readers of this module.
+#pragma once
+
+#include <turbojpeg.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace throng::images {
+
+/// A JPEG whose header was read.
+class JpegFile {
+ public:
+  /// Throws InputError naming `what` when the header is damaged. The bytes must outlive this.
+  JpegFile(std::string_view bytes, std::string what);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// All pixels, rows from the top; `pixel_format` is one of TJPF_. What libjpeg only warns of
+  /// (a file that is cut off) is an InputError, too, when `strict`.
+  std::vector<std::uint8_t> decode(int pixel_format, bool strict) const;
+
+ private:
+  using Handle = std::unique_ptr<std::remove_pointer_t<tjhandle>, decltype(&tjDestroy)>;
+
+  [[noreturn]] void refuse() const;
+
+  std::string_view bytes_;
+  std::string what_;
+  Handle handle_;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+}  // namespace throng::images
