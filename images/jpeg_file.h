@@ -21,8 +21,8 @@ class JpegFile {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// All pixels, rows from the top; `pixel_format` is one of TJPF_. What libjpeg only warns of
-  /// (a file that is cut off) is an InputError, too, when `strict`.
+  /// All pixels, rows from the top; `pixel_format` is one of TJPF_. When `strict`, warnings of the
+  /// decoder (a file that is cut off) are InputErrors, too.
   std::vector<std::uint8_t> decode(int pixel_format, bool strict) const;
 
  private:
