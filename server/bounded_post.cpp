@@ -96,7 +96,7 @@ curl_socket_t open_socket(void* data, curlsocktype, curl_sockaddr* address) {
 }
 
 /// The status of the final answer is all that is wanted: returning 0 ends the request.
-std::size_t read_head(char*, std::size_t size, std::size_t count, void* data) {
+std::size_t note_head(char*, std::size_t size, std::size_t count, void* data) {
   auto& exchange = *static_cast<Exchange*>(data);
   exchange.head_bytes += size * count;
   long status = 0;
@@ -120,7 +120,8 @@ Headers list_of(const PostHeaders& headers) {
   return Headers(list);
 }
 
-void set_up(CURL* handle, Exchange& exchange, const std::string& body, const PostOptions& options) {
+void prepare(CURL* handle, Exchange& exchange, const std::string& body,
+             const PostOptions& options) {
   // The library reads no settings of the environment but these; and no proxy, which would call any
   // address.
   ::curl_easy_setopt(handle, CURLOPT_PROXY, "");
@@ -139,7 +140,7 @@ void set_up(CURL* handle, Exchange& exchange, const std::string& body, const Pos
   ::curl_easy_setopt(handle, CURLOPT_QUICK_EXIT, 1L);
   ::curl_easy_setopt(handle, CURLOPT_OPENSOCKETFUNCTION, &open_socket);
   ::curl_easy_setopt(handle, CURLOPT_OPENSOCKETDATA, &exchange);
-  ::curl_easy_setopt(handle, CURLOPT_HEADERFUNCTION, &read_head);
+  ::curl_easy_setopt(handle, CURLOPT_HEADERFUNCTION, &note_head);
   ::curl_easy_setopt(handle, CURLOPT_HEADERDATA, &exchange);
   ::curl_easy_setopt(handle, CURLOPT_WRITEFUNCTION, &refuse_body);
 }
@@ -195,7 +196,7 @@ PostResult bounded_post(const std::string& url, const PostHeaders& headers, cons
   std::array<char, CURL_ERROR_SIZE> detail{};
   const Handle handle(::curl_easy_init());
   Exchange exchange{.allow_private = options.allow_private, .handle = handle.get()};
-  set_up(handle.get(), exchange, body, options);
+  prepare(handle.get(), exchange, body, options);
   ::curl_easy_setopt(handle.get(), CURLOPT_CURLU, parsed.get());
   ::curl_easy_setopt(handle.get(), CURLOPT_HTTPHEADER, list.get());
   ::curl_easy_setopt(handle.get(), CURLOPT_ERRORBUFFER, detail.data());

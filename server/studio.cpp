@@ -66,6 +66,8 @@ std::span<const Route> studio_routes() {
       Route{Method::get, "/compare", Scope::anybody, &send_studio},
       Route{Method::get, "/jobs", Scope::anybody, &send_studio},
       Route{Method::get, "/jobs/{path}", Scope::anybody, &send_studio},
+      Route{Method::get, "/keys", Scope::anybody, &send_studio},
+      Route{Method::get, "/api", Scope::anybody, &send_studio},
       Route{Method::get, kAssetPath, Scope::anybody, &send_studio_asset},
   };
   return kRoutes;

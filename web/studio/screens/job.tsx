@@ -9,8 +9,8 @@ import { ConnectionNote } from "../parts/connection";
 import { Confirmation, ErrorBox, Figures, Mistakes, Progress, type Question, ServiceImage, StateBadge } from "../parts/elements";
 import { bytesText, durationText, secondsBetween, timeText } from "../parts/format";
 import { navigate } from "../parts/router";
-import { Downloads } from "./downloads";
 import { Logs } from "./logs";
+import { Results } from "./results";
 
 const kMaxPreviews = 12;
 
@@ -235,7 +235,7 @@ export function JobScreen({ id }: { id: string }) {
         <h2 id="previews">Previews</h2>
         <Previews job={job} />
       </section>
-      {hasDataset(job) && <Downloads job={job} />}
+      {hasDataset(job) && <Results job={job} />}
       <Logs job={job} />
       <details class="source">
         <summary>The job with all its fields</summary>
