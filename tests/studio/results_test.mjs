@@ -17,7 +17,7 @@ const kJob = {
     { id: "d1", camera: { width: 320, height: 180, model: "brown_conrady", distortion: { k1: -0.15, k2: 0.02, p1: 0.001, p2: -0.002 } } },
     { id: "d2", camera: { width: 320, height: 180 } },
   ],
-  capture: { from_s: 2, to_s: 4, rate_hz: 1 },
+  capture: { from_s: 2, to_s: 10, rate_hz: 0.25 },
   outputs: { annotations: ["coco", "keypoints", "exits", "density", "depth"], formats: ["mot"], splits: { train: 0.5, val: 0.5 }, previews: 0 },
 };
 const kImage = "images/run000/d2/000001.jpg";
@@ -189,6 +189,19 @@ test("a person is followed over frames and cameras", async () => {
   await check(page, "followed");
   await follow.getByRole("button", { name: "Stop" }).click();
   await follow.waitFor({ state: "detached" });
+});
+
+test("events of a run lead to their time", async () => {
+  const metrics = await service.json(`/v1/jobs/${job}/runs/0/metrics`);
+  assert.equal(metrics.alarm_s, 8);
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await go(`/jobs/${job}/runs/0`);
+  await page.getByRole("img", { name: /events? of the run$/ }).waitFor();
+  const alarm = page.getByRole("listitem").filter({ hasText: "alarm" });
+  await alarm.getByRole("button", { name: "8.0 s" }).focus();
+  await page.keyboard.press("Enter");
+  await page.getByRole("slider", { name: "Time" }).and(page.locator('[aria-valuetext="10.0 s"]')).waitFor(); // the nearest image
+  await check(page, "run with events");
 });
 
 test("nothing was on the console", () => assert.deepEqual(complaints, []));

@@ -9,7 +9,7 @@ interface ChartProps {
   onTime: (time_s: number) => void;
 }
 
-const kLeft = 74;
+export const kLeft = 74;
 const kRight = 14;
 const kTop = 10;
 const kCurveHeight = 170;

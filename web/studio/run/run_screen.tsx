@@ -9,6 +9,7 @@ import { LabelCanvas, useDataset, useLabels } from "../dataset/stage";
 import { ErrorBox, Figures } from "../parts/elements";
 import { navigate, usePlace, withQuery } from "../parts/router";
 import { EscapeCurve, ExitChart } from "./charts";
+import { EventChart } from "./event_chart";
 import { type ExitHistory, historiesOf } from "./exit_states";
 import { type Capture, captureOf, frameAt, timeOf } from "./capture";
 import type { Metrics } from "./metrics";
@@ -126,6 +127,8 @@ function Timeline({ dataset, run, number, capture, scenario }: TimelineProps) {
           <h2 id="escape">Escaped by time</h2>
           <Figures list={figuresOf(metrics.value)} />
           <EscapeCurve {...chart} shares={metrics.value.escape_curve.escaped_share} alarm_s={metrics.value.alarm_s} />
+          <h2>Events</h2>
+          <EventChart {...chart} metrics={metrics.value} />
           {exits.length > 0 && (
             <>
               <h2>Exits</h2>
