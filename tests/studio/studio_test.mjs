@@ -169,7 +169,7 @@ test("a click names a person", async () => {
   const [x, y, width, height] = chosen.bbox;
   await canvas.click({ position: { x: (x + width / 2) * scale, y: (y + height / 2) * scale } });
   const record = page.getByLabel("Person", { exact: true });
-  await record.getByText(String(chosen.track_id), { exact: true }).waitFor();
+  await record.locator("dd").getByText(String(chosen.track_id), { exact: true }).waitFor();
   const track = coco.tracks.find((entry) => entry.id === chosen.track_id);
   await record.getByText(track.attributes.wears).waitFor();
 });

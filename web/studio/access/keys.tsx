@@ -57,11 +57,10 @@ function NewKey({ onMade }: { onMade: (key: Key) => void }) {
             <span class="field-name">Scope</span>
             <select value={scope} onChange={(event) => setScope(event.currentTarget.value as Key["scope"])}>
               {kScopes.map((entry) => (
-                <option key={entry.name} value={entry.name}>
-                  {entry.name}: {entry.help}
-                </option>
+                <option key={entry.name}>{entry.name}</option>
               ))}
             </select>
+            <span class="field-note">may {kScopes.find((entry) => entry.name === scope)!.help}</span>
           </label>
           {fields.map(([label, unit, value, set, placeholder]) => (
             <label key={label} class="field">
